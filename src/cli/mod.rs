@@ -1,0 +1,119 @@
+//! The commands: arguments -> study -> report. One file each.
+
+mod check;
+mod explain;
+mod kinematics;
+mod schema;
+mod simulate;
+
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use crate::error::Error;
+use crate::report::Output;
+use crate::scene::Scene;
+use crate::scene::unit::{self, Quantity};
+
+/// Dynamics of the offset slider-crank from its Lagrange equation.
+#[derive(Debug, Parser)]
+#[command(version, about, long_about = None, help_expected = true, max_term_width = 100)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Forward motion: summary, rows, joint forces
+    Simulate(simulate::Arguments),
+    /// One turn in closed form: dead centres, stroke, time ratio, extremes
+    Kinematics(kinematics::Arguments),
+    /// The equation, what is modelled and why, and what will compute it
+    Explain(explain::Arguments),
+    /// Says all that is wrong with a scene file
+    Check(check::Arguments),
+    /// JSON Schema of scene files
+    Schema(schema::Arguments),
+}
+
+/// Whether the computation was completed.
+enum Outcome {
+    Done,
+    /// What was computed is kept; the message says up to where.
+    Incomplete(String),
+}
+
+/// Runs the program with the arguments of the process.
+pub fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let result = match arguments.command {
+        Command::Simulate(arguments) => simulate::run(&arguments),
+        Command::Kinematics(arguments) => kinematics::run(&arguments),
+        Command::Explain(arguments) => explain::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
+        Command::Schema(arguments) => schema::run(&arguments),
+    };
+    match result {
+        Ok(Outcome::Done) => ExitCode::SUCCESS,
+        Ok(Outcome::Incomplete(message)) => {
+            say(&format!("error: {message}"));
+            ExitCode::from(1)
+        }
+        Err(error) if error.is_broken_pipe() => ExitCode::SUCCESS,
+        Err(error) => {
+            match &error {
+                Error::Scene(problems) => say(&problems.render(colour())),
+                other => say(&format!("error: {other}")),
+            }
+            ExitCode::from(error.exit_status())
+        }
+    }
+}
+
+/// The one place that talks to the user beside the results.
+fn say(message: &str) {
+    let _ = writeln!(std::io::stderr(), "{message}");
+}
+
+fn colour() -> bool {
+    std::io::stderr().is_terminal()
+        && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+}
+
+/// The scene of a command: a file, or the built-in engine.
+fn scene(file: Option<&PathBuf>) -> Result<Scene, Error> {
+    match file {
+        Some(file) => Scene::load(file),
+        None => Ok(Scene::duarte()),
+    }
+}
+
+/// Writes a text to standard output.
+fn print(text: &str) -> Result<(), Error> {
+    let mut output = Output::standard();
+    output.write(text.as_bytes())?;
+    output.finish()
+}
+
+/// Whether rows go to standard output.
+fn is_standard(path: Option<&PathBuf>) -> bool {
+    path.is_some_and(|path| path == Path::new("-"))
+}
+
+fn quantity(text: &str, quantity: Quantity) -> Result<f64, String> {
+    unit::parse(text, quantity).map_err(|error| error.to_string())
+}
+
+fn angle(text: &str) -> Result<f64, String> {
+    quantity(text, Quantity::Angle)
+}
+
+fn positive_angle(text: &str) -> Result<f64, String> {
+    match angle(text)? {
+        step if step > 0.0 => Ok(step),
+        _ => Err("the angle must be positive, like \"1 deg\"".to_owned()),
+    }
+}

@@ -1,0 +1,116 @@
+//! `simulate`: forward motion.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::{Outcome, is_standard, print, say, scene};
+use crate::error::Error;
+use crate::plan::Method;
+use crate::report::{self, Output, Preview, RowWriter};
+use crate::study::{self, Options, Row, RowSink};
+
+/// Arguments of `simulate`.
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    /// Scene file, `-` for standard input; without it the built-in Duarte engine
+    scene: Option<PathBuf>,
+    /// Writes the rows as CSV to this file, `-` for standard output
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Prints the summary as one JSON object
+    #[arg(long)]
+    json: bool,
+    /// Adds joint, guide and shaking forces to the rows
+    #[arg(long)]
+    reactions: bool,
+    /// Adds the torque that drives a crank of prescribed speed to the rows
+    #[arg(long)]
+    torque: bool,
+    /// auto, closed-form, energy, angle, time, dop853 or dopri5
+    #[arg(long, default_value = "auto")]
+    method: Method,
+    /// Local error target, in place of the scene's
+    #[arg(long, value_name = "NUMBER")]
+    tolerance: Option<f64>,
+    /// Does without the error estimate, which takes a second run
+    #[arg(long)]
+    no_estimate: bool,
+    /// Work limit: most evaluations of the equation
+    #[arg(long, value_name = "COUNT", default_value_t = Options::default().max_evaluations)]
+    max_evaluations: u64,
+    /// Most events that are listed
+    #[arg(long, value_name = "COUNT", default_value_t = Options::default().events_kept)]
+    max_events: usize,
+}
+
+/// Rows to a file, to a preview, or both.
+struct Rows {
+    writer: Option<RowWriter>,
+    preview: Option<Preview>,
+}
+
+impl RowSink for Rows {
+    fn wants_rows(&self) -> bool {
+        self.writer.is_some() || self.preview.is_some()
+    }
+
+    fn row(&mut self, row: &Row) -> Result<(), Error> {
+        if let Some(preview) = &mut self.preview {
+            preview.take(row);
+        }
+        match &mut self.writer {
+            Some(writer) => writer.row(row),
+            None => Ok(()),
+        }
+    }
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+    let rows_on_stdout = is_standard(arguments.out.as_ref());
+    if rows_on_stdout && arguments.json {
+        return Err(Error::refused(
+            "both the rows and the JSON summary would go to standard output",
+            "write the rows to a file: --out rows.csv",
+        ));
+    }
+    let mut scene = scene(arguments.scene.as_ref())?;
+    if let Some(tolerance) = arguments.tolerance {
+        scene.run.tolerance = tolerance;
+    }
+    let options = Options {
+        method: arguments.method,
+        reactions: arguments.reactions,
+        driving_torque: arguments.torque,
+        estimate: !arguments.no_estimate,
+        max_evaluations: arguments.max_evaluations,
+        events_kept: arguments.max_events,
+    };
+    let output = arguments.out.as_deref().map(Output::create).transpose()?;
+    let mut rows = Rows {
+        writer: output.map(RowWriter::new),
+        preview: (!arguments.json).then(Preview::default),
+    };
+    let result = study::simulate_rows(&scene, &options, &mut rows)?;
+    if let Some(writer) = rows.writer {
+        writer.finish()?;
+    }
+    let summary = result.summary;
+    if arguments.json {
+        print(&report::json(&summary)?)?;
+    } else {
+        let preview = rows
+            .preview
+            .map(|preview| preview.rows())
+            .unwrap_or_default();
+        if rows_on_stdout {
+            say(report::summary(&summary, &[]).trim_end());
+        } else {
+            print(&report::summary(&summary, &preview))?;
+        }
+    }
+    Ok(match summary.stopped {
+        Some(message) => Outcome::Incomplete(message),
+        None => Outcome::Done,
+    })
+}

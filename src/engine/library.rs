@@ -1,0 +1,192 @@
+//! Dop853 and Dopri5 of the crate ode_solvers: the only file that names it.
+//!
+//! Guards against version 0.6.2: sparse output only (dense output extrapolates its last point); time is a
+//! state, so that the stage times of Dop853, two of which are wrong, are never used; each call starts at
+//! zero and runs forward; its stiffness test is off; short calls keep its result vectors small.
+
+use std::cell::Cell;
+
+use ode_solvers::dop_shared::IntegrationError;
+use ode_solvers::{Dop853, Dopri5, OutputType, SVector, System};
+
+use super::Motion;
+use super::step::{Node, Step};
+use crate::numeric::angle::Angle;
+
+/// The methods.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// Dormand and Prince, order 8(5,3).
+    Dop853,
+    /// Dormand and Prince, order 5(4).
+    Dopri5,
+}
+
+/// How one call ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ended {
+    /// At the end of the time it was given.
+    AtEnd,
+    /// Where the observer wanted it to end.
+    Stopped,
+    /// The work limit is reached.
+    WorkLimit,
+    /// The step size became too small for the time to move on.
+    StepTooSmall,
+}
+
+/// What a call is given.
+pub struct Call<'a> {
+    /// The motion.
+    pub motion: &'a dyn Motion,
+    /// The method.
+    pub method: Method,
+    /// Relative and absolute.
+    pub tolerance: f64,
+    /// Whole turns beside the start's angle.
+    pub turns: f64,
+    /// Start.
+    pub start: Node,
+    /// End, s.
+    pub t_end: f64,
+    /// First step to try, s; 0: found by the method.
+    pub first_step: f64,
+    /// Largest step, s.
+    pub max_step: f64,
+    /// Most steps to try.
+    pub max_steps: u32,
+    /// Unit of work, J, in which its error is measured.
+    pub work_unit: f64,
+    /// Called after each accepted step; true ends the call.
+    pub observer: &'a mut dyn FnMut(&Step) -> bool,
+}
+
+/// One call of the method.
+pub fn integrate(call: Call<'_>) -> Ended {
+    match (call.motion.has_power(), call.motion.depends_on_time()) {
+        (false, false) => run::<2>(call, None, None),
+        (false, true) => run::<3>(call, None, Some(2)),
+        (true, false) => run::<3>(call, Some(2), None),
+        (true, true) => run::<4>(call, Some(2), Some(3)),
+    }
+}
+
+fn run<const N: usize>(call: Call<'_>, work: Option<usize>, clock: Option<usize>) -> Ended {
+    let length = call.t_end - call.start.t;
+    if length <= 0.0 {
+        return Ended::AtEnd;
+    }
+    let mut state = SVector::<f64, N>::zeros();
+    state[0] = call.start.theta;
+    state[1] = call.start.omega;
+    let (method, tolerance) = (call.method, call.tolerance);
+    let max_step = call.max_step.min(length);
+    let first_step = call.first_step.min(max_step);
+    let max_steps = call.max_steps;
+    let stopped = Cell::new(false);
+    let system = Adapter {
+        last: call.start,
+        call,
+        work,
+        clock,
+        stopped: &stopped,
+    };
+    let result = match method {
+        Method::Dop853 => Dop853::from_param(
+            system,
+            0.0,
+            length,
+            length,
+            state,
+            tolerance,
+            tolerance,
+            0.9,
+            0.0,
+            0.333,
+            6.0,
+            max_step,
+            first_step,
+            max_steps,
+            u32::MAX,
+            OutputType::Sparse,
+        )
+        .integrate(),
+        Method::Dopri5 => Dopri5::from_param(
+            system,
+            0.0,
+            length,
+            length,
+            state,
+            tolerance,
+            tolerance,
+            0.9,
+            0.04,
+            0.2,
+            10.0,
+            max_step,
+            first_step,
+            max_steps,
+            u32::MAX,
+            OutputType::Sparse,
+        )
+        .integrate(),
+    };
+    match result {
+        Ok(_) if stopped.get() => Ended::Stopped,
+        Ok(_) => Ended::AtEnd,
+        Err(IntegrationError::MaxNumStepReached { .. }) => Ended::WorkLimit,
+        Err(_) => Ended::StepTooSmall,
+    }
+}
+
+/// Our motion as ode_solvers wants to see it. Work is counted from the start of the call, in its unit.
+struct Adapter<'a, 's> {
+    call: Call<'a>,
+    last: Node,
+    work: Option<usize>,
+    clock: Option<usize>,
+    stopped: &'s Cell<bool>,
+}
+
+impl<const N: usize> System<f64, SVector<f64, N>> for Adapter<'_, '_> {
+    fn system(&self, x: f64, y: &SVector<f64, N>, dy: &mut SVector<f64, N>) {
+        let t = self.call.start.t + self.clock.map_or(x, |i| y[i]);
+        let angle = Angle {
+            turns: self.call.turns,
+            rest: y[0],
+        };
+        dy[0] = y[1];
+        if let Some(i) = self.work {
+            let (alpha, power) = self.call.motion.acceleration_and_power(t, angle, y[1]);
+            dy[1] = alpha;
+            dy[i] = power / self.call.work_unit;
+        } else {
+            dy[1] = self.call.motion.acceleration(t, angle, y[1]);
+        }
+        if let Some(i) = self.clock {
+            dy[i] = 1.0;
+        }
+    }
+
+    fn solout(&mut self, x: f64, y: &SVector<f64, N>, dy: &SVector<f64, N>) -> bool {
+        let begin = &self.call.start;
+        let end = Node {
+            t: if x == self.call.t_end - begin.t {
+                self.call.t_end
+            } else {
+                begin.t + x
+            },
+            theta: y[0],
+            omega: y[1],
+            alpha: dy[1],
+            work: begin.work + self.work.map_or(0.0, |i| y[i] * self.call.work_unit),
+        };
+        let step = Step::new(self.call.turns, self.last, end);
+        self.last = end;
+        let stop = (self.call.observer)(&step);
+        if stop {
+            self.stopped.set(true);
+        }
+        stop
+    }
+}

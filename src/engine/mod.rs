@@ -1,0 +1,82 @@
+//! Integrators. They see a motion with one coordinate, its acceleration and power; no mechanics.
+
+pub mod events;
+pub mod library;
+pub mod step;
+pub mod time;
+
+use std::cell::Cell;
+
+use crate::numeric::angle::Angle;
+
+/// An equation of motion θ̈ = f(t, θ, θ̇) and a power whose integral is wanted beside it.
+pub trait Motion {
+    /// θ̈, rad/s². Not finite means: not possible here.
+    fn acceleration(&self, t: f64, angle: Angle, speed: f64) -> f64;
+
+    /// θ̈, and the power (W) to be integrated.
+    fn acceleration_and_power(&self, t: f64, angle: Angle, speed: f64) -> (f64, f64);
+
+    /// Whether time occurs in the acceleration or the power.
+    fn depends_on_time(&self) -> bool;
+
+    /// Whether there is a power to be integrated.
+    fn has_power(&self) -> bool;
+}
+
+/// A motion that counts its evaluations and remembers where one was not possible.
+pub struct Counted<'a> {
+    motion: &'a dyn Motion,
+    evaluations: Cell<u64>,
+    impossible: Cell<Option<(f64, Angle, f64)>>,
+}
+
+impl<'a> Counted<'a> {
+    /// Counts from zero.
+    pub fn new(motion: &'a dyn Motion) -> Counted<'a> {
+        Counted {
+            motion,
+            evaluations: Cell::new(0),
+            impossible: Cell::new(None),
+        }
+    }
+
+    /// Evaluations so far.
+    pub fn evaluations(&self) -> u64 {
+        self.evaluations.get()
+    }
+
+    /// Time, angle and speed of the last evaluation without a finite result.
+    pub fn impossible(&self) -> Option<(f64, Angle, f64)> {
+        self.impossible.get()
+    }
+
+    fn note(&self, acceleration: f64, t: f64, angle: Angle, speed: f64) {
+        self.evaluations.set(self.evaluations.get() + 1);
+        if !acceleration.is_finite() {
+            self.impossible.set(Some((t, angle, speed)));
+        }
+    }
+}
+
+impl Motion for Counted<'_> {
+    fn acceleration(&self, t: f64, angle: Angle, speed: f64) -> f64 {
+        let acceleration = self.motion.acceleration(t, angle, speed);
+        self.note(acceleration, t, angle, speed);
+        acceleration
+    }
+
+    fn acceleration_and_power(&self, t: f64, angle: Angle, speed: f64) -> (f64, f64) {
+        let (acceleration, power) = self.motion.acceleration_and_power(t, angle, speed);
+        self.note(acceleration, t, angle, speed);
+        (acceleration, power)
+    }
+
+    fn depends_on_time(&self) -> bool {
+        self.motion.depends_on_time()
+    }
+
+    fn has_power(&self) -> bool {
+        self.motion.has_power()
+    }
+}

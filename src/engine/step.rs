@@ -1,0 +1,158 @@
+//! One accepted step and the motion inside it.
+
+use super::Motion;
+use crate::numeric::angle::Angle;
+use crate::numeric::root;
+
+/// The state at one end of a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Node {
+    /// s
+    pub t: f64,
+    /// rad, beside the turns of the step
+    pub theta: f64,
+    /// rad/s
+    pub omega: f64,
+    /// rad/s²
+    pub alpha: f64,
+    /// Integral of the power so far, J
+    pub work: f64,
+}
+
+/// A step from `start` to `end`. Between them θ is the quintic through angle, speed and acceleration of
+/// both ends; [`Step::refine`] adds three terms that make θ̈ right inside the step too (Hermite-Birkhoff
+/// interpolation of degree eight).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step {
+    /// Whole turns to be added to every angle of the step.
+    pub turns: f64,
+    /// Earlier end.
+    pub start: Node,
+    /// Later end.
+    pub end: Node,
+    inside: Option<[f64; 3]>,
+}
+
+/// Where inside the step the acceleration is asked for. The nodes of a Lobatto rule would not do: the odd
+/// term has no acceleration there.
+const NODES: [f64; 3] = [0.25, 0.5, 0.75];
+
+impl Step {
+    /// The step between two states.
+    pub fn new(turns: f64, start: Node, end: Node) -> Step {
+        Step {
+            turns,
+            start,
+            end,
+            inside: None,
+        }
+    }
+
+    /// Its length, s.
+    pub fn length(&self) -> f64 {
+        self.end.t - self.start.t
+    }
+
+    /// The whole angle that belongs to `theta` of this step.
+    pub fn angle(&self, theta: f64) -> Angle {
+        Angle {
+            turns: self.turns,
+            rest: theta,
+        }
+    }
+
+    /// Angle (beside the turns) and speed at time t inside the step.
+    pub fn at(&self, t: f64) -> (f64, f64) {
+        if t == self.start.t {
+            return (self.start.theta, self.start.omega);
+        }
+        if t == self.end.t {
+            return (self.end.theta, self.end.omega);
+        }
+        let h = self.length();
+        let s = (t - self.start.t) / h;
+        let ([theta, dtheta, _], [bump, dbump, _]) = (self.quintic(s), self.bump(s));
+        (theta + bump, (dtheta + dbump) / h)
+    }
+
+    /// Makes the motion inside the step as exact as a method of order eight: six evaluations, once.
+    pub fn refine(&mut self, motion: &dyn Motion) {
+        if self.inside.is_some() {
+            return;
+        }
+        let h = self.length();
+        self.inside = Some([0.0; 3]);
+        for _ in 0..2 {
+            let rest = NODES.map(|s| {
+                let t = self.start.t + s * h;
+                let ([theta, dtheta, d2theta], [bump, dbump, _]) = (self.quintic(s), self.bump(s));
+                let angle = self.angle(theta + bump);
+                h * h * motion.acceleration(t, angle, (dtheta + dbump) / h) - d2theta
+            });
+            // Second derivatives of the three terms at the nodes: even ones -3/8, 9/128 and 1/8, -9/64; odd
+            // one -45/256.
+            let even = 0.5 * (rest[0] + rest[2]);
+            let odd = 0.5 * (rest[2] - rest[0]);
+            let determinant = 0.375 * 0.140625 - 0.125 * 0.0703125;
+            let found = [
+                (-0.140625 * rest[1] - 0.125 * even) / determinant,
+                odd / -0.17578125,
+                (-0.375 * even - 0.0703125 * rest[1]) / determinant,
+            ];
+            if !found.iter().all(|term| term.is_finite()) {
+                self.inside = Some([0.0; 3]);
+                return;
+            }
+            self.inside = Some(found);
+        }
+    }
+
+    /// The quintic at s in [0, 1]: value, and derivatives with respect to s.
+    fn quintic(&self, s: f64) -> [f64; 3] {
+        let h = self.length();
+        let (a, b) = (&self.start, &self.end);
+        let (v0, v1) = (h * a.omega, h * b.omega);
+        let (c0, c1) = (0.5 * h * h * a.alpha, 0.5 * h * h * b.alpha);
+        let rise = b.theta - a.theta - v0 - c0;
+        let slope = v1 - v0 - 2.0 * c0;
+        let bend = 2.0 * (c1 - c0);
+        let k3 = 10.0 * rise - 4.0 * slope + 0.5 * bend;
+        let k4 = -15.0 * rise + 7.0 * slope - bend;
+        let k5 = 6.0 * rise - 3.0 * slope + 0.5 * bend;
+        [
+            a.theta + s * (v0 + s * (c0 + s * (k3 + s * (k4 + s * k5)))),
+            v0 + s * (2.0 * c0 + s * (3.0 * k3 + s * (4.0 * k4 + s * 5.0 * k5))),
+            2.0 * c0 + s * (6.0 * k3 + s * (12.0 * k4 + s * 20.0 * k5)),
+        ]
+    }
+
+    /// The added terms s³(1−s)³(b0 + b1 σ + b2 σ²), σ = 2s − 1: value and derivatives.
+    fn bump(&self, s: f64) -> [f64; 3] {
+        let Some([b0, b1, b2]) = self.inside else {
+            return [0.0; 3];
+        };
+        let sigma = 2.0 * s - 1.0;
+        let p = s * (1.0 - s);
+        let (p3, dp3) = (p * p * p, -3.0 * p * p * sigma);
+        let d2p3 = 6.0 * p * (sigma * sigma - p);
+        let q = b0 + sigma * (b1 + sigma * b2);
+        let dq = 2.0 * (b1 + 2.0 * sigma * b2);
+        let d2q = 8.0 * b2;
+        [
+            p3 * q,
+            dp3 * q + p3 * dq,
+            d2p3 * q + 2.0 * dp3 * dq + p3 * d2q,
+        ]
+    }
+
+    /// When the angle passes `theta` between the times `from` and `to`; the angle must lie on different
+    /// sides of it there.
+    pub fn time_of_angle(&self, theta: f64, from: f64, to: f64) -> Option<f64> {
+        root::bracketed(|t| self.at(t).0 - theta, from, to)
+    }
+
+    /// When the speed vanishes between `from` and `to`.
+    pub fn time_of_rest(&self, from: f64, to: f64) -> Option<f64> {
+        root::bracketed(|t| self.at(t).1, from, to)
+    }
+}

@@ -1,0 +1,122 @@
+//! Integration in time: calls of a method joined to one run, with the angle kept small.
+
+use std::f64::consts::TAU;
+
+use super::library::{self, Call, Ended, Method};
+use super::step::{Node, Step};
+use super::{Counted, Motion};
+use crate::numeric::angle::Angle;
+
+/// How to integrate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// The method.
+    pub method: Method,
+    /// Local error target, relative and absolute.
+    pub tolerance: f64,
+    /// Last time, s.
+    pub t_end: f64,
+    /// Largest step, s; infinite: no limit.
+    pub max_step: f64,
+    /// Most evaluations; the run ends there with [`Finish::WorkLimit`].
+    pub max_evaluations: u64,
+    /// Unit of work, J, in which its error is measured.
+    pub work_unit: f64,
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Finish {
+    /// At the last time.
+    AtEnd,
+    /// Where the sink wanted it to end.
+    Stopped,
+    /// The work limit is reached.
+    WorkLimit,
+    /// The step size became too small for the time to move on: a singularity.
+    StepTooSmall,
+    /// There is no acceleration at the start.
+    NoStart,
+}
+
+/// A run's start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// s
+    pub t: f64,
+    /// rad
+    pub angle: Angle,
+    /// rad/s
+    pub speed: f64,
+}
+
+/// Result vectors of the library grow with each step of a call.
+const STEPS_IN_A_CALL: usize = 256;
+
+/// Integrates and hands every accepted step to `sink`, which ends the run by returning true.
+/// Returns how the run ended, the last state reached (its angle beside the turns) and the number of steps.
+pub fn run(
+    motion: &Counted<'_>,
+    start: Start,
+    settings: &Settings,
+    sink: &mut dyn FnMut(&Step) -> bool,
+) -> (Finish, Step, u64) {
+    let mut angle = start.angle.reduced();
+    let mut node = Node {
+        t: start.t,
+        theta: angle.rest,
+        omega: start.speed,
+        alpha: motion.acceleration(start.t, angle, start.speed),
+        work: 0.0,
+    };
+    let mut last = Step::new(angle.turns, node, node);
+    let mut steps = 0;
+    if !node.alpha.is_finite() {
+        return (Finish::NoStart, last, steps);
+    }
+    let mut first_step = 0.0;
+    loop {
+        let mut in_call = 0;
+        let mut ended_by_sink = false;
+        let left = settings
+            .max_evaluations
+            .saturating_sub(motion.evaluations())
+            / 12;
+        let ended = library::integrate(Call {
+            motion,
+            method: settings.method,
+            tolerance: settings.tolerance,
+            turns: angle.turns,
+            start: node,
+            t_end: settings.t_end,
+            first_step,
+            max_step: settings.max_step,
+            max_steps: left.min(u64::from(u32::MAX)) as u32,
+            work_unit: settings.work_unit,
+            observer: &mut |step| {
+                last = *step;
+                in_call += 1;
+                ended_by_sink = sink(step);
+                ended_by_sink || in_call >= STEPS_IN_A_CALL || step.end.theta.abs() >= TAU
+            },
+        });
+        steps += in_call as u64;
+        let finish = match ended {
+            Ended::AtEnd => Finish::AtEnd,
+            Ended::WorkLimit => Finish::WorkLimit,
+            Ended::StepTooSmall => Finish::StepTooSmall,
+            Ended::Stopped if ended_by_sink => Finish::Stopped,
+            Ended::Stopped if last.end.t >= settings.t_end => Finish::AtEnd,
+            Ended::Stopped => {
+                angle = last.angle(last.end.theta).reduced();
+                node = Node {
+                    theta: angle.rest,
+                    ..last.end
+                };
+                first_step = last.length();
+                continue;
+            }
+        };
+        return (finish, last, steps);
+    }
+}

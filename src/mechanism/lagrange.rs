@@ -1,0 +1,296 @@
+//! The Lagrange equation M θ̈ + ½ M' θ̇² + V' = Q, forward and backward.
+
+use super::{Bodies, Body, Linkage, LoadValue, Loads, Path, Pose};
+use crate::numeric::angle::Angle;
+use crate::scene::Scene;
+
+/// M and ½ M' at one crank angle.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inertia {
+    /// M, kg m²
+    pub m: f64,
+    /// ½ M', kg m²/rad
+    pub half_dm: f64,
+}
+
+impl Inertia {
+    /// One kinetic term: M += m |p'|² + I ψ'², ½ M' += m p'·p'' + I ψ' ψ''.
+    pub fn add(&mut self, mass: f64, inertia: f64, path: &Path) {
+        let Path {
+            dp,
+            d2p,
+            dpsi,
+            d2psi,
+        } = path;
+        self.m += mass * (dp[0] * dp[0] + dp[1] * dp[1]) + inertia * dpsi * dpsi;
+        self.half_dm += mass * (dp[0] * d2p[0] + dp[1] * d2p[1]) + inertia * dpsi * d2psi;
+    }
+}
+
+/// Every term of the equation that depends on the crank angle alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Terms {
+    /// The position.
+    pub pose: Pose,
+    /// M and ½ M'.
+    pub inertia: Inertia,
+    /// V', N m
+    pub dv: f64,
+}
+
+/// The equation of motion of one scene: constant, shared by all who evaluate it.
+#[derive(Clone, Debug)]
+pub struct Equation {
+    linkage: Linkage,
+    crank_inertia: f64,
+    rod: Option<RodInertia>,
+    slider_mass: f64,
+    weight: Option<Weight>,
+    loads: Loads,
+    heavy: Vec<Body>,
+    gravity: [f64; 2],
+}
+
+#[derive(Clone, Copy, Debug)]
+struct RodInertia {
+    mass: f64,
+    along: f64,
+    left: f64,
+    inertia: f64,
+}
+
+/// V' = sine·sin θ + cosine·cos θ − rod weight · p' − slider weight·x'.
+#[derive(Clone, Copy, Debug, Default)]
+struct Weight {
+    sine: f64,
+    cosine: f64,
+    rod: [f64; 2],
+    slider: f64,
+}
+
+impl Equation {
+    /// The equation of a scene; parts without strength are left out of it.
+    pub fn new(scene: &Scene) -> Equation {
+        let scene = scene.reduced();
+        let bodies = Bodies::new(&scene);
+        let gravity = scene.gravity.map_or([0.0; 2], |gravity| gravity.vector());
+        let mut equation = Equation {
+            linkage: Linkage::new(&scene.geometry),
+            crank_inertia: bodies.crank_inertia,
+            rod: None,
+            slider_mass: 0.0,
+            weight: None,
+            loads: Loads::new(&scene),
+            heavy: bodies.heavy,
+            gravity,
+        };
+        for body in &bodies.moving {
+            match *body {
+                Body::OnCrank { mass, along, left } => {
+                    equation.crank_inertia += mass * (along * along + left * left);
+                }
+                Body::OnRod {
+                    mass,
+                    along,
+                    left,
+                    inertia,
+                } => {
+                    equation.rod = Some(RodInertia {
+                        mass,
+                        along,
+                        left,
+                        inertia,
+                    });
+                }
+                Body::OnSlider { mass } => equation.slider_mass += mass,
+            }
+        }
+        equation.weight = weight(&equation.heavy, gravity);
+        equation
+    }
+
+    /// The linkage.
+    pub fn linkage(&self) -> &Linkage {
+        &self.linkage
+    }
+
+    /// The loads.
+    pub fn loads(&self) -> &Loads {
+        &self.loads
+    }
+
+    /// The terms that depend on the crank angle (rad) alone.
+    pub fn terms(&self, theta: f64) -> Terms {
+        let pose = self.linkage.pose(theta);
+        let mut inertia = Inertia {
+            m: self.crank_inertia,
+            half_dm: 0.0,
+        };
+        let mut rod_path = Path::default();
+        if let Some(rod) = &self.rod {
+            rod_path = Path::on_rod(&self.linkage, &pose, rod.along, rod.left);
+            inertia.add(rod.mass, rod.inertia, &rod_path);
+        }
+        if self.slider_mass != 0.0 {
+            inertia.m += self.slider_mass * pose.dx * pose.dx;
+            inertia.half_dm += self.slider_mass * pose.dx * pose.d2x;
+        }
+        let dv = self.weight.as_ref().map_or(0.0, |weight| {
+            weight.sine * pose.sin + weight.cosine * pose.cos
+                - (weight.rod[0] * rod_path.dp[0] + weight.rod[1] * rod_path.dp[1])
+                - weight.slider * pose.dx
+        });
+        Terms { pose, inertia, dv }
+    }
+
+    /// θ̈ in rad/s² at time t (s), crank angle θ (rad, unwrapped) and speed θ̇ (rad/s). Not finite where the
+    /// mechanism has no such position, a load no value, or the inertia vanishes: see [`Self::obstacle`].
+    pub fn acceleration(&self, t: f64, theta: impl Into<Angle>, omega: f64) -> f64 {
+        let theta = theta.into();
+        let terms = self.terms(theta.rest);
+        let load = self.loads.value(t, theta, omega, &terms.pose);
+        forward(&terms, load.generalized(&terms.pose), omega)
+    }
+
+    /// θ̈ as in [`Self::acceleration`], and the power (W) of the loads that have no potential.
+    pub fn acceleration_and_power(
+        &self,
+        t: f64,
+        theta: impl Into<Angle>,
+        omega: f64,
+    ) -> (f64, f64) {
+        let theta = theta.into();
+        let terms = self.terms(theta.rest);
+        let pose = &terms.pose;
+        let load = self.loads.value(t, theta, omega, pose);
+        let spent = self.loads.without_potential(t, theta, omega, pose);
+        let alpha = forward(&terms, load.generalized(pose), omega);
+        (alpha, spent.generalized(pose) * omega)
+    }
+
+    /// Backward: the generalized force Q (N m) that goes with a motion.
+    pub fn generalized_force(&self, terms: &Terms, omega: f64, alpha: f64) -> f64 {
+        terms.inertia.m * alpha + terms.inertia.half_dm * omega * omega + terms.dv
+    }
+
+    /// Backward: the torque (N m) that must act on the crank, beside the loads of the scene, for the motion.
+    pub fn driving_torque(&self, t: f64, theta: impl Into<Angle>, omega: f64, alpha: f64) -> f64 {
+        let theta = theta.into();
+        let terms = self.terms(theta.rest);
+        let load = self.loads.value(t, theta, omega, &terms.pose);
+        self.generalized_force(&terms, omega, alpha) - load.generalized(&terms.pose)
+    }
+
+    /// Torque and force of the scene's loads.
+    pub fn load(&self, t: f64, theta: impl Into<Angle>, omega: f64) -> LoadValue {
+        let theta = theta.into();
+        let pose = self.linkage.pose(theta.rest);
+        self.loads.value(t, theta, omega, &pose)
+    }
+
+    /// Kinetic energy, J.
+    pub fn kinetic_energy(&self, theta: f64, omega: f64) -> f64 {
+        0.5 * self.terms(theta).inertia.m * omega * omega
+    }
+
+    /// Potential energy of gravity and of the loads that have a potential, J. For the loads the angle
+    /// counts from θ = 0 without wrapping.
+    pub fn potential_energy(&self, theta: impl Into<Angle>) -> f64 {
+        let theta = theta.into();
+        let pose = self.linkage.pose(theta.rest);
+        self.loads.potential(theta.radians(), pose.x) + self.gravity_of(&pose)
+    }
+
+    /// Potential energy of gravity alone, J.
+    pub fn gravity_energy(&self, theta: f64) -> f64 {
+        self.gravity_of(&self.linkage.pose(theta))
+    }
+
+    fn gravity_of(&self, pose: &Pose) -> f64 {
+        let [gx, gy] = self.gravity;
+        let energy = |body: &Body| {
+            let (mass, place) = self.place(body, pose);
+            -mass * (gx * place[0] + gy * place[1])
+        };
+        self.heavy.iter().map(energy).sum()
+    }
+
+    /// Why there is no finite acceleration here, if there is none.
+    pub fn obstacle(&self, t: f64, theta: impl Into<Angle>, omega: f64) -> Option<Obstacle> {
+        let theta = theta.into();
+        let terms = self.terms(theta.rest);
+        if !terms.pose.exists() {
+            return Some(Obstacle::Blocked);
+        }
+        let load = self.loads.value(t, theta, omega, &terms.pose);
+        if !load.torque.is_finite() || !load.force.is_finite() {
+            return Some(Obstacle::Load);
+        }
+        if !self.acceleration(t, theta, omega).is_finite() {
+            return Some(Obstacle::NoInertia);
+        }
+        None
+    }
+
+    /// Mass and place of a body.
+    fn place(&self, body: &Body, pose: &Pose) -> (f64, [f64; 2]) {
+        let (r, s, e) = (self.linkage.r, self.linkage.s, self.linkage.e);
+        match *body {
+            Body::OnCrank { mass, along, left } => (
+                mass,
+                [
+                    along * pose.cos - left * pose.sin,
+                    along * pose.sin + left * pose.cos,
+                ],
+            ),
+            Body::OnRod {
+                mass, along, left, ..
+            } => {
+                let (dx, dy) = (s * pose.cos_phi, -pose.sin_phi);
+                (
+                    mass,
+                    [
+                        r * pose.cos + along * dx - left * dy,
+                        r * pose.sin + along * dy + left * dx,
+                    ],
+                )
+            }
+            Body::OnSlider { mass } => (mass, [pose.x, -e]),
+        }
+    }
+}
+
+/// What keeps the equation from having a finite acceleration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Obstacle {
+    /// The rod does not reach the guide, or stands normal to it.
+    Blocked,
+    /// A load has no finite value: outside its table or the domain of its formula.
+    Load,
+    /// M is zero.
+    NoInertia,
+}
+
+fn forward(terms: &Terms, q: f64, omega: f64) -> f64 {
+    (q - terms.dv - terms.inertia.half_dm * omega * omega) / terms.inertia.m
+}
+
+/// V' = −Σ m g·p', the points of the crank summed to one sine and one cosine.
+fn weight(heavy: &[Body], gravity: [f64; 2]) -> Option<Weight> {
+    if gravity == [0.0; 2] || heavy.is_empty() {
+        return None;
+    }
+    let [gx, gy] = gravity;
+    let mut weight = Weight::default();
+    for body in heavy {
+        match *body {
+            Body::OnCrank { mass, along, left } => {
+                weight.sine += mass * (gx * along + gy * left);
+                weight.cosine += mass * (gx * left - gy * along);
+            }
+            Body::OnRod { mass, .. } => weight.rod = [mass * gx, mass * gy],
+            Body::OnSlider { mass } => weight.slider += mass * gx,
+        }
+    }
+    Some(weight)
+}

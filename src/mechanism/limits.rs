@@ -1,0 +1,191 @@
+//! What the lengths alone decide: class, dead centres, stroke, time ratio, reachable angles.
+
+use std::f64::consts::{PI, TAU};
+use std::fmt;
+
+use super::Linkage;
+use crate::numeric::exact::sum3;
+
+/// Class of the mechanism.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Class {
+    /// l − r > |e|: the crank turns fully.
+    RotatingCrank,
+    /// r − l > |e|: the crank rocks, the rod turns fully.
+    RotatingRod,
+    /// |l − r| < |e| < l + r: both rock.
+    DoubleRocker,
+    /// On a border between these, to a few units in the last place of the lengths.
+    ChangePoint,
+}
+
+impl Class {
+    /// Its name in outputs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Class::RotatingCrank => "rotating-crank",
+            Class::RotatingRod => "rotating-rod",
+            Class::DoubleRocker => "double-rocker",
+            Class::ChangePoint => "change-point",
+        }
+    }
+}
+
+impl fmt::Display for Class {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A position with x' = 0: O, A and P in line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeadCentre {
+    /// Crank angle in [0, 2 pi), rad.
+    pub theta: f64,
+    /// Slider position, m.
+    pub x: f64,
+    /// Crank and rod stretched out (outer) or folded over each other (inner).
+    pub outer: bool,
+}
+
+/// What the lengths decide.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limits {
+    /// Class of the mechanism.
+    pub class: Class,
+    /// Dead centres of the scene's branch, by angle.
+    pub dead_centres: Vec<DeadCentre>,
+    /// Distance between the extreme slider positions of the motion, m.
+    pub stroke: f64,
+    /// Crank angle of the outward stroke, rad; none if the crank cannot turn fully.
+    pub advance: Option<f64>,
+    /// Crank angle of the inward stroke, rad.
+    pub retreat: Option<f64>,
+    /// Least transmission angle over a turn, or 0 if the crank cannot turn fully.
+    pub transmission_min: f64,
+    /// Reachable crank angles as [from, to], rad; empty: all.
+    pub reach: Vec<[f64; 2]>,
+}
+
+/// Lengths that differ by less than this many units of rounding of the rod length count as equal.
+const SAME: f64 = 4.0 * f64::EPSILON;
+
+impl Limits {
+    /// The limits of a linkage, for a crank that turns in the direction of `speed` (its sign alone
+    /// counts; zero means counter-clockwise).
+    pub fn new(linkage: &Linkage, speed: f64) -> Limits {
+        let class = class(linkage);
+        let outer = dead_centre(linkage, true);
+        let inner = dead_centre(linkage, false);
+        let mut dead_centres: Vec<DeadCentre> = [outer, inner].into_iter().flatten().collect();
+        dead_centres.sort_by(|a, b| a.theta.total_cmp(&b.theta));
+        let stroke = match (outer, inner) {
+            // |x| differs by (outer² − inner²)/(outer + inner), without cancellation.
+            (Some(outer), Some(inner)) => {
+                4.0 * linkage.r * linkage.l / (outer.x.abs() + inner.x.abs())
+            }
+            (Some(outer), None) => 2.0 * outer.x.abs(),
+            _ => 0.0,
+        };
+        let (mut advance, mut retreat) = (None, None);
+        if let (Class::RotatingCrank, Some(outer), Some(inner)) = (class, outer, inner) {
+            let along = (outer.theta - inner.theta).rem_euclid(TAU);
+            let outward = if speed < 0.0 { TAU - along } else { along };
+            advance = Some(outward);
+            retreat = Some(TAU - outward);
+        }
+        let transmission_min = if class == Class::RotatingCrank {
+            let u = linkage.r + linkage.e.abs();
+            (linkage.margin() * (linkage.l + u)).sqrt().atan2(u)
+        } else {
+            0.0
+        };
+        Limits {
+            class,
+            dead_centres,
+            stroke,
+            advance,
+            retreat,
+            transmission_min,
+            reach: reach(linkage, class),
+        }
+    }
+
+    /// Advance angle over return angle (Obaseki & Alfred (51)); none if the crank cannot turn fully.
+    pub fn time_ratio(&self) -> Option<f64> {
+        Some(self.advance? / self.retreat?)
+    }
+}
+
+fn class(linkage: &Linkage) -> Class {
+    let Linkage { r, l, e, .. } = *linkage;
+    let same = SAME * (l + r);
+    let crank_turns = linkage.margin();
+    let rod_turns = sum3(r, -l, -e.abs());
+    let assembles = sum3(l, r, -e.abs());
+    if crank_turns.abs() <= same || rod_turns.abs() <= same || assembles.abs() <= same {
+        Class::ChangePoint
+    } else if crank_turns > 0.0 {
+        Class::RotatingCrank
+    } else if rod_turns > 0.0 {
+        Class::RotatingRod
+    } else {
+        Class::DoubleRocker
+    }
+}
+
+/// Outer: |OP| = l + r with A between. Inner: |OP| = |l − r|. On branch s the outer one has x of the sign
+/// of s; the inner one too if l > r, the other sign if not.
+fn dead_centre(linkage: &Linkage, outer: bool) -> Option<DeadCentre> {
+    let Linkage { r, l, e, s, .. } = *linkage;
+    let (reach, sign) = match outer {
+        true => ([l, r], s),
+        false if l >= r => ([l, -r], s),
+        false => ([r, -l], -s),
+    };
+    let squared = sum3(reach[0], reach[1], -e) * sum3(reach[0], reach[1], e);
+    let on_border = squared.abs() <= SAME * (l + r) * (l + r);
+    if squared < 0.0 && !on_border {
+        return None;
+    }
+    let x = sign * squared.max(0.0).sqrt();
+    // The crank points from O towards P, or away from it when the rod is folded back over it.
+    let towards = if !outer && l >= r { -1.0 } else { 1.0 };
+    let theta = (towards * -e).atan2(towards * x);
+    Some(DeadCentre {
+        theta: positive(theta),
+        x,
+        outer,
+    })
+}
+
+/// The same angle in [0, 2 pi).
+fn positive(theta: f64) -> f64 {
+    if theta < 0.0 {
+        let turned = theta + TAU;
+        if turned < TAU { turned } else { 0.0 }
+    } else {
+        theta + 0.0
+    }
+}
+
+/// Angles at which |e + r sin θ| ≤ l.
+fn reach(linkage: &Linkage, class: Class) -> Vec<[f64; 2]> {
+    let Linkage { r, l, e, .. } = *linkage;
+    if class == Class::RotatingCrank || linkage.margin() >= -SAME * (l + r) {
+        return Vec::new();
+    }
+    // sin θ = ±(l ∓ e)/r, from its cosine where it is near one: cos² = (r − l ± e)(r + l ∓ e)/r².
+    let limit = |lift: f64, below: f64| {
+        let cos_squared = below * (r + lift) / (r * r);
+        (below > 0.0).then(|| (lift / r).atan2(cos_squared.sqrt()))
+    };
+    let up = limit(l - e, -sum3(l, -e, -r));
+    let down = limit(l + e, -sum3(l, e, -r));
+    match (up, down) {
+        (Some(up), Some(down)) => vec![[-down, up], [PI - up, PI + down]],
+        (Some(up), None) => vec![[PI - up, TAU + up]],
+        (None, Some(down)) => vec![[-down, PI + down]],
+        (None, None) => Vec::new(),
+    }
+}

@@ -1,0 +1,166 @@
+//! Virtual work of the loads: all that is linear is summed once, the rest is called.
+
+use super::Pose;
+use crate::numeric::angle::Angle;
+use crate::scene::{Instant, Load, Scene, Variable, Variables};
+
+/// Torque on the crank and force on the slider at one instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LoadValue {
+    /// N m, counter-clockwise
+    pub torque: f64,
+    /// N, along +x
+    pub force: f64,
+}
+
+impl LoadValue {
+    /// The generalized force Q = τ + F x', N m.
+    pub fn generalized(&self, pose: &Pose) -> f64 {
+        self.torque + self.force * pose.dx
+    }
+}
+
+/// All loads of a scene. Those with a potential (constant torque and force, springs) are kept apart from
+/// those whose work must be integrated.
+#[derive(Clone, Debug, Default)]
+pub struct Loads {
+    torque: f64,
+    /// −d torque/d omega, N m s/rad
+    rotary_damping: f64,
+    force: f64,
+    stiffness: f64,
+    /// −d force/d v, N s/m
+    linear_damping: f64,
+    torques: Vec<Load>,
+    forces: Vec<Load>,
+    reads: Variables,
+    on_slider: bool,
+}
+
+impl Loads {
+    /// The loads of a scene.
+    pub fn new(scene: &Scene) -> Loads {
+        let mut loads = Loads {
+            on_slider: !scene.forces.is_empty(),
+            ..Loads::default()
+        };
+        for load in &scene.torques {
+            loads.reads = loads.reads.or(load.reads(false));
+            match load {
+                Load::Constant(value) => loads.torque += value,
+                Load::Viscous(coefficient) => loads.rotary_damping += coefficient,
+                Load::Motor {
+                    stall,
+                    no_load_speed,
+                } => {
+                    loads.torque += stall;
+                    loads.rotary_damping += stall / no_load_speed;
+                }
+                other => loads.torques.push(other.clone()),
+            }
+        }
+        for load in &scene.forces {
+            loads.reads = loads.reads.or(load.reads(true));
+            match load {
+                Load::Constant(value) => loads.force += value,
+                Load::Viscous(coefficient) => loads.linear_damping += coefficient,
+                Load::Spring { stiffness, rest } => {
+                    loads.stiffness += stiffness;
+                    loads.force += stiffness * rest;
+                }
+                other => loads.forces.push(other.clone()),
+            }
+        }
+        loads
+    }
+
+    /// What the loads depend on.
+    pub fn reads(&self) -> Variables {
+        self.reads
+    }
+
+    /// Whether a force acts on the slider.
+    pub fn on_slider(&self) -> bool {
+        self.on_slider
+    }
+
+    /// Whether all work of the loads follows from a potential.
+    pub fn have_potential(&self) -> bool {
+        self.rotary_damping == 0.0
+            && self.linear_damping == 0.0
+            && self.torques.is_empty()
+            && self.forces.is_empty()
+    }
+
+    /// Torque and force of all loads together.
+    pub fn value(&self, t: f64, theta: impl Into<Angle>, omega: f64, pose: &Pose) -> LoadValue {
+        let rest = self.without_potential(t, theta, omega, pose);
+        LoadValue {
+            torque: self.torque + rest.torque,
+            force: self.force - self.stiffness * pose.x + rest.force,
+        }
+    }
+
+    /// Torque and force of the loads whose work must be integrated.
+    pub fn without_potential(
+        &self,
+        t: f64,
+        theta: impl Into<Angle>,
+        omega: f64,
+        pose: &Pose,
+    ) -> LoadValue {
+        let v = pose.dx * omega;
+        let mut value = LoadValue {
+            torque: -self.rotary_damping * omega,
+            force: -self.linear_damping * v,
+        };
+        if !(self.torques.is_empty() && self.forces.is_empty()) {
+            let now = Instant {
+                t,
+                theta: theta.into().radians(),
+                omega,
+                x: pose.x,
+                v,
+            };
+            value.torque += self
+                .torques
+                .iter()
+                .map(|load| single(load, false, &now))
+                .sum::<f64>();
+            value.force += self
+                .forces
+                .iter()
+                .map(|load| single(load, true, &now))
+                .sum::<f64>();
+        }
+        value
+    }
+
+    /// Potential of the loads that have one, J, from crank angle (from any fixed start) and position.
+    pub fn potential(&self, theta: f64, x: f64) -> f64 {
+        -self.torque * theta - self.force * x + 0.5 * self.stiffness * x * x
+    }
+}
+
+/// Value of one load, as a torque or as a force on the slider.
+pub fn single(load: &Load, on_slider: bool, now: &Instant) -> f64 {
+    match load {
+        Load::Constant(value) => *value,
+        Load::Viscous(coefficient) if on_slider => -coefficient * now.v,
+        Load::Viscous(coefficient) => -coefficient * now.omega,
+        Load::Motor {
+            stall,
+            no_load_speed,
+        } => stall * (1.0 - now.omega / no_load_speed),
+        Load::Spring { stiffness, rest } => -stiffness * (now.x - rest),
+        Load::Table(table) => table.value(now.get(table.of())),
+        Load::Gas {
+            pressure,
+            ambient,
+            area,
+            towards_crank,
+        } => towards_crank * (pressure.value(now.get(Variable::Theta)) - ambient) * area,
+        Load::Expression(expression) => expression.value(now),
+        Load::Function { function, .. } => function(now),
+    }
+}

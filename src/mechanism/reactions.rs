@@ -1,0 +1,166 @@
+//! Joint and guide forces by Newton and Euler, body by body, from the motion.
+
+use super::{Equation, Linkage, LoadValue, Path, Pose};
+use crate::error::Error;
+use crate::numeric::angle::Angle;
+use crate::scene::{RodModel, Scene};
+
+/// Forces (N) at one instant; each acts ON the body named last.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reactions {
+    /// From the ground on the crank at O.
+    pub crank_bearing: [f64; 2],
+    /// From the crank on the rod at A.
+    pub crank_pin: [f64; 2],
+    /// From the rod on the slider at P.
+    pub wrist_pin: [f64; 2],
+    /// From the guide on the slider, along +y.
+    pub guide: f64,
+    /// Minus the rate of change of linear momentum: the classical shaking force.
+    pub shaking: [f64; 2],
+    /// Minus the rate of change of angular momentum about O, N m: the classical shaking moment.
+    pub shaking_moment: f64,
+}
+
+/// The rigid bodies that carry the forces.
+#[derive(Clone, Debug)]
+pub struct Reactor {
+    linkage: Linkage,
+    gravity: [f64; 2],
+    crank: Body,
+    rod: Body,
+    slider_mass: f64,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Body {
+    mass: f64,
+    along: f64,
+    left: f64,
+    /// about the centre of gravity for the rod, about O for the crank
+    inertia: f64,
+}
+
+impl Reactor {
+    /// The bodies of a scene.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] for the rod model `spin-only`, to which no forces belong.
+    pub fn new(scene: &Scene) -> Result<Reactor, Error> {
+        let mut reactor = Reactor {
+            linkage: Linkage::new(&scene.geometry),
+            gravity: scene.gravity.map_or([0.0; 2], |gravity| gravity.vector()),
+            crank: Body::default(),
+            rod: Body::default(),
+            slider_mass: scene.slider.map_or(0.0, |slider| slider.mass),
+        };
+        if let Some(crank) = &scene.crank {
+            reactor.crank = Body {
+                mass: crank.mass,
+                along: crank.cg,
+                left: crank.cg_lateral,
+                inertia: crank.inertia,
+            };
+        }
+        if let Some(rod) = &scene.rod {
+            let inertia = match rod.model {
+                RodModel::Massless => return Ok(reactor),
+                RodModel::Rigid => rod.central_inertia().max(0.0),
+                // What two masses at the pins have about their centre of gravity.
+                RodModel::TwoMass => rod.mass * rod.cg * (scene.geometry.rod - rod.cg),
+                RodModel::SpinOnly => {
+                    return Err(Error::refused(
+                        "the rod model \"spin-only\" leaves out the rod's translation, so no joint forces go with it",
+                        "use model = \"rigid\" or \"two-mass\" for reactions",
+                    ));
+                }
+            };
+            reactor.rod = Body {
+                mass: rod.mass,
+                along: rod.cg,
+                left: rod.cg_lateral,
+                inertia,
+            };
+        }
+        Ok(reactor)
+    }
+
+    /// The forces for a motion (θ̇ in rad/s, θ̈ in rad/s²) under the loads of the scene.
+    pub fn reactions(&self, pose: &Pose, omega: f64, alpha: f64, load: &LoadValue) -> Reactions {
+        let Linkage { l, e, s, .. } = self.linkage;
+        let squared = omega * omega;
+        let acceleration = |path: &Path| {
+            [
+                path.dp[0] * alpha + path.d2p[0] * squared,
+                path.dp[1] * alpha + path.d2p[1] * squared,
+            ]
+        };
+        let crank_path = Path::on_crank(pose, self.crank.along, self.crank.left);
+        let rod_path = Path::on_rod(&self.linkage, pose, self.rod.along, self.rod.left);
+        let crank_acceleration = acceleration(&crank_path);
+        let rod_acceleration = acceleration(&rod_path);
+        let rod_spin = rod_path.dpsi * alpha + rod_path.d2psi * squared;
+        let slider_acceleration = pose.dx * alpha + pose.d2x * squared;
+        let g = self.gravity;
+
+        // m (a − g): what the forces other than gravity must add up to.
+        let needs = |mass: f64, a: [f64; 2]| [mass * (a[0] - g[0]), mass * (a[1] - g[1])];
+        let crank_needs = needs(self.crank.mass, crank_acceleration);
+        let rod_needs = needs(self.rod.mass, rod_acceleration);
+        let slider_needs = needs(self.slider_mass, [slider_acceleration, 0.0]);
+
+        let axis = [s * pose.cos_phi, -pose.sin_phi];
+        let centre = [
+            self.rod.along * axis[0] - self.rod.left * axis[1],
+            self.rod.along * axis[1] + self.rod.left * axis[0],
+        ];
+        // Slider along x; the rod's moments about A: (P − A) × wrist pin force = −(spin and inertia).
+        let wrist_x = slider_needs[0] - load.force;
+        let moment = self.rod.inertia * rod_spin + cross(centre, rod_needs);
+        let wrist_y = (l * axis[1] * wrist_x - moment) / (l * axis[0]);
+        let guide = slider_needs[1] - wrist_y;
+        let crank_pin = [rod_needs[0] + wrist_x, rod_needs[1] + wrist_y];
+        let crank_bearing = [crank_needs[0] + crank_pin[0], crank_needs[1] + crank_pin[1]];
+
+        let (r_cos, r_sin) = (self.linkage.r * pose.cos, self.linkage.r * pose.sin);
+        let place = [r_cos + centre[0], r_sin + centre[1]];
+        let momentum = |mass: f64, a: [f64; 2]| [mass * a[0], mass * a[1]];
+        let crank_rate = momentum(self.crank.mass, crank_acceleration);
+        let rod_rate = momentum(self.rod.mass, rod_acceleration);
+        let slider_rate = self.slider_mass * slider_acceleration;
+        let spin = self.crank.inertia * alpha
+            + self.rod.inertia * rod_spin
+            + cross(place, rod_rate)
+            + e * slider_rate;
+        Reactions {
+            crank_bearing,
+            crank_pin,
+            wrist_pin: [wrist_x, wrist_y],
+            guide,
+            shaking: [
+                -(crank_rate[0] + rod_rate[0] + slider_rate),
+                -(crank_rate[1] + rod_rate[1]),
+            ],
+            shaking_moment: -spin,
+        }
+    }
+
+    /// The forces at one state of a scene's motion.
+    pub fn at(
+        &self,
+        equation: &Equation,
+        t: f64,
+        theta: impl Into<Angle>,
+        omega: f64,
+        alpha: f64,
+    ) -> Reactions {
+        let theta = theta.into();
+        let pose = self.linkage.pose(theta.rest);
+        let load = equation.loads().value(t, theta, omega, &pose);
+        self.reactions(&pose, omega, alpha, &load)
+    }
+}
+
+fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}

@@ -1,0 +1,84 @@
+//! An angle as whole turns and a remainder, so that a million turns cost no digits of the position.
+
+use std::f64::consts::TAU;
+
+/// 2 pi − TAU: what the nearest double leaves out.
+const TAU_REST: f64 = 2.4492935982947064e-16;
+
+/// turns·2π + rest.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Angle {
+    /// Whole turns.
+    pub turns: f64,
+    /// The rest, rad; of any size, at its most exact when small.
+    pub rest: f64,
+}
+
+impl From<f64> for Angle {
+    fn from(rest: f64) -> Angle {
+        Angle { turns: 0.0, rest }
+    }
+}
+
+impl Angle {
+    /// The whole angle, rad, rounded once.
+    pub fn radians(self) -> f64 {
+        self.turns * TAU + (self.turns * TAU_REST + self.rest)
+    }
+
+    /// The same angle with its rest in [0, 2π).
+    pub fn reduced(self) -> Angle {
+        let turns = (self.rest / TAU).floor();
+        if turns == 0.0 {
+            return self;
+        }
+        Angle {
+            turns: self.turns + turns,
+            rest: (self.rest - turns * TAU) - turns * TAU_REST,
+        }
+    }
+
+    /// This angle minus another, rad.
+    pub fn minus(self, other: Angle) -> f64 {
+        Angle {
+            turns: self.turns - other.turns,
+            rest: self.rest - other.rest,
+        }
+        .radians()
+    }
+
+    /// This angle and `more` radians.
+    pub fn plus(self, more: f64) -> Angle {
+        Angle {
+            turns: self.turns,
+            rest: self.rest + more,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_turns_leave_no_trace() {
+        let far = Angle {
+            turns: 1e6,
+            rest: 0.25,
+        };
+        let same = Angle {
+            turns: 0.0,
+            rest: TAU + 0.25,
+        }
+        .reduced();
+        assert_eq!(same.turns, 1.0);
+        assert!((same.rest - 0.25).abs() < 1e-15);
+        assert_eq!(
+            far.minus(Angle {
+                turns: 1e6,
+                rest: 0.0
+            }),
+            0.25
+        );
+    }
+}

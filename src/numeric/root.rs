@@ -1,0 +1,90 @@
+//! Roots of scalar functions, bracketed, to the last bit.
+
+/// Root of `f` in [a, b], where f(a) and f(b) differ in sign or one of them is zero: Brent's method
+/// (Algorithms for Minimization without Derivatives, 1973, ch. 4), run until the bracket is two
+/// neighbouring numbers or f is exactly zero.
+///
+/// Returns `None` if the signs do not differ or a value is not a number.
+pub fn bracketed(mut f: impl FnMut(f64) -> f64, a: f64, b: f64) -> Option<f64> {
+    let (mut a, mut b) = (a, b);
+    let (mut fa, mut fb) = (f(a), f(b));
+    if fa == 0.0 {
+        return Some(a);
+    }
+    if fb == 0.0 {
+        return Some(b);
+    }
+    if fa.is_nan() || fb.is_nan() || (fa > 0.0) == (fb > 0.0) {
+        return None;
+    }
+    let (mut c, mut fc) = (a, fa);
+    let mut step = b - a;
+    let mut last_step = step;
+    for _ in 0..200 {
+        if fc.abs() < fb.abs() {
+            (a, b, c) = (b, c, b);
+            (fa, fb, fc) = (fb, fc, fb);
+        }
+        let tolerance = f64::EPSILON * b.abs();
+        let half = 0.5 * (c - b);
+        if half.abs() <= tolerance || fb == 0.0 {
+            return Some(b);
+        }
+        if last_step.abs() > tolerance && fa.abs() > fb.abs() {
+            let s = fb / fa;
+            let (mut p, mut q) = if a == c {
+                (2.0 * half * s, 1.0 - s)
+            } else {
+                let (q, r) = (fa / fc, fb / fc);
+                (
+                    s * (2.0 * half * q * (q - r) - (b - a) * (r - 1.0)),
+                    (q - 1.0) * (r - 1.0) * (s - 1.0),
+                )
+            };
+            if p > 0.0 {
+                q = -q;
+            }
+            p = p.abs();
+            let accepted =
+                2.0 * p < (3.0 * half * q - (tolerance * q).abs()).min((last_step * q).abs());
+            (last_step, step) = if accepted {
+                (step, p / q)
+            } else {
+                (half, half)
+            };
+        } else {
+            (last_step, step) = (half, half);
+        }
+        (a, fa) = (b, fb);
+        b += if step.abs() > tolerance {
+            step
+        } else {
+            tolerance.max(f64::MIN_POSITIVE).copysign(half)
+        };
+        fb = f(b);
+        if fb.is_nan() {
+            return None;
+        }
+        if (fb > 0.0) == (fc > 0.0) {
+            (c, fc) = (a, fa);
+            step = b - a;
+            last_step = step;
+        }
+    }
+    Some(b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn roots_are_right_to_the_last_bits() {
+        for target in [0.1, 1.0, std::f64::consts::E, 1e-9] {
+            let root = bracketed(|x| x * x * x - target, 0.0, 3.0).unwrap();
+            assert!((root / target.cbrt() - 1.0).abs() < 1e-15, "{root}");
+        }
+        assert_eq!(bracketed(f64::sin, -1.0, 0.5), Some(0.0));
+        assert_eq!(bracketed(|x| x * x + 1.0, -1.0, 1.0), None);
+    }
+}

@@ -1,0 +1,115 @@
+//! Where results go: standard output, or a file that appears only when it is complete.
+
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+use crate::error::Error;
+
+/// A stream of output. A file is written beside its target and takes its name in [`Output::finish`].
+#[derive(Debug)]
+pub struct Output {
+    target: String,
+    stream: Stream,
+}
+
+#[derive(Debug)]
+enum Stream {
+    Standard(BufWriter<io::Stdout>),
+    File {
+        writer: BufWriter<NamedTempFile>,
+        path: PathBuf,
+    },
+}
+
+impl Output {
+    /// Opens the target; `-` is standard output. A target that cannot be written fails here, before the
+    /// work is done.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn create(path: &Path) -> Result<Output, Error> {
+        let target = path.display().to_string();
+        if path == Path::new("-") {
+            return Ok(Output::standard());
+        }
+        let folder = match path.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent,
+            _ => Path::new("."),
+        };
+        let failed = |source| Error::Write {
+            target: target.clone(),
+            source,
+        };
+        if path.is_dir() {
+            return Err(failed(io::Error::other("it is a folder")));
+        }
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".slider-crank-");
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            builder.permissions(std::fs::Permissions::from_mode(0o666));
+        }
+        let file = builder.tempfile_in(folder).map_err(failed)?;
+        Ok(Output {
+            target,
+            stream: Stream::File {
+                writer: BufWriter::with_capacity(1 << 16, file),
+                path: path.to_owned(),
+            },
+        })
+    }
+
+    /// Standard output.
+    pub fn standard() -> Output {
+        Output {
+            target: "standard output".to_owned(),
+            stream: Stream::Standard(BufWriter::with_capacity(1 << 16, io::stdout())),
+        }
+    }
+
+    /// Whether it is standard output.
+    pub fn is_standard(&self) -> bool {
+        matches!(self.stream, Stream::Standard(_))
+    }
+
+    /// Writes bytes.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn write(&mut self, bytes: &[u8]) -> Result<(), Error> {
+        let result = match &mut self.stream {
+            Stream::Standard(writer) => writer.write_all(bytes),
+            Stream::File { writer, .. } => writer.write_all(bytes),
+        };
+        result.map_err(|source| self.error(source))
+    }
+
+    /// Completes the output; a file gets its name now.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn finish(self) -> Result<(), Error> {
+        let failed = |source| Error::Write {
+            target: self.target.clone(),
+            source,
+        };
+        match self.stream {
+            Stream::Standard(mut writer) => writer.flush().map_err(failed),
+            Stream::File { writer, path } => {
+                let file = writer.into_inner().map_err(|e| failed(e.into_error()))?;
+                file.persist(&path).map_err(|e| failed(e.error))?;
+                Ok(())
+            }
+        }
+    }
+
+    fn error(&self, source: io::Error) -> Error {
+        Error::Write {
+            target: self.target.clone(),
+            source,
+        }
+    }
+}

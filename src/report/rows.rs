@@ -1,0 +1,200 @@
+//! Rows as CSV: header, shortest numbers that read back the same, empty cells for what does not exist.
+
+use super::Output;
+use crate::error::Error;
+use crate::study::{KinematicsRow, Row, RowSink};
+
+const MOTION: &str =
+    "t_s,theta_rad,omega_rad_per_s,alpha_rad_per_s2,x_m,v_m_per_s,a_m_per_s2,phi_rad";
+const REACTIONS: &str = "crank_bearing_x_n,crank_bearing_y_n,crank_pin_x_n,crank_pin_y_n,wrist_pin_x_n,wrist_pin_y_n,guide_n,shaking_x_n,shaking_y_n,shaking_moment_nm";
+const TORQUE: &str = "crank_torque_nm";
+const POSITION: &str =
+    "theta_rad,x_m,dx_m_per_rad,d2x_m_per_rad2,phi_rad,dphi,d2phi,transmission_rad";
+const RATES: &str = "v_m_per_s,a_m_per_s2,rod_omega_rad_per_s,rod_alpha_rad_per_s2";
+
+/// One CSV line of numbers; what is not finite is left empty.
+fn line(buffer: &mut csv::Writer<Vec<u8>>, values: &[f64]) -> Result<(), csv::Error> {
+    for value in values {
+        if value.is_finite() {
+            let mut shortest = ryu_like(*value);
+            if *value == 0.0 {
+                shortest = "0".to_owned();
+            }
+            buffer.write_field(shortest)?;
+        } else {
+            buffer.write_field("")?;
+        }
+    }
+    buffer.write_record(None::<&[u8]>)
+}
+
+/// The shortest text that reads back as the same number.
+fn ryu_like(value: f64) -> String {
+    let plain = value.abs() >= 1e-5 && value.abs() < 1e16;
+    if plain {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
+}
+
+fn write(output: &mut Output, values: &[f64]) -> Result<(), Error> {
+    let failed = |message: String| Error::Write {
+        target: "CSV".to_owned(),
+        source: std::io::Error::other(message),
+    };
+    let mut buffer = csv::Writer::from_writer(Vec::with_capacity(256));
+    line(&mut buffer, values).map_err(|e| failed(e.to_string()))?;
+    let bytes = buffer.into_inner().map_err(|e| failed(e.to_string()))?;
+    output.write(&bytes)
+}
+
+/// Rows of `simulate`.
+#[derive(Debug)]
+pub struct RowWriter {
+    output: Output,
+    header: bool,
+}
+
+impl RowWriter {
+    /// Writes to an output.
+    pub fn new(output: Output) -> RowWriter {
+        RowWriter {
+            output,
+            header: false,
+        }
+    }
+
+    /// Completes the output.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn finish(self) -> Result<(), Error> {
+        self.output.finish()
+    }
+}
+
+impl RowSink for RowWriter {
+    fn row(&mut self, row: &Row) -> Result<(), Error> {
+        if !self.header {
+            let mut header = MOTION.to_owned();
+            for (given, columns) in [
+                (row.reactions.is_some(), REACTIONS),
+                (row.driving_torque.is_some(), TORQUE),
+            ] {
+                if given {
+                    header.push(',');
+                    header.push_str(columns);
+                }
+            }
+            header.push('\n');
+            self.output.write(header.as_bytes())?;
+            self.header = true;
+        }
+        let mut values = vec![
+            row.t, row.theta, row.omega, row.alpha, row.x, row.v, row.a, row.phi,
+        ];
+        if let Some(forces) = &row.reactions {
+            values.extend(forces.crank_bearing);
+            values.extend(forces.crank_pin);
+            values.extend(forces.wrist_pin);
+            values.push(forces.guide);
+            values.extend(forces.shaking);
+            values.push(forces.shaking_moment);
+        }
+        values.extend(row.driving_torque);
+        write(&mut self.output, &values)
+    }
+}
+
+/// Rows of `kinematics`.
+#[derive(Debug)]
+pub struct KinematicsWriter {
+    output: Output,
+}
+
+impl KinematicsWriter {
+    /// Writes the header to an output.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn new(mut output: Output, with_rates: bool) -> Result<KinematicsWriter, Error> {
+        output.write(POSITION.as_bytes())?;
+        if with_rates {
+            output.write(b",")?;
+            output.write(RATES.as_bytes())?;
+        }
+        output.write(b"\n")?;
+        Ok(KinematicsWriter { output })
+    }
+
+    /// Writes a row.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn row(&mut self, row: &KinematicsRow) -> Result<(), Error> {
+        let mut values = vec![
+            row.theta,
+            row.x,
+            row.dx,
+            row.d2x,
+            row.phi,
+            row.dphi,
+            row.d2phi,
+            row.transmission,
+        ];
+        values.extend(row.rates.into_iter().flatten());
+        write(&mut self.output, &values)
+    }
+
+    /// Completes the output.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn finish(self) -> Result<(), Error> {
+        self.output.finish()
+    }
+}
+
+/// Some rows, evenly spread over a run of unknown length, for a table on the terminal.
+#[derive(Debug, Default)]
+pub struct Preview {
+    rows: Vec<Row>,
+    last: Option<Row>,
+    seen: u64,
+    stride: u64,
+}
+
+/// Twice the least number of rows in a preview.
+const MOST: usize = 24;
+
+impl Preview {
+    /// Takes a row; keeps it if it is one of the few.
+    pub fn take(&mut self, row: &Row) {
+        self.stride = self.stride.max(1);
+        if self.seen.is_multiple_of(self.stride) {
+            self.rows.push(*row);
+            if self.rows.len() > MOST {
+                let mut index = 0;
+                self.rows.retain(|_| {
+                    index += 1;
+                    index % 2 == 1
+                });
+                self.stride *= 2;
+            }
+        }
+        self.seen += 1;
+        self.last = Some(*row);
+    }
+
+    /// The rows kept, the last one of the run among them.
+    pub fn rows(&self) -> Vec<Row> {
+        let mut rows = self.rows.clone();
+        if let Some(last) = self.last
+            && rows.last().is_none_or(|row| row.t < last.t)
+        {
+            rows.push(last);
+        }
+        rows
+    }
+}

@@ -1,0 +1,190 @@
+//! Summaries for people.
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+
+use crate::study::{Kinematics, Located, Row, Summary};
+
+/// The summary of a run, with a few of its rows.
+pub fn summary(summary: &Summary, rows: &[Row]) -> String {
+    let mut text = String::new();
+    let mut put = |name: &str, value: String| {
+        let _ = writeln!(text, "{name:<17} {value}");
+    };
+    if !summary.scene.is_empty() {
+        put("scene", summary.scene.clone());
+    }
+    put(
+        "engine",
+        format!("{} ({})", summary.engine, summary.plan.reason),
+    );
+    let last = &summary.last;
+    let error = summary.error_estimate;
+    let plus_minus = |value: f64, bound: Option<f64>, unit: &str| match bound {
+        Some(bound) => format!("{value:.15} +- {bound:.1e} {unit}"),
+        None => format!("{value:.15} {unit}, error not estimated"),
+    };
+    put("end", format!("t = {} s", last.t_s));
+    put(
+        "  crank angle",
+        plus_minus(last.theta_rad, error.map(|e| e.theta_rad), "rad"),
+    );
+    put(
+        "  crank speed",
+        plus_minus(
+            last.omega_rad_per_s,
+            error.map(|e| e.omega_rad_per_s),
+            "rad/s",
+        ),
+    );
+    put("turns", format!("{}", summary.revolutions));
+    put(
+        "crank speed",
+        format!("{} to {} rad/s", summary.omega_min, summary.omega_max),
+    );
+    if let Some(torque) = &summary.driving_torque {
+        put(
+            "driving torque",
+            format!(
+                "{} to {} N m, mean {} N m",
+                torque.min_nm, torque.max_nm, torque.mean_nm
+            ),
+        );
+    }
+    put(
+        "energy residual",
+        format!(
+            "{:.1e} of the largest energy ({:.1e} J)",
+            summary.energy_residual, summary.energy_residual_j
+        ),
+    );
+    put(
+        "cost",
+        format!(
+            "{} evaluations, {} steps, {}",
+            summary.evaluations,
+            summary.steps,
+            seconds(summary.wall_s)
+        ),
+    );
+    if let Some(cost) = &summary.estimate_cost {
+        put(
+            "  of the estimate",
+            format!("{} evaluations, {}", cost.evaluations, seconds(cost.wall_s)),
+        );
+    }
+    put("events", events(summary));
+    for warning in &summary.warnings {
+        put("warning", warning.clone());
+    }
+    if let Some(stopped) = &summary.stopped {
+        put("stopped early", stopped.clone());
+    }
+    if !rows.is_empty() {
+        text.push('\n');
+        table(&mut text, rows);
+    }
+    text
+}
+
+fn events(summary: &Summary) -> String {
+    let count = |kind: &str| summary.events.iter().filter(|e| e.kind == kind).count();
+    if summary.events_total > summary.events.len() as u64 {
+        return format!("{} dead centres and turning points", summary.events_total);
+    }
+    format!(
+        "{} dead centres, {} turning points",
+        count("dead-centre"),
+        count("turning-point")
+    )
+}
+
+fn seconds(value: f64) -> String {
+    match value {
+        v if v < 1e-3 => format!("{:.1} us", v * 1e6),
+        v if v < 1.0 => format!("{:.2} ms", v * 1e3),
+        v => format!("{v:.2} s"),
+    }
+}
+
+fn table(text: &mut String, rows: &[Row]) {
+    let _ = writeln!(
+        text,
+        "{:>12} {:>10} {:>11} {:>14} {:>11} {:>11}",
+        "t [s]", "turns", "theta [deg]", "omega [rad/s]", "x [mm]", "v [m/s]"
+    );
+    for row in rows {
+        let turns = (row.theta / TAU).floor();
+        let _ = writeln!(
+            text,
+            "{:>12.6} {:>10} {:>11.4} {:>14.6} {:>11.4} {:>11.5}",
+            row.t,
+            turns,
+            (row.theta - turns * TAU).to_degrees(),
+            row.omega,
+            row.x * 1e3,
+            row.v
+        );
+    }
+}
+
+/// What the lengths give.
+pub fn kinematics(result: &Kinematics) -> String {
+    let mut text = String::new();
+    let mut put = |name: &str, value: String| {
+        let _ = writeln!(text, "{name:<22} {value}");
+    };
+    if !result.scene.is_empty() {
+        put("scene", result.scene.clone());
+    }
+    put("class", result.class.to_owned());
+    put("stroke", format!("{} m", result.stroke_m));
+    for dead_centre in &result.dead_centres {
+        put(
+            &format!("{} dead centre", dead_centre.kind),
+            format!(
+                "{} deg, x = {} m",
+                dead_centre.theta_rad.to_degrees(),
+                dead_centre.x_m
+            ),
+        );
+    }
+    if let (Some(advance), Some(back), Some(ratio)) =
+        (result.advance_rad, result.return_rad, result.time_ratio)
+    {
+        put("outward stroke", format!("{} deg", advance.to_degrees()));
+        put("inward stroke", format!("{} deg", back.to_degrees()));
+        put("time ratio", format!("{ratio}"));
+    }
+    for [from, to] in &result.reach_rad {
+        put(
+            "reachable crank angles",
+            format!("{} to {} deg", from.to_degrees(), to.to_degrees()),
+        );
+    }
+    put(
+        "least transmission",
+        format!("{} deg", result.transmission_min_rad.to_degrees()),
+    );
+    let units = match result.speed_rad_per_s {
+        Some(_) => ["m/s", "m/s2"],
+        None => ["m/rad", "m/rad2"],
+    };
+    for (name, extreme, unit) in [
+        ("largest velocity", result.velocity_max, units[0]),
+        ("smallest velocity", result.velocity_min, units[0]),
+        ("largest acceleration", result.acceleration_max, units[1]),
+        ("smallest acceleration", result.acceleration_min, units[1]),
+    ] {
+        if let Some(Located { value, theta_rad }) = extreme {
+            put(
+                name,
+                format!("{value} {unit} at {} deg", theta_rad.to_degrees()),
+            );
+        }
+    }
+    for warning in &result.warnings {
+        put("warning", warning.clone());
+    }
+    text
+}

@@ -1,0 +1,48 @@
+//! Scenes that come with the program.
+
+use std::path::Path;
+
+use super::{Problems, Scene, read};
+use crate::error::Error;
+
+/// The engine of Duarte et al. 2018, table 1, spinning freely; the scene of commands without one.
+pub const DUARTE: &str = include_str!("../../data/duarte-engine.toml");
+
+impl Scene {
+    /// The built-in scene: the Diesel engine of Duarte et al. 2018, table 1, in free spin.
+    ///
+    /// ```
+    /// let scene = slider_crank::scene::Scene::duarte();
+    /// assert_eq!(scene.geometry.rod, 0.15583);
+    /// ```
+    pub fn duarte() -> Scene {
+        read::scene(Path::new("duarte-engine.toml"), DUARTE)
+            .unwrap_or_else(|problems| unreachable!("the built-in scene is right: {problems}"))
+    }
+
+    /// Reads a scene from the text of a file; `file` is its name in messages and the place from which
+    /// the tables it names are found.
+    ///
+    /// # Errors
+    /// [`Problems`]: all that is wrong, with its places.
+    pub fn parse(file: &Path, text: &str) -> Result<Scene, Problems> {
+        read::scene(file, text)
+    }
+
+    /// Reads a scene file; `-` is standard input.
+    ///
+    /// # Errors
+    /// [`Error::Read`] if the file cannot be read, [`Error::Scene`] if it is not a scene.
+    pub fn load(file: &Path) -> Result<Scene, Error> {
+        let text = if file == Path::new("-") {
+            std::io::read_to_string(std::io::stdin())
+        } else {
+            std::fs::read_to_string(file)
+        }
+        .map_err(|source| Error::Read {
+            file: file.to_owned(),
+            source,
+        })?;
+        Ok(Scene::parse(file, &text)?)
+    }
+}

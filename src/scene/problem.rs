@@ -1,0 +1,116 @@
+//! What is wrong with a scene, and its display with the line of the file.
+
+use std::fmt;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+
+/// One thing that is wrong.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Problem {
+    /// The key it is about, as `geometry.rod` or `torque[1].value`.
+    pub field: String,
+    /// Bytes of the file it is about.
+    pub span: Option<Range<usize>>,
+    /// What is wrong, with the value.
+    pub what: String,
+    /// What would be right.
+    pub help: String,
+}
+
+impl Problem {
+    /// A problem with a value, its place not yet known.
+    pub fn new(field: &str, what: impl Into<String>, help: impl Into<String>) -> Problem {
+        Problem {
+            field: field.to_owned(),
+            span: None,
+            what: what.into(),
+            help: help.into(),
+        }
+    }
+}
+
+/// All problems of one scene.
+#[derive(Clone, Debug)]
+pub struct Problems {
+    file: Option<PathBuf>,
+    source: String,
+    list: Vec<Problem>,
+}
+
+impl Problems {
+    pub(super) fn in_file(file: &Path, source: &str, list: Vec<Problem>) -> Problems {
+        Problems {
+            file: Some(file.to_owned()),
+            source: source.to_owned(),
+            list,
+        }
+    }
+
+    pub(super) fn in_code(list: Vec<Problem>) -> Problems {
+        Problems {
+            file: None,
+            source: String::new(),
+            list,
+        }
+    }
+
+    /// The problems, in the order of the file.
+    pub fn list(&self) -> &[Problem] {
+        &self.list
+    }
+
+    /// Line and column, from 1, of a problem that has a place.
+    pub fn place(&self, problem: &Problem) -> Option<(usize, usize)> {
+        let start = problem.span.as_ref()?.start.min(self.source.len());
+        let before = self.source.get(..start)?;
+        let line = before.matches('\n').count() + 1;
+        let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
+        Some((line, column))
+    }
+
+    /// The text for a terminal, in colour or plain.
+    pub fn render(&self, colour: bool) -> String {
+        let renderer = if colour {
+            Renderer::styled()
+        } else {
+            Renderer::plain()
+        };
+        let blocks: Vec<String> = self
+            .list
+            .iter()
+            .map(|problem| self.render_one(problem, &renderer))
+            .collect();
+        blocks.join("\n\n")
+    }
+
+    fn render_one(&self, problem: &Problem, renderer: &Renderer) -> String {
+        let title = Level::ERROR.primary_title(problem.what.as_str());
+        let help = Level::HELP.message(problem.help.as_str());
+        let report = match (&self.file, &problem.span) {
+            (Some(file), Some(span)) => title.element(
+                Snippet::source(self.source.as_str())
+                    .path(file.display().to_string())
+                    .annotation(
+                        AnnotationKind::Primary
+                            .span(span.clone())
+                            .label(problem.field.as_str()),
+                    ),
+            ),
+            (Some(file), None) => {
+                title.element(annotate_snippets::Origin::path(file.display().to_string()))
+            }
+            (None, _) => title.element(Level::NOTE.message(problem.field.as_str())),
+        };
+        renderer.render(&[report.element(help)])
+    }
+}
+
+impl fmt::Display for Problems {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.render(false))
+    }
+}
+
+impl std::error::Error for Problems {}

@@ -1,0 +1,240 @@
+//! The plan, the equation with the scene's numbers, and its terms at one crank angle.
+
+use std::time::Instant;
+
+use serde::Serialize;
+
+use crate::error::Error;
+use crate::mechanism::{Equation, single};
+use crate::plan::{Method, Plan};
+use crate::scene::{Instant as State, RodModel, Scene};
+
+/// What `explain` shows.
+#[derive(Clone, Debug, Serialize)]
+pub struct Explanation {
+    /// Title of the scene.
+    pub scene: String,
+    /// What is computed, and how.
+    pub plan: Plan,
+    /// The equation with the scene's numbers, SI and radians, a line each.
+    pub equation: Vec<String>,
+    /// Sign conventions.
+    pub conventions: Vec<&'static str>,
+    /// Measured time of one evaluation of the equation, ns.
+    pub evaluation_ns: f64,
+    /// Terms at the angle that was asked for.
+    pub at: Option<TermsAt>,
+}
+
+/// Every term of the equation at one crank angle, speed and time of the scene's start.
+#[derive(Clone, Debug, Serialize)]
+pub struct TermsAt {
+    /// rad
+    pub theta_rad: f64,
+    /// Crank speed at which loads are evaluated, rad/s
+    pub omega_rad_per_s: f64,
+    /// x, m
+    pub x_m: f64,
+    /// x', m/rad
+    pub dx_m_per_rad: f64,
+    /// M, kg m²
+    pub m_kg_m2: f64,
+    /// ½ M', kg m²/rad
+    pub half_dm_kg_m2_per_rad: f64,
+    /// V', N m
+    pub dv_nm: f64,
+    /// Each load: name, torque or force, and its part of Q.
+    pub loads: Vec<LoadAt>,
+    /// Q, N m
+    pub q_nm: f64,
+    /// θ̈ that follows, rad/s²; none where the inertia vanishes
+    pub alpha_rad_per_s2: Option<f64>,
+    /// Torque that would keep the crank at this speed, beside the loads, N m
+    pub holding_torque_nm: f64,
+}
+
+/// One load.
+#[derive(Clone, Debug, Serialize)]
+pub struct LoadAt {
+    /// As `torque[1]`, with what it is.
+    pub name: String,
+    /// N m or N
+    pub value: f64,
+    /// Part of Q, N m
+    pub q_nm: f64,
+}
+
+const CONVENTIONS: [&str; 5] = [
+    "crank pivot O = (0, 0); crank angle theta counter-clockwise from +x; crank pin A = r (cos theta, sin theta)",
+    "the slider P moves along y = -e; sin phi = (e + r sin theta)/l; x = r cos theta + s l cos phi",
+    "s = +1 on the branch \"right\", -1 on \"left\"",
+    "force F and position x of the slider positive along +x; torque and omega positive counter-clockwise",
+    "a dash is d/dtheta, a dot d/dt",
+];
+
+/// Explains a scene; `at` is a crank angle, rad.
+///
+/// # Errors
+/// As [`Plan::new`]; [`Error::Refused`] for an angle the mechanism has not.
+pub fn explain(scene: &Scene, method: Method, at: Option<f64>) -> Result<Explanation, Error> {
+    let plan = Plan::new(scene, method)?;
+    let equation = Equation::new(scene);
+    Ok(Explanation {
+        scene: scene.title.clone().unwrap_or_default(),
+        plan,
+        equation: written_out(&scene.reduced()),
+        conventions: CONVENTIONS.to_vec(),
+        evaluation_ns: evaluation_ns(&equation, scene.motion.speed),
+        at: at
+            .map(|theta| terms_at(scene, &equation, theta))
+            .transpose()?,
+    })
+}
+
+fn terms_at(scene: &Scene, equation: &Equation, theta: f64) -> Result<TermsAt, Error> {
+    let terms = equation.terms(theta);
+    let (pose, omega) = (&terms.pose, scene.motion.speed);
+    if !pose.exists() {
+        return Err(Error::refused(
+            format!(
+                "the mechanism has no position at crank angle {theta} rad, or is at its limit there"
+            ),
+            "give an angle that `kinematics` shows as reachable",
+        ));
+    }
+    let now = State {
+        t: 0.0,
+        theta,
+        omega,
+        x: pose.x,
+        v: pose.dx * omega,
+    };
+    let mut loads = Vec::new();
+    for (name, list, arm) in [
+        ("torque", &scene.torques, 1.0),
+        ("force", &scene.forces, pose.dx),
+    ] {
+        for (i, load) in list.iter().enumerate() {
+            let value = single(load, name == "force", &now);
+            loads.push(LoadAt {
+                name: format!("{name}[{}]: {load}", i + 1),
+                value,
+                q_nm: value * arm,
+            });
+        }
+    }
+    let alpha = equation.acceleration(0.0, theta, omega);
+    Ok(TermsAt {
+        theta_rad: theta,
+        omega_rad_per_s: omega,
+        x_m: pose.x,
+        dx_m_per_rad: pose.dx,
+        m_kg_m2: terms.inertia.m,
+        half_dm_kg_m2_per_rad: terms.inertia.half_dm,
+        dv_nm: terms.dv,
+        q_nm: loads.iter().fold(0.0, |sum, load| sum + load.q_nm),
+        loads,
+        alpha_rad_per_s2: alpha.is_finite().then_some(alpha),
+        holding_torque_nm: equation.driving_torque(0.0, theta, omega, 0.0),
+    })
+}
+
+/// The shortest of a few rounds over angles of a turn.
+fn evaluation_ns(equation: &Equation, speed: f64) -> f64 {
+    const COUNT: u32 = 2000;
+    (0..7)
+        .map(|_| {
+            let begun = Instant::now();
+            let mut theta = 0.1;
+            for _ in 0..COUNT {
+                let alpha = equation.acceleration(0.0, theta, speed);
+                // The next angle waits for this result, as in an integration.
+                theta =
+                    0.1 + 0.003 * f64::from(alpha > 0.0) + if theta > 6.0 { 0.0 } else { theta };
+            }
+            std::hint::black_box(theta);
+            begun.elapsed().as_secs_f64() * 1e9 / f64::from(COUNT)
+        })
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// The equation, its parts with numbers; parts that the scene does not have do not appear.
+fn written_out(scene: &Scene) -> Vec<String> {
+    let geometry = &scene.geometry;
+    let (r, l, e, s) = (
+        geometry.crank,
+        geometry.rod,
+        geometry.offset,
+        geometry.branch.sign(),
+    );
+    let mut lines = vec!["M theta.. + 1/2 M' theta.^2 + V' = Q".to_owned()];
+    let mut inertia = Vec::new();
+    let mut potential = Vec::new();
+    let gravity = scene.gravity.map(|gravity| gravity.vector());
+    if let Some(crank) = &scene.crank {
+        inertia.push(format!("{} (crank about O)", crank.inertia));
+        if crank.mass != 0.0 {
+            potential.push(format!("{} g.p_crank", crank.mass));
+        }
+    }
+    if let Some(rod) = &scene.rod {
+        match rod.model {
+            RodModel::Rigid => {
+                inertia.push(format!(
+                    "{} |p_rod'|^2 + {} phi'^2 (rod)",
+                    rod.mass,
+                    rod.central_inertia()
+                ));
+                potential.push(format!("{} g.p_rod", rod.mass));
+            }
+            RodModel::TwoMass => {
+                let wrist = rod.mass * rod.cg / l;
+                inertia.push(format!(
+                    "{} r^2 + {wrist} x'^2 (rod at its pins)",
+                    rod.mass - wrist
+                ));
+                potential.push(format!("{} g.A + {wrist} g.P", rod.mass - wrist));
+            }
+            RodModel::SpinOnly => {
+                inertia.push(format!("{} phi'^2 (rod, spin only)", rod.inertia));
+                potential.push(format!(
+                    "{} g.({} (cos theta, sin theta))",
+                    rod.mass,
+                    l + rod.cg
+                ));
+            }
+            RodModel::Massless => {}
+        }
+    }
+    if let Some(slider) = &scene.slider {
+        inertia.push(format!("{} x'^2 (slider)", slider.mass));
+        potential.push(format!("{} g.P", slider.mass));
+    }
+    lines.push(format!("M = {}", joined(&inertia)));
+    match gravity {
+        Some([gx, gy]) if !potential.is_empty() => {
+            lines.push(format!(
+                "V = -({}), g = ({gx}, {gy})",
+                potential.join(" + ")
+            ));
+        }
+        _ => lines.push("V = 0".to_owned()),
+    }
+    let mut work: Vec<String> = scene
+        .torques
+        .iter()
+        .map(|load| format!("[{load}]"))
+        .collect();
+    work.extend(scene.forces.iter().map(|load| format!("[{load}] x'")));
+    lines.push(format!("Q = {}", joined(&work)));
+    lines.push(format!("r = {r}, l = {l}, e = {e}, s = {s:+}"));
+    lines
+}
+
+fn joined(parts: &[String]) -> String {
+    if parts.is_empty() {
+        "0".to_owned()
+    } else {
+        parts.join(" + ")
+    }
+}

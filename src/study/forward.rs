@@ -1,0 +1,93 @@
+//! The equation of motion as the integrators see it, and the estimate of their global error.
+
+use std::time::Instant;
+
+use super::summary::{Cost, ErrorEstimate};
+use crate::engine::step::Step;
+use crate::engine::time::{self, Finish, Settings, Start};
+use crate::engine::{Counted, Motion};
+use crate::mechanism::Equation;
+use crate::numeric::angle::Angle;
+use crate::scene::Variable;
+
+/// The equation, integrated forward.
+pub(super) struct Forward<'a>(pub &'a Equation);
+
+impl Motion for Forward<'_> {
+    fn acceleration(&self, t: f64, angle: Angle, speed: f64) -> f64 {
+        self.0.acceleration(t, angle, speed)
+    }
+
+    fn acceleration_and_power(&self, t: f64, angle: Angle, speed: f64) -> (f64, f64) {
+        self.0.acceleration_and_power(t, angle, speed)
+    }
+
+    fn depends_on_time(&self) -> bool {
+        self.0.loads().reads().has(Variable::T)
+    }
+
+    fn has_power(&self) -> bool {
+        !self.0.loads().have_potential()
+    }
+}
+
+/// The second run of the estimate is this much tighter, so that its own error hardly counts.
+const TIGHTER: f64 = 50.0;
+/// Where rounding inside a step takes over.
+const TIGHTEST: f64 = 1e-15;
+
+/// Global error of a run that ended in `last` after `steps` steps: its distance from a run with a much
+/// tighter tolerance, and what rounding may have added to both.
+///
+/// Rounding: each step rounds θ and θ̇ to half a unit in the last place, independently of the others; an
+/// error of the speed grows to one of the angle over the rest of the run.
+pub(super) fn estimate(
+    equation: &Equation,
+    start: Start,
+    settings: &Settings,
+    last: &Step,
+    steps: u64,
+    largest_speed: f64,
+) -> Option<(ErrorEstimate, Cost)> {
+    let begun = Instant::now();
+    let forward = Forward(equation);
+    let motion = Counted::new(&forward);
+    let tighter = Settings {
+        tolerance: (settings.tolerance / TIGHTER).max(TIGHTEST),
+        t_end: last.end.t,
+        max_evaluations: settings.max_evaluations.saturating_mul(4),
+        ..*settings
+    };
+    let (finish, best, tight_steps) = time::run(&motion, start, &tighter, &mut |_| false);
+    if finish != Finish::AtEnd {
+        return None;
+    }
+    let angle = best
+        .angle(best.end.theta)
+        .minus(last.angle(last.end.theta))
+        .abs();
+    let speed = (best.end.omega - last.end.omega).abs();
+    let roundings = ((steps + tight_steps) as f64).sqrt();
+    let speed_noise = 0.5 * f64::EPSILON * largest_speed * roundings;
+    let duration = last.end.t - start.t;
+    let angle_noise = 0.5 * f64::EPSILON * (last.end.theta.abs() + 1.0) * roundings
+        + speed_noise * duration
+        + f64::EPSILON * last.angle(last.end.theta).radians().abs();
+    let estimate = ErrorEstimate {
+        theta_rad: 1.1 * angle + angle_noise,
+        omega_rad_per_s: 1.1 * speed + speed_noise + alpha_noise(last, angle_noise),
+    };
+    let cost = Cost {
+        evaluations: motion.evaluations(),
+        wall_s: begun.elapsed().as_secs_f64(),
+    };
+    Some((estimate, cost))
+}
+
+/// The speed differs by θ̈/θ̇ times an angle error at the same time.
+fn alpha_noise(last: &Step, angle_noise: f64) -> f64 {
+    if last.end.omega == 0.0 {
+        return 0.0;
+    }
+    (last.end.alpha / last.end.omega * angle_noise).abs()
+}

@@ -1,0 +1,17 @@
+//! The questions: where the physics meets the integrators.
+
+mod closed_form;
+mod explain;
+mod forward;
+mod kinematics;
+mod row;
+mod schedule;
+mod simulate;
+mod summary;
+mod watch;
+
+pub use explain::{Explanation, LoadAt, TermsAt, explain};
+pub use kinematics::{DeadCentre, Kinematics, KinematicsRow, Located, kinematics};
+pub use row::{NoRows, Row, RowSink};
+pub use simulate::{Options, Simulation, simulate, simulate_rows};
+pub use summary::{Cost, ErrorEstimate, Event, Final, Summary, TorqueRange};

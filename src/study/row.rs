@@ -1,0 +1,100 @@
+//! Output rows: the state of the mechanism at one time.
+
+use crate::error::Error;
+use crate::mechanism::{Equation, Reactions, Reactor};
+use crate::numeric::angle::Angle;
+
+/// One output row, SI and radians.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row {
+    /// s
+    pub t: f64,
+    /// rad, unwrapped
+    pub theta: f64,
+    /// rad/s
+    pub omega: f64,
+    /// rad/s²
+    pub alpha: f64,
+    /// Slider position, m
+    pub x: f64,
+    /// Slider velocity, m/s
+    pub v: f64,
+    /// Slider acceleration, m/s²
+    pub a: f64,
+    /// Rod inclination, rad
+    pub phi: f64,
+    /// Joint and guide forces, if asked for.
+    pub reactions: Option<Reactions>,
+    /// Torque that drives the crank beside the loads, N m, if asked for.
+    pub driving_torque: Option<f64>,
+}
+
+/// Takes the rows of a run as they are computed.
+pub trait RowSink {
+    /// Whether rows are wanted at all; if not, none are computed.
+    fn wants_rows(&self) -> bool {
+        true
+    }
+
+    /// Takes one row.
+    ///
+    /// # Errors
+    /// An error ends the run.
+    fn row(&mut self, row: &Row) -> Result<(), Error>;
+}
+
+/// No rows.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoRows;
+
+impl RowSink for NoRows {
+    fn wants_rows(&self) -> bool {
+        false
+    }
+
+    fn row(&mut self, _: &Row) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+impl RowSink for Vec<Row> {
+    fn row(&mut self, row: &Row) -> Result<(), Error> {
+        self.push(*row);
+        Ok(())
+    }
+}
+
+/// Makes rows from states.
+#[derive(Debug)]
+pub(super) struct RowMaker<'a> {
+    pub equation: &'a Equation,
+    pub reactor: Option<Reactor>,
+    pub driving_torque: bool,
+}
+
+impl RowMaker<'_> {
+    /// The row of a free motion, or with `alpha` of a prescribed one.
+    pub fn row(&self, t: f64, angle: Angle, omega: f64, alpha: Option<f64>) -> Row {
+        let alpha = alpha.unwrap_or_else(|| self.equation.acceleration(t, angle, omega));
+        let pose = self.equation.linkage().pose(angle.rest);
+        let reactions = self
+            .reactor
+            .as_ref()
+            .map(|reactor| reactor.at(self.equation, t, angle, omega, alpha));
+        let driving_torque = self
+            .driving_torque
+            .then(|| self.equation.driving_torque(t, angle, omega, alpha));
+        Row {
+            t,
+            theta: angle.radians(),
+            omega,
+            alpha,
+            x: pose.x,
+            v: pose.dx * omega,
+            a: pose.dx * alpha + pose.d2x * omega * omega,
+            phi: pose.phi(),
+            reactions,
+            driving_torque,
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! When output rows are due. Times come from an index, never from adding up.
+
+use std::f64::consts::TAU;
+
+use crate::scene::{Every, Extent};
+
+/// Rows of a run without `output_every`.
+const DEFAULT_ROWS: u32 = 500;
+
+/// Rows at regular times or crank angles. The first and the last state are rows always.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Schedule {
+    /// At index·step of time, until before `end`.
+    Times { step: f64, end: f64 },
+    /// Each time the angle from the start passes a multiple of this, rad.
+    Angles { step: f64 },
+}
+
+impl Schedule {
+    pub fn new(every: Option<Every>, extent: Extent) -> Schedule {
+        let intervals = f64::from(DEFAULT_ROWS - 1);
+        match (every, extent) {
+            (Some(Every::Time(step)), Extent::Duration(end)) => Schedule::Times { step, end },
+            (Some(Every::Time(step)), _) => Schedule::Times {
+                step,
+                end: f64::INFINITY,
+            },
+            (Some(Every::Angle(step)), _) => Schedule::Angles { step },
+            (None, Extent::Duration(end)) => Schedule::Times {
+                step: end / intervals,
+                end,
+            },
+            (None, Extent::Revolutions(turns)) => Schedule::Angles {
+                step: turns * TAU / intervals,
+            },
+        }
+    }
+
+    /// Time of the row with this index, if rows are due at times and it is due before the end; the end
+    /// itself is the last state's.
+    pub fn time(&self, index: u64) -> Option<f64> {
+        match *self {
+            Schedule::Times { step, end } => {
+                let t = index as f64 * step;
+                (t < end - 1e-9 * step).then_some(t)
+            }
+            Schedule::Angles { .. } => None,
+        }
+    }
+
+    /// Distance in crank angle, rad, if rows are due at angles.
+    pub fn angle_step(&self) -> Option<f64> {
+        match *self {
+            Schedule::Angles { step } if step > 0.0 => Some(step),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! The result of a run in numbers.
+
+use serde::Serialize;
+
+use crate::plan::Plan;
+
+/// Summary of a run; its JSON is the object that `simulate --json` prints.
+#[derive(Clone, Debug, Serialize)]
+pub struct Summary {
+    /// Title of the scene.
+    pub scene: String,
+    /// Name of the engine.
+    pub engine: String,
+    /// What was computed, and how.
+    pub plan: Plan,
+    /// Last state.
+    #[serde(rename = "final")]
+    pub last: Final,
+    /// Turns made, negative clockwise.
+    pub revolutions: f64,
+    /// Estimate of the global error of the last state; none if it was not asked for or cannot be given.
+    pub error_estimate: Option<ErrorEstimate>,
+    /// Energy at the end minus energy at the start minus work of the loads, divided by the largest of the
+    /// energies that occur.
+    pub energy_residual: f64,
+    /// The same, J.
+    pub energy_residual_j: f64,
+    /// Evaluations of the equation for the solution.
+    pub evaluations: u64,
+    /// Steps taken.
+    pub steps: u64,
+    /// Wall time of the solution itself, without rows and estimate, s.
+    pub wall_s: f64,
+    /// What the error estimate cost beside it.
+    pub estimate_cost: Option<Cost>,
+    /// Least crank speed, rad/s.
+    pub omega_min: f64,
+    /// Largest crank speed, rad/s.
+    pub omega_max: f64,
+    /// Torque that keeps the prescribed speed, for prescribed motions.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub driving_torque: Option<TorqueRange>,
+    /// Dead centres and turning points: the first of them, at most as many as were asked for.
+    pub events: Vec<Event>,
+    /// How many there were.
+    pub events_total: u64,
+    /// What the reader should know.
+    pub warnings: Vec<String>,
+    /// Why the run ended before its time, if it did.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stopped: Option<String>,
+}
+
+/// A last state.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Final {
+    /// s
+    pub t_s: f64,
+    /// rad, unwrapped
+    pub theta_rad: f64,
+    /// rad/s
+    pub omega_rad_per_s: f64,
+}
+
+/// Bounds of the global error.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ErrorEstimate {
+    /// rad
+    pub theta_rad: f64,
+    /// rad/s
+    pub omega_rad_per_s: f64,
+}
+
+/// Evaluations and time.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Cost {
+    /// Evaluations of the equation.
+    pub evaluations: u64,
+    /// s
+    pub wall_s: f64,
+}
+
+/// Range of the driving torque over the run.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct TorqueRange {
+    /// N m
+    pub min_nm: f64,
+    /// N m
+    pub max_nm: f64,
+    /// Mean over time, N m
+    pub mean_nm: f64,
+}
+
+/// Something that happened.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Event {
+    /// `dead-centre` or `turning-point`.
+    pub kind: &'static str,
+    /// s
+    pub t_s: f64,
+    /// rad, unwrapped
+    pub theta_rad: f64,
+    /// rad/s
+    pub omega_rad_per_s: f64,
+}

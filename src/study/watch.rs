@@ -1,0 +1,210 @@
+//! What a run in time gives beside its end: rows, events, extreme speeds, the dense trajectory.
+
+use std::f64::consts::TAU;
+use std::time::{Duration, Instant};
+
+use super::row::{RowMaker, RowSink};
+use super::schedule::Schedule;
+use super::summary::Event;
+use crate::engine::events::{self, Crossing};
+use crate::engine::step::Step;
+use crate::engine::{Counted, time::Start};
+use crate::error::Error;
+
+/// Follows the steps of a run.
+pub(super) struct Watch<'a> {
+    pub motion: &'a Counted<'a>,
+    pub maker: RowMaker<'a>,
+    pub rows: &'a mut dyn RowSink,
+    pub schedule: Schedule,
+    pub start: Start,
+    /// Angles of the dead centres, in [0, 2π).
+    pub dead_centres: Vec<f64>,
+    /// The run ends when the crank has turned by this, rad.
+    pub turn_limit: Option<f64>,
+    pub events_kept: usize,
+    pub seen: Seen,
+    /// Refined steps, if they are recorded.
+    pub recorded: Option<Vec<Step>>,
+}
+
+/// What was seen so far.
+#[derive(Debug)]
+pub(super) struct Seen {
+    pub events: Vec<Event>,
+    pub events_total: u64,
+    pub speed: (f64, f64),
+    /// When the turn limit was reached.
+    pub turned_at: Option<f64>,
+    /// Time spent on rows.
+    pub row_time: Duration,
+    pub error: Option<Error>,
+    next_row: u64,
+    crossings: Vec<(f64, Crossing)>,
+}
+
+impl Seen {
+    pub fn new(speed: f64) -> Seen {
+        Seen {
+            events: Vec::new(),
+            events_total: 0,
+            speed: (speed, speed),
+            turned_at: None,
+            row_time: Duration::ZERO,
+            error: None,
+            next_row: 0,
+            crossings: Vec::new(),
+        }
+    }
+}
+
+impl Watch<'_> {
+    /// Takes a step; true ends the run.
+    pub fn step(&mut self, step: &Step) -> bool {
+        let mut step = *step;
+        let until = self.reached_turn_limit(&mut step).unwrap_or(step.end.t);
+        self.look_for_events(&mut step, until);
+        let (low, high) = events::speed_range(&step);
+        self.seen.speed = (self.seen.speed.0.min(low), self.seen.speed.1.max(high));
+        if self.rows.wants_rows() {
+            let begun = Instant::now();
+            let result = self.write_rows(&mut step, until);
+            self.seen.row_time += begun.elapsed();
+            if let Err(error) = result {
+                self.seen.error = Some(error);
+                return true;
+            }
+        }
+        if let Some(recorded) = &mut self.recorded {
+            step.refine(self.motion);
+            recorded.push(step);
+        }
+        self.seen.turned_at.is_some()
+    }
+
+    fn turned(&self, step: &Step, theta: f64) -> f64 {
+        step.angle(theta).minus(self.start.angle)
+    }
+
+    fn reached_turn_limit(&mut self, step: &mut Step) -> Option<f64> {
+        let limit = self.turn_limit?;
+        if self.turned(step, step.end.theta).abs() < limit {
+            return None;
+        }
+        step.refine(self.motion);
+        let beyond = self.turned(step, step.end.theta);
+        let target = step.end.theta - (beyond - limit.copysign(beyond));
+        let t = step
+            .time_of_angle(target, step.start.t, step.end.t)
+            .unwrap_or(step.end.t);
+        self.seen.turned_at = Some(t);
+        Some(t)
+    }
+
+    fn look_for_events(&mut self, step: &mut Step, until: f64) {
+        let mut crossings = std::mem::take(&mut self.seen.crossings);
+        events::crossings(step, &self.dead_centres, &mut crossings);
+        if !crossings.is_empty() && self.seen.events.len() < self.events_kept {
+            step.refine(self.motion);
+            events::crossings(step, &self.dead_centres, &mut crossings);
+        }
+        for &(t, what) in crossings.iter().filter(|(t, _)| *t <= until) {
+            self.seen.events_total += 1;
+            if self.seen.events.len() < self.events_kept {
+                let (theta, omega) = step.at(t);
+                self.seen.events.push(Event {
+                    kind: match what {
+                        Crossing::Angle(_) => "dead-centre",
+                        Crossing::Turning => "turning-point",
+                    },
+                    t_s: t,
+                    theta_rad: step.angle(theta).radians(),
+                    omega_rad_per_s: match what {
+                        Crossing::Angle(_) => omega,
+                        Crossing::Turning => 0.0,
+                    },
+                });
+            }
+        }
+        self.seen.crossings = crossings;
+    }
+
+    fn write_rows(&mut self, step: &mut Step, until: f64) -> Result<(), Error> {
+        if let Some(spacing) = self.schedule.angle_step() {
+            return self.write_rows_at_angles(step, until, spacing);
+        }
+        while let Some(t) = self.schedule.time(self.seen.next_row) {
+            if t > until {
+                break;
+            }
+            if t > step.start.t && t < step.end.t {
+                step.refine(self.motion);
+            }
+            self.write_row(step, t)?;
+            self.seen.next_row += 1;
+        }
+        Ok(())
+    }
+
+    fn write_rows_at_angles(
+        &mut self,
+        step: &mut Step,
+        until: f64,
+        spacing: f64,
+    ) -> Result<(), Error> {
+        if self.seen.next_row == 0 {
+            self.write_row(step, step.start.t)?;
+            self.seen.next_row = 1;
+        }
+        let turning = self.seen.crossings.iter();
+        let turning = turning.filter(|(_, what)| *what == Crossing::Turning);
+        let mut cuts: Vec<f64> = turning.map(|(t, _)| *t).collect();
+        cuts.push(step.end.t);
+        let mut from = step.start.t;
+        for to in cuts {
+            let (a, b) = (
+                self.turned(step, step.at(from).0) / spacing,
+                self.turned(step, step.at(to).0) / spacing,
+            );
+            let (low, high) = (a.min(b).floor() as i64, a.max(b).floor() as i64);
+            let mut targets: Vec<i64> = (low + 1..=high).collect();
+            if b < a {
+                targets.reverse();
+            }
+            for k in targets {
+                step.refine(self.motion);
+                let theta =
+                    step.start.theta + (k as f64 * spacing - self.turned(step, step.start.theta));
+                if let Some(t) = step.time_of_angle(theta, from, to)
+                    && t <= until
+                {
+                    self.write_row(step, t)?;
+                }
+            }
+            from = to;
+        }
+        Ok(())
+    }
+
+    fn write_row(&mut self, step: &Step, t: f64) -> Result<(), Error> {
+        let (theta, omega) = step.at(t);
+        let row = self.maker.row(t, step.angle(theta), omega, None);
+        self.rows.row(&row)
+    }
+
+    /// The last state is a row always.
+    pub fn write_last_row(&mut self, last: &Step) -> Result<(), Error> {
+        if self.rows.wants_rows() {
+            let row = self
+                .maker
+                .row(last.end.t, last.angle(last.end.theta), last.end.omega, None);
+            self.rows.row(&row)?;
+        }
+        Ok(())
+    }
+}
+
+/// Turns in radians.
+pub(super) fn radians(turns: f64) -> f64 {
+    turns * TAU
+}

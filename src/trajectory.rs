@@ -1,0 +1,62 @@
+//! The motion of a finished run: crank angle and speed at any time inside it.
+
+use crate::engine::step::Step;
+use crate::numeric::angle::Angle;
+
+/// A dense trajectory; the same type from every engine.
+#[derive(Clone, Debug)]
+pub struct Trajectory {
+    motion: Motion,
+    end: f64,
+}
+
+#[derive(Clone, Debug)]
+enum Motion {
+    Uniform { angle: Angle, speed: f64 },
+    Steps(Vec<Step>),
+}
+
+impl Trajectory {
+    /// Constant speed (rad/s) from `angle` at t = 0 until `end`, s.
+    pub fn uniform(angle: Angle, speed: f64, end: f64) -> Trajectory {
+        Trajectory {
+            motion: Motion::Uniform { angle, speed },
+            end,
+        }
+    }
+
+    /// Refined steps, each beginning where the one before ends, until `end`, s.
+    pub fn from_steps(steps: Vec<Step>, end: f64) -> Trajectory {
+        Trajectory {
+            motion: Motion::Steps(steps),
+            end,
+        }
+    }
+
+    /// Last time, s; the first is 0.
+    pub fn end(&self) -> f64 {
+        self.end
+    }
+
+    /// Crank angle, as turns and rest, and speed (rad/s) at time `t` (s); none outside the run.
+    pub fn state(&self, t: f64) -> Option<(Angle, f64)> {
+        if !(0.0..=self.end).contains(&t) {
+            return None;
+        }
+        match &self.motion {
+            Motion::Uniform { angle, speed } => Some((angle.plus(speed * t), *speed)),
+            Motion::Steps(steps) => {
+                let after = steps.partition_point(|step| step.end.t < t);
+                let step = steps.get(after)?;
+                let (theta, omega) = step.at(t);
+                Some((step.angle(theta), omega))
+            }
+        }
+    }
+
+    /// Unwrapped crank angle (rad) and speed (rad/s) at time `t` (s); none outside the run.
+    pub fn at(&self, t: f64) -> Option<(f64, f64)> {
+        let (angle, speed) = self.state(t)?;
+        Some((angle.radians(), speed))
+    }
+}

@@ -1,0 +1,138 @@
+//! The motion without loads by quadrature: t = ∫ dθ sqrt(M/(2 (E − V))), M and V written out from the
+//! positions and velocities of the bodies.
+
+use slider_crank::scene::Scene;
+
+pub struct EnergyIntegral {
+    scene: Scene,
+    energy: f64,
+    nodes: Vec<(f64, f64)>,
+}
+
+/// Panels in a turn.
+const PANELS: f64 = 120.0;
+
+impl EnergyIntegral {
+    pub fn new(scene: &Scene) -> EnergyIntegral {
+        assert!(scene.torques.is_empty() && scene.forces.is_empty());
+        let mut integral = EnergyIntegral {
+            scene: scene.clone(),
+            energy: 0.0,
+            nodes: gauss_legendre(12),
+        };
+        let (m, v) = integral.m_and_v(scene.motion.angle);
+        integral.energy = 0.5 * m * scene.motion.speed.powi(2) + v;
+        integral
+    }
+
+    /// M and V at a crank angle.
+    pub fn m_and_v(&self, theta: f64) -> (f64, f64) {
+        let geometry = &self.scene.geometry;
+        let (r, l, e, s) = (
+            geometry.crank,
+            geometry.rod,
+            geometry.offset,
+            geometry.branch.sign(),
+        );
+        let (sin, cos) = theta.sin_cos();
+        let sin_phi = (e + r * sin) / l;
+        let cos_phi = (1.0 - sin_phi * sin_phi).sqrt();
+        let phi_rate = r * cos / (l * cos_phi);
+        let x = r * cos + s * l * cos_phi;
+        let x_rate = -r * sin - s * l * sin_phi * phi_rate;
+        let gravity = self.scene.gravity.map_or([0.0; 2], |gravity| {
+            let (sin, cos) = gravity.direction.sin_cos();
+            [gravity.acceleration * cos, gravity.acceleration * sin]
+        });
+        let (mut m, mut v) = (0.0, 0.0);
+        let mut lift = |mass: f64, x: f64, y: f64| v -= mass * (gravity[0] * x + gravity[1] * y);
+        if let Some(crank) = &self.scene.crank {
+            m += crank.inertia;
+            let (a, b) = (crank.cg, crank.cg_lateral);
+            lift(crank.mass, a * cos - b * sin, a * sin + b * cos);
+        }
+        if let Some(rod) = &self.scene.rod {
+            let (a, b) = (rod.cg, rod.cg_lateral);
+            let (ux, uy) = (s * cos_phi, -sin_phi);
+            let (gx, gy) = (a * ux - b * uy, a * uy + b * ux);
+            let spin = -s * phi_rate;
+            let (vx, vy) = (-r * sin - spin * gy, r * cos + spin * gx);
+            m += rod.mass * (vx * vx + vy * vy) + rod.central_inertia() * spin * spin;
+            lift(rod.mass, r * cos + gx, r * sin + gy);
+        }
+        if let Some(slider) = &self.scene.slider {
+            m += slider.mass * x_rate * x_rate;
+            lift(slider.mass, x, -e);
+        }
+        (m, v)
+    }
+
+    /// Speed at a crank angle, rad/s, of the sign of the start.
+    pub fn speed(&self, theta: f64) -> f64 {
+        let (m, v) = self.m_and_v(theta);
+        (2.0 * (self.energy - v) / m)
+            .sqrt()
+            .copysign(self.scene.motion.speed)
+    }
+
+    /// Time from `from` to `to` within one panel.
+    fn time(&self, from: f64, to: f64) -> f64 {
+        let half = 0.5 * (to - from);
+        let middle = 0.5 * (to + from);
+        let node = |&(x, w): &(f64, f64)| w / self.speed(middle + half * x);
+        half * self.nodes.iter().map(node).sum::<f64>()
+    }
+
+    /// Angle and speed at time t.
+    pub fn state(&self, t: f64) -> (f64, f64) {
+        let panel = std::f64::consts::TAU / PANELS * self.scene.motion.speed.signum();
+        let start = self.scene.motion.angle;
+        let (mut passed, mut lost, mut index) = (0.0, 0.0, 0.0);
+        loop {
+            let from = start + index * panel;
+            let step = self.time(from, from + panel);
+            // Kahan: the error of the sum is carried along.
+            let corrected = step - lost;
+            let next = passed + corrected;
+            if next > t {
+                return self.inside(from, panel, t - passed + lost);
+            }
+            lost = (next - passed) - corrected;
+            passed = next;
+            index += 1.0;
+        }
+    }
+
+    /// Newton for the angle that is reached a time `left` after `from`.
+    fn inside(&self, from: f64, panel: f64, left: f64) -> (f64, f64) {
+        let mut theta = from + (left * self.speed(from)).clamp(-panel.abs(), panel.abs());
+        for _ in 0..50 {
+            let change = (left - self.time(from, theta)) * self.speed(theta);
+            theta += change;
+            if change.abs() <= 2e-16 * theta.abs() {
+                break;
+            }
+        }
+        (theta, self.speed(theta))
+    }
+}
+
+/// Nodes and weights of the Gauss-Legendre rule on [−1, 1], by Newton on the Legendre polynomial.
+fn gauss_legendre(n: u32) -> Vec<(f64, f64)> {
+    (1..=n)
+        .map(|i| {
+            let mut x = (std::f64::consts::PI * (f64::from(i) - 0.25) / (f64::from(n) + 0.5)).cos();
+            let mut slope = 1.0;
+            for _ in 0..100 {
+                let (mut p, mut before) = (x, 1.0);
+                for k in 2..=n {
+                    let k = f64::from(k);
+                    (p, before) = (((2.0 * k - 1.0) * x * p - (k - 1.0) * before) / k, p);
+                }
+                slope = f64::from(n) * (x * p - before) / (x * x - 1.0);
+                x -= p / slope;
+            }
+            (x, 2.0 / ((1.0 - x * x) * slope * slope))
+        })
+        .collect()
+}
