@@ -1,4 +1,43 @@
-//! slider-crank
+//! Dynamics of the generalized offset slider-crank from its Lagrange equation.
+//!
+//! ```text
+//! scene  ->  mechanism  ->  plan  ->  engine  ->  trajectory  ->  report
+//! what       geometry,      what      integra-    the motion,     CSV,
+//! the user   energy,        is        tors        dense           text,
+//! wrote      loads          needed                                JSON
+//! ```
+//!
+//! M θ̈ + ½ M' θ̇² + V' = Q, with every term built from the kinetic and potential energy of the bodies
+//! and the virtual work of the loads. [`study`] holds the questions: what [`study::simulate`] or
+//! [`study::kinematics`] do, the commands of the program do too.
+//!
+//! # Example
+//!
+//! An engine with a load of code, simulated for half a second:
+//!
+//! ```
+//! use slider_crank::scene::{Crank, Load, Scene, Slider, Variables};
+//! use slider_crank::study::{Options, simulate};
+//!
+//! let scene = Scene::new(0.05, 0.15) // crank and rod, m
+//!     .offset(0.01)
+//!     .crank(Crank { inertia: 2e-3, ..Crank::default() }) // kg m², about O
+//!     .slider(Slider { mass: 0.4 })
+//!     .torque(Load::Constant(1.5)) // N m
+//!     .torque(Load::function(Variables::OMEGA, |now| -1e-4 * now.omega * now.omega.abs()))
+//!     .start(0.0, 20.0) // rad, rad/s
+//!     .duration(0.5);
+//!
+//! let run = simulate(&scene, &Options::default())?;
+//! let (theta, omega) = run.at(0.25).unwrap();
+//! assert!(theta > 0.0 && omega > 20.0);
+//! let error = run.summary.error_estimate.unwrap();
+//! assert!(error.theta_rad < 1e-6);
+//! # Ok::<(), slider_crank::error::Error>(())
+//! ```
+//!
+//! Everything is SI and radians, f64; conventions are those of [`mechanism::Linkage`].
+
 pub mod cli;
 pub mod engine;
 pub mod error;
@@ -9,3 +48,7 @@ pub mod report;
 pub mod scene;
 pub mod study;
 pub mod trajectory;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

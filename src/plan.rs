@@ -122,8 +122,6 @@ pub struct Plan {
     pub kept: Vec<Term>,
     /// Terms that are not modelled.
     pub left_out: Vec<Term>,
-    /// Largest step, s, that resolves the tables over time; none: no limit.
-    pub max_step: Option<f64>,
 }
 
 impl Plan {
@@ -167,7 +165,6 @@ impl Plan {
             events: events.into_iter().map(str::to_owned).collect(),
             kept,
             left_out,
-            max_step: max_step(&reduced),
         })
     }
 }
@@ -245,16 +242,6 @@ fn refuse_what_cannot_move(scene: &Scene, linkage: &Linkage) -> Result<(), Error
         ));
     }
     Ok(())
-}
-
-/// Tables over time have corners that a long step would jump over.
-fn max_step(scene: &Scene) -> Option<f64> {
-    scene
-        .torques
-        .iter()
-        .chain(&scene.forces)
-        .filter_map(|load| load.table_spacing())
-        .reduce(f64::min)
 }
 
 /// Terms kept, terms left out.

@@ -51,8 +51,6 @@ pub struct Call<'a> {
     pub t_end: f64,
     /// First step to try, s; 0: found by the method.
     pub first_step: f64,
-    /// Largest step, s.
-    pub max_step: f64,
     /// Most steps to try.
     pub max_steps: u32,
     /// Unit of work, J, in which its error is measured.
@@ -80,8 +78,7 @@ fn run<const N: usize>(call: Call<'_>, work: Option<usize>, clock: Option<usize>
     state[0] = call.start.theta;
     state[1] = call.start.omega;
     let (method, tolerance) = (call.method, call.tolerance);
-    let max_step = call.max_step.min(length);
-    let first_step = call.first_step.min(max_step);
+    let first_step = call.first_step.min(length);
     let max_steps = call.max_steps;
     let stopped = Cell::new(false);
     let system = Adapter {
@@ -104,7 +101,7 @@ fn run<const N: usize>(call: Call<'_>, work: Option<usize>, clock: Option<usize>
             0.0,
             0.333,
             6.0,
-            max_step,
+            length,
             first_step,
             max_steps,
             u32::MAX,
@@ -123,7 +120,7 @@ fn run<const N: usize>(call: Call<'_>, work: Option<usize>, clock: Option<usize>
             0.04,
             0.2,
             10.0,
-            max_step,
+            length,
             first_step,
             max_steps,
             u32::MAX,

@@ -22,6 +22,9 @@ pub trait Motion {
 
     /// Whether there is a power to be integrated.
     fn has_power(&self) -> bool;
+
+    /// The next time after `t` at which the acceleration is not smooth in time; steps end there.
+    fn next_corner(&self, t: f64) -> f64;
 }
 
 /// A motion that counts its evaluations and remembers where one was not possible.
@@ -78,5 +81,9 @@ impl Motion for Counted<'_> {
 
     fn has_power(&self) -> bool {
         self.motion.has_power()
+    }
+
+    fn next_corner(&self, t: f64) -> f64 {
+        self.motion.next_corner(t)
     }
 }

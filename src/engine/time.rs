@@ -16,8 +16,6 @@ pub struct Settings {
     pub tolerance: f64,
     /// Last time, s.
     pub t_end: f64,
-    /// Largest step, s; infinite: no limit.
-    pub max_step: f64,
     /// Most evaluations; the run ends there with [`Finish::WorkLimit`].
     pub max_evaluations: u64,
     /// Unit of work, J, in which its error is measured.
@@ -88,9 +86,8 @@ pub fn run(
             tolerance: settings.tolerance,
             turns: angle.turns,
             start: node,
-            t_end: settings.t_end,
+            t_end: motion.next_corner(node.t).min(settings.t_end),
             first_step,
-            max_step: settings.max_step,
             max_steps: left.min(u64::from(u32::MAX)) as u32,
             work_unit: settings.work_unit,
             observer: &mut |step| {
@@ -102,12 +99,11 @@ pub fn run(
         });
         steps += in_call as u64;
         let finish = match ended {
-            Ended::AtEnd => Finish::AtEnd,
             Ended::WorkLimit => Finish::WorkLimit,
             Ended::StepTooSmall => Finish::StepTooSmall,
             Ended::Stopped if ended_by_sink => Finish::Stopped,
-            Ended::Stopped if last.end.t >= settings.t_end => Finish::AtEnd,
-            Ended::Stopped => {
+            Ended::AtEnd | Ended::Stopped if last.end.t >= settings.t_end => Finish::AtEnd,
+            Ended::AtEnd | Ended::Stopped => {
                 angle = last.angle(last.end.theta).reduced();
                 node = Node {
                     theta: angle.rest,

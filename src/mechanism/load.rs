@@ -92,6 +92,14 @@ impl Loads {
             && self.forces.is_empty()
     }
 
+    /// The next time after `t` (s) at which a load is not smooth in time.
+    pub fn next_corner(&self, t: f64) -> f64 {
+        let loads = self.torques.iter().chain(&self.forces);
+        loads
+            .map(|load| load.next_corner(t))
+            .fold(f64::INFINITY, f64::min)
+    }
+
     /// Torque and force of all loads together.
     pub fn value(&self, t: f64, theta: impl Into<Angle>, omega: f64, pose: &Pose) -> LoadValue {
         let rest = self.without_potential(t, theta, omega, pose);

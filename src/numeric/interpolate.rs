@@ -56,10 +56,20 @@ impl Curve {
         &self.y
     }
 
-    /// Least distance of two neighbouring points.
-    pub fn least_spacing(&self) -> f64 {
-        let spacings = self.x.windows(2).map(|w| w[1] - w[0]);
-        spacings.fold(f64::INFINITY, f64::min)
+    /// The first point after `at`, where the curve is not smooth; infinite if there is none.
+    pub fn next_point(&self, at: f64) -> f64 {
+        let turns = match self.period {
+            Some(period) => ((at - self.x[0]) / period).floor() * period,
+            None => 0.0,
+        };
+        // The same point again, off by rounding, is not a next one.
+        let after = at + 1e-12 * self.spacing + 2.0 * f64::EPSILON * at.abs();
+        let next = self.x.partition_point(|x| x + turns <= after);
+        match (self.x.get(next), self.period) {
+            (Some(x), _) => x + turns,
+            (None, Some(period)) => self.x[1] + turns + period,
+            (None, None) => f64::INFINITY,
+        }
     }
 
     /// The value at `at`; NaN outside the range of a curve that is not periodic.

@@ -217,11 +217,11 @@ impl Load {
         }
     }
 
-    /// Least distance, s, of the rows of a table over time.
-    pub fn table_spacing(&self) -> Option<f64> {
+    /// The next time after `t` (s) at which the load is not smooth in time; infinite if it is not known.
+    pub fn next_corner(&self, t: f64) -> f64 {
         match self {
-            Load::Table(table) if table.of() == Variable::T => Some(table.least_spacing()),
-            _ => None,
+            Load::Table(table) if table.of() == Variable::T => table.next_row(t),
+            _ => f64::INFINITY,
         }
     }
 

@@ -143,8 +143,9 @@ impl Table {
         self.curve.period()
     }
 
-    pub(super) fn least_spacing(&self) -> f64 {
-        self.curve.least_spacing()
+    /// The first row after `at`, periods counted; infinite if there is none.
+    pub fn next_row(&self, at: f64) -> f64 {
+        self.curve.next_point(at)
     }
 
     pub(super) fn is_zero(&self) -> bool {

@@ -42,7 +42,9 @@ pub(super) fn problems(scene: &Scene) -> Vec<Problem> {
     }
     if let Some(friction) = &scene.friction {
         list.not_negative("friction.coefficient", friction.coefficient, "");
-        if !(friction.static_coefficient >= friction.coefficient) {
+        if friction.static_coefficient < friction.coefficient
+            || friction.static_coefficient.is_nan()
+        {
             list.add(
                 "friction.static_coefficient",
                 format!(

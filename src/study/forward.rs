@@ -29,6 +29,10 @@ impl Motion for Forward<'_> {
     fn has_power(&self) -> bool {
         !self.0.loads().have_potential()
     }
+
+    fn next_corner(&self, t: f64) -> f64 {
+        self.0.loads().next_corner(t)
+    }
 }
 
 /// The second run of the estimate is this much tighter, so that its own error hardly counts.
