@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use crate::error::Error;
 use crate::mechanism::{Class, Limits, Linkage, Loads};
-use crate::scene::{MotionKind, RodModel, Scene, Variable};
+use crate::scene::{Load, MotionKind, RodModel, Scene, Variable, Variables};
 
 /// What the user asks for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -70,6 +70,8 @@ impl fmt::Display for Method {
 pub enum Engine {
     /// Prescribed motion; the equation is read backwards.
     ClosedForm,
+    /// The energy integral: loads that depend on the position alone.
+    Energy,
     /// Integration in time.
     Time,
 }
@@ -79,6 +81,7 @@ impl Engine {
     pub fn name(self) -> &'static str {
         match self {
             Engine::ClosedForm => "closed-form",
+            Engine::Energy => "energy",
             Engine::Time => "time",
         }
     }
@@ -138,12 +141,13 @@ impl Plan {
         let (kept, left_out) = terms(scene, &reduced);
         let loads = Loads::new(&reduced);
         let prescribed = scene.motion.kind == MotionKind::ConstantSpeed;
-        let (engine, stepper, reason) = engine(prescribed, method)?;
-        if engine == Engine::Time {
+        let (engine, stepper, reason) = engine(prescribed, method, &loads, &reduced)?;
+        if engine != Engine::ClosedForm {
             refuse_what_cannot_move(&reduced, &linkage)?;
         }
         let mut state = Vec::new();
         if engine == Engine::Time {
+            // Integrated in time; the energy engine has no state, only a quadrature.
             state.extend(["theta", "omega"]);
             if !loads.have_potential() {
                 state.push("work of the loads");
@@ -153,8 +157,11 @@ impl Plan {
             }
         }
         let mut events = vec!["dead-centre"];
-        if engine == Engine::Time {
+        if engine != Engine::ClosedForm {
             events.push("turning-point");
+        }
+        if engine == Engine::Time && linkage.margin() < 0.0 {
+            events.push("limit");
         }
         Ok(Plan {
             engine,
@@ -169,7 +176,30 @@ impl Plan {
     }
 }
 
-fn engine(prescribed: bool, method: Method) -> Result<(Engine, Option<Stepper>, String), Error> {
+impl Plan {
+    /// Replaces the energy engine by integration in time, and says why.
+    pub(crate) fn fall_back_to_time(&mut self, reason: &str) {
+        self.engine = Engine::Time;
+        self.stepper = Some(Stepper::Dop853);
+        self.state = vec!["theta".to_owned(), "omega".to_owned()];
+        self.reason =
+            format!("integration in time, for the energy integral does not serve: {reason}");
+    }
+}
+
+/// Whether every load depends on the position alone, and smoothly: tables have corners.
+fn energy_serves(loads: &Loads, scene: &Scene) -> bool {
+    let position = Variables::THETA.or(Variables::X);
+    let smooth = |load: &Load| !matches!(load, Load::Table(_) | Load::Gas { .. });
+    loads.reads().or(position) == position && scene.torques.iter().chain(&scene.forces).all(smooth)
+}
+
+fn engine(
+    prescribed: bool,
+    method: Method,
+    loads: &Loads,
+    scene: &Scene,
+) -> Result<(Engine, Option<Stepper>, String), Error> {
     let reason = |text: &str| text.to_owned();
     match (method, prescribed) {
         (Method::Auto | Method::ClosedForm, true) => Ok((
@@ -187,9 +217,23 @@ fn engine(prescribed: bool, method: Method) -> Result<(Engine, Option<Stepper>, 
             "method closed-form cannot serve a free motion",
             "use --method auto, or motion kind = \"constant-speed\"",
         )),
-        (Method::Energy | Method::Angle, false) => Err(Error::refused(
-            format!("method {method} is not part of this version"),
-            "use --method auto, dop853 or dopri5",
+        (Method::Auto | Method::Energy, false) if energy_serves(loads, scene) => Ok((
+            Engine::Energy,
+            None,
+            reason(
+                "every load depends on the position alone: omega from the energy, time from one quadrature",
+            ),
+        )),
+        (Method::Energy, false) => Err(Error::refused(
+            format!(
+                "method energy cannot serve loads that depend on {} or come from tables",
+                loads.reads()
+            ),
+            "use --method auto; energy needs smooth loads of theta and x alone",
+        )),
+        (Method::Angle, false) => Err(Error::refused(
+            "method angle is not part of this version",
+            "use --method auto, time, dop853 or dopri5",
         )),
         (Method::Dopri5, false) => Ok((
             Engine::Time,

@@ -1,5 +1,6 @@
 //! The motion of a finished run: crank angle and speed at any time inside it.
 
+use crate::engine::energy::Orbit;
 use crate::engine::step::Step;
 use crate::numeric::angle::Angle;
 
@@ -13,6 +14,7 @@ pub struct Trajectory {
 #[derive(Clone, Debug)]
 enum Motion {
     Uniform { angle: Angle, speed: f64 },
+    Orbit(Box<Orbit>),
     Steps(Vec<Step>),
 }
 
@@ -21,6 +23,14 @@ impl Trajectory {
     pub fn uniform(angle: Angle, speed: f64, end: f64) -> Trajectory {
         Trajectory {
             motion: Motion::Uniform { angle, speed },
+            end,
+        }
+    }
+
+    /// A motion known from its energy, until `end`, s.
+    pub fn orbit(orbit: Orbit, end: f64) -> Trajectory {
+        Trajectory {
+            motion: Motion::Orbit(Box::new(orbit)),
             end,
         }
     }
@@ -45,6 +55,7 @@ impl Trajectory {
         }
         match &self.motion {
             Motion::Uniform { angle, speed } => Some((angle.plus(speed * t), *speed)),
+            Motion::Orbit(orbit) => Some(orbit.state(t)),
             Motion::Steps(steps) => {
                 let after = steps.partition_point(|step| step.end.t < t);
                 let step = steps.get(after)?;

@@ -83,19 +83,20 @@ fn passages(step: &Step, watched: &[f64], from: f64, to: f64, found: &mut Vec<(f
     }
 }
 
-/// Smallest and largest speed inside a step.
-pub fn speed_range(step: &Step) -> (f64, f64) {
-    let (w0, w1) = (step.start.omega, step.end.omega);
-    let (mut low, mut high) = (w0.min(w1), w0.max(w1));
-    if step.start.alpha * step.end.alpha < 0.0 {
-        // The speed is extreme where the acceleration vanishes: close enough by the parabola through both
-        // slopes, then exact to second order because it is an extreme.
-        let share = step.start.alpha / (step.start.alpha - step.end.alpha);
-        for s in [share, 0.5 * (share + 0.5)] {
-            let w = step.at(step.start.t + s * step.length()).1;
-            low = low.min(w);
-            high = high.max(w);
-        }
+/// Largest speed in `direction` (+1 or −1) inside a step: at an end, or where the acceleration vanishes.
+pub fn speed_extreme(step: &Step, direction: f64) -> f64 {
+    let ends = (direction * step.start.omega).max(direction * step.end.omega);
+    if direction * step.start.alpha <= 0.0 || direction * step.end.alpha >= 0.0 {
+        return direction * ends;
     }
-    (low, high)
+    let speed = |s: f64| direction * step.at(step.start.t + s * step.length()).1;
+    let (mut a, mut b) = (0.0, 1.0);
+    for _ in 0..30 {
+        let (c, d) = (
+            b - 0.618_033_988_75 * (b - a),
+            a + 0.618_033_988_75 * (b - a),
+        );
+        if speed(c) > speed(d) { b = d } else { a = c }
+    }
+    direction * ends.max(speed(0.5 * (a + b)))
 }

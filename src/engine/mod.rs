@@ -1,5 +1,6 @@
 //! Integrators. They see a motion with one coordinate, its acceleration and power; no mechanics.
 
+pub mod energy;
 pub mod events;
 pub mod library;
 pub mod step;

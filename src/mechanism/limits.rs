@@ -67,6 +67,9 @@ pub struct Limits {
     pub reach: Vec<[f64; 2]>,
 }
 
+/// At this cos φ the rod counts as normal to the guide: what follows has no digits in the crank angle.
+const NORMAL: f64 = 1e-3;
+
 /// Lengths that differ by less than this many units of rounding of the rod length count as equal.
 const SAME: f64 = 4.0 * f64::EPSILON;
 
@@ -109,6 +112,17 @@ impl Limits {
             transmission_min,
             reach: reach(linkage, class),
         }
+    }
+
+    /// Reachable crank angles, rad, that keep clear of the positions where the rod is normal to the guide
+    /// (by 0.001 rad of the rod's angle); empty: all.
+    pub fn clear_reach(linkage: &Linkage) -> Vec<[f64; 2]> {
+        let shorter = linkage.with_rod(linkage.l * (1.0 - 0.5 * NORMAL * NORMAL));
+        let class = class(linkage);
+        if class == Class::RotatingCrank {
+            return Vec::new();
+        }
+        reach(&shorter, class)
     }
 
     /// Advance angle over return angle (Obaseki & Alfred (51)); none if the crank cannot turn fully.

@@ -77,6 +77,16 @@ impl Linkage {
         }
     }
 
+    /// The same linkage with another rod length, m.
+    pub fn with_rod(&self, l: f64) -> Linkage {
+        Linkage {
+            l,
+            above: sum3(l, -self.e, -self.r),
+            below: sum3(l, self.e, -self.r),
+            ..*self
+        }
+    }
+
     /// Least l − |e| − r, m: positive iff the crank can turn fully.
     pub fn margin(&self) -> f64 {
         self.above.min(self.below)

@@ -92,6 +92,11 @@ impl Loads {
             && self.forces.is_empty()
     }
 
+    /// Whether a constant torque does work in every turn.
+    pub fn turn_the_crank(&self) -> bool {
+        self.torque != 0.0
+    }
+
     /// The next time after `t` (s) at which a load is not smooth in time.
     pub fn next_corner(&self, t: f64) -> f64 {
         let loads = self.torques.iter().chain(&self.forces);

@@ -1,6 +1,8 @@
 //! Small numerical tools, each with its source.
 
 pub mod angle;
+pub mod chebyshev;
 pub mod exact;
+pub mod gauss;
 pub mod interpolate;
 pub mod root;

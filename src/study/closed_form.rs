@@ -5,76 +5,62 @@ use std::time::{Duration, Instant};
 
 use super::row::RowSink;
 use super::schedule::Schedule;
-use super::simulate::{Simulation, Task};
-use super::summary::{ErrorEstimate, Event, Final, Summary, TorqueRange};
+use super::simulate::Simulation;
+use super::summary::{ErrorEstimate, Event, Final, Solved, Summary, TorqueRange};
+use super::task::Task;
 use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::numeric::angle::Angle;
+use crate::numeric::gauss;
 use crate::scene::{Extent, Variable};
 use crate::trajectory::Trajectory;
 
 /// Samples of the driving torque in a turn.
 const SAMPLES: usize = 720;
 
-pub(super) fn run(task: Task<'_>, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
+pub(super) fn run(task: &Task<'_>, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
     let begun = Instant::now();
-    let equation = task.maker.equation;
-    let start = Angle::from(task.scene.motion.angle).reduced();
+    let equation = task.equation();
+    let start = task.start();
     let speed = task.scene.motion.speed;
-    if let Some(reason) = impossible(&task, start) {
+    if let Some(reason) = impossible(task, start) {
         return Err(reason);
     }
     let asked = duration(task.extent, speed)?;
-    let blocked = time_to_limit(&task, start, speed).filter(|t| *t < asked);
+    let blocked = time_to_limit(task, start, speed).filter(|t| *t < asked);
     let end = blocked.unwrap_or(asked);
     let last = start.plus(speed * end);
-    let (events, events_total) = events(&task, start, speed, end);
+    let (events, events_total) = events(task, start, speed, end);
     let torque = torque_range(equation, start, speed, end);
-    let (residual, scale) = energy_residual(equation, start, speed, end);
     let wall_s = begun.elapsed();
-    write_rows(&task, rows, start, speed, end, blocked.is_some())?;
-    let mut warnings = Vec::new();
-    if events_total > events.len() as u64 {
-        let kept = events.len();
-        warnings.push(format!(
-            "{events_total} events occurred; the first {kept} are listed"
-        ));
-    }
-    let summary = Summary {
-        scene: task.title(),
-        engine: task.plan.engine.name().to_owned(),
+    write_rows(task, rows, start, speed, end, blocked.is_some())?;
+    let solved = Solved {
         last: Final {
             t_s: end,
             theta_rad: last.radians(),
             omega_rad_per_s: speed,
         },
-        revolutions: speed * end / TAU,
+        turned: speed * end,
         error_estimate: Some(ErrorEstimate {
             theta_rad: 2.0 * f64::EPSILON * last.radians().abs(),
             omega_rad_per_s: 0.0,
         }),
-        energy_residual: if scale > 0.0 { residual / scale } else { 0.0 },
-        energy_residual_j: residual,
-        evaluations: 0,
-        steps: 0,
+        energy: energy_residual(equation, start, speed, end),
         wall_s: Duration::as_secs_f64(&wall_s),
-        estimate_cost: None,
-        omega_min: speed,
-        omega_max: speed,
+        speed: (speed, speed),
         driving_torque: torque,
         events,
         events_total,
-        warnings,
         stopped: blocked.map(|t| {
             format!(
                 "the crank reaches the limit of its motion at t = {t} s, theta = {} rad: the rod stands normal to the guide there and no constant speed passes it",
                 last.radians()
             )
         }),
-        plan: task.plan,
+        ..Solved::default()
     };
     Ok(Simulation {
-        summary,
+        summary: Summary::new(task, solved),
         trajectory: Some(Trajectory::uniform(start, speed, end)),
     })
 }
@@ -215,10 +201,10 @@ fn energy_residual(equation: &Equation, start: Angle, speed: f64, end: f64) -> (
     let (from, to) = (start.rest, start.rest + travel);
     let change = energy(to) - energy(from);
     let mut panels = 64;
-    let mut integral = gauss(&work, from, to, panels);
+    let mut integral = gauss::composite(work, from, to, panels);
     while panels < 1 << 14 {
         panels *= 2;
-        let finer = gauss(&work, from, to, panels);
+        let finer = gauss::composite(work, from, to, panels);
         let same = (finer - integral).abs() <= 1e-13 * energy(from).abs();
         integral = finer;
         if same {
@@ -234,19 +220,6 @@ fn energy_residual(equation: &Equation, start: Angle, speed: f64, end: f64) -> (
     } else {
         (0.0, 0.0)
     }
-}
-
-/// Composite Gauss-Legendre rule of three points (Abramowitz and Stegun, table 25.4).
-fn gauss(f: &impl Fn(f64) -> f64, from: f64, to: f64, panels: u32) -> f64 {
-    let h = (to - from) / f64::from(panels);
-    let node = 0.5 * h * (0.6f64).sqrt();
-    let sum: f64 = (0..panels)
-        .map(|i| {
-            let middle = from + (f64::from(i) + 0.5) * h;
-            5.0 * (f(middle - node) + f(middle + node)) + 8.0 * f(middle)
-        })
-        .sum();
-    sum * h / 18.0
 }
 
 fn write_rows(

@@ -1,13 +1,17 @@
 //! The questions: where the physics meets the integrators.
 
+mod by_energy;
 mod closed_form;
 mod explain;
 mod forward;
+mod in_time;
 mod kinematics;
+mod profile;
 mod row;
 mod schedule;
 mod simulate;
 mod summary;
+mod task;
 mod watch;
 
 pub use explain::{Explanation, LoadAt, TermsAt, explain};

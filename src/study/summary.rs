@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::task::Task;
 use crate::plan::Plan;
 
 /// Summary of a run; its JSON is the object that `simulate --json` prints.
@@ -51,8 +52,64 @@ pub struct Summary {
     pub stopped: Option<String>,
 }
 
+/// What an engine found, before it is put into words.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Solved {
+    pub last: Final,
+    /// rad, signed
+    pub turned: f64,
+    pub error_estimate: Option<ErrorEstimate>,
+    /// Residual and the largest energy that occurs, J.
+    pub energy: (f64, f64),
+    pub evaluations: u64,
+    pub steps: u64,
+    pub wall_s: f64,
+    pub estimate_cost: Option<Cost>,
+    pub speed: (f64, f64),
+    pub driving_torque: Option<TorqueRange>,
+    pub events: Vec<Event>,
+    pub events_total: u64,
+    pub warnings: Vec<String>,
+    pub stopped: Option<String>,
+}
+
+impl Summary {
+    pub(super) fn new(task: &Task<'_>, solved: Solved) -> Summary {
+        let (residual, scale) = solved.energy;
+        let mut warnings = solved.warnings;
+        let kept = solved.events.len();
+        if solved.events_total > kept as u64 {
+            let total = solved.events_total;
+            warnings.push(format!(
+                "{total} events occurred; the first {kept} are listed"
+            ));
+        }
+        Summary {
+            scene: task.scene.title.clone().unwrap_or_default(),
+            engine: task.plan.engine.name().to_owned(),
+            plan: task.plan.clone(),
+            last: solved.last,
+            revolutions: solved.turned / std::f64::consts::TAU,
+            error_estimate: solved.error_estimate,
+            energy_residual: if scale > 0.0 { residual / scale } else { 0.0 },
+            energy_residual_j: residual,
+            evaluations: solved.evaluations,
+            steps: solved.steps,
+            wall_s: solved.wall_s,
+            estimate_cost: solved.estimate_cost,
+            omega_min: solved.speed.0,
+            omega_max: solved.speed.1,
+            driving_torque: solved.driving_torque,
+            events: solved.events,
+            events_total: solved.events_total,
+            warnings,
+            stopped: solved.stopped,
+        }
+    }
+}
+
 /// A last state.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Final {
     /// s
     pub t_s: f64,

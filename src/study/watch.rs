@@ -14,12 +14,15 @@ use crate::error::Error;
 /// Follows the steps of a run.
 pub(super) struct Watch<'a> {
     pub motion: &'a Counted<'a>,
-    pub maker: RowMaker<'a>,
+    pub maker: &'a RowMaker<'a>,
     pub rows: &'a mut dyn RowSink,
     pub schedule: Schedule,
     pub start: Start,
-    /// Angles of the dead centres, in [0, 2π).
-    pub dead_centres: Vec<f64>,
+    /// Angles that are watched, in [0, 2π): the dead centres, then the limits of the crank's motion, where
+    /// the run ends.
+    pub watched: Vec<f64>,
+    /// How many of them are dead centres.
+    pub dead_centres: usize,
     /// The run ends when the crank has turned by this, rad.
     pub turn_limit: Option<f64>,
     pub events_kept: usize,
@@ -34,8 +37,10 @@ pub(super) struct Seen {
     pub events: Vec<Event>,
     pub events_total: u64,
     pub speed: (f64, f64),
-    /// When the turn limit was reached.
-    pub turned_at: Option<f64>,
+    /// When the turn limit or a limit of the motion was reached.
+    pub ends_at: Option<f64>,
+    /// Whether it was a limit of the motion.
+    pub at_limit: bool,
     /// Time spent on rows.
     pub row_time: Duration,
     pub error: Option<Error>,
@@ -49,7 +54,8 @@ impl Seen {
             events: Vec::new(),
             events_total: 0,
             speed: (speed, speed),
-            turned_at: None,
+            ends_at: None,
+            at_limit: false,
             row_time: Duration::ZERO,
             error: None,
             next_row: 0,
@@ -62,10 +68,10 @@ impl Watch<'_> {
     /// Takes a step; true ends the run.
     pub fn step(&mut self, step: &Step) -> bool {
         let mut step = *step;
-        let until = self.reached_turn_limit(&mut step).unwrap_or(step.end.t);
-        self.look_for_events(&mut step, until);
-        let (low, high) = events::speed_range(&step);
-        self.seen.speed = (self.seen.speed.0.min(low), self.seen.speed.1.max(high));
+        self.reached_turn_limit(&mut step);
+        self.look_for_events(&mut step);
+        let until = self.seen.ends_at.unwrap_or(step.end.t);
+        self.follow_speed(&mut step);
         if self.rows.wants_rows() {
             let begun = Instant::now();
             let result = self.write_rows(&mut step, until);
@@ -79,41 +85,77 @@ impl Watch<'_> {
             step.refine(self.motion);
             recorded.push(step);
         }
-        self.seen.turned_at.is_some()
+        self.seen.ends_at.is_some()
+    }
+
+    /// Least and largest speed; a step that may hold a new extreme inside is refined first.
+    fn follow_speed(&mut self, step: &mut Step) {
+        for direction in [-1.0, 1.0] {
+            let known = if direction < 0.0 {
+                &mut self.seen.speed.0
+            } else {
+                &mut self.seen.speed.1
+            };
+            let beyond = |speed: f64, margin: f64| direction * (speed - *known) > -margin;
+            let rough = events::speed_extreme(step, direction);
+            if !beyond(rough, 1e-4 * known.abs()) {
+                continue;
+            }
+            let inside = rough != step.start.omega && rough != step.end.omega;
+            if inside {
+                step.refine(self.motion);
+            }
+            let speed = if inside {
+                events::speed_extreme(step, direction)
+            } else {
+                rough
+            };
+            if direction * (speed - *known) > 0.0 {
+                *known = speed;
+            }
+        }
     }
 
     fn turned(&self, step: &Step, theta: f64) -> f64 {
         step.angle(theta).minus(self.start.angle)
     }
 
-    fn reached_turn_limit(&mut self, step: &mut Step) -> Option<f64> {
-        let limit = self.turn_limit?;
+    fn reached_turn_limit(&mut self, step: &mut Step) {
+        let Some(limit) = self.turn_limit else {
+            return;
+        };
         if self.turned(step, step.end.theta).abs() < limit {
-            return None;
+            return;
         }
         step.refine(self.motion);
         let beyond = self.turned(step, step.end.theta);
         let target = step.end.theta - (beyond - limit.copysign(beyond));
-        let t = step
-            .time_of_angle(target, step.start.t, step.end.t)
-            .unwrap_or(step.end.t);
-        self.seen.turned_at = Some(t);
-        Some(t)
+        let t = step.time_of_angle(target, step.start.t, step.end.t);
+        self.seen.ends_at = Some(t.unwrap_or(step.end.t));
     }
 
-    fn look_for_events(&mut self, step: &mut Step, until: f64) {
+    fn look_for_events(&mut self, step: &mut Step) {
         let mut crossings = std::mem::take(&mut self.seen.crossings);
-        events::crossings(step, &self.dead_centres, &mut crossings);
+        events::crossings(step, &self.watched, &mut crossings);
         if !crossings.is_empty() && self.seen.events.len() < self.events_kept {
             step.refine(self.motion);
-            events::crossings(step, &self.dead_centres, &mut crossings);
+            events::crossings(step, &self.watched, &mut crossings);
         }
-        for &(t, what) in crossings.iter().filter(|(t, _)| *t <= until) {
+        for &(t, what) in &crossings {
+            if self.seen.ends_at.is_some_and(|end| t > end) {
+                break;
+            }
+            let at_limit = matches!(what, Crossing::Angle(index) if index >= self.dead_centres);
+            if at_limit {
+                self.seen.ends_at = Some(t);
+                self.seen.at_limit = true;
+            }
             self.seen.events_total += 1;
             if self.seen.events.len() < self.events_kept {
                 let (theta, omega) = step.at(t);
                 self.seen.events.push(Event {
                     kind: match what {
+                        Crossing::Angle(_) if at_limit => "limit",
                         Crossing::Angle(_) => "dead-centre",
                         Crossing::Turning => "turning-point",
                     },

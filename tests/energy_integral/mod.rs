@@ -10,7 +10,7 @@ pub struct EnergyIntegral {
 }
 
 /// Panels in a turn.
-const PANELS: f64 = 120.0;
+const PANELS: f64 = 240.0;
 
 impl EnergyIntegral {
     pub fn new(scene: &Scene) -> EnergyIntegral {
@@ -18,7 +18,7 @@ impl EnergyIntegral {
         let mut integral = EnergyIntegral {
             scene: scene.clone(),
             energy: 0.0,
-            nodes: gauss_legendre(12),
+            nodes: gauss_legendre(16),
         };
         let (m, v) = integral.m_and_v(scene.motion.angle);
         integral.energy = 0.5 * m * scene.motion.speed.powi(2) + v;
@@ -83,24 +83,39 @@ impl EnergyIntegral {
         half * self.nodes.iter().map(node).sum::<f64>()
     }
 
-    /// Angle and speed at time t.
+    /// Time from the start of a turn to the end of each of its panels.
+    fn times(&self) -> Vec<f64> {
+        let panel = self.panel();
+        let (mut sum, mut lost) = (0.0, 0.0);
+        (0..PANELS as u32)
+            .map(|i| {
+                let from = self.scene.motion.angle + f64::from(i) * panel;
+                // Kahan: the error of the sum is carried along.
+                let corrected = self.time(from, from + panel) - lost;
+                let next: f64 = sum + corrected;
+                lost = (next - sum) - corrected;
+                sum = next;
+                sum
+            })
+            .collect()
+    }
+
+    fn panel(&self) -> f64 {
+        std::f64::consts::TAU / PANELS * self.scene.motion.speed.signum()
+    }
+
+    /// Angle and speed at time t: whole turns, and a rest inside the first turn, where angles are small.
     pub fn state(&self, t: f64) -> (f64, f64) {
-        let panel = std::f64::consts::TAU / PANELS * self.scene.motion.speed.signum();
-        let start = self.scene.motion.angle;
-        let (mut passed, mut lost, mut index) = (0.0, 0.0, 0.0);
-        loop {
-            let from = start + index * panel;
-            let step = self.time(from, from + panel);
-            // Kahan: the error of the sum is carried along.
-            let corrected = step - lost;
-            let next = passed + corrected;
-            if next > t {
-                return self.inside(from, panel, t - passed + lost);
-            }
-            lost = (next - passed) - corrected;
-            passed = next;
-            index += 1.0;
-        }
+        let times = self.times();
+        let turn = times[times.len() - 1];
+        let turns = (t / turn).floor();
+        let rest = t - turns * turn;
+        let index = times.partition_point(|end| *end <= rest);
+        let begin = if index == 0 { 0.0 } else { times[index - 1] };
+        let from = self.scene.motion.angle + index as f64 * self.panel();
+        let (theta, speed) = self.inside(from, self.panel(), rest - begin);
+        let whole = turns * std::f64::consts::TAU * self.scene.motion.speed.signum();
+        (whole + theta, speed)
     }
 
     /// Newton for the angle that is reached a time `left` after `from`.

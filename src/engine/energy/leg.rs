@@ -1,0 +1,195 @@
+//! A leg: panels in one direction, from the start until the motion turns back, repeats or ends.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use super::panel::{Panel, Piece, Tried, Turning};
+use super::{Profile, Unserved};
+use crate::numeric::exact::two_sum;
+
+/// How a leg goes on after its panels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum After {
+    /// The same turn again.
+    Repeats,
+    /// It turns back.
+    TurnsBack,
+    /// Not needed: the run ends before.
+    Ends,
+}
+
+/// Panels one after the other.
+#[derive(Clone, Debug)]
+pub(super) struct Leg {
+    panels: Vec<Panel>,
+    /// Time at which each panel begins.
+    begins: Vec<f64>,
+    /// Its whole duration, rounded value and rest.
+    pub duration: (f64, f64),
+    pub after: After,
+    /// Bound of the error of its duration, s.
+    pub error: f64,
+}
+
+/// Series end where their coefficients have decayed to this.
+const TOLERANCE: f64 = 4e-15;
+/// Most panels that are tried for a leg.
+const MOST_ATTEMPTS: usize = 200_000;
+/// Panels no longer than this are taken as they are, rad: a corner that nobody announced.
+const SHORTEST: f64 = 1e-13;
+/// The first guess of a panel's length, rad.
+const LONGEST: f64 = 2.0 * FRAC_PI_2 + 1e-9;
+
+impl Leg {
+    /// Panels from `start` in `direction` (+1 or −1) with kinetic energy `kinetic` (J), until the time
+    /// `until` is passed. Without kinetic energy the start is a turning point.
+    pub fn build(
+        profile: &dyn Profile,
+        start: f64,
+        direction: f64,
+        kinetic: f64,
+        until: f64,
+    ) -> Result<Leg, Unserved> {
+        let mut leg = Leg {
+            panels: Vec::with_capacity(8),
+            begins: Vec::with_capacity(8),
+            duration: (0.0, 0.0),
+            after: After::Ends,
+            error: 0.0,
+        };
+        let whole_turn = start + direction * TAU;
+        let mut at = start;
+        let mut kinetic = kinetic;
+        let mut length = LONGEST;
+        let mut turns_at: Option<f64> = None;
+        let mut attempts = 0;
+        let mut largest = kinetic;
+        while leg.panels.is_empty() || leg.duration.0 <= until {
+            attempts += 1;
+            if attempts > MOST_ATTEMPTS {
+                return Err(Unserved::TooLong);
+            }
+            let mut to = next_end(profile.corners(), at, direction, length);
+            if profile.repeats() && direction * (to - whole_turn) > -1e-12 {
+                to = whole_turn;
+            }
+            let mut turning = if kinetic == 0.0 {
+                Turning::AtStart
+            } else {
+                Turning::Nowhere
+            };
+            if let Some(end) = turns_at.filter(|end| direction * (to - end) >= 0.0) {
+                // A panel cannot turn at both ends: the first half ends in the middle.
+                to = if turning == Turning::AtStart {
+                    0.5 * (at + end)
+                } else {
+                    end
+                };
+                if turning == Turning::Nowhere {
+                    turning = Turning::AtEnd;
+                }
+            }
+            let short = (to - at).abs() <= SHORTEST * at.abs().max(1.0);
+            let accepted = if short { f64::INFINITY } else { TOLERANCE };
+            let piece = Piece {
+                from: at,
+                to,
+                turning,
+            };
+            let rounding = f64::EPSILON * largest;
+            match Panel::attempt(profile, piece, kinetic, accepted, rounding)? {
+                Tried::Done(panel) => {
+                    at = to;
+                    kinetic = panel.kinetic_at_end;
+                    largest = largest.max(kinetic);
+                    length = 2.0 * (to - piece.from).abs();
+                    leg.push(*panel);
+                    if turning == Turning::AtEnd {
+                        leg.after = After::TurnsBack;
+                        return Ok(leg);
+                    }
+                    if profile.repeats() && at == whole_turn {
+                        leg.after = After::Repeats;
+                        return Ok(leg);
+                    }
+                }
+                Tried::TurnsAt(end) if end != at => turns_at = Some(end),
+                _ if short => return Err(Unserved::NotFinite),
+                _ => length = 0.5 * (to - at).abs(),
+            }
+        }
+        Ok(leg)
+    }
+
+    fn push(&mut self, panel: Panel) {
+        self.begins.push(self.duration.0);
+        let (sum, lost) = two_sum(self.duration.0, panel.duration.0);
+        self.duration = two_sum(sum, lost + self.duration.1 + panel.duration.1);
+        self.error += panel.error;
+        self.panels.push(panel);
+    }
+
+    /// Angle and speed a time after the start of the leg.
+    pub fn state(&self, after: f64) -> (f64, f64) {
+        let index = self.begins.partition_point(|begin| *begin <= after).max(1) - 1;
+        self.panels[index].state(after - self.begins[index])
+    }
+
+    /// Times at which the ends of panels are reached, with their angles, and the same for `theta` if it is
+    /// on the leg.
+    pub fn ends(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let pairs = self.panels.iter().zip(&self.begins);
+        pairs.map(|(panel, begin)| (begin + panel.duration.0, panel.piece.to))
+    }
+
+    /// Time at which an angle is reached; none if it is not on the leg.
+    pub fn time_of(&self, theta: f64) -> Option<f64> {
+        let pairs = self.panels.iter().zip(&self.begins);
+        let mut inside = pairs.filter(|(panel, _)| {
+            let (low, high) = (
+                panel.piece.from.min(panel.piece.to),
+                panel.piece.from.max(panel.piece.to),
+            );
+            (low..=high).contains(&theta)
+        });
+        inside
+            .next()
+            .map(|(panel, begin)| begin + panel.time_of(theta))
+    }
+
+    /// The angle at its end.
+    pub fn last_angle(&self) -> Option<f64> {
+        self.panels.last().map(|panel| panel.piece.to)
+    }
+
+    /// Smallest and largest |speed| until a time.
+    pub fn speed_range(&self, until: f64) -> (f64, f64) {
+        let pairs = self.panels.iter().zip(&self.begins);
+        pairs
+            .filter(|(_, begin)| **begin <= until)
+            .map(|(panel, begin)| panel.speed_range(until - begin))
+            .fold((f64::INFINITY, 0.0), |range, (low, high)| {
+                (range.0.min(low), range.1.max(high))
+            })
+    }
+
+    /// Number of panels.
+    pub fn len(&self) -> usize {
+        self.panels.len()
+    }
+}
+
+/// The end of a panel that begins at `at`: its length, or the next corner before.
+fn next_end(corners: &[f64], at: f64, direction: f64, length: f64) -> f64 {
+    let turn = (at / TAU).floor() * TAU;
+    let mut end = at + direction * length.min(LONGEST);
+    for shift in [-TAU, 0.0, TAU] {
+        for corner in corners {
+            let corner = corner + turn + shift;
+            let ahead = direction * (corner - at);
+            if ahead > 1e-12 * at.abs().max(1.0) && ahead < direction * (end - at) {
+                end = corner;
+            }
+        }
+    }
+    end
+}

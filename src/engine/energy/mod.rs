@@ -1,0 +1,37 @@
+//! The energy engine: what depends on the angle alone is a quadrature.
+//!
+//! The kinetic energy K(θ) is known from the energy integral, so dt/dθ = sqrt(M/(2K)) is a function of the
+//! angle. It is expanded on panels in Chebyshev series, each to rounding; t(θ) is their integral and θ(t)
+//! a Newton step or three away. A motion that turns fully under forces that do no work per turn repeats;
+//! one that turns back at both ends does too. Ends of a libration are taken with θ = θ_end ∓ s², which
+//! makes dt/ds smooth.
+
+mod leg;
+mod orbit;
+mod panel;
+
+pub use orbit::{Orbit, Passage};
+
+/// What the engine needs of a mechanism.
+pub trait Profile {
+    /// Inertia M and the generalized force that accelerates it, K' = F, at an angle, rad. Both only need to
+    /// be smooth between the corners.
+    fn inertia_and_force(&self, theta: f64) -> (f64, f64);
+
+    /// Angles in [0, 2π), in rising order, at which panels must end.
+    fn corners(&self) -> &[f64];
+
+    /// Whether everything repeats after a turn and no work is done in one.
+    fn repeats(&self) -> bool;
+}
+
+/// Why a motion cannot be computed from its energy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unserved {
+    /// At rest without a force.
+    Equilibrium,
+    /// A value is not finite: the mechanism reaches a limit, or a load has no value.
+    NotFinite,
+    /// More panels than are kept: a long run whose turns differ from each other.
+    TooLong,
+}

@@ -1,0 +1,289 @@
+//! The whole motion: one or two legs, run through once, again and again, or to and fro.
+
+use std::f64::consts::TAU;
+
+use super::leg::{After, Leg};
+use super::{Profile, Unserved};
+use crate::numeric::angle::Angle;
+
+/// A motion known from its energy: angle and speed at any time.
+#[derive(Clone, Debug)]
+pub struct Orbit {
+    start: Angle,
+    direction: f64,
+    /// Whether the start is a turning point.
+    from_rest: bool,
+    forward: Leg,
+    /// From the start the other way, for motions that turn back.
+    backward: Option<Leg>,
+}
+
+/// The state at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Passage {
+    /// s
+    pub t: f64,
+    /// Crank angle.
+    pub angle: Angle,
+    /// rad/s
+    pub speed: f64,
+    /// Whether the motion turns back here.
+    pub turning: bool,
+}
+
+impl Orbit {
+    /// The motion from `angle` with `speed` until the time `until`.
+    ///
+    /// # Errors
+    /// [`Unserved`] where it cannot be computed from its energy.
+    pub fn new(
+        profile: &dyn Profile,
+        angle: Angle,
+        speed: f64,
+        until: f64,
+    ) -> Result<Orbit, Unserved> {
+        let start = angle.reduced();
+        let theta = start.rest;
+        let (inertia, force) = profile.inertia_and_force(theta);
+        let kinetic = 0.5 * inertia * speed * speed;
+        if !kinetic.is_finite() || !force.is_finite() {
+            return Err(Unserved::NotFinite);
+        }
+        if kinetic == 0.0 && force == 0.0 {
+            return Err(Unserved::Equilibrium);
+        }
+        let direction = if kinetic == 0.0 {
+            force.signum()
+        } else {
+            speed.signum()
+        };
+        let forward = Leg::build(profile, theta, direction, kinetic, until)?;
+        let there = forward.duration.0;
+        let turns_back = forward.after == After::TurnsBack;
+        let backward = if turns_back && kinetic != 0.0 && 2.0 * there < until {
+            let left = until - 2.0 * there;
+            Some(Leg::build(profile, theta, -direction, kinetic, left)?)
+        } else {
+            None
+        };
+        Ok(Orbit {
+            start,
+            direction,
+            from_rest: kinetic == 0.0,
+            forward,
+            backward,
+        })
+    }
+
+    /// The time after which the motion repeats (after a turn, or to and fro), s; rounded value and rest.
+    pub fn period(&self) -> Option<(f64, f64)> {
+        match (self.forward.after, &self.backward) {
+            (After::Repeats, _) => Some(self.forward.duration),
+            (After::TurnsBack, None) if self.from_rest => Some(twice(self.forward.duration)),
+            (After::TurnsBack, Some(back)) if back.after == After::TurnsBack => {
+                let (a, b) = (twice(self.forward.duration), twice(back.duration));
+                let (sum, lost) = crate::numeric::exact::two_sum(a.0, b.0);
+                Some((sum, lost + a.1 + b.1))
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether it turns fully, again and again.
+    pub fn rotates(&self) -> bool {
+        self.forward.after == After::Repeats
+    }
+
+    /// Whether it turns back somewhere.
+    pub fn turns_back(&self) -> bool {
+        self.forward.after == After::TurnsBack
+    }
+
+    /// When it turns back, until a time.
+    pub fn turning_times(&self, until: f64) -> Vec<f64> {
+        let turnings = self
+            .passages()
+            .into_iter()
+            .filter(|passage| passage.turning);
+        let once: Vec<f64> = turnings.map(|passage| passage.t).collect();
+        let Some((period, _)) = self.period().filter(|_| !once.is_empty()) else {
+            return once.into_iter().filter(|t| *t <= until).collect();
+        };
+        let rounds = (until / period).ceil() as u64;
+        (0..=rounds)
+            .flat_map(|round| once.iter().map(move |t| t + round as f64 * period))
+            .filter(|t| *t <= until)
+            .collect()
+    }
+
+    /// Angle and speed at a time in the run.
+    pub fn state(&self, t: f64) -> (Angle, f64) {
+        let (turns, after) = self.split(t);
+        let (theta, speed) = self.within(after);
+        let turns = if self.rotates() {
+            self.direction * turns
+        } else {
+            0.0
+        };
+        let angle = Angle {
+            turns: self.start.turns + turns,
+            rest: theta,
+        };
+        (angle, speed)
+    }
+
+    /// Number of whole periods before t, and the time that is left.
+    fn split(&self, t: f64) -> (f64, f64) {
+        match self.period() {
+            Some((period, rest)) if t > period => {
+                let count = (t / period).floor();
+                let left = (-count).mul_add(period, t) - count * rest;
+                // Rounding may have taken the floor a period too high or too low.
+                if left < 0.0 {
+                    (count - 1.0, left + period)
+                } else if left > period {
+                    (count + 1.0, left - period)
+                } else {
+                    (count, left)
+                }
+            }
+            _ => (0.0, t),
+        }
+    }
+
+    /// The state within the first period.
+    fn within(&self, t: f64) -> (f64, f64) {
+        let there = self.forward.duration.0;
+        if t <= there || self.forward.after != After::TurnsBack {
+            return self.forward.state(t);
+        }
+        let mirrored = |leg: &Leg, t: f64| {
+            let (theta, speed) = leg.state(t);
+            (theta, -speed)
+        };
+        if t <= 2.0 * there {
+            return mirrored(&self.forward, 2.0 * there - t);
+        }
+        let Some(back) = &self.backward else {
+            return self.forward.state(t - 2.0 * there);
+        };
+        let since = t - 2.0 * there;
+        if since <= back.duration.0 {
+            return back.state(since);
+        }
+        mirrored(back, 2.0 * back.duration.0 - since)
+    }
+
+    /// When the crank has turned by `radians` from the start, if it turns fully.
+    pub fn time_of_turn(&self, radians: f64) -> Option<f64> {
+        if self.rotates() {
+            let turns = (radians / TAU).floor();
+            let rest = radians - turns * TAU;
+            let after = self
+                .forward
+                .time_of(self.start.rest + self.direction * rest)?;
+            let (period, low) = self.forward.duration;
+            return Some(turns.mul_add(period, after) + turns * low);
+        }
+        self.forward
+            .time_of(self.start.rest + self.direction * radians)
+    }
+
+    /// Passages of the ends of panels and turning points in the first period (or in all, if it does not
+    /// repeat), in the order of time.
+    pub fn passages(&self) -> Vec<Passage> {
+        let mut found = Vec::new();
+        let mut pass = |t: f64, theta: f64, turning: bool| {
+            let speed = if turning { 0.0 } else { self.within(t).1 };
+            found.push(Passage {
+                t,
+                angle: Angle {
+                    turns: self.start.turns,
+                    rest: theta,
+                },
+                speed,
+                turning,
+            });
+        };
+        let there = self.forward.duration.0;
+        let mut run = |leg: &Leg, since: f64| {
+            let turns_back = leg.after == After::TurnsBack;
+            let ends: Vec<(f64, f64)> = leg.ends().collect();
+            let last = ends.len().saturating_sub(1);
+            for (i, (t, theta)) in ends.iter().enumerate() {
+                pass(since + t, *theta, turns_back && i == last);
+            }
+            if turns_back {
+                for (t, theta) in ends.iter().rev().skip(1) {
+                    pass(since + 2.0 * leg.duration.0 - t, *theta, false);
+                }
+            }
+        };
+        run(&self.forward, 0.0);
+        if self.forward.after == After::TurnsBack {
+            match &self.backward {
+                Some(back) => {
+                    run(back, 2.0 * there);
+                }
+                None => pass(2.0 * there, self.start.rest, self.from_rest),
+            }
+        }
+        found
+    }
+
+    /// Smallest and largest speed until a time, with sign.
+    pub fn speed_range(&self, until: f64) -> (f64, f64) {
+        let signed = |leg: &Leg, direction: f64, until: f64| {
+            let (low, high) = leg.speed_range(until);
+            if direction > 0.0 {
+                (low, high)
+            } else {
+                (-high, -low)
+            }
+        };
+        let mut range = signed(&self.forward, self.direction, until);
+        let there = self.forward.duration.0;
+        if self.forward.after == After::TurnsBack && until > there {
+            let back = signed(&self.forward, -self.direction, 2.0 * there);
+            range = (range.0.min(back.0), range.1.max(back.1));
+            if let Some(leg) = self.backward.as_ref().filter(|_| until > 2.0 * there) {
+                let there = signed(leg, -self.direction, until - 2.0 * there);
+                range = (range.0.min(there.0), range.1.max(there.1));
+                if leg.after == After::TurnsBack {
+                    let again = signed(leg, self.direction, f64::INFINITY);
+                    range = (range.0.min(again.0), range.1.max(again.1));
+                }
+            }
+        }
+        range
+    }
+
+    /// Bound of the relative error of times: the tails of the series and their rounding.
+    pub fn time_error(&self) -> f64 {
+        let back = self.backward.as_ref();
+        let error = self.forward.error + back.map_or(0.0, |leg| leg.error);
+        let duration = self.forward.duration.0 + back.map_or(0.0, |leg| leg.duration.0);
+        error / duration + 2.0 * f64::EPSILON
+    }
+
+    /// Number of panels.
+    pub fn panels(&self) -> usize {
+        self.forward.len() + self.backward.as_ref().map_or(0, Leg::len)
+    }
+
+    /// The ends between which it goes to and fro, rad, if it does.
+    pub fn ends(&self) -> Option<[f64; 2]> {
+        let one = (self.forward.after == After::TurnsBack).then(|| self.forward.last_angle())??;
+        let other = match &self.backward {
+            Some(back) if back.after == After::TurnsBack => back.last_angle()?,
+            Some(_) => return None,
+            None if self.from_rest => self.start.rest,
+            None => return None,
+        };
+        Some([one.min(other), one.max(other)])
+    }
+}
+
+fn twice((value, rest): (f64, f64)) -> (f64, f64) {
+    (2.0 * value, 2.0 * rest)
+}

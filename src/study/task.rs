@@ -1,0 +1,28 @@
+//! A run that is ready to be computed.
+
+use super::row::RowMaker;
+use super::simulate::Options;
+use crate::mechanism::{Equation, Limits};
+use crate::numeric::angle::Angle;
+use crate::plan::Plan;
+use crate::scene::{Extent, Scene};
+
+/// A scene with all that its engine needs.
+pub(super) struct Task<'a> {
+    pub scene: &'a Scene,
+    pub options: &'a Options,
+    pub plan: Plan,
+    pub extent: Extent,
+    pub limits: Limits,
+    pub maker: RowMaker<'a>,
+}
+
+impl<'a> Task<'a> {
+    pub fn equation(&self) -> &'a Equation {
+        self.maker.equation
+    }
+
+    pub fn start(&self) -> Angle {
+        Angle::from(self.scene.motion.angle).reduced()
+    }
+}
