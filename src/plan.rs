@@ -72,6 +72,8 @@ pub enum Engine {
     ClosedForm,
     /// The energy integral: loads that depend on the position alone.
     Energy,
+    /// The crank angle as the independent variable: loads that depend on speed and time too.
+    Angle,
     /// Integration in time.
     Time,
 }
@@ -82,6 +84,7 @@ impl Engine {
         match self {
             Engine::ClosedForm => "closed-form",
             Engine::Energy => "energy",
+            Engine::Angle => "angle",
             Engine::Time => "time",
         }
     }
@@ -146,8 +149,10 @@ impl Plan {
             refuse_what_cannot_move(&reduced, &linkage)?;
         }
         let mut state = Vec::new();
+        if engine == Engine::Angle {
+            state.extend(["kinetic energy", "t"]);
+        }
         if engine == Engine::Time {
-            // Integrated in time; the energy engine has no state, only a quadrature.
             state.extend(["theta", "omega"]);
             if !loads.have_potential() {
                 state.push("work of the loads");
@@ -176,22 +181,24 @@ impl Plan {
     }
 }
 
-impl Plan {
-    /// Replaces the energy engine by integration in time, and says why.
-    pub(crate) fn fall_back_to_time(&mut self, reason: &str) {
-        self.engine = Engine::Time;
-        self.stepper = Some(Stepper::Dop853);
-        self.state = vec!["theta".to_owned(), "omega".to_owned()];
-        self.reason =
-            format!("integration in time, for the energy integral does not serve: {reason}");
-    }
-}
-
-/// Whether every load depends on the position alone, and smoothly: tables have corners.
+/// Whether every load depends on the position alone, and its corners are known.
 fn energy_serves(loads: &Loads, scene: &Scene) -> bool {
     let position = Variables::THETA.or(Variables::X);
-    let smooth = |load: &Load| !matches!(load, Load::Table(_) | Load::Gas { .. });
-    loads.reads().or(position) == position && scene.torques.iter().chain(&scene.forces).all(smooth)
+    loads.reads().or(position) == position
+        && scene.torques.iter().chain(&scene.forces).all(is_smooth)
+}
+
+/// Whether the crank turns and the corners of the loads are known.
+fn angle_serves(scene: &Scene) -> bool {
+    scene.motion.speed != 0.0 && scene.torques.iter().chain(&scene.forces).all(is_smooth)
+}
+
+/// Whether the corners of a load are known as crank angles, if it has any.
+fn is_smooth(load: &Load) -> bool {
+    match load {
+        Load::Table(table) => table.of() == Variable::Theta,
+        _ => true,
+    }
 }
 
 fn engine(
@@ -226,13 +233,18 @@ fn engine(
         )),
         (Method::Energy, false) => Err(Error::refused(
             format!(
-                "method energy cannot serve loads that depend on {} or come from tables",
+                "method energy cannot serve loads that depend on {}",
                 loads.reads()
             ),
-            "use --method auto; energy needs smooth loads of theta and x alone",
+            "use --method auto; energy needs loads of theta and x alone, and tables over theta only",
+        )),
+        (Method::Auto | Method::Angle, false) if angle_serves(scene) => Ok((
+            Engine::Angle,
+            None,
+            reason("the crank turns: its energy and the time over the crank angle"),
         )),
         (Method::Angle, false) => Err(Error::refused(
-            "method angle is not part of this version",
+            "method angle needs a crank that turns from the start, and tables over theta only",
             "use --method auto, time, dop853 or dopri5",
         )),
         (Method::Dopri5, false) => Ok((

@@ -333,7 +333,7 @@ fn a_rod_hardly_long_enough_is_passed() {
 fn what_the_energy_cannot_serve_is_run_in_time_and_said() {
     let engine = |scene: &Scene| simulate(scene, &Options::default()).unwrap().summary.engine;
     let losses = Scene::duarte().torque(Load::Viscous(0.01));
-    assert_eq!(engine(&losses), "time");
+    assert_eq!(engine(&losses), "angle");
     assert!(simulate(&losses, &with(Method::Energy)).is_err());
     let at_rest = Scene::new(0.05, 0.15)
         .crank(Crank {

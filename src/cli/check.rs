@@ -17,6 +17,7 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let scene = scene(arguments.scene.as_ref())?;
     let name = match &arguments.scene {
+        Some(file) if file.as_os_str() == "-" => "standard input".to_owned(),
         Some(file) => file.display().to_string(),
         None => "the built-in scene".to_owned(),
     };

@@ -1,5 +1,6 @@
 //! Integrators. They see a motion with one coordinate, its acceleration and power; no mechanics.
 
+pub mod angle;
 pub mod energy;
 pub mod events;
 pub mod library;
@@ -57,7 +58,9 @@ impl<'a> Counted<'a> {
 
     fn note(&self, acceleration: f64, t: f64, angle: Angle, speed: f64) {
         self.evaluations.set(self.evaluations.get() + 1);
-        if !acceleration.is_finite() {
+        // A state that is not finite itself comes from an impossible evaluation before it.
+        let asked = angle.rest.is_finite() && speed.is_finite();
+        if asked && !acceleration.is_finite() {
             self.impossible.set(Some((t, angle, speed)));
         }
     }

@@ -92,6 +92,12 @@ impl Loads {
             && self.forces.is_empty()
     }
 
+    /// Crank angles, rad, at which tables over the crank angle have their rows.
+    pub fn angle_corners(&self) -> Vec<f64> {
+        let loads = self.torques.iter().chain(&self.forces);
+        loads.flat_map(Load::angle_corners).collect()
+    }
+
     /// Whether a constant torque does work in every turn.
     pub fn turn_the_crank(&self) -> bool {
         self.torque != 0.0
@@ -107,10 +113,19 @@ impl Loads {
 
     /// Torque and force of all loads together.
     pub fn value(&self, t: f64, theta: impl Into<Angle>, omega: f64, pose: &Pose) -> LoadValue {
+        let steady = self.with_potential(pose);
         let rest = self.without_potential(t, theta, omega, pose);
         LoadValue {
-            torque: self.torque + rest.torque,
-            force: self.force - self.stiffness * pose.x + rest.force,
+            torque: steady.torque + rest.torque,
+            force: steady.force + rest.force,
+        }
+    }
+
+    /// Torque and force of the loads that have a potential.
+    pub fn with_potential(&self, pose: &Pose) -> LoadValue {
+        LoadValue {
+            torque: self.torque,
+            force: self.force - self.stiffness * pose.x,
         }
     }
 

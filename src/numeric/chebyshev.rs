@@ -115,6 +115,27 @@ pub fn integral(coefficients: &Values) -> Values {
     result
 }
 
+/// Integrals from −1 to each point of the series through `values`: the matrix of integration, row by row.
+pub fn integrals(values: &Values) -> Values {
+    static MATRIX: OnceLock<Vec<Values>> = OnceLock::new();
+    let columns = MATRIX.get_or_init(|| {
+        (0..POINTS)
+            .map(|k| {
+                let unit = std::array::from_fn(|j| if j == k { 1.0 } else { 0.0 });
+                let series = integral(&coefficients(&unit));
+                points().map(|x| value(&series, x))
+            })
+            .collect()
+    });
+    let mut sums = [0.0; POINTS];
+    for (column, factor) in columns.iter().zip(values) {
+        for (sum, entry) in sums.iter_mut().zip(column) {
+            *sum += entry * factor;
+        }
+    }
+    sums
+}
+
 /// How far the coefficients have not yet decayed, relative to the largest: the last two of them.
 pub fn tail(coefficients: &Values) -> f64 {
     let largest = coefficients.iter().fold(0.0f64, |m, c| m.max(c.abs()));
@@ -142,6 +163,15 @@ mod tests {
         }
         let sum: f64 = weights().iter().zip(&values).map(|(w, v)| w * v).sum();
         assert!((sum - ((3.2f64).exp() - (-2.8f64).exp()) / 3.0).abs() < 2e-14);
+    }
+
+    #[test]
+    fn integrals_at_the_points_are_those_of_the_series() {
+        let values = points().map(|x| (2.0 * x).cos());
+        for (sum, x) in integrals(&values).iter().zip(points()) {
+            let exact = 0.5 * ((2.0 * x).sin() + 2f64.sin());
+            assert!((sum - exact).abs() < 1e-15, "{x}: {sum} {exact}");
+        }
     }
 
     #[test]

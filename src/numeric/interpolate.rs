@@ -51,6 +51,11 @@ impl Curve {
         self.period
     }
 
+    /// The points.
+    pub fn points(&self) -> &[f64] {
+        &self.x
+    }
+
     /// The values at the points.
     pub fn values(&self) -> &[f64] {
         &self.y

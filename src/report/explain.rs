@@ -59,7 +59,7 @@ pub fn explanation(result: &Explanation) -> String {
     if let Some(at) = &result.at {
         line(format!(
             "at theta = {} deg, omega = {} rad/s, t = 0",
-            at.theta_rad.to_degrees(),
+            degrees(at.theta_rad),
             at.omega_rad_per_s
         ));
         for (name, value, unit) in [
@@ -88,4 +88,10 @@ pub fn explanation(result: &Explanation) -> String {
         ));
     }
     text
+}
+
+/// Degrees to 12 digits, so that an angle that was given in degrees is shown as it was given.
+fn degrees(radians: f64) -> f64 {
+    let degrees = radians.to_degrees();
+    format!("{degrees:.11e}").parse().unwrap_or(degrees)
 }

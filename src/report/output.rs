@@ -17,6 +17,7 @@ pub struct Output {
 #[derive(Debug)]
 enum Stream {
     Standard(BufWriter<io::Stdout>),
+    Device(BufWriter<std::fs::File>),
     File {
         writer: BufWriter<NamedTempFile>,
         path: PathBuf,
@@ -34,6 +35,9 @@ impl Output {
         if path == Path::new("-") {
             return Ok(Output::standard());
         }
+        // A link stays a link: its target is written.
+        let linked = std::fs::canonicalize(path);
+        let path = linked.as_deref().unwrap_or(path);
         let folder = match path.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
@@ -42,17 +46,33 @@ impl Output {
             target: target.clone(),
             source,
         };
+        if !folder.is_dir() {
+            let why = format!("the folder `{}` does not exist", folder.display());
+            return Err(failed(io::Error::other(why)));
+        }
         if path.is_dir() {
             return Err(failed(io::Error::other("it is a folder")));
+        }
+        if path.exists() && !path.is_file() {
+            // A pipe or a device is written to as it is.
+            let file = std::fs::File::options().write(true).open(path);
+            return Ok(Output {
+                stream: Stream::Device(BufWriter::new(file.map_err(failed)?)),
+                target,
+            });
         }
         let mut builder = tempfile::Builder::new();
         builder.prefix(".slider-crank-");
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;
-            builder.permissions(std::fs::Permissions::from_mode(0o666));
+            let before = std::fs::metadata(path).map(|file| file.permissions());
+            builder.permissions(before.unwrap_or(std::fs::Permissions::from_mode(0o666)));
         }
-        let file = builder.tempfile_in(folder).map_err(failed)?;
+        // The name until then means nothing to the user, so the system's reason is given without it.
+        let file = builder
+            .tempfile_in(folder)
+            .map_err(|error| failed(error.kind().into()))?;
         Ok(Output {
             target,
             stream: Stream::File {
@@ -82,6 +102,7 @@ impl Output {
     pub fn write(&mut self, bytes: &[u8]) -> Result<(), Error> {
         let result = match &mut self.stream {
             Stream::Standard(writer) => writer.write_all(bytes),
+            Stream::Device(writer) => writer.write_all(bytes),
             Stream::File { writer, .. } => writer.write_all(bytes),
         };
         result.map_err(|source| self.error(source))
@@ -98,6 +119,7 @@ impl Output {
         };
         match self.stream {
             Stream::Standard(mut writer) => writer.flush().map_err(failed),
+            Stream::Device(mut writer) => writer.flush().map_err(failed),
             Stream::File { writer, path } => {
                 let file = writer.into_inner().map_err(|e| failed(e.into_error()))?;
                 file.persist(&path).map_err(|e| failed(e.error))?;

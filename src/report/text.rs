@@ -123,7 +123,8 @@ fn table(text: &mut String, rows: &[Row]) {
             (row.theta - turns * TAU).to_degrees(),
             row.omega,
             row.x * 1e3,
-            row.v
+            // Minus zero is zero.
+            row.v + 0.0
         );
     }
 }

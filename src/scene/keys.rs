@@ -28,6 +28,19 @@ pub struct Key {
     pub meaning: &'static str,
 }
 
+impl Key {
+    /// The key with a value it may have, as written in the file.
+    pub fn example(&self) -> String {
+        let value = match self.kind {
+            Kind::Quantity(quantity) => quantity.examples().split(", ").next(),
+            Kind::TimeOrAngle => Some("\"1 deg\""),
+            Kind::Choice(words) => return format!("{} = \"{}\"", self.name, words[0]),
+            Kind::Text | Kind::QuantityOrFormula(_) => None,
+        };
+        format!("{} = {}", self.name, value.unwrap_or("\"...\""))
+    }
+}
+
 /// One table of the file.
 #[derive(Clone, Copy, Debug)]
 pub struct Section {
@@ -55,9 +68,9 @@ const fn quantity(name: &'static str, quantity: Quantity, meaning: &'static str)
     key(name, Kind::Quantity(quantity), meaning)
 }
 
-/// Keys by which a load of this kind is described, beside `kind`; the first `required` must be there.
+/// Keys that a table of this kind takes beside `kind`; the first `required` must be there.
 #[derive(Clone, Copy, Debug)]
-pub struct LoadKind {
+pub struct KindKeys {
     /// As written in the file.
     pub name: &'static str,
     /// Keys it takes.
@@ -66,8 +79,8 @@ pub struct LoadKind {
     pub required: usize,
 }
 
-const fn load(name: &'static str, keys: &'static [&'static str], required: usize) -> LoadKind {
-    LoadKind {
+const fn kind(name: &'static str, keys: &'static [&'static str], required: usize) -> KindKeys {
+    KindKeys {
         name,
         keys,
         required,
@@ -77,26 +90,32 @@ const fn load(name: &'static str, keys: &'static [&'static str], required: usize
 const TABLE_KEYS: &[&str] = &["file", "of", "period", "interpolation"];
 
 /// Kinds of `[[torque]]`.
-pub const TORQUES: &[LoadKind] = &[
-    load("constant", &["value"], 1),
-    load("viscous", &["coefficient"], 1),
-    load("motor", &["stall", "no_load_speed"], 2),
-    load("table", TABLE_KEYS, 2),
-    load("expression", &["value"], 1),
+pub const TORQUES: &[KindKeys] = &[
+    kind("constant", &["value"], 1),
+    kind("viscous", &["coefficient"], 1),
+    kind("motor", &["stall", "no_load_speed"], 2),
+    kind("table", TABLE_KEYS, 2),
+    kind("expression", &["value"], 1),
 ];
 
 /// Kinds of `[[force]]`.
-pub const FORCES: &[LoadKind] = &[
-    load("constant", &["value"], 1),
-    load("viscous", &["coefficient"], 1),
-    load("spring", &["stiffness", "rest"], 2),
-    load("table", TABLE_KEYS, 2),
-    load("expression", &["value"], 1),
-    load(
+pub const FORCES: &[KindKeys] = &[
+    kind("constant", &["value"], 1),
+    kind("viscous", &["coefficient"], 1),
+    kind("spring", &["stiffness", "rest"], 2),
+    kind("table", TABLE_KEYS, 2),
+    kind("expression", &["value"], 1),
+    kind(
         "gas",
         &["file", "bore", "ambient", "period", "interpolation"],
         2,
     ),
+];
+
+/// Kinds of `[motion]`.
+pub const MOTIONS: &[KindKeys] = &[
+    kind("free", &["angle", "speed"], 0),
+    kind("constant-speed", &["speed", "angle"], 1),
 ];
 
 const VARIABLES: &[&str] = &["theta", "t", "omega", "x", "v"];
@@ -411,7 +430,7 @@ pub const SECTIONS: &[Section] = &[
             quantity(
                 "speed",
                 Quantity::AngularSpeed,
-                "initial, or the constant, crank speed; default 0",
+                "initial crank speed, default 0, or the constant one",
             ),
         ],
     },
@@ -444,6 +463,18 @@ pub const SECTIONS: &[Section] = &[
 /// The section with this name.
 pub fn section(name: &str) -> Option<&'static Section> {
     SECTIONS.iter().find(|section| section.name == name)
+}
+
+/// What would be right instead of `name`: the known name most like it, or all that `owner` has.
+pub fn did_you_mean<'a>(
+    name: &str,
+    owner: &str,
+    known: impl Iterator<Item = &'a str> + Clone,
+) -> String {
+    match nearest(name, known.clone()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("{owner} has {}", known.collect::<Vec<_>>().join(", ")),
+    }
 }
 
 /// The candidate most like `name`, if any is like it at all.

@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
+use super::number::with_unit;
+
 /// One thing that is wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
@@ -29,6 +31,11 @@ impl Problem {
             help: help.into(),
         }
     }
+
+    pub(super) fn not_positive(field: &str, value: f64, unit: &str) -> Problem {
+        let what = format!("{} is not positive", with_unit(value, unit));
+        Problem::new(field, what, "give a value above zero")
+    }
 }
 
 /// All problems of one scene.
@@ -40,7 +47,11 @@ pub struct Problems {
 }
 
 impl Problems {
-    pub(super) fn in_file(file: &Path, source: &str, list: Vec<Problem>) -> Problems {
+    pub(super) fn in_file(file: &Path, source: &str, mut list: Vec<Problem>) -> Problems {
+        for span in list.iter_mut().filter_map(|problem| problem.span.as_mut()) {
+            *span = whole_characters(source, span.clone());
+        }
+        list.sort_by_key(|problem| problem.span.as_ref().map_or(0, |span| span.start));
         Problems {
             file: Some(file.to_owned()),
             source: source.to_owned(),
@@ -105,6 +116,16 @@ impl Problems {
         };
         renderer.render(&[report.element(help)])
     }
+}
+
+/// The span widened to whole characters of the source, as the renderer needs it.
+fn whole_characters(source: &str, span: Range<usize>) -> Range<usize> {
+    let boundary = |at: &usize| source.is_char_boundary(*at);
+    let length = source.len();
+    let start = (0..=span.start.min(length)).rev().find(boundary);
+    let end = (span.end.min(length)..=length).find(boundary);
+    let start = start.unwrap_or(0);
+    start..end.unwrap_or(length).max(start)
 }
 
 impl fmt::Display for Problems {

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::keys::{FORCES, Key, Kind, LoadKind, SECTIONS, Section, TORQUES};
+use super::keys::{FORCES, Key, Kind, KindKeys, MOTIONS, SECTIONS, Section, TORQUES};
 use super::unit::Quantity;
 
 /// The schema, draft 2020-12.
@@ -46,6 +46,7 @@ fn table(section: &Section) -> Value {
     match section.name {
         "torque" => one["allOf"] = kinds(TORQUES),
         "force" => one["allOf"] = kinds(FORCES),
+        "motion" => one["allOf"] = kinds(MOTIONS),
         _ => {}
     }
     if section.repeated {
@@ -55,13 +56,13 @@ fn table(section: &Section) -> Value {
     }
 }
 
-/// Each kind of load with the keys it needs.
-fn kinds(kinds: &[LoadKind]) -> Value {
+/// Each kind with the keys it needs.
+fn kinds(kinds: &[KindKeys]) -> Value {
     kinds
         .iter()
         .map(|kind| {
             json!({
-                "if": {"properties": {"kind": {"const": kind.name}}},
+                "if": {"properties": {"kind": {"const": kind.name}}, "required": ["kind"]},
                 "then": {"required": &kind.keys[..kind.required]},
             })
         })

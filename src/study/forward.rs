@@ -37,6 +37,8 @@ impl Motion for Forward<'_> {
 
 /// The second run of the estimate is this much tighter, so that its own error hardly counts.
 const TIGHTER: f64 = 50.0;
+/// What is stated is larger than the distance of the two runs by this, for the error of the second.
+const MARGIN: f64 = 1.5;
 /// Where rounding inside a step takes over.
 const TIGHTEST: f64 = 1e-15;
 
@@ -78,8 +80,8 @@ pub(super) fn estimate(
         + speed_noise * duration
         + f64::EPSILON * last.angle(last.end.theta).radians().abs();
     let estimate = ErrorEstimate {
-        theta_rad: 1.1 * angle + angle_noise,
-        omega_rad_per_s: 1.1 * speed + speed_noise + alpha_noise(last, angle_noise),
+        theta_rad: MARGIN * angle + angle_noise,
+        omega_rad_per_s: MARGIN * speed + speed_noise + alpha_noise(last, angle_noise),
     };
     let cost = Cost {
         evaluations: motion.evaluations(),

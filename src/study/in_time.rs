@@ -3,19 +3,19 @@
 use std::f64::consts::TAU;
 use std::time::Instant;
 
-use super::forward;
 use super::row::RowSink;
 use super::schedule::Schedule;
 use super::simulate::Simulation;
 use super::summary::{Final, Solved, Summary};
 use super::task::Task;
 use super::watch::{Seen, Watch, radians};
+use super::{forward, stopped};
 use crate::engine::Counted;
 use crate::engine::library;
 use crate::engine::step::Step;
 use crate::engine::time::{self, Finish, Settings, Start};
 use crate::error::Error;
-use crate::mechanism::{Equation, Limits, Obstacle};
+use crate::mechanism::{Equation, Limits};
 use crate::numeric::angle::Angle;
 use crate::plan::Stepper;
 use crate::scene::Extent;
@@ -38,14 +38,16 @@ pub(super) fn run(
     };
     let settings = settings(task, equation);
     let reach = Limits::clear_reach(equation.linkage());
-    if !inside(&reach, start.angle.rest) {
-        return Err(no_start(equation, start, &task.limits));
+    if !stopped::inside(&reach, start.angle.rest) {
+        return Err(stopped::no_start(equation, start, &task.limits));
     }
     let dead_centres = task.limits.dead_centres.iter().map(|dc| dc.theta);
     let guards = reach.iter().flatten().map(|angle| angle.rem_euclid(TAU));
     let watched = dead_centres.chain(guards).collect();
+    // What rows and events cost is counted apart: it does not change how far a run goes.
+    let looked_at = Counted::new(&forward);
     let mut watch = Watch {
-        motion: &motion,
+        motion: &looked_at,
         maker: &task.maker,
         rows,
         schedule: Schedule::new(task.scene.run.output_every, task.extent),
@@ -66,10 +68,10 @@ pub(super) fn run(
         return Err(error);
     }
     if finish == Finish::NoStart {
-        return Err(no_start(equation, start, &task.limits));
+        return Err(stopped::no_start(equation, start, &task.limits));
     }
     if let Some(t) = watch.seen.ends_at {
-        last = shortened(&motion, &last, t, &settings);
+        last = shortened(&motion, &last, t, &settings, &mut watch);
         finish = Finish::AtEnd;
     }
     watch.write_last_row(&last)?;
@@ -77,9 +79,9 @@ pub(super) fn run(
     let wall_s = (begun.elapsed() - seen.row_time).as_secs_f64();
     let evaluations = motion.evaluations();
     let stopped = if seen.at_limit {
-        Some(at_limit(&last))
+        Some(stopped::at_limit(&last))
     } else {
-        stopped(finish, equation, &motion, &last, &task.extent)
+        stopped::reason(finish, equation, &motion, &last, &task.extent)
     };
     let largest_speed = seen.speed.0.abs().max(seen.speed.1.abs());
     let estimate = if task.options.estimate && stopped.is_none() {
@@ -121,7 +123,7 @@ pub(super) fn run(
 }
 
 /// A run that ends after a number of turns has no last time of its own.
-const FAR: f64 = 1e9;
+pub(super) const FAR: f64 = 1e9;
 
 fn settings(task: &Task<'_>, equation: &Equation) -> Settings {
     let motion = &task.scene.motion;
@@ -142,19 +144,43 @@ fn settings(task: &Task<'_>, equation: &Equation) -> Settings {
     }
 }
 
-/// The step ended at time `t` inside it, integrated anew.
-fn shortened(motion: &Counted<'_>, step: &Step, t: f64, settings: &Settings) -> Step {
+/// The step ended at time `t` inside it, integrated anew; at a turn limit once more, to meet the limit exactly.
+fn shortened(
+    motion: &Counted<'_>,
+    step: &Step,
+    t: f64,
+    settings: &Settings,
+    watch: &mut Watch<'_>,
+) -> Step {
     let start = Start {
         t: step.start.t,
         angle: step.angle(step.start.theta),
         speed: step.start.omega,
     };
-    let settings = Settings {
-        t_end: t,
-        max_evaluations: u64::MAX,
-        ..*settings
+    let until = |t_end: f64, sink: &mut dyn FnMut(&Step) -> bool| {
+        let settings = Settings {
+            t_end,
+            max_evaluations: u64::MAX,
+            ..*settings
+        };
+        time::run(motion, start, &settings, sink).1
     };
-    let (_, mut end, _) = time::run(motion, start, &settings, &mut |_| false);
+    let mut t = t;
+    if let Some(limit) = watch.turn_limit.filter(|_| !watch.seen.at_limit) {
+        for _ in 0..3 {
+            let end = until(t, &mut |_| false);
+            let turned = watch.turned(&end, end.end.theta);
+            let missing = limit.copysign(turned) - turned;
+            if missing == 0.0 || end.end.omega == 0.0 {
+                break;
+            }
+            t = (t + missing / end.end.omega).clamp(step.start.t, step.end.t);
+        }
+    }
+    let mut end = until(t, &mut |step| {
+        watch.follow_speed(&mut step.clone());
+        false
+    });
     end.end.work += step.start.work;
     end
 }
@@ -191,95 +217,4 @@ fn energy_residual(equation: &Equation, start: Start, last: &Step, speed: f64) -
     .into_iter()
     .fold(0.0, |largest: f64, energy| largest.max(energy.abs()));
     (gained - last.end.work, scale)
-}
-
-fn at_limit(last: &Step) -> String {
-    format!(
-        "the crank reaches the limit of its motion, where the rod stands normal to the guide: stopped at t = {} s, theta = {} rad; this version does not pass it",
-        last.end.t,
-        last.angle(last.end.theta).radians()
-    )
-}
-
-/// Whether a crank angle in [0, 2π) lies in one of the intervals; no intervals: anywhere.
-fn inside(reach: &[[f64; 2]], theta: f64) -> bool {
-    let within = |[from, to]: &[f64; 2]| (theta - from).rem_euclid(TAU) <= to - from;
-    reach.is_empty() || reach.iter().any(within)
-}
-
-/// Why a run ended before its time.
-fn stopped(
-    finish: Finish,
-    equation: &Equation,
-    motion: &Counted<'_>,
-    last: &Step,
-    extent: &Extent,
-) -> Option<String> {
-    let end = &last.end;
-    let place = format!(
-        "at t = {} s, theta = {} rad, omega = {} rad/s",
-        end.t,
-        last.angle(end.theta).radians(),
-        end.omega
-    );
-    match (finish, extent) {
-        (Finish::AtEnd, Extent::Revolutions(turns)) if end.t >= FAR => Some(format!(
-            "the crank does not complete {turns} turns: stopped {place}; give a duration instead"
-        )),
-        (Finish::AtEnd | Finish::Stopped | Finish::NoStart, _) => None,
-        (Finish::WorkLimit, _) => Some(format!(
-            "the work limit of evaluations is reached: stopped {place}; raise --max-evaluations, shorten the run or loosen the tolerance"
-        )),
-        (Finish::StepTooSmall, _) => {
-            let (t, angle, speed) =
-                motion
-                    .impossible()
-                    .unwrap_or((end.t, last.angle(end.theta), end.omega));
-            Some(match equation.obstacle(t, angle, speed) {
-                Some(Obstacle::Blocked) => at_limit(last),
-                Some(Obstacle::Load) => format!(
-                    "a load has no finite value at t = {t} s, theta = {} rad, omega = {speed} rad/s (outside its table, or outside the domain of its formula): stopped {place}",
-                    angle.radians()
-                ),
-                Some(Obstacle::NoInertia) => {
-                    format!(
-                        "the effective inertia vanishes: stopped {place}; give the crank an inertia"
-                    )
-                }
-                None => format!(
-                    "the equation is singular or too stiff for this method: stopped {place}"
-                ),
-            })
-        }
-    }
-}
-
-fn no_start(equation: &Equation, start: Start, limits: &Limits) -> Error {
-    let theta = start.angle.radians();
-    match equation.obstacle(start.t, start.angle, start.speed) {
-        Some(Obstacle::Blocked) | None => {
-            let reach: Vec<String> = limits
-                .reach
-                .iter()
-                .map(|[from, to]| format!("{:.6} to {:.6} deg", from.to_degrees(), to.to_degrees()))
-                .collect();
-            Error::refused(
-                format!(
-                    "motion.angle: the mechanism has no position at crank angle {theta} rad: the rod does not reach the guide or stands normal to it"
-                ),
-                format!("give an angle inside {}", reach.join(" or ")),
-            )
-        }
-        Some(Obstacle::Load) => Error::refused(
-            format!(
-                "a load has no finite value at the start (t = 0, theta = {theta} rad, omega = {} rad/s)",
-                start.speed
-            ),
-            "check the range of its table or the domain of its formula",
-        ),
-        _ => Error::refused(
-            format!("the effective inertia vanishes at the start, theta = {theta} rad"),
-            "give the crank an inertia, or start away from the dead centre",
-        ),
-    }
 }

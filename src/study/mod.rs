@@ -1,15 +1,19 @@
 //! The questions: where the physics meets the integrators.
 
+mod by_angle;
 mod by_energy;
 mod closed_form;
 mod explain;
 mod forward;
 mod in_time;
 mod kinematics;
+mod over_angle;
+mod passages;
 mod profile;
 mod row;
 mod schedule;
 mod simulate;
+mod stopped;
 mod summary;
 mod task;
 mod watch;

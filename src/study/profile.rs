@@ -1,9 +1,12 @@
 //! The mechanism as the energy engine sees it: inertia, potential and force over the crank angle.
 
 use std::cell::Cell;
+use std::f64::consts::TAU;
 
+use crate::engine::angle::Driven;
 use crate::engine::energy::Profile;
-use crate::mechanism::{DeadCentre, Equation, Limits};
+use crate::mechanism::{Equation, Limits, Pose};
+use crate::numeric::angle::Angle;
 use crate::numeric::gauss;
 
 /// Inertia, potential and force of an equation whose loads depend on the position alone.
@@ -15,13 +18,19 @@ pub(super) struct Position<'a> {
 }
 
 impl<'a> Position<'a> {
-    /// Panels end at the dead centres, where the inertia of a mechanism without crank inertia has a corner.
+    /// Panels end at the dead centres, where the inertia of a mechanism without crank inertia has a corner, and
+    /// at the rows of tables over the crank angle.
     pub fn new(equation: &'a Equation, limits: &Limits) -> Position<'a> {
-        let dead_centres = limits.dead_centres.iter();
-        let corners = dead_centres
-            .map(|DeadCentre { theta, .. }| *theta)
-            .collect();
         let loads = equation.loads();
+        let dead_centres = limits.dead_centres.iter().map(|dc| dc.theta);
+        let tables = loads
+            .angle_corners()
+            .into_iter()
+            .map(|theta| theta.rem_euclid(TAU));
+        let mut corners: Vec<f64> = dead_centres.chain(tables).collect();
+        corners.sort_by(f64::total_cmp);
+        // A corner that rounding has made two would make a panel without length.
+        corners.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
         Position {
             equation,
             corners,
@@ -49,6 +58,29 @@ impl<'a> Position<'a> {
                 .generalized(&pose)
         };
         gauss::composite(force, from, to, panels)
+    }
+}
+
+impl Driven for Position<'_> {
+    type Place = Pose;
+
+    fn place(&self, theta: f64) -> (f64, f64, Pose) {
+        self.evaluations.set(self.evaluations.get() + 1);
+        let terms = self.equation.terms(theta);
+        let steady = self.equation.loads().with_potential(&terms.pose);
+        let force = steady.generalized(&terms.pose) - terms.dv;
+        (terms.inertia.m, force, terms.pose)
+    }
+
+    fn drive(&self, pose: &Pose, t: f64, angle: Angle, speed: f64) -> f64 {
+        let loads = self.equation.loads();
+        loads
+            .without_potential(t, angle, speed, pose)
+            .generalized(pose)
+    }
+
+    fn corners(&self) -> &[f64] {
+        &self.corners
     }
 }
 

@@ -7,6 +7,24 @@ use crate::scene::{Every, Extent};
 /// Rows of a run without `output_every`.
 const DEFAULT_ROWS: u32 = 500;
 
+/// Whole numbers passed on the way from `a` to `b`, in the order of passing: `a` does not count, `b` does. What
+/// is off a whole number by rounding only counts as the whole number.
+pub(super) fn passed(a: f64, b: f64) -> Vec<i64> {
+    let snapped = |x: f64| {
+        if (x - x.round()).abs() < 1e-9 {
+            x.round()
+        } else {
+            x
+        }
+    };
+    let (a, b) = (snapped(a), snapped(b));
+    if b > a {
+        (a.floor() as i64 + 1..=b.floor() as i64).collect()
+    } else {
+        (b.ceil() as i64..=a.ceil() as i64 - 1).rev().collect()
+    }
+}
+
 /// Rows at regular times or crank angles. The first and the last state are rows always.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Schedule {
@@ -54,5 +72,20 @@ impl Schedule {
             Schedule::Angles { step } if step > 0.0 => Some(step),
             _ => None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::passed;
+
+    #[test]
+    fn whole_numbers_are_passed_once() {
+        assert_eq!(passed(0.0, 3.0), [1, 2, 3]);
+        assert_eq!(passed(0.0, -2.5), [-1, -2]);
+        assert_eq!(passed(2.0 + 1e-15, 2.9), [0i64; 0]);
+        assert_eq!(passed(2.9, 2.0 + 1e-15), [2]);
+        assert_eq!(passed(-0.5, 0.5), [0]);
+        assert_eq!(passed(1.5, 1.5), [0i64; 0]);
     }
 }

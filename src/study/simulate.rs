@@ -3,7 +3,7 @@
 use super::row::{NoRows, RowMaker, RowSink};
 use super::summary::Summary;
 use super::task::Task;
-use super::{by_energy, closed_form, in_time};
+use super::{closed_form, in_time, over_angle};
 use crate::error::Error;
 use crate::mechanism::{Equation, Limits, Reactor};
 use crate::plan::{Engine, Method, Plan};
@@ -114,7 +114,7 @@ fn run(
     };
     match task.plan.engine {
         Engine::ClosedForm => closed_form::run(&task, rows),
-        Engine::Energy => by_energy::run(&mut task, rows, record),
+        Engine::Energy | Engine::Angle => over_angle::run(&mut task, rows, record),
         Engine::Time => in_time::run(&task, rows, record),
     }
 }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::time::{Duration, Instant};
 
 use super::row::{RowMaker, RowSink};
-use super::schedule::Schedule;
+use super::schedule::{Schedule, passed};
 use super::summary::Event;
 use crate::engine::events::{self, Crossing};
 use crate::engine::step::Step;
@@ -71,7 +71,9 @@ impl Watch<'_> {
         self.reached_turn_limit(&mut step);
         self.look_for_events(&mut step);
         let until = self.seen.ends_at.unwrap_or(step.end.t);
-        self.follow_speed(&mut step);
+        if self.seen.ends_at.is_none() {
+            self.follow_speed(&mut step);
+        }
         if self.rows.wants_rows() {
             let begun = Instant::now();
             let result = self.write_rows(&mut step, until);
@@ -89,7 +91,7 @@ impl Watch<'_> {
     }
 
     /// Least and largest speed; a step that may hold a new extreme inside is refined first.
-    fn follow_speed(&mut self, step: &mut Step) {
+    pub fn follow_speed(&mut self, step: &mut Step) {
         for direction in [-1.0, 1.0] {
             let known = if direction < 0.0 {
                 &mut self.seen.speed.0
@@ -116,7 +118,7 @@ impl Watch<'_> {
         }
     }
 
-    fn turned(&self, step: &Step, theta: f64) -> f64 {
+    pub fn turned(&self, step: &Step, theta: f64) -> f64 {
         step.angle(theta).minus(self.start.angle)
     }
 
@@ -204,22 +206,16 @@ impl Watch<'_> {
         cuts.push(step.end.t);
         let mut from = step.start.t;
         for to in cuts {
-            let (a, b) = (
-                self.turned(step, step.at(from).0) / spacing,
-                self.turned(step, step.at(to).0) / spacing,
-            );
-            let (low, high) = (a.min(b).floor() as i64, a.max(b).floor() as i64);
-            let mut targets: Vec<i64> = (low + 1..=high).collect();
-            if b < a {
-                targets.reverse();
-            }
-            for k in targets {
+            let way = |t: f64| self.turned(step, step.at(t).0) / spacing;
+            for k in passed(way(from), way(to)) {
                 step.refine(self.motion);
                 let theta =
                     step.start.theta + (k as f64 * spacing - self.turned(step, step.start.theta));
-                if let Some(t) = step.time_of_angle(theta, from, to)
-                    && t <= until
-                {
+                // A turning point may fall short of its angle by rounding.
+                let t = step.time_of_angle(theta, from, to).unwrap_or(to);
+                // The end is a row of its own.
+                let at_end = self.seen.ends_at.is_some() && t >= until * (1.0 - 1e-12);
+                if t <= until && !at_end {
                     self.write_row(step, t)?;
                 }
             }

@@ -4,11 +4,12 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::panel::{Panel, Piece, Tried, Turning};
 use super::{Profile, Unserved};
+use crate::numeric::angle::Angle;
 use crate::numeric::exact::two_sum;
 
 /// How a leg goes on after its panels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum After {
+pub(in crate::engine) enum After {
     /// The same turn again.
     Repeats,
     /// It turns back.
@@ -19,7 +20,7 @@ pub(super) enum After {
 
 /// Panels one after the other.
 #[derive(Clone, Debug)]
-pub(super) struct Leg {
+pub(in crate::engine) struct Leg {
     panels: Vec<Panel>,
     /// Time at which each panel begins.
     begins: Vec<f64>,
@@ -40,6 +41,17 @@ const SHORTEST: f64 = 1e-13;
 const LONGEST: f64 = 2.0 * FRAC_PI_2 + 1e-9;
 
 impl Leg {
+    /// A leg without panels, that ends where the last one will.
+    pub fn open() -> Leg {
+        Leg {
+            panels: Vec::with_capacity(8),
+            begins: Vec::with_capacity(8),
+            duration: (0.0, 0.0),
+            after: After::Ends,
+            error: 0.0,
+        }
+    }
+
     /// Panels from `start` in `direction` (+1 or −1) with kinetic energy `kinetic` (J), until the time
     /// `until` is passed. Without kinetic energy the start is a turning point.
     pub fn build(
@@ -49,13 +61,7 @@ impl Leg {
         kinetic: f64,
         until: f64,
     ) -> Result<Leg, Unserved> {
-        let mut leg = Leg {
-            panels: Vec::with_capacity(8),
-            begins: Vec::with_capacity(8),
-            duration: (0.0, 0.0),
-            after: After::Ends,
-            error: 0.0,
-        };
+        let mut leg = Leg::open();
         let whole_turn = start + direction * TAU;
         let mut at = start;
         let mut kinetic = kinetic;
@@ -120,7 +126,7 @@ impl Leg {
         Ok(leg)
     }
 
-    fn push(&mut self, panel: Panel) {
+    pub fn push(&mut self, panel: Panel) {
         self.begins.push(self.duration.0);
         let (sum, lost) = two_sum(self.duration.0, panel.duration.0);
         self.duration = two_sum(sum, lost + self.duration.1 + panel.duration.1);
@@ -128,32 +134,40 @@ impl Leg {
         self.panels.push(panel);
     }
 
-    /// Angle and speed a time after the start of the leg.
-    pub fn state(&self, after: f64) -> (f64, f64) {
+    /// Angle (turns of the panel, rest) and speed a time after the start of the leg.
+    pub fn state(&self, after: f64) -> (Angle, f64) {
         let index = self.begins.partition_point(|begin| *begin <= after).max(1) - 1;
-        self.panels[index].state(after - self.begins[index])
+        let panel = &self.panels[index];
+        let (rest, speed) = panel.state(after - self.begins[index]);
+        let turns = panel.turns;
+        (Angle { turns, rest }, speed)
     }
 
-    /// Times at which the ends of panels are reached, with their angles, and the same for `theta` if it is
-    /// on the leg.
-    pub fn ends(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+    /// Times at which the ends of panels are reached, with their angles.
+    pub fn ends(&self) -> impl DoubleEndedIterator<Item = (f64, Angle)> + '_ {
         let pairs = self.panels.iter().zip(&self.begins);
-        pairs.map(|(panel, begin)| (begin + panel.duration.0, panel.piece.to))
+        pairs.map(|(panel, begin)| {
+            let angle = Angle {
+                turns: panel.turns,
+                rest: panel.piece.to,
+            };
+            (begin + panel.duration.0, angle)
+        })
     }
 
     /// Time at which an angle is reached; none if it is not on the leg.
-    pub fn time_of(&self, theta: f64) -> Option<f64> {
-        let pairs = self.panels.iter().zip(&self.begins);
-        let mut inside = pairs.filter(|(panel, _)| {
-            let (low, high) = (
-                panel.piece.from.min(panel.piece.to),
-                panel.piece.from.max(panel.piece.to),
-            );
-            (low..=high).contains(&theta)
+    pub fn time_of(&self, angle: Angle) -> Option<f64> {
+        let local = |panel: &Panel| Angle {
+            turns: angle.turns - panel.turns,
+            rest: angle.rest,
+        };
+        let mut inside = self.panels.iter().zip(&self.begins).filter(|(panel, _)| {
+            let piece = &panel.piece;
+            let theta = local(panel).radians();
+            (piece.from.min(piece.to)..=piece.from.max(piece.to)).contains(&theta)
         });
-        inside
-            .next()
-            .map(|(panel, begin)| begin + panel.time_of(theta))
+        let (panel, begin) = inside.next()?;
+        Some(begin + panel.time_of(local(panel).radians()))
     }
 
     /// The angle at its end.
@@ -170,6 +184,12 @@ impl Leg {
             .fold((f64::INFINITY, 0.0), |range, (low, high)| {
                 (range.0.min(low), range.1.max(high))
             })
+    }
+
+    /// The panel in which a time lies, and the time since its begin.
+    pub fn panel_at(&self, after: f64) -> Option<(&Panel, f64)> {
+        let index = self.begins.partition_point(|begin| *begin <= after).max(1) - 1;
+        Some((self.panels.get(index)?, after - self.begins[index]))
     }
 
     /// Number of panels.

@@ -6,9 +6,9 @@
 //! one that turns back at both ends does too. Ends of a libration are taken with θ = θ_end ∓ s², which
 //! makes dt/ds smooth.
 
-mod leg;
+pub(in crate::engine) mod leg;
 mod orbit;
-mod panel;
+pub(in crate::engine) mod panel;
 
 pub use orbit::{Orbit, Passage};
 
@@ -34,4 +34,6 @@ pub enum Unserved {
     NotFinite,
     /// More panels than are kept: a long run whose turns differ from each other.
     TooLong,
+    /// The speed comes too near to zero for the angle to be the independent variable.
+    TooSlow,
 }

@@ -11,6 +11,8 @@ use crate::numeric::angle::Angle;
 pub struct Orbit {
     start: Angle,
     direction: f64,
+    /// At the start, rad/s
+    speed: f64,
     /// Whether the start is a turning point.
     from_rest: bool,
     forward: Leg,
@@ -69,10 +71,23 @@ impl Orbit {
         Ok(Orbit {
             start,
             direction,
+            speed,
             from_rest: kinetic == 0.0,
             forward,
             backward,
         })
+    }
+
+    /// A motion in one direction that does not repeat.
+    pub(in crate::engine) fn one_way(start: Angle, speed: f64, leg: Leg) -> Orbit {
+        Orbit {
+            start,
+            direction: speed.signum(),
+            speed,
+            from_rest: false,
+            forward: leg,
+            backward: None,
+        }
     }
 
     /// The time after which the motion repeats (after a turn, or to and fro), s; rounded value and rest.
@@ -118,16 +133,19 @@ impl Orbit {
 
     /// Angle and speed at a time in the run.
     pub fn state(&self, t: f64) -> (Angle, f64) {
+        if t == 0.0 {
+            return (self.start, self.speed);
+        }
         let (turns, after) = self.split(t);
-        let (theta, speed) = self.within(after);
+        let (angle, speed) = self.within(after);
         let turns = if self.rotates() {
             self.direction * turns
         } else {
             0.0
         };
         let angle = Angle {
-            turns: self.start.turns + turns,
-            rest: theta,
+            turns: self.start.turns + turns + angle.turns,
+            rest: angle.rest,
         };
         (angle, speed)
     }
@@ -152,14 +170,14 @@ impl Orbit {
     }
 
     /// The state within the first period.
-    fn within(&self, t: f64) -> (f64, f64) {
+    fn within(&self, t: f64) -> (Angle, f64) {
         let there = self.forward.duration.0;
         if t <= there || self.forward.after != After::TurnsBack {
             return self.forward.state(t);
         }
         let mirrored = |leg: &Leg, t: f64| {
-            let (theta, speed) = leg.state(t);
-            (theta, -speed)
+            let (angle, speed) = leg.state(t);
+            (angle, -speed)
         };
         if t <= 2.0 * there {
             return mirrored(&self.forward, 2.0 * there - t);
@@ -174,32 +192,32 @@ impl Orbit {
         mirrored(back, 2.0 * back.duration.0 - since)
     }
 
-    /// When the crank has turned by `radians` from the start, if it turns fully.
+    /// When the crank has turned by `radians` from the start.
     pub fn time_of_turn(&self, radians: f64) -> Option<f64> {
+        let turns = (radians / TAU).floor();
+        let angle = |turns: f64| Angle {
+            turns: self.direction * turns,
+            rest: self.start.rest + self.direction * (radians - (radians / TAU).floor() * TAU),
+        };
         if self.rotates() {
-            let turns = (radians / TAU).floor();
-            let rest = radians - turns * TAU;
-            let after = self
-                .forward
-                .time_of(self.start.rest + self.direction * rest)?;
+            let after = self.forward.time_of(angle(0.0))?;
             let (period, low) = self.forward.duration;
-            return Some(turns.mul_add(period, after) + turns * low);
+            return Some((turns.mul_add(period, after) + turns * low).max(0.0));
         }
-        self.forward
-            .time_of(self.start.rest + self.direction * radians)
+        self.forward.time_of(angle(turns)).map(|t| t.max(0.0))
     }
 
     /// Passages of the ends of panels and turning points in the first period (or in all, if it does not
     /// repeat), in the order of time.
     pub fn passages(&self) -> Vec<Passage> {
         let mut found = Vec::new();
-        let mut pass = |t: f64, theta: f64, turning: bool| {
+        let mut pass = |t: f64, angle: Angle, turning: bool| {
             let speed = if turning { 0.0 } else { self.within(t).1 };
             found.push(Passage {
                 t,
                 angle: Angle {
-                    turns: self.start.turns,
-                    rest: theta,
+                    turns: self.start.turns + angle.turns,
+                    rest: angle.rest,
                 },
                 speed,
                 turning,
@@ -208,14 +226,13 @@ impl Orbit {
         let there = self.forward.duration.0;
         let mut run = |leg: &Leg, since: f64| {
             let turns_back = leg.after == After::TurnsBack;
-            let ends: Vec<(f64, f64)> = leg.ends().collect();
-            let last = ends.len().saturating_sub(1);
-            for (i, (t, theta)) in ends.iter().enumerate() {
-                pass(since + t, *theta, turns_back && i == last);
+            let last = leg.len().saturating_sub(1);
+            for (i, (t, angle)) in leg.ends().enumerate() {
+                pass(since + t, angle, turns_back && i == last);
             }
             if turns_back {
-                for (t, theta) in ends.iter().rev().skip(1) {
-                    pass(since + 2.0 * leg.duration.0 - t, *theta, false);
+                for (t, angle) in leg.ends().rev().skip(1) {
+                    pass(since + 2.0 * leg.duration.0 - t, angle, false);
                 }
             }
         };
@@ -225,7 +242,7 @@ impl Orbit {
                 Some(back) => {
                     run(back, 2.0 * there);
                 }
-                None => pass(2.0 * there, self.start.rest, self.from_rest),
+                None => pass(2.0 * there, self.start.rest.into(), self.from_rest),
             }
         }
         found
@@ -264,6 +281,19 @@ impl Orbit {
         let error = self.forward.error + back.map_or(0.0, |leg| leg.error);
         let duration = self.forward.duration.0 + back.map_or(0.0, |leg| leg.duration.0);
         error / duration + 2.0 * f64::EPSILON
+    }
+
+    /// Its first leg.
+    pub(in crate::engine) fn leg(&self) -> &Leg {
+        &self.forward
+    }
+
+    /// How long it is known, s: for ever if it repeats.
+    pub fn length(&self) -> f64 {
+        match self.period() {
+            Some(_) => f64::INFINITY,
+            None => self.forward.duration.0,
+        }
     }
 
     /// Number of panels.

@@ -6,7 +6,7 @@ use crate::numeric::{exact, root};
 
 /// Which end of a panel is a turning point, where dt/dθ is infinite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Turning {
+pub(in crate::engine) enum Turning {
     Nowhere,
     AtStart,
     AtEnd,
@@ -14,7 +14,7 @@ pub(super) enum Turning {
 
 /// A piece of the motion between two angles, in a variable x in [−1, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Piece {
+pub(in crate::engine) struct Piece {
     /// rad
     pub from: f64,
     /// rad, in either direction
@@ -27,7 +27,7 @@ impl Piece {
         self.to - self.from
     }
 
-    fn angle(&self, x: f64) -> f64 {
+    pub fn angle(&self, x: f64) -> f64 {
         match self.turning {
             Turning::Nowhere => self.from + 0.5 * (1.0 + x) * self.span(),
             Turning::AtStart => self.from + 0.25 * (1.0 + x) * (1.0 + x) * self.span(),
@@ -58,8 +58,10 @@ impl Piece {
 
 /// A piece with its series.
 #[derive(Clone, Debug)]
-pub(super) struct Panel {
+pub(in crate::engine) struct Panel {
     pub piece: Piece,
+    /// Whole turns to be added to its angles.
+    pub turns: f64,
     /// dt/dx
     slope: Values,
     /// Time since the start of the panel.
@@ -73,7 +75,7 @@ pub(super) struct Panel {
 }
 
 /// What is found when a panel is tried.
-pub(super) enum Tried {
+pub(in crate::engine) enum Tried {
     /// The series have converged.
     Done(Box<Panel>),
     /// They have not: a shorter one is needed.
@@ -142,6 +144,7 @@ impl Panel {
         };
         Ok(Tried::Done(Box::new(Panel {
             piece,
+            turns: 0.0,
             time: chebyshev::integral(&slope),
             slope,
             duration,
@@ -154,6 +157,26 @@ impl Panel {
         })))
     }
 
+    /// A panel from dt/dx at the points and its coefficients.
+    pub fn from_slopes(
+        piece: Piece,
+        slopes: &Values,
+        slope: Values,
+        tail: f64,
+        kinetic: f64,
+    ) -> Panel {
+        let duration = duration(slopes);
+        Panel {
+            piece,
+            turns: 0.0,
+            time: chebyshev::integral(&slope),
+            slope,
+            duration,
+            kinetic_at_end: kinetic,
+            error: tail * duration.0,
+        }
+    }
+
     /// Angle and speed a time `after` its start, rad and rad/s; the sign of the speed is that of the panel.
     pub fn state(&self, after: f64) -> (f64, f64) {
         let x = self.position(after);
@@ -161,7 +184,7 @@ impl Panel {
     }
 
     /// The variable x at a time after the start: Newton, kept inside its bracket.
-    fn position(&self, after: f64) -> f64 {
+    pub fn position(&self, after: f64) -> f64 {
         let total = self.duration.0;
         if after <= 0.0 {
             return -1.0;
@@ -309,7 +332,7 @@ fn gauss_14() -> &'static [(f64, f64); 14] {
 }
 
 /// ∫ dt/dx by Clenshaw and Curtis, summed without rounding loss.
-fn duration(slopes: &Values) -> (f64, f64) {
+pub(in crate::engine) fn duration(slopes: &Values) -> (f64, f64) {
     let (mut sum, mut rest) = (0.0, 0.0);
     for (weight, slope) in chebyshev::weights().iter().zip(slopes) {
         let (next, lost) = exact::two_sum(sum, weight * slope);

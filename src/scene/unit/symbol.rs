@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use crate::scene::number::MINUS;
+
 /// Exponents of metre, kilogram, second and radian.
 pub(super) type Dimension = [i8; 4];
 
@@ -220,7 +222,7 @@ fn exponent(rest: &mut &str) -> Result<i32, String> {
     for c in text.chars() {
         let plain = match c {
             '0'..='9' | '-' => c,
-            '⁻' => '-',
+            '⁻' | MINUS => '-',
             '¹' => '1',
             '²' => '2',
             '³' => '3',

@@ -1,0 +1,136 @@
+//! Scenes built in code.
+
+use super::{
+    Branch, Crank, Every, Extent, Geometry, Gravity, Load, Motion, MotionKind, Rod, Run, Scene,
+    Slider,
+};
+
+impl Scene {
+    /// A mechanism of crank length `crank`, rod length `rod` (m) and no offset, right branch, massless,
+    /// at rest at zero angle: the start for scenes built in code.
+    ///
+    /// ```
+    /// use slider_crank::scene::{Crank, Load, Scene, Slider};
+    /// let scene = Scene::new(0.05, 0.15)
+    ///     .offset(0.01)
+    ///     .crank(Crank { inertia: 2e-3, ..Crank::default() })
+    ///     .slider(Slider { mass: 0.4 })
+    ///     .torque(Load::Constant(1.5))
+    ///     .start(0.0, 20.0)
+    ///     .duration(0.5);
+    /// assert!(scene.check().is_ok());
+    /// ```
+    pub fn new(crank: f64, rod: f64) -> Scene {
+        Scene {
+            title: None,
+            geometry: Geometry {
+                crank,
+                rod,
+                offset: 0.0,
+                branch: Branch::Right,
+            },
+            crank: None,
+            rod: None,
+            slider: None,
+            gravity: None,
+            torques: Vec::new(),
+            forces: Vec::new(),
+            friction: None,
+            clearance: None,
+            motion: Motion::default(),
+            run: Run::default(),
+        }
+    }
+
+    /// Sets the offset, m.
+    pub fn offset(mut self, offset: f64) -> Scene {
+        self.geometry.offset = offset;
+        self
+    }
+
+    /// Sets the assembly branch.
+    pub fn branch(mut self, branch: Branch) -> Scene {
+        self.geometry.branch = branch;
+        self
+    }
+
+    /// Gives the crank mass properties.
+    pub fn crank(mut self, crank: Crank) -> Scene {
+        self.crank = Some(crank);
+        self
+    }
+
+    /// Gives the rod mass properties.
+    pub fn rod(mut self, rod: Rod) -> Scene {
+        self.rod = Some(rod);
+        self
+    }
+
+    /// Gives the slider mass.
+    pub fn slider(mut self, slider: Slider) -> Scene {
+        self.slider = Some(slider);
+        self
+    }
+
+    /// Adds gravity.
+    pub fn gravity(mut self, gravity: Gravity) -> Scene {
+        self.gravity = Some(gravity);
+        self
+    }
+
+    /// Adds a torque on the crank.
+    pub fn torque(mut self, load: Load) -> Scene {
+        self.torques.push(load);
+        self
+    }
+
+    /// Adds a force on the slider.
+    pub fn force(mut self, load: Load) -> Scene {
+        self.forces.push(load);
+        self
+    }
+
+    /// Sets the initial crank angle (rad) and speed (rad/s); the equation decides the motion.
+    pub fn start(mut self, angle: f64, speed: f64) -> Scene {
+        self.motion = Motion {
+            kind: MotionKind::Free,
+            angle,
+            speed,
+        };
+        self
+    }
+
+    /// Prescribes a constant crank speed (rad/s) from `angle` (rad) on.
+    pub fn constant_speed(mut self, angle: f64, speed: f64) -> Scene {
+        self.motion = Motion {
+            kind: MotionKind::ConstantSpeed,
+            angle,
+            speed,
+        };
+        self
+    }
+
+    /// Ends the run after this time, s.
+    pub fn duration(mut self, duration: f64) -> Scene {
+        self.run.extent = Some(Extent::Duration(duration));
+        self
+    }
+
+    /// Ends the run after this many turns.
+    pub fn revolutions(mut self, revolutions: f64) -> Scene {
+        self.run.extent = Some(Extent::Revolutions(revolutions));
+        self
+    }
+
+    /// Sets the distance of the output rows.
+    pub fn output_every(mut self, every: Every) -> Scene {
+        self.run.output_every = Some(every);
+        self
+    }
+
+    /// Sets the local error target, relative and absolute.
+    pub fn tolerance(mut self, tolerance: f64) -> Scene {
+        self.run.tolerance = tolerance;
+        self
+    }
+}

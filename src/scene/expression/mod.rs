@@ -1,0 +1,253 @@
+//! Loads written as expressions of t, theta, omega, x and v, in SI.
+//!
+//! The usual mathematical reading: `-x^2` is −(x²), `2^3^2` is 2⁹, `1e-3` is a number.
+
+mod parser;
+
+use std::fmt;
+
+use super::{Instant, Variable, Variables};
+use parser::Parser;
+
+/// Values on the stack of one evaluation; deeper expressions are refused when they are read.
+const STACK: usize = 32;
+
+const TOO_DEEP: &str = "the expression is nested too deeply; simplify it";
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Op {
+    Number(f64),
+    Variable(Variable),
+    Negate,
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Power,
+    Call1(usize),
+    Call2(usize),
+}
+
+type Function1 = (&'static str, fn(f64) -> f64);
+type Function2 = (&'static str, fn(f64, f64) -> f64);
+
+const FUNCTIONS_1: &[Function1] = &[
+    ("sin", f64::sin),
+    ("cos", f64::cos),
+    ("tan", f64::tan),
+    ("asin", f64::asin),
+    ("acos", f64::acos),
+    ("atan", f64::atan),
+    ("sinh", f64::sinh),
+    ("cosh", f64::cosh),
+    ("tanh", f64::tanh),
+    ("exp", f64::exp),
+    ("ln", f64::ln),
+    ("log10", f64::log10),
+    ("sqrt", f64::sqrt),
+    ("abs", f64::abs),
+    ("floor", f64::floor),
+    ("sign", sign),
+    ("step", step),
+];
+
+const FUNCTIONS_2: &[Function2] = &[
+    ("atan2", f64::atan2),
+    ("min", f64::min),
+    ("max", f64::max),
+    ("mod", f64::rem_euclid),
+];
+
+fn sign(a: f64) -> f64 {
+    if a == 0.0 { 0.0 } else { a.signum() }
+}
+
+fn step(a: f64) -> f64 {
+    if a < 0.0 { 0.0 } else { 1.0 }
+}
+
+/// An expression, compiled to postfix order; evaluation allocates nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expression {
+    text: String,
+    ops: Vec<Op>,
+    reads: Variables,
+}
+
+/// What is wrong in an expression, and where.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ExpressionError {
+    /// Byte offset in the text.
+    pub at: usize,
+    /// What is wrong.
+    pub what: String,
+    /// What would be right.
+    pub help: String,
+}
+
+impl ExpressionError {
+    fn new(at: usize, what: &str) -> ExpressionError {
+        ExpressionError {
+            at,
+            what: what.to_owned(),
+            help: "write for example `2 - 0.01*omega + 0.3*sin(2*theta)`, in SI units".to_owned(),
+        }
+    }
+}
+
+impl Expression {
+    /// Reads an expression.
+    ///
+    /// # Errors
+    /// [`ExpressionError`]: the first thing that is wrong, and where.
+    ///
+    /// ```
+    /// use slider_crank::scene::{Expression, Instant};
+    /// let torque = Expression::parse("2 - 0.01*omega + 0.3*sin(2*theta)").unwrap();
+    /// let now = Instant { omega: 100.0, ..Instant::default() };
+    /// assert_eq!(torque.value(&now), 1.0);
+    /// ```
+    pub fn parse(text: &str) -> Result<Expression, ExpressionError> {
+        let ops = Parser::parse(text)?;
+        let mut reads = Variables::NONE;
+        let (mut depth, mut deepest) = (0usize, 0);
+        for op in &ops {
+            match op {
+                Op::Number(_) => depth += 1,
+                Op::Variable(variable) => {
+                    reads = reads.with(*variable);
+                    depth += 1;
+                }
+                Op::Negate | Op::Call1(_) => {}
+                _ => depth -= 1,
+            }
+            deepest = deepest.max(depth);
+        }
+        if deepest > STACK {
+            return Err(ExpressionError::new(text.len(), TOO_DEEP));
+        }
+        Ok(Expression {
+            text: text.to_owned(),
+            ops,
+            reads,
+        })
+    }
+
+    /// The variables that occur in it.
+    pub fn reads(&self) -> Variables {
+        self.reads
+    }
+
+    /// Its value at an instant, in SI; not finite outside the domain of its functions.
+    pub fn value(&self, now: &Instant) -> f64 {
+        let mut stack = [0.0; STACK];
+        let mut top = 0;
+        for op in &self.ops {
+            match *op {
+                Op::Number(value) => {
+                    stack[top] = value;
+                    top += 1;
+                }
+                Op::Variable(variable) => {
+                    stack[top] = now.get(variable);
+                    top += 1;
+                }
+                Op::Negate => stack[top - 1] = -stack[top - 1],
+                Op::Call1(f) => stack[top - 1] = FUNCTIONS_1[f].1(stack[top - 1]),
+                binary => {
+                    top -= 1;
+                    let (a, b) = (stack[top - 1], stack[top]);
+                    stack[top - 1] = match binary {
+                        Op::Add => a + b,
+                        Op::Subtract => a - b,
+                        Op::Multiply => a * b,
+                        Op::Divide => a / b,
+                        Op::Power => power(a, b),
+                        Op::Call2(f) => FUNCTIONS_2[f].1(a, b),
+                        _ => f64::NAN,
+                    };
+                }
+            }
+        }
+        stack[0]
+    }
+}
+
+fn power(base: f64, exponent: f64) -> f64 {
+    if exponent == 2.0 {
+        base * base
+    } else {
+        base.powf(exponent)
+    }
+}
+
+impl fmt::Display for Expression {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_usual_mathematical_reading() {
+        let now = Instant {
+            t: 2.0,
+            theta: 3.0,
+            omega: 5.0,
+            x: 7.0,
+            v: 11.0,
+        };
+        for (text, expected) in [
+            ("-2^2", -4.0),
+            ("-x^2 + 1", -48.0),
+            ("2^3^2", 512.0),
+            ("2^-1", 0.5),
+            ("1e-3*x", 0.007),
+            ("7 - 2 - 1", 4.0),
+            ("8/2/2", 2.0),
+            ("2*-omega", -10.0),
+            ("t + theta*omega", 17.0),
+            ("(t + theta)*omega - v", 14.0),
+            ("max(min(x, 3), 2)", 3.0),
+            ("mod(-1, 3)", 2.0),
+            ("step(t - 2) - sign(0)", 1.0),
+            ("cos(pi)", -1.0),
+            ("atan2(0, 1)", 0.0),
+            (".5e1", 5.0),
+            ("5 − 2 + −1e−1*10", 2.0),
+        ] {
+            let expression = Expression::parse(text).unwrap_or_else(|e| panic!("{text}: {e:?}"));
+            assert_eq!(expression.value(&now), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn errors_point_at_the_place() {
+        for (text, at) in [
+            ("2 +", 3),
+            ("2x", 1),
+            ("sin theta", 4),
+            ("(1 + 2", 6),
+            ("1 + angle", 4),
+            ("max(1)", 5),
+            ("x ** 2", 2),
+            ("1..2", 0),
+            ("1 $ 2", 2),
+            ("2*x) + 1", 3),
+            ("2,5*omega", 1),
+            ("sin(2,5*theta)", 5),
+            ("2 × omega", 2),
+            ("(1 + 2 3)", 7),
+            ("x² + 1", 1),
+            ("2 + _x", 4),
+            ("", 0),
+        ] {
+            assert_eq!(Expression::parse(text).unwrap_err().at, at, "{text}");
+        }
+        assert!(Expression::parse(&"(".repeat(100_000)).is_err());
+        assert!(Expression::parse(&"-".repeat(100_000)).is_err());
+    }
+}

@@ -1,0 +1,109 @@
+//! Numbers: where they end in a text, and how messages show them.
+
+/// Length of the number without sign that begins the text: digits and points, then an exponent.
+pub(super) fn length(text: &str) -> usize {
+    let mantissa = text
+        .bytes()
+        .take_while(|b| b.is_ascii_digit() || *b == b'.')
+        .count();
+    let Some(exponent) = text[mantissa..].strip_prefix(['e', 'E']) else {
+        return mantissa;
+    };
+    let unsigned = exponent.strip_prefix(['+', '-', MINUS]).unwrap_or(exponent);
+    let digits = unsigned.bytes().take_while(u8::is_ascii_digit).count();
+    if mantissa == 0 || digits == 0 {
+        mantissa
+    } else {
+        text.len() - unsigned.len() + digits
+    }
+}
+
+/// The typographic minus sign, into which editors and web pages turn a hyphen.
+pub(super) const MINUS: char = '\u{2212}';
+
+/// The text with every minus sign as programs write it.
+pub(super) fn plain(text: &str) -> String {
+    text.replace(MINUS, "-")
+}
+
+/// A stated value: as many digits as people type, without the noise of rounding.
+pub(super) fn show(value: f64) -> String {
+    rounded(value, 12)
+}
+
+/// A value with its unit, if it has one.
+pub(super) fn with_unit(value: f64, unit: &str) -> String {
+    format!("{} {unit}", show(value)).trim_end().to_owned()
+}
+
+/// Two values that differ, with the digits that show it.
+pub(super) fn apart(a: f64, b: f64) -> (String, String) {
+    (6..=17)
+        .map(|digits| (rounded(a, digits), rounded(b, digits)))
+        .find(|(a, b)| a != b)
+        .unwrap_or_else(|| (show(a), show(b)))
+}
+
+/// A computed value, to six digits.
+pub(super) fn computed(value: f64) -> String {
+    rounded(value, 6)
+}
+
+/// `1 row`, `2 rows`.
+pub(super) fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
+fn rounded(value: f64, digits: usize) -> String {
+    let value = format!("{value:.*e}", digits - 1)
+        .parse::<f64>()
+        .map_or(value, |short| short + 0.0);
+    if value == 0.0 || !value.is_finite() || (1e-6..1e15).contains(&value.abs()) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_shown_without_noise() {
+        for (value, shown) in [
+            (1.9500000000000002, "1.95"),
+            (-0.0, "0"),
+            (-5e-6, "-0.000005"),
+            (1e-15, "1e-15"),
+            (-100_000.0, "-100000"),
+            (1e300, "1e300"),
+            (0.12345678, "0.12345678"),
+            (f64::NAN, "NaN"),
+        ] {
+            assert_eq!(show(value), shown);
+        }
+        assert_eq!(apart(0.2, 0.3), ("0.2".to_owned(), "0.3".to_owned()));
+        assert_eq!(
+            apart(1.0, 1.0 + 1e-9),
+            ("1".to_owned(), "1.000000001".to_owned())
+        );
+    }
+
+    #[test]
+    fn numbers_end_where_the_unit_begins() {
+        for (text, number) in [
+            ("47 mm", "47"),
+            ("2e3x", "2e3"),
+            ("1e\u{2212}3 N", "1e\u{2212}3"),
+            ("1 e", "1"),
+            ("1e", "1"),
+            ("5em", "5"),
+            ("1..2", "1..2"),
+            ("e5", ""),
+            ("-1", ""),
+        ] {
+            assert_eq!(&text[..length(text)], number, "{text}");
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! Problems on the way from text to scene, and the places of keys and values.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use super::Values;
+use crate::scene::Problem;
+
+/// Collects problems and remembers where each key stands.
+pub(in crate::scene) struct Reader<'a> {
+    pub problems: Vec<Problem>,
+    source: &'a str,
+    spans: BTreeMap<String, Range<usize>>,
+}
+
+impl<'a> Reader<'a> {
+    pub fn new(source: &'a str) -> Reader<'a> {
+        Reader {
+            problems: Vec::new(),
+            source,
+            spans: BTreeMap::new(),
+        }
+    }
+
+    /// Remembers where the value of a key, or the header of a table, stands.
+    pub fn found(&mut self, field: &str, span: Range<usize>) {
+        self.spans.insert(field.to_owned(), span);
+    }
+
+    pub fn problem(&mut self, field: &str, what: impl Into<String>, help: impl Into<String>) {
+        self.problems.push(Problem::new(field, what, help));
+    }
+
+    /// A problem at byte `at` of a text value.
+    pub fn problem_in_text(
+        &mut self,
+        field: &str,
+        text: &str,
+        at: usize,
+        what: String,
+        help: String,
+    ) {
+        let span = self.spans.get(field).cloned();
+        self.problems.push(Problem {
+            field: field.to_owned(),
+            span: span.and_then(|span| inside(self.source, span, text, at)),
+            what,
+            help,
+        });
+    }
+
+    /// A problem with a key that is needed, unless it is there or already has one.
+    pub fn missing(
+        &mut self,
+        values: &Values,
+        key: &str,
+        what: impl Into<String>,
+        help: impl Into<String>,
+    ) {
+        if !values.has(key) && !self.doubtful(&values.field(key)) {
+            self.problem(&values.field(key), what, help);
+        }
+    }
+
+    /// Whether there is a problem with this key already; it may be there but unreadable.
+    pub fn doubtful(&self, field: &str) -> bool {
+        self.problems.iter().any(|problem| problem.field == field)
+    }
+
+    /// The problems, each with the place of its key or of the table it belongs to.
+    pub fn located(mut self) -> Vec<Problem> {
+        for problem in &mut self.problems {
+            let mut field = problem.field.as_str();
+            while problem.span.is_none() {
+                problem.span = self.spans.get(field).cloned();
+                match field.rsplit_once('.') {
+                    Some((parent, _)) => field = parent,
+                    None => break,
+                }
+            }
+        }
+        self.problems
+    }
+}
+
+/// Place of the character at byte `at` of a text whose value stands, with its quotes, at `value`. None if
+/// escapes make what is written differ from the text.
+fn inside(source: &str, value: Range<usize>, text: &str, at: usize) -> Option<Range<usize>> {
+    let end = value.end;
+    let quoted = source.get(value)?;
+    let body = match ["\"\"\"", "'''"]
+        .iter()
+        .find_map(|q| quoted.strip_prefix(q))
+    {
+        // The newline right after the opening quotes does not belong to the text.
+        Some(body) => ["\n", "\r\n"]
+            .iter()
+            .find_map(|newline| body.strip_prefix(newline))
+            .unwrap_or(body),
+        None => quoted.strip_prefix(['"', '\''])?,
+    };
+    if !body.starts_with(text) {
+        return None;
+    }
+    let start = end - body.len() + at;
+    let width = text.get(at..)?.chars().next().map_or(0, char::len_utf8);
+    Some(start..start + width)
+}

@@ -1,0 +1,92 @@
+//! Column headers with units: `t [s]`, `theta (deg)`, `omega_rad_per_s`, `pressure / bar`.
+
+use super::rows::Column;
+use crate::scene::unit::{self, Quantity};
+
+/// A header split into the name and the unit of its column.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Header {
+    /// What the column holds, in lower case.
+    pub name: String,
+    /// Its unit as written, empty if there is none.
+    pub unit: String,
+}
+
+/// Splits a column header.
+pub fn split(text: &str) -> Header {
+    let text = text.trim().trim_start_matches('\u{feff}');
+    for (open, close) in [('[', ']'), ('(', ')')] {
+        if let Some((name, rest)) = text.split_once(open)
+            && let Some(unit) = rest.trim_end().strip_suffix(close)
+        {
+            return header(name, unit);
+        }
+    }
+    if let Some((name, unit)) = text.split_once(" / ") {
+        return header(name, unit);
+    }
+    match text.split_once('_') {
+        Some((name, unit)) => header(name, &unit.replace("_per_", "/").replace('_', " ")),
+        None => header(text, ""),
+    }
+}
+
+fn header(name: &str, unit: &str) -> Header {
+    Header {
+        name: name.trim().to_lowercase(),
+        unit: unit.trim().to_owned(),
+    }
+}
+
+impl Header {
+    /// The unit of the column, which must hold `quantity`.
+    pub fn column(self, quantity: Quantity) -> Result<Column, String> {
+        if self.unit.is_empty() {
+            return Err(format!(
+                "the column `{}` has no unit: write it like `{} [{}]`",
+                self.name,
+                self.name,
+                example(quantity)
+            ));
+        }
+        let factor = unit::factor(&self.unit, quantity).map_err(|e| e.to_string())?;
+        Ok(Column {
+            factor,
+            unit: self.unit,
+        })
+    }
+}
+
+fn example(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Time => "s",
+        Quantity::Angle => "deg",
+        Quantity::AngularSpeed => "rpm",
+        Quantity::Length => "mm",
+        Quantity::Velocity => "m/s",
+        Quantity::Torque => "N m",
+        Quantity::Force => "N",
+        Quantity::Pressure => "bar",
+        _ => "unit",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headers_as_instruments_write_them() {
+        for (text, name, unit) in [
+            ("t [s]", "t", "s"),
+            ("t_s", "t", "s"),
+            ("Time (ms)", "time", "ms"),
+            ("omega_rad_per_s", "omega", "rad/s"),
+            ("pressure / bar", "pressure", "bar"),
+            ("\u{feff}theta[deg]", "theta", "deg"),
+            ("x", "x", ""),
+        ] {
+            assert_eq!(split(text), header(name, unit), "{text}");
+        }
+    }
+}

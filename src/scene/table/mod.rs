@@ -1,0 +1,118 @@
+//! Loads given by measured or designed values: two columns, interpolated.
+
+mod file;
+mod header;
+mod rows;
+
+use std::fmt;
+
+use super::Variable;
+use crate::numeric::interpolate::Curve;
+pub use crate::numeric::interpolate::Interpolation;
+use rows::{Column, Rows};
+
+/// Values over one variable, SI and radians.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    of: Variable,
+    curve: Curve,
+    name: String,
+}
+
+/// Why a table of a scene file cannot be used.
+#[derive(Debug)]
+pub(super) struct TableError {
+    /// The key of the load that is to be changed.
+    pub key: &'static str,
+    /// What is wrong.
+    pub what: String,
+    /// What would be right.
+    pub help: String,
+}
+
+impl Table {
+    /// A table of code. Arguments must rise strictly; with a `period` the table repeats, and a last
+    /// point one period after the first must repeat its value.
+    ///
+    /// # Errors
+    /// A text that says which point is wrong, counted from 1.
+    ///
+    /// ```
+    /// use slider_crank::scene::{Interpolation, Table, Variable};
+    /// let drive = Table::new(
+    ///     Variable::Omega, &[0.0, 50.0, 150.0], &[5.0, 4.0, 0.0], Interpolation::Pchip, None,
+    /// ).unwrap();
+    /// assert_eq!(drive.value(50.0), 4.0);
+    /// ```
+    pub fn new(
+        of: Variable,
+        arguments: &[f64],
+        values: &[f64],
+        interpolation: Interpolation,
+        period: Option<f64>,
+    ) -> Result<Table, String> {
+        if arguments.len() != values.len() {
+            return Err(format!(
+                "{} arguments but {} values",
+                arguments.len(),
+                values.len()
+            ));
+        }
+        let arguments = arguments.iter().copied();
+        let rows = Rows {
+            of,
+            points: arguments.zip(values.iter().copied()).collect(),
+            columns: [Column::si(of), Column::NUMBER],
+            whole: String::new(),
+            place: &|point| format!("point {}: ", point + 1),
+        };
+        let curve = rows
+            .curve(interpolation, period)
+            .map_err(|error| error.what)?;
+        Ok(Table {
+            of,
+            curve,
+            name: "table".to_owned(),
+        })
+    }
+
+    /// The variable it is a table of.
+    pub fn of(&self) -> Variable {
+        self.of
+    }
+
+    /// The interpolated value, in SI; NaN outside a table that does not repeat.
+    pub fn value(&self, at: f64) -> f64 {
+        self.curve.value(at)
+    }
+
+    /// First and last argument, in SI, of a table that does not repeat.
+    pub fn range(&self) -> Option<(f64, f64)> {
+        self.curve.period().is_none().then(|| self.curve.range())
+    }
+
+    /// The period (rad or s) of a table that repeats.
+    pub fn period(&self) -> Option<f64> {
+        self.curve.period()
+    }
+
+    /// The arguments of the rows.
+    pub fn rows(&self) -> &[f64] {
+        self.curve.points()
+    }
+
+    /// The argument of the first row after `at`, periods counted; infinite if there is none.
+    pub fn next_row(&self, at: f64) -> f64 {
+        self.curve.next_point(at)
+    }
+
+    pub(super) fn is_zero(&self) -> bool {
+        self.curve.values().iter().all(|y| *y == 0.0)
+    }
+}
+
+impl fmt::Display for Table {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} over {}", self.name, self.of.name())
+    }
+}

@@ -1,0 +1,176 @@
+//! Values that no mechanism can have, wherever the scene comes from.
+
+mod check;
+mod loads;
+mod start;
+
+use super::number::{apart, show};
+use super::{
+    Clearance, Every, Extent, Friction, Geometry, InertiaAbout, Problem, Rod, RodModel, Run, Scene,
+};
+use check::Check;
+
+/// Local error targets below this cannot be met in double precision.
+const LEAST_TOLERANCE: f64 = 1e-14;
+
+/// Adds one problem for each impossible value. Values that have a problem already are not compared with
+/// others: what follows from a problem is none of its own.
+pub(super) fn problems(scene: &Scene, known: &mut Vec<Problem>) {
+    let list = &mut Check(known);
+    geometry(list, &scene.geometry);
+    if let Some(crank) = &scene.crank {
+        body(
+            list,
+            "crank",
+            crank.mass,
+            crank.inertia,
+            [crank.cg, crank.cg_lateral],
+        );
+        let squared = crank.cg * crank.cg + crank.cg_lateral * crank.cg_lateral;
+        list.inertia("crank", "O", crank.inertia, crank.mass * squared);
+    }
+    if let Some(rod) = &scene.rod {
+        self::rod(list, rod, scene.geometry.rod);
+    }
+    if let Some(slider) = &scene.slider {
+        list.not_negative("slider.mass", slider.mass, "kg");
+    }
+    if let Some(gravity) = &scene.gravity {
+        list.not_negative("gravity.acceleration", gravity.acceleration, "m/s2");
+        list.finite("gravity.direction", gravity.direction);
+    }
+    for (name, on_slider, loads) in [
+        ("torque", false, &scene.torques),
+        ("force", true, &scene.forces),
+    ] {
+        for (i, load) in loads.iter().enumerate() {
+            loads::load(list, &format!("{name}[{}]", i + 1), on_slider, load);
+        }
+    }
+    if let Some(friction) = &scene.friction {
+        self::friction(list, friction);
+    }
+    if let Some(clearance) = &scene.clearance {
+        self::clearance(list, clearance);
+    }
+    list.finite("motion.angle", scene.motion.angle);
+    list.finite("motion.speed", scene.motion.speed);
+    start::reached(list, &scene.geometry, &scene.motion);
+    run(list, &scene.run);
+}
+
+fn geometry(list: &mut Check, geometry: &Geometry) {
+    list.positive("geometry.crank", geometry.crank, "m");
+    list.positive("geometry.rod", geometry.rod, "m");
+    list.finite("geometry.offset", geometry.offset);
+    let (r, l, e) = (geometry.crank, geometry.rod, geometry.offset);
+    if e.abs() > r + l && list.sound(start::LENGTHS) {
+        let (offset, most) = apart(e, r + l);
+        list.add(
+            "geometry.offset",
+            format!(
+                "the mechanism cannot be assembled: the offset {offset} m is larger than crank plus rod, {most} m"
+            ),
+            "make the offset smaller or the rod longer",
+        );
+    }
+}
+
+fn body(list: &mut Check, name: &str, mass: f64, inertia: f64, cg: [f64; 2]) {
+    list.not_negative(&format!("{name}.mass"), mass, "kg");
+    list.not_negative(&format!("{name}.inertia"), inertia, "kg m2");
+    list.finite(&format!("{name}.cg"), cg[0]);
+    list.finite(&format!("{name}.cg_lateral"), cg[1]);
+}
+
+fn rod(list: &mut Check, rod: &Rod, length: f64) {
+    body(list, "rod", rod.mass, rod.inertia, [rod.cg, rod.cg_lateral]);
+    if rod.inertia_about == InertiaAbout::CrankPin && rod.model == RodModel::Rigid {
+        let squared = rod.cg * rod.cg + rod.cg_lateral * rod.cg_lateral;
+        list.inertia("rod", "the crank pin", rod.inertia, rod.mass * squared);
+    }
+    if rod.model != RodModel::TwoMass || rod.mass == 0.0 {
+        return;
+    }
+    if rod.cg_lateral != 0.0 && list.sound(["rod.cg_lateral"]) {
+        list.add(
+            "rod.cg_lateral",
+            format!(
+                "two masses at the pins have no lateral centre of gravity, but it is {} m",
+                show(rod.cg_lateral)
+            ),
+            "leave out cg_lateral or use model = \"rigid\"",
+        );
+    }
+    if !(0.0..=length).contains(&rod.cg) && list.sound(["geometry.rod", "rod.cg"]) {
+        let (cg, length) = apart(rod.cg, length);
+        list.add(
+            "rod.cg",
+            format!("{cg} m is not between the pins, which are {length} m apart"),
+            "two masses at the pins need it between them; use model = \"rigid\" otherwise",
+        );
+    }
+}
+
+fn friction(list: &mut Check, friction: &Friction) {
+    let (kinetic, held) = (friction.coefficient, friction.static_coefficient);
+    list.not_negative("friction.coefficient", kinetic, "");
+    if list.finite("friction.static_coefficient", held)
+        && held < kinetic
+        && list.sound(["friction.coefficient", "friction.static_coefficient"])
+    {
+        let (held, kinetic) = apart(held, kinetic);
+        list.add(
+            "friction.static_coefficient",
+            format!("the static coefficient {held} is below the kinetic one {kinetic}"),
+            "give one at least as large, or leave it out",
+        );
+    }
+}
+
+fn clearance(list: &mut Check, clearance: &Clearance) {
+    list.not_negative("clearance.radial", clearance.radial, "m");
+    for (name, value, unit) in [
+        ("bearing_radius", clearance.bearing_radius, "m"),
+        ("young_modulus", clearance.young_modulus, "Pa"),
+    ] {
+        if let Some(value) = value {
+            list.positive(&format!("clearance.{name}"), value, unit);
+        }
+    }
+    for (name, value, low, high) in [
+        ("poisson_ratio", clearance.poisson_ratio, -1.0, 0.5),
+        ("restitution", clearance.restitution, 0.0, 1.0),
+        ("friction", clearance.friction, 0.0, f64::MAX),
+    ] {
+        if let Some(value) = value
+            && !(low..=high).contains(&value)
+        {
+            list.add(
+                &format!("clearance.{name}"),
+                format!("{} is not a possible {name}", show(value)),
+                "poisson_ratio lies between -1 and 0.5, restitution between 0 and 1, friction is not negative",
+            );
+        }
+    }
+}
+
+fn run(list: &mut Check, run: &Run) {
+    match run.extent {
+        Some(Extent::Duration(duration)) => list.not_negative("run.duration", duration, "s"),
+        Some(Extent::Revolutions(turns)) => list.not_negative("run.revolutions", turns, ""),
+        None => {}
+    }
+    match run.output_every {
+        Some(Every::Time(step)) => list.positive("run.output_every", step, "s"),
+        Some(Every::Angle(step)) => list.positive("run.output_every", step, "rad"),
+        None => {}
+    }
+    if !(LEAST_TOLERANCE..=0.1).contains(&run.tolerance) {
+        list.add(
+            "run.tolerance",
+            format!("a tolerance of {} cannot be used", show(run.tolerance)),
+            "give one from 1e-14 to 0.1; 1e-10 is the default",
+        );
+    }
+}

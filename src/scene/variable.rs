@@ -1,0 +1,123 @@
+//! What loads can depend on.
+
+use std::fmt;
+
+/// The quantities a load can depend on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variable {
+    /// time, s
+    T,
+    /// crank angle, rad, unwrapped
+    Theta,
+    /// crank speed, rad/s
+    Omega,
+    /// slider position, m
+    X,
+    /// slider velocity, m/s
+    V,
+}
+
+impl Variable {
+    /// All of them, in the order of [`Instant`].
+    pub const ALL: [Variable; 5] = [Self::T, Self::Theta, Self::Omega, Self::X, Self::V];
+
+    /// Its name in expressions and scene files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::T => "t",
+            Self::Theta => "theta",
+            Self::Omega => "omega",
+            Self::X => "x",
+            Self::V => "v",
+        }
+    }
+
+    /// The variable with this name.
+    pub fn named(name: &str) -> Option<Variable> {
+        Self::ALL.into_iter().find(|v| v.name() == name)
+    }
+}
+
+/// A set of [`Variable`]s: what a load reads, which is how the plan knows which engine can serve it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Variables(u8);
+
+impl Variables {
+    /// No variable: a constant.
+    pub const NONE: Variables = Variables(0);
+    /// Time.
+    pub const T: Variables = Variables(1);
+    /// Crank angle.
+    pub const THETA: Variables = Variables(2);
+    /// Crank speed.
+    pub const OMEGA: Variables = Variables(4);
+    /// Slider position.
+    pub const X: Variables = Variables(8);
+    /// Slider velocity.
+    pub const V: Variables = Variables(16);
+    /// Everything.
+    pub const ALL: Variables = Variables(31);
+
+    /// The set with one more variable.
+    pub fn with(self, variable: Variable) -> Variables {
+        Variables(self.0 | 1 << variable as u8)
+    }
+
+    /// Union.
+    pub const fn or(self, other: Variables) -> Variables {
+        Variables(self.0 | other.0)
+    }
+
+    /// Whether `variable` is in the set.
+    pub fn has(self, variable: Variable) -> bool {
+        self.0 & (1 << variable as u8) != 0
+    }
+
+    /// Whether nothing of the two sets is common.
+    pub const fn disjoint(self, other: Variables) -> bool {
+        self.0 & other.0 == 0
+    }
+}
+
+impl fmt::Display for Variables {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names: Vec<_> = Variable::ALL
+            .into_iter()
+            .filter(|v| self.has(*v))
+            .map(Variable::name)
+            .collect();
+        f.write_str(&if names.is_empty() {
+            "nothing".to_owned()
+        } else {
+            names.join(", ")
+        })
+    }
+}
+
+/// The arguments of a load: time and state of the mechanism, SI and radians.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Instant {
+    /// time, s
+    pub t: f64,
+    /// crank angle, rad, unwrapped
+    pub theta: f64,
+    /// crank speed, rad/s
+    pub omega: f64,
+    /// slider position, m
+    pub x: f64,
+    /// slider velocity, m/s
+    pub v: f64,
+}
+
+impl Instant {
+    /// The value of one variable.
+    pub fn get(&self, variable: Variable) -> f64 {
+        match variable {
+            Variable::T => self.t,
+            Variable::Theta => self.theta,
+            Variable::Omega => self.omega,
+            Variable::X => self.x,
+            Variable::V => self.v,
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! Motion over the crank angle: what the energy and the angle engine have in common.
+
+use super::passages;
+use super::profile::Position;
+use super::row::RowSink;
+use super::simulate::Simulation;
+use super::summary::{Cost, ErrorEstimate, Final, Solved, Summary};
+use super::task::Task;
+use super::{by_angle, by_energy, in_time};
+use crate::engine::energy::{Orbit, Unserved};
+use crate::error::Error;
+use crate::numeric::angle::Angle;
+use crate::plan::{Engine, Method, Plan};
+use crate::trajectory::Trajectory;
+
+/// A motion over the crank angle.
+pub(super) struct Motion {
+    pub orbit: Orbit,
+    pub end: f64,
+    /// Work of the loads without potential, J.
+    pub work: f64,
+    pub evaluations: u64,
+    pub wall_s: f64,
+    pub stopped: Option<String>,
+    /// Error of the end, and what its estimate cost.
+    pub estimate: Option<(ErrorEstimate, Option<Cost>)>,
+}
+
+/// Runs a task; one that these engines cannot serve after all is run in time, and its plan says so.
+pub(super) fn run(
+    task: &mut Task<'_>,
+    rows: &mut dyn RowSink,
+    record: bool,
+) -> Result<Simulation, Error> {
+    let position = Position::new(task.equation(), &task.limits);
+    let solved = match task.plan.engine {
+        Engine::Angle => by_angle::solve(task, &position),
+        _ => by_energy::solve(task, &position),
+    };
+    match solved {
+        Ok(motion) => finish(task, motion, rows),
+        Err(unserved) if task.options.method != Method::Auto => Err(Error::refused(
+            format!(
+                "method {} cannot serve this scene: {}",
+                task.options.method,
+                reason(unserved)
+            ),
+            "use --method auto or time",
+        )),
+        Err(unserved) => {
+            let why = format!("integration in time, for {}", reason(unserved));
+            task.plan = Plan::new(task.scene, Method::Time)?;
+            task.plan.reason = why;
+            in_time::run(task, rows, record)
+        }
+    }
+}
+
+fn reason(unserved: Unserved) -> &'static str {
+    match unserved {
+        Unserved::Equilibrium => "it starts at rest without a force",
+        Unserved::NotFinite => {
+            "the mechanism reaches the limit of its motion, or a load has no value"
+        }
+        Unserved::TooSlow => "the crank comes too near to rest",
+        Unserved::TooLong => "its turns differ from each other, and they are too many to be kept",
+    }
+}
+
+fn finish(task: &Task<'_>, motion: Motion, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
+    let Motion { orbit, end, .. } = &motion;
+    let (angle, omega) = orbit.state(*end);
+    let (events, events_total) = passages::events(task, orbit, *end);
+    passages::write_rows(task, orbit, *end, rows)?;
+    let solved = Solved {
+        last: Final {
+            t_s: *end,
+            theta_rad: angle.radians(),
+            omega_rad_per_s: omega,
+        },
+        turned: angle.minus(task.start()),
+        error_estimate: motion.estimate.map(|(error, _)| error),
+        estimate_cost: motion.estimate.and_then(|(_, cost)| cost),
+        energy: energy_residual(task, &motion),
+        evaluations: motion.evaluations,
+        steps: orbit.panels() as u64,
+        wall_s: motion.wall_s,
+        speed: orbit.speed_range(*end),
+        events,
+        events_total,
+        stopped: motion.stopped.clone(),
+        ..Solved::default()
+    };
+    Ok(Simulation {
+        summary: Summary::new(task, solved),
+        trajectory: Some(Trajectory::orbit(motion.orbit, motion.end)),
+    })
+}
+
+/// Error of the last state if its time may be off by `late` (s): it moves the state along the motion. The
+/// angle itself is rounded once more.
+pub(super) fn late_by(task: &Task<'_>, orbit: &Orbit, end: f64, late: f64) -> ErrorEstimate {
+    let (angle, omega) = orbit.state(end);
+    let alpha = task.equation().acceleration(end, angle, omega);
+    let rounding = f64::EPSILON * (1.0 + angle.radians().abs());
+    ErrorEstimate {
+        theta_rad: omega.abs() * late + rounding,
+        omega_rad_per_s: alpha.abs() * late + 2.0 * f64::EPSILON * omega.abs(),
+    }
+}
+
+/// The energy of the last state against that of the first and the work, J, and the largest kinetic energy.
+fn energy_residual(task: &Task<'_>, motion: &Motion) -> (f64, f64) {
+    let equation = task.equation();
+    let start = task.start();
+    let (angle, omega) = motion.orbit.state(motion.end);
+    let turned = Angle {
+        turns: angle.turns - start.turns,
+        rest: angle.rest,
+    };
+    let begin = equation.kinetic_energy(start.rest, task.scene.motion.speed)
+        + equation.potential_energy(start.rest);
+    let last = equation.kinetic_energy(angle.rest, omega) + equation.potential_energy(turned);
+    let range = motion.orbit.speed_range(motion.end);
+    let fastest = range.0.abs().max(range.1.abs());
+    let scale = equation.kinetic_energy(angle.rest, fastest);
+    (last - begin - motion.work, scale.max(begin.abs()))
+}

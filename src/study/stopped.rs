@@ -1,0 +1,102 @@
+//! Why a run in time ends before its time, or cannot begin, in words.
+
+use std::f64::consts::TAU;
+
+use super::in_time::FAR;
+use crate::engine::Counted;
+use crate::engine::step::Step;
+use crate::engine::time::{Finish, Start};
+use crate::error::Error;
+use crate::mechanism::{Equation, Limits, Obstacle};
+use crate::scene::Extent;
+
+pub(super) fn at_limit(last: &Step) -> String {
+    format!(
+        "the crank reaches the limit of its motion, where the rod stands normal to the guide: stopped at t = {} s, theta = {} rad; this version does not pass it",
+        last.end.t,
+        last.angle(last.end.theta).radians()
+    )
+}
+
+/// Whether a crank angle in [0, 2π) lies in one of the intervals; no intervals: anywhere.
+pub(super) fn inside(reach: &[[f64; 2]], theta: f64) -> bool {
+    let within = |[from, to]: &[f64; 2]| (theta - from).rem_euclid(TAU) <= to - from;
+    reach.is_empty() || reach.iter().any(within)
+}
+
+/// Why a run ended before its time.
+pub(super) fn reason(
+    finish: Finish,
+    equation: &Equation,
+    motion: &Counted<'_>,
+    last: &Step,
+    extent: &Extent,
+) -> Option<String> {
+    let end = &last.end;
+    let place = format!(
+        "at t = {} s, theta = {} rad, omega = {} rad/s",
+        end.t,
+        last.angle(end.theta).radians(),
+        end.omega
+    );
+    match (finish, extent) {
+        (Finish::AtEnd, Extent::Revolutions(turns)) if end.t >= FAR => Some(format!(
+            "the crank does not complete {turns} turns: stopped {place}; give a duration instead"
+        )),
+        (Finish::AtEnd | Finish::Stopped | Finish::NoStart, _) => None,
+        (Finish::WorkLimit, _) => Some(format!(
+            "the work limit of evaluations is reached: stopped {place}; raise --max-evaluations, shorten the run or loosen the tolerance"
+        )),
+        (Finish::StepTooSmall, _) => {
+            let (t, angle, speed) =
+                motion
+                    .impossible()
+                    .unwrap_or((end.t, last.angle(end.theta), end.omega));
+            Some(match equation.obstacle(t, angle, speed) {
+                Some(Obstacle::Blocked) => at_limit(last),
+                Some(Obstacle::Load) => format!(
+                    "a load has no finite value at t = {t} s, theta = {} rad, omega = {speed} rad/s (outside its table, or outside the domain of its formula): stopped {place}",
+                    angle.radians()
+                ),
+                Some(Obstacle::NoInertia) => {
+                    format!(
+                        "the effective inertia vanishes: stopped {place}; give the crank an inertia"
+                    )
+                }
+                None => format!(
+                    "the equation is singular or too stiff for this method: stopped {place}"
+                ),
+            })
+        }
+    }
+}
+
+pub(super) fn no_start(equation: &Equation, start: Start, limits: &Limits) -> Error {
+    let theta = start.angle.radians();
+    match equation.obstacle(start.t, start.angle, start.speed) {
+        Some(Obstacle::Blocked) | None => {
+            let reach: Vec<String> = limits
+                .reach
+                .iter()
+                .map(|[from, to]| format!("{:.6} to {:.6} deg", from.to_degrees(), to.to_degrees()))
+                .collect();
+            Error::refused(
+                format!(
+                    "motion.angle: the mechanism has no position at crank angle {theta} rad: the rod does not reach the guide or stands normal to it"
+                ),
+                format!("give an angle inside {}", reach.join(" or ")),
+            )
+        }
+        Some(Obstacle::Load) => Error::refused(
+            format!(
+                "a load has no finite value at the start (t = 0, theta = {theta} rad, omega = {} rad/s)",
+                start.speed
+            ),
+            "check the range of its table or the domain of its formula",
+        ),
+        _ => Error::refused(
+            format!("the effective inertia vanishes at the start, theta = {theta} rad"),
+            "give the crank an inertia, or start away from the dead centre",
+        ),
+    }
+}

@@ -1,0 +1,379 @@
+//! The directions in which data flows, read from the sources:
+//! scene -> mechanism -> plan -> engine -> trajectory -> study -> report -> cli.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// What each module may name beside itself. Nothing knows what is on its right.
+const MAY_NAME: &[(&str, &[&str])] = &[
+    ("numeric", &[]),
+    ("error", &["scene"]),
+    ("scene", &["numeric", "error"]),
+    ("mechanism", &["scene", "numeric", "error"]),
+    ("engine", &["numeric"]),
+    ("plan", &["scene", "mechanism", "error"]),
+    ("trajectory", &["engine", "numeric"]),
+    (
+        "study",
+        &[
+            "scene",
+            "mechanism",
+            "plan",
+            "engine",
+            "trajectory",
+            "numeric",
+            "error",
+        ],
+    ),
+    ("report", &["study", "error"]),
+    ("cli", &["study", "report", "scene", "plan", "error"]),
+];
+
+/// Lines of a file that is not a table.
+const MOST_LINES: usize = 300;
+
+/// Files that may be longer, and why.
+const LONGER: &[(&str, &str)] = &[
+    ("scene/keys.rs", "a table: every key of the scene file"),
+    ("engine/angle.rs", "to be split"),
+    ("plan.rs", "to be split"),
+    ("study/by_energy.rs", "to be split"),
+    ("engine/energy/orbit.rs", "to be split"),
+    ("engine/energy/panel.rs", "to be split"),
+];
+
+/// A source file: its place below `src`, its text, and its code without comments and literals.
+struct Source {
+    place: String,
+    text: String,
+    code: String,
+}
+
+impl Source {
+    fn new(place: &str, text: &str) -> Source {
+        Source {
+            place: place.to_owned(),
+            text: text.to_owned(),
+            code: code_of(text),
+        }
+    }
+
+    /// The modules it is in, from the outermost.
+    fn modules(&self) -> Vec<&str> {
+        let path = self.place.trim_end_matches(".rs");
+        path.split('/')
+            .filter(|part| !["mod", "lib", "main"].contains(part))
+            .collect()
+    }
+
+    /// The outermost module it is in; none for `main.rs` and `lib.rs`.
+    fn module(&self) -> Option<&str> {
+        self.modules().first().copied()
+    }
+
+    /// Every outermost module it names, its own among them.
+    fn names(&self) -> BTreeSet<String> {
+        let mut found = BTreeSet::new();
+        for root in ["crate::", "slider_crank::"] {
+            for rest in after_word(&self.code, root) {
+                found.extend(first_names(rest));
+            }
+        }
+        // As many `super` as there are modules lead to the root as well.
+        let depth = self.modules().len();
+        for rest in after_word(&self.code, &"super::".repeat(depth.max(1))) {
+            let rest = rest.trim_start_matches("super::");
+            let known = |name: &String| MAY_NAME.iter().any(|(module, _)| module == name);
+            found.extend(first_names(rest).into_iter().filter(known));
+        }
+        found
+    }
+
+    fn calls_macro(&self, name: &str) -> bool {
+        after_word(&self.code, &format!("{name}!")).next().is_some()
+    }
+}
+
+fn sources() -> Vec<Source> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = Vec::new();
+    collect(&root, &mut files);
+    let sources: Vec<_> = files
+        .iter()
+        .map(|file| {
+            let place = file.strip_prefix(&root).expect("below src");
+            let place = place.to_str().expect("a plain path").replace('\\', "/");
+            Source::new(&place, &fs::read_to_string(file).expect("a source file"))
+        })
+        .collect();
+    assert!(sources.len() > 20, "{} files found in src", sources.len());
+    sources
+}
+
+fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("a folder of sources") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            collect(&path, files);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            files.push(path);
+        }
+    }
+}
+
+/// The code without comments, string and character literals.
+fn code_of(text: &str) -> String {
+    let chars: Vec<char> = text.chars().collect();
+    let starts = |i: usize, what: &str| {
+        let mut what = what.chars().enumerate();
+        what.all(|(k, c)| chars.get(i + k) == Some(&c))
+    };
+    let mut code = String::new();
+    let mut i = 0;
+    while i < chars.len() {
+        let in_word = i > 0 && (chars[i - 1].is_alphanumeric() || chars[i - 1] == '_');
+        let raw = (chars[i] == 'r' || starts(i, "br")) && !in_word;
+        if starts(i, "//") {
+            while i < chars.len() && chars[i] != '\n' {
+                i += 1;
+            }
+        } else if starts(i, "/*") {
+            let mut depth = 0;
+            while i < chars.len() {
+                if starts(i, "/*") {
+                    (depth, i) = (depth + 1, i + 2);
+                } else if starts(i, "*/") {
+                    (depth, i) = (depth - 1, i + 2);
+                } else {
+                    i += 1;
+                }
+                if depth == 0 {
+                    break;
+                }
+            }
+        } else if let (true, Some((hashes, begin))) = (raw, raw_string(&chars, i)) {
+            let end = format!("\"{}", "#".repeat(hashes));
+            i = begin;
+            while i < chars.len() && !starts(i, &end) {
+                i += 1;
+            }
+            i += end.len();
+        } else if chars[i] == '"' {
+            i += 1;
+            while i < chars.len() && chars[i] != '"' {
+                i += if chars[i] == '\\' { 2 } else { 1 };
+            }
+            i += 1;
+        } else if chars[i] == '\'' && (starts(i + 1, "\\") || chars.get(i + 2) == Some(&'\'')) {
+            // A character; a quote that is none begins a lifetime.
+            i += if starts(i + 1, "\\") { 3 } else { 2 };
+            while i < chars.len() && chars[i] != '\'' {
+                i += 1;
+            }
+            i += 1;
+        } else {
+            code.push(chars[i]);
+            i += 1;
+        }
+    }
+    code
+}
+
+/// The number of hashes of the raw string that begins here, and where its text begins.
+fn raw_string(chars: &[char], at: usize) -> Option<(usize, usize)> {
+    let prefix = chars[at..]
+        .iter()
+        .take_while(|c| "br".contains(**c))
+        .count();
+    let rest = &chars[at + prefix..];
+    let hashes = rest.iter().take_while(|c| **c == '#').count();
+    (rest.get(hashes) == Some(&'"')).then_some((hashes, at + prefix + hashes + 1))
+}
+
+/// What follows each occurrence of a word that does not continue another one.
+fn after_word<'a>(code: &'a str, word: &str) -> impl Iterator<Item = &'a str> {
+    let continues =
+        |before: &str| before.ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == ':');
+    let length = word.len();
+    code.match_indices(word)
+        .filter(move |(at, _)| !continues(&code[..*at]))
+        .map(move |(at, _)| &code[at + length..])
+        .collect::<Vec<_>>()
+        .into_iter()
+}
+
+/// The first names of a path or of a group of paths: `a::b` gives a, `{a, b::{c, d}}` gives a and b.
+fn first_names(path: &str) -> Vec<String> {
+    let Some(group) = path.strip_prefix('{') else {
+        return vec![name(path)];
+    };
+    let mut names = Vec::new();
+    let (mut depth, mut part) = (1, String::new());
+    for c in group.chars() {
+        match c {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            _ => (),
+        }
+        if depth == 0 || (depth == 1 && c == ',') {
+            names.push(name(&part));
+            part.clear();
+        } else {
+            part.push(c);
+        }
+        if depth == 0 {
+            break;
+        }
+    }
+    names.retain(|name| !name.is_empty());
+    names
+}
+
+/// The identifier that a text begins with.
+fn name(text: &str) -> String {
+    let text = text.trim_start();
+    text.chars()
+        .take_while(|c| c.is_alphanumeric() || *c == '_')
+        .collect()
+}
+
+/// Names that a file must not use.
+fn forbidden(source: &Source) -> Vec<String> {
+    let Some(module) = source.module() else {
+        let cli = |name: &String| source.place == "main.rs" && name == "cli";
+        return source
+            .names()
+            .into_iter()
+            .filter(|name| !cli(name))
+            .collect();
+    };
+    let allowed = MAY_NAME.iter().find(|(name, _)| *name == module);
+    let (_, allowed) = allowed.unwrap_or_else(|| panic!("src/{}: a new module", source.place));
+    let may = |name: &String| name == module || allowed.contains(&name.as_str());
+    source
+        .names()
+        .into_iter()
+        .filter(|name| !may(name))
+        .collect()
+}
+
+#[test]
+fn modules_name_only_what_is_on_their_left() {
+    let mut wrong = Vec::new();
+    let mut edges = 0;
+    for source in sources() {
+        edges += source.names().len();
+        for name in forbidden(&source) {
+            wrong.push(format!("src/{} names {name}", source.place));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    assert!(edges > 50, "{edges} names found in all");
+}
+
+#[test]
+fn a_name_is_found_however_it_is_written() {
+    let plan = |text: &str| forbidden(&Source::new("plan.rs", text));
+    assert_eq!(
+        plan("use crate::scene::Scene; fn f(s: &crate::mechanism::Body) {}"),
+        [""; 0]
+    );
+    assert_eq!(plan("use crate::engine::time;"), ["engine"]);
+    assert_eq!(
+        plan("use crate::{error::Error, study::{self, plan}, cli};"),
+        ["cli", "study"]
+    );
+    assert_eq!(
+        plan("let x = f(crate::trajectory::Trajectory::new());"),
+        ["trajectory"]
+    );
+    assert_eq!(plan("use super::report;"), ["report"]);
+    assert_eq!(plan("use super::Thing;"), [""; 0]);
+    assert_eq!(plan("mod inside { use super::super::report; }"), ["report"]);
+    assert_eq!(plan("use slider_crank::cli;"), ["cli"]);
+    assert_eq!(
+        plan("// crate::cli\n/* crate::cli /* */ crate::cli */ /// [`crate::cli`]"),
+        [""; 0]
+    );
+    assert_eq!(
+        plan(r####"let (a, b) = ("\"crate::cli", r#""crate::cli"#);"####),
+        [""; 0]
+    );
+    assert_eq!(
+        plan("fn f<'a>(c: char) { if c == '\"' { crate::cli::main() } else { '\\'' }; }"),
+        ["cli"]
+    );
+
+    let deep = |text: &str| forbidden(&Source::new("engine/energy/mod.rs", text));
+    assert_eq!(deep("use super::study;"), [""; 0], "a module of engine");
+    assert_eq!(deep("use super::super::scene::Scene;"), ["scene"]);
+    assert_eq!(
+        forbidden(&Source::new("main.rs", "slider_crank::cli::main()")),
+        [""; 0]
+    );
+    assert_eq!(
+        forbidden(&Source::new("main.rs", "slider_crank::study::simulate()")),
+        ["study"]
+    );
+}
+
+#[test]
+fn one_file_names_ode_solvers() {
+    let naming: Vec<_> = sources()
+        .into_iter()
+        .filter(|source| after_word(&source.code, "ode_solvers").next().is_some())
+        .map(|source| source.place)
+        .collect();
+    assert_eq!(naming, ["engine/library.rs"]);
+}
+
+#[test]
+fn only_the_commands_print() {
+    let prints = |source: &Source| {
+        let macros = ["print", "println", "eprint", "eprintln", "dbg"];
+        macros.iter().any(|name| source.calls_macro(name))
+    };
+    for source in sources() {
+        let may = source.place == "main.rs" || source.module() == Some("cli");
+        assert!(may || !prints(&source), "src/{} prints", source.place);
+    }
+    assert!(prints(&Source::new(
+        "plan.rs",
+        "fn f() { println!(\"{}\", 1) }"
+    )));
+    assert!(!prints(&Source::new(
+        "plan.rs",
+        "fn f() { /* println!() */ print(\"dbg!\") }"
+    )));
+}
+
+#[test]
+fn files_are_short() {
+    let mut wrong = Vec::new();
+    for source in sources() {
+        let lines = source.text.lines().count();
+        let place = source.place.as_str();
+        let why = LONGER
+            .iter()
+            .find(|(name, _)| *name == place)
+            .map(|(_, why)| why);
+        match (why, lines > MOST_LINES) {
+            (None, true) => wrong.push(format!("src/{place} has {lines} lines")),
+            (Some(why), false) => wrong.push(format!("src/{place} ({why}) may come off the list")),
+            _ => (),
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn files_that_may_be_longer_are_there() {
+    let sources = sources();
+    for (name, _) in LONGER {
+        assert!(
+            sources.iter().any(|source| source.place == *name),
+            "no src/{name}"
+        );
+    }
+}

@@ -1,0 +1,171 @@
+//! Arguments: help for each, and refusal of what cannot be meant.
+
+use super::program::{Folder, driven, free};
+
+/// The commands that the program lists.
+fn commands(folder: &Folder) -> Vec<String> {
+    let help = folder.run(&["--help"]).done().stdout;
+    let listed = help.lines().skip_while(|line| *line != "Commands:").skip(1);
+    let listed = listed.take_while(|line| !line.trim().is_empty());
+    let words = listed.filter_map(|line| line.split_whitespace().next());
+    words
+        .filter(|word| *word != "help")
+        .map(str::to_owned)
+        .collect()
+}
+
+#[test]
+fn the_commands_of_this_version_are_listed() {
+    let found = commands(&Folder::new());
+    for command in ["simulate", "kinematics", "explain", "check", "schema"] {
+        assert!(
+            found.iter().any(|name| name == command),
+            "no {command} in {found:?}"
+        );
+    }
+}
+
+/// Lines of a help text that introduce an argument, and whether a help follows: on the same line after
+/// two spaces, or on the next one, indented deeper.
+fn arguments(help: &str) -> Vec<(String, bool)> {
+    let lines: Vec<&str> = help.lines().collect();
+    let indent = |line: &str| line.len() - line.trim_start().len();
+    let mut found = Vec::new();
+    for (i, line) in lines.iter().enumerate() {
+        let content = line.trim_start();
+        if indent(line) == 0 || !content.starts_with(['-', '[', '<']) {
+            continue;
+        }
+        let beside = content
+            .split("  ")
+            .skip(1)
+            .any(|part| !part.trim().is_empty());
+        let below = lines.get(i + 1).is_some_and(|next| {
+            indent(next) > indent(line) && !next.trim_start().starts_with(['-', '['])
+        });
+        found.push((content.to_owned(), beside || below));
+    }
+    found
+}
+
+#[test]
+fn every_command_and_every_argument_has_help() {
+    let folder = Folder::new();
+    for command in commands(&folder) {
+        let help = folder.run(&[&command, "--help"]).done().stdout;
+        let first = help.lines().next().unwrap_or_default();
+        assert!(
+            !first.is_empty() && !first.starts_with("Usage"),
+            "{command}: {help}"
+        );
+        let arguments = arguments(&help);
+        assert!(!arguments.is_empty(), "{command}: {help}");
+        for (argument, has_help) in arguments {
+            assert!(has_help, "{command}: no help for {argument}");
+        }
+        assert_eq!(folder.run(&["help", &command]).done().stdout, help);
+    }
+}
+
+#[test]
+fn the_version_is_that_of_the_package() {
+    let shown = Folder::new().run(&["--version"]).done().stdout;
+    assert_eq!(
+        shown,
+        format!("slider-crank {}\n", env!("CARGO_PKG_VERSION"))
+    );
+}
+
+#[test]
+fn no_command_at_all_shows_the_commands() {
+    let outcome = Folder::new().run(&[]);
+    assert_eq!((outcome.code, outcome.stdout.as_str()), (Some(2), ""));
+    assert!(outcome.stderr.contains("simulate"), "{outcome:?}");
+}
+
+#[test]
+fn what_no_command_takes_is_refused() {
+    let folder = Folder::with(&free("duration = \"0.1 s\""));
+    for (arguments, word) in [
+        (&["simulat"][..], "simulat"),
+        (&["simulate", "--fast"], "--fast"),
+        (&["simulate", "scene.toml", "other.toml"], "other.toml"),
+        (&["schema", "scene.toml"], "scene.toml"),
+        (&["check", "--json"], "--json"),
+        (&["simulate", "--out"], "--out"),
+        (&["simulate", "--method", "euler"], "euler"),
+        (&["simulate", "--tolerance", "small"], "small"),
+        (&["simulate", "--max-evaluations", "1.5"], "1.5"),
+        (&["simulate", "--max-events", "-1"], "-1"),
+    ] {
+        folder.run(arguments).fails(2, &[word]);
+    }
+}
+
+#[test]
+fn angles_have_units() {
+    let folder = Folder::new();
+    for (arguments, words) in [
+        (
+            ["kinematics", "--every", "1"],
+            ["`1` has no unit", "40 deg"],
+        ),
+        (
+            ["kinematics", "--every", "1 mm"],
+            ["`mm` is not the unit", "40 deg"],
+        ),
+        (["kinematics", "--every", "0 deg"], ["0 deg", "positive"]),
+        (
+            ["kinematics", "--every=-1 deg", "--json"],
+            ["-1 deg", "positive"],
+        ),
+        (["explain", "--at", "30"], ["`30` has no unit", "40 deg"]),
+        (["explain", "--at", "up"], ["`up`", "40 deg"]),
+    ] {
+        folder.run(&arguments).fails(2, &words);
+    }
+}
+
+#[test]
+fn a_step_that_is_a_slip_of_the_unit_is_refused() {
+    let folder = Folder::new();
+    let outcome = folder.run(&["kinematics", "--every", "1e-9 deg", "--out", "rows.csv"]);
+    outcome.fails(2, &["--every", "rows", "help:"]);
+    assert_eq!(folder.names(), [""; 0]);
+}
+
+#[test]
+fn a_tolerance_out_of_range_is_refused() {
+    let folder = Folder::new();
+    for tolerance in ["0", "-1e-9", "nan", "inf", "1e-17", "1"] {
+        let argument = format!("--tolerance={tolerance}");
+        folder
+            .run(&["simulate", &argument])
+            .fails(2, &["tolerance", "1e-14 to 0.1"]);
+    }
+}
+
+#[test]
+fn a_method_that_cannot_serve_the_scene_is_refused_with_the_reason() {
+    let folder = Folder::with(&driven("duration = \"0.1 s\""));
+    let load = "[[torque]]\nkind = \"expression\"\nvalue = \"sin(t)\"\n";
+    folder.write(
+        "free.toml",
+        &format!("{}{load}", free("duration = \"0.1 s\"")),
+    );
+    for command in ["simulate", "explain"] {
+        let run = |scene, method| folder.run(&[command, scene, "--method", method]);
+        run("free.toml", "energy").fails(2, &["energy cannot serve", "depend on t", "help:"]);
+        let words = ["closed-form cannot serve a free motion", "constant-speed"];
+        run("free.toml", "closed-form").fails(2, &words);
+        for method in ["time", "dop853", "dopri5", "energy", "angle"] {
+            run("scene.toml", method).fails(2, &[method, "cannot serve", "prescribed", "help:"]);
+        }
+        for method in ["auto", "closed-form"] {
+            run("scene.toml", method).done();
+        }
+        for method in ["auto", "time", "dop853", "dopri5"] {
+            run("free.toml", method).done();
+        }
+    }
+}

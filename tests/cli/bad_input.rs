@@ -1,0 +1,140 @@
+//! Scenes and files that cannot be used: exit code 2, all problems with their lines, no result.
+
+use super::program::{Folder, free};
+
+const COMMANDS: [&str; 4] = ["simulate", "kinematics", "explain", "check"];
+
+/// A misspelt key in line 4, a negative mass in line 7, a wrong unit in line 10, a missing unit in line 13.
+const BAD: &str = r#"[geometry]
+crank = "50 mm"
+rod = "150 mm"
+ofset = "5 mm"
+
+[slider]
+mass = "-1 kg"
+
+[motion]
+speed = "10 mm"
+
+[run]
+duration = 1.5
+"#;
+
+#[test]
+fn all_problems_are_shown_with_their_lines() {
+    let folder = Folder::with(BAD);
+    let said = COMMANDS.map(|command| {
+        let words = [
+            "scene.toml:4:",
+            "did you mean `offset`",
+            "scene.toml:7:",
+            "negative",
+            "scene.toml:10:",
+            "`mm` is not the unit",
+            "scene.toml:13:",
+            "has no unit",
+        ];
+        folder.run(&[command, "scene.toml"]).fails(2, &words).stderr
+    });
+    assert!(
+        said.iter().all(|text| *text == said[0]),
+        "every command says the same: {said:?}"
+    );
+    let lines: Vec<_> = said[0]
+        .lines()
+        .filter(|line| line.contains("scene.toml:"))
+        .collect();
+    let number = |line: &str| line.split(':').nth(1).and_then(|n| n.parse::<u32>().ok());
+    let numbers: Vec<_> = lines.iter().filter_map(|line| number(line)).collect();
+    assert!(
+        numbers.is_sorted() && numbers.len() == lines.len(),
+        "in the order of the file: {lines:?}"
+    );
+    assert!(
+        said[0].contains("mass = \"-1 kg\""),
+        "the line itself is shown: {}",
+        said[0]
+    );
+}
+
+#[test]
+fn what_is_not_toml_is_shown_with_its_line() {
+    let folder = Folder::with("[geometry]\ncrank = \"50 mm\nrod = \"150 mm\"\n");
+    for command in COMMANDS {
+        folder
+            .run(&[command, "scene.toml"])
+            .fails(2, &["scene.toml:2:"]);
+    }
+}
+
+#[test]
+fn a_file_that_cannot_be_read_is_named() {
+    let folder = Folder::with(&free("duration = \"1 s\""));
+    for command in COMMANDS {
+        folder
+            .run(&[command, "missing.toml"])
+            .fails(2, &["missing.toml", "cannot be read"]);
+        folder
+            .run(&[command, "."])
+            .fails(2, &["`.`", "cannot be read"]);
+    }
+}
+
+#[test]
+fn a_table_that_cannot_be_read_is_named_with_the_line_that_asks_for_it() {
+    let load = "[[torque]]\nkind = \"table\"\nfile = \"missing.csv\"\nof = \"t\"\n";
+    let folder = Folder::with(&format!("{load}{}", free("duration = \"1 s\"")));
+    for command in COMMANDS {
+        folder
+            .run(&[command, "scene.toml"])
+            .fails(2, &["scene.toml:3:", "missing.csv"]);
+    }
+}
+
+#[test]
+fn a_mechanism_that_cannot_be_assembled_is_refused() {
+    let geometry = "[geometry]\ncrank = \"50 mm\"\nrod = \"100 mm\"\noffset = \"200 mm\"\n";
+    let folder = Folder::with(geometry);
+    for command in COMMANDS {
+        folder
+            .run(&[command, "scene.toml"])
+            .fails(2, &["scene.toml:", "help"]);
+    }
+}
+
+#[test]
+fn a_run_has_to_say_how_long_it_is() {
+    let folder = Folder::with(&free(""));
+    folder
+        .run(&["simulate", "scene.toml"])
+        .fails(2, &["how long", "help:", "duration", "revolutions"]);
+    for command in ["kinematics", "explain", "check"] {
+        folder.run(&[command, "scene.toml"]).done();
+    }
+}
+
+#[test]
+fn a_free_mechanism_without_inertia_is_refused() {
+    let folder = Folder::with(
+        "[geometry]\ncrank = \"50 mm\"\nrod = \"150 mm\"\n[run]\nduration = \"1 s\"\n",
+    );
+    folder
+        .run(&["simulate", "scene.toml"])
+        .fails(2, &["no inertia", "help:"]);
+    folder.run(&["kinematics", "scene.toml"]).done();
+}
+
+/// Where crank and rod of a change point lie in one line, the equation does not say how the motion goes on.
+#[test]
+fn a_free_motion_through_a_change_point_is_refused() {
+    let scene = free("duration = \"1 s\"").replace("150 mm", "50 mm");
+    let folder = Folder::with(&scene);
+    folder
+        .run(&["simulate", "scene.toml"])
+        .fails(2, &["change point", "help:"]);
+    let shown = folder.run(&["kinematics", "scene.toml"]).done().stdout;
+    assert!(
+        shown.contains("change-point") && shown.contains("warning"),
+        "{shown}"
+    );
+}

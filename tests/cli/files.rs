@@ -1,0 +1,148 @@
+//! Output files: complete under their name, or not there at all.
+
+use std::fs;
+
+use super::program::{Folder, ROCKER, driven, free};
+
+const GOOD: &str = "duration = \"0.1 s\"";
+
+#[test]
+fn a_file_holds_what_standard_output_would_show() {
+    for scene in [free(GOOD), driven(GOOD)] {
+        let folder = Folder::with(&scene);
+        for command in ["simulate", "kinematics"] {
+            let to_file = folder
+                .run(&[command, "scene.toml", "--out", "rows.csv"])
+                .done();
+            assert!(!to_file.stdout.is_empty(), "the summary");
+            let streamed = folder.run(&[command, "scene.toml", "--out", "-"]);
+            assert_eq!(streamed.code, Some(0));
+            assert_eq!(streamed.stdout, folder.read("rows.csv"));
+        }
+        assert_eq!(
+            folder.names(),
+            ["rows.csv", "scene.toml"],
+            "nothing else is left"
+        );
+    }
+}
+
+#[test]
+fn the_file_may_be_in_another_folder() {
+    let folder = Folder::with(&free(GOOD));
+    fs::create_dir(folder.path("results")).expect("a folder");
+    folder
+        .run(&["simulate", "scene.toml", "--out", "results/rows.csv"])
+        .done();
+    folder
+        .run(&["simulate", "scene.toml", "--out", "rows.csv"])
+        .done();
+    assert_eq!(folder.read("results/rows.csv"), folder.read("rows.csv"));
+}
+
+#[test]
+fn an_older_file_is_replaced() {
+    let folder = Folder::with(&free(GOOD));
+    folder.write("rows.csv", &"old\n".repeat(100_000));
+    folder
+        .run(&["simulate", "scene.toml", "--out", "rows.csv"])
+        .done();
+    assert!(folder.read("rows.csv").starts_with("t_s,"));
+    assert!(!folder.read("rows.csv").contains("old"));
+}
+
+#[test]
+fn a_missing_folder_is_named_and_not_made() {
+    let folder = Folder::with(&free(GOOD));
+    for command in ["simulate", "kinematics"] {
+        let outcome = folder.run(&[command, "scene.toml", "--json", "--out", "missing/rows.csv"]);
+        let outcome = outcome.fails(1, &["missing/rows.csv", "cannot be written"]);
+        // The name under which the file is written until it is complete means nothing to the user.
+        assert!(!outcome.stderr.contains(".slider-crank-"), "{outcome:?}");
+    }
+    assert_eq!(folder.names(), ["scene.toml"]);
+}
+
+#[test]
+fn a_folder_is_not_a_file() {
+    let folder = Folder::with(&free(GOOD));
+    fs::create_dir(folder.path("results")).expect("a folder");
+    for command in ["simulate", "kinematics"] {
+        for target in ["results", "results/", "."] {
+            let outcome = folder.run(&[command, "scene.toml", "--json", "--out", target]);
+            outcome.fails(1, &[target, "folder"]);
+        }
+    }
+    assert_eq!(folder.names(), ["results", "scene.toml"]);
+    assert_eq!(
+        fs::read_dir(folder.path("results"))
+            .expect("a folder")
+            .count(),
+        0
+    );
+}
+
+/// Scenes that fail after they were read, beside those that cannot be read.
+#[test]
+fn a_scene_that_fails_leaves_no_file_and_keeps_the_older_one() {
+    let friction = "[friction]\ncoefficient = 0.1\n";
+    let no_inertia = "[geometry]\ncrank = \"50 mm\"\nrod = \"150 mm\"\n[run]\nduration = \"1 s\"\n";
+    let out_of_reach = format!("{ROCKER}\n[motion]\nangle = \"90 deg\"\nspeed = \"1 rad/s\"\n");
+    for scene in [
+        "[geometry]\ncrank = \"50 mm\"\n".to_owned(),
+        free("duration = \"-1 s\""),
+        free(""),
+        format!("{}{friction}", free(GOOD)),
+        no_inertia.to_owned(),
+        out_of_reach.replace("[motion]", "[motion]\nkind = \"constant-speed\""),
+        out_of_reach,
+    ] {
+        let folder = Folder::with(&scene);
+        folder
+            .run(&["simulate", "scene.toml", "--json", "--out", "rows.csv"])
+            .fails(2, &[]);
+        assert_eq!(folder.names(), ["scene.toml"], "{scene}");
+        folder.write("rows.csv", "from before\n");
+        folder
+            .run(&["simulate", "scene.toml", "--json", "--out", "rows.csv"])
+            .fails(2, &[]);
+        assert_eq!(folder.read("rows.csv"), "from before\n", "{scene}");
+        assert_eq!(folder.names(), ["rows.csv", "scene.toml"], "{scene}");
+    }
+}
+
+/// A pipe with a name, as a device, is written to and not replaced by a file.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_named_pipe_stays_a_pipe() {
+    use std::io::Read;
+    use std::os::unix::fs::FileTypeExt;
+
+    let folder = Folder::with(&free("duration = \"0.1 s\"\noutput_every = \"1 s\""));
+    let pipe = folder.path("rows");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.expect("mkfifo").success());
+    // Open at both ends, so that neither side waits for the other.
+    let mut reader = fs::File::options()
+        .read(true)
+        .write(true)
+        .open(&pipe)
+        .expect("a pipe");
+    folder
+        .run(&["simulate", "scene.toml", "--out", "rows"])
+        .done();
+    assert!(
+        fs::metadata(&pipe).expect("the pipe").file_type().is_fifo(),
+        "it is a file now"
+    );
+    let (sender, receiver) = std::sync::mpsc::channel();
+    std::thread::spawn(move || {
+        let mut bytes = vec![0; 1 << 16];
+        let count = reader.read(&mut bytes).expect("bytes");
+        sender.send(String::from_utf8_lossy(&bytes[..count]).into_owned())
+    });
+    let rows = receiver
+        .recv_timeout(std::time::Duration::from_secs(10))
+        .expect("rows in the pipe");
+    assert!(rows.starts_with("t_s,"), "{rows}");
+}

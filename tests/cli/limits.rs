@@ -1,0 +1,202 @@
+//! Runs that end before their time: exit code 1, a message up to where, and what was computed is kept.
+
+use std::f64::consts::TAU;
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+use super::program::{Folder, PENDULUM, ROCKER, Rows, at, close, free, rocker_limit, same};
+
+/// A run that is stopped with this word in its message.
+#[track_caller]
+fn stopped(folder: &Folder, more: &[&str], word: &str) -> (Value, Rows) {
+    let mut arguments = vec!["simulate", "scene.toml", "--json", "--out", "rows.csv"];
+    arguments.extend(more);
+    let outcome = folder
+        .run(&arguments)
+        .complains(1, &[word, "t = ", "theta = "]);
+    let summary = outcome.json();
+    let reason = summary["stopped"].as_str().expect("a reason");
+    assert!(outcome.stderr.contains(reason), "{outcome:?}");
+    let rows = Rows::read(&folder.read("rows.csv"));
+    assert!(rows.complete());
+    assert!(rows.column("t_s").is_sorted());
+    (summary, rows)
+}
+
+fn rocker(motion: &str) -> Folder {
+    Folder::with(&format!("{ROCKER}\n[motion]\n{motion}\n"))
+}
+
+/// l < r + |e|: the crank meets the limit of its motion, which this version does not pass.
+#[test]
+fn a_rocker_ends_at_the_limit_of_its_motion() {
+    let massless = ROCKER.replace("[slider]\nmass = \"0.5 kg\"\n", "");
+    assert_ne!(massless, ROCKER);
+    for scene in [ROCKER, &massless] {
+        for (kind, speed, limit) in [
+            ("free", "10 rad/s", rocker_limit()),
+            ("free", "-10 rad/s", -(TAU / 2.0 + rocker_limit())),
+            ("constant-speed", "10 rad/s", rocker_limit()),
+            ("constant-speed", "-10 rad/s", -(TAU / 2.0 + rocker_limit())),
+        ] {
+            let motion = format!("kind = \"{kind}\"\nspeed = \"{speed}\"");
+            let folder = Folder::with(&format!("{scene}\n[motion]\n{motion}\n"));
+            let (summary, rows) = stopped(&folder, &[], "limit of its motion");
+            assert!(at(&summary, "final.t_s") < 1.0);
+            close(at(&summary, "final.theta_rad"), limit, 0.01);
+            assert!(
+                rows.len() >= 10,
+                "{} rows up to there, {motion}",
+                rows.len()
+            );
+            assert!(
+                rows.column("theta_rad")
+                    .iter()
+                    .all(|theta| theta.abs() <= limit.abs() + 1e-12)
+            );
+            // The rod approaches the normal of the guide and does not go beyond it.
+            assert!(
+                rows.column("phi_rad")
+                    .iter()
+                    .all(|phi| phi.abs() <= TAU / 4.0)
+            );
+        }
+    }
+}
+
+/// Up to the limit nothing is lost: J ω² + m v² stays what it was.
+#[test]
+fn up_to_the_limit_energy_is_kept() {
+    let (summary, rows) = stopped(&rocker("speed = \"10 rad/s\""), &[], "limit");
+    let energy: Vec<f64> = rows
+        .column("omega_rad_per_s")
+        .iter()
+        .zip(rows.column("v_m_per_s"))
+        .map(|(omega, v)| 0.02 * omega * omega + 0.5 * v * v)
+        .collect();
+    for later in &energy {
+        close(*later, energy[0], 1e-6 * energy[0]);
+    }
+    assert!(at(&summary, "energy_residual").abs() < 1e-6);
+}
+
+#[test]
+fn a_rocker_that_turns_back_before_its_limit_completes_its_run() {
+    let spring = "[[force]]\nkind = \"spring\"\nstiffness = \"20 N/mm\"\nrest = \"95 mm\"\n";
+    let folder = Folder::with(&format!(
+        "{ROCKER}\n{spring}\n[motion]\nspeed = \"1 rad/s\"\n"
+    ));
+    let (summary, rows) = folder.simulated(&[]);
+    assert!(
+        rows.column("theta_rad")
+            .iter()
+            .all(|theta| theta.abs() < 0.5)
+    );
+    assert!(
+        summary["events"]
+            .as_array()
+            .expect("a list")
+            .iter()
+            .any(|event| event["kind"] == "turning-point")
+    );
+    assert!(at(&summary, "energy_residual").abs() < 1e-6);
+}
+
+#[test]
+fn a_start_out_of_reach_is_refused() {
+    for kind in ["free", "constant-speed"] {
+        let motion = format!("kind = \"{kind}\"\nangle = \"90 deg\"\nspeed = \"10 rad/s\"");
+        rocker(&motion)
+            .run(&["simulate", "scene.toml", "--json"])
+            .fails(2, &["motion.angle", "help"]);
+    }
+    let at_90_degrees = ["explain", "scene.toml", "--at", "90 deg"];
+    rocker("speed = \"10 rad/s\"")
+        .run(&at_90_degrees)
+        .fails(2, &["no position", "help:"]);
+}
+
+#[test]
+fn the_work_limit_keeps_what_was_computed() {
+    let folder = Folder::with(&free("duration = \"100 s\"\noutput_every = \"1 ms\""));
+    let limit = ["--method", "time", "--max-evaluations", "1000"];
+    let (summary, rows) = stopped(&folder, &limit, "--max-evaluations");
+    let end = at(&summary, "final.t_s");
+    assert!(end > 0.1 && end < 99.0, "stopped at {end} s");
+    assert!(
+        at(&summary, "evaluations") <= 1100.0,
+        "a step beyond the limit at most"
+    );
+    for key in ["t_s", "theta_rad", "omega_rad_per_s"] {
+        same(rows.column(key)[rows.len() - 1], at(&summary["final"], key));
+    }
+    let due = 2 + ((end - 1e-9) / 1e-3) as usize;
+    assert_eq!(rows.len(), due, "all rows up to {end} s");
+    assert!(
+        summary["error_estimate"].is_null(),
+        "of a run that was not completed"
+    );
+    let text = folder.run(&[&["simulate", "scene.toml"], &limit[..]].concat());
+    assert_eq!(text.code, Some(1));
+    assert!(text.stdout.contains("stopped early"), "{text:?}");
+}
+
+/// What is printed or written does not change how far a run goes.
+#[test]
+fn the_work_limit_counts_the_solution_only() {
+    let folder = Folder::with(&free("duration = \"100 s\"\noutput_every = \"0.1 ms\""));
+    let limit = ["--method", "time", "--max-evaluations", "1000"];
+    let (with_rows, _) = stopped(&folder, &limit, "--max-evaluations");
+    let arguments = [&["simulate", "scene.toml", "--json"][..], &limit].concat();
+    let without = folder
+        .run(&arguments)
+        .complains(1, &["--max-evaluations"])
+        .json();
+    assert_eq!(with_rows["final"], without["final"]);
+    assert_eq!(with_rows["evaluations"], without["evaluations"]);
+}
+
+#[test]
+fn a_crank_that_never_completes_its_turns_says_so() {
+    let at_rest = free("revolutions = 1").replace("10 rad/s", "0 rad/s");
+    stopped(&Folder::with(&at_rest), &[], "does not complete 1 turn");
+    let driven = at_rest.replace("[motion]", "[motion]\nkind = \"constant-speed\"");
+    let folder = Folder::with(&driven);
+    folder
+        .run(&["simulate", "scene.toml"])
+        .fails(2, &["at rest", "1 turn", "help:"]);
+}
+
+/// The pendulum turns back for ever: it is told so, and not followed for ever.
+#[test]
+fn a_crank_that_swings_says_so_at_once() {
+    let folder = Folder::with(&format!("{PENDULUM}\n[run]\nrevolutions = 1\n"));
+    let mut child = folder.start(&["simulate", "scene.toml", "--json"]);
+    let begun = Instant::now();
+    while child.try_wait().expect("its status").is_none() {
+        if begun.elapsed() > Duration::from_secs(20) {
+            child.kill().expect("it can be stopped");
+            child.wait().expect("an end");
+            panic!("still running after 20 s");
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    let output = child.wait_with_output().expect("its output");
+    let said = String::from_utf8(output.stderr).expect("UTF-8");
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("does not complete 1 turn"), "{said}");
+}
+
+#[test]
+fn a_load_without_a_value_says_where() {
+    let load = "[[torque]]\nkind = \"expression\"\nvalue = \"sqrt(0.5 - t)\"\n";
+    let folder = Folder::with(&format!("{}{load}", free("duration = \"1 s\"")));
+    let (summary, _) = stopped(&folder, &[], "a load has no finite value");
+    close(at(&summary, "final.t_s"), 0.5, 1e-6);
+    let load = load.replace("0.5 - t", "t - 0.5");
+    let folder = Folder::with(&format!("{}{load}", free("duration = \"1 s\"")));
+    folder
+        .run(&["simulate", "scene.toml"])
+        .fails(2, &["no finite value", "start", "help:"]);
+}

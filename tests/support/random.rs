@@ -1,0 +1,291 @@
+//! Random mechanisms, the same in every run.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+use slider_crank::scene::{
+    Branch, Crank, Geometry, Gravity, InertiaAbout, Load, Rod, RodModel, Scene, Slider, Variables,
+};
+
+/// This many cases from a fixed seed.
+pub fn cases(cases: u32) -> ProptestConfig {
+    ProptestConfig {
+        cases,
+        failure_persistence: None,
+        rng_seed: RngSeed::Fixed(20_260_101),
+        max_global_rejects: 100 * cases,
+        ..ProptestConfig::default()
+    }
+}
+
+/// Evenly spread orders of magnitude.
+pub fn magnitude(from: f64, to: f64) -> impl Strategy<Value = f64> {
+    (from.ln()..to.ln()).prop_map(f64::exp)
+}
+
+fn branch() -> impl Strategy<Value = Branch> {
+    prop_oneof![Just(Branch::Right), Just(Branch::Left)]
+}
+
+/// Either sign, or zero in one case out of eight.
+fn signed(from: f64, to: f64) -> impl Strategy<Value = f64> {
+    prop_oneof![
+        1 => Just(0.0),
+        7 => (magnitude(from, to), any::<bool>()).prop_map(|(x, minus)| if minus { -x } else { x }),
+    ]
+}
+
+/// A crank that turns fully, with l − r − |e| from `least` to 100 crank lengths.
+pub fn rotating_crank(least: f64) -> impl Strategy<Value = Geometry> {
+    (
+        magnitude(1e-3, 10.0),
+        signed(1e-3, 5.0),
+        magnitude(least, 100.0),
+        branch(),
+    )
+        .prop_map(|(crank, offset, margin, branch)| Geometry {
+            crank,
+            rod: crank * (1.0 + offset.abs() + margin),
+            offset: crank * offset,
+            branch,
+        })
+}
+
+/// Any lengths that can be assembled, not close to a change point.
+pub fn any_class() -> impl Strategy<Value = Geometry> {
+    (
+        magnitude(1e-3, 10.0),
+        magnitude(0.05, 20.0),
+        -0.999..0.999,
+        branch(),
+    )
+        .prop_map(|(crank, ratio, offset, branch)| Geometry {
+            crank,
+            rod: crank * ratio,
+            offset: crank * (1.0 + ratio) * offset,
+            branch,
+        })
+        .prop_filter("change point", |g| {
+            let (r, l, e) = (g.crank, g.rod, g.offset.abs());
+            ((l - r).abs() - e).abs() > 1e-6 * (l + r)
+        })
+}
+
+/// Crank angles over several turns, half of them close to ±90°.
+pub fn angle() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        -20.0..20.0,
+        (-6..6, signed(1e-16, 0.3))
+            .prop_map(|(turns, from)| FRAC_PI_2 + PI * f64::from(turns) + from),
+    ]
+}
+
+/// All loads there are formulas for, as a scene takes them and as the test computes them.
+#[derive(Clone, Copy, Debug)]
+pub struct Drive([f64; 10]);
+
+impl Drive {
+    pub fn add_to(&self, scene: Scene) -> Scene {
+        let [
+            torque,
+            rotary,
+            stall,
+            no_load,
+            wave,
+            force,
+            stiffness,
+            rest,
+            linear,
+            drag,
+        ] = self.0;
+        scene
+            .torque(Load::Constant(torque))
+            .torque(Load::Viscous(rotary))
+            .torque(Load::Motor {
+                stall,
+                no_load_speed: no_load,
+            })
+            .torque(Load::function(
+                Variables::THETA.or(Variables::T),
+                move |now| wave * (2.0 * now.theta + now.t).sin(),
+            ))
+            .force(Load::Constant(force))
+            .force(Load::Spring { stiffness, rest })
+            .force(Load::Viscous(linear))
+            .force(Load::function(Variables::X.or(Variables::V), move |now| {
+                drag * now.x * now.v.abs()
+            }))
+    }
+
+    /// Torque and force.
+    pub fn value(&self, t: f64, theta: f64, omega: f64, x: f64, v: f64) -> [f64; 2] {
+        let [
+            torque,
+            rotary,
+            stall,
+            no_load,
+            wave,
+            force,
+            stiffness,
+            rest,
+            linear,
+            drag,
+        ] = self.0;
+        [
+            torque - rotary * omega + stall - stall / no_load * omega
+                + wave * (2.0 * theta + t).sin(),
+            force - stiffness * (x - rest) - linear * v + drag * x * v.abs(),
+        ]
+    }
+}
+
+impl Drive {
+    /// Torque and force of those whose work is not that of a potential: damping, the falling part of the
+    /// motor line, and the functions.
+    pub fn without_potential(&self, t: f64, theta: f64, omega: f64, x: f64, v: f64) -> [f64; 2] {
+        let [_, rotary, stall, no_load, wave, _, _, _, linear, drag] = self.0;
+        [
+            -rotary * omega - stall / no_load * omega + wave * (2.0 * theta + t).sin(),
+            -linear * v + drag * x * v.abs(),
+        ]
+    }
+
+    /// Potential of the others.
+    pub fn potential(&self, theta: f64, x: f64) -> f64 {
+        let [torque, _, stall, _, _, force, stiffness, rest, ..] = self.0;
+        -(torque + stall) * theta - force * x + 0.5 * stiffness * (x - rest) * (x - rest)
+    }
+
+    /// Sizes of the terms of torque and force, where x and x' are of these sizes.
+    pub fn sizes(&self, x: f64, dx: f64, omega: f64) -> [f64; 2] {
+        let [
+            torque,
+            rotary,
+            stall,
+            no_load,
+            wave,
+            force,
+            stiffness,
+            rest,
+            linear,
+            drag,
+        ] = self.0.map(f64::abs);
+        let (omega, v) = (omega.abs(), dx * omega.abs());
+        [
+            torque + rotary * omega + stall + stall / no_load * omega + wave,
+            force + stiffness * (x + rest) + linear * v + drag * x * v,
+        ]
+    }
+
+    /// Size of the energies of the potential, J, over a few turns.
+    pub fn energy_size(&self, scene: &Scene) -> f64 {
+        let [torque, _, stall, _, _, force, stiffness, rest, ..] = self.0.map(f64::abs);
+        let x = scene.geometry.crank + scene.geometry.rod;
+        20.0 * (torque + stall) + force * x + stiffness * (x + rest) * (x + rest)
+    }
+}
+
+fn drive() -> impl Strategy<Value = Drive> {
+    let any = || -10.0..10.0;
+    let positive = || 0.0..10.0;
+    (
+        any(),
+        positive(),
+        positive(),
+        magnitude(1.0, 100.0),
+        any(),
+        any(),
+        positive(),
+        any(),
+        positive(),
+        any(),
+    )
+        .prop_map(|(a, b, c, d, e, f, g, h, i, j)| Drive([a, b, c, d, e, f, g, h, i, j]))
+}
+
+/// A mechanism with bodies and loads in a state of motion.
+#[derive(Clone, Debug)]
+pub struct Case {
+    pub scene: Scene,
+    pub drive: Drive,
+    pub t: f64,
+    pub theta: f64,
+    pub omega: f64,
+}
+
+/// Any bodies, gravity and loads, each body absent now and then, on mechanisms from `geometry`.
+pub fn case(geometry: impl Strategy<Value = Geometry>) -> impl Strategy<Value = Case> {
+    let mass = || magnitude(0.01, 100.0);
+    let crank = (mass(), -1.5..1.5, -1.0..1.0, magnitude(1e-3, 10.0));
+    let rod = (
+        mass(),
+        -0.5..1.5,
+        -0.5..0.5,
+        magnitude(1e-4, 1.0),
+        any::<bool>(),
+    );
+    let bodies = (
+        prop::option::weighted(0.9, crank),
+        prop::option::weighted(0.9, rod),
+        prop::option::weighted(0.9, mass()),
+        prop::option::weighted(0.8, (0.0..20.0, -4.0..4.0)),
+    );
+    (geometry, bodies, drive(), 0.0..10.0, angle(), -50.0..50.0)
+        .prop_filter("no body", |(_, bodies, ..)| {
+            bodies.0.is_some() || bodies.1.is_some()
+        })
+        .prop_map(
+            |(g, (crank, rod, slider, gravity), drive, t, theta, omega)| {
+                let mut scene = Scene::new(g.crank, g.rod).offset(g.offset).branch(g.branch);
+                scene.crank =
+                    crank.map(
+                        |(mass, along, left, gyration): (f64, f64, f64, f64)| Crank {
+                            mass,
+                            cg: along * g.crank,
+                            cg_lateral: left * g.crank,
+                            inertia: mass
+                                * g.crank
+                                * g.crank
+                                * (along * along + left * left + gyration),
+                        },
+                    );
+                scene.rod = rod.map(|(mass, along, left, gyration, about_pin)| {
+                    rigid_rod(&g, mass, [along, left], gyration, about_pin)
+                });
+                scene.slider = slider.map(|mass| Slider { mass });
+                scene.gravity = gravity.map(|(acceleration, direction)| Gravity {
+                    acceleration,
+                    direction,
+                });
+                Case {
+                    scene: drive.add_to(scene),
+                    drive,
+                    t,
+                    theta,
+                    omega,
+                }
+            },
+        )
+}
+
+fn rigid_rod(g: &Geometry, mass: f64, cg: [f64; 2], gyration: f64, about_pin: bool) -> Rod {
+    let [along, left] = cg;
+    let squared = if about_pin {
+        along * along + left * left
+    } else {
+        0.0
+    };
+    Rod {
+        model: RodModel::Rigid,
+        mass,
+        cg: along * g.rod,
+        cg_lateral: left * g.rod,
+        inertia: mass * g.rod * g.rod * (gyration + squared),
+        inertia_about: if about_pin {
+            InertiaAbout::CrankPin
+        } else {
+            InertiaAbout::Cg
+        },
+    }
+}
