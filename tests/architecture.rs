@@ -34,14 +34,7 @@ const MAY_NAME: &[(&str, &[&str])] = &[
 const MOST_LINES: usize = 300;
 
 /// Files that may be longer, and why.
-const LONGER: &[(&str, &str)] = &[
-    ("scene/keys.rs", "a table: every key of the scene file"),
-    ("engine/angle.rs", "to be split"),
-    ("plan.rs", "to be split"),
-    ("study/by_energy.rs", "to be split"),
-    ("engine/energy/orbit.rs", "to be split"),
-    ("engine/energy/panel.rs", "to be split"),
-];
+const LONGER: &[(&str, &str)] = &[("scene/keys.rs", "a table: every key of the scene file")];
 
 /// A source file: its place below `src`, its text, and its code without comments and literals.
 struct Source {

@@ -263,7 +263,7 @@ fn small_swings_have_the_period_of_the_linear_oscillator() {
         // T = 2π/(ω0 agm(1, cos(a/2))), Gauss.
         let (mut a, mut b) = (1.0, (amplitude / 2.0).cos());
         for _ in 0..60 {
-            (a, b) = (0.5 * (a + b), (a * b as f64).sqrt());
+            (a, b) = (0.5 * (a + b), f64::sqrt(a * b));
         }
         let period = TAU / (rate * a);
         // Angles near −90° are numbers 2.2e-16 apart: so many digits have a small amplitude, and the energy

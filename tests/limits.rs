@@ -30,7 +30,8 @@ proptest! {
         } else {
             -farthest
         };
-        close("stroke", limits.stroke, (farthest - nearest).value(), farthest.value(), 1e-15);
+        let stroke = (farthest - nearest).value();
+        close("stroke", limits.stroke, stroke, stroke, 4e-15);
         for dead in &limits.dead_centres {
             prop_assert!((0.0..TAU).contains(&dead.theta));
             let (sin, cos) = dead.theta.sin_cos();
@@ -76,6 +77,21 @@ proptest! {
         }
         for [from, to] in &reach {
             prop_assert!(linkage.pose(0.5 * (from + to)).exists());
+        }
+    }
+
+    #[test]
+    fn clear_reach_ends_a_milliradian_of_the_rod_before_it_stands_normal_to_the_guide(
+        g in any_class(),
+    ) {
+        let linkage = Linkage::new(&g);
+        let (reach, clear) = (Limits::new(&linkage, 1.0).reach, Limits::clear_reach(&linkage));
+        prop_assert_eq!(clear.len(), reach.len());
+        for ([from, to], [clear_from, clear_to]) in reach.iter().zip(&clear) {
+            prop_assert!(from < clear_from && clear_from < clear_to && clear_to < to);
+            for end in [clear_from, clear_to] {
+                close("transmission angle", linkage.pose(*end).transmission(), 1e-3, 1e-3, 1e-6);
+            }
         }
     }
 

@@ -33,7 +33,7 @@ impl Dd {
         const QUARTER: [f64; 3] = [
             std::f64::consts::FRAC_PI_2,
             6.123233995736766e-17,
-            -1.497384904859169777e-33,
+            -1.4973849048591698e-33,
         ];
         let quarters = (angle / QUARTER[0]).round();
         let x = QUARTER

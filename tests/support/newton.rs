@@ -276,8 +276,9 @@ fn eliminate(mut rows: [[Dd; 9]; 8]) -> [Dd; 8] {
         rows.swap(k, best);
         for i in (0..8).filter(|i| *i != k) {
             let factor = rows[i][k] / rows[k][k];
-            for j in k..9 {
-                rows[i][j] = rows[i][j] - factor * rows[k][j];
+            let pivot = rows[k];
+            for (entry, above) in rows[i].iter_mut().zip(pivot).skip(k) {
+                *entry = *entry - factor * above;
             }
         }
     }

@@ -2,7 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::panel::{Panel, Piece, Tried, Turning};
+use super::panel::{Panel, Tried};
+use super::piece::{Piece, Turning};
 use super::{Profile, Unserved};
 use crate::numeric::angle::Angle;
 use crate::numeric::exact::two_sum;
@@ -168,11 +169,6 @@ impl Leg {
         });
         let (panel, begin) = inside.next()?;
         Some(begin + panel.time_of(local(panel).radians()))
-    }
-
-    /// The angle at its end.
-    pub fn last_angle(&self) -> Option<f64> {
-        self.panels.last().map(|panel| panel.piece.to)
     }
 
     /// Smallest and largest |speed| until a time.

@@ -6,11 +6,15 @@
 //! one that turns back at both ends does too. Ends of a libration are taken with θ = θ_end ∓ s², which
 //! makes dt/ds smooth.
 
+mod kinetic;
 pub(in crate::engine) mod leg;
 mod orbit;
 pub(in crate::engine) mod panel;
+mod passages;
+pub(in crate::engine) mod piece;
 
-pub use orbit::{Orbit, Passage};
+pub use orbit::Orbit;
+pub use passages::Passage;
 
 /// What the engine needs of a mechanism.
 pub trait Profile {

@@ -9,28 +9,15 @@ use crate::numeric::angle::Angle;
 /// A motion known from its energy: angle and speed at any time.
 #[derive(Clone, Debug)]
 pub struct Orbit {
-    start: Angle,
+    pub(super) start: Angle,
     direction: f64,
     /// At the start, rad/s
     speed: f64,
     /// Whether the start is a turning point.
-    from_rest: bool,
-    forward: Leg,
+    pub(super) from_rest: bool,
+    pub(super) forward: Leg,
     /// From the start the other way, for motions that turn back.
-    backward: Option<Leg>,
-}
-
-/// The state at a time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Passage {
-    /// s
-    pub t: f64,
-    /// Crank angle.
-    pub angle: Angle,
-    /// rad/s
-    pub speed: f64,
-    /// Whether the motion turns back here.
-    pub turning: bool,
+    pub(super) backward: Option<Leg>,
 }
 
 impl Orbit {
@@ -114,23 +101,6 @@ impl Orbit {
         self.forward.after == After::TurnsBack
     }
 
-    /// When it turns back, until a time.
-    pub fn turning_times(&self, until: f64) -> Vec<f64> {
-        let turnings = self
-            .passages()
-            .into_iter()
-            .filter(|passage| passage.turning);
-        let once: Vec<f64> = turnings.map(|passage| passage.t).collect();
-        let Some((period, _)) = self.period().filter(|_| !once.is_empty()) else {
-            return once.into_iter().filter(|t| *t <= until).collect();
-        };
-        let rounds = (until / period).ceil() as u64;
-        (0..=rounds)
-            .flat_map(|round| once.iter().map(move |t| t + round as f64 * period))
-            .filter(|t| *t <= until)
-            .collect()
-    }
-
     /// Angle and speed at a time in the run.
     pub fn state(&self, t: f64) -> (Angle, f64) {
         if t == 0.0 {
@@ -170,7 +140,7 @@ impl Orbit {
     }
 
     /// The state within the first period.
-    fn within(&self, t: f64) -> (Angle, f64) {
+    pub(super) fn within(&self, t: f64) -> (Angle, f64) {
         let there = self.forward.duration.0;
         if t <= there || self.forward.after != After::TurnsBack {
             return self.forward.state(t);
@@ -205,47 +175,6 @@ impl Orbit {
             return Some((turns.mul_add(period, after) + turns * low).max(0.0));
         }
         self.forward.time_of(angle(turns)).map(|t| t.max(0.0))
-    }
-
-    /// Passages of the ends of panels and turning points in the first period (or in all, if it does not
-    /// repeat), in the order of time.
-    pub fn passages(&self) -> Vec<Passage> {
-        let mut found = Vec::new();
-        let mut pass = |t: f64, angle: Angle, turning: bool| {
-            let speed = if turning { 0.0 } else { self.within(t).1 };
-            found.push(Passage {
-                t,
-                angle: Angle {
-                    turns: self.start.turns + angle.turns,
-                    rest: angle.rest,
-                },
-                speed,
-                turning,
-            });
-        };
-        let there = self.forward.duration.0;
-        let mut run = |leg: &Leg, since: f64| {
-            let turns_back = leg.after == After::TurnsBack;
-            let last = leg.len().saturating_sub(1);
-            for (i, (t, angle)) in leg.ends().enumerate() {
-                pass(since + t, angle, turns_back && i == last);
-            }
-            if turns_back {
-                for (t, angle) in leg.ends().rev().skip(1) {
-                    pass(since + 2.0 * leg.duration.0 - t, angle, false);
-                }
-            }
-        };
-        run(&self.forward, 0.0);
-        if self.forward.after == After::TurnsBack {
-            match &self.backward {
-                Some(back) => {
-                    run(back, 2.0 * there);
-                }
-                None => pass(2.0 * there, self.start.rest.into(), self.from_rest),
-            }
-        }
-        found
     }
 
     /// Smallest and largest speed until a time, with sign.
@@ -299,18 +228,6 @@ impl Orbit {
     /// Number of panels.
     pub fn panels(&self) -> usize {
         self.forward.len() + self.backward.as_ref().map_or(0, Leg::len)
-    }
-
-    /// The ends between which it goes to and fro, rad, if it does.
-    pub fn ends(&self) -> Option<[f64; 2]> {
-        let one = (self.forward.after == After::TurnsBack).then(|| self.forward.last_angle())??;
-        let other = match &self.backward {
-            Some(back) if back.after == After::TurnsBack => back.last_angle()?,
-            Some(_) => return None,
-            None if self.from_rest => self.start.rest,
-            None => return None,
-        };
-        Some([one.min(other), one.max(other)])
     }
 }
 

@@ -1,60 +1,10 @@
 //! One panel: dt/dθ and t as series over a piece of the angle.
 
+use super::kinetic::Energy;
+use super::piece::{Piece, Turning};
 use super::{Profile, Unserved};
 use crate::numeric::chebyshev::{self, DEGREE, POINTS, Values};
-use crate::numeric::{exact, root};
-
-/// Which end of a panel is a turning point, where dt/dθ is infinite.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::engine) enum Turning {
-    Nowhere,
-    AtStart,
-    AtEnd,
-}
-
-/// A piece of the motion between two angles, in a variable x in [−1, 1].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::engine) struct Piece {
-    /// rad
-    pub from: f64,
-    /// rad, in either direction
-    pub to: f64,
-    pub turning: Turning,
-}
-
-impl Piece {
-    fn span(&self) -> f64 {
-        self.to - self.from
-    }
-
-    pub fn angle(&self, x: f64) -> f64 {
-        match self.turning {
-            Turning::Nowhere => self.from + 0.5 * (1.0 + x) * self.span(),
-            Turning::AtStart => self.from + 0.25 * (1.0 + x) * (1.0 + x) * self.span(),
-            Turning::AtEnd => self.to - 0.25 * (1.0 - x) * (1.0 - x) * self.span(),
-        }
-    }
-
-    /// dθ/dx
-    fn stretch(&self, x: f64) -> f64 {
-        let share = match self.turning {
-            Turning::Nowhere => 0.5,
-            Turning::AtStart => 0.5 * (1.0 + x),
-            Turning::AtEnd => 0.5 * (1.0 - x),
-        };
-        share * self.span()
-    }
-
-    /// The variable x of an angle of the piece.
-    fn variable(&self, theta: f64) -> f64 {
-        let share = ((theta - self.from) / self.span()).clamp(0.0, 1.0);
-        match self.turning {
-            Turning::Nowhere => 2.0 * share - 1.0,
-            Turning::AtStart => 2.0 * share.sqrt() - 1.0,
-            Turning::AtEnd => 1.0 - 2.0 * (1.0 - share).sqrt(),
-        }
-    }
-}
+use crate::numeric::exact;
 
 /// A piece with its series.
 #[derive(Clone, Debug)]
@@ -253,82 +203,6 @@ impl Panel {
         };
         (extreme(-1.0), extreme(1.0))
     }
-}
-
-/// The kinetic energy on a piece, from the series of the force. It is integrated from the piece's own start
-/// or end, never a difference of large potentials.
-struct Energy<'a> {
-    piece: Piece,
-    /// At the start, J.
-    kinetic: f64,
-    force: &'a Values,
-}
-
-impl Energy<'_> {
-    /// Whether the force's error hardly counts, relative to the force or to the energy.
-    fn is_resolved(&self, accepted: f64) -> bool {
-        let largest = self.force.iter().fold(0.0f64, |m, c| m.max(c.abs()));
-        let share = match self.piece.turning {
-            Turning::Nowhere => (largest * self.piece.span().abs() / self.kinetic).min(1.0),
-            _ => 1.0,
-        };
-        chebyshev::tail(self.force) * share <= 4.0 * accepted
-    }
-
-    /// K at the points of a piece that does not turn: K at its start plus the integral of the force.
-    fn kinetic_at_points(&self, force: &Values) -> Values {
-        if force.iter().all(|f| *f == 0.0) {
-            return [self.kinetic; POINTS];
-        }
-        let work = chebyshev::integral(self.force);
-        let half = 0.5 * self.piece.span();
-        chebyshev::points().map(|x| self.kinetic + half * chebyshev::value(&work, x))
-    }
-
-    /// ∫ F u du over [0, 1] between the turning end (u = 0) and x (u = 1), times the direction: there
-    /// K = ½ span (1 ± x)² times this, without cancellation. Gauss-Legendre with 14 points is exact for the
-    /// series.
-    fn mean_force(&self, x: f64) -> f64 {
-        let sum: f64 = gauss_14()
-            .iter()
-            .map(|(u, weight)| {
-                let at = match self.piece.turning {
-                    Turning::AtEnd => 1.0 - u * (1.0 - x),
-                    _ => u * (1.0 + x) - 1.0,
-                };
-                weight * u * chebyshev::value(self.force, at)
-            })
-            .sum();
-        sum * self.piece.span().signum()
-    }
-
-    /// The turning point just before the point `j`, at which the energy is not positive.
-    fn turns_before(&self, j: usize) -> Tried {
-        let points = chebyshev::points();
-        if j == 0 {
-            return Tried::Unresolved;
-        }
-        let work = chebyshev::integral(self.force);
-        let half = 0.5 * self.piece.span();
-        let x = root::bracketed(
-            |x| match self.piece.turning {
-                Turning::Nowhere => self.kinetic + half * chebyshev::value(&work, x),
-                _ => self.mean_force(x),
-            },
-            points[j - 1],
-            points[j],
-        );
-        match x {
-            Some(x) if x > -1.0 => Tried::TurnsAt(self.piece.angle(x)),
-            _ => Tried::Unresolved,
-        }
-    }
-}
-
-/// Nodes and weights of the Gauss-Legendre rule with 14 points on [0, 1].
-fn gauss_14() -> &'static [(f64, f64); 14] {
-    static RULE: std::sync::OnceLock<[(f64, f64); 14]> = std::sync::OnceLock::new();
-    RULE.get_or_init(|| std::array::from_fn(|i| crate::numeric::gauss::legendre(14, i)))
 }
 
 /// ∫ dt/dx by Clenshaw and Curtis, summed without rounding loss.

@@ -5,13 +5,16 @@
 //! K' = F(θ) + L(θ, ω, t), t' = 1/ω, with fixed-point sweeps that start from the profile of the turn before.
 //! What depends on the position alone is tabulated in the first turn and used in all.
 
+mod station;
+
 use std::f64::consts::TAU;
 
 use super::energy::leg::Leg;
-use super::energy::panel::{Panel, Piece, Turning};
+use super::energy::panel::Panel;
 use super::energy::{Orbit, Unserved};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{self, DEGREE, POINTS, Values};
+use station::{Station, split, stations};
 
 /// What the engine needs of a mechanism.
 pub trait Driven {
@@ -50,18 +53,6 @@ pub struct Driving {
     pub evaluations: u64,
 }
 
-/// The positions of a panel, the same in each turn.
-struct Station<P> {
-    piece: Piece,
-    inertia: Values,
-    force: Values,
-    places: [P; POINTS],
-    /// Kinetic energy at the points in the turn before.
-    last: Option<Values>,
-}
-
-/// Panels are not cut below this, rad: the speed is too near to zero.
-const SHORTEST: f64 = 1e-3;
 /// Most panels that are kept.
 const MOST_PANELS: usize = 200_000;
 /// Most sweeps over a panel.
@@ -269,71 +260,4 @@ fn work_until<P>(leg: &Leg, until: f64, station: &Station<P>, drives: &Values) -
     let work = chebyshev::integral(&chebyshev::coefficients(drives));
     let half = 0.5 * (station.piece.to - station.piece.from);
     half * chebyshev::value(&work, panel.position(since))
-}
-
-/// Panels of one turn between the corners.
-fn stations<D: Driven>(
-    driven: &D,
-    start: f64,
-    direction: f64,
-) -> Result<Vec<Station<D::Place>>, Unserved> {
-    let mut ends: Vec<f64> = driven
-        .corners()
-        .iter()
-        .map(|corner| (direction * (corner - start)).rem_euclid(TAU))
-        .filter(|ahead| *ahead > 1e-9 && *ahead < TAU - 1e-9)
-        .collect();
-    ends.sort_by(f64::total_cmp);
-    ends.push(TAU);
-    let mut from = 0.0;
-    let mut list = Vec::with_capacity(8);
-    for to in ends {
-        list.push(station(
-            driven,
-            start + direction * from,
-            start + direction * to,
-        )?);
-        from = to;
-    }
-    Ok(list)
-}
-
-fn station<D: Driven>(driven: &D, from: f64, to: f64) -> Result<Station<D::Place>, Unserved> {
-    let piece = Piece {
-        from,
-        to,
-        turning: Turning::Nowhere,
-    };
-    let (m, f, place) = driven.place(from);
-    let mut station = Station {
-        piece,
-        inertia: [m; POINTS],
-        force: [f; POINTS],
-        places: [place; POINTS],
-        last: None,
-    };
-    for (j, x) in chebyshev::points().iter().enumerate() {
-        (station.inertia[j], station.force[j], station.places[j]) = driven.place(piece.angle(*x));
-        if !station.inertia[j].is_finite() || !station.force[j].is_finite() {
-            return Err(Unserved::NotFinite);
-        }
-    }
-    Ok(station)
-}
-
-/// Cuts a panel in two at a share of its length.
-fn split<D: Driven>(
-    driven: &D,
-    stations: &mut Vec<Station<D::Place>>,
-    index: usize,
-    share: f64,
-) -> Result<(), Unserved> {
-    let Piece { from, to, .. } = stations[index].piece;
-    if (to - from).abs() < SHORTEST {
-        return Err(Unserved::TooSlow);
-    }
-    let middle = from + share * (to - from);
-    stations[index] = station(driven, from, middle)?;
-    stations.insert(index + 1, station(driven, middle, to)?);
-    Ok(())
 }

@@ -1,68 +1,19 @@
 //! The plan: what a scene needs and which engine computes it. The one place where a scene becomes terms,
 //! coordinate, events and engine; `explain` prints it.
 
-use std::fmt;
-use std::str::FromStr;
+mod method;
+mod refusal;
+mod terms;
 
 use serde::Serialize;
 
+pub use method::Method;
+use refusal::{refuse_what_cannot_move, refuse_what_is_not_modelled};
+use terms::terms;
+
 use crate::error::Error;
-use crate::mechanism::{Class, Limits, Linkage, Loads};
-use crate::scene::{Load, MotionKind, RodModel, Scene, Variable, Variables};
-
-/// What the user asks for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Method {
-    /// Whatever the plan finds best.
-    #[default]
-    Auto,
-    /// Prescribed motion, no integration.
-    ClosedForm,
-    /// Energy integral.
-    Energy,
-    /// Crank angle as the independent variable.
-    Angle,
-    /// Integration in time with the default method.
-    Time,
-    /// Integration in time with Dop853 of ode_solvers.
-    Dop853,
-    /// Integration in time with Dopri5 of ode_solvers.
-    Dopri5,
-}
-
-impl Method {
-    const ALL: [(&'static str, Method); 7] = [
-        ("auto", Method::Auto),
-        ("closed-form", Method::ClosedForm),
-        ("energy", Method::Energy),
-        ("angle", Method::Angle),
-        ("time", Method::Time),
-        ("dop853", Method::Dop853),
-        ("dopri5", Method::Dopri5),
-    ];
-}
-
-impl FromStr for Method {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Method, String> {
-        Method::ALL
-            .iter()
-            .find(|(name, _)| *name == text)
-            .map(|(_, method)| *method)
-            .ok_or_else(|| {
-                let names: Vec<_> = Method::ALL.iter().map(|(name, _)| *name).collect();
-                format!("use one of {}", names.join(", "))
-            })
-    }
-}
-
-impl fmt::Display for Method {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let name = Method::ALL.iter().find(|(_, method)| method == self);
-        f.write_str(name.map_or("", |(name, _)| name))
-    }
-}
+use crate::mechanism::{Linkage, Loads};
+use crate::scene::{Load, MotionKind, Scene, Variable, Variables};
 
 /// What computes the motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -263,111 +214,4 @@ fn engine(
             reason("the loads and the start decide the motion: integration in time, order 8"),
         )),
     }
-}
-
-fn refuse_what_is_not_modelled(scene: &Scene) -> Result<(), Error> {
-    if scene.friction.is_some() {
-        return Err(Error::refused(
-            "Coulomb friction in motion is not part of this version",
-            "take [friction] out of the scene, or set its coefficient to 0",
-        ));
-    }
-    if scene.clearance.is_some() {
-        return Err(Error::refused(
-            "clearance is not part of this version",
-            "take [clearance] out of the scene, or set radial to 0",
-        ));
-    }
-    Ok(())
-}
-
-fn refuse_what_cannot_move(scene: &Scene, linkage: &Linkage) -> Result<(), Error> {
-    let massless = scene.crank.is_none_or(|crank| crank.inertia == 0.0)
-        && scene.rod.is_none()
-        && scene.slider.is_none();
-    if massless {
-        return Err(Error::refused(
-            "the mechanism has no inertia, so its loads decide no motion",
-            "give the crank an inertia, or the rod or the slider a mass, or use motion kind = \"constant-speed\"",
-        ));
-    }
-    if Limits::new(linkage, 0.0).class == Class::ChangePoint {
-        return Err(Error::refused(
-            "the lengths make a change point: where crank and rod lie in one line the mechanism may go on in two ways, and the equation does not say which",
-            "change a length a little to say which mechanism is meant",
-        ));
-    }
-    Ok(())
-}
-
-/// Terms kept, terms left out.
-fn terms(scene: &Scene, reduced: &Scene) -> (Vec<Term>, Vec<Term>) {
-    let (mut kept, mut left_out) = (Vec::new(), Vec::new());
-    let mut note = |name: &str, is_kept: bool, reason: String| {
-        let term = Term {
-            name: name.to_owned(),
-            reason,
-        };
-        if is_kept { &mut kept } else { &mut left_out }.push(term);
-    };
-    let absent = |given: bool| {
-        if given {
-            "its strength is zero"
-        } else {
-            "not in the scene"
-        }
-        .to_owned()
-    };
-    match &reduced.crank {
-        Some(crank) => note(
-            "crank inertia",
-            true,
-            format!("{} kg m2 about O", crank.inertia),
-        ),
-        None => note("crank inertia", false, absent(scene.crank.is_some())),
-    }
-    match &reduced.rod {
-        Some(rod) => {
-            let what = match rod.model {
-                RodModel::Rigid => "rigid body: translation and spin",
-                RodModel::TwoMass => "two masses at the pins",
-                RodModel::SpinOnly => "spin only, as printed by Duarte et al.",
-                RodModel::Massless => "massless",
-            };
-            note(
-                "connecting rod inertia",
-                true,
-                format!("{} kg, {what}", rod.mass),
-            );
-        }
-        None => note("connecting rod inertia", false, absent(scene.rod.is_some())),
-    }
-    match &reduced.slider {
-        Some(slider) => note("slider inertia", true, format!("{} kg", slider.mass)),
-        None => note("slider inertia", false, absent(scene.slider.is_some())),
-    }
-    match &reduced.gravity {
-        Some(gravity) => {
-            let [gx, gy] = gravity.vector();
-            note("gravity", true, format!("({gx}, {gy}) m/s2"));
-        }
-        None => note("gravity", false, absent(scene.gravity.is_some())),
-    }
-    for (name, loads) in [("torque", &scene.torques), ("force", &scene.forces)] {
-        if loads.is_empty() {
-            note(name, false, absent(false));
-        }
-        for (i, load) in loads.iter().enumerate() {
-            let label = format!("{name}[{}]", i + 1);
-            if load.is_zero() {
-                note(&label, false, format!("{load}: {}", absent(true)));
-            } else {
-                let reads = load.reads(name == "force");
-                note(&label, true, format!("{load}; depends on {reads}"));
-            }
-        }
-    }
-    note("Coulomb friction", false, absent(scene.friction.is_some()));
-    note("joint clearance", false, absent(scene.clearance.is_some()));
-    (kept, left_out)
 }

@@ -1,0 +1,82 @@
+//! The kinetic energy on a piece, from the force.
+
+use super::panel::Tried;
+use super::piece::{Piece, Turning};
+use crate::numeric::chebyshev::{self, POINTS, Values};
+use crate::numeric::root;
+
+/// The kinetic energy on a piece, from the series of the force. It is integrated from the piece's own start
+/// or end, never a difference of large potentials.
+pub(super) struct Energy<'a> {
+    pub piece: Piece,
+    /// At the start, J.
+    pub kinetic: f64,
+    pub force: &'a Values,
+}
+
+impl Energy<'_> {
+    /// Whether the force's error hardly counts, relative to the force or to the energy.
+    pub fn is_resolved(&self, accepted: f64) -> bool {
+        let largest = self.force.iter().fold(0.0f64, |m, c| m.max(c.abs()));
+        let share = match self.piece.turning {
+            Turning::Nowhere => (largest * self.piece.span().abs() / self.kinetic).min(1.0),
+            _ => 1.0,
+        };
+        chebyshev::tail(self.force) * share <= 4.0 * accepted
+    }
+
+    /// K at the points of a piece that does not turn: K at its start plus the integral of the force.
+    pub fn kinetic_at_points(&self, force: &Values) -> Values {
+        if force.iter().all(|f| *f == 0.0) {
+            return [self.kinetic; POINTS];
+        }
+        let work = chebyshev::integral(self.force);
+        let half = 0.5 * self.piece.span();
+        chebyshev::points().map(|x| self.kinetic + half * chebyshev::value(&work, x))
+    }
+
+    /// ∫ F u du over [0, 1] between the turning end (u = 0) and x (u = 1), times the direction: there
+    /// K = ½ span (1 ± x)² times this, without cancellation. Gauss-Legendre with 14 points is exact for the
+    /// series.
+    pub fn mean_force(&self, x: f64) -> f64 {
+        let sum: f64 = gauss_14()
+            .iter()
+            .map(|(u, weight)| {
+                let at = match self.piece.turning {
+                    Turning::AtEnd => 1.0 - u * (1.0 - x),
+                    _ => u * (1.0 + x) - 1.0,
+                };
+                weight * u * chebyshev::value(self.force, at)
+            })
+            .sum();
+        sum * self.piece.span().signum()
+    }
+
+    /// The turning point just before the point `j`, at which the energy is not positive.
+    pub fn turns_before(&self, j: usize) -> Tried {
+        let points = chebyshev::points();
+        if j == 0 {
+            return Tried::Unresolved;
+        }
+        let work = chebyshev::integral(self.force);
+        let half = 0.5 * self.piece.span();
+        let x = root::bracketed(
+            |x| match self.piece.turning {
+                Turning::Nowhere => self.kinetic + half * chebyshev::value(&work, x),
+                _ => self.mean_force(x),
+            },
+            points[j - 1],
+            points[j],
+        );
+        match x {
+            Some(x) if x > -1.0 => Tried::TurnsAt(self.piece.angle(x)),
+            _ => Tried::Unresolved,
+        }
+    }
+}
+
+/// Nodes and weights of the Gauss-Legendre rule with 14 points on [0, 1].
+fn gauss_14() -> &'static [(f64, f64); 14] {
+    static RULE: std::sync::OnceLock<[(f64, f64); 14]> = std::sync::OnceLock::new();
+    RULE.get_or_init(|| std::array::from_fn(|i| crate::numeric::gauss::legendre(14, i)))
+}

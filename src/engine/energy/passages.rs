@@ -1,0 +1,78 @@
+//! What a motion passes: ends of panels, among them the corners, and turning points.
+
+use super::Orbit;
+use super::leg::{After, Leg};
+use crate::numeric::angle::Angle;
+
+/// A state on the way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Passage {
+    /// s
+    pub t: f64,
+    /// Crank angle.
+    pub angle: Angle,
+    /// rad/s
+    pub speed: f64,
+    /// Whether the motion turns back here.
+    pub turning: bool,
+}
+
+impl Orbit {
+    /// When it turns back, until a time.
+    pub fn turning_times(&self, until: f64) -> Vec<f64> {
+        let turnings = self
+            .passages()
+            .into_iter()
+            .filter(|passage| passage.turning);
+        let once: Vec<f64> = turnings.map(|passage| passage.t).collect();
+        let Some((period, _)) = self.period().filter(|_| !once.is_empty()) else {
+            return once.into_iter().filter(|t| *t <= until).collect();
+        };
+        let rounds = (until / period).ceil() as u64;
+        (0..=rounds)
+            .flat_map(|round| once.iter().map(move |t| t + round as f64 * period))
+            .filter(|t| *t <= until)
+            .collect()
+    }
+
+    /// Passages of the ends of panels and turning points in the first period (or in all, if it does not
+    /// repeat), in the order of time.
+    pub fn passages(&self) -> Vec<Passage> {
+        let mut found = Vec::new();
+        let mut pass = |t: f64, angle: Angle, turning: bool| {
+            let speed = if turning { 0.0 } else { self.within(t).1 };
+            found.push(Passage {
+                t,
+                angle: Angle {
+                    turns: self.start.turns + angle.turns,
+                    rest: angle.rest,
+                },
+                speed,
+                turning,
+            });
+        };
+        let there = self.forward.duration.0;
+        let mut run = |leg: &Leg, since: f64| {
+            let turns_back = leg.after == After::TurnsBack;
+            let last = leg.len().saturating_sub(1);
+            for (i, (t, angle)) in leg.ends().enumerate() {
+                pass(since + t, angle, turns_back && i == last);
+            }
+            if turns_back {
+                for (t, angle) in leg.ends().rev().skip(1) {
+                    pass(since + 2.0 * leg.duration.0 - t, angle, false);
+                }
+            }
+        };
+        run(&self.forward, 0.0);
+        if self.forward.after == After::TurnsBack {
+            match &self.backward {
+                Some(back) => {
+                    run(back, 2.0 * there);
+                }
+                None => pass(2.0 * there, self.start.rest.into(), self.from_rest),
+            }
+        }
+        found
+    }
+}

@@ -1,0 +1,53 @@
+//! A piece of the crank angle and the variable x in [−1, 1] on it.
+
+/// Which end of a panel is a turning point, where dt/dθ is infinite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::engine) enum Turning {
+    Nowhere,
+    AtStart,
+    AtEnd,
+}
+
+/// A piece of the motion between two angles, in a variable x in [−1, 1].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::engine) struct Piece {
+    /// rad
+    pub from: f64,
+    /// rad, in either direction
+    pub to: f64,
+    pub turning: Turning,
+}
+
+impl Piece {
+    pub fn span(&self) -> f64 {
+        self.to - self.from
+    }
+
+    pub fn angle(&self, x: f64) -> f64 {
+        match self.turning {
+            Turning::Nowhere => self.from + 0.5 * (1.0 + x) * self.span(),
+            Turning::AtStart => self.from + 0.25 * (1.0 + x) * (1.0 + x) * self.span(),
+            Turning::AtEnd => self.to - 0.25 * (1.0 - x) * (1.0 - x) * self.span(),
+        }
+    }
+
+    /// dθ/dx
+    pub fn stretch(&self, x: f64) -> f64 {
+        let share = match self.turning {
+            Turning::Nowhere => 0.5,
+            Turning::AtStart => 0.5 * (1.0 + x),
+            Turning::AtEnd => 0.5 * (1.0 - x),
+        };
+        share * self.span()
+    }
+
+    /// The variable x of an angle of the piece.
+    pub fn variable(&self, theta: f64) -> f64 {
+        let share = ((theta - self.from) / self.span()).clamp(0.0, 1.0);
+        match self.turning {
+            Turning::Nowhere => 2.0 * share - 1.0,
+            Turning::AtStart => 2.0 * share.sqrt() - 1.0,
+            Turning::AtEnd => 1.0 - 2.0 * (1.0 - share).sqrt(),
+        }
+    }
+}
