@@ -39,14 +39,17 @@ impl Motion for Forward<'_> {
 const TIGHTER: f64 = 50.0;
 /// What is stated is larger than the distance of the two runs by this, for the error of the second.
 const MARGIN: f64 = 1.5;
+/// Rounding of one evaluation of the acceleration, in units of the last place.
+const EVALUATION: f64 = 64.0;
 /// Where rounding inside a step takes over.
 const TIGHTEST: f64 = 1e-15;
 
 /// Global error of a run that ended in `last` after `steps` steps: its distance from a run with a much
 /// tighter tolerance, and what rounding may have added to both.
 ///
-/// Rounding: each step rounds θ and θ̇ to half a unit in the last place, independently of the others; an
-/// error of the speed grows to one of the angle over the rest of the run.
+/// Rounding: each step rounds θ and θ̇ to half a unit in the last place, independently of the others, and a
+/// rounded angle changes the acceleration; an error of the speed grows to one of the angle over the rest of
+/// the run.
 pub(super) fn estimate(
     equation: &Equation,
     start: Start,
@@ -64,7 +67,17 @@ pub(super) fn estimate(
         max_evaluations: settings.max_evaluations.saturating_mul(4),
         ..*settings
     };
-    let (finish, best, tight_steps) = time::run(&motion, start, &tighter, &mut |_| false);
+    let mut unevenness = 0.0;
+    let (finish, best, tight_steps) = time::run(&motion, start, &tighter, &mut |step| {
+        let travel = step.end.theta - step.start.theta;
+        if travel != 0.0 && step.end.alpha.is_finite() {
+            let slope = (step.end.alpha - step.start.alpha) / travel;
+            let angle = 4.0 * step.end.theta.abs() * slope;
+            let evaluation = EVALUATION * step.end.alpha;
+            unevenness += (angle * angle + evaluation * evaluation) * step.length().powi(2);
+        }
+        false
+    });
     if finish != Finish::AtEnd {
         return None;
     }
@@ -74,7 +87,9 @@ pub(super) fn estimate(
         .abs();
     let speed = (best.end.omega - last.end.omega).abs();
     let roundings = ((steps + tight_steps) as f64).sqrt();
-    let speed_noise = 0.5 * f64::EPSILON * largest_speed * roundings;
+    // The acceleration is evaluated at rounded angles; fewer, longer steps average less.
+    let shaken = (unevenness * tight_steps.max(1) as f64 / steps.max(1) as f64).sqrt();
+    let speed_noise = f64::EPSILON * (0.5 * largest_speed * roundings + shaken);
     let duration = last.end.t - start.t;
     let angle_noise = 0.5 * f64::EPSILON * (last.end.theta.abs() + 1.0) * roundings
         + speed_noise * duration
