@@ -115,6 +115,17 @@ pub fn integral(coefficients: &Values) -> Values {
     result
 }
 
+/// The derivative of a series.
+pub fn derivative(coefficients: &Values) -> Values {
+    let mut result = [0.0; POINTS];
+    for k in (0..DEGREE).rev() {
+        let after = if k + 2 < POINTS { result[k + 2] } else { 0.0 };
+        result[k] = after + 2.0 * (k + 1) as f64 * coefficients[k + 1];
+    }
+    result[0] *= 0.5;
+    result
+}
+
 /// Integrals from −1 to each point of the series through `values`: the matrix of integration, row by row.
 pub fn integrals(values: &Values) -> Values {
     static MATRIX: OnceLock<Vec<Values>> = OnceLock::new();
@@ -154,6 +165,11 @@ mod tests {
         let values = points().map(|x| (3.0 * x + 0.2).exp());
         let series = coefficients(&values);
         let primitive = integral(&series);
+        let slope = derivative(&series);
+        for x in [-0.9f64, 0.1, 0.8] {
+            let exact = 3.0 * (3.0 * x + 0.2).exp();
+            assert!((value(&slope, x) / exact - 1.0).abs() < 1e-12, "{x}");
+        }
         assert!(tail(&series) < 1e-15);
         for x in [-1.0f64, -0.7, 0.0, 0.3, 1.0] {
             let exact = (3.0 * x + 0.2).exp();

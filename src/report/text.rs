@@ -21,8 +21,8 @@ pub fn summary(summary: &Summary, rows: &[Row]) -> String {
     let last = &summary.last;
     let error = summary.error_estimate;
     let plus_minus = |value: f64, bound: Option<f64>, unit: &str| match bound {
-        Some(bound) => format!("{value:.15} +- {bound:.1e} {unit}"),
-        None => format!("{value:.15} {unit}, error not estimated"),
+        Some(bound) => format!("{} +- {bound:.1e} {unit}", digits(value, bound)),
+        None => format!("{value} {unit}, error not estimated"),
     };
     put("end", format!("t = {} s", last.t_s));
     put(
@@ -40,7 +40,11 @@ pub fn summary(summary: &Summary, rows: &[Row]) -> String {
     put("turns", format!("{}", summary.revolutions));
     put(
         "crank speed",
-        format!("{} to {} rad/s", summary.omega_min, summary.omega_max),
+        format!(
+            "{} to {} rad/s",
+            bound(summary.omega_min),
+            bound(summary.omega_max)
+        ),
     );
     if let Some(torque) = &summary.driving_torque {
         put(
@@ -97,6 +101,20 @@ fn events(summary: &Summary) -> String {
         count("dead-centre"),
         count("turning-point")
     )
+}
+
+/// A value with the digits that its error leaves, and no more.
+fn digits(value: f64, error: f64) -> String {
+    let places = (-error.log10()).ceil().clamp(0.0, 17.0) as usize;
+    format!("{value:.places$}")
+}
+
+fn bound(speed: f64) -> String {
+    if speed.is_finite() {
+        format!("{speed}")
+    } else {
+        "no bound".to_owned()
+    }
 }
 
 fn seconds(value: f64) -> String {

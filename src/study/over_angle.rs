@@ -62,6 +62,7 @@ fn reason(unserved: Unserved) -> &'static str {
         Unserved::NotFinite => {
             "the mechanism reaches the limit of its motion, or a load has no value"
         }
+        Unserved::NotSmooth => "a load is not smooth",
         Unserved::TooSlow => "the crank comes too near to rest",
         Unserved::TooLong => "its turns differ from each other, and they are too many to be kept",
     }
@@ -70,6 +71,7 @@ fn reason(unserved: Unserved) -> &'static str {
 fn finish(task: &Task<'_>, motion: Motion, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
     let Motion { orbit, end, .. } = &motion;
     let (angle, omega) = orbit.state(*end);
+    let (speed, warnings) = speeds(task, orbit, *end);
     let (events, events_total) = passages::events(task, orbit, *end);
     passages::write_rows(task, orbit, *end, rows)?;
     let solved = Solved {
@@ -85,7 +87,8 @@ fn finish(task: &Task<'_>, motion: Motion, rows: &mut dyn RowSink) -> Result<Sim
         evaluations: motion.evaluations,
         steps: orbit.panels() as u64,
         wall_s: motion.wall_s,
-        speed: orbit.speed_range(*end),
+        speed,
+        warnings,
         events,
         events_total,
         stopped: motion.stopped.clone(),
@@ -109,6 +112,32 @@ pub(super) fn late_by(task: &Task<'_>, orbit: &Orbit, end: f64, late: f64) -> Er
     }
 }
 
+/// Smallest and largest speed. Where the inertia vanishes, at the dead centres of a crank without inertia, the
+/// speed has no bound.
+fn speeds(task: &Task<'_>, orbit: &Orbit, end: f64) -> ((f64, f64), Vec<String>) {
+    let (low, high) = orbit.speed_range(end);
+    let inertia = |theta: f64| task.equation().terms(theta).inertia.m;
+    let vanishes = |theta: f64| inertia(theta) <= 1e-12 * inertia(theta + 1.0);
+    if !task.limits.dead_centres.iter().any(|dc| vanishes(dc.theta)) {
+        return ((low, high), Vec::new());
+    }
+    let usual = task.scene.motion.speed.abs().max(orbit.state(end).1.abs());
+    let bounded = |speed: f64| speed.abs() < 1e6 * usual;
+    let shown = |speed: f64| {
+        if bounded(speed) {
+            speed
+        } else {
+            speed * f64::INFINITY
+        }
+    };
+    let mut warnings = Vec::new();
+    if !bounded(low) || !bounded(high) {
+        let what = "the effective inertia vanishes at the dead centres, where the crank speed has no bound";
+        warnings.push(what.to_owned());
+    }
+    ((shown(low), shown(high)), warnings)
+}
+
 /// The energy of the last state against that of the first and the work, J, and the largest kinetic energy.
 fn energy_residual(task: &Task<'_>, motion: &Motion) -> (f64, f64) {
     let equation = task.equation();
@@ -121,8 +150,6 @@ fn energy_residual(task: &Task<'_>, motion: &Motion) -> (f64, f64) {
     let begin = equation.kinetic_energy(start.rest, task.scene.motion.speed)
         + equation.potential_energy(start.rest);
     let last = equation.kinetic_energy(angle.rest, omega) + equation.potential_energy(turned);
-    let range = motion.orbit.speed_range(motion.end);
-    let fastest = range.0.abs().max(range.1.abs());
-    let scale = equation.kinetic_energy(angle.rest, fastest);
-    (last - begin - motion.work, scale.max(begin.abs()))
+    let scale = motion.orbit.largest_kinetic().max(begin.abs());
+    (last - begin - motion.work, scale)
 }

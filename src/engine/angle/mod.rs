@@ -53,6 +53,8 @@ pub struct Driving {
     pub evaluations: u64,
 }
 
+/// With less than this part of the largest kinetic energy the crank is near to rest.
+const SLOW: f64 = 1e-2;
 /// Most panels that are kept.
 const MOST_PANELS: usize = 200_000;
 /// Most sweeps over a panel.
@@ -105,13 +107,22 @@ pub fn run<D: Driven>(
     };
     let mut leg = Leg::open();
     let mut next = 0;
+    let mut fastest = kinetic;
     loop {
         if leg.len() >= MOST_PANELS {
             return Err(Unserved::TooLong);
         }
+        fastest = fastest.max(now.kinetic);
         let before = now.work;
         let Some((panel, drives)) = now.sweep(driven, &mut stations[next], tail) else {
-            split(driven, &mut stations, next, 0.5)?;
+            if !split(driven, &mut stations, next, 0.5)? {
+                let slow = now.kinetic < SLOW * fastest;
+                return Err(if slow {
+                    Unserved::TooSlow
+                } else {
+                    Unserved::NotSmooth
+                });
+            }
             continue;
         };
         let mut panel = panel;

@@ -17,7 +17,7 @@ pub(super) struct Station<P> {
     pub last: Option<Values>,
 }
 
-/// Panels are not cut below this, rad: the speed is too near to zero.
+/// Panels are not cut below this, rad.
 const SHORTEST: f64 = 1e-3;
 /// Panels of one turn between the corners.
 pub(super) fn stations<D: Driven>(
@@ -69,19 +69,19 @@ fn station<D: Driven>(driven: &D, from: f64, to: f64) -> Result<Station<D::Place
     Ok(station)
 }
 
-/// Cuts a panel in two at a share of its length.
+/// Cuts a panel in two at a share of its length; false if it is too short for that.
 pub(super) fn split<D: Driven>(
     driven: &D,
     stations: &mut Vec<Station<D::Place>>,
     index: usize,
     share: f64,
-) -> Result<(), Unserved> {
+) -> Result<bool, Unserved> {
     let Piece { from, to, .. } = stations[index].piece;
     if (to - from).abs() < SHORTEST {
-        return Err(Unserved::TooSlow);
+        return Ok(false);
     }
     let middle = from + share * (to - from);
     stations[index] = station(driven, from, middle)?;
     stations.insert(index + 1, station(driven, middle, to)?);
-    Ok(())
+    Ok(true)
 }

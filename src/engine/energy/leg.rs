@@ -173,13 +173,15 @@ impl Leg {
 
     /// Smallest and largest |speed| until a time.
     pub fn speed_range(&self, until: f64) -> (f64, f64) {
-        let pairs = self.panels.iter().zip(&self.begins);
-        pairs
-            .filter(|(_, begin)| **begin <= until)
-            .map(|(panel, begin)| panel.speed_range(until - begin))
-            .fold((f64::INFINITY, 0.0), |range, (low, high)| {
-                (range.0.min(low), range.1.max(high))
-            })
+        let ended = |(panel, begin): &(&Panel, &f64)| **begin + panel.duration.0 <= until;
+        let pairs = || self.panels.iter().zip(&self.begins);
+        let whole: Vec<&Panel> = pairs().filter(ended).map(|(panel, _)| panel).collect();
+        let part = pairs().find(|pair| !ended(pair) && *pair.1 <= until);
+        let largest = |sign: f64| {
+            let of_part = part.map(|(panel, begin)| panel.extreme_until(until - begin, sign));
+            extreme(&whole, sign).max(of_part.unwrap_or(f64::NEG_INFINITY))
+        };
+        (-largest(-1.0), largest(1.0))
     }
 
     /// The panel in which a time lies, and the time since its begin.
@@ -188,10 +190,34 @@ impl Leg {
         Some((self.panels.get(index)?, after - self.begins[index]))
     }
 
+    /// Largest kinetic energy at the ends of panels, J.
+    pub fn largest_kinetic(&self) -> f64 {
+        let ends = self.panels.iter().map(|panel| panel.kinetic_at_end);
+        ends.fold(0.0, f64::max)
+    }
+
     /// Number of panels.
     pub fn len(&self) -> usize {
         self.panels.len()
     }
+}
+
+/// Panels that are looked at between their points for the extreme of all.
+const CANDIDATES: usize = 6;
+
+/// Largest sign·|speed| on panels: those with the largest at their points are looked at between them too.
+fn extreme(panels: &[&Panel], sign: f64) -> f64 {
+    let mut best: Vec<&Panel> = Vec::with_capacity(CANDIDATES + 1);
+    for panel in panels {
+        let value = panel.extreme_at_points(sign);
+        let place = best.partition_point(|other| other.extreme_at_points(sign) >= value);
+        if place < CANDIDATES {
+            best.insert(place, panel);
+            best.truncate(CANDIDATES);
+        }
+    }
+    let found = best.iter().map(|panel| panel.extreme(sign));
+    found.fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// The end of a panel that begins at `at`: its length, or the next corner before.

@@ -38,6 +38,8 @@ pub enum Unserved {
     NotFinite,
     /// More panels than are kept: a long run whose turns differ from each other.
     TooLong,
+    /// A load jumps, or has a corner that nobody announced.
+    NotSmooth,
     /// The speed comes too near to zero for the angle to be the independent variable.
     TooSlow,
 }

@@ -225,6 +225,12 @@ impl Orbit {
         }
     }
 
+    /// Largest kinetic energy at the ends of panels, J.
+    pub fn largest_kinetic(&self) -> f64 {
+        let back = self.backward.as_ref().map_or(0.0, Leg::largest_kinetic);
+        self.forward.largest_kinetic().max(back)
+    }
+
     /// Number of panels.
     pub fn panels(&self) -> usize {
         self.forward.len() + self.backward.as_ref().map_or(0, Leg::len)

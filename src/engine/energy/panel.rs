@@ -4,7 +4,7 @@ use super::kinetic::Energy;
 use super::piece::{Piece, Turning};
 use super::{Profile, Unserved};
 use crate::numeric::chebyshev::{self, DEGREE, POINTS, Values};
-use crate::numeric::exact;
+use crate::numeric::{exact, root};
 
 /// A piece with its series.
 #[derive(Clone, Debug)]
@@ -22,6 +22,8 @@ pub(in crate::engine) struct Panel {
     pub kinetic_at_end: f64,
     /// Bound of the error of its duration, s.
     pub error: f64,
+    /// Slowest and fastest of its points, with their |speed|.
+    extremes: [(usize, f64); 2],
 }
 
 /// What is found when a panel is tried.
@@ -95,6 +97,7 @@ impl Panel {
         Ok(Tried::Done(Box::new(Panel {
             piece,
             turns: 0.0,
+            extremes: extremes(&piece, &slopes),
             time: chebyshev::integral(&slope),
             slope,
             duration,
@@ -119,6 +122,7 @@ impl Panel {
         Panel {
             piece,
             turns: 0.0,
+            extremes: extremes(&piece, slopes),
             time: chebyshev::integral(&slope),
             slope,
             duration,
@@ -175,34 +179,58 @@ impl Panel {
         chebyshev::value(&self.time, self.piece.variable(theta))
     }
 
-    /// Smallest and largest |speed| until a time after the start: at points, then by golden section around
-    /// them.
-    pub fn speed_range(&self, until: f64) -> (f64, f64) {
+    /// Largest speed·sign among the points, where `sign` is +1 or −1, with |speed| for speed.
+    pub fn extreme_at_points(&self, sign: f64) -> f64 {
+        sign * self.extremes[usize::from(sign > 0.0)].1
+    }
+
+    /// The same between the points.
+    pub fn extreme(&self, sign: f64) -> f64 {
+        let (index, _) = self.extremes[usize::from(sign > 0.0)];
+        self.extreme_near(chebyshev::points(), index, sign)
+    }
+
+    /// Largest sign·|speed| near one of some points: there, or next to it where the derivative of the speed
+    /// vanishes.
+    fn extreme_near(&self, points: &Values, index: usize, sign: f64) -> f64 {
+        let from = points[index.saturating_sub(1)];
+        let to = points[(index + 1).min(DEGREE)];
+        let bend = chebyshev::derivative(&self.slope);
+        let stretch_rate = self.piece.stretch_rate();
+        // Speed is stretch/slope.
+        let rate = |x: f64| {
+            stretch_rate * chebyshev::value(&self.slope, x)
+                - self.piece.stretch(x) * chebyshev::value(&bend, x)
+        };
+        let at_point = sign * self.speed(points[index]).abs();
+        root::bracketed(rate, from, to)
+            .map_or(at_point, |x| at_point.max(sign * self.speed(x).abs()))
+    }
+
+    /// Largest sign·|speed| until a time after the start.
+    pub fn extreme_until(&self, until: f64, sign: f64) -> f64 {
         let share = 0.5 * (1.0 + self.position(until));
         let points = chebyshev::points().map(|x| share * (1.0 + x) - 1.0);
-        let extreme = |sign: f64| {
-            let value = |x: f64| sign * self.speed(x).abs();
-            let best = (0..POINTS)
-                .max_by(|a, b| value(points[*a]).total_cmp(&value(points[*b])))
-                .unwrap_or(0);
-            let (mut a, mut b) = (
-                points[best.saturating_sub(1)],
-                points[(best + 1).min(DEGREE)],
-            );
-            let mut found = value(points[best]);
-            for _ in 0..40 {
-                let (c, d) = (
-                    b - 0.618_033_988_75 * (b - a),
-                    a + 0.618_033_988_75 * (b - a),
-                );
-                let (at_c, at_d) = (value(c), value(d));
-                found = found.max(at_c).max(at_d);
-                if at_c > at_d { b = d } else { a = c }
-            }
-            sign * found
-        };
-        (extreme(-1.0), extreme(1.0))
+        let value = |index: &usize| sign * self.speed(points[*index]).abs();
+        let best = (0..POINTS).max_by(|a, b| value(a).total_cmp(&value(b)));
+        self.extreme_near(&points, best.unwrap_or(0), sign)
     }
+}
+
+/// Slowest and fastest of the points with their |speed|, from dt/dx there.
+fn extremes(piece: &Piece, slopes: &Values) -> [(usize, f64); 2] {
+    let speed = |j: usize| (piece.stretch(chebyshev::points()[j]) / slopes[j]).abs();
+    let mut found = [(0, speed(0)); 2];
+    for j in 1..POINTS {
+        let here = speed(j);
+        if here < found[0].1 {
+            found[0] = (j, here);
+        }
+        if here > found[1].1 {
+            found[1] = (j, here);
+        }
+    }
+    found
 }
 
 /// ∫ dt/dx by Clenshaw and Curtis, summed without rounding loss.

@@ -41,6 +41,15 @@ impl Piece {
         share * self.span()
     }
 
+    /// d²θ/dx²
+    pub fn stretch_rate(&self) -> f64 {
+        match self.turning {
+            Turning::Nowhere => 0.0,
+            Turning::AtStart => 0.5 * self.span(),
+            Turning::AtEnd => -0.5 * self.span(),
+        }
+    }
+
     /// The variable x of an angle of the piece.
     pub fn variable(&self, theta: f64) -> f64 {
         let share = ((theta - self.from) / self.span()).clamp(0.0, 1.0);
