@@ -105,6 +105,9 @@ fn events(summary: &Summary) -> String {
 
 /// A value with the digits that its error leaves, and no more.
 fn digits(value: f64, error: f64) -> String {
+    if error == 0.0 {
+        return format!("{value}");
+    }
     let places = (-error.log10()).ceil().clamp(0.0, 17.0) as usize;
     format!("{value:.places$}")
 }
