@@ -2,7 +2,8 @@
 
 use slider_crank::plan::Method;
 use slider_crank::scene::{
-    Crank, Friction, Gravity, Interpolation, Load, Rod, Scene, Slider, Table, Variable, Variables,
+    Crank, Expression, Friction, Gravity, Interpolation, Load, Rod, Scene, Slider, Table, Variable,
+    Variables,
 };
 use slider_crank::study::{Options, Row, simulate, simulate_rows};
 
@@ -164,6 +165,12 @@ fn a_part_without_strength_leaves_the_run_the_same_to_the_last_bit() {
                 stall: 0.0,
                 no_load_speed: 100.0,
             }),
+        ),
+        (
+            "formula",
+            plain
+                .clone()
+                .torque(Load::Expression(Expression::parse("0*(2 - 1)").unwrap())),
         ),
         ("force", plain.clone().force(Load::Constant(0.0))),
         ("damper", plain.clone().force(Load::Viscous(0.0))),

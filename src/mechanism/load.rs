@@ -46,8 +46,11 @@ impl Loads {
         };
         for load in &scene.torques {
             loads.reads = loads.reads.or(load.reads(false));
+            if let Some(value) = load.fixed() {
+                loads.torque += value;
+                continue;
+            }
             match load {
-                Load::Constant(value) => loads.torque += value,
                 Load::Viscous(coefficient) => loads.rotary_damping += coefficient,
                 Load::Motor {
                     stall,
@@ -61,8 +64,11 @@ impl Loads {
         }
         for load in &scene.forces {
             loads.reads = loads.reads.or(load.reads(true));
+            if let Some(value) = load.fixed() {
+                loads.force += value;
+                continue;
+            }
             match load {
-                Load::Constant(value) => loads.force += value,
                 Load::Viscous(coefficient) => loads.linear_damping += coefficient,
                 Load::Spring { stiffness, rest } => {
                     loads.stiffness += stiffness;

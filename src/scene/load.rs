@@ -125,7 +125,19 @@ impl Load {
             Load::Spring { stiffness, .. } => *stiffness == 0.0,
             Load::Table(table) => table.is_zero(),
             Load::Gas { area, .. } => *area == 0.0,
-            Load::Expression(_) | Load::Function { .. } => false,
+            Load::Expression(_) => self.fixed() == Some(0.0),
+            Load::Function { .. } => false,
+        }
+    }
+
+    /// The value of a load that depends on nothing.
+    pub fn fixed(&self) -> Option<f64> {
+        match self {
+            Load::Constant(value) => Some(*value),
+            Load::Expression(expression) if expression.reads() == Variables::NONE => {
+                Some(expression.value(&Instant::default()))
+            }
+            _ => None,
         }
     }
 }

@@ -14,8 +14,6 @@ pub(in crate::engine) struct Panel {
     pub turns: f64,
     /// dt/dx
     slope: Values,
-    /// Time since the start of the panel.
-    time: Values,
     /// Its duration, s: rounded value and rest.
     pub duration: (f64, f64),
     /// Kinetic energy at its end, J.
@@ -98,7 +96,6 @@ impl Panel {
             piece,
             turns: 0.0,
             extremes: extremes(&piece, &slopes),
-            time: chebyshev::integral(&slope),
             slope,
             duration,
             kinetic_at_end: match piece.turning {
@@ -123,7 +120,6 @@ impl Panel {
             piece,
             turns: 0.0,
             extremes: extremes(&piece, slopes),
-            time: chebyshev::integral(&slope),
             slope,
             duration,
             kinetic_at_end: kinetic,
@@ -146,10 +142,11 @@ impl Panel {
         if after >= total {
             return 1.0;
         }
+        let time = chebyshev::integral(&self.slope);
         let (mut low, mut high) = (-1.0, 1.0);
         let mut x = 2.0 * after / total - 1.0;
         for _ in 0..60 {
-            let excess = chebyshev::value(&self.time, x) - after;
+            let excess = chebyshev::value(&time, x) - after;
             if excess > 0.0 {
                 high = x;
             } else {
@@ -176,7 +173,8 @@ impl Panel {
 
     /// Time after the start at which an angle of the panel is reached.
     pub fn time_of(&self, theta: f64) -> f64 {
-        chebyshev::value(&self.time, self.piece.variable(theta))
+        let time = chebyshev::integral(&self.slope);
+        chebyshev::value(&time, self.piece.variable(theta))
     }
 
     /// Largest speed·sign among the points, where `sign` is +1 or −1, with |speed| for speed.
