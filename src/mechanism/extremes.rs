@@ -70,13 +70,19 @@ fn pair(
     Some((*found.first()?, *found.last()?))
 }
 
-/// One turn, every degree, and ever finer towards ±90°, where a rod that is hardly long enough makes
-/// narrow peaks of width sqrt((l − |e| − r)/r).
+impl Linkage {
+    /// Crank angles of one turn from −90°, rad: every degree, and ever finer towards ±90°, where a rod that is
+    /// hardly long enough makes narrow peaks of width sqrt((l − |e| − r)/r).
+    pub fn turn_grid(&self) -> Vec<f64> {
+        grid(self)
+    }
+}
+
 fn grid(linkage: &Linkage) -> Vec<f64> {
     let mut angles: Vec<f64> = (0..=360)
         .map(|i| PI * f64::from(i) / 180.0 - FRAC_PI_2)
         .collect();
-    let narrow = (linkage.margin() / linkage.r).sqrt();
+    let narrow = (linkage.margin() / linkage.r).max(1e-16).sqrt();
     let mut distance = PI / 180.0;
     while distance > 1e-3 * narrow.min(1.0) {
         for centre in [-FRAC_PI_2, FRAC_PI_2, 3.0 * FRAC_PI_2] {

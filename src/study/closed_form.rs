@@ -3,20 +3,17 @@
 use std::f64::consts::TAU;
 use std::time::{Duration, Instant};
 
+use super::drive::Drive;
 use super::row::RowSink;
 use super::schedule::Schedule;
 use super::simulate::Simulation;
-use super::summary::{ErrorEstimate, Event, Final, Solved, Summary, TorqueRange};
+use super::summary::{ErrorEstimate, Event, Final, Solved, Summary};
 use super::task::Task;
 use crate::error::Error;
-use crate::mechanism::Equation;
+use crate::mechanism::{Class, Limits};
 use crate::numeric::angle::Angle;
-use crate::numeric::gauss;
-use crate::scene::{Extent, Variable};
+use crate::scene::Extent;
 use crate::trajectory::Trajectory;
-
-/// Samples of the driving torque in a turn.
-const SAMPLES: usize = 720;
 
 pub(super) fn run(task: &Task<'_>, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
     let begun = Instant::now();
@@ -31,7 +28,13 @@ pub(super) fn run(task: &Task<'_>, rows: &mut dyn RowSink) -> Result<Simulation,
     let end = blocked.unwrap_or(asked);
     let last = start.plus(speed * end);
     let (events, events_total) = events(task, start, speed, end);
-    let torque = torque_range(equation, start, speed, end);
+    let drive = Drive {
+        equation,
+        start,
+        speed,
+        end,
+    };
+    let torque = drive.torque_range();
     let wall_s = begun.elapsed();
     write_rows(task, rows, start, speed, end, blocked.is_some())?;
     let solved = Solved {
@@ -45,7 +48,7 @@ pub(super) fn run(task: &Task<'_>, rows: &mut dyn RowSink) -> Result<Simulation,
             theta_rad: 2.0 * f64::EPSILON * last.radians().abs(),
             omega_rad_per_s: 0.0,
         }),
-        energy: energy_residual(equation, start, speed, end),
+        energy: drive.energy_residual(),
         wall_s: Duration::as_secs_f64(&wall_s),
         speed: (speed, speed),
         driving_torque: torque,
@@ -65,9 +68,18 @@ pub(super) fn run(task: &Task<'_>, rows: &mut dyn RowSink) -> Result<Simulation,
     })
 }
 
+/// Crank angles that can be reached. A change point is not passed: the slider's velocity would jump there.
+fn reach(task: &Task<'_>) -> Vec<[f64; 2]> {
+    match task.limits.class {
+        Class::ChangePoint => Limits::clear_reach(task.equation().linkage()),
+        _ => task.limits.reach.clone(),
+    }
+}
+
 fn impossible(task: &Task<'_>, start: Angle) -> Option<Error> {
-    let inside = task.limits.reach.is_empty()
-        || task.limits.reach.iter().any(|[from, to]| {
+    let reach = reach(task);
+    let inside = reach.is_empty()
+        || reach.iter().any(|[from, to]| {
             let turned = (start.rest - from).rem_euclid(TAU);
             turned <= to - from
         });
@@ -96,11 +108,8 @@ fn duration(extent: Extent, speed: f64) -> Result<f64, Error> {
 
 /// When the crank reaches the end of the angles it can take, if there is one.
 fn time_to_limit(task: &Task<'_>, start: Angle, speed: f64) -> Option<f64> {
-    let [from, to] = task
-        .limits
-        .reach
-        .iter()
-        .copied()
+    let [from, to] = reach(task)
+        .into_iter()
         .find(|[from, to]| (start.rest - from).rem_euclid(TAU) <= to - from)?;
     let done = (start.rest - from).rem_euclid(TAU);
     let left = if speed > 0.0 { to - from - done } else { done };
@@ -149,77 +158,6 @@ fn events(task: &Task<'_>, start: Angle, speed: f64, end: f64) -> (Vec<Event>, u
         })
         .collect();
     (events, total as u64)
-}
-
-/// Smallest, largest and mean driving torque: over one turn if loads do not depend on time and the run is
-/// longer, else over the run.
-fn torque_range(equation: &Equation, start: Angle, speed: f64, end: f64) -> Option<TorqueRange> {
-    let turn = TAU / speed.abs();
-    let reads = equation.loads().reads();
-    let periodic = !reads.has(Variable::T) && !reads.has(Variable::Theta);
-    let span = if periodic && turn < end { turn } else { end };
-    let count = if span > 0.0 {
-        ((span / turn * SAMPLES as f64).ceil() as usize).clamp(SAMPLES, 100 * SAMPLES)
-    } else {
-        1
-    };
-    let torque = |t: f64| {
-        let angle = start.plus(speed * t);
-        equation.driving_torque(t, angle, speed, 0.0)
-    };
-    let (mut min, mut max, mut sum) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
-    for i in 0..=count {
-        let value = torque(span * i as f64 / count as f64);
-        if !value.is_finite() {
-            return None;
-        }
-        min = min.min(value);
-        max = max.max(value);
-        sum += if i == 0 || i == count {
-            0.5 * value
-        } else {
-            value
-        };
-    }
-    Some(TorqueRange {
-        min_nm: min,
-        max_nm: max,
-        mean_nm: sum / count as f64,
-    })
-}
-
-/// Work that the equation asks for on the way, by quadrature, against the energies at its ends: ½ M' and V'
-/// against M and V. Whole turns bring nothing.
-fn energy_residual(equation: &Equation, start: Angle, speed: f64, end: f64) -> (f64, f64) {
-    let travel = (speed * end) % TAU;
-    let energy =
-        |theta: f64| equation.kinetic_energy(theta, speed) + equation.gravity_energy(theta);
-    let work = |theta: f64| {
-        let terms = equation.terms(theta);
-        equation.generalized_force(&terms, speed, 0.0)
-    };
-    let (from, to) = (start.rest, start.rest + travel);
-    let change = energy(to) - energy(from);
-    let mut panels = 64;
-    let mut integral = gauss::composite(work, from, to, panels);
-    while panels < 1 << 14 {
-        panels *= 2;
-        let finer = gauss::composite(work, from, to, panels);
-        let same = (finer - integral).abs() <= 1e-13 * energy(from).abs();
-        integral = finer;
-        if same {
-            break;
-        }
-    }
-    let residual = integral - change;
-    if residual.is_finite() {
-        (
-            residual,
-            energy(from).abs().max(equation.kinetic_energy(from, speed)),
-        )
-    } else {
-        (0.0, 0.0)
-    }
 }
 
 fn write_rows(

@@ -3,6 +3,7 @@
 mod by_angle;
 mod by_energy;
 mod closed_form;
+mod drive;
 mod explain;
 mod forward;
 mod in_time;

@@ -3,7 +3,7 @@
 use super::panel::Tried;
 use super::piece::{Piece, Turning};
 use crate::numeric::chebyshev::{self, POINTS, Values};
-use crate::numeric::root;
+use crate::numeric::{gauss, root};
 
 /// The kinetic energy on a piece, from the series of the force. It is integrated from the piece's own start
 /// or end, never a difference of large potentials.
@@ -39,7 +39,7 @@ impl Energy<'_> {
     /// K = ½ span (1 ± x)² times this, without cancellation. Gauss-Legendre with 14 points is exact for the
     /// series.
     pub fn mean_force(&self, x: f64) -> f64 {
-        let sum: f64 = gauss_14()
+        let sum: f64 = gauss::rule_14()
             .iter()
             .map(|(u, weight)| {
                 let at = match self.piece.turning {
@@ -73,10 +73,4 @@ impl Energy<'_> {
             _ => Tried::Unresolved,
         }
     }
-}
-
-/// Nodes and weights of the Gauss-Legendre rule with 14 points on [0, 1].
-fn gauss_14() -> &'static [(f64, f64); 14] {
-    static RULE: std::sync::OnceLock<[(f64, f64); 14]> = std::sync::OnceLock::new();
-    RULE.get_or_init(|| std::array::from_fn(|i| crate::numeric::gauss::legendre(14, i)))
 }
