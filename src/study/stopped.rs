@@ -63,6 +63,9 @@ pub(super) fn reason(
                         "the effective inertia vanishes: stopped {place}; give the crank an inertia"
                     )
                 }
+                None if nearly_vanishes(equation, last) => format!(
+                    "the effective inertia nearly vanishes and the speed grows without bound: stopped {place}; give the crank an inertia, or use method energy if the loads depend on the position alone"
+                ),
                 None => format!(
                     "the equation is singular or too stiff for this method: stopped {place}"
                 ),
@@ -71,6 +74,14 @@ pub(super) fn reason(
     }
 }
 
+/// Whether the inertia is next to nothing here, compared with that a radian further.
+fn nearly_vanishes(equation: &Equation, last: &Step) -> bool {
+    let inertia = |theta: f64| equation.terms(theta).inertia.m;
+    let theta = last.end.theta;
+    inertia(theta) < 1e-9 * inertia(theta + 1.0)
+}
+
+/// Why a run cannot begin.
 pub(super) fn no_start(equation: &Equation, start: Start, limits: &Limits) -> Error {
     let theta = start.angle.radians();
     match equation.obstacle(start.t, start.angle, start.speed) {
