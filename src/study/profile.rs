@@ -50,14 +50,24 @@ impl<'a> Position<'a> {
         if loads.have_potential() {
             return 0.0;
         }
-        let panels = ((to - from).abs() * 200.0).clamp(64.0, 1e6) as u32;
         let force = |theta: f64| {
             let pose = self.equation.linkage().pose(theta);
             loads
                 .without_potential(0.0, theta, 0.0, &pose)
                 .generalized(&pose)
         };
-        gauss::composite(force, from, to, panels)
+        let (low, high) = (from.min(to), from.max(to));
+        let turns = (low / TAU).floor() as i64..=(high / TAU).floor() as i64;
+        let corners = turns.flat_map(|turn| {
+            let whole = turn as f64 * TAU;
+            self.corners.iter().map(move |corner| corner + whole)
+        });
+        let mut cuts = vec![low];
+        cuts.extend(corners.filter(|corner| low < *corner && *corner < high));
+        cuts.push(high);
+        let piece = |w: &[f64]| gauss::adaptive(&force, w[0], w[1], 0.0);
+        let work: f64 = cuts.windows(2).map(piece).sum();
+        if to < from { -work } else { work }
     }
 }
 

@@ -103,7 +103,7 @@ impl Panel {
                 Turning::AtStart => 2.0 * piece.span().abs() * energy.mean_force(1.0),
                 Turning::AtEnd => 0.0,
             },
-            error: (tail + 0.5 * rounding / least) * duration.0,
+            error: (tail + shaken(rounding / least)) * duration.0,
         })))
     }
 
@@ -212,6 +212,16 @@ impl Panel {
         let value = |index: &usize| sign * self.speed(points[*index]).abs();
         let best = (0..POINTS).max_by(|a, b| value(a).total_cmp(&value(b)));
         self.extreme_near(&points, best.unwrap_or(0), sign)
+    }
+}
+
+/// Relative error of the time if the kinetic energy is off by this part of itself; near an unstable rest, where
+/// that part is large, the place of the turning point is off too.
+fn shaken(part: f64) -> f64 {
+    if part > 100.0 * f64::EPSILON {
+        16.0 * part
+    } else {
+        0.5 * part
     }
 }
 
