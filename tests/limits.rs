@@ -131,7 +131,7 @@ proptest! {
     #![proptest_config(cases(2_000))]
 
     #[test]
-    fn no_sample_exceeds_the_extremes_and_their_slope_vanishes(g in rotating_crank(1e-9)) {
+    fn no_sample_exceeds_the_extremes_and_their_slope_vanishes(g in rotating_crank(1e-12)) {
         let linkage = Linkage::new(&g);
         let found = Extremes::new(&linkage).unwrap();
         let travel = dense_turn().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], theta| {
@@ -241,6 +241,7 @@ fn limits_of_the_engine_of_obaseki_and_alfred() {
                     angle = 180.0 - angle;
                 }
                 let apart = (dead.theta.to_degrees() - angle + 180.0).rem_euclid(360.0) - 180.0;
+                assert!(dead.theta.is_sign_positive());
                 close("dead centre", apart, 0.0, 1.0, 1e-7);
             }
         }
@@ -288,4 +289,26 @@ fn lengths_typed_in_decimals_on_a_border_are_change_points() {
         |l: f64| Limits::new(&Linkage::new(&geometry(0.1, l, 0.05, Branch::Right)), 1.0).class;
     assert_eq!(class(0.15 * (1.0 + 1e-13)), Class::RotatingCrank);
     assert_eq!(class(0.15 * (1.0 - 1e-13)), Class::DoubleRocker);
+}
+
+/// Where the rod lies along the guide, x' is ± r and extreme.
+#[test]
+fn with_offset_equal_to_the_crank_the_speed_is_extreme_where_the_rod_lies_along_the_guide() {
+    for branch in [Branch::Right, Branch::Left] {
+        let extremes = |e| Extremes::new(&Linkage::new(&geometry(1.0, 3.0, e, branch))).unwrap();
+        let (above, below) = (extremes(-1.0).velocity_min, extremes(1.0).velocity_max);
+        close("least x'", above.value, -1.0, 1.0, 1e-15);
+        close("its angle", above.theta, FRAC_PI_2, 1.0, 1e-14);
+        close("largest x'", below.value, 1.0, 1.0, 1e-15);
+        close("its angle", below.theta, 3.0 * FRAC_PI_2, 1.0, 1e-14);
+    }
+}
+
+#[test]
+fn a_change_point_has_no_extremes_whatever_the_rounding_of_its_lengths() {
+    for (r, l, e) in [(0.1, 0.15, 0.05), (0.1, 0.4, 0.3), (0.1, 0.1, 0.0)] {
+        let linkage = Linkage::new(&geometry(r, l, e, Branch::Right));
+        assert_eq!(Limits::new(&linkage, 1.0).class, Class::ChangePoint);
+        assert_eq!(Extremes::new(&linkage), None, "{r} {l} {e}");
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::{Linkage, Pose};
+use super::{Class, Limits, Linkage, Pose};
 use crate::numeric::root;
 
 /// An extreme value and where it is.
@@ -30,7 +30,7 @@ pub struct Extremes {
 impl Extremes {
     /// The extremes, or none where the crank cannot turn fully: there x' and x'' grow without bound.
     pub fn new(linkage: &Linkage) -> Option<Extremes> {
-        if linkage.margin() <= 0.0 {
+        if Limits::new(linkage, 0.0).class != Class::RotatingCrank {
             return None;
         }
         let grid = grid(linkage);
@@ -71,26 +71,28 @@ fn pair(
 }
 
 impl Linkage {
-    /// Crank angles of one turn from −90°, rad: every degree, and ever finer towards ±90°, where a rod that is
+    /// Crank angles of one turn, rad: every degree, and ever finer towards ±90°, where a rod that is
     /// hardly long enough makes narrow peaks of width sqrt((l − |e| − r)/r).
     pub fn turn_grid(&self) -> Vec<f64> {
         grid(self)
     }
 }
 
+/// Where the turn is cut, rad: an angle at which nothing is extreme for a reason of symmetry.
+const SEAM: f64 = -1.7;
+
 fn grid(linkage: &Linkage) -> Vec<f64> {
     let mut angles: Vec<f64> = (0..=360)
-        .map(|i| PI * f64::from(i) / 180.0 - FRAC_PI_2)
+        .map(|i| SEAM + PI * f64::from(i) / 180.0)
         .collect();
     let narrow = (linkage.margin() / linkage.r).max(1e-16).sqrt();
     let mut distance = PI / 180.0;
     while distance > 1e-3 * narrow.min(1.0) {
-        for centre in [-FRAC_PI_2, FRAC_PI_2, 3.0 * FRAC_PI_2] {
+        for centre in [-FRAC_PI_2, FRAC_PI_2] {
             angles.extend([centre - distance, centre + distance]);
         }
         distance *= 0.7;
     }
-    angles.retain(|a| (-FRAC_PI_2..=3.0 * FRAC_PI_2).contains(a));
     angles.sort_by(f64::total_cmp);
     angles.dedup();
     angles
