@@ -595,3 +595,85 @@ proptest! {
         }
     }
 }
+
+/// Accelerations of many instants at once are those of each instant.
+#[test]
+fn a_batch_is_what_its_instants_are() {
+    use slider_crank::mechanism::{Equation, Instants};
+    let scenes = [
+        Scene::duarte().torque(Load::Viscous(0.3)),
+        Scene::duarte().force(Load::Spring {
+            stiffness: 900.0,
+            rest: 0.12,
+        }),
+        // Hardly a full turn: near the limit the position needs its other formula.
+        Scene::new(0.05, 0.0700001)
+            .offset(0.02)
+            .branch(Branch::Left)
+            .crank(Crank {
+                inertia: 1e-3,
+                mass: 0.4,
+                cg: 0.02,
+                cg_lateral: -0.01,
+            })
+            .rod(Rod {
+                mass: 0.3,
+                cg: 0.03,
+                cg_lateral: 0.004,
+                inertia: 2e-4,
+                ..Rod::default()
+            })
+            .slider(Slider { mass: 0.2 })
+            .gravity(Gravity::standard()),
+        Scene::new(0.05, 0.2).crank(Crank {
+            inertia: 1e-3,
+            ..Crank::default()
+        }),
+    ];
+    for scene in scenes {
+        let scene = scene
+            .force(Load::function(Variables::T, |now| 70.0 * now.t))
+            .force(Load::function(Variables::V, |now| -3.0 * now.v))
+            .torque(Load::Constant(0.7));
+        let equation = Equation::new(&scene);
+        for k in 0..40 {
+            let theta: [f64; 9] = std::array::from_fn(|i| -3.0 + 0.13 * (i + 9 * k) as f64 % 9.0);
+            let omega: [f64; 9] = std::array::from_fn(|i| 3.0 - 1.7 * i as f64);
+            let t: [f64; 9] = std::array::from_fn(|i| 0.1 * i as f64);
+            let (mut alpha, mut power) = ([0.0; 9], [0.0; 9]);
+            let of_time = t.map(|t| equation.loads().of_time(t));
+            let at = Instants {
+                t: &t,
+                of_time: &of_time,
+                turns: 2.0,
+                theta: &theta,
+                omega: &omega,
+            };
+            equation.accelerations(&at, &mut alpha, &mut power);
+            for i in 0..9 {
+                let angle = Angle {
+                    turns: 2.0,
+                    rest: theta[i],
+                };
+                let (a, p) = equation.acceleration_and_power(t[i], angle, omega[i]);
+                let slope = {
+                    let near = |d: f64| equation.acceleration(t[i], angle.plus(d), omega[i]);
+                    (near(1e-7) - near(-1e-7)).abs() / 2e-7
+                };
+                // Sine and cosine differ in the last place, which is a change of the angle.
+                let allowed = 1e-13 * a.abs() + 1e-15 * slope + 1e-12;
+                assert!(
+                    (alpha[i] - a).abs() <= allowed,
+                    "{} {a} at {}",
+                    alpha[i],
+                    theta[i]
+                );
+                assert!(
+                    (power[i] - p).abs() <= 1e-12 * (1.0 + p.abs()),
+                    "{} {p}",
+                    power[i]
+                );
+            }
+        }
+    }
+}
