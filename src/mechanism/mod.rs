@@ -3,6 +3,7 @@
 
 mod batch;
 mod body;
+mod called;
 mod extremes;
 mod lagrange;
 mod limits;
@@ -13,10 +14,11 @@ mod reactions;
 
 pub use batch::Instants;
 pub use body::{Bodies, Body, Path};
+pub use called::{LoadValue, single};
 pub use extremes::{Extreme, Extremes};
 pub use lagrange::{Equation, Inertia, Terms};
 pub use limits::{Class, DeadCentre, Limits};
 pub use linkage::{Linkage, Pose};
-pub use load::{LoadValue, Loads, single};
+pub use load::Loads;
 pub use obstacle::Obstacle;
 pub use reactions::{Reactions, Reactor};
