@@ -44,6 +44,11 @@ impl DoubleDouble {
         high: 1.0,
         low: 0.0,
     };
+    /// A turn, 2 pi.
+    pub const TAU: DoubleDouble = DoubleDouble {
+        high: 4.0 * DoubleDouble::QUARTER[0],
+        low: 4.0 * DoubleDouble::QUARTER[1],
+    };
     /// A quarter turn.
     const QUARTER: [f64; 3] = [
         std::f64::consts::FRAC_PI_2,

@@ -134,8 +134,8 @@ pub(super) fn integrate(
     let length = t_end - start.t.value();
     let mut place = start;
     let mut h = length * 1e-3;
-    // The step and the tail of the last refusal.
-    let mut refused = f64::INFINITY;
+    // Tails of the last three refusals, the oldest first.
+    let mut refused = [f64::INFINITY; 3];
     while place.t.value() < t_end {
         let stop = motion.next_time(place.t.value()).min(t_end);
         let left = (DoubleDouble::from(stop) - place.t).value();
@@ -155,13 +155,20 @@ pub(super) fn integrate(
         }
         let (mut next, tail) = found;
         let growth = 0.9 * (resolution.tail / tail.max(1e-300)).powf(1.0 / (STAGES as f64 - 1.0));
-        // What a shorter step does not make smaller is the rounding of loads in floats.
-        let rounding = tail < 1e-6 && tail > 0.5 * refused;
+        // What shorter and shorter steps do not make smaller is rounding.
+        let rounding = tail < 1e-7 && tail > 0.5 * refused[0];
         if tail > 10.0 * resolution.tail && !rounding {
-            (h, refused) = (step * growth.clamp(0.1, 0.8), tail);
+            h = step * growth.clamp(0.1, 0.6);
+            refused = [refused[1], refused[2], tail];
             continue;
         }
-        (h, refused) = (step * growth.clamp(0.3, 2.0), f64::INFINITY);
+        h = step
+            * if rounding {
+                2.0
+            } else {
+                growth.clamp(0.3, 2.0)
+            };
+        refused = [f64::INFINITY; 3];
         if last && corner.is_none() {
             // The clock is set, so that times of tables are met.
             next.t = DoubleDouble::from(stop);

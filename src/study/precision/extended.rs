@@ -116,6 +116,12 @@ impl Extended {
         self.exact
     }
 
+    /// Whether a crank that turns repeats its motion with every turn: no load takes or gives work in a turn.
+    pub(super) fn repeats(&self) -> bool {
+        let conserves = |load: &Load| matches!(load, Load::Constant(_) | Load::Spring { .. });
+        self.scene.torques.is_empty() && self.scene.forces.iter().all(conserves)
+    }
+
     /// The loads.
     pub(super) fn loads(&self) -> impl Iterator<Item = &Load> {
         self.scene.torques.iter().chain(&self.scene.forces)

@@ -38,7 +38,7 @@ impl Default for PrecisionOptions {
             tolerances: (4..=13).map(|k| 10f64.powi(-k)).collect(),
             repeats: 15,
             most_s: 5.0,
-            max_evaluations: 20_000_000,
+            max_evaluations: 5_000_000,
         }
     }
 }
@@ -77,6 +77,26 @@ pub struct PrecisionRow {
     pub failure: Option<String>,
 }
 
+impl PrecisionRow {
+    fn empty(method: Method, tolerance: f64) -> PrecisionRow {
+        PrecisionRow {
+            method: method.to_string(),
+            tolerance,
+            error_theta_rad: None,
+            error_omega_rad_per_s: None,
+            estimate_theta_rad: None,
+            wall_s: None,
+            wall_median_s: None,
+            runs: 0,
+            evaluations: None,
+            steps: None,
+            error_is_bound: false,
+            measured_against: None,
+            failure: None,
+        }
+    }
+}
+
 /// The comparison of one scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct Precision {
@@ -94,6 +114,28 @@ pub struct Precision {
     pub left_out: Vec<String>,
     /// The rows, method by method.
     pub rows: Vec<PrecisionRow>,
+}
+
+impl Precision {
+    /// Whether any method reached the end.
+    pub fn has_results(&self) -> bool {
+        self.rows.iter().any(|row| row.failure.is_none())
+    }
+
+    /// A scene that cannot be computed: one row that says why.
+    pub fn refused(scene: &Scene, why: &Error) -> Precision {
+        let mut row = PrecisionRow::empty(Method::Auto, scene.run.tolerance);
+        row.failure = Some(first_line(why));
+        Precision {
+            scene: scene.title.clone().unwrap_or_default(),
+            t_s: 0.0,
+            reference: "none".to_owned(),
+            reference_error_theta_rad: None,
+            reference_error_omega_rad_per_s: None,
+            left_out: Vec::new(),
+            rows: vec![row],
+        }
+    }
 }
 
 /// Compares all methods that the plan of a scene allows. A run of so many turns is compared at the time at
@@ -211,7 +253,8 @@ fn run(
 fn other_methods(scene: &Scene, options: &PrecisionOptions) -> Vec<(Identity, Reference)> {
     let mut scene = scene.clone();
     scene.run.tolerance = TIGHTEST;
-    let runs = Method::each().filter_map(|method| {
+    let methods = Method::each().filter(|method| *method != Method::Auto);
+    let runs = methods.filter_map(|method| {
         let run = run(&scene, method, true, options).ok()?;
         let error = run.error_estimate.filter(|_| run.stopped.is_none())?;
         let reference = Reference {
@@ -282,21 +325,8 @@ impl Cell {
     }
 
     fn row(&self, reference: Option<&Reference>, named: bool) -> PrecisionRow {
-        let mut row = PrecisionRow {
-            method: self.method.to_string(),
-            tolerance: self.scene.run.tolerance,
-            error_theta_rad: None,
-            error_omega_rad_per_s: None,
-            estimate_theta_rad: None,
-            wall_s: None,
-            wall_median_s: None,
-            runs: self.walls.len(),
-            evaluations: None,
-            steps: None,
-            error_is_bound: false,
-            measured_against: None,
-            failure: None,
-        };
+        let mut row = PrecisionRow::empty(self.method, self.scene.run.tolerance);
+        row.runs = self.walls.len();
         let summary = match &self.result {
             Ok(summary) => summary,
             Err(why) => {

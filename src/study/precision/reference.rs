@@ -2,6 +2,8 @@
 
 use crate::numeric::double_double::DoubleDouble;
 
+use std::f64::consts::TAU;
+
 use super::collocation::{self, Acceleration, CORNER, Place, Resolution};
 use super::extended::{Extended, State};
 use crate::mechanism::Equation;
@@ -25,8 +27,8 @@ const ROUNDING: f64 = 1e-29;
 
 /// Ends of the series of the two runs, and where iterations end: with exact loads and with loads in floats,
 /// whose rounding is seen in the series.
-const EXACT: ([f64; 2], f64) = ([1e-17, 1e-19], 1e-20);
-const ROUNDED: ([f64; 2], f64) = ([1e-8, 1e-10], 1e-15);
+const EXACT: ([f64; 2], f64) = ([1e-20, 1e-22], 1e-23);
+const ROUNDED: ([f64; 2], f64) = ([1e-9, 1e-11], 1e-15);
 
 /// The reference in double-double arithmetic; none if it would take more evaluations than this, or the
 /// motion does not get to the end.
@@ -59,7 +61,11 @@ pub(super) fn extended(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Re
             settled,
             evaluations,
         };
-        collocation::integrate(&motion, start, t_end, resolution)
+        let until = |t_end| collocation::integrate(&motion, start, t_end, resolution);
+        let turns = start.omega.value() * t_end / TAU;
+        let repeated = motion.extended.repeats() && turns.abs() > FEW_TURNS;
+        let repeated = repeated.then(|| motion.repeated(start, t_end, &until));
+        repeated.flatten().or_else(|| until(t_end))
     });
     let [Some(coarse), Some(fine)] = ends else {
         return None;
@@ -82,12 +88,54 @@ pub(super) fn extended(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Re
     })
 }
 
+/// Runs of more turns are made of one turn, if all are the same.
+const FEW_TURNS: f64 = 64.0;
+
 /// The motion as the collocation sees it.
 struct Motion {
     extended: Extended,
     /// For the slopes alone, which decide how fast the iteration converges and not where to.
     equation: Equation,
 }
+
+impl Motion {
+    /// The state at `t_end` of a motion that repeats with every turn: whole periods, and the rest of one. None
+    /// if the crank does not turn.
+    fn repeated(
+        &self,
+        start: Place,
+        t_end: f64,
+        until: &dyn Fn(f64) -> Option<Place>,
+    ) -> Option<Place> {
+        let turn = DoubleDouble::TAU * start.omega.value().signum();
+        let mut period = DoubleDouble::from((turn / start.omega).value());
+        for _ in 0..NEWTON_STEPS {
+            let end = until(period.value())?;
+            let change = (start.theta + turn - end.theta) / end.omega;
+            let found = DoubleDouble::from(period.value()) + change;
+            // Newton's method squares what is left: the last change is right to all digits.
+            let settled = change.value().abs() <= 1e-13 * found.value();
+            period = found;
+            if !(period.value() > 0.0 && period.value() < t_end) {
+                return None;
+            }
+            if settled {
+                let turns = (t_end / period.value()).floor();
+                let rest = DoubleDouble::from(t_end) - period * turns;
+                let mut place = until(rest.value())?;
+                let beyond = rest - rest.value();
+                let alpha = self.exactly(place.t, place.theta, place.omega);
+                place.theta += place.omega * beyond + turn * turns;
+                place.omega += alpha * beyond;
+                return Some(place);
+            }
+        }
+        None
+    }
+}
+
+/// Most steps in search of the period.
+const NEWTON_STEPS: usize = 40;
 
 impl Acceleration for Motion {
     fn exactly(&self, t: DoubleDouble, theta: DoubleDouble, omega: DoubleDouble) -> DoubleDouble {
@@ -126,18 +174,17 @@ impl Acceleration for Motion {
         let between = corners
             .filter(|table| table.of() == Variable::Theta)
             .flat_map(|table| {
-                table.rows().iter().filter_map(move |row| {
-                    let period = table.period().unwrap_or(f64::INFINITY);
-                    if period.is_infinite() {
-                        return Some(*row);
-                    }
+                table.rows().iter().map(move |row| {
+                    let Some(period) = table.period() else {
+                        return *row;
+                    };
                     // The repetition that is met first.
                     let turns = if towards > theta {
                         ((low - row) / period).ceil()
                     } else {
                         ((high - row) / period).floor()
                     };
-                    Some(row + turns * period)
+                    row + turns * period
                 })
             })
             .filter(|corner| (low..=high).contains(corner));
