@@ -25,10 +25,10 @@ const MARGIN: f64 = 4.0;
 /// Relative rounding of the last operations in double-double arithmetic.
 const ROUNDING: f64 = 1e-29;
 
-/// Ends of the series of the two runs, and where iterations end: with exact loads and with loads in floats,
-/// whose rounding is seen in the series.
-const EXACT: ([f64; 2], f64) = ([1e-20, 1e-22], 1e-23);
-const ROUNDED: ([f64; 2], f64) = ([1e-9, 1e-11], 1e-15);
+/// Ends of the series of the two runs, and where iterations end. Coarser ones follow for motions near a limit,
+/// where digits are lost; loads in floats have their rounding in the series.
+const EXACT: [([f64; 2], f64); 2] = [([1e-20, 1e-22], 1e-23), ([1e-15, 1e-17], 1e-19)];
+const ROUNDED: [([f64; 2], f64); 1] = [([1e-9, 1e-11], 1e-15)];
 
 /// The reference in double-double arithmetic; none if it would take more evaluations than this, or the
 /// motion does not get to the end.
@@ -54,22 +54,23 @@ pub(super) fn extended(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Re
         equation: Equation::new(scene),
     };
     let exact = motion.extended.is_exact();
-    let (tails, settled) = if exact { EXACT } else { ROUNDED };
-    let ends = tails.map(|tail| {
-        let resolution = Resolution {
-            tail,
-            settled,
-            evaluations,
+    let both_ends = |(tails, settled): &([f64; 2], f64)| {
+        let end = |tail| {
+            let resolution = Resolution {
+                tail,
+                settled: *settled,
+                evaluations,
+            };
+            let until = |t_end| collocation::integrate(&motion, start, t_end, resolution);
+            let turns = start.omega.value() * t_end / TAU;
+            let repeated = motion.extended.repeats() && turns.abs() > FEW_TURNS;
+            let repeated = repeated.then(|| motion.repeated(start, t_end, &until));
+            repeated.flatten().or_else(|| until(t_end))
         };
-        let until = |t_end| collocation::integrate(&motion, start, t_end, resolution);
-        let turns = start.omega.value() * t_end / TAU;
-        let repeated = motion.extended.repeats() && turns.abs() > FEW_TURNS;
-        let repeated = repeated.then(|| motion.repeated(start, t_end, &until));
-        repeated.flatten().or_else(|| until(t_end))
-    });
-    let [Some(coarse), Some(fine)] = ends else {
-        return None;
+        Some((end(tails[0])?, end(tails[1])?))
     };
+    let resolutions: &[_] = if exact { &EXACT } else { &ROUNDED };
+    let (coarse, fine) = resolutions.iter().find_map(both_ends)?;
     let distance = |a: DoubleDouble, b: DoubleDouble| {
         let rounding = b.value().abs() * ROUNDING;
         MARGIN * (a - b).value().abs() + rounding
