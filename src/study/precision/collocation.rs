@@ -170,8 +170,13 @@ pub(super) fn integrate(
             };
         refused = [f64::INFINITY; 3];
         if last && corner.is_none() {
-            // The clock is set, so that times of tables are met.
-            next.t = DoubleDouble::from(stop);
+            // The step is a float; what it leaves out of the time is too short for more than its first term.
+            let end = DoubleDouble::from(stop);
+            let rest = end - next.t;
+            let alpha = motion.exactly(next.t, next.theta, next.omega);
+            next.theta += next.omega * rest;
+            next.omega += alpha * rest;
+            next.t = end;
         }
         place = next;
     }
