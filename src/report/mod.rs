@@ -3,12 +3,14 @@
 mod explain;
 mod figure;
 mod output;
+mod precision;
 mod rows;
 mod text;
 
 pub use explain::explanation;
 pub use figure::{Axis, Figure, ScaleKind, panels};
 pub use output::Output;
+pub use precision::{precision, precision_csv, precision_figure, precision_notes};
 pub use rows::{KinematicsWriter, Preview, RowWriter};
 pub use text::{kinematics, summary};
 

@@ -10,6 +10,7 @@ mod in_time;
 mod kinematics;
 mod over_angle;
 mod passages;
+mod precision;
 mod profile;
 mod row;
 mod schedule;
@@ -21,6 +22,7 @@ mod watch;
 
 pub use explain::{Explanation, LoadAt, TermsAt, explain};
 pub use kinematics::{DeadCentre, Kinematics, KinematicsRow, Located, kinematics};
+pub use precision::{Precision, PrecisionOptions, PrecisionRow, precision};
 pub use row::{NoRows, Row, RowSink};
 pub use simulate::{Options, Simulation, simulate, simulate_rows};
 pub use summary::{Cost, ErrorEstimate, Event, Final, Summary, TorqueRange};
