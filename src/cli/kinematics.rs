@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Outcome, is_standard, positive_angle, print, say, scene};
+use super::{Outcome, is_standard, print, say, scene, turn_step};
 use crate::error::Error;
 use crate::report::{self, KinematicsWriter, Output};
 use crate::study;
@@ -15,7 +15,7 @@ pub(super) struct Arguments {
     /// Scene file, `-` for standard input; without it the built-in Duarte engine
     scene: Option<PathBuf>,
     /// Crank angle between rows, from 0 to 360 degrees inclusive
-    #[arg(long, value_name = "ANGLE", default_value = "1 deg", value_parser = positive_angle)]
+    #[arg(long, value_name = "ANGLE", default_value = "1 deg", value_parser = turn_step)]
     every: f64,
     /// Writes the rows as CSV to this file, `-` for standard output
     #[arg(long, value_name = "FILE")]
@@ -25,24 +25,12 @@ pub(super) struct Arguments {
     json: bool,
 }
 
-/// More rows than this in one turn are a slip of the unit.
-const MOST_ROWS: f64 = 1e8;
-
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let rows_on_stdout = is_standard(arguments.out.as_ref());
     if rows_on_stdout && arguments.json {
         return Err(Error::refused(
             "both the rows and the JSON summary would go to standard output",
             "write the rows to a file: --out rows.csv",
-        ));
-    }
-    if std::f64::consts::TAU / arguments.every > MOST_ROWS {
-        return Err(Error::refused(
-            format!(
-                "--every {} rad gives more than {MOST_ROWS} rows",
-                arguments.every
-            ),
-            "give an angle like \"1 deg\"",
         ));
     }
     let result = study::kinematics(&scene(arguments.scene.as_ref())?)?;

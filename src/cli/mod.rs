@@ -5,6 +5,7 @@ mod explain;
 mod kinematics;
 mod schema;
 mod simulate;
+mod statics;
 
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -31,6 +32,8 @@ enum Command {
     Simulate(simulate::Arguments),
     /// One turn in closed form: dead centres, stroke, time ratio, extremes
     Kinematics(kinematics::Arguments),
+    /// Static slider force against crank torque, with the band that friction allows
+    Statics(statics::Arguments),
     /// The equation, what is modelled and why, and what will compute it
     Explain(explain::Arguments),
     /// Says all that is wrong with a scene file
@@ -52,6 +55,7 @@ pub fn main() -> ExitCode {
     let result = match arguments.command {
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Kinematics(arguments) => kinematics::run(&arguments),
+        Command::Statics(arguments) => statics::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
@@ -111,8 +115,15 @@ fn angle(text: &str) -> Result<f64, String> {
     quantity(text, Quantity::Angle)
 }
 
-fn positive_angle(text: &str) -> Result<f64, String> {
+/// More rows than this in one turn are a slip of the unit.
+const MOST_ROWS: f64 = 1e8;
+
+/// Crank angle between the rows of one turn.
+fn turn_step(text: &str) -> Result<f64, String> {
     match angle(text)? {
+        step if step > 0.0 && std::f64::consts::TAU / step > MOST_ROWS => Err(format!(
+            "this gives more than {MOST_ROWS} rows in one turn; give an angle like \"1 deg\""
+        )),
         step if step > 0.0 => Ok(step),
         _ => Err("the angle must be positive, like \"1 deg\"".to_owned()),
     }

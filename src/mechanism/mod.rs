@@ -7,7 +7,9 @@ mod lagrange;
 mod limits;
 mod linkage;
 mod load;
+mod positions;
 mod reactions;
+mod statics;
 
 pub use body::{Bodies, Body, Path};
 pub use extremes::{Extreme, Extremes};
@@ -15,4 +17,6 @@ pub use lagrange::{Equation, Inertia, Obstacle, Terms};
 pub use limits::{Class, DeadCentre, Limits};
 pub use linkage::{Linkage, Pose};
 pub use load::{LoadValue, Loads, single};
+pub use positions::NamedPosition;
 pub use reactions::{Reactions, Reactor};
+pub use statics::{Balance, Band, Statics, drum_torque, friction_from_tilt};

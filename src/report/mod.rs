@@ -3,11 +3,13 @@
 mod explain;
 mod output;
 mod rows;
+mod statics;
 mod text;
 
 pub use explain::explanation;
 pub use output::Output;
 pub use rows::{KinematicsWriter, Preview, RowWriter};
+pub use statics::{StaticsWriter, statics};
 pub use text::{kinematics, summary};
 
 use crate::error::Error;

@@ -38,7 +38,7 @@ fn ryu_like(value: f64) -> String {
     }
 }
 
-fn write(output: &mut Output, values: &[f64]) -> Result<(), Error> {
+pub(super) fn write(output: &mut Output, values: &[f64]) -> Result<(), Error> {
     let failed = |message: String| Error::Write {
         target: "CSV".to_owned(),
         source: std::io::Error::other(message),

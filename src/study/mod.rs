@@ -14,13 +14,16 @@ mod profile;
 mod row;
 mod schedule;
 mod simulate;
+mod statics;
 mod stopped;
 mod summary;
 mod task;
 mod watch;
 
+pub use crate::mechanism::{drum_torque, friction_from_tilt};
 pub use explain::{Explanation, LoadAt, TermsAt, explain};
-pub use kinematics::{DeadCentre, Kinematics, KinematicsRow, Located, kinematics};
+pub use kinematics::{DeadCentre, Kinematics, KinematicsRow, Located, NamedPosition, kinematics};
 pub use row::{NoRows, Row, RowSink};
 pub use simulate::{Options, Simulation, simulate, simulate_rows};
+pub use statics::{StaticAnalysis, StaticsOptions, StaticsRow, statics};
 pub use summary::{Cost, ErrorEstimate, Event, Final, Summary, TorqueRange};
