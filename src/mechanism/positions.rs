@@ -117,10 +117,14 @@ impl Linkage {
             .map(|root| (root - e * r) / squares)
             .filter(|sin| sin.abs() <= 1.0)
             .map(|sin| {
-                let cos = ((1.0 - sin) * (1.0 + sin)).sqrt();
-                // s W cos θ = u sin θ.
-                let towards = s * (e + r * sin) * sin;
-                sin.atan2(if towards < 0.0 { -cos } else { cos })
+                // s W cos θ = u sin θ gives the angle without the loss of an arc sine near ±90°.
+                let u = e + r * sin;
+                let w = s * ((l - u) * (l + u)).max(0.0).sqrt();
+                if sin * w < 0.0 {
+                    (-w).atan2(-u)
+                } else {
+                    w.atan2(u)
+                }
             })
             .collect();
         angles.dedup();
