@@ -9,7 +9,9 @@ mod linkage;
 mod load;
 mod positions;
 mod reactions;
+mod sensitivity;
 mod statics;
+mod torque_slope;
 
 pub use body::{Bodies, Body, Path};
 pub use extremes::{Extreme, Extremes};
@@ -19,4 +21,6 @@ pub use linkage::{Linkage, Pose};
 pub use load::{LoadValue, Loads, single};
 pub use positions::NamedPosition;
 pub use reactions::{Reactions, Reactor};
+pub use sensitivity::{Length, PoseSlope};
 pub use statics::{Balance, Band, Statics, drum_torque, friction_from_tilt};
+pub use torque_slope::TorqueSlope;
