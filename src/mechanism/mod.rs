@@ -2,25 +2,35 @@
 //! Knows no integrator.
 
 mod body;
+mod equivalent;
 mod extremes;
+mod first_order;
 mod lagrange;
 mod limits;
 mod linkage;
 mod load;
+mod loop_closure;
 mod positions;
 mod reactions;
 mod sensitivity;
+mod sizing;
+mod solid;
 mod statics;
 mod torque_slope;
 
 pub use body::{Bodies, Body, Path};
+pub use equivalent::EquivalentMasses;
 pub use extremes::{Extreme, Extremes};
+pub use first_order::FirstOrder;
 pub use lagrange::{Equation, Inertia, Obstacle, Terms};
 pub use limits::{Class, DeadCentre, Limits};
 pub use linkage::{Linkage, Pose};
 pub use load::{LoadValue, Loads, single};
+pub use loop_closure::{Closure, NotClosed};
 pub use positions::NamedPosition;
 pub use reactions::{Reactions, Reactor};
 pub use sensitivity::{Length, PoseSlope};
+pub use sizing::size_from_stroke;
+pub use solid::{MassProperties, Shape};
 pub use statics::{Balance, Band, Statics, drum_torque, friction_from_tilt};
 pub use torque_slope::TorqueSlope;

@@ -5,4 +5,5 @@ pub mod chebyshev;
 pub mod exact;
 pub mod gauss;
 pub mod interpolate;
+pub mod line_fit;
 pub mod root;
