@@ -2,6 +2,7 @@
 
 mod by_angle;
 mod by_energy;
+mod calibration;
 mod closed_form;
 mod drive;
 mod explain;
@@ -21,6 +22,7 @@ mod task;
 mod watch;
 
 pub use crate::mechanism::{drum_torque, friction_from_tilt};
+pub use calibration::{Calibration, Measured, calibrate};
 pub use explain::{Explanation, LoadAt, TermsAt, explain};
 pub use kinematics::{DeadCentre, Kinematics, KinematicsRow, Located, NamedPosition, kinematics};
 pub use row::{NoRows, Row, RowSink};
