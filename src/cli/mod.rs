@@ -102,6 +102,13 @@ fn print(text: &str) -> Result<(), Error> {
     output.finish()
 }
 
+/// Writes a text to a file, `-` for standard output.
+fn write_text(path: &Path, text: &str) -> Result<(), Error> {
+    let mut output = Output::create(path)?;
+    output.write(text.as_bytes())?;
+    output.finish()
+}
+
 /// Whether rows go to standard output.
 fn is_standard(path: Option<&PathBuf>) -> bool {
     path.is_some_and(|path| path == Path::new("-"))
@@ -113,6 +120,13 @@ fn quantity(text: &str, quantity: Quantity) -> Result<f64, String> {
 
 fn angle(text: &str) -> Result<f64, String> {
     quantity(text, Quantity::Angle)
+}
+
+fn length(text: &str) -> Result<f64, String> {
+    match quantity(text, Quantity::Length)? {
+        length if length > 0.0 => Ok(length),
+        _ => Err("the length must be positive, like \"27 mm\"".to_owned()),
+    }
 }
 
 /// More rows than this in one turn are a slip of the unit.

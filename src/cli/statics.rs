@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Outcome, angle, is_standard, print, quantity, say, scene, turn_step};
+use super::{
+    Outcome, angle, is_standard, length, print, quantity, say, scene, turn_step, write_text,
+};
 use crate::error::Error;
 use crate::report::{self, Output, StaticsWriter};
 use crate::scene::unit::Quantity;
@@ -42,6 +44,20 @@ pub(super) struct Arguments {
     /// Writes the rows as CSV to this file, `-` for standard output
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    /// Draws force or torque with its friction band, and the side thrust, to this SVG file
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+    /// Calibration of a force sensor instead: a CSV file of loads and readings, like `load [N],strain`
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "out", "plot", "torque", "weight", "force"])]
+    calibration: Option<PathBuf>,
+    /// Reading that the calibration takes back to a force; may be given again
+    #[arg(
+        long,
+        value_name = "NUMBER",
+        requires = "calibration",
+        allow_hyphen_values = true
+    )]
+    reading: Vec<f64>,
     /// Prints the summary as one JSON object
     #[arg(long)]
     json: bool,
@@ -53,13 +69,6 @@ fn torque(text: &str) -> Result<f64, String> {
 
 fn force(text: &str) -> Result<f64, String> {
     quantity(text, Quantity::Force)
-}
-
-fn length(text: &str) -> Result<f64, String> {
-    match quantity(text, Quantity::Length)? {
-        length if length > 0.0 => Ok(length),
-        _ => Err("the length must be positive, like \"27 mm\"".to_owned()),
-    }
 }
 
 fn tilt(text: &str) -> Result<f64, String> {
@@ -85,6 +94,15 @@ impl Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+    if let Some(file) = &arguments.calibration {
+        let result = study::calibrate(file, &arguments.reading)?;
+        print(&if arguments.json {
+            report::json(&result)?
+        } else {
+            report::calibration(&result)
+        })?;
+        return Ok(Outcome::Done);
+    }
     let rows_on_stdout = is_standard(arguments.out.as_ref());
     if rows_on_stdout && arguments.json {
         return Err(Error::refused(
@@ -100,6 +118,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
             writer.row(&row)?;
         }
         writer.finish()?;
+    }
+    if let Some(path) = &arguments.plot {
+        write_text(path, &report::statics_figure(&result)?)?;
     }
     if arguments.json {
         print(&report::json(&result)?)?;

@@ -28,7 +28,7 @@ pub use linkage::{Linkage, Pose};
 pub use load::{LoadValue, Loads, single};
 pub use loop_closure::{Closure, NotClosed};
 pub use positions::NamedPosition;
-pub use reactions::{Reactions, Reactor};
+pub use reactions::{InertiaForces, Reactions, Reactor};
 pub use sensitivity::{Length, PoseSlope};
 pub use sizing::size_from_stroke;
 pub use solid::{MassProperties, Shape};

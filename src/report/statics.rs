@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use super::Output;
 use super::rows::write;
 use super::text::place;
+use super::{Axis, Figure, Output, panels};
 use crate::error::Error;
 use crate::study::{Located, StaticAnalysis, StaticsRow};
 
@@ -137,4 +137,60 @@ fn line(text: &mut String, cells: &[String; 6]) {
         text,
         "{theta:>11} {value:>18} {from:>14} {to:>14} {thrust:>16} {transmission:>19}"
     );
+}
+
+/// What is sought over the crank angle, with its friction band, and the side thrust.
+///
+/// # Errors
+/// [`Error::Write`] if the figure cannot be drawn.
+pub fn statics_figure(result: &StaticAnalysis) -> Result<String, Error> {
+    let rows: Vec<StaticsRow> = result.rows(1f64.to_radians()).collect();
+    let of = |value: &dyn Fn(&StaticsRow) -> Option<f64>| -> Vec<(f64, f64)> {
+        let point = |row: &StaticsRow| (row.theta.to_degrees(), value(row).unwrap_or(f64::NAN));
+        rows.iter().map(point).collect()
+    };
+    let value = of(&|row| row.balance.band.map(|band| band.value));
+    // Towards a dead centre the force grows without bound; what is worth seeing is around its median.
+    let mut sizes: Vec<f64> = value
+        .iter()
+        .map(|(_, y)| y.abs())
+        .filter(|y| y.is_finite())
+        .collect();
+    sizes.sort_by(f64::total_cmp);
+    let most = 5.0
+        * sizes
+            .get(sizes.len() / 2)
+            .copied()
+            .unwrap_or(1.0)
+            .max(f64::MIN_POSITIVE);
+    let band = rows.iter().map(|row| {
+        let edge = |edge: Option<f64>| edge.unwrap_or(f64::NAN).clamp(-most, most);
+        let band = row.balance.band;
+        (
+            row.theta.to_degrees(),
+            edge(band.and_then(|band| band.min)),
+            edge(band.and_then(|band| band.max)),
+        )
+    });
+    let angle = || Axis::linear("crank angle [deg]").range(0.0, 360.0);
+    let inside = |points: Vec<(f64, f64)>| -> Vec<(f64, f64)> {
+        points
+            .into_iter()
+            .map(|(x, y)| (x, if y.abs() <= most { y } else { f64::NAN }))
+            .collect()
+    };
+    let name = match result.sought {
+        "crank-torque" => "crank torque [N m]",
+        _ => "slider force [N]",
+    };
+    let mut sought = Figure::new("", angle(), Axis::linear(name));
+    if result.friction > 0.0 {
+        sought = sought.band("held by friction", band.collect());
+    }
+    let thrust = of(&|row| row.balance.side_thrust);
+    let figures = [
+        sought.line("without friction", inside(value)),
+        Figure::new("", angle(), Axis::linear("side thrust [N]")).line("", thrust),
+    ];
+    panels(&result.scene, &figures, 1)
 }

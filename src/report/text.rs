@@ -160,7 +160,7 @@ pub(super) fn place(position: &NamedPosition) -> String {
 }
 
 /// What the lengths give.
-pub fn kinematics(result: &Kinematics) -> String {
+pub(super) fn kinematics(result: &Kinematics) -> String {
     let mut text = String::new();
     let mut put = |name: &str, value: String| {
         let _ = writeln!(text, "{name:<22} {value}");

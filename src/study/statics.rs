@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::Located;
 use crate::error::Error;
 use crate::mechanism::{Balance, Limits, NamedPosition, Statics};
-use crate::numeric::{angle, root};
+use crate::numeric::{angle, difference, root};
 use crate::scene::{Load, Scene, Variables};
 
 /// What is given in place of the scene's own loads and friction.
@@ -182,8 +182,9 @@ impl StaticAnalysis {
             .filter(|i| size[*i] < size[i - 1] && size[*i] <= size[i + 1])
             .filter_map(|i| {
                 let (a, b) = (grid[i - 1], grid[i + 1]);
-                let theta = root::bracketed(value, a, b)
-                    .or_else(|| root::bracketed(|theta| slope(&value, theta), a, b))?;
+                let theta = root::bracketed(value, a, b).or_else(|| {
+                    root::bracketed(|theta| difference::slope(&value, theta, 1e-3), a, b)
+                })?;
                 let located = Located {
                     value: value(theta),
                     theta_rad: theta.rem_euclid(TAU) % TAU,
@@ -194,12 +195,4 @@ impl StaticAnalysis {
         found.sort_by(|a, b| a.theta_rad.total_cmp(&b.theta_rad));
         found
     }
-}
-
-/// Derivative by the central difference of sixth order; its error is far below what an angle of a minimum
-/// needs.
-fn slope(f: &impl Fn(f64) -> f64, at: f64) -> f64 {
-    const STEP: f64 = 1e-3;
-    let odd = |n: f64| f(at + n * STEP) - f(at - n * STEP);
-    (45.0 * odd(1.0) - 9.0 * odd(2.0) + odd(3.0)) / (60.0 * STEP)
 }
