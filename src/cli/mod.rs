@@ -3,6 +3,7 @@
 mod check;
 mod explain;
 mod kinematics;
+mod reproduce;
 mod schema;
 mod simulate;
 mod statics;
@@ -34,6 +35,8 @@ enum Command {
     Kinematics(kinematics::Arguments),
     /// Static slider force against crank torque, with the band that friction allows
     Statics(statics::Arguments),
+    /// Every number and figure of the four papers beside ours, with the verdict
+    Reproduce(reproduce::Arguments),
     /// The equation, what is modelled and why, and what will compute it
     Explain(explain::Arguments),
     /// Says all that is wrong with a scene file
@@ -56,6 +59,7 @@ pub fn main() -> ExitCode {
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Kinematics(arguments) => kinematics::run(&arguments),
         Command::Statics(arguments) => statics::run(&arguments),
+        Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),

@@ -5,6 +5,7 @@ mod explain;
 mod figure;
 mod one_turn;
 mod output;
+mod reproduce;
 mod rows;
 mod statics;
 mod text;
@@ -14,6 +15,9 @@ pub use explain::explanation;
 pub use figure::{Axis, Figure, ScaleKind, panels};
 pub use one_turn::{TurnWriter, turn, turn_figure};
 pub use output::Output;
+pub use reproduce::{
+    ReproductionSummary, drawing_csv, drawing_svg, file_name, reproduction, reproduction_csv,
+};
 pub use rows::{Preview, RowWriter};
 pub use statics::{StaticsWriter, statics, statics_figure};
 pub use text::summary;
