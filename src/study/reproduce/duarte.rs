@@ -253,10 +253,6 @@ pub(super) fn drawings() -> Vec<Drawing> {
     let figure = |number: u32, title: &str, plot: Plot| {
         Drawing::new(&format!("figure-{number:02}"), title, vec![plot])
     };
-    let spin_only = |theta: f64| {
-        let [first, _, weight, arm] = printed(theta, 1.0);
-        [first, half_slope(theta), weight, arm]
-    };
     vec![
         figure(
             2,
@@ -286,10 +282,6 @@ pub(super) fn drawings() -> Vec<Drawing> {
                 .dashed(
                     "(9) as printed",
                     over_time(&|t| force(t, |theta| printed(theta, -1.0))),
-                )
-                .dashed(
-                    "(9), speed term mended",
-                    over_time(&|t| force(t, spin_only)),
                 ),
         ),
     ]

@@ -41,6 +41,16 @@ impl Paper {
         }
     }
 
+    /// Who wrote it.
+    pub fn authors(self) -> &'static str {
+        match self {
+            Paper::ObasekiAlfred => "Obaseki and Alfred",
+            Paper::Gupta => "Gupta",
+            Paper::Ng => "Ng",
+            Paper::Duarte => "Duarte et al.",
+        }
+    }
+
     /// The paper of a name.
     pub fn named(name: &str) -> Option<Paper> {
         Paper::ALL.into_iter().find(|paper| paper.name() == name)
@@ -94,6 +104,12 @@ pub fn reproduce(papers: &[Paper]) -> Result<Reproduction, Error> {
             .drawings
             .extend(drawings.into_iter().map(|drawing| Drawing {
                 paper: name,
+                title: format!(
+                    "{}, {}: {}",
+                    paper.authors(),
+                    drawing.name.replace("figure-0", "figure ").replace('-', " "),
+                    drawing.title
+                ),
                 ..drawing
             }));
     }

@@ -1,0 +1,170 @@
+//! `kinematics` with forces, sensitivities, changed lengths, sizing and the iterated loop.
+
+use super::program::{Folder, PUMP, Rows, at, close, repository};
+
+fn run(more: &[&str]) -> (serde_json::Value, Rows) {
+    let folder = Folder::new();
+    let scene = repository("data/obaseki-alfred.toml");
+    let arguments = [
+        "kinematics",
+        scene.to_str().unwrap(),
+        "--json",
+        "--out",
+        "rows.csv",
+    ];
+    let outcome = folder.run(&[&arguments[..], more].concat()).done();
+    (outcome.json(), Rows::read(&folder.read("rows.csv")))
+}
+
+/// Extremes of the driving torque by 40-digit arithmetic, for both senses of rotation.
+#[test]
+fn forces_at_constant_speed() {
+    let (summary, rows) = run(&["--forces", "--every", "5 deg"]);
+    for (path, want) in [
+        ("forces.inward.min.value", -316.0611128),
+        ("forces.inward.max.value", 185.2973566),
+        ("forces.outward.max.value", 47.50780798),
+        ("forces.outward.min.value", -81.30245599),
+        ("forces.masses.rotating_kg", 0.35),
+        ("forces.masses.reciprocating_kg", 1.05),
+    ] {
+        close(at(&summary, path), want, 1e-7 * want.abs());
+    }
+    assert!(rows.complete());
+    // With the crank's inertia balanced the pin carries the torque.
+    for (torque, tangential) in rows
+        .column("crank_torque_nm")
+        .iter()
+        .zip(rows.column("crank_tangential_n"))
+    {
+        close(*torque, 0.04 * tangential, 1e-10);
+    }
+    for (guide, lateral) in rows
+        .column("guide_n")
+        .iter()
+        .zip(rows.column("wrist_pin_y_n"))
+    {
+        close(guide + lateral, 0.0, 1e-10);
+    }
+}
+
+/// Clockwise, the stroke with the high torque is the outward one.
+#[test]
+fn reversed_rotation_exchanges_the_strokes() {
+    let scene = std::fs::read_to_string(repository("data/obaseki-alfred.toml")).unwrap();
+    let folder = Folder::with(&scene.replace("speed = \"251 rad/s\"", "speed = \"-251 rad/s\""));
+    let summary = folder
+        .run(&["kinematics", "scene.toml", "--forces", "--json"])
+        .done()
+        .json();
+    close(at(&summary, "forces.outward.min.value"), -316.0611128, 1e-6);
+    close(at(&summary, "forces.inward.max.value"), 47.50780798, 1e-6);
+}
+
+#[test]
+fn sensitivity_and_change_agree_for_a_small_change() {
+    let (_, rows) = run(&[
+        "--sensitivity",
+        "--change",
+        "rod=64.0001 mm",
+        "--every",
+        "15 deg",
+    ]);
+    for (slope, change) in [
+        ("x_by_rod", "x_change_m"),
+        ("v_by_rod_per_s", "v_change_m_per_s"),
+        ("a_by_rod_per_s2", "a_change_m_per_s2"),
+    ] {
+        let size = rows
+            .column(slope)
+            .iter()
+            .fold(0.0f64, |m, v| m.max(v.abs()));
+        for (slope, change) in rows.column(slope).iter().zip(rows.column(change)) {
+            close(change / 1e-7, *slope, 1e-4 * size);
+        }
+    }
+    assert!(rows.header.contains("crank_torque_by_offset_n"));
+}
+
+#[test]
+fn the_iterated_loop_is_the_closed_form() {
+    let (summary, _) = run(&["--newton-guess", "180 deg"]);
+    assert_eq!(at(&summary, "loop_closure.on_branch"), 361.0);
+    assert!(at(&summary, "loop_closure.worst_x_m") < 1e-9);
+    let (summary, _) = run(&["--newton-guess", "0 deg"]);
+    assert_eq!(at(&summary, "loop_closure.on_other_branch"), 361.0);
+    let (summary, _) = run(&["--newton-guess", "90 deg"]);
+    assert!(at(&summary, "loop_closure.on_branch") < 361.0, "{summary}");
+}
+
+#[test]
+fn sizing_from_the_stroke() {
+    let folder = Folder::with(PUMP);
+    let sized = [
+        "kinematics",
+        "scene.toml",
+        "--stroke",
+        "80 mm",
+        "--rod-ratio",
+        "1.6",
+        "--json",
+    ];
+    let outcome = folder.run(&sized);
+    assert_eq!(outcome.code, Some(0), "{outcome:?}");
+    assert!(
+        outcome.stderr.contains("crank 0.04 m, rod 0.064 m"),
+        "{}",
+        outcome.stderr
+    );
+    close(at(&outcome.json(), "stroke_m"), 0.08, 1e-16);
+}
+
+#[test]
+fn what_cannot_be_is_refused() {
+    let folder = Folder::with(PUMP);
+    for (arguments, words) in [
+        (&["--forces"][..], &["speed"][..]),
+        (&["--change", "crank=1 kg"], &["--change", "length"]),
+        (&["--change", "lever=1 mm"], &["crank, rod and offset"]),
+        (&["--change", "crank=-1 mm"], &["crank"]),
+        (&["--stroke", "80 mm"], &["--rod-ratio"]),
+        (&["--stroke", "80 mm", "--rod-ratio", "0.9"], &["ratio"]),
+    ] {
+        let outcome = folder.run(&[&["kinematics", "scene.toml"][..], arguments].concat());
+        assert_eq!(
+            (outcome.code, outcome.stdout.as_str()),
+            (Some(2), ""),
+            "{arguments:?}"
+        );
+        for word in words {
+            assert!(
+                outcome.stderr.contains(word),
+                "{word} in {}",
+                outcome.stderr
+            );
+        }
+    }
+}
+
+#[test]
+fn the_plot_has_its_axes() {
+    let folder = Folder::with(PUMP);
+    folder
+        .run(&[
+            "kinematics",
+            "scene.toml",
+            "--change",
+            "crank=55 mm",
+            "--plot",
+            "turn.svg",
+        ])
+        .done();
+    let plot = folder.read("turn.svg");
+    for text in [
+        "slider position [m]",
+        "crank angle [deg]",
+        "changed lengths",
+    ] {
+        assert!(plot.contains(text), "{text}");
+    }
+}
