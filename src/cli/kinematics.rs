@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
-    Outcome, angle, is_standard, length, print, quantity, say, scene, turn_step, write_text,
+    Outcome, angle, check_rows_of_turn, is_standard, length, positive_angle, print, quantity, say,
+    scene, write_text,
 };
 use crate::error::Error;
 use crate::report::{self, Output, TurnWriter};
@@ -18,7 +19,7 @@ pub(super) struct Arguments {
     /// Scene file, `-` for standard input; without it the built-in Duarte engine
     scene: Option<PathBuf>,
     /// Crank angle between rows, from 0 to 360 degrees inclusive
-    #[arg(long, value_name = "ANGLE", default_value = "1 deg", value_parser = turn_step)]
+    #[arg(long, value_name = "ANGLE", default_value = "1 deg", value_parser = positive_angle)]
     every: f64,
     /// Writes the rows as CSV to this file, `-` for standard output
     #[arg(long, value_name = "FILE")]
@@ -32,6 +33,9 @@ pub(super) struct Arguments {
     /// Compares with a changed length, like "crank=150 mm"; keys crank, rod, offset; may be given again
     #[arg(long, value_name = "KEY=LENGTH", value_parser = change)]
     change: Vec<(Length, f64)>,
+    /// Lists the extremes with another offset, like "10 mm"; may be given again
+    #[arg(long, value_name = "LENGTH", value_parser = any_length, allow_hyphen_values = true)]
+    with_offset: Vec<f64>,
     /// Sizes crank and rod for this stroke, like "80 mm", at the scene's offset
     #[arg(long, value_name = "LENGTH", value_parser = length, requires = "rod_ratio")]
     stroke: Option<f64>,
@@ -57,6 +61,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
             "write the rows to a file: --out rows.csv",
         ));
     }
+    check_rows_of_turn(arguments.every)?;
     let mut scene = scene(arguments.scene.as_ref())?;
     if let Some((stroke, ratio)) = arguments.stroke.zip(arguments.rod_ratio) {
         let (crank, rod) = study::size_from_stroke(stroke, ratio, scene.geometry.offset)?;
@@ -90,6 +95,7 @@ impl Arguments {
             forces: self.forces,
             sensitivity: self.sensitivity,
             change: self.change.clone(),
+            offsets: self.with_offset.clone(),
             iterate_from: self.newton_guess,
         }
     }
@@ -104,4 +110,9 @@ fn change(text: &str) -> Result<(Length, f64), String> {
         .find(|length| length.name() == key.trim());
     let value = quantity(value.trim(), Quantity::Length)?;
     Ok((length.ok_or(help)?, value))
+}
+
+/// An offset, of either sign.
+fn any_length(text: &str) -> Result<f64, String> {
+    quantity(text, Quantity::Length)
 }

@@ -133,16 +133,21 @@ fn length(text: &str) -> Result<f64, String> {
     }
 }
 
-/// More rows than this in one turn are a slip of the unit.
-const MOST_ROWS: f64 = 1e8;
-
-/// Crank angle between the rows of one turn.
-fn turn_step(text: &str) -> Result<f64, String> {
+fn positive_angle(text: &str) -> Result<f64, String> {
     match angle(text)? {
-        step if step > 0.0 && std::f64::consts::TAU / step > MOST_ROWS => Err(format!(
-            "this gives more than {MOST_ROWS} rows in one turn; give an angle like \"1 deg\""
-        )),
         step if step > 0.0 => Ok(step),
         _ => Err("the angle must be positive, like \"1 deg\"".to_owned()),
     }
+}
+
+/// Refuses a crank angle between rows (rad) so small that it is a slip of the unit.
+fn check_rows_of_turn(every: f64) -> Result<(), Error> {
+    const MOST_ROWS: f64 = 1e8;
+    if std::f64::consts::TAU / every > MOST_ROWS {
+        return Err(Error::refused(
+            format!("--every {every} rad gives more than {MOST_ROWS} rows"),
+            "give an angle like \"1 deg\"",
+        ));
+    }
+    Ok(())
 }

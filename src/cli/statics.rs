@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
-    Outcome, angle, is_standard, length, print, quantity, say, scene, turn_step, write_text,
+    Outcome, angle, check_rows_of_turn, is_standard, length, positive_angle, print, quantity, say,
+    scene, write_text,
 };
 use crate::error::Error;
 use crate::report::{self, Output, StaticsWriter};
@@ -30,13 +31,18 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "FORCE", value_parser = force, allow_hyphen_values = true, conflicts_with_all = ["torque", "weight"])]
     force: Option<f64>,
     /// Static friction coefficient at the guide, in place of the scene's
-    #[arg(long, value_name = "NUMBER", conflicts_with = "tilt")]
+    #[arg(
+        long,
+        value_name = "NUMBER",
+        conflicts_with = "tilt",
+        allow_hyphen_values = true
+    )]
     friction: Option<f64>,
     /// Tilt at which the slider begins to slide, like "45 deg": gives the friction coefficient
     #[arg(long, value_name = "ANGLE", value_parser = tilt)]
     tilt: Option<f64>,
     /// Crank angle between rows, from 0 to 360 degrees inclusive
-    #[arg(long, value_name = "ANGLE", default_value = "1 deg", value_parser = turn_step)]
+    #[arg(long, value_name = "ANGLE", default_value = "1 deg", value_parser = positive_angle)]
     every: f64,
     /// Adds the velocity ratio and the angle at the crank pin to the rows
     #[arg(long)]
@@ -110,6 +116,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
             "write the rows to a file: --out rows.csv",
         ));
     }
+    check_rows_of_turn(arguments.every)?;
     let result = study::statics(&scene(arguments.scene.as_ref())?, &arguments.options())?;
     if let Some(path) = &arguments.out {
         let output = Output::create(path)?;

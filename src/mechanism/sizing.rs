@@ -21,8 +21,8 @@ use crate::error::Error;
 /// assert!((stroke - 0.08).abs() < 1e-16);
 /// ```
 pub fn size_from_stroke(stroke: f64, ratio: f64, offset: f64) -> Result<(f64, f64), Error> {
-    let positive = |value: f64| value > 0.0 && value.is_finite();
-    if !positive(stroke) || !(ratio > 1.0 && ratio.is_finite()) || !offset.is_finite() {
+    let finite = [stroke, ratio, offset].into_iter().all(f64::is_finite);
+    if !finite || stroke <= 0.0 || ratio <= 1.0 {
         return Err(Error::refused(
             format!(
                 "a stroke of {stroke} m with a rod of {ratio} crank lengths and an offset of {offset} m is no crank that turns fully"

@@ -134,6 +134,26 @@ pub fn turn(result: &OneTurn) -> String {
             }
         }
     }
+    for with in &result.offsets {
+        let mut line = format!("stroke {} m", with.stroke_m);
+        let mut add = |name: &str, found: Option<Located>, unit: &str| {
+            if let Some(Located { value, theta_rad }) = found {
+                let angle = theta_rad.to_degrees();
+                let _ = write!(line, "; {name} {value:.7} {unit} at {angle:.5} deg");
+            }
+        };
+        let unit = match result.kinematics.speed_rad_per_s {
+            Some(_) => "m/s2",
+            None => "m/rad2",
+        };
+        add("largest acceleration", with.acceleration_max, unit);
+        add("smallest", with.acceleration_min, unit);
+        for (name, stroke) in [("outward", with.outward), ("inward", with.inward)] {
+            add(&format!("{name} torque from"), stroke.map(|s| s.min), "N m");
+            add("to", stroke.map(|s| s.max), "N m");
+        }
+        put(&format!("with offset {} m", with.offset_m), line);
+    }
     if let Some(check) = &result.loop_closure {
         let guess = check.guess_rad.to_degrees();
         put(

@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::forces::{ForceAnalysis, ForceRow, forces};
 use super::kinematics::{Kinematics, KinematicsRow, kinematics};
+use super::offsets::{OffsetExtremes, offset_extremes};
 use crate::error::Error;
 use crate::mechanism::{Length, Linkage, TorqueSlope};
 use crate::numeric::angle;
@@ -19,6 +20,8 @@ pub struct TurnOptions {
     pub sensitivity: bool,
     /// Lengths (m) of a second mechanism that the first is compared with.
     pub change: Vec<(Length, f64)>,
+    /// Offsets (m) whose extremes are listed.
+    pub offsets: Vec<f64>,
     /// Guess of the rod's angle as seen from the slider, rad, for a loop closure by Newton-Raphson.
     pub iterate_from: Option<f64>,
 }
@@ -35,6 +38,9 @@ pub struct OneTurn {
     /// The mechanism with changed lengths.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub changed: Option<Kinematics>,
+    /// Extremes with other offsets.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub offsets: Vec<OffsetExtremes>,
     /// Loop closure by iteration.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub loop_closure: Option<LoopCheck>,
@@ -117,6 +123,7 @@ pub fn one_turn(scene: &Scene, options: &TurnOptions) -> Result<OneTurn, Error> 
     Ok(OneTurn {
         forces: options.forces.then(|| forces(scene)).transpose()?,
         changed: changed(scene, &options.change)?,
+        offsets: offset_extremes(scene, &options.offsets)?,
         loop_closure: options
             .iterate_from
             .map(|guess| check_loop(&linkage, guess)),

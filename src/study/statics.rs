@@ -183,7 +183,7 @@ impl StaticAnalysis {
             .filter_map(|i| {
                 let (a, b) = (grid[i - 1], grid[i + 1]);
                 let theta = root::bracketed(value, a, b).or_else(|| {
-                    root::bracketed(|theta| difference::slope(&value, theta, 1e-3), a, b)
+                    root::bracketed(|theta| difference::slope(value, theta, 1e-3), a, b)
                 })?;
                 let located = Located {
                     value: value(theta),

@@ -48,6 +48,23 @@ fn forces_at_constant_speed() {
     }
 }
 
+/// Extremes by 40-digit arithmetic.
+#[test]
+fn extremes_with_other_offsets() {
+    let (summary, _) = run(&["--with-offset", "10 mm", "--with-offset", "0 mm"]);
+    let offsets = summary["offsets"].as_array().unwrap();
+    assert_eq!(offsets.len(), 2);
+    for (i, stroke, inward, ratio) in [
+        (0, 0.08170069013, [-133.7494065, 130.3897829], 1.237506101),
+        (1, 0.08, [-85.72588325, 105.0859843], 1.0),
+    ] {
+        close(at(&offsets[i], "stroke_m"), stroke, 1e-10);
+        close(at(&offsets[i], "time_ratio"), ratio, 1e-8);
+        close(at(&offsets[i], "inward.min.value"), inward[0], 1e-6);
+        close(at(&offsets[i], "inward.max.value"), inward[1], 1e-6);
+    }
+}
+
 /// Clockwise, the stroke with the high torque is the outward one.
 #[test]
 fn reversed_rotation_exchanges_the_strokes() {

@@ -27,20 +27,13 @@ fn rows_have_the_columns_and_one_turn() {
         ],
     );
     assert_eq!((found.header.as_str(), found.len()), (COLUMNS, 37));
-    close(found.column("slider_force_n")[9], 2.0 / 0.05, 1e-12);
+    let cell = |name: &str| found.cells_of(name)[9].expect("a value");
+    close(cell("slider_force_n"), 2.0 / 0.05, 1e-12);
     // tan φ = 1/sqrt(8) with sin φ = 1/3.
     let thrust = 40.0 / 8f64.sqrt();
-    close(found.column("side_thrust_n")[9], thrust, 1e-12);
-    close(
-        found.column("slider_force_min_n")[9],
-        40.0 - 0.1 * thrust,
-        1e-12,
-    );
-    close(
-        found.column("slider_force_max_n")[9],
-        40.0 + 0.1 * thrust,
-        1e-12,
-    );
+    close(cell("side_thrust_n"), thrust, 1e-12);
+    close(cell("slider_force_min_n"), 40.0 - 0.1 * thrust, 1e-12);
+    close(cell("slider_force_max_n"), 40.0 + 0.1 * thrust, 1e-12);
     for dead_centre in [0, 18, 36] {
         assert_eq!(found.cells_of("slider_force_n")[dead_centre], None);
         assert_eq!(found.cells_of("side_thrust_n")[dead_centre], None);
