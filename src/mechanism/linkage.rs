@@ -99,6 +99,12 @@ impl Linkage {
     /// 1 ∓ sin θ = cos²θ/(1 ± sin θ) where the difference would cancel.
     pub fn pose(&self, theta: f64) -> Pose {
         let (sin, cos) = theta.sin_cos();
+        self.pose_at(sin, cos)
+    }
+
+    /// The position at the crank angle of this sine and cosine.
+    #[inline]
+    pub(super) fn pose_at(&self, sin: f64, cos: f64) -> Pose {
         let Linkage { r, l, e, s, .. } = *self;
         let u = e + r * sin;
         let (mut minus, mut plus) = (l - u, l + u);

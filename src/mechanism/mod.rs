@@ -1,6 +1,7 @@
 //! The physics: geometry in closed form, energy terms, loads, the Lagrange equation, joint reactions.
 //! Knows no integrator.
 
+mod batch;
 mod body;
 mod equivalent;
 mod extremes;
@@ -10,6 +11,7 @@ mod limits;
 mod linkage;
 mod load;
 mod loop_closure;
+mod obstacle;
 mod positions;
 mod reactions;
 mod sensitivity;
@@ -18,15 +20,17 @@ mod solid;
 mod statics;
 mod torque_slope;
 
+pub use batch::Instants;
 pub use body::{Bodies, Body, Path};
 pub use equivalent::EquivalentMasses;
 pub use extremes::{Extreme, Extremes};
 pub use first_order::FirstOrder;
-pub use lagrange::{Equation, Inertia, Obstacle, Terms};
+pub use lagrange::{Equation, Inertia, Terms};
 pub use limits::{Class, DeadCentre, Limits};
 pub use linkage::{Linkage, Pose};
 pub use load::{LoadValue, Loads, single};
 pub use loop_closure::{Closure, NotClosed};
+pub use obstacle::Obstacle;
 pub use positions::NamedPosition;
 pub use reactions::{InertiaForces, Reactions, Reactor};
 pub use sensitivity::{Length, PoseSlope};

@@ -8,3 +8,4 @@ pub mod gauss;
 pub mod interpolate;
 pub mod line_fit;
 pub mod root;
+pub mod trigonometry;
