@@ -7,7 +7,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use proptest::prelude::*;
 use slider_crank::mechanism::{Linkage, Statics, drum_torque, friction_from_tilt};
-use slider_crank::scene::{Branch, Friction, Load, RodModel, Scene};
+use slider_crank::scene::{
+    Branch, Friction, Interpolation, Load, RodModel, Scene, Table, Variable,
+};
 use slider_crank::study::{StaticAnalysis, StaticsOptions, statics};
 use support::newton::Parts;
 use support::random::{any_class, case, cases, rotating_crank};
@@ -71,6 +73,21 @@ proptest! {
                 let friction = mu * forces.guide.abs();
                 let scale = (size / pose.dx.abs() + parts.force_size(0.0, 0.0, linkage.l)) * (1.0 + mu) / room / pose.cos_phi;
                 close("friction at the edge", (reaches - force).abs(), friction, scale, 1e-12);
+            }
+        }
+    }
+
+    /// At the angles that are named dead centres no force is stated, on either side of them one is.
+    #[test]
+    fn no_force_at_any_dead_centre(g in rotating_crank(1e-3), torque in 0.1..10.0) {
+        let scene = Scene { geometry: g, ..Scene::new(1.0, 2.0) }.torque(Load::Constant(torque));
+        let result = statics(&scene, &StaticsOptions::default()).unwrap();
+        let centres = result.positions.iter().filter(|p| p.kind == "dead-centre");
+        for centre in centres {
+            let theta = centre.theta_rad;
+            prop_assert!(result.row(theta).balance.band.is_none(), "{theta}");
+            for aside in [theta - 1e-9, theta + 1e-9] {
+                prop_assert!(result.row(aside).balance.band.is_some(), "{aside}");
             }
         }
     }
@@ -297,6 +314,23 @@ fn what_cannot_be_is_refused() {
     assert!(said.contains("spin-only"), "{said}");
     scene.gravity = None;
     assert!(statics(&scene, &StaticsOptions::default()).is_ok());
+}
+
+/// Outside its table a load has no value, and the equilibrium none.
+#[test]
+fn loads_without_a_value_leave_no_value() {
+    let table = Table::new(
+        Variable::Theta,
+        &[0.0, 1.0],
+        &[1.0, 2.0],
+        Interpolation::Linear,
+        None,
+    );
+    let scene = Scene::new(0.05, 0.15).torque(Load::Table(table.unwrap()));
+    let result = statics(&scene, &StaticsOptions::default()).unwrap();
+    assert!(result.row(0.5).balance.band.is_some());
+    let outside = result.row(2.0).balance;
+    assert_eq!((outside.band, outside.side_thrust), (None, None));
 }
 
 #[test]

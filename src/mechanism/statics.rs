@@ -15,7 +15,7 @@ pub struct Statics {
 /// Equilibrium at one crank angle, without friction and with the most that friction can do.
 ///
 /// What does not exist is `None`: a slider force that is to balance a torque at a dead centre, and
-/// everything where the rod does not reach the guide or stands normal to it.
+/// everything where the rod does not reach the guide or stands normal to it, or a load has no value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Balance {
     /// What holds the equilibrium without friction, between the least and the greatest that hold it with
@@ -70,17 +70,19 @@ impl Statics {
         let (terms, load) = self.at(theta);
         let pose = &terms.pose;
         let mut balance = self.unknown(pose);
-        if !pose.exists() || dead_centre(self.equation.linkage(), pose, theta) {
+        let linkage = self.equation.linkage();
+        if !pose.exists() || !finite(&load) || dead_centre(linkage, pose, theta) {
             return balance;
         }
         let whole = (terms.dv - load.torque) / pose.dx;
         let guide = self.guide(pose, load.torque, whole);
         let (force, friction) = (whole - load.force, self.friction * guide.abs());
         balance.side_thrust = Some(0.0 - guide);
-        balance.band = Some(Band {
-            value: force + 0.0,
-            min: Some(force - friction + 0.0),
-            max: Some(force + friction + 0.0),
+        let edge = |value: f64| value.is_finite().then_some(value + 0.0);
+        balance.band = edge(force).map(|value| Band {
+            value,
+            min: edge(force - friction),
+            max: edge(force + friction),
         });
         balance
     }
@@ -95,7 +97,7 @@ impl Statics {
         let (terms, load) = self.at(theta);
         let pose = &terms.pose;
         let mut balance = self.unknown(pose);
-        if !pose.exists() {
+        if !pose.exists() || !finite(&load) {
             return balance;
         }
         let torque = |force: f64| terms.dv - force * pose.dx - load.torque + 0.0;
@@ -139,6 +141,11 @@ impl Statics {
         let load = LoadValue { torque, force };
         self.reactor.reactions(pose, 0.0, 0.0, &load).guide
     }
+}
+
+/// Whether the loads have a value: an angle may be outside a table.
+fn finite(load: &LoadValue) -> bool {
+    load.torque.is_finite() && load.force.is_finite()
 }
 
 /// Whether a crank angle cannot be told from a dead centre: x' is within what rounding of the angle changes.

@@ -1,8 +1,8 @@
 //! Derivatives of the driving torque at constant speed with respect to the lengths, in closed form.
 
-use super::{Bodies, Body, Length, Linkage, Path, Pose, PoseSlope};
+use super::{Bodies, Body, Length, Linkage, Path, Pose, PoseSlope, single};
 use crate::error::Error;
-use crate::scene::{Load, RodModel, Scene};
+use crate::scene::{Instant, Load, RodModel, Scene, Variables};
 
 /// The bodies and loads whose torque changes with the lengths; masses, moments of inertia and centres of
 /// gravity stay where they are, measured from the crank pivot and the crank pin.
@@ -15,6 +15,8 @@ pub struct TorqueSlope {
     force: f64,
     stiffness: f64,
     damping: f64,
+    /// Forces on the slider that do not depend on where it is and how fast it moves.
+    others: Vec<Load>,
     /// Rod mass, place of its centre of gravity and mass at the crank pin, of two point masses.
     two_mass: Option<[f64; 3]>,
     /// Mass of a rod whose weight acts on the crank's line beyond its end.
@@ -25,7 +27,8 @@ impl TorqueSlope {
     /// The bodies and loads of a scene.
     ///
     /// # Errors
-    /// [`Error::Refused`] for forces on the slider that are not constant, springs or viscous.
+    /// [`Error::Refused`] for tables and formulas of the slider's position or velocity, whose slope is not
+    /// known.
     pub fn new(scene: &Scene) -> Result<TorqueSlope, Error> {
         let scene = scene.reduced();
         let bodies = Bodies::new(&scene);
@@ -37,6 +40,7 @@ impl TorqueSlope {
             force: 0.0,
             stiffness: 0.0,
             damping: 0.0,
+            others: Vec::new(),
             two_mass: None,
             spin_only: None,
         };
@@ -60,26 +64,25 @@ impl TorqueSlope {
                     found.stiffness += stiffness;
                     found.force += stiffness * rest;
                 }
-                other => match other.fixed() {
-                    Some(value) => found.force += value,
-                    None => {
-                        return Err(Error::refused(
-                            format!(
-                                "the sensitivity of the torque to the lengths is not known under a slider force of kind \"{}\"",
-                                other.kind()
-                            ),
-                            "use constant forces, springs and viscous forces, or compare two scenes",
-                        ));
-                    }
-                },
+                other if other.reads(true).disjoint(Variables::X.or(Variables::V)) => {
+                    found.others.push(other.clone());
+                }
+                other => {
+                    let what = format!(
+                        "the slope of a slider force of kind \"{}\" over position or velocity is not known, so neither is the torque's sensitivity to the lengths",
+                        other.kind()
+                    );
+                    return Err(Error::refused(what, "compare two scenes"));
+                }
             }
         }
         Ok(found)
     }
 
     /// d τ/d length, N, of the torque τ = ½ M' ω² + V' − F x' that drives the crank at constant speed ω
-    /// (rad/s) at a position.
-    pub fn driving_torque(&self, pose: &Pose, omega: f64, length: Length) -> f64 {
+    /// (rad/s) at a crank angle (rad); time counts from θ = 0.
+    pub fn driving_torque(&self, theta: f64, omega: f64, length: Length) -> f64 {
+        let pose = &self.linkage.pose(theta);
         let slope = self.linkage.slope(pose, length);
         let squared = omega * omega;
         let moving = self.moving.iter().map(|body| {
@@ -94,7 +97,19 @@ impl TorqueSlope {
             -mass * (self.gravity[0] * change.dp[0] + self.gravity[1] * change.dp[1])
         });
         let inertia: f64 = moving.chain(heavy).sum();
-        let force = self.force - self.stiffness * pose.x - self.damping * pose.dx * omega;
+        let now = Instant {
+            t: theta / omega,
+            theta,
+            omega,
+            x: pose.x,
+            v: pose.dx * omega,
+        };
+        let others: f64 = self
+            .others
+            .iter()
+            .map(|load| single(load, true, &now))
+            .sum();
+        let force = others + self.force - self.stiffness * pose.x - self.damping * pose.dx * omega;
         let force_slope = -self.stiffness * slope.x - self.damping * slope.dx * omega;
         inertia - force * slope.dx - force_slope * pose.dx + self.moved_mass(pose, squared, length)
     }

@@ -96,26 +96,27 @@ pub struct LengthSlope {
     pub v: f64,
     /// of a, 1/s²; without speed of x'', 1/rad²
     pub a: f64,
-    /// of the driving torque at constant speed, N; none without speed
+    /// of the driving torque at constant speed, N; none without speed, not finite where it is not known
     pub torque: Option<f64>,
 }
 
 /// Kinematics of a scene and what `options` ask for beside it.
 ///
 /// # Errors
-/// Those of [`kinematics`], [`forces`] and [`TorqueSlope::new`], and those of the changed lengths.
+/// Those of [`kinematics`] and [`forces`], and those of the changed lengths.
 pub fn one_turn(scene: &Scene, options: &TurnOptions) -> Result<OneTurn, Error> {
-    let kinematics = kinematics(scene)?;
+    let mut kinematics = kinematics(scene)?;
     let linkage = Linkage::new(&scene.geometry);
     let speed = scene.motion.speed;
     let slopes = if options.sensitivity {
-        let torque = (speed != 0.0)
-            .then(|| TorqueSlope::new(scene))
-            .transpose()?;
+        let torque = TorqueSlope::new(scene);
+        if let (Err(reason), true) = (&torque, speed != 0.0) {
+            kinematics.warnings.push(reason.to_string());
+        }
         Some(Slopes {
             linkage,
             speed,
-            torque,
+            torque: torque.ok(),
         })
     } else {
         None
@@ -214,12 +215,16 @@ impl Slopes {
         let rate = if self.speed == 0.0 { 1.0 } else { self.speed };
         Length::ALL.map(|length| {
             let slope = self.linkage.slope(&pose, length);
-            let torque = self.torque.as_ref();
+            // Without a speed there is no torque, and where it is not known its cells stay empty.
+            let torque = (self.speed != 0.0).then(|| match &self.torque {
+                Some(torque) => torque.driving_torque(theta, self.speed, length),
+                None => f64::NAN,
+            });
             LengthSlope {
                 x: slope.x,
                 v: slope.dx * rate,
                 a: slope.d2x * rate * rate,
-                torque: torque.map(|torque| torque.driving_torque(&pose, self.speed, length)),
+                torque,
             }
         })
     }

@@ -103,6 +103,34 @@ fn sensitivity_and_change_agree_for_a_small_change() {
     assert!(rows.header.contains("crank_torque_by_offset_n"));
 }
 
+/// A force that follows a formula of the position leaves the torque's cells empty, and says so.
+#[test]
+fn a_torque_of_unknown_slope_is_left_out() {
+    let force =
+        "[[force]]\nkind = \"expression\"\nvalue = \"-3*x^3\"\n[motion]\nspeed = \"20 rad/s\"";
+    let folder = Folder::with(&format!("{PUMP}\n{force}\n"));
+    let asked = [
+        "kinematics",
+        "scene.toml",
+        "--sensitivity",
+        "--json",
+        "--out",
+        "rows.csv",
+    ];
+    let summary = folder.run(&asked).done().json();
+    assert!(
+        summary["warnings"][0].as_str().unwrap().contains("slope"),
+        "{summary}"
+    );
+    let rows = Rows::read(&folder.read("rows.csv"));
+    assert!(
+        rows.cells_of("crank_torque_by_rod_n")
+            .iter()
+            .all(Option::is_none)
+    );
+    assert!(rows.cells_of("a_by_rod_per_s2").iter().all(Option::is_some));
+}
+
 #[test]
 fn the_iterated_loop_is_the_closed_form() {
     let (summary, _) = run(&["--newton-guess", "180 deg"]);
