@@ -316,6 +316,27 @@ fn what_cannot_be_is_refused() {
     assert!(statics(&scene, &StaticsOptions::default()).is_ok());
 }
 
+/// Where weight and torque hold each other no slider force is needed.
+#[test]
+fn the_least_force_may_be_none() {
+    let options = StaticsOptions {
+        torque: Some(0.1),
+        ..StaticsOptions::default()
+    };
+    let result = statics(&Scene::duarte(), &options).unwrap();
+    let none: Vec<_> = result
+        .least
+        .iter()
+        .filter(|found| found.value == 0.0)
+        .collect();
+    assert_eq!(none.len(), 2, "{:?}", result.least);
+    for found in none {
+        let around =
+            [-1e-6, 1e-6].map(|by| result.row(found.theta_rad + by).balance.band.unwrap().value);
+        assert!(around[0] * around[1] < 0.0, "{around:?}");
+    }
+}
+
 /// Outside its table a load has no value, and the equilibrium none.
 #[test]
 fn loads_without_a_value_leave_no_value() {

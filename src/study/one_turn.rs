@@ -121,6 +121,16 @@ pub fn one_turn(scene: &Scene, options: &TurnOptions) -> Result<OneTurn, Error> 
     } else {
         None
     };
+    if options.forces && scene.friction.is_some() {
+        kinematics
+            .warnings
+            .push("the friction of the scene is not in these forces".to_owned());
+    }
+    if options.forces && scene.clearance.is_some() {
+        kinematics
+            .warnings
+            .push("the clearance of the scene is not in these forces".to_owned());
+    }
     Ok(OneTurn {
         forces: options.forces.then(|| forces(scene)).transpose()?,
         changed: changed(scene, &options.change)?,

@@ -108,6 +108,9 @@ pub fn statics(scene: &Scene, options: &StaticsOptions) -> Result<StaticAnalysis
         warnings
             .push("loads that depend on time or speed are taken at t = 0 and at rest".to_owned());
     }
+    if scene.clearance.is_some() {
+        warnings.push("the clearance of the scene plays no part in the equilibrium".to_owned());
+    }
     let mut result = StaticAnalysis {
         scene: scene.title.clone().unwrap_or_default(),
         class: limits.class.name(),
@@ -182,11 +185,16 @@ impl StaticAnalysis {
             .filter(|i| size[*i] < size[i - 1] && size[*i] <= size[i + 1])
             .filter_map(|i| {
                 let (a, b) = (grid[i - 1], grid[i + 1]);
-                let theta = root::bracketed(value, a, b).or_else(|| {
-                    root::bracketed(|theta| difference::slope(value, theta, 1e-3), a, b)
-                })?;
+                let (value, theta) = match root::bracketed(value, a, b) {
+                    Some(theta) => (0.0, theta),
+                    None => {
+                        let slope = |theta: f64| difference::slope(value, theta, 1e-3);
+                        let theta = root::bracketed(slope, a, b)?;
+                        (value(theta), theta)
+                    }
+                };
                 let located = Located {
-                    value: value(theta),
+                    value,
                     theta_rad: theta.rem_euclid(TAU) % TAU,
                 };
                 located.value.is_finite().then_some(located)

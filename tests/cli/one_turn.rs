@@ -103,6 +103,19 @@ fn sensitivity_and_change_agree_for_a_small_change() {
     assert!(rows.header.contains("crank_torque_by_offset_n"));
 }
 
+/// Friction at the guide is not in the forces at constant speed, and that is said.
+#[test]
+fn friction_that_is_left_out_is_named() {
+    let scene = repository("data/ng.toml");
+    let asked = ["kinematics", scene.to_str().unwrap(), "--json"];
+    let folder = Folder::new();
+    let warnings = |more: &[&str]| {
+        let summary = folder.run(&[&asked[..], more].concat()).done().json();
+        summary["warnings"].as_array().unwrap().len()
+    };
+    assert_eq!((warnings(&[]), warnings(&["--forces"])), (0, 1));
+}
+
 /// A force that follows a formula of the position leaves the torque's cells empty, and says so.
 #[test]
 fn a_torque_of_unknown_slope_is_left_out() {
