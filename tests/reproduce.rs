@@ -229,6 +229,93 @@ fn ours_are_the_numbers_of_the_mechanics() {
     }
 }
 
+/// The same to twelve digits, where mechanics alone decides: by differentiation of the loop in 40 digits.
+#[test]
+fn ours_have_twelve_digits() {
+    let result = all();
+    for (paper, place, what, ours) in [
+        (
+            "obaseki-alfred",
+            "(8)",
+            "slider position",
+            0.05649373432723109,
+        ),
+        (
+            "obaseki-alfred",
+            "(13)",
+            "slider velocity",
+            16.79314860216054,
+        ),
+        ("obaseki-alfred", "(20)", "d2s/dt2", 939.4781244439409),
+        ("obaseki-alfred", "(27)", "rod", 155.5154753474646),
+        ("obaseki-alfred", "(30)", "rod", -23588.285301201422),
+        (
+            "obaseki-alfred",
+            "(48)",
+            "driving torque, with (20) mended",
+            65.99854796764734,
+        ),
+        ("obaseki-alfred", "(49)", "e = 20 mm", 0.08879230741596299),
+        (
+            "obaseki-alfred",
+            "4.2.1",
+            "crank angle of the return",
+            134.64479897289132,
+        ),
+        (
+            "obaseki-alfred",
+            "4.2.1",
+            "time of the return",
+            0.009362530130529215,
+        ),
+        ("obaseki-alfred", "4.2.1", "time ratio", 1.6737014927140297),
+        (
+            "obaseki-alfred",
+            "4.3, figure 16",
+            "return stroke, e = 20 mm",
+            316.06111278241855,
+        ),
+        (
+            "obaseki-alfred",
+            "4.3, figure 16",
+            "advance stroke, e = 20 mm",
+            81.30245598735283,
+        ),
+        (
+            "obaseki-alfred",
+            "4.3, figure 16",
+            "return stroke, e = 10 mm",
+            133.74940646778592,
+        ),
+        (
+            "obaseki-alfred",
+            "4.3, figure 16",
+            "advance stroke, e = 10 mm",
+            90.42377844169059,
+        ),
+        ("ng", "discussion", "least force", 88.00926122867985),
+        (
+            "duarte",
+            "(9)",
+            "factor of the acceleration",
+            0.030060159037770536,
+        ),
+        (
+            "duarte",
+            "(9)",
+            "factor of the speed",
+            0.0012278033391790672,
+        ),
+        ("duarte", "(9)", "weight", 0.20393067532849327),
+        ("duarte", "(8)", "height", 0.020355178791028456),
+        ("duarte", "(6)", "work", -0.014022292870408518),
+    ] {
+        let mut entries = result.entries.iter();
+        let found = entries.find(|e| e.paper == paper && e.place == place && e.what.contains(what));
+        close(what, found.unwrap().ours.unwrap(), ours, ours.abs(), 1e-12);
+    }
+}
+
 /// Values of the formulas as they are printed.
 #[test]
 fn printed_formulas_are_evaluated_as_printed() {
