@@ -248,7 +248,7 @@ fn ours_have_twelve_digits() {
         ),
         ("obaseki-alfred", "(20)", "d2s/dt2", 939.4781244439409),
         ("obaseki-alfred", "(27)", "rod", 155.5154753474646),
-        ("obaseki-alfred", "(30)", "rod", -23588.285301201422),
+        ("obaseki-alfred", "(30)", "rod", -23588.28530120142),
         (
             "obaseki-alfred",
             "(48)",
