@@ -161,7 +161,7 @@ fn speeds(task: &Task<'_>, motion: &Motion) -> ((f64, f64), Vec<String>) {
     ((shown(low), shown(high)), warnings)
 }
 
-/// The energy of the last state against that of the first and the work, J, and the largest kinetic energy.
+/// The energy of the last state against that of the first and the work, J, and the largest energy.
 fn energy_residual(task: &Task<'_>, motion: &Motion) -> (f64, f64) {
     let equation = task.equation();
     let start = task.start();
@@ -173,6 +173,7 @@ fn energy_residual(task: &Task<'_>, motion: &Motion) -> (f64, f64) {
     let begin = equation.kinetic_energy(start.rest, task.scene.motion.speed)
         + equation.potential_energy(start.rest);
     let last = equation.kinetic_energy(angle.rest, omega) + equation.potential_energy(turned);
-    let scale = motion.orbit.largest_kinetic().max(begin.abs());
+    let largest = begin.abs().max(last.abs()).max(motion.work.abs());
+    let scale = motion.orbit.largest_kinetic().max(largest);
     (last - begin - motion.work, scale)
 }

@@ -58,7 +58,7 @@ pub(super) fn run<D: Driven>(
         Goal::Time(until) => until,
         Goal::Turned(way) => orbit.time_of_turn(way).unwrap_or(last.t.0),
     };
-    let work = before + work_until(orbit.last_leg(), end - last.t.0 - last.t.1, &done);
+    let work = before + work_until(orbit.last_leg(), end - last.t.0 - last.t.1, &done.spent);
     Ok(Driving {
         orbit,
         end,

@@ -142,9 +142,8 @@ impl<'a, D: Driven> March<'a, D> {
     fn pass(&mut self, swept: Swept) -> Done {
         let station = self.parts.last().unwrap_or(&self.stations[self.next]);
         let (piece, rule) = (station.piece, station.rule);
-        let (spent, rest) = rule.integral(&swept.spent);
-        let work = station.half() * (spent + rest);
-        self.kinetic += swept.gain;
+        let work = station.half() * rule.rounded_integral(&swept.spent);
+        self.kinetic = swept.end;
         self.gain += swept.gain;
         self.fastest = self.fastest.max(self.kinetic);
         self.work += work;

@@ -126,11 +126,9 @@ pub fn run<D: Driven>(
         if repeats && march.at_turn() && march.turns.abs() >= TURNS_BEFORE_MAP {
             return map::run(march, leg, start, speed, goal, resolution);
         }
-        let before = march.work;
-        let done = march.panel()?;
-        let to = done.panel.piece.to;
-        let turned = (to - start.rest).abs() + done.panel.turns.abs() * TAU;
-        leg.push(done.panel.clone());
+        let Done { panel, spent, work } = march.panel()?;
+        let turned = (panel.piece.to - start.rest).abs() + panel.turns.abs() * TAU;
+        leg.push(panel);
         let passed = match goal {
             Goal::Time(until) => leg.duration.0 > until,
             Goal::Turned(way) => turned >= way - 1e-12,
@@ -141,7 +139,7 @@ pub fn run<D: Driven>(
                 Goal::Time(until) => until,
                 Goal::Turned(way) => orbit.time_of_turn(way).unwrap_or(orbit.length()),
             };
-            let work = before + work_until(orbit.last_leg(), end, &done);
+            let work = march.work - work + work_until(orbit.last_leg(), end, &spent);
             return Ok(Driving {
                 orbit,
                 end,
@@ -153,10 +151,10 @@ pub fn run<D: Driven>(
 }
 
 /// Work from the begin of the last panel until a time in it.
-fn work_until(leg: &Leg, until: f64, done: &Done) -> f64 {
+fn work_until(leg: &Leg, until: f64, spent: &Values) -> f64 {
     let Some((panel, since)) = leg.panel_at(until) else {
         return 0.0;
     };
-    let work = panel.rule.series(&done.spent).integral();
+    let work = panel.rule.series(spent).integral();
     0.5 * panel.piece.span() * work.value(panel.position(since))
 }

@@ -31,6 +31,8 @@ pub(super) struct Swept {
     pub spent: Values,
     /// Kinetic energy that is gained, J.
     pub gain: f64,
+    /// Kinetic energy at the end, J.
+    pub end: f64,
     /// Evaluations of the loads.
     pub evaluations: u64,
 }
@@ -63,6 +65,7 @@ pub(super) fn sweep<D: Driven>(
         if newton {
             let rates = forces.rates(driven, station, start, &slopes);
             correction(station.rule, half, &rates, &mut change)?;
+            keep_positive(&kinetic, &mut change);
         }
         let mut largest: f64 = 0.0;
         for j in 0..count {
@@ -80,13 +83,30 @@ pub(super) fn sweep<D: Driven>(
         };
         let left = largest * if newton { factor.min(SLOW) } else { factor };
         let at_rounding = largest < 1e-14 && largest >= 0.3 * before;
-        if left <= 0.1 * tail || at_rounding {
-            return finish(driven, station, start, kinetic, tail, evaluations);
+        if left <= tail || at_rounding {
+            let mut swept = finish(driven, station, start, kinetic, tail, evaluations)?;
+            if !newton {
+                // One sweep better than the last point; under steep loads it would be worse.
+                swept.end = start.kinetic + swept.gain;
+            }
+            return Some(swept);
         }
         newton |= before.is_finite() && largest > SLOW * before;
         before = largest;
     }
     None
+}
+
+/// Shortens a change that would leave less than a tenth of the kinetic energy somewhere.
+fn keep_positive(kinetic: &Values, change: &mut Values) {
+    let share = |k: f64, c: f64| if c < -0.9 * k { -0.9 * k / c } else { 1.0 };
+    let pairs = kinetic.iter().zip(change.iter());
+    let least = pairs.fold(1.0f64, |least, (k, c)| least.min(share(*k, *c)));
+    if least < 1.0 {
+        for c in change {
+            *c *= least;
+        }
+    }
 }
 
 fn finish<D: Driven>(
@@ -107,17 +127,19 @@ fn finish<D: Driven>(
     }
     let forces = Forces::new(driven, station, start, &slopes);
     let series = station.rule.series(&forces.total);
-    let share = (series.largest() * half.abs() / start.kinetic).min(1.0);
-    if series.tail() * share > accepted {
+    let tail = series.tail() * series.largest() * half.abs() / start.kinetic;
+    // Large forces that balance each other leave their rounding.
+    let noise = 64.0 * f64::EPSILON * forces.largest_part(station) * half.abs() / start.kinetic;
+    if tail.min(series.tail()) > accepted + noise {
         return None;
     }
-    let (gain, rest) = station.rule.integral(&forces.total);
     Some(Swept {
+        end: kinetic[station.rule.degree()],
         kinetic,
         slope,
         slopes,
         spent: forces.spent,
-        gain: half * (gain + rest),
+        gain: half * station.rule.rounded_integral(&forces.total),
         evaluations: evaluations + station.rule.degree() as u64 + 1,
     })
 }
@@ -189,6 +211,12 @@ impl Forces {
         };
         let place = &station.table.places[j];
         driven.drive(place, start.t + self.times[j], angle, speed)
+    }
+
+    /// The largest force that has a potential, N m: at balance the others are as large.
+    fn largest_part<P>(&self, station: &Station<P>) -> f64 {
+        let force = station.table.force.iter().take(station.rule.degree() + 1);
+        force.fold(0.0f64, |largest, force| largest.max(force.abs()))
     }
 
     /// Derivatives of the forces with respect to the kinetic energy at the points, 1/rad.

@@ -106,30 +106,30 @@ impl Orbit {
 
 /// Slowest and fastest of the points, from dt/dx there.
 pub(super) fn extremes(piece: &Piece, rule: &Rule, slopes: &Values) -> [Extreme; 2] {
-    let speeds = match piece.turning {
-        Turning::Nowhere => slopes.map(|slope| (piece.stretch(0.0) / slope).abs()),
-        _ => {
-            let mut index = 0;
-            rule.values(|x| {
-                index += 1;
-                (piece.stretch(x) / slopes[index - 1]).abs()
-            })
-        }
+    // |speed| is stretch over slope; its inverse needs no division where the stretch is the same everywhere.
+    let mut index = 0;
+    let slowness: Values = match piece.turning {
+        Turning::Nowhere => *slopes,
+        _ => rule.values(|x| {
+            index += 1;
+            slopes[index - 1] / (2.0 * piece.stretch(x) / piece.span()).abs()
+        }),
     };
     let last = rule.degree();
     let (mut slow, mut fast) = (0, 0);
     for j in 1..=last {
-        if speeds[j] < speeds[slow] {
+        if slowness[j] > slowness[slow] {
             slow = j;
         }
-        if speeds[j] > speeds[fast] {
+        if slowness[j] < slowness[fast] {
             fast = j;
         }
     }
+    let speed_at = |j: usize| 0.5 * piece.span().abs() / slowness[j];
     [slow, fast].map(|point| {
-        let before = speeds[point.saturating_sub(1)];
-        let after = speeds[(point + 1).min(last)];
-        let speed = speeds[point];
+        let before = speed_at(point.saturating_sub(1));
+        let after = speed_at((point + 1).min(last));
+        let speed = speed_at(point);
         Extreme {
             point,
             speed,

@@ -47,8 +47,8 @@ impl Leg {
     /// A leg without panels, that ends where the last one will.
     pub fn open() -> Leg {
         Leg {
-            panels: Vec::with_capacity(8),
-            begins: Vec::with_capacity(8),
+            panels: Vec::with_capacity(64),
+            begins: Vec::with_capacity(64),
             duration: (0.0, 0.0),
             after: After::Ends,
             error: 0.0,

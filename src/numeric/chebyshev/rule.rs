@@ -208,6 +208,20 @@ impl Rule {
         shares.map(|share| share / sum)
     }
 
+    /// The same, simply rounded.
+    pub fn rounded_integral(&self, values: &Values) -> f64 {
+        // Sums apart from each other, for the processor to add side by side.
+        let mut sums = [0.0; 4];
+        let weights = self.weights[..MOST].chunks_exact(4);
+        for (weights, values) in weights.zip(values.chunks_exact(4)) {
+            for k in 0..4 {
+                sums[k] += weights[k] * values[k];
+            }
+        }
+        let last = self.weights[MOST] * values[MOST];
+        (sums[0] + sums[1]) + (sums[2] + sums[3]) + last
+    }
+
     /// Sum and difference of the values at the pairs of points, from the ends to the middle.
     fn parts(&self, values: &Values) -> (Half, Half) {
         let (mut even, mut odd) = ([0.0; HALF], [0.0; HALF]);
