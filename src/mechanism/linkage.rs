@@ -3,7 +3,7 @@
 //! sin φ = (e + r sin θ)/l, x = r cos θ + s l cos φ, s = ±1 for the assembly branch.
 
 use crate::numeric::exact::sum3;
-use crate::scene::Geometry;
+use crate::scene::{Branch, Geometry};
 
 /// The lengths of the mechanism, ready for evaluation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,6 +91,41 @@ impl Linkage {
             below: heights(l, -self.e, self.r),
             ..*self
         }
+    }
+
+    /// The same lengths on another branch.
+    pub fn on_branch(&self, branch: Branch) -> Linkage {
+        Linkage {
+            s: branch.sign(),
+            ..*self
+        }
+    }
+
+    /// Crank and rod exchanged: r sin θ = l sin Φ − e. `s` is the sign of cos θ.
+    pub(super) fn exchanged(&self, s: f64) -> Linkage {
+        Linkage {
+            r: self.l,
+            l: self.r,
+            e: -self.e,
+            s,
+            above: heights(self.r, -self.e, self.l),
+            below: heights(self.r, self.e, self.l),
+        }
+    }
+
+    /// Whether the rod reaches the guide at crank angle `theta` (rad), to rounding.
+    pub fn reaches(&self, theta: f64) -> bool {
+        let height = (self.e + self.r * theta.sin()).abs();
+        height <= self.l + 4.0 * f64::EPSILON * (self.l + self.r)
+    }
+
+    /// How far the lengths are from those of a change point, in crank lengths.
+    pub fn nearness_to_change_point(&self) -> f64 {
+        let e = self.e.abs();
+        sum3(self.l, -e, -self.r)
+            .abs()
+            .min(sum3(self.r, -e, -self.l).abs())
+            / self.r
     }
 
     /// Least l − |e| − r, m: positive iff the crank can turn fully.

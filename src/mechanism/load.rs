@@ -14,6 +14,11 @@ pub struct LoadValue {
 }
 
 impl LoadValue {
+    /// Whether both are finite.
+    pub fn is_finite(&self) -> bool {
+        self.torque.is_finite() && self.force.is_finite()
+    }
+
     /// The generalized force Q = τ + F x', N m.
     pub fn generalized(&self, pose: &Pose) -> f64 {
         self.torque + self.force * pose.dx
@@ -129,10 +134,7 @@ impl Loads {
 
     /// Torque and force of the loads that have a potential.
     pub fn with_potential(&self, pose: &Pose) -> LoadValue {
-        LoadValue {
-            torque: self.torque,
-            force: self.force - self.stiffness * pose.x,
-        }
+        self.stored(pose.x)
     }
 
     /// Torque and force of the loads whose work must be integrated.
@@ -143,28 +145,39 @@ impl Loads {
         omega: f64,
         pose: &Pose,
     ) -> LoadValue {
-        let v = pose.dx * omega;
+        self.spent(&Instant {
+            t,
+            theta: theta.into().radians(),
+            omega,
+            x: pose.x,
+            v: pose.dx * omega,
+        })
+    }
+
+    /// Torque and force of the loads that have a potential, at slider position x (m).
+    pub(super) fn stored(&self, x: f64) -> LoadValue {
+        LoadValue {
+            torque: self.torque,
+            force: self.force - self.stiffness * x,
+        }
+    }
+
+    /// Torque and force of the loads whose work must be integrated.
+    pub(super) fn spent(&self, now: &Instant) -> LoadValue {
         let mut value = LoadValue {
-            torque: -self.rotary_damping * omega,
-            force: -self.linear_damping * v,
+            torque: -self.rotary_damping * now.omega,
+            force: -self.linear_damping * now.v,
         };
         if !(self.torques.is_empty() && self.forces.is_empty()) {
-            let now = Instant {
-                t,
-                theta: theta.into().radians(),
-                omega,
-                x: pose.x,
-                v,
-            };
             value.torque += self
                 .torques
                 .iter()
-                .map(|load| single(load, false, &now))
+                .map(|load| single(load, false, now))
                 .sum::<f64>();
             value.force += self
                 .forces
                 .iter()
-                .map(|load| single(load, true, &now))
+                .map(|load| single(load, true, now))
                 .sum::<f64>();
         }
         value

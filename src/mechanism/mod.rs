@@ -2,7 +2,10 @@
 //! Knows no integrator.
 
 mod body;
+mod constrained;
+mod curve;
 mod extremes;
+mod friction;
 mod lagrange;
 mod limits;
 mod linkage;
@@ -10,7 +13,10 @@ mod load;
 mod reactions;
 
 pub use body::{Bodies, Body, Path};
+pub use constrained::{Across, Constrained};
+pub use curve::{Curve, Place};
 pub use extremes::{Extreme, Extremes};
+pub use friction::{Free, FromRest, Jam, Touch};
 pub use lagrange::{Equation, Inertia, Obstacle, Terms};
 pub use limits::{Class, DeadCentre, Limits};
 pub use linkage::{Linkage, Pose};

@@ -12,7 +12,8 @@ use refusal::{refuse_what_cannot_move, refuse_what_is_not_modelled};
 use terms::terms;
 
 use crate::error::Error;
-use crate::mechanism::{Linkage, Loads};
+use crate::mechanism::{Class, Curve, Limits, Linkage, Loads};
+use crate::numeric::angle::Angle;
 use crate::scene::{Load, MotionKind, Scene, Variable, Variables};
 
 /// What computes the motion.
@@ -105,7 +106,7 @@ impl Plan {
         }
         if engine == Engine::Time {
             state.extend(["theta", "omega"]);
-            if !loads.have_potential() {
+            if !loads.have_potential() || reduced.friction.is_some() {
                 state.push("work of the loads");
             }
             if loads.reads().has(Variable::T) {
@@ -116,14 +117,23 @@ impl Plan {
         if engine != Engine::ClosedForm {
             events.push("turning-point");
         }
-        if engine == Engine::Time && linkage.margin() < 0.0 {
+        let on_curve = (engine == Engine::Time)
+            .then(|| Curve::through(&linkage, Angle::from(scene.motion.angle).reduced()))
+            .flatten();
+        let coordinate = on_curve.map_or("crank angle theta", |(curve, _)| curve.coordinate());
+        if engine == Engine::Time && Limits::new(&linkage, 0.0).class != Class::RotatingCrank {
             events.push("limit");
+            state[0] = "coordinate q";
+            state[1] = "its speed";
+        }
+        if engine == Engine::Time && reduced.friction.is_some() {
+            events.extend(["stick", "slip", "rest"]);
         }
         Ok(Plan {
             engine,
             reason,
             stepper,
-            coordinate: "crank angle theta".to_owned(),
+            coordinate: coordinate.to_owned(),
             state: state.into_iter().map(str::to_owned).collect(),
             events: events.into_iter().map(str::to_owned).collect(),
             kept,
@@ -174,6 +184,17 @@ fn engine(
         (Method::ClosedForm, false) => Err(Error::refused(
             "method closed-form cannot serve a free motion",
             "use --method auto, or motion kind = \"constant-speed\"",
+        )),
+        (Method::Energy | Method::Angle, false) if scene.friction.is_some() => {
+            Err(Error::refused(
+                format!("method {method} cannot serve Coulomb friction, which changes where slider or normal force turn"),
+                "use --method auto, time, dop853 or dopri5",
+            ))
+        }
+        (Method::Auto, false) if scene.friction.is_some() => Ok((
+            Engine::Time,
+            Some(Stepper::Dop853),
+            reason("Coulomb friction: integration in time, piece by piece between its changes"),
         )),
         (Method::Auto | Method::Energy, false) if energy_serves(loads, scene) => Ok((
             Engine::Energy,

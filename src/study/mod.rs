@@ -3,6 +3,7 @@
 mod by_angle;
 mod by_energy;
 mod closed_form;
+mod curve;
 mod drive;
 mod explain;
 mod forward;
