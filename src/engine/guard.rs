@@ -33,11 +33,7 @@ pub fn changes<const N: usize>(
     signs: &mut [f64; N],
 ) -> Vec<Change> {
     let end = watched.values(step.end.t, step.angle(step.end.theta), step.end.omega);
-    let start = watched.values(
-        step.start.t,
-        step.angle(step.start.theta),
-        step.start.omega,
-    );
+    let start = watched.values(step.start.t, step.angle(step.start.theta), step.start.omega);
     let rough = sampled(step, watched, &start, &end);
     let left = |i: usize| rough.iter().skip(1).any(|v| v[i] * signs[i] < 0.0);
     if !(0..N).any(left) {

@@ -11,6 +11,7 @@ mod limits;
 mod linkage;
 mod load;
 mod reactions;
+mod rocker;
 
 pub use body::{Bodies, Body, Path};
 pub use constrained::{Across, Constrained};

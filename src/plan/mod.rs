@@ -169,6 +169,7 @@ fn engine(
     scene: &Scene,
 ) -> Result<(Engine, Option<Stepper>, String), Error> {
     let reason = |text: &str| text.to_owned();
+    let crosses = Limits::new(&Linkage::new(&scene.geometry), 0.0).class == Class::ChangePoint;
     match (method, prescribed) {
         (Method::Auto | Method::ClosedForm, true) => Ok((
             Engine::ClosedForm,
@@ -185,12 +186,23 @@ fn engine(
             "method closed-form cannot serve a free motion",
             "use --method auto, or motion kind = \"constant-speed\"",
         )),
-        (Method::Energy | Method::Angle, false) if scene.friction.is_some() => {
-            Err(Error::refused(
-                format!("method {method} cannot serve Coulomb friction, which changes where slider or normal force turn"),
-                "use --method auto, time, dop853 or dopri5",
-            ))
-        }
+        (Method::Energy | Method::Angle, false) if crosses => Err(Error::refused(
+            format!(
+                "method {method} cannot serve the lengths of a change point, which it passes onto the other branch"
+            ),
+            "use --method auto, time, dop853 or dopri5",
+        )),
+        (Method::Auto, false) if crosses => Ok((
+            Engine::Time,
+            Some(Stepper::Dop853),
+            reason("a change point: integration in time along the configuration curve"),
+        )),
+        (Method::Energy | Method::Angle, false) if scene.friction.is_some() => Err(Error::refused(
+            format!(
+                "method {method} cannot serve Coulomb friction, which changes where slider or normal force turn"
+            ),
+            "use --method auto, time, dop853 or dopri5",
+        )),
         (Method::Auto, false) if scene.friction.is_some() => Ok((
             Engine::Time,
             Some(Stepper::Dop853),

@@ -6,9 +6,7 @@ use crate::numeric::angle::Angle;
 use crate::scene::{RodModel, Scene};
 
 pub(super) fn refuse_what_is_not_modelled(scene: &Scene) -> Result<(), Error> {
-    let spin_only = scene
-        .rod
-        .is_some_and(|rod| rod.model == RodModel::SpinOnly);
+    let spin_only = scene.rod.is_some_and(|rod| rod.model == RodModel::SpinOnly);
     if scene.friction.is_some() && spin_only {
         return Err(Error::refused(
             "the rod model \"spin-only\" leaves out the rod's translation, so no normal force goes with it",

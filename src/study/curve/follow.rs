@@ -2,42 +2,17 @@
 
 use std::cell::Cell;
 
+use super::arrived::{Arrived, End, Observer};
 use super::phase::{
-    CLEAR, DEAD_CENTRE, InPhase, LIMIT, NORMAL, Phase, Quantities, SPEED, Signs, TURNED, jam_text,
-    signs, sliding,
+    CLEAR, DEAD_CENTRE, InPhase, LIMIT, NORMAL, Phase, Quantities, SPEED, Signs, TURNED, signs,
+    sliding,
 };
-use super::release;
-use crate::engine::guard::{self, Watched};
+use crate::engine::guard::{self, Change, Watched};
 use crate::engine::step::{Node, Step};
 use crate::engine::time::{self, Finish, Settings, Start};
 use crate::engine::{Counted, Motion};
-use crate::mechanism::{Constrained, FromRest};
-use crate::numeric::angle::Angle;
-use crate::scene::{Friction, Variable};
-
-/// Takes what is computed.
-pub(super) trait Observer {
-    /// A part of the motion; true ends the run.
-    fn step(&mut self, step: &Step, phase: Phase) -> bool;
-
-    /// Something that happened.
-    fn event(&mut self, kind: &'static str, t: f64, angle: Angle, speed: f64);
-}
-
-/// How a run ended.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum End {
-    /// At its time, or after its turns.
-    Done,
-    /// The integrator could not go on.
-    Integrator(Finish),
-    /// Rigid bodies do not say how it goes on.
-    Jam(String),
-    /// At rest for good before its turns are complete.
-    AtRest,
-    /// The observer ended it.
-    Stopped,
-}
+use crate::mechanism::Constrained;
+use crate::scene::Friction;
 
 /// A run.
 pub(super) struct Follow<'a> {
@@ -49,32 +24,17 @@ pub(super) struct Follow<'a> {
     pub turn_limit: Option<f64>,
 }
 
-/// Where a run arrived.
-pub(super) struct Arrived {
-    /// Last piece.
-    pub last: Step,
-    /// Work of all that has no potential, J.
-    pub work: f64,
-    pub steps: u64,
-    pub evaluations: u64,
-    /// Pieces of the motion.
-    pub pieces: u64,
-    pub end: End,
-    /// Time, crank angle (rad) and crank speed of the last evaluation without a finite result.
-    pub impossible: Option<(f64, f64, f64)>,
-}
-
-/// How far ahead a run without a last time looks for a release, in units of its time so far.
-const FAR_AHEAD: f64 = 1e3;
+/// How far ahead of a start the signs show, rad.
+const AHEAD: f64 = 1e-6;
 
 /// A run under way.
-struct Run<'a, 'o> {
-    follow: &'a Follow<'a>,
-    quantities: Quantities<'a>,
-    observer: &'o mut dyn Observer,
-    now: Start,
-    signs: Signs,
-    arrived: Arrived,
+pub(super) struct Run<'a, 'o> {
+    pub follow: &'a Follow<'a>,
+    pub quantities: Quantities<'a>,
+    pub observer: &'o mut dyn Observer,
+    pub now: Start,
+    pub signs: Signs,
+    pub arrived: Arrived,
 }
 
 /// What ends a piece of the motion.
@@ -120,7 +80,7 @@ impl Follow<'_> {
         run.arrived
     }
 
-    fn friction(&self) -> Option<Friction> {
+    pub fn friction(&self) -> Option<Friction> {
         self.equation.friction()
     }
 }
@@ -131,17 +91,20 @@ impl Run<'_, '_> {
         let end = if speed == 0.0 && self.follow.friction().is_some() {
             self.from_rest(None)
         } else {
-            let direction = if speed < 0.0 { -1.0 } else { 1.0 };
-            self.signs = self.signs_for(direction);
+            self.signs = self.signs_for(if speed < 0.0 { -1.0 } else { 1.0 });
             self.check_jam()
         };
         let end = end.or_else(|| self.pieces());
         self.arrived.end = end.unwrap_or(End::Done);
     }
 
-    fn signs_for(&self, direction: f64) -> Signs {
+    pub fn signs_for(&self, direction: f64) -> Signs {
         let Start { t, angle, speed } = self.now;
-        let mut signs = signs(self.quantities.values(t, angle, speed), direction);
+        let values = self.quantities.values(t, angle, speed);
+        let ahead = self
+            .quantities
+            .values(t, angle.plus(direction * AHEAD), speed);
+        let mut signs = signs(values, ahead, direction);
         // A start without speed says nothing about its direction.
         if speed == 0.0 && self.follow.friction().is_none() {
             let motion = self.in_phase(Phase::Sliding { c: 0.0 });
@@ -263,7 +226,7 @@ impl Run<'_, '_> {
                 Cut::Ended(finish)
             };
         };
-        let last = self.shorten(&motion, &step, change.t, change.index == TURNED, phase);
+        let last = self.shorten(&motion, &step, change, phase);
         self.arrived.evaluations += motion.evaluations();
         self.arrive(last);
         Cut::At {
@@ -272,15 +235,8 @@ impl Run<'_, '_> {
         }
     }
 
-    /// The step ended at time `t` inside it, integrated anew.
-    fn shorten(
-        &mut self,
-        motion: &Counted<'_>,
-        step: &Step,
-        t: f64,
-        turned: bool,
-        phase: Phase,
-    ) -> Step {
+    /// The step ended at a change inside it, integrated anew.
+    fn shorten(&mut self, motion: &Counted<'_>, step: &Step, change: Change, phase: Phase) -> Step {
         let start = Start {
             t: step.start.t,
             angle: step.angle(step.start.theta),
@@ -294,8 +250,8 @@ impl Run<'_, '_> {
             };
             time::run(motion, start, &settings, sink).1
         };
-        let mut t = t;
-        if turned {
+        let mut t = change.t;
+        if change.index == TURNED {
             for _ in 0..2 {
                 let last = until(t, &mut |_| false);
                 let angle = last.angle(last.end.theta);
@@ -309,15 +265,23 @@ impl Run<'_, '_> {
             }
         }
         let observer = &mut *self.observer;
-        let mut last = until(t, &mut |step| {
-            observer.step(step, phase);
+        let at_rest = change.index == SPEED;
+        let rested = |step: &Step| {
+            let mut step = *step;
+            if at_rest && step.end.t >= t {
+                step.end.omega = 0.0;
+            }
+            step
+        };
+        let mut last = rested(&until(t, &mut |step| {
+            observer.step(&rested(step), phase);
             false
-        });
+        }));
         last.end.work += step.start.work;
         last
     }
 
-    fn arrive(&mut self, last: Step) {
+    pub fn arrive(&mut self, last: Step) {
         self.arrived.work += last.end.work;
         self.now = Start {
             t: last.end.t,
@@ -325,92 +289,5 @@ impl Run<'_, '_> {
             speed: last.end.omega,
         };
         self.arrived.last = last;
-    }
-
-    /// Goes on from rest: none if it moves. `before`: the direction in which it moved.
-    fn from_rest(&mut self, before: Option<f64>) -> Option<End> {
-        let friction = self.follow.friction()?;
-        let (mu, mu_static) = (friction.coefficient, friction.static_coefficient);
-        let Start { t, angle, .. } = self.now;
-        let free = self.follow.equation.free(t, angle, 0.0);
-        let direction = match free.from_rest(mu, mu_static) {
-            FromRest::Move(direction) => {
-                if before.is_some_and(|before| before != direction) {
-                    self.observer.event("turning-point", t, angle, 0.0);
-                }
-                direction
-            }
-            FromRest::Hold(_) => match self.rest(mu_static) {
-                Some(direction) => direction,
-                None if self.follow.turn_limit.is_some() => return Some(End::AtRest),
-                None => return Some(End::Done),
-            },
-            FromRest::Jam(_) => return Some(self.jam()),
-        };
-        self.signs = self.signs_for(direction);
-        self.check_jam()
-    }
-
-    /// Stays at rest until the static band does not hold any more: the direction in which it then slips.
-    fn rest(&mut self, mu_static: f64) -> Option<f64> {
-        let Start { t, angle, .. } = self.now;
-        let equation = self.follow.equation;
-        let end = match self.follow.turn_limit {
-            Some(_) => t + FAR_AHEAD * t.max(1.0),
-            None => self.follow.settings.t_end,
-        };
-        let changes = equation.loads().reads().has(Variable::T);
-        let (until, looked) = if changes {
-            let allowed = self.follow.settings.max_evaluations;
-            release::time(equation, angle, mu_static, t, end, allowed)
-        } else {
-            (None, 0)
-        };
-        self.arrived.evaluations += looked;
-        let kind = if until.is_some() { "stick" } else { "rest" };
-        self.observer.event(kind, t, angle, 0.0);
-        if until.is_none() && self.follow.turn_limit.is_some() {
-            return None;
-        }
-        let node = |t: f64| Node {
-            t,
-            theta: angle.rest,
-            ..Node::default()
-        };
-        let still = Step::new(angle.turns, node(t), node(until.unwrap_or(end)));
-        self.observer.step(&still, Phase::Sticking);
-        self.arrive(still);
-        let t = until?;
-        self.observer.event("slip", t, angle, 0.0);
-        let pull = equation.free(t, angle, 0.0);
-        Some(if pull.pulls_forward() { 1.0 } else { -1.0 })
-    }
-
-    fn check_jam(&mut self) -> Option<End> {
-        let friction = self.follow.friction()?;
-        let Start { t, angle, speed } = self.now;
-        let free = self.follow.equation.free(t, angle, speed);
-        (free.clear_of_jam(friction.coefficient) <= 0.0).then(|| self.jam())
-    }
-
-    fn jam(&self) -> End {
-        let Start { t, angle, speed } = self.now;
-        let free = self.follow.equation.free(t, angle, speed);
-        let mu = self.follow.friction().map_or(0.0, |f| f.coefficient);
-        End::Jam(jam_text(&free, mu, self.signs[SPEED] * self.signs[DEAD_CENTRE]))
-    }
-
-    /// A run whose steps became too small next to jamming has jammed.
-    fn singular(&self, finish: Finish) -> End {
-        let Start { t, angle, speed } = self.now;
-        if finish == Finish::StepTooSmall
-            && let Some(friction) = self.follow.friction()
-        {
-            let free = self.follow.equation.free(t, angle, speed);
-            if free.clear_of_jam(friction.coefficient) < 1e-3 {
-                return self.jam();
-            }
-        }
-        End::Integrator(finish)
     }
 }

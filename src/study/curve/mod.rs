@@ -1,26 +1,33 @@
 //! Motion in time on the configuration curve: past the limits of a rocker, and with Coulomb friction.
 
+mod arrived;
+mod estimate;
 mod follow;
 mod phase;
 mod release;
+mod rest;
 mod watch;
+mod words;
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use follow::{Arrived, End, Follow, Observer};
+use arrived::{Arrived, End};
+use estimate::estimate;
+use follow::Follow;
 use phase::Phase;
 use watch::CurveWatch;
+use words::{warnings, why};
 
-use super::in_time::{FAR, settings};
+use super::in_time::settings;
 use super::row::RowSink;
 use super::schedule::Schedule;
 use super::simulate::Simulation;
 use super::stopped;
-use super::summary::{Cost, ErrorEstimate, Final, Solved, Summary};
+use super::summary::{Final, Solved, Summary};
 use super::task::Task;
 use crate::engine::step::Step;
-use crate::engine::time::{Finish, Settings, Start};
+use crate::engine::time::{Finish, Start};
 use crate::error::Error;
 use crate::mechanism::{Class, Constrained, Curve, Equation};
 use crate::numeric::angle::Angle;
@@ -83,7 +90,7 @@ pub(super) fn run(
     }
     watch.write_last_row(&arrived.last)?;
     let wall_s = (begun.elapsed() - watch.row_time).as_secs_f64();
-    let stopped = why(task, &arrived, curve);
+    let stopped = why(task, &arrived, &constrained);
     let estimate = if task.options.estimate && stopped.is_none() {
         estimate(&follow, &arrived)
     } else {
@@ -174,140 +181,6 @@ fn crank_state(curve: &Curve, last: &Step) -> (Angle, f64) {
     (curve.crank_angle(angle), dtheta * last.end.omega)
 }
 
-/// Why a run ended before its time.
-fn why(task: &Task<'_>, arrived: &Arrived, curve: &Curve) -> Option<String> {
-    let (angle, speed) = crank_state(curve, &arrived.last);
-    let t = arrived.last.end.t;
-    let place = format!(
-        "at t = {t} s, theta = {} rad, omega = {speed} rad/s",
-        angle.radians()
-    );
-    match (&arrived.end, task.extent) {
-        (End::Done, Extent::Revolutions(turns)) if t >= FAR => Some(format!(
-            "the crank does not complete {turns} turns: stopped {place}; give a duration instead"
-        )),
-        (End::AtRest, Extent::Revolutions(turns)) => Some(format!(
-            "the crank comes to rest and does not complete {turns} turns: stopped {place}; give a duration instead"
-        )),
-        (End::Done | End::AtRest | End::Stopped, _) => None,
-        (End::Jam(why), _) => Some(format!("{why}: stopped {place}")),
-        (End::Integrator(Finish::WorkLimit), _) => Some(stopped::work_limit(&place)),
-        (End::Integrator(_), _) => Some(singular(task, arrived, &place)),
-    }
-}
-
-/// Why the steps became too small.
-fn singular(task: &Task<'_>, arrived: &Arrived, place: &str) -> String {
-    if let Some((t, theta, omega)) = arrived.impossible
-        && !task.equation().load(t, theta, omega).is_finite()
-    {
-        return format!(
-            "a load has no finite value at t = {t} s, theta = {theta} rad, omega = {omega} rad/s (outside its table, or outside the domain of its formula): stopped {place}"
-        );
-    }
-    format!("the equation is singular here or too stiff for this method: stopped {place}")
-}
-
-fn warnings(task: &Task<'_>) -> Vec<String> {
-    let linkage = task.equation().linkage();
-    let near = linkage.nearness_to_change_point();
-    match task.limits.class {
-        Class::ChangePoint => vec![
-            "the lengths make a change point: it is passed so that all velocities stay continuous, and the branch changes there; a slightly longer or shorter rod moves differently".to_owned(),
-        ],
-        _ if near < 1e-6 => vec![format!(
-            "the lengths are {near:e} crank lengths from a change point: which way the mechanism goes there depends on their last digits"
-        )],
-        _ => Vec::new(),
-    }
-}
-
-/// The second run of the estimate is this much tighter.
-const TIGHTER: f64 = 50.0;
-/// What is stated is larger than the distance of the two runs by this.
-const MARGIN: f64 = 1.5;
-/// Where rounding inside a step takes over.
-const TIGHTEST: f64 = 1e-15;
-
-/// Adds up what rounding does to a run.
-struct Shaken {
-    unevenness: f64,
-    largest_speed: f64,
-}
-
-impl Observer for Shaken {
-    fn step(&mut self, step: &Step, _: Phase) -> bool {
-        let travel = step.end.theta - step.start.theta;
-        self.largest_speed = self.largest_speed.max(step.end.omega.abs());
-        if travel != 0.0 && step.end.alpha.is_finite() {
-            let slope = (step.end.alpha - step.start.alpha) / travel;
-            let angle = 4.0 * step.end.theta.abs() * slope;
-            let evaluation = 64.0 * step.end.alpha;
-            self.unevenness += (angle * angle + evaluation * evaluation) * step.length().powi(2);
-        }
-        false
-    }
-
-    fn event(&mut self, _: &'static str, _: f64, _: Angle, _: f64) {}
-}
-
-/// Global error of the last state: its distance from a much tighter run, and what rounding may have added.
-fn estimate(follow: &Follow<'_>, arrived: &Arrived) -> Option<(ErrorEstimate, Cost)> {
-    let begun = Instant::now();
-    let end = arrived.last.end;
-    let tighter = Follow {
-        equation: follow.equation,
-        settings: Settings {
-            tolerance: (follow.settings.tolerance / TIGHTER).max(TIGHTEST),
-            t_end: end.t,
-            max_evaluations: follow.settings.max_evaluations.saturating_mul(4),
-            ..follow.settings
-        },
-        start: follow.start,
-        turn_limit: None,
-    };
-    let mut shaken = Shaken {
-        unevenness: 0.0,
-        largest_speed: 0.0,
-    };
-    let best = tighter.run(&mut shaken);
-    if best.end != End::Done {
-        return None;
-    }
-    let curve = follow.equation.curve();
-    let (a, b) = (
-        crank_state(curve, &arrived.last),
-        crank_state(curve, &best.last),
-    );
-    let roundings = ((arrived.steps + best.steps) as f64).sqrt();
-    let noise = f64::EPSILON
-        * (0.5 * shaken.largest_speed * roundings + shaken.unevenness.sqrt());
-    let duration = end.t - follow.start.t;
-    let angle_noise = 0.5 * f64::EPSILON * (1.0 + end.theta.abs()) * roundings
-        + noise * duration
-        + f64::EPSILON * a.0.radians().abs();
-    // The same time in the motion, at another angle.
-    let bend = if end.omega == 0.0 {
-        0.0
-    } else {
-        (end.alpha / end.omega * angle_noise).abs()
-    };
-    let place = curve.place(end.theta);
-    let dtheta = place.dtheta.abs().max(f64::EPSILON);
-    let still = arrived.last.end.omega == 0.0 && best.last.end.omega == 0.0;
-    let rounded = if still { f64::EPSILON } else { 1.0 };
-    let estimate = ErrorEstimate {
-        theta_rad: MARGIN * a.0.minus(b.0).abs() + dtheta * angle_noise,
-        omega_rad_per_s: MARGIN * (a.1 - b.1).abs()
-            + rounded * (dtheta * (noise + bend) + place.d2theta.abs() * end.omega.abs() * angle_noise),
-    };
-    let cost = Cost {
-        evaluations: best.evaluations,
-        wall_s: begun.elapsed().as_secs_f64(),
-    };
-    Some((estimate, cost))
-}
-
 /// Energy at the end minus energy at the start minus work, J, and the largest energy that occurs.
 fn energy_residual(
     constrained: &Constrained,
@@ -319,9 +192,7 @@ fn energy_residual(
     let last = &arrived.last;
     let angle = last.angle(last.end.theta);
     let turns = constrained.curve().crank_angle(start.angle).turns;
-    let potential = |q: Angle| {
-        constrained.potential_energy(equation, q, turns)
-    };
+    let potential = |q: Angle| constrained.potential_energy(equation, q, turns);
     let kinetic = [
         constrained.kinetic_energy(start.angle, start.speed),
         constrained.kinetic_energy(angle, last.end.omega),

@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use crate::engine::Motion;
 use crate::engine::guard::Watched;
-use crate::mechanism::{Constrained, Free, Touch};
+use crate::mechanism::{Constrained, Touch};
 use crate::numeric::angle::Angle;
 use crate::scene::{Friction, Variable};
 
@@ -108,9 +108,14 @@ impl Watched<QUANTITIES> for Quantities<'_> {
     }
 }
 
-/// The signs with which motion in `direction` (±1 of the coordinate) begins.
-pub(super) fn signs(values: Signs, direction: f64) -> Signs {
-    let mut signs = values.map(|value| if value < 0.0 { -1.0 } else { 1.0 });
+/// The signs with which motion in `direction` (±1 of the coordinate) begins: where a quantity is zero, that of
+/// `ahead`, its value a little further.
+pub(super) fn signs(values: Signs, ahead: Signs, direction: f64) -> Signs {
+    let mut signs: Signs = std::array::from_fn(|i| {
+        let nothing = values[i].abs() <= 1e-9 * ahead[i].abs();
+        let value = if nothing { ahead[i] } else { values[i] };
+        if value < 0.0 { -1.0 } else { 1.0 }
+    });
     signs[SPEED] = direction;
     (signs[TURNED], signs[CLEAR]) = (1.0, 1.0);
     signs
@@ -122,17 +127,4 @@ pub(super) fn sliding(friction: Option<Friction>, signs: &Signs) -> Phase {
     Phase::Sliding {
         c: -mu * signs[SPEED] * signs[DEAD_CENTRE] * signs[NORMAL],
     }
-}
-
-/// Why rigid bodies do not say how sliding goes on here.
-pub(super) fn jam_text(free: &Free, mu: f64, sgn_v: f64) -> String {
-    use crate::mechanism::Jam;
-    let why = match free.jam(mu, sgn_v) {
-        Jam::NoSolution => "no acceleration satisfies the equations of the rigid bodies",
-        Jam::TwoSolutions => "two accelerations satisfy the equations of the rigid bodies",
-    };
-    format!(
-        "the slider jams in its guide: with coefficient of friction {mu} {why} (dN/dF = {}, times the coefficient beyond 1)",
-        free.kappa
-    )
 }

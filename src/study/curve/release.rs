@@ -27,7 +27,13 @@ pub(super) fn time(
     let (mut t, mut length) = (from, longest);
     while t < to && count < allowed {
         let end = equation.loads().next_corner(t).min(to).min(t + length);
-        let times = PLACES.map(|part| if part == 1.0 { end } else { t + part * (end - t) });
+        let times = PLACES.map(|part| {
+            if part == 1.0 {
+                end
+            } else {
+                t + part * (end - t)
+            }
+        });
         let values = times.map(band);
         count += PLACES.len() as u64;
         // How far the values are from a straight line says how far the band may dip between them.

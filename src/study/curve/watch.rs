@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::follow::Observer;
+use super::arrived::Observer;
 use super::phase::{InPhase, Phase};
 use crate::engine::step::Step;
 use crate::error::Error;
