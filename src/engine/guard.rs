@@ -5,8 +5,11 @@ use super::step::Step;
 use crate::numeric::angle::Angle;
 use crate::numeric::root;
 
-/// A step is looked at in this many pieces: two changes in one piece go unseen.
-const PIECES: usize = 8;
+/// A step is looked at in pieces of this travel, rad, but in at least so many and at most so many: two changes
+/// in one piece go unseen.
+const TRAVEL: f64 = 0.1;
+const FEWEST: f64 = 8.0;
+const MOST: f64 = 64.0;
 
 /// The quantities whose signs are watched, at time t (s), angle and speed.
 pub trait Watched<const N: usize> {
@@ -34,21 +37,23 @@ pub fn changes<const N: usize>(
 ) -> Vec<Change> {
     let end = watched.values(step.end.t, step.angle(step.end.theta), step.end.omega);
     let start = watched.values(step.start.t, step.angle(step.start.theta), step.start.omega);
-    let rough = sampled(step, watched, &start, &end);
+    let travel = (step.end.theta - step.start.theta).abs();
+    let pieces = (travel / TRAVEL).ceil().clamp(FEWEST, MOST) as usize;
+    let rough = sampled(step, watched, &start, &end, pieces);
     let left = |i: usize| rough.iter().skip(1).any(|v| v[i] * signs[i] < 0.0);
     if !(0..N).any(left) {
         return Vec::new();
     }
     step.refine(motion);
-    let fine = sampled(step, watched, &start, &end);
+    let fine = sampled(step, watched, &start, &end, pieces);
     let mut found = Vec::new();
     for index in 0..N {
-        for piece in 0..PIECES {
+        for piece in 0..pieces {
             let left = fine[piece + 1][index] * signs[index] < 0.0;
             if !left {
                 continue;
             }
-            let (from, to) = (time(step, piece), time(step, piece + 1));
+            let (from, to) = (time(step, piece, pieces), time(step, piece + 1, pieces));
             let value = |t: f64| {
                 let (theta, omega) = step.at(t);
                 watched.values(t, step.angle(theta), omega)[index]
@@ -67,11 +72,11 @@ pub fn changes<const N: usize>(
     found
 }
 
-fn time(step: &Step, piece: usize) -> f64 {
-    if piece == PIECES {
+fn time(step: &Step, piece: usize, pieces: usize) -> f64 {
+    if piece == pieces {
         step.end.t
     } else {
-        step.start.t + step.length() * piece as f64 / PIECES as f64
+        step.start.t + step.length() * piece as f64 / pieces as f64
     }
 }
 
@@ -80,14 +85,15 @@ fn sampled<const N: usize>(
     watched: &dyn Watched<N>,
     start: &[f64; N],
     end: &[f64; N],
-) -> [[f64; N]; PIECES + 1] {
-    std::array::from_fn(|i| match i {
-        0 => *start,
-        PIECES => *end,
-        _ => {
-            let t = time(step, i);
-            let (theta, omega) = step.at(t);
-            watched.values(t, step.angle(theta), omega)
-        }
-    })
+    pieces: usize,
+) -> Vec<[f64; N]> {
+    let inside = (1..pieces).map(|i| {
+        let t = time(step, i, pieces);
+        let (theta, omega) = step.at(t);
+        watched.values(t, step.angle(theta), omega)
+    });
+    std::iter::once(*start)
+        .chain(inside)
+        .chain([*end])
+        .collect()
 }

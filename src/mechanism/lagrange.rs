@@ -121,7 +121,14 @@ impl Equation {
 
     /// The terms that depend on the crank angle (rad) alone.
     pub fn terms(&self, theta: f64) -> Terms {
-        let pose = self.linkage.pose(theta);
+        let (sin, cos) = theta.sin_cos();
+        self.terms_at(sin, cos)
+    }
+
+    /// The same at the crank angle of this sine and cosine.
+    #[inline]
+    pub(super) fn terms_at(&self, sin: f64, cos: f64) -> Terms {
+        let pose = self.linkage.pose_at(sin, cos);
         let mut inertia = Inertia {
             m: self.crank_inertia,
             half_dm: 0.0,
@@ -221,23 +228,6 @@ impl Equation {
         self.heavy.iter().map(energy).sum()
     }
 
-    /// Why there is no finite acceleration here, if there is none.
-    pub fn obstacle(&self, t: f64, theta: impl Into<Angle>, omega: f64) -> Option<Obstacle> {
-        let theta = theta.into();
-        let terms = self.terms(theta.rest);
-        if !terms.pose.exists() {
-            return Some(Obstacle::Blocked);
-        }
-        let load = self.loads.value(t, theta, omega, &terms.pose);
-        if !load.torque.is_finite() || !load.force.is_finite() {
-            return Some(Obstacle::Load);
-        }
-        if !self.acceleration(t, theta, omega).is_finite() {
-            return Some(Obstacle::NoInertia);
-        }
-        None
-    }
-
     /// Mass and place of a body.
     fn place(&self, body: &Body, crank: [f64; 2], rod: [f64; 2], x: f64) -> (f64, [f64; 2]) {
         let turned = |[cos, sin]: [f64; 2], along: f64, left: f64| {
@@ -256,18 +246,8 @@ impl Equation {
     }
 }
 
-/// What keeps the equation from having a finite acceleration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Obstacle {
-    /// The rod does not reach the guide, or stands normal to it.
-    Blocked,
-    /// A load has no finite value: outside its table or the domain of its formula.
-    Load,
-    /// M is zero.
-    NoInertia,
-}
-
-fn forward(terms: &Terms, q: f64, omega: f64) -> f64 {
+#[inline]
+pub(super) fn forward(terms: &Terms, q: f64, omega: f64) -> f64 {
     (q - terms.dv - terms.inertia.half_dm * omega * omega) / terms.inertia.m
 }
 

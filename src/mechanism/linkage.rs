@@ -141,6 +141,12 @@ impl Linkage {
     /// cancels nor a large offset takes digits.
     pub fn pose(&self, theta: f64) -> Pose {
         let (sin, cos) = theta.sin_cos();
+        self.pose_at(sin, cos)
+    }
+
+    /// The position at the crank angle of this sine and cosine.
+    #[inline]
+    pub(super) fn pose_at(&self, sin: f64, cos: f64) -> Pose {
         let Linkage { r, l, e, s, .. } = *self;
         let (up, down) = (&self.above, &self.below);
         let (minus, plus) = if sin > 0.5 {

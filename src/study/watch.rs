@@ -139,7 +139,8 @@ impl Watch<'_> {
     fn look_for_events(&mut self, step: &mut Step) {
         let mut crossings = std::mem::take(&mut self.seen.crossings);
         events::crossings(step, &self.watched, &mut crossings);
-        if !crossings.is_empty() && self.seen.events.len() < self.events_kept {
+        let rough = !step.is_refined();
+        if rough && !crossings.is_empty() && self.seen.events.len() < self.events_kept {
             step.refine(self.motion);
             events::crossings(step, &self.watched, &mut crossings);
         }
