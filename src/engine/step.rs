@@ -113,6 +113,21 @@ impl Step {
         (theta + bump, (dtheta + dbump) / h)
     }
 
+    /// The second derivative of the angle of [`Self::at`].
+    pub fn acceleration_at(&self, t: f64) -> f64 {
+        let h = self.length();
+        let s = (t - self.start.t) / h;
+        if let Inside::Powers(powers) = &self.inside {
+            let x = 2.0 * s - 1.0;
+            let terms = powers.iter().enumerate().skip(2).rev();
+            let sum = terms.fold(0.0, |sum, (k, power)| {
+                sum * x + (k * (k - 1)) as f64 * power
+            });
+            return 4.0 / (h * h) * sum;
+        }
+        (self.quintic(s)[2] + self.bump(s)[2]) / (h * h)
+    }
+
     /// Makes the motion inside the step as exact as a method of order eight: six evaluations, once.
     pub fn refine(&mut self, motion: &dyn Motion) {
         if self.is_refined() {
@@ -187,6 +202,11 @@ impl Step {
     /// sides of it there.
     pub fn time_of_angle(&self, theta: f64, from: f64, to: f64) -> Option<f64> {
         root::bracketed(|t| self.at(t).0 - theta, from, to)
+    }
+
+    /// When the speed is extreme between `from` and `to`.
+    pub fn time_of_extreme_speed(&self, from: f64, to: f64) -> Option<f64> {
+        root::bracketed(|t| self.acceleration_at(t), from, to)
     }
 
     /// When the speed vanishes between `from` and `to`.

@@ -140,7 +140,7 @@ impl Constrained {
     /// Torque and force of the loads, without friction.
     pub fn load(&self, place: &Place, t: f64, q: Angle, speed: f64) -> LoadValue {
         let spent = self.loads.spent(&self.instant(place, t, q, speed));
-        let stored = self.loads.stored(place.x);
+        let stored = self.loads.with_potential_at(place.x);
         LoadValue {
             torque: stored.torque + spent.torque,
             force: stored.force + spent.force,
@@ -153,7 +153,7 @@ impl Constrained {
         let terms = self.across(q.rest);
         let place = &terms.place;
         let spent = self.loads.spent(&self.instant(place, t, q, speed));
-        let stored = self.loads.stored(place.x);
+        let stored = self.loads.with_potential_at(place.x);
         let (torque, force) = (stored.torque + spent.torque, stored.force + spent.force);
         let along = torque * place.dtheta + force * place.dx;
         let aside = torque * terms.theta_n + force * terms.x_n;

@@ -145,9 +145,8 @@ impl Linkage {
     }
 
     /// The position at the crank angle of this sine and cosine.
-    #[inline]
     pub(super) fn pose_at(&self, sin: f64, cos: f64) -> Pose {
-        let Linkage { r, l, e, s, .. } = *self;
+        let Linkage { r, .. } = *self;
         let (up, down) = (&self.above, &self.below);
         let (minus, plus) = if sin > 0.5 {
             let fall = r * (cos * cos / (1.0 + sin));
@@ -158,6 +157,25 @@ impl Linkage {
         } else {
             (up[1] - r * sin, down[1] + r * sin)
         };
+        self.pose_of(sin, cos, minus, plus)
+    }
+
+    /// Whether [`Self::pose_far_from_limits`] serves all crank angles.
+    pub(super) fn stays_far_from_limits(&self) -> bool {
+        self.margin() >= 0.25 * self.l
+    }
+
+    /// The same as [`Self::pose_at`] without its cases, for many positions side by side.
+    #[inline(always)]
+    pub(super) fn pose_far_from_limits(&self, sin: f64, cos: f64) -> Pose {
+        let u = self.e + self.r * sin;
+        self.pose_of(sin, cos, self.l - u, self.l + u)
+    }
+
+    /// The position with l − u and l + u, u = e + r sin θ.
+    #[inline(always)]
+    fn pose_of(&self, sin: f64, cos: f64, minus: f64, plus: f64) -> Pose {
+        let Linkage { r, l, e, s, .. } = *self;
         let u = e + r * sin;
         let w = (minus * plus).sqrt();
         let per_w = 1.0 / w;

@@ -144,7 +144,15 @@ impl Loads {
 
     /// Torque and force of the loads that have a potential.
     pub fn with_potential(&self, pose: &Pose) -> LoadValue {
-        self.stored(pose.x)
+        self.with_potential_at(pose.x)
+    }
+
+    /// The same at slider position x, m.
+    pub(super) fn with_potential_at(&self, x: f64) -> LoadValue {
+        LoadValue {
+            torque: self.torque,
+            force: self.force - self.stiffness * x,
+        }
     }
 
     /// Torque and force of the loads whose work must be integrated.
@@ -155,7 +163,7 @@ impl Loads {
         omega: f64,
         pose: &Pose,
     ) -> LoadValue {
-        self.without_potential_beside(self.of_time(t), t, theta, omega, pose)
+        self.without_potential_beside(self.of_time(t), t, theta, omega, pose.x, pose.dx)
     }
 
     /// Torque and force of the loads that depend on time (s) alone.
@@ -170,16 +178,17 @@ impl Loads {
         }
     }
 
-    /// As [`Self::without_potential`], with [`Self::of_time`] already known.
-    pub fn without_potential_beside(
+    /// As [`Self::without_potential`], with [`Self::of_time`] already known, at slider position x (m) and its derivative.
+    pub(super) fn without_potential_beside(
         &self,
         of_time: LoadValue,
         t: f64,
         theta: impl Into<Angle>,
         omega: f64,
-        pose: &Pose,
+        x: f64,
+        dx: f64,
     ) -> LoadValue {
-        let v = pose.dx * omega;
+        let v = dx * omega;
         let mut value = LoadValue {
             torque: of_time.torque - self.rotary_damping * omega,
             force: of_time.force - self.linear_damping * v,
@@ -189,21 +198,13 @@ impl Loads {
                 t,
                 theta: theta.into().radians(),
                 omega,
-                x: pose.x,
+                x,
                 v,
             };
             value.torque += sum(&self.torques, false, &now);
             value.force += sum(&self.forces, true, &now);
         }
         value
-    }
-
-    /// Torque and force of the loads that have a potential, at slider position x (m).
-    pub(super) fn stored(&self, x: f64) -> LoadValue {
-        LoadValue {
-            torque: self.torque,
-            force: self.force - self.stiffness * x,
-        }
     }
 
     /// Torque and force of the loads whose work must be integrated.

@@ -145,9 +145,12 @@ impl Watch<'_> {
             events::crossings(step, &self.watched, &mut crossings);
         }
         for &(t, what) in &crossings {
-            if self.seen.ends_at.is_some_and(|end| t > end) {
+            // An event at the end of the run may be off it by rounding.
+            let end = self.seen.ends_at.unwrap_or(t);
+            if t > end * (1.0 + 8.0 * f64::EPSILON) {
                 break;
             }
+            let t = t.min(end);
             let at_limit = matches!(what, Crossing::Angle(index) if index >= self.dead_centres);
             if at_limit {
                 self.seen.ends_at = Some(t);

@@ -14,16 +14,13 @@ const LEFT_BY_SWEEPS: f64 = 1e-2;
 /// Rounding of a state, in parts of itself.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// What came of an attempt.
-pub enum Attempt {
-    /// The step holds; the next may be longer by the factor.
-    Accepted {
-        step: Step,
-        next: State,
-        factor: f64,
-    },
-    /// It does not; try one shorter by the factor.
-    Rejected(f64),
+/// A step that holds.
+pub struct Accepted {
+    pub step: Step,
+    /// The state at its end.
+    pub next: State,
+    /// The next step may be longer by this.
+    pub factor: f64,
 }
 
 /// The method, with what one step leaves to the next.
@@ -35,8 +32,17 @@ pub struct Collocation<'a> {
     batch: Batch,
     /// Length and Legendre coefficients of the acceleration of the last step.
     last: Option<(f64, [f64; NODES])>,
-    /// Acceleration to begin with where there is no last step.
+    /// Acceleration at the start of the next step.
     alpha: f64,
+}
+
+/// A step that is to be tried.
+#[derive(Clone, Copy, Debug)]
+pub struct Try {
+    /// Length, s.
+    pub h: f64,
+    /// Whether it begins and ends at a corner, where the acceleration may jump.
+    pub corners: [bool; 2],
 }
 
 impl<'a> Collocation<'a> {
@@ -52,13 +58,14 @@ impl<'a> Collocation<'a> {
         }
     }
 
-    /// The last step is no guide to the next.
-    pub fn forget(&mut self) {
+    /// The last step is no guide to the next, which begins with this acceleration.
+    pub fn begin_anew(&mut self, alpha: f64) {
         self.last = None;
+        self.alpha = alpha;
     }
 
-    /// Tries a step of length h from a state.
-    pub fn attempt(&mut self, state: &State, h: f64) -> Attempt {
+    /// Tries a step from a state; an error says how much shorter the next try is to be.
+    pub fn attempt(&mut self, state: &State, Try { h, corners }: Try) -> Result<Accepted, f64> {
         self.prepare(state, h);
         let mut before = f64::INFINITY;
         let mut sweeps = 0;
@@ -66,7 +73,7 @@ impl<'a> Collocation<'a> {
             self.motion.fill(&mut self.batch);
             sweeps += 1;
             if !self.batch.alpha.iter().sum::<f64>().is_finite() {
-                return Attempt::Rejected(0.25);
+                return Err(0.25);
             }
             let change = self.update(state, h);
             let rate = change / before;
@@ -80,30 +87,40 @@ impl<'a> Collocation<'a> {
                 break;
             }
             if sweeps == SWEEPS || (sweeps > 2 && rate > 0.7) {
-                return Attempt::Rejected(0.5);
+                return Err(0.5);
             }
             if sweeps == 2 {
                 let error = self.error(state, h, &self.coefficients());
                 if error > 1e3 {
-                    return Attempt::Rejected(0.8 * error.powf(-1.0 / NODES as f64));
+                    return Err(0.8 * error.powf(-1.0 / NODES as f64));
                 }
             }
             before = change;
         }
         let coefficients = self.coefficients();
-        let error = self.error(state, h, &coefficients);
+        let (step, next, alpha) = self.finish(state, h, &coefficients);
+        // The nodes lie inside: a jump beside the outermost ones is seen at the ends only.
+        let jumps = [step.start.alpha - self.alpha, step.end.alpha - alpha];
+        let mut error = self.error(state, h, &coefficients);
+        for (jump, at_corner) in jumps.into_iter().zip(corners) {
+            if !jump.is_finite() {
+                return Err(0.25);
+            } else if !at_corner {
+                error = error.max(self.error_of(state, h, jump, &coefficients));
+            }
+        }
         let mut factor = 0.7 * error.max(1e-20).powf(-1.0 / NODES as f64);
         if error > 1.0 {
-            return Attempt::Rejected(factor);
+            return Err(factor);
         }
         if sweeps > FEW_SWEEPS {
             factor = factor.min(0.9);
         } else if sweeps == FEW_SWEEPS {
             factor = factor.min(1.0);
         }
-        let (step, next) = self.finish(state, h, &coefficients);
         self.last = Some((h, coefficients));
-        Attempt::Accepted { step, next, factor }
+        self.alpha = alpha;
+        Ok(Accepted { step, next, factor })
     }
 
     /// Times, and the first guess.
@@ -170,26 +187,30 @@ impl<'a> Collocation<'a> {
 
     /// Error of the motion inside the step: what the first term beyond the last would add.
     fn error(&self, state: &State, h: f64, coefficients: &[f64; NODES]) -> f64 {
-        let largest = coefficients.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
-        let tail = coefficients[NODES - 1]
-            .abs()
-            .max(coefficients[NODES - 2].abs());
-        let tail = (tail - 8.0 * f64::EPSILON * largest).max(0.0);
-        let n = 2.0 * NODES as f64;
-        self.in_units(state, h * h * tail / (n * n), h * tail / n)
+        let [.., a, b] = coefficients;
+        self.error_of(state, h, a.abs().max(b.abs()), coefficients)
     }
 
-    fn finish(&self, state: &State, h: f64, coefficients: &[f64; NODES]) -> (Step, State) {
+    /// What a term of this size beyond the last would add; rounding of the acceleration is no such term.
+    fn error_of(&self, state: &State, h: f64, term: f64, coefficients: &[f64; NODES]) -> f64 {
+        let largest = coefficients.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+        let term = (term.abs() - 8.0 * f64::EPSILON * largest).max(0.0);
+        let n = 2.0 * NODES as f64;
+        self.in_units(state, h * h * term / (n * n), h * term / n)
+    }
+
+    /// The step, the state at its end, and the acceleration there.
+    fn finish(&self, state: &State, h: f64, coefficients: &[f64; NODES]) -> (Step, State, f64) {
         let (alpha, power) = (&self.batch.alpha, &self.batch.power);
         let tableau = self.tableau;
         let speed = h * dot(&tableau.end_speed, alpha);
-        let angle = h * (state.omega + h * dot(&tableau.end_angle, alpha));
+        let angle = h * h * dot(&tableau.end_angle, alpha);
         let work = if self.has_power {
             h * dot(&tableau.end_speed, power)
         } else {
             0.0
         };
-        let next = state.moved(h, [angle + h * state.omega_low, speed, work]);
+        let next = state.moved(h, [angle, speed, work]);
         let mut powers = [0.0; TERMS];
         for (coefficient, row) in coefficients.iter().zip(&tableau.powers).rev() {
             for i in 0..TERMS {
@@ -201,7 +222,8 @@ impl<'a> Collocation<'a> {
         let [at_start, at_end] = legendre(coefficients, [-1.0, 1.0]);
         let (start, end) = (state.node(at_start), next.node(at_end));
         let step = Step::with_powers(state.turns, start, end, powers);
-        (step, next.reduced())
+        let alpha = self.motion.acceleration(next.t, next.angle(), next.omega);
+        (step, next.reduced(), alpha)
     }
 }
 

@@ -8,10 +8,12 @@ mod collocate;
 mod state;
 mod tableau;
 
+use std::f64::consts::TAU;
+
 use super::step::{Node, Step};
 use super::time::{Finish, Settings, Start};
 use super::{Counted, Motion};
-use collocate::{Attempt, Collocation};
+use collocate::{Accepted, Collocation, Try};
 use state::State;
 pub use tableau::Tableau;
 
@@ -36,21 +38,28 @@ pub fn run(
     }
     let mut collocation = Collocation::new(motion, settings.tolerance, alpha);
     let mut wanted = first_length(&node);
-    let mut steps = 0;
+    let (mut steps, mut at_corner) = (0, false);
     while state.t < settings.t_end {
         let corner = motion.next_corner(state.t).min(settings.t_end);
         let left = corner - state.t;
-        let h = fitted(wanted, left);
-        if state.t + h <= state.t {
+        let way = wanted.min(TAU / state.omega.abs());
+        // The length that the rounded times have.
+        let h = (state.t + fitted(way, left)) - state.t;
+        if h <= 0.0 {
             return (Finish::StepTooSmall, last, steps);
         }
         if motion.evaluations() >= settings.max_evaluations {
             return (Finish::WorkLimit, last, steps);
         }
-        match collocation.attempt(&state, h) {
-            Attempt::Rejected(factor) => wanted = h * factor.clamp(LEAST, 0.9),
-            Attempt::Accepted { step, next, factor } => {
-                let whole = h >= wanted * (1.0 - 1e-9);
+        let ends_at_corner = state.t + h >= corner;
+        let attempt = Try {
+            h,
+            corners: [at_corner, ends_at_corner],
+        };
+        match collocation.attempt(&state, attempt) {
+            Err(factor) => wanted = h * factor.clamp(LEAST, 0.9),
+            Ok(Accepted { step, next, factor }) => {
+                let whole = h >= way * (1.0 - 1e-9);
                 // What is left of the way to a corner says little about the step that follows it.
                 wanted = if whole || factor < 1.0 {
                     h * factor.clamp(LEAST, MOST)
@@ -59,11 +68,12 @@ pub fn run(
                 };
                 state = next;
                 last = step;
-                if h >= left {
+                if ends_at_corner {
                     state.t = corner;
                     last.end.t = corner;
-                    collocation.forget();
+                    collocation.begin_anew(last.end.alpha);
                 }
+                at_corner = ends_at_corner;
                 steps += 1;
                 if sink(&last) {
                     let at_end = state.t >= settings.t_end;

@@ -65,9 +65,13 @@ impl State {
         }
     }
 
-    /// The state that is `changes` of angle, speed and work later.
-    pub fn moved(&self, h: f64, [theta, omega, work]: [f64; 3]) -> State {
-        let (theta, theta_low) = sum(self.theta, theta + self.theta_low);
+    /// The state a step of length h later, whose accelerations bring this much more angle than the speed
+    /// alone, and this much speed and work.
+    pub fn moved(&self, h: f64, [angle, omega, work]: [f64; 3]) -> State {
+        let travel = h * self.omega;
+        let lost = h.mul_add(self.omega, -travel) + h * self.omega_low;
+        let (far, below) = sum(self.theta, travel);
+        let (theta, theta_low) = sum(far, angle + (below + lost + self.theta_low));
         let (omega, omega_low) = sum(self.omega, omega + self.omega_low);
         let (work, work_low) = sum(self.work, work + self.work_low);
         State {
