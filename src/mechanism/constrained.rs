@@ -13,6 +13,7 @@ use crate::scene::{Friction, Instant, Scene};
 #[derive(Clone, Debug)]
 pub struct Constrained {
     curve: Curve,
+    vanishing: bool,
     crank_inertia: f64,
     moving: Vec<Body>,
     heavy: Vec<Body>,
@@ -56,15 +57,19 @@ impl Constrained {
     pub fn new(scene: &Scene, curve: Curve) -> Constrained {
         let scene = scene.reduced();
         let bodies = Bodies::new(&scene);
-        Constrained {
+        let mut equation = Constrained {
             curve,
+            vanishing: false,
             crank_inertia: bodies.crank_inertia,
             moving: bodies.moving,
             heavy: bodies.heavy,
             gravity: scene.gravity.map_or([0.0; 2], |gravity| gravity.vector()),
             loads: Loads::new(&scene),
             friction: scene.friction,
-        }
+        };
+        let mut places = curve.limits().into_iter().chain(curve.dead_centres());
+        equation.vanishing = places.any(|q| equation.vanishes_at(q));
+        equation
     }
 
     /// The curve.
@@ -126,6 +131,16 @@ impl Constrained {
         terms
     }
 
+    /// Whether there is no inertia at coordinate q (rad), compared with that further on.
+    pub fn vanishes_at(&self, q: f64) -> bool {
+        self.across(q).m < 1e-9 * self.across(q + 0.3).m
+    }
+
+    /// Whether the inertia vanishes at a limit or a dead centre.
+    pub fn vanishes_somewhere(&self) -> bool {
+        self.vanishing
+    }
+
     /// The state of motion as loads see it.
     pub fn instant(&self, place: &Place, t: f64, q: Angle, speed: f64) -> Instant {
         Instant {
@@ -173,13 +188,6 @@ impl Constrained {
             dx: place.dx,
             power: (spent.torque * place.dtheta + spent.force * place.dx) * speed,
         }
-    }
-
-    /// Normal force (N, along +y on the slider) for a motion with this acceleration (rad/s² of the coordinate),
-    /// where `friction` (N) acts on the slider along +x.
-    pub fn normal(&self, t: f64, q: Angle, speed: f64, acceleration: f64, friction: f64) -> f64 {
-        let free = self.free(t, q, speed);
-        free.a * acceleration + free.held - friction * free.x_n
     }
 
     /// Normal and friction force of a motion whose acceleration (rad/s² of the coordinate) is kept up by a drive

@@ -196,7 +196,7 @@ fn engine(
         )),
         (Method::Auto, false) if crosses => Ok((
             Engine::Time,
-            Some(Stepper::Dop853),
+            Some(Stepper::Picard),
             reason("a change point: integration in time along the configuration curve"),
         )),
         (Method::Energy | Method::Angle, false) if scene.friction.is_some() => Err(Error::refused(
@@ -207,7 +207,7 @@ fn engine(
         )),
         (Method::Auto, false) if scene.friction.is_some() => Ok((
             Engine::Time,
-            Some(Stepper::Dop853),
+            Some(Stepper::Picard),
             reason("Coulomb friction: integration in time, piece by piece between its changes"),
         )),
         (Method::Auto | Method::Energy, false) if energy_serves(loads, scene) => Ok((

@@ -1,8 +1,9 @@
-//! What a run on the curve hands on, and where it arrives.
+//! A run on the curve: what it is given, what it hands on, and where it arrives.
 
 use super::phase::Phase;
 use crate::engine::step::Step;
-use crate::engine::time::Finish;
+use crate::engine::time::{Finish, Settings, Start};
+use crate::mechanism::Constrained;
 use crate::numeric::angle::Angle;
 
 /// Takes what is computed.
@@ -12,6 +13,16 @@ pub(super) trait Observer {
 
     /// Something that happened.
     fn event(&mut self, kind: &'static str, t: f64, angle: Angle, speed: f64);
+}
+
+/// A run.
+pub(super) struct Follow<'a> {
+    pub equation: &'a Constrained,
+    pub settings: Settings,
+    /// Of the coordinate.
+    pub start: Start,
+    /// How far the crank may turn, rad.
+    pub turn_limit: Option<f64>,
 }
 
 /// How a run ended.
@@ -42,4 +53,6 @@ pub(super) struct Arrived {
     pub end: End,
     /// Time, crank angle (rad) and crank speed of the last evaluation without a finite result.
     pub impossible: Option<(f64, f64, f64)>,
+    /// Whether the run ended as it would pass a position without inertia.
+    pub vanished: bool,
 }

@@ -83,7 +83,7 @@ pub(super) fn estimate(follow: &Follow<'_>, arrived: &Arrived) -> Option<(ErrorE
     let place = curve.place(end.theta);
     let dtheta = place.dtheta.abs().max(f64::EPSILON);
     let still = arrived.last.end.omega == 0.0 && best.last.end.omega == 0.0;
-    let rounded = if still { f64::EPSILON } else { 1.0 };
+    let rounded = if still { 0.0 } else { 1.0 };
     let estimate = ErrorEstimate {
         theta_rad: MARGIN * a.0.minus(b.0).abs() + dtheta * angle_noise,
         omega_rad_per_s: MARGIN * (a.1 - b.1).abs()

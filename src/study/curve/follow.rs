@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use super::arrived::{Arrived, End, Observer};
+use super::arrived::{Arrived, End, Follow, Observer};
 use super::phase::{
     CLEAR, DEAD_CENTRE, InPhase, LIMIT, NORMAL, Phase, Quantities, SPEED, Signs, TURNED, signs,
     sliding,
@@ -11,18 +11,7 @@ use crate::engine::guard::{self, Change, Watched};
 use crate::engine::step::{Node, Step};
 use crate::engine::time::{self, Finish, Settings, Start};
 use crate::engine::{Counted, Motion};
-use crate::mechanism::Constrained;
 use crate::scene::Friction;
-
-/// A run.
-pub(super) struct Follow<'a> {
-    pub equation: &'a Constrained,
-    pub settings: Settings,
-    /// Of the coordinate.
-    pub start: Start,
-    /// How far the crank may turn, rad.
-    pub turn_limit: Option<f64>,
-}
 
 /// How far ahead of a start the signs show, rad.
 const AHEAD: f64 = 1e-6;
@@ -73,6 +62,7 @@ impl Follow<'_> {
                 pieces: 0,
                 end: End::Done,
                 impossible: None,
+                vanished: false,
             },
         };
         run.begin();
@@ -179,13 +169,19 @@ impl Run<'_, '_> {
             ..self.follow.settings
         };
         let mut cut = None;
-        let mut stopped = false;
+        let (mut stopped, mut vanished, mut beyond) = (false, false, false);
+        let vanishing = equation.vanishes_somewhere();
         let (quantities, observer) = (&self.quantities, &mut *self.observer);
         let signs = &mut self.signs;
         let (finish, last, steps) = time::run(&motion, self.now, &settings, &mut |step| {
             let mut step = *step;
             let mut after = *signs;
             for change in guard::changes(&mut step, &looked_at, quantities, &mut after) {
+                let (theta, speed) = step.at(change.t);
+                if vanishing && equation.vanishes_at(theta) {
+                    (vanished, beyond) = (true, true);
+                    return true;
+                }
                 let ends = match change.index {
                     SPEED | DEAD_CENTRE | NORMAL => friction.is_some(),
                     LIMIT => false,
@@ -200,7 +196,6 @@ impl Run<'_, '_> {
                 if from_rest {
                     continue;
                 }
-                let (theta, speed) = step.at(change.t);
                 let (kind, speed) = match change.index {
                     SPEED => ("turning-point", 0.0),
                     DEAD_CENTRE => ("dead-centre", speed),
@@ -209,7 +204,8 @@ impl Run<'_, '_> {
                 observer.event(kind, change.t, step.angle(theta), speed);
             }
             stopped = observer.step(&step, phase);
-            stopped
+            vanished = vanishing && equation.vanishes_at(step.end.theta);
+            stopped || vanished
         });
         self.arrived.steps += steps;
         self.arrived.impossible = motion.impossible().map(|(t, angle, speed)| {
@@ -219,9 +215,16 @@ impl Run<'_, '_> {
         });
         let Some((step, change)) = cut else {
             self.arrived.evaluations += motion.evaluations();
-            self.arrive(last);
+            self.arrive(if beyond {
+                Step::new(last.turns, last.start, last.start)
+            } else {
+                last
+            });
+            self.arrived.vanished = vanished;
             return if stopped {
                 Cut::Stopped
+            } else if vanished {
+                Cut::Ended(Finish::StepTooSmall)
             } else {
                 Cut::Ended(finish)
             };

@@ -12,9 +12,8 @@ mod words;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use arrived::{Arrived, End};
+use arrived::{Arrived, End, Follow};
 use estimate::estimate;
-use follow::Follow;
 use phase::Phase;
 use watch::CurveWatch;
 use words::{warnings, why};

@@ -40,9 +40,7 @@ fn singular(task: &Task<'_>, arrived: &Arrived, equation: &Constrained, place: &
             "a load has no finite value at t = {t} s, theta = {theta} rad, omega = {omega} rad/s (outside its table, or outside the domain of its formula): stopped {place}"
         );
     }
-    let angle = arrived.last.angle(arrived.last.end.theta);
-    let here = equation.across(angle.rest);
-    if here.m < 1e-6 * equation.across(angle.rest + 0.5).m {
+    if arrived.vanished || equation.vanishes_at(arrived.last.end.theta) {
         return format!(
             "the effective inertia vanishes at this limit of its motion or dead centre, where the speed has no bound: stopped {place}; give the rod or the slider a mass, or the crank an inertia"
         );
