@@ -86,6 +86,12 @@ impl<'a> Collocation<'a> {
             if change <= ROUNDING / self.tolerance {
                 break;
             }
+            if sweeps > 2 && rate > 0.3 {
+                let noise = rounding(state, h, &self.coefficients());
+                if change <= self.in_units(state, h * h * noise, h * noise) {
+                    break;
+                }
+            }
             if sweeps == SWEEPS || (sweeps > 2 && rate > 0.7) {
                 return Err(0.5);
             }
@@ -193,8 +199,7 @@ impl<'a> Collocation<'a> {
 
     /// What a term of this size beyond the last would add; rounding of the acceleration is no such term.
     fn error_of(&self, state: &State, h: f64, term: f64, coefficients: &[f64; NODES]) -> f64 {
-        let largest = coefficients.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
-        let term = (term.abs() - 8.0 * f64::EPSILON * largest).max(0.0);
+        let term = (term.abs() - rounding(state, h, coefficients)).max(0.0);
         let n = 2.0 * NODES as f64;
         self.in_units(state, h * h * term / (n * n), h * term / n)
     }
@@ -225,6 +230,16 @@ impl<'a> Collocation<'a> {
         let alpha = self.motion.acceleration(next.t, next.angle(), next.omega);
         (step, next.reduced(), alpha)
     }
+}
+
+/// Rounding of the accelerations of a step. They are those of rounded angles, and steep where the position
+/// is near to a limit.
+fn rounding(state: &State, h: f64, coefficients: &[f64; NODES]) -> f64 {
+    let size = coefficients.iter().map(|c| c.abs()).sum::<f64>();
+    let variation = size - coefficients[0].abs();
+    let travel = h * state.omega.abs() + 0.5 * h * h * size;
+    let steepness = 2.0 * variation / travel.max(f64::MIN_POSITIVE);
+    f64::EPSILON * (8.0 * size + 4.0 * (1.0 + state.theta.abs()) * steepness)
 }
 
 fn dot(a: &[f64; NODES], b: &[f64; NODES]) -> f64 {

@@ -43,8 +43,9 @@ pub fn run(
         let corner = motion.next_corner(state.t).min(settings.t_end);
         let left = corner - state.t;
         let way = wanted.min(TAU / state.omega.abs());
+        let length = fitted(way, left);
         // The length that the rounded times have.
-        let h = (state.t + fitted(way, left)) - state.t;
+        let h = (state.t + length) - state.t;
         if h <= 0.0 {
             return (Finish::StepTooSmall, last, steps);
         }
@@ -59,10 +60,10 @@ pub fn run(
         match collocation.attempt(&state, attempt) {
             Err(factor) => wanted = h * factor.clamp(LEAST, 0.9),
             Ok(Accepted { step, next, factor }) => {
-                let whole = h >= way * (1.0 - 1e-9);
+                let whole = length >= way;
                 // What is left of the way to a corner says little about the step that follows it.
                 wanted = if whole || factor < 1.0 {
-                    h * factor.clamp(LEAST, MOST)
+                    length * factor.clamp(LEAST, MOST)
                 } else {
                     wanted
                 };
