@@ -154,44 +154,6 @@ fn an_oscillator_with_dry_friction_loses_the_same_amplitude_in_each_half_swing()
     }
 }
 
-/// Ten thousand reversals under a force in time: the energy balance closes, and the work limit is far.
-#[test]
-fn ten_thousand_reversals_keep_the_energy_balance() {
-    let mut scene = friction(Scene::new(0.05, 0.15).offset(0.01), 0.1, 0.15)
-        .crank(Crank {
-            inertia: 1e-3,
-            ..Crank::default()
-        })
-        .slider(Slider { mass: 0.5 })
-        .gravity(Gravity::standard())
-        .force(Load::Spring {
-            stiffness: 400.0,
-            rest: 0.15,
-        })
-        .force(Load::function(Variables::T, |now| {
-            9.0 * (30.0 * now.t).sin()
-        }))
-        .start(1.5, 0.0)
-        .duration(1100.0);
-    let options = Options {
-        estimate: false,
-        ..Options::default()
-    };
-    scene.run.tolerance = 1e-12;
-    let run = simulate(&scene, &options).unwrap();
-    assert_eq!(run.summary.stopped, None);
-    assert!(
-        run.summary.events_total >= 10_000,
-        "{}",
-        run.summary.events_total
-    );
-    assert!(
-        run.summary.energy_residual.abs() < 1e-9,
-        "{:e}",
-        run.summary.energy_residual
-    );
-}
-
 /// Bodies of the scenes whose motion was integrated independently.
 fn machine() -> Scene {
     Scene::new(0.05, 0.15)

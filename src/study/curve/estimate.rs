@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
+use super::arrived::Follow;
 use super::arrived::{Arrived, End, Observer};
 use super::crank_state;
-use super::follow::Follow;
 use super::phase::Phase;
 use crate::engine::step::Step;
 use crate::engine::time::Settings;

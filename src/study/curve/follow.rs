@@ -79,7 +79,7 @@ impl Run<'_, '_> {
     fn begin(&mut self) {
         let speed = self.now.speed;
         let end = if speed == 0.0 && self.follow.friction().is_some() {
-            self.from_rest(None)
+            self.leave_rest(None)
         } else {
             self.signs = self.signs_for(if speed < 0.0 { -1.0 } else { 1.0 });
             self.check_jam()
@@ -125,7 +125,7 @@ impl Run<'_, '_> {
                 Cut::At { index: SPEED, .. } => {
                     let before = self.signs[SPEED];
                     self.now.speed = 0.0;
-                    self.from_rest(Some(before))
+                    self.leave_rest(Some(before))
                 }
                 Cut::At { t, index } => {
                     self.signs[index] = -self.signs[index];

@@ -14,7 +14,7 @@ const FAR_AHEAD: f64 = 1e3;
 
 impl Run<'_, '_> {
     /// Goes on from rest: none if it moves. `before`: the direction in which it moved.
-    pub fn from_rest(&mut self, before: Option<f64>) -> Option<End> {
+    pub fn leave_rest(&mut self, before: Option<f64>) -> Option<End> {
         let friction = self.follow.friction()?;
         let (mu, mu_static) = (friction.coefficient, friction.static_coefficient);
         let Start { t, angle, .. } = self.now;
