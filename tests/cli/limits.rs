@@ -65,6 +65,31 @@ fn a_driven_rocker_and_a_rocker_without_rod_and_slider_end_at_the_limit_of_their
     }
 }
 
+/// Turns that a crank between limits never completes are refused instead of waited for, and a crank that friction
+/// stops says so.
+#[test]
+fn turns_that_are_never_completed_end_the_run() {
+    let rocking = format!("{ROCKER}\n[motion]\nspeed = \"10 rad/s\"\n")
+        .replace("duration = \"1 s\"", "revolutions = 1");
+    let folder = Folder::with(&rocking.replace(
+        "0.5 kg",
+        "0.5 kg\"\n[[force]]\nkind = \"viscous\"\ncoefficient = \"0.1 N s/m",
+    ));
+    folder
+        .run(&["simulate", "scene.toml"])
+        .fails(2, &["revolutions", "between its limits", "help:"]);
+    let slowed = free("revolutions = 1000")
+        + "[friction]\ncoefficient = 0.3\n[gravity]\nacceleration = \"9.81 m/s^2\"\n";
+    let (summary, _) = stopped(&Folder::with(&slowed), &[], "comes to rest");
+    assert_eq!(at(&summary, "final.omega_rad_per_s"), 0.0);
+    let turned = free("revolutions = 2") + "[friction]\ncoefficient = 0.01\n";
+    let summary = Folder::with(&turned)
+        .run(&["simulate", "scene.toml", "--json"])
+        .done()
+        .json();
+    close(at(&summary, "final.theta_rad"), 2.0 * TAU, 1e-13);
+}
+
 /// Past the limit the crank swings back and the slider goes on, on the other branch; J ω² + m v² stays what it was.
 #[test]
 fn a_rocker_passes_its_limit_and_keeps_its_energy() {

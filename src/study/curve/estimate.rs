@@ -15,8 +15,9 @@ use crate::study::summary::{Cost, ErrorEstimate};
 const TIGHTER: f64 = 50.0;
 /// What is stated is larger than the distance of the two runs by this.
 const MARGIN: f64 = 1.5;
-/// Where rounding inside a step takes over.
-const TIGHTEST: f64 = 1e-15;
+/// Tighter than this only by so much: rounding inside the steps takes over, and they would collapse.
+const TIGHTEST: f64 = 1e-13;
+const A_LITTLE: f64 = 5.0;
 
 /// Adds up what rounding does to a run.
 struct Shaken {
@@ -44,10 +45,11 @@ impl Observer for Shaken {
 pub(super) fn estimate(follow: &Follow<'_>, arrived: &Arrived) -> Option<(ErrorEstimate, Cost)> {
     let begun = Instant::now();
     let end = arrived.last.end;
+    let tolerance = follow.settings.tolerance;
     let tighter = Follow {
         equation: follow.equation,
         settings: Settings {
-            tolerance: (follow.settings.tolerance / TIGHTER).max(TIGHTEST),
+            tolerance: (tolerance / TIGHTER).max(TIGHTEST.min(tolerance / A_LITTLE)),
             t_end: end.t,
             max_evaluations: follow.settings.max_evaluations.saturating_mul(4),
             ..follow.settings

@@ -9,6 +9,7 @@ mod rest;
 mod watch;
 mod words;
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -163,6 +164,7 @@ fn on_curve(task: &Task<'_>) -> Result<(Constrained, Start), Error> {
             &task.limits,
         ));
     };
+    refuse_turns(task)?;
     let pace = speed / curve.place(q.rest).dtheta;
     if speed != 0.0 && pace.abs() > 1e12 * speed.abs() {
         return Err(Error::refused(
@@ -172,6 +174,25 @@ fn on_curve(task: &Task<'_>) -> Result<(Constrained, Start), Error> {
     }
     let pace = if speed == 0.0 { 0.0 } else { pace };
     Ok((Constrained::new(task.scene, curve), start(q, pace)))
+}
+
+/// Turns that a crank between limits can never make.
+fn refuse_turns(task: &Task<'_>) -> Result<(), Error> {
+    let widest = task
+        .limits
+        .reach
+        .iter()
+        .fold(0.0, |widest: f64, [from, to]| widest.max(to - from));
+    match task.extent {
+        Extent::Revolutions(turns) if widest > 0.0 && turns * TAU > widest => Err(Error::refused(
+            format!(
+                "run.revolutions: the crank cannot turn by more than {} deg between its limits and never completes {turns} turns",
+                widest.to_degrees()
+            ),
+            "give run.duration instead",
+        )),
+        _ => Ok(()),
+    }
 }
 
 fn crank_state(curve: &Curve, last: &Step) -> (Angle, f64) {
