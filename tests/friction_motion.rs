@@ -6,11 +6,12 @@ mod support;
 use std::f64::consts::PI;
 
 use proptest::prelude::*;
+use slider_crank::mechanism::Equation;
 use slider_crank::plan::Method;
 use slider_crank::scene::{
     Branch, Crank, Friction, Gravity, Instant, Load, Rod, Scene, Slider, Variables,
 };
-use slider_crank::study::{Options, Simulation, simulate};
+use slider_crank::study::{Options, Row, Simulation, simulate, simulate_rows};
 use support::close;
 use support::random::{cases, magnitude};
 
@@ -448,4 +449,53 @@ fn friction_of_no_strength_is_left_out() {
         1.0,
         1e-9,
     );
+}
+
+/// Rows of a free and of a driven motion: the forces from outside change the momentum, and what the guide adds along
+/// x is Coulomb's.
+#[test]
+fn rows_hold_the_friction_in_their_forces() {
+    let free = friction(machine().offset(0.01), 0.3, 0.3)
+        .start(0.3, 30.0)
+        .duration(0.4);
+    let mut driven = free.clone();
+    driven.motion.kind = slider_crank::scene::MotionKind::ConstantSpeed;
+    for scene in [free, driven] {
+        let options = Options {
+            reactions: true,
+            driving_torque: true,
+            ..Options::default()
+        };
+        let mut rows: Vec<Row> = Vec::new();
+        simulate_rows(&scene, &options, &mut rows).unwrap();
+        assert!(rows.len() > 100);
+        for row in rows.iter().filter(|row| row.v.abs() > 1e-6) {
+            let forces = row.reactions.unwrap();
+            let along = -forces.shaking[0] - forces.crank_bearing[0];
+            let size = 1.0 + forces.guide.abs() + forces.crank_bearing[0].abs();
+            close(
+                "friction",
+                along,
+                -0.3 * row.v.signum() * forces.guide.abs(),
+                size,
+                1e-10,
+            );
+            let weight = -9.81 * (1.0 + 0.5 + 0.6);
+            let across = -forces.shaking[1] - forces.crank_bearing[1] - weight;
+            close("guide", forces.guide, across, size, 1e-10);
+            if let Some(torque) = row.driving_torque {
+                // The drive's power is the rate of energy and what friction takes.
+                let equation = Equation::new(&scene);
+                let rate =
+                    equation.driving_torque(row.t, row.theta, row.omega, row.alpha) * row.omega;
+                close(
+                    "power",
+                    torque * row.omega,
+                    rate - along * row.v,
+                    size,
+                    1e-9,
+                );
+            }
+        }
+    }
 }

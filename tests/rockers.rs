@@ -5,6 +5,7 @@ mod support;
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use slider_crank::mechanism::{Equation, Reactor};
 use slider_crank::plan::Method;
 use slider_crank::scene::{Branch, Crank, Geometry, Gravity, Load, Rod, Scene, Slider};
 use slider_crank::study::{Options, Row, simulate, simulate_rows};
@@ -341,6 +342,69 @@ fn next_to_the_limit_the_steps_do_not_collapse() {
                 time.summary.evaluations < 60_000,
                 "{}",
                 time.summary.evaluations
+            );
+        }
+    }
+}
+
+/// Joint forces along the curve are those of the mechanism in its crank angle, and finite at the limits.
+#[test]
+fn joint_forces_past_a_limit_are_those_of_newton_and_euler() {
+    for [crank, rod, offset] in SHAPES {
+        let g = Geometry {
+            crank,
+            rod,
+            offset,
+            branch: Branch::Left,
+        };
+        let swinging = scene(&g, middle(&g), 12.0, 0.5).torque(Load::Viscous(1e-3));
+        let options = Options {
+            method: Method::Time,
+            reactions: true,
+            ..Options::default()
+        };
+        let mut rows: Vec<Row> = Vec::new();
+        simulate_rows(&swinging, &options, &mut rows).unwrap();
+        for row in &rows {
+            let got = row.reactions.unwrap();
+            assert!(got.guide.is_finite() && got.crank_bearing[0].is_finite());
+            let mut there = g;
+            there.branch = if row.x > crank * row.theta.cos() {
+                Branch::Right
+            } else {
+                Branch::Left
+            };
+            let on_branch = Scene {
+                geometry: there,
+                ..swinging.clone()
+            };
+            let equation = Equation::new(&on_branch);
+            let pose = equation.linkage().pose(row.theta);
+            if pose.cos_phi < 0.1 {
+                continue;
+            }
+            let reactor = Reactor::new(&on_branch).unwrap();
+            let want = reactor.at(&equation, row.t, row.theta, row.omega, row.alpha);
+            let size = 1.0 + want.guide.abs() + want.crank_bearing[0].hypot(want.crank_bearing[1]);
+            close("guide", got.guide, want.guide, size, 1e-9);
+            for i in 0..2 {
+                close(
+                    "bearing",
+                    got.crank_bearing[i],
+                    want.crank_bearing[i],
+                    size,
+                    1e-9,
+                );
+                close("crank pin", got.crank_pin[i], want.crank_pin[i], size, 1e-9);
+                close("wrist pin", got.wrist_pin[i], want.wrist_pin[i], size, 1e-9);
+                close("shaking", got.shaking[i], want.shaking[i], size, 1e-9);
+            }
+            close(
+                "moment",
+                got.shaking_moment,
+                want.shaking_moment,
+                size,
+                1e-9,
             );
         }
     }
