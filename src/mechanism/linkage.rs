@@ -145,7 +145,7 @@ impl Linkage {
     }
 
     /// The position at the crank angle of this sine and cosine.
-    pub(super) fn pose_at(&self, sin: f64, cos: f64) -> Pose {
+    pub fn pose_at(&self, sin: f64, cos: f64) -> Pose {
         let Linkage { r, .. } = *self;
         let (up, down) = (&self.above, &self.below);
         let (minus, plus) = if sin > 0.5 {

@@ -2,8 +2,11 @@
 
 pub mod angle;
 pub mod chebyshev;
+pub mod difference;
+pub mod double_double;
 pub mod exact;
 pub mod gauss;
 pub mod interpolate;
+pub mod line_fit;
 pub mod root;
 pub mod trigonometry;
