@@ -2,12 +2,14 @@
 //! coordinate, events and engine; `explain` prints it.
 
 mod method;
+mod periodic;
 mod refusal;
 mod terms;
 
 use serde::Serialize;
 
 pub use method::Method;
+use periodic::repeats_with_each_turn;
 use refusal::{refuse_what_cannot_move, refuse_what_is_not_modelled};
 use terms::terms;
 
@@ -151,9 +153,11 @@ fn energy_serves(loads: &Loads, scene: &Scene) -> bool {
         && scene.torques.iter().chain(&scene.forces).all(is_smooth)
 }
 
-/// Whether the crank turns and the corners of the loads are known.
+/// Whether the crank turns, the corners of the loads are known, and one table of a turn serves all turns.
 fn angle_serves(scene: &Scene) -> bool {
-    scene.motion.speed != 0.0 && scene.torques.iter().chain(&scene.forces).all(is_smooth)
+    scene.motion.speed != 0.0
+        && scene.torques.iter().chain(&scene.forces).all(is_smooth)
+        && repeats_with_each_turn(scene)
 }
 
 /// Whether the corners of a load are known as crank angles, if it has any.
@@ -230,7 +234,7 @@ fn engine(
             reason("the crank turns: its energy and the time over the crank angle"),
         )),
         (Method::Angle, false) => Err(Error::refused(
-            "method angle needs a crank that turns from the start, and tables over theta only",
+            "method angle needs a crank that turns from the start, tables over theta only, and loads over theta that repeat with each turn",
             "use --method auto, time, dop853 or dopri5",
         )),
         (Method::Dopri5, false) => Ok((
