@@ -1,5 +1,8 @@
 //! The motion of a finished run: crank angle and speed at any time inside it.
 
+use std::fmt;
+use std::sync::Arc;
+
 use crate::engine::energy::Orbit;
 use crate::engine::step::Step;
 use crate::numeric::angle::Angle;
@@ -9,6 +12,19 @@ use crate::numeric::angle::Angle;
 pub struct Trajectory {
     motion: Motion,
     end: f64,
+    view: Option<View>,
+}
+
+type CrankOf = dyn Fn(Angle, f64) -> (Angle, f64) + Send + Sync;
+
+/// Crank angle and speed from those of another coordinate.
+#[derive(Clone)]
+struct View(Arc<CrankOf>);
+
+impl fmt::Debug for View {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("View")
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -24,6 +40,7 @@ impl Trajectory {
         Trajectory {
             motion: Motion::Uniform { angle, speed },
             end,
+            view: None,
         }
     }
 
@@ -32,6 +49,7 @@ impl Trajectory {
         Trajectory {
             motion: Motion::Orbit(Box::new(orbit)),
             end,
+            view: None,
         }
     }
 
@@ -40,7 +58,14 @@ impl Trajectory {
         Trajectory {
             motion: Motion::Steps(steps),
             end,
+            view: None,
         }
+    }
+
+    /// The same steps, of a coordinate from which `view` gives crank angle and speed.
+    pub fn seen_as(mut self, view: Arc<CrankOf>) -> Trajectory {
+        self.view = Some(View(view));
+        self
     }
 
     /// Last time, s; the first is 0.
@@ -60,7 +85,11 @@ impl Trajectory {
                 let after = steps.partition_point(|step| step.end.t < t);
                 let step = steps.get(after)?;
                 let (theta, omega) = step.at(t);
-                Some((step.angle(theta), omega))
+                let angle = step.angle(theta);
+                Some(match &self.view {
+                    Some(View(crank)) => crank(angle, omega),
+                    None => (angle, omega),
+                })
             }
         }
     }

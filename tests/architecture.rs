@@ -12,7 +12,7 @@ const MAY_NAME: &[(&str, &[&str])] = &[
     ("scene", &["numeric", "error"]),
     ("mechanism", &["scene", "numeric", "error"]),
     ("engine", &["numeric"]),
-    ("plan", &["scene", "mechanism", "error"]),
+    ("plan", &["scene", "mechanism", "numeric", "error"]),
     ("trajectory", &["engine", "numeric"]),
     (
         "study",

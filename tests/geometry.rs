@@ -149,6 +149,28 @@ fn at_a_margin_of_2_to_the_minus_40_no_digit_of_cos_phi_is_lost() {
     }
 }
 
+/// l cos φ against its square in 31 digits, for rods and offsets that are much longer than the crank.
+#[test]
+fn a_large_offset_takes_no_digits_of_the_rods_height() {
+    for (ratio, margin) in [(1e3, 1e-3), (1e3, 0.5), (1e6, 1e-3), (1e6, 2.0), (1e9, 0.1)] {
+        for theta in [1.5, 0.4, 0.1, -0.1, -0.4, -1.0, -1.5, -3.0, 3.0, 2.0] {
+            for mirror in [1.0, -1.0] {
+                let g = geometry(
+                    0.1,
+                    0.1 * (ratio + 1.0 + margin),
+                    0.1 * mirror * ratio,
+                    Branch::Left,
+                );
+                let dd = Dd::from;
+                let u = dd(g.offset) + dd(g.crank) * Dd::sin_cos(mirror * theta).0;
+                let w = ((dd(g.rod) - u) * (dd(g.rod) + u)).sqrt().value();
+                let pose = Linkage::new(&g).pose(mirror * theta);
+                close("l cos phi", pose.cos_phi * g.rod, w, w, 2e-15);
+            }
+        }
+    }
+}
+
 #[test]
 fn margins_typed_in_decimals_keep_their_digits() {
     for margin in [1e-6, 1e-12] {

@@ -3,6 +3,7 @@
 pub mod angle;
 pub mod energy;
 pub mod events;
+pub mod guard;
 pub mod library;
 pub mod picard;
 pub mod step;

@@ -82,6 +82,27 @@ impl Path {
         }
     }
 
+    /// Path of the end of an arm that turns: first and second derivative of its angle.
+    pub(super) fn turning([x, y]: [f64; 2], [first, second]: [f64; 2]) -> Path {
+        let squared = first * first;
+        Path {
+            dp: [-y * first, x * first],
+            d2p: [-y * second - squared * x, x * second - squared * y],
+            dpsi: first,
+            d2psi: second,
+        }
+    }
+
+    /// The path of what hangs on the end of this arm and turns as `arm` does.
+    pub(super) fn carrying(&self, arm: &Path) -> Path {
+        let sum = |a: [f64; 2], b: [f64; 2]| [a[0] + b[0], a[1] + b[1]];
+        Path {
+            dp: sum(self.dp, arm.dp),
+            d2p: sum(self.d2p, arm.d2p),
+            ..*arm
+        }
+    }
+
     /// Path of the slider.
     pub fn on_slider(pose: &Pose) -> Path {
         Path {

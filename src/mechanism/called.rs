@@ -13,6 +13,11 @@ pub struct LoadValue {
 }
 
 impl LoadValue {
+    /// Whether both are finite.
+    pub fn is_finite(&self) -> bool {
+        self.torque.is_finite() && self.force.is_finite()
+    }
+
     /// The generalized force Q = τ + F x', N m.
     pub fn generalized(&self, pose: &Pose) -> f64 {
         self.over(pose.dx)

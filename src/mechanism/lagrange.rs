@@ -231,38 +231,34 @@ impl Equation {
     }
 
     fn gravity_of(&self, pose: &Pose) -> f64 {
+        let rod = [self.linkage.s * pose.cos_phi, -pose.sin_phi];
+        self.gravity_at([pose.cos, pose.sin], rod, pose.x)
+    }
+
+    /// Potential energy of gravity, J, from the directions of crank and rod (from A) and the slider's place.
+    pub(super) fn gravity_at(&self, crank: [f64; 2], rod: [f64; 2], x: f64) -> f64 {
         let [gx, gy] = self.gravity;
         let energy = |body: &Body| {
-            let (mass, place) = self.place(body, pose);
+            let (mass, place) = self.place(body, crank, rod, x);
             -mass * (gx * place[0] + gy * place[1])
         };
         self.heavy.iter().map(energy).sum()
     }
 
     /// Mass and place of a body.
-    fn place(&self, body: &Body, pose: &Pose) -> (f64, [f64; 2]) {
-        let (r, s, e) = (self.linkage.r, self.linkage.s, self.linkage.e);
+    fn place(&self, body: &Body, crank: [f64; 2], rod: [f64; 2], x: f64) -> (f64, [f64; 2]) {
+        let turned = |[cos, sin]: [f64; 2], along: f64, left: f64| {
+            [along * cos - left * sin, along * sin + left * cos]
+        };
         match *body {
-            Body::OnCrank { mass, along, left } => (
-                mass,
-                [
-                    along * pose.cos - left * pose.sin,
-                    along * pose.sin + left * pose.cos,
-                ],
-            ),
+            Body::OnCrank { mass, along, left } => (mass, turned(crank, along, left)),
             Body::OnRod {
                 mass, along, left, ..
             } => {
-                let (dx, dy) = (s * pose.cos_phi, -pose.sin_phi);
-                (
-                    mass,
-                    [
-                        r * pose.cos + along * dx - left * dy,
-                        r * pose.sin + along * dy + left * dx,
-                    ],
-                )
+                let (pin, arm) = (turned(crank, self.linkage.r, 0.0), turned(rod, along, left));
+                (mass, [pin[0] + arm[0], pin[1] + arm[1]])
             }
-            Body::OnSlider { mass } => (mass, [pose.x, -e]),
+            Body::OnSlider { mass } => (mass, [x, -self.linkage.e]),
         }
     }
 }

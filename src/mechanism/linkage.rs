@@ -3,7 +3,7 @@
 //! sin φ = (e + r sin θ)/l, x = r cos θ + s l cos φ, s = ±1 for the assembly branch.
 
 use crate::numeric::exact::sum3;
-use crate::scene::Geometry;
+use crate::scene::{Branch, Geometry};
 
 /// The lengths of the mechanism, ready for evaluation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,10 +16,16 @@ pub struct Linkage {
     pub e: f64,
     /// Branch sign s.
     pub s: f64,
-    /// l − e − r without rounding loss: how far the rod is from standing normal to the guide at θ = 90°.
-    above: f64,
-    /// l + e − r: the same at θ = −90°.
-    below: f64,
+    /// l − e − r, l − e and l − e + r, each rounded once: the height of A below the one that the rod can reach
+    /// at θ = 90°, 0 and −90°.
+    above: [f64; 3],
+    /// l + e − r, l + e and l + e + r: the same downwards, at θ = −90°, 0 and 90°.
+    below: [f64; 3],
+}
+
+/// a − r, a and a + r for a = l − e, each rounded once.
+fn heights(l: f64, e: f64, r: f64) -> [f64; 3] {
+    [sum3(l, -e, -r), l - e, sum3(l, -e, r)]
 }
 
 /// Position of the mechanism and its derivatives with respect to the crank angle.
@@ -72,8 +78,8 @@ impl Linkage {
             l,
             e,
             s: geometry.branch.sign(),
-            above: sum3(l, -e, -r),
-            below: sum3(l, e, -r),
+            above: heights(l, e, r),
+            below: heights(l, -e, r),
         }
     }
 
@@ -81,22 +87,58 @@ impl Linkage {
     pub fn with_rod(&self, l: f64) -> Linkage {
         Linkage {
             l,
-            above: sum3(l, -self.e, -self.r),
-            below: sum3(l, self.e, -self.r),
+            above: heights(l, self.e, self.r),
+            below: heights(l, -self.e, self.r),
             ..*self
         }
     }
 
+    /// The same lengths on another branch.
+    pub fn on_branch(&self, branch: Branch) -> Linkage {
+        Linkage {
+            s: branch.sign(),
+            ..*self
+        }
+    }
+
+    /// Crank and rod exchanged: r sin θ = l sin Φ − e. `s` is the sign of cos θ.
+    pub(super) fn exchanged(&self, s: f64) -> Linkage {
+        Linkage {
+            r: self.l,
+            l: self.r,
+            e: -self.e,
+            s,
+            above: heights(self.r, -self.e, self.l),
+            below: heights(self.r, self.e, self.l),
+        }
+    }
+
+    /// Whether the rod reaches the guide at crank angle `theta` (rad), to rounding.
+    pub fn reaches(&self, theta: f64) -> bool {
+        let height = (self.e + self.r * theta.sin()).abs();
+        height <= self.l + 4.0 * f64::EPSILON * (self.l + self.r)
+    }
+
+    /// How far the lengths are from those of a change point, in crank lengths.
+    pub fn nearness_to_change_point(&self) -> f64 {
+        let e = self.e.abs();
+        sum3(self.l, -e, -self.r)
+            .abs()
+            .min(sum3(self.r, -e, -self.l).abs())
+            / self.r
+    }
+
     /// Least l − |e| − r, m: positive iff the crank can turn fully.
     pub fn margin(&self) -> f64 {
-        self.above.min(self.below)
+        self.above[0].min(self.below[0])
     }
 
     /// The position at crank angle θ (rad). Not finite where the rod does not reach the guide, and at the
     /// limit itself.
     ///
-    /// l² cos²φ = (l − u)(l + u) with u = e + r sin θ; the smaller factor is formed from
-    /// 1 ∓ sin θ = cos²θ/(1 ± sin θ) where the difference would cancel.
+    /// l² cos²φ = (l − u)(l + u) with u = e + r sin θ. Both factors are counted from the nearest of the crank
+    /// angles 90°, 0 and −90°, with 1 ∓ sin θ = cos²θ/(1 ± sin θ), so that neither the difference of l and u
+    /// cancels nor a large offset takes digits.
     pub fn pose(&self, theta: f64) -> Pose {
         let (sin, cos) = theta.sin_cos();
         self.pose_at(sin, cos)
@@ -104,14 +146,17 @@ impl Linkage {
 
     /// The position at the crank angle of this sine and cosine.
     pub fn pose_at(&self, sin: f64, cos: f64) -> Pose {
-        let Linkage { r, l, e, .. } = *self;
-        let u = e + r * sin;
-        let (mut minus, mut plus) = (l - u, l + u);
-        if minus < 0.25 * l && sin > 0.0 {
-            minus = self.above + r * (cos * cos / (1.0 + sin));
-        } else if plus < 0.25 * l && sin < 0.0 {
-            plus = self.below + r * (cos * cos / (1.0 - sin));
-        }
+        let Linkage { r, .. } = *self;
+        let (up, down) = (&self.above, &self.below);
+        let (minus, plus) = if sin > 0.5 {
+            let fall = r * (cos * cos / (1.0 + sin));
+            (up[0] + fall, down[2] - fall)
+        } else if sin < -0.5 {
+            let rise = r * (cos * cos / (1.0 - sin));
+            (up[2] - rise, down[0] + rise)
+        } else {
+            (up[1] - r * sin, down[1] + r * sin)
+        };
         self.pose_of(sin, cos, minus, plus)
     }
 

@@ -229,6 +229,17 @@ impl Loads {
             .plus(mixed)
     }
 
+    /// Torque and force of the loads whose work must be integrated.
+    pub(super) fn spent(&self, now: &Instant) -> LoadValue {
+        let damped = LoadValue {
+            torque: -self.rotary_damping * now.omega,
+            force: -self.linear_damping * now.v,
+        };
+        let called = [&self.placed, &self.timed, &self.mixed];
+        let called = called.into_iter().filter(|loads| !loads.is_empty());
+        called.fold(damped, |sum, loads| sum.plus(loads.value(now)))
+    }
+
     /// Potential of the loads that have one, J, from crank angle (from any fixed start) and position.
     pub fn potential(&self, theta: f64, x: f64) -> f64 {
         -self.torque * theta - self.force * x + 0.5 * self.stiffness * x * x

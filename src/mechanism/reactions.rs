@@ -1,6 +1,6 @@
 //! Joint and guide forces by Newton and Euler, body by body, from the motion.
 
-use super::{Equation, Linkage, LoadValue, Path, Pose};
+use super::{Equation, Linkage, LoadValue, Path, Place, Pose};
 use crate::error::Error;
 use crate::numeric::angle::Angle;
 use crate::scene::{RodModel, Scene};
@@ -54,6 +54,17 @@ struct Body {
     inertia: f64,
 }
 
+/// The paths of the bodies with respect to a coordinate, and where the crank pin and the rod are.
+struct Ways {
+    crank: Path,
+    rod: Path,
+    slider: Path,
+    pin: [f64; 2],
+    axis: [f64; 2],
+    /// θ' and θ''
+    turn: [f64; 2],
+}
+
 impl Reactor {
     /// The bodies of a scene.
     ///
@@ -100,20 +111,78 @@ impl Reactor {
 
     /// The forces for a motion (θ̇ in rad/s, θ̈ in rad/s²) under the loads of the scene.
     pub fn reactions(&self, pose: &Pose, omega: f64, alpha: f64, load: &LoadValue) -> Reactions {
-        let Linkage { l, e, s, .. } = self.linkage;
-        let squared = omega * omega;
-        let acceleration = |path: &Path| {
+        let s = self.linkage.s;
+        let ways = Ways {
+            crank: Path::on_crank(pose, self.crank.along, self.crank.left),
+            rod: Path::on_rod(&self.linkage, pose, self.rod.along, self.rod.left),
+            slider: Path::on_slider(pose),
+            pin: [self.linkage.r * pose.cos, self.linkage.r * pose.sin],
+            axis: [s * pose.cos_phi, -pose.sin_phi],
+            turn: [1.0, 0.0],
+        };
+        self.forces(&ways, omega, alpha, load.force, None)
+    }
+
+    /// The forces for a motion along the configuration curve (rad/s and rad/s² of its coordinate), under the
+    /// force on the slider along the guide, friction included, and the normal force of the guide, N.
+    pub fn on_curve(
+        &self,
+        place: &Place,
+        speed: f64,
+        acceleration: f64,
+        force: f64,
+        normal: f64,
+    ) -> Reactions {
+        let linkage = &self.linkage;
+        let turned = |[cos, sin]: [f64; 2], body: &Body| {
             [
-                path.dp[0] * alpha + path.d2p[0] * squared,
-                path.dp[1] * alpha + path.d2p[1] * squared,
+                body.along * cos - body.left * sin,
+                body.along * sin + body.left * cos,
             ]
         };
-        let crank_path = Path::on_crank(pose, self.crank.along, self.crank.left);
-        let rod_path = Path::on_rod(&self.linkage, pose, self.rod.along, self.rod.left);
-        let crank_acceleration = acceleration(&crank_path);
-        let rod_acceleration = acceleration(&rod_path);
-        let rod_spin = rod_path.dpsi * alpha + rod_path.d2psi * squared;
-        let slider_acceleration = pose.dx * alpha + pose.d2x * squared;
+        let (crank, axis) = ([place.cos, place.sin], [place.rod_cos, -place.rod_sin]);
+        let pin = crank.map(|part| linkage.r * part);
+        let crank_turn = [place.dtheta, place.d2theta];
+        let ways = Ways {
+            crank: Path::turning(turned(crank, &self.crank), crank_turn),
+            rod: Path::turning(pin, crank_turn).carrying(&Path::turning(
+                turned(axis, &self.rod),
+                [-place.drod, -place.d2rod],
+            )),
+            slider: Path {
+                dp: [place.dx, 0.0],
+                d2p: [place.d2x, 0.0],
+                ..Path::default()
+            },
+            pin,
+            axis,
+            turn: crank_turn,
+        };
+        self.forces(&ways, speed, acceleration, force, Some(normal))
+    }
+
+    /// Without the normal force of the guide it follows from the moments about A, which fails at a limit.
+    fn forces(
+        &self,
+        ways: &Ways,
+        speed: f64,
+        acceleration: f64,
+        force: f64,
+        normal: Option<f64>,
+    ) -> Reactions {
+        let Linkage { l, e, .. } = self.linkage;
+        let squared = speed * speed;
+        let rate = |path: &Path| {
+            [
+                path.dp[0] * acceleration + path.d2p[0] * squared,
+                path.dp[1] * acceleration + path.d2p[1] * squared,
+            ]
+        };
+        let crank_acceleration = rate(&ways.crank);
+        let rod_acceleration = rate(&ways.rod);
+        let rod_spin = ways.rod.dpsi * acceleration + ways.rod.d2psi * squared;
+        let slider_acceleration = rate(&ways.slider)[0];
+        let alpha = ways.turn[0] * acceleration + ways.turn[1] * squared;
         let g = self.gravity;
 
         // m (a − g): what the forces other than gravity must add up to.
@@ -122,21 +191,25 @@ impl Reactor {
         let rod_needs = needs(self.rod.mass, rod_acceleration);
         let slider_needs = needs(self.slider_mass, [slider_acceleration, 0.0]);
 
-        let axis = [s * pose.cos_phi, -pose.sin_phi];
+        let axis = ways.axis;
         let centre = [
             self.rod.along * axis[0] - self.rod.left * axis[1],
             self.rod.along * axis[1] + self.rod.left * axis[0],
         ];
         // Slider along x; the rod's moments about A: (P − A) × wrist pin force = −(spin and inertia).
-        let wrist_x = slider_needs[0] - load.force;
-        let moment = self.rod.inertia * rod_spin + cross(centre, rod_needs);
-        let wrist_y = (l * axis[1] * wrist_x - moment) / (l * axis[0]);
+        let wrist_x = slider_needs[0] - force;
+        let wrist_y = match normal {
+            Some(normal) => slider_needs[1] - normal,
+            None => {
+                let moment = self.rod.inertia * rod_spin + cross(centre, rod_needs);
+                (l * axis[1] * wrist_x - moment) / (l * axis[0])
+            }
+        };
         let guide = slider_needs[1] - wrist_y;
         let crank_pin = [rod_needs[0] + wrist_x, rod_needs[1] + wrist_y];
         let crank_bearing = [crank_needs[0] + crank_pin[0], crank_needs[1] + crank_pin[1]];
 
-        let (r_cos, r_sin) = (self.linkage.r * pose.cos, self.linkage.r * pose.sin);
-        let place = [r_cos + centre[0], r_sin + centre[1]];
+        let place = [ways.pin[0] + centre[0], ways.pin[1] + centre[1]];
         let momentum = |mass: f64, a: [f64; 2]| [mass * a[0], mass * a[1]];
         let crank_rate = momentum(self.crank.mass, crank_acceleration);
         let rod_rate = momentum(self.rod.mass, rod_acceleration);

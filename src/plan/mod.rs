@@ -2,17 +2,20 @@
 //! coordinate, events and engine; `explain` prints it.
 
 mod method;
+mod periodic;
 mod refusal;
 mod terms;
 
 use serde::Serialize;
 
 pub use method::Method;
+use periodic::repeats_with_each_turn;
 use refusal::{refuse_what_cannot_move, refuse_what_is_not_modelled};
 use terms::terms;
 
 use crate::error::Error;
-use crate::mechanism::{Linkage, Loads};
+use crate::mechanism::{Class, Curve, Limits, Linkage, Loads};
+use crate::numeric::angle::Angle;
 use crate::scene::{Load, MotionKind, Scene, Variable, Variables};
 
 /// What computes the motion.
@@ -107,7 +110,7 @@ impl Plan {
         }
         if engine == Engine::Time {
             state.extend(["theta", "omega"]);
-            if !loads.have_potential() {
+            if !loads.have_potential() || reduced.friction.is_some() {
                 state.push("work of the loads");
             }
             if loads.reads().has(Variable::T) {
@@ -118,14 +121,23 @@ impl Plan {
         if engine != Engine::ClosedForm {
             events.push("turning-point");
         }
-        if engine == Engine::Time && linkage.margin() < 0.0 {
+        let on_curve = (engine == Engine::Time)
+            .then(|| Curve::through(&linkage, Angle::from(scene.motion.angle).reduced()))
+            .flatten();
+        let coordinate = on_curve.map_or("crank angle theta", |(curve, _)| curve.coordinate());
+        if engine == Engine::Time && Limits::new(&linkage, 0.0).class != Class::RotatingCrank {
             events.push("limit");
+            state[0] = "coordinate q";
+            state[1] = "its speed";
+        }
+        if engine == Engine::Time && reduced.friction.is_some() {
+            events.extend(["stick", "slip", "rest"]);
         }
         Ok(Plan {
             engine,
             reason,
             stepper,
-            coordinate: "crank angle theta".to_owned(),
+            coordinate: coordinate.to_owned(),
             state: state.into_iter().map(str::to_owned).collect(),
             events: events.into_iter().map(str::to_owned).collect(),
             kept,
@@ -141,9 +153,11 @@ fn energy_serves(loads: &Loads, scene: &Scene) -> bool {
         && scene.torques.iter().chain(&scene.forces).all(is_smooth)
 }
 
-/// Whether the crank turns and the corners of the loads are known.
+/// Whether the crank turns, the corners of the loads are known, and one table of a turn serves all turns.
 fn angle_serves(scene: &Scene) -> bool {
-    scene.motion.speed != 0.0 && scene.torques.iter().chain(&scene.forces).all(is_smooth)
+    scene.motion.speed != 0.0
+        && scene.torques.iter().chain(&scene.forces).all(is_smooth)
+        && repeats_with_each_turn(scene)
 }
 
 /// Whether the corners of a load are known as crank angles, if it has any.
@@ -161,6 +175,7 @@ fn engine(
     scene: &Scene,
 ) -> Result<(Engine, Option<Stepper>, String), Error> {
     let reason = |text: &str| text.to_owned();
+    let crosses = Limits::new(&Linkage::new(&scene.geometry), 0.0).class == Class::ChangePoint;
     match (method, prescribed) {
         (Method::Auto | Method::ClosedForm, true) => Ok((
             Engine::ClosedForm,
@@ -176,6 +191,28 @@ fn engine(
         (Method::ClosedForm, false) => Err(Error::refused(
             "method closed-form cannot serve a free motion",
             "use --method auto, or motion kind = \"constant-speed\"",
+        )),
+        (Method::Energy | Method::Angle, false) if crosses => Err(Error::refused(
+            format!(
+                "method {method} cannot serve the lengths of a change point, which it passes onto the other branch"
+            ),
+            "use --method auto, time, dop853 or dopri5",
+        )),
+        (Method::Auto, false) if crosses => Ok((
+            Engine::Time,
+            Some(Stepper::Picard),
+            reason("a change point: integration in time along the configuration curve"),
+        )),
+        (Method::Energy | Method::Angle, false) if scene.friction.is_some() => Err(Error::refused(
+            format!(
+                "method {method} cannot serve Coulomb friction, which changes where slider or normal force turn"
+            ),
+            "use --method auto, time, dop853 or dopri5",
+        )),
+        (Method::Auto, false) if scene.friction.is_some() => Ok((
+            Engine::Time,
+            Some(Stepper::Picard),
+            reason("Coulomb friction: integration in time, piece by piece between its changes"),
         )),
         (Method::Auto | Method::Energy, false) if energy_serves(loads, scene) => Ok((
             Engine::Energy,
@@ -197,7 +234,7 @@ fn engine(
             reason("the crank turns: its energy and the time over the crank angle"),
         )),
         (Method::Angle, false) => Err(Error::refused(
-            "method angle needs a crank that turns from the start, and tables over theta only",
+            "method angle needs a crank that turns from the start, tables over theta only, and loads over theta that repeat with each turn",
             "use --method auto, time, dop853 or dopri5",
         )),
         (Method::Dopri5, false) => Ok((

@@ -1,14 +1,16 @@
 //! Scenes that cannot be computed, with the reason.
 
 use crate::error::Error;
-use crate::mechanism::{Class, Limits, Linkage};
-use crate::scene::Scene;
+use crate::mechanism::{Class, Curve, Limits, Linkage};
+use crate::numeric::angle::Angle;
+use crate::scene::{RodModel, Scene};
 
 pub(super) fn refuse_what_is_not_modelled(scene: &Scene) -> Result<(), Error> {
-    if scene.friction.is_some() {
+    let spin_only = scene.rod.is_some_and(|rod| rod.model == RodModel::SpinOnly);
+    if scene.friction.is_some() && spin_only {
         return Err(Error::refused(
-            "Coulomb friction in motion is not part of this version",
-            "take [friction] out of the scene, or set its coefficient to 0",
+            "the rod model \"spin-only\" leaves out the rod's translation, so no normal force goes with it",
+            "use model = \"rigid\" or \"two-mass\" with [friction]",
         ));
     }
     if scene.clearance.is_some() {
@@ -30,10 +32,13 @@ pub(super) fn refuse_what_cannot_move(scene: &Scene, linkage: &Linkage) -> Resul
             "give the crank an inertia, or the rod or the slider a mass, or use motion kind = \"constant-speed\"",
         ));
     }
-    if Limits::new(linkage, 0.0).class == Class::ChangePoint {
+    let limits = Limits::new(linkage, 0.0);
+    let at_crossing = linkage.reaches(scene.motion.angle)
+        && Curve::through(linkage, Angle::from(scene.motion.angle).reduced()).is_none();
+    if limits.class == Class::ChangePoint && at_crossing {
         return Err(Error::refused(
-            "the lengths make a change point: where crank and rod lie in one line the mechanism may go on in two ways, and the equation does not say which",
-            "change a length a little to say which mechanism is meant",
+            "motion.angle is the change point of these lengths, where the mechanism may go on in two ways, and the scene does not say which",
+            "start away from it, or change a length a little to say which mechanism is meant",
         ));
     }
     Ok(())

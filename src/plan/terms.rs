@@ -70,7 +70,17 @@ pub(super) fn terms(scene: &Scene, reduced: &Scene) -> (Vec<Term>, Vec<Term>) {
             }
         }
     }
-    note("Coulomb friction", false, absent(scene.friction.is_some()));
+    match &reduced.friction {
+        Some(friction) => note(
+            "Coulomb friction",
+            true,
+            format!(
+                "at the guide, coefficient {}, static {}",
+                friction.coefficient, friction.static_coefficient
+            ),
+        ),
+        None => note("Coulomb friction", false, absent(scene.friction.is_some())),
+    }
     note("joint clearance", false, absent(scene.clearance.is_some()));
     (kept, left_out)
 }

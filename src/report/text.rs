@@ -94,13 +94,20 @@ pub fn summary(summary: &Summary, rows: &[Row]) -> String {
 fn events(summary: &Summary) -> String {
     let count = |kind: &str| summary.events.iter().filter(|e| e.kind == kind).count();
     if summary.events_total > summary.events.len() as u64 {
-        return format!("{} dead centres and turning points", summary.events_total);
+        return format!("{} in all", summary.events_total);
     }
-    format!(
+    let mut text = format!(
         "{} dead centres, {} turning points",
         count("dead-centre"),
         count("turning-point")
-    )
+    );
+    for kind in ["limit", "stick", "slip", "rest"] {
+        let number = count(kind);
+        if number > 0 {
+            let _ = write!(text, ", {number} {kind}");
+        }
+    }
+    text
 }
 
 /// A value with the digits that its error leaves, and no more.

@@ -10,7 +10,7 @@ use super::simulate::Simulation;
 use super::summary::{ErrorEstimate, Event, Final, Solved, Summary};
 use super::task::Task;
 use crate::error::Error;
-use crate::mechanism::{Class, Limits};
+use crate::mechanism::{Class, Limits, Linkage};
 use crate::numeric::angle::Angle;
 use crate::scene::Extent;
 use crate::trajectory::Trajectory;
@@ -30,6 +30,7 @@ pub(super) fn run(task: &Task<'_>, rows: &mut dyn RowSink) -> Result<Simulation,
     let (events, events_total) = events(task, start, speed, end);
     let drive = Drive {
         equation,
+        maker: &task.maker,
         start,
         speed,
         end,
@@ -55,10 +56,11 @@ pub(super) fn run(task: &Task<'_>, rows: &mut dyn RowSink) -> Result<Simulation,
         events,
         events_total,
         stopped: blocked.map(|t| {
-            format!(
-                "the crank reaches the limit of its motion at t = {t} s, theta = {} rad: the rod stands normal to the guide there and no constant speed passes it",
-                last.radians()
-            )
+            let what = match lock(task) {
+                Some(_) => "the guide locks itself from here on, as the coefficient of friction times tan phi reaches 1: no crank torque keeps up the speed",
+                None => "the crank reaches the limit of its motion: the rod stands normal to the guide there and no constant speed passes it",
+            };
+            format!("{what}; stopped at t = {t} s, theta = {} rad", last.radians())
         }),
         ..Solved::default()
     };
@@ -70,10 +72,23 @@ pub(super) fn run(task: &Task<'_>, rows: &mut dyn RowSink) -> Result<Simulation,
 
 /// Crank angles that can be reached. A change point is not passed: the slider's velocity would jump there.
 fn reach(task: &Task<'_>) -> Vec<[f64; 2]> {
+    if let Some(shorter) = lock(task) {
+        return Limits::new(&shorter, 0.0).reach;
+    }
     match task.limits.class {
         Class::ChangePoint => Limits::clear_reach(task.equation().linkage()),
         _ => task.limits.reach.clone(),
     }
+}
+
+/// The linkage that reaches as far as the guide with its friction does not lock itself, if there are positions
+/// in which it does: μ |tan φ| = 1 where |e + r sin θ| = l/sqrt(1 + μ²).
+fn lock(task: &Task<'_>) -> Option<Linkage> {
+    let guide = task.maker.guide.as_ref()?;
+    let mu = guide.friction()?.coefficient;
+    let linkage = task.equation().linkage();
+    let shorter = linkage.with_rod(linkage.l / mu.hypot(1.0));
+    (shorter.margin() <= 0.0).then_some(shorter)
 }
 
 fn impossible(task: &Task<'_>, start: Angle) -> Option<Error> {
@@ -84,13 +99,19 @@ fn impossible(task: &Task<'_>, start: Angle) -> Option<Error> {
             turned <= to - from
         });
     (!inside).then(|| {
-        Error::refused(
-            format!(
-                "motion.angle: the rod does not reach the guide at crank angle {} rad",
-                start.radians()
+        let theta = start.radians();
+        match lock(task) {
+            Some(_) => Error::refused(
+                format!(
+                    "motion.angle: at crank angle {theta} rad the guide locks itself, as the coefficient of friction times tan phi is 1 or more: no crank torque moves it at constant speed"
+                ),
+                "start where |e + r sin(theta)| is less than l/sqrt(1 + coefficient^2), or reduce the friction",
             ),
-            "give an angle that `kinematics` shows as reachable",
-        )
+            None => Error::refused(
+                format!("motion.angle: the rod does not reach the guide at crank angle {theta} rad"),
+                "give an angle that `kinematics` shows as reachable",
+            ),
+        }
     })
 }
 

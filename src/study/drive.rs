@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use super::row::RowMaker;
 use super::summary::TorqueRange;
 use crate::mechanism::Equation;
 use crate::numeric::angle::Angle;
@@ -11,6 +12,7 @@ use crate::scene::Variable;
 /// A run at constant speed.
 pub(super) struct Drive<'a> {
     pub equation: &'a Equation,
+    pub maker: &'a RowMaker<'a>,
     pub start: Angle,
     /// rad/s
     pub speed: f64,
@@ -24,7 +26,12 @@ const MOST_TURNS: f64 = 100.0;
 impl Drive<'_> {
     fn torque(&self, t: f64) -> f64 {
         let angle = self.start.plus(self.speed * t);
-        self.equation.driving_torque(t, angle, self.speed, 0.0)
+        let torque = self.equation.driving_torque(t, angle, self.speed, 0.0);
+        let friction = self.maker.friction(t, angle, self.speed, 0.0);
+        if friction == 0.0 {
+            return torque;
+        }
+        torque - friction * self.equation.linkage().pose(angle.rest).dx
     }
 
     /// Smallest, largest and mean driving torque: over one turn if every turn is the same and the run is

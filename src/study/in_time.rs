@@ -9,7 +9,7 @@ use super::simulate::Simulation;
 use super::summary::{Final, Solved, Summary};
 use super::task::Task;
 use super::watch::{Seen, Watch, radians};
-use super::{forward, stopped};
+use super::{curve, forward, stopped};
 use crate::engine::Counted;
 use crate::engine::library;
 use crate::engine::step::Step;
@@ -27,6 +27,9 @@ pub(super) fn run(
     rows: &mut dyn RowSink,
     record: bool,
 ) -> Result<Simulation, Error> {
+    if curve::serves(task) {
+        return curve::run(task, rows, record);
+    }
     let begun = Instant::now();
     let equation = task.equation();
     let forward = forward::Forward(equation);
@@ -125,7 +128,7 @@ pub(super) fn run(
 /// A run that ends after a number of turns has no last time of its own.
 pub(super) const FAR: f64 = 1e9;
 
-fn settings(task: &Task<'_>, equation: &Equation) -> Settings {
+pub(super) fn settings(task: &Task<'_>, equation: &Equation) -> Settings {
     let motion = &task.scene.motion;
     let inertia = equation.terms(motion.angle).inertia.m;
     let unit = 0.5 * inertia * motion.speed.powi(2).max(1.0);

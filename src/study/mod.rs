@@ -4,6 +4,7 @@ mod by_angle;
 mod by_energy;
 mod calibration;
 mod closed_form;
+mod curve;
 mod drive;
 mod explain;
 mod forces;

@@ -1,7 +1,7 @@
 //! Output rows: the state of the mechanism at one time.
 
 use crate::error::Error;
-use crate::mechanism::{Equation, Reactions, Reactor};
+use crate::mechanism::{Constrained, Equation, Reactions, Reactor};
 use crate::numeric::angle::Angle;
 
 /// One output row, SI and radians.
@@ -70,20 +70,33 @@ pub(super) struct RowMaker<'a> {
     pub equation: &'a Equation,
     pub reactor: Option<Reactor>,
     pub driving_torque: bool,
+    /// The guide of a prescribed motion, if it has friction.
+    pub guide: Option<Constrained>,
 }
 
 impl RowMaker<'_> {
+    /// Friction on the slider (N, along +x) in a prescribed motion; not a number where the guide locks itself.
+    pub fn friction(&self, t: f64, angle: Angle, omega: f64, alpha: f64) -> f64 {
+        self.guide.as_ref().map_or(0.0, |guide| {
+            let touch = guide.driven(t, angle, omega, alpha);
+            touch.map_or(f64::NAN, |touch| touch.friction)
+        })
+    }
+
     /// The row of a free motion, or with `alpha` of a prescribed one.
     pub fn row(&self, t: f64, angle: Angle, omega: f64, alpha: Option<f64>) -> Row {
         let alpha = alpha.unwrap_or_else(|| self.equation.acceleration(t, angle, omega));
         let pose = self.equation.linkage().pose(angle.rest);
-        let reactions = self
-            .reactor
-            .as_ref()
-            .map(|reactor| reactor.at(self.equation, t, angle, omega, alpha));
-        let driving_torque = self
-            .driving_torque
-            .then(|| self.equation.driving_torque(t, angle, omega, alpha));
+        let friction = self.friction(t, angle, omega, alpha);
+        let reactions = self.reactor.as_ref().map(|reactor| {
+            let mut load = self.equation.loads().value(t, angle, omega, &pose);
+            load.force += friction;
+            reactor.reactions(&pose, omega, alpha, &load)
+        });
+        let driving_torque = self.driving_torque.then(|| {
+            let torque = self.equation.driving_torque(t, angle, omega, alpha);
+            torque - friction * pose.dx
+        });
         Row {
             t,
             theta: angle.radians(),

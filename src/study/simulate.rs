@@ -5,9 +5,9 @@ use super::summary::Summary;
 use super::task::Task;
 use super::{closed_form, in_time, over_angle};
 use crate::error::Error;
-use crate::mechanism::{Equation, Limits, Reactor};
+use crate::mechanism::{Constrained, Curve, Equation, Limits, Reactor};
 use crate::plan::{Engine, Method, Plan};
-use crate::scene::Scene;
+use crate::scene::{MotionKind, Scene};
 use crate::trajectory::Trajectory;
 
 /// What is asked of a run beside what the scene says.
@@ -110,6 +110,7 @@ fn run(
             equation: &equation,
             reactor,
             driving_torque: options.driving_torque,
+            guide: guide(scene, &equation),
         },
     };
     match task.plan.engine {
@@ -117,4 +118,11 @@ fn run(
         Engine::Energy | Engine::Angle => over_angle::run(&mut task, rows, record),
         Engine::Time => in_time::run(&task, rows, record),
     }
+}
+
+/// The guide of a prescribed motion, if it has friction.
+fn guide(scene: &Scene, equation: &Equation) -> Option<Constrained> {
+    let driven = scene.motion.kind == MotionKind::ConstantSpeed;
+    let guide = Constrained::new(scene, Curve::on_crank(equation.linkage()));
+    guide.friction().filter(|_| driven).map(|_| guide)
 }

@@ -24,6 +24,12 @@ pub(super) fn inside(reach: &[[f64; 2]], theta: f64) -> bool {
     reach.is_empty() || reach.iter().any(within)
 }
 
+pub(super) fn work_limit(place: &str) -> String {
+    format!(
+        "the work limit of evaluations is reached: stopped {place}; raise --max-evaluations, shorten the run or loosen the tolerance"
+    )
+}
+
 /// Why a run ended before its time.
 pub(super) fn reason(
     finish: Finish,
@@ -44,9 +50,7 @@ pub(super) fn reason(
             "the crank does not complete {turns} turns: stopped {place}; give a duration instead"
         )),
         (Finish::AtEnd | Finish::Stopped | Finish::NoStart, _) => None,
-        (Finish::WorkLimit, _) => Some(format!(
-            "the work limit of evaluations is reached: stopped {place}; raise --max-evaluations, shorten the run or loosen the tolerance"
-        )),
+        (Finish::WorkLimit, _) => Some(work_limit(&place)),
         (Finish::StepTooSmall, _) => {
             let (t, angle, speed) =
                 motion

@@ -85,14 +85,12 @@ fn a_folder_is_not_a_file() {
 /// Scenes that fail after they were read, beside those that cannot be read.
 #[test]
 fn a_scene_that_fails_leaves_no_file_and_keeps_the_older_one() {
-    let friction = "[friction]\ncoefficient = 0.1\n";
     let no_inertia = "[geometry]\ncrank = \"50 mm\"\nrod = \"150 mm\"\n[run]\nduration = \"1 s\"\n";
     let out_of_reach = format!("{ROCKER}\n[motion]\nangle = \"90 deg\"\nspeed = \"1 rad/s\"\n");
     for scene in [
         "[geometry]\ncrank = \"50 mm\"\n".to_owned(),
         free("duration = \"-1 s\""),
         free(""),
-        format!("{}{friction}", free(GOOD)),
         no_inertia.to_owned(),
         out_of_reach.replace("[motion]", "[motion]\nkind = \"constant-speed\""),
         out_of_reach,

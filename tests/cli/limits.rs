@@ -28,17 +28,19 @@ fn rocker(motion: &str) -> Folder {
     Folder::with(&format!("{ROCKER}\n[motion]\n{motion}\n"))
 }
 
-/// l < r + |e|: the crank meets the limit of its motion, which this version does not pass.
+/// l < r + |e|: no constant speed passes the limit of the crank's motion, and a crank alone runs against it.
 #[test]
-fn a_rocker_ends_at_the_limit_of_its_motion() {
+fn a_driven_rocker_and_a_rocker_without_rod_and_slider_end_at_the_limit_of_their_motion() {
     let massless = ROCKER.replace("[slider]\nmass = \"0.5 kg\"\n", "");
     assert_ne!(massless, ROCKER);
-    for scene in [ROCKER, &massless] {
-        for (kind, speed, limit) in [
-            ("free", "10 rad/s", rocker_limit()),
-            ("free", "-10 rad/s", -(TAU / 2.0 + rocker_limit())),
-            ("constant-speed", "10 rad/s", rocker_limit()),
-            ("constant-speed", "-10 rad/s", -(TAU / 2.0 + rocker_limit())),
+    for (scene, kind) in [
+        (ROCKER, "constant-speed"),
+        (&massless, "constant-speed"),
+        (&massless, "free"),
+    ] {
+        for (speed, limit) in [
+            ("10 rad/s", rocker_limit()),
+            ("-10 rad/s", -(TAU / 2.0 + rocker_limit())),
         ] {
             let motion = format!("kind = \"{kind}\"\nspeed = \"{speed}\"");
             let folder = Folder::with(&format!("{scene}\n[motion]\n{motion}\n"));
@@ -50,35 +52,72 @@ fn a_rocker_ends_at_the_limit_of_its_motion() {
                 "{} rows up to there, {motion}",
                 rows.len()
             );
+            let angles = rows.column("theta_rad");
             assert!(
-                rows.column("theta_rad")
+                angles
                     .iter()
                     .all(|theta| theta.abs() <= limit.abs() + 1e-12)
             );
             // The rod approaches the normal of the guide and does not go beyond it.
-            assert!(
-                rows.column("phi_rad")
-                    .iter()
-                    .all(|phi| phi.abs() <= TAU / 4.0)
-            );
+            let inclinations = rows.column("phi_rad");
+            assert!(inclinations.iter().all(|phi| phi.abs() <= TAU / 4.0));
         }
     }
 }
 
-/// Up to the limit nothing is lost: J ω² + m v² stays what it was.
+/// Turns that a crank between limits never completes are refused instead of waited for, and a crank that friction
+/// stops says so.
 #[test]
-fn up_to_the_limit_energy_is_kept() {
-    let (summary, rows) = stopped(&rocker("speed = \"10 rad/s\""), &[], "limit");
-    let energy: Vec<f64> = rows
-        .column("omega_rad_per_s")
-        .iter()
-        .zip(rows.column("v_m_per_s"))
-        .map(|(omega, v)| 0.02 * omega * omega + 0.5 * v * v)
-        .collect();
-    for later in &energy {
-        close(*later, energy[0], 1e-6 * energy[0]);
+fn turns_that_are_never_completed_end_the_run() {
+    let rocking = format!("{ROCKER}\n[motion]\nspeed = \"10 rad/s\"\n")
+        .replace("duration = \"1 s\"", "revolutions = 1");
+    let folder = Folder::with(&rocking.replace(
+        "0.5 kg",
+        "0.5 kg\"\n[[force]]\nkind = \"viscous\"\ncoefficient = \"0.1 N s/m",
+    ));
+    folder
+        .run(&["simulate", "scene.toml"])
+        .fails(2, &["revolutions", "between its limits", "help:"]);
+    let slowed = free("revolutions = 1000")
+        + "[friction]\ncoefficient = 0.3\n[gravity]\nacceleration = \"9.81 m/s^2\"\n";
+    let (summary, _) = stopped(&Folder::with(&slowed), &[], "comes to rest");
+    assert_eq!(at(&summary, "final.omega_rad_per_s"), 0.0);
+    let turned = free("revolutions = 2") + "[friction]\ncoefficient = 0.01\n";
+    let summary = Folder::with(&turned)
+        .run(&["simulate", "scene.toml", "--json"])
+        .done()
+        .json();
+    close(at(&summary, "final.theta_rad"), 2.0 * TAU, 1e-13);
+}
+
+/// Past the limit the crank swings back and the slider goes on, on the other branch; J ω² + m v² stays what it was.
+#[test]
+fn a_rocker_passes_its_limit_and_keeps_its_energy() {
+    let folder = rocker("speed = \"10 rad/s\"");
+    let outcome = folder.run(&["simulate", "scene.toml", "--json", "--out", "rows.csv"]);
+    let summary = outcome.done().json();
+    let rows = Rows::read(&folder.read("rows.csv"));
+    assert!(at(&summary, "energy_residual").abs() < 1e-8);
+    let columns =
+        ["omega_rad_per_s", "v_m_per_s", "theta_rad", "x_m"].map(|name| rows.column(name));
+    let mut branches = [false; 2];
+    for i in 0..rows.len() {
+        let [omega, v, theta, x] = [0, 1, 2, 3].map(|k: usize| columns[k][i]);
+        let energy = |omega: f64, v: f64| 0.02 * omega * omega + 0.5 * v * v;
+        close(energy(omega, v), energy(columns[0][0], columns[1][0]), 1e-8);
+        let beyond = x - 0.05 * theta.cos();
+        close(beyond.hypot(0.01 + 0.05 * theta.sin()), 0.05, 1e-12);
+        branches[usize::from(beyond < 0.0)] = true;
     }
-    assert!(at(&summary, "energy_residual").abs() < 1e-6);
+    assert_eq!(branches, [true; 2], "the slider is found on both branches");
+    let limits = summary["events"].as_array().expect("events");
+    assert!(
+        limits
+            .iter()
+            .filter(|event| event["kind"] == "limit")
+            .count()
+            >= 2
+    );
 }
 
 #[test]

@@ -58,6 +58,10 @@ pub fn run(
             corners: [at_corner, ends_at_corner],
         };
         match collocation.attempt(&state, attempt) {
+            // A step of one rounding of the time cannot become shorter.
+            Err(_) if h <= 2.0 * f64::EPSILON * state.t.abs() => {
+                return (Finish::StepTooSmall, last, steps);
+            }
             Err(factor) => wanted = h * factor.clamp(LEAST, 0.9),
             Ok(Accepted { step, next, factor }) => {
                 let whole = length >= way;

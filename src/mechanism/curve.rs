@@ -1,0 +1,251 @@
+//! One coordinate for every position the mechanism can move to, also where the crank cannot turn fully.
+//!
+//! The rod points along (cos Φ, −sin Φ) from A: e + r sin θ = l sin Φ, x = r cos θ + l cos Φ, where cos Φ
+//! changes its sign with the assembly branch. The solutions (θ, Φ) form closed curves, and each has a
+//! coordinate q of period 2π in closed form, regular also where the rod stands normal to the guide:
+//!
+//! - rotating crank: q = θ; rotating rod: q = Φ;
+//! - double rocker with e > 0: the height of A above the guide lies between e − r and l. With
+//!   h = (l − e + r)/2 it is e − r + 2 h sin²q, so that
+//!   sin((θ + 90°)/2) = √(h/r) sin q and sin((90° − Φ)/2) = √(h/l) cos q;
+//! - at a change point h/r = 1 or h/l = 1: there cos((θ + 90°)/2) = cos q, or cos((90° − Φ)/2) = sin q, with
+//!   their signs. That is the motion which keeps all velocities continuous.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use super::rocker::Rocker;
+use super::{Class, Limits, Linkage};
+use crate::numeric::angle::Angle;
+use crate::scene::Branch;
+
+/// The positions of a mechanism that are connected with one of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Curve {
+    linkage: Linkage,
+    chart: Chart,
+    /// Whole turns of the crank that are added to the angle of the chart.
+    turns: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Chart {
+    /// q = θ.
+    Crank,
+    /// q = Φ; the linkage with crank and rod exchanged.
+    Rod(Linkage),
+    Rocker(Rocker),
+}
+
+/// A position, with two derivatives with respect to q (a dash).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// sin θ
+    pub sin: f64,
+    /// cos θ
+    pub cos: f64,
+    /// θ'
+    pub dtheta: f64,
+    /// θ''
+    pub d2theta: f64,
+    /// sin Φ: the rod points along (cos Φ, −sin Φ).
+    pub rod_sin: f64,
+    /// cos Φ: zero at a limit, its sign is that of the branch.
+    pub rod_cos: f64,
+    /// Φ'
+    pub drod: f64,
+    /// Φ''
+    pub d2rod: f64,
+    /// Slider position x, m.
+    pub x: f64,
+    /// x', m.
+    pub dx: f64,
+    /// x'', m.
+    pub d2x: f64,
+}
+
+impl Place {
+    /// Rod inclination φ in [−90°, 90°], rad, as [`super::Pose::phi`].
+    pub fn phi(&self) -> f64 {
+        self.rod_sin.atan2(self.rod_cos.abs())
+    }
+
+    /// Whether all of it is finite.
+    pub fn exists(&self) -> bool {
+        self.d2x.is_finite()
+    }
+}
+
+/// Below this the rod counts as standing normal to the guide, as cos Φ.
+const NORMAL: f64 = 4.0 * f64::EPSILON;
+
+impl Curve {
+    /// The positions that can be reached from crank angle `theta` (rad) on the linkage's branch, and the
+    /// coordinate of that position. None where there is no position, and at the crossing of a change point,
+    /// where it does not say on which of the two curves it lies.
+    pub fn through(linkage: &Linkage, theta: Angle) -> Option<(Curve, Angle)> {
+        let class = Limits::new(linkage, 0.0).class;
+        let pose = linkage.pose(theta.rest);
+        if !pose.cos_phi.is_finite() {
+            return None;
+        }
+        let rod_cos = linkage.s * pose.cos_phi;
+        let mut curve = Curve::on_crank(linkage);
+        match class {
+            Class::RotatingCrank => return Some((curve, theta)),
+            Class::RotatingRod => {
+                curve.chart = Chart::Rod(linkage.exchanged(pose.cos.signum()));
+                let q = Angle::from(pose.sin_phi.atan2(rod_cos));
+                return Some((curve.started_at(q, theta), q));
+            }
+            Class::DoubleRocker => {}
+            Class::ChangePoint if pose.cos_phi <= NORMAL.sqrt() => {
+                // At a limit that is no crossing the crank does not point normal to the guide.
+                if pose.cos.abs() < 1e-6 {
+                    return None;
+                }
+            }
+            Class::ChangePoint => {}
+        }
+        let rocker = Rocker::new(linkage, class, pose.cos * rod_cos < 0.0);
+        let q = Angle::from(rocker.coordinate(linkage, theta.rest, pose.cos, rod_cos));
+        curve.chart = Chart::Rocker(rocker);
+        Some((curve.started_at(q, theta), q))
+    }
+
+    /// The curve with the crank angle as its coordinate, whatever the class.
+    pub fn on_crank(linkage: &Linkage) -> Curve {
+        Curve {
+            linkage: *linkage,
+            chart: Chart::Crank,
+            turns: 0.0,
+        }
+    }
+
+    fn started_at(mut self, q: Angle, theta: Angle) -> Curve {
+        let off = theta.minus(self.crank_angle(q)) / TAU;
+        self.turns = off.round();
+        self
+    }
+
+    /// The linkage.
+    pub fn linkage(&self) -> &Linkage {
+        &self.linkage
+    }
+
+    /// Whether the coordinate is the crank angle.
+    pub fn is_crank_angle(&self) -> bool {
+        self.chart == Chart::Crank
+    }
+
+    /// What the coordinate is.
+    pub fn coordinate(&self) -> &'static str {
+        match self.chart {
+            Chart::Crank => "crank angle theta",
+            Chart::Rod(_) => "rod angle, as the rod turns fully and the crank does not",
+            Chart::Rocker(_) => {
+                "position on the configuration curve, as neither crank nor rod turns fully"
+            }
+        }
+    }
+
+    /// The crank angle at coordinate q (rad), unwrapped along the motion.
+    pub fn crank_angle(&self, q: Angle) -> Angle {
+        match &self.chart {
+            Chart::Crank => q,
+            Chart::Rod(swapped) => {
+                let inclination = swapped.pose(q.rest).phi();
+                let turned = swapped.s < 0.0;
+                Angle {
+                    turns: self.turns,
+                    rest: if turned {
+                        PI - inclination
+                    } else {
+                        inclination
+                    },
+                }
+            }
+            Chart::Rocker(rocker) => {
+                let angle = rocker.crank_angle(q);
+                Angle {
+                    turns: self.turns + angle.turns,
+                    ..angle
+                }
+            }
+        }
+    }
+
+    /// The position at coordinate q, rad.
+    pub fn place(&self, q: f64) -> Place {
+        match &self.chart {
+            Chart::Crank => {
+                let s = self.linkage.s;
+                let pose = self.linkage.pose(q);
+                Place {
+                    sin: pose.sin,
+                    cos: pose.cos,
+                    dtheta: 1.0,
+                    d2theta: 0.0,
+                    rod_sin: pose.sin_phi,
+                    rod_cos: s * pose.cos_phi,
+                    drod: s * pose.dphi,
+                    d2rod: s * pose.d2phi,
+                    x: pose.x,
+                    dx: pose.dx,
+                    d2x: pose.d2x,
+                }
+            }
+            Chart::Rod(swapped) => {
+                let s = swapped.s;
+                let pose = swapped.pose(q);
+                Place {
+                    sin: pose.sin_phi,
+                    cos: s * pose.cos_phi,
+                    dtheta: s * pose.dphi,
+                    d2theta: s * pose.d2phi,
+                    rod_sin: pose.sin,
+                    rod_cos: pose.cos,
+                    drod: 1.0,
+                    d2rod: 0.0,
+                    x: pose.x,
+                    dx: pose.dx,
+                    d2x: pose.d2x,
+                }
+            }
+            Chart::Rocker(rocker) => rocker.place(&self.linkage, q),
+        }
+    }
+
+    /// Coordinates in [0, 2π) at which crank and rod lie in one line and the slider turns back.
+    pub fn dead_centres(&self) -> Vec<f64> {
+        let found = [Branch::Right, Branch::Left]
+            .into_iter()
+            .flat_map(|branch| {
+                let linkage = self.linkage.on_branch(branch);
+                let dead_centres = Limits::new(&linkage, 0.0).dead_centres;
+                dead_centres.into_iter().filter_map(move |dead_centre| {
+                    let (curve, q) = Curve::through(&linkage, Angle::from(dead_centre.theta))?;
+                    let same = match (&self.chart, &curve.chart) {
+                        (Chart::Crank, Chart::Crank) => self.linkage.s == linkage.s,
+                        (Chart::Rod(a), Chart::Rod(b)) => a.s == b.s,
+                        (Chart::Rocker(a), Chart::Rocker(b)) => a.joins(b),
+                        _ => false,
+                    };
+                    same.then_some(q.rest.rem_euclid(TAU) % TAU)
+                })
+            });
+        let mut found: Vec<f64> = found.collect();
+        found.sort_by(f64::total_cmp);
+        found
+    }
+
+    /// Coordinates in [0, 2π) at which the rod stands normal to the guide.
+    pub fn limits(&self) -> Vec<f64> {
+        match &self.chart {
+            Chart::Crank => Vec::new(),
+            Chart::Rocker(rocker) if rocker.crosses_where_folded() => {
+                vec![0.0, FRAC_PI_2, PI, 3.0 * FRAC_PI_2]
+            }
+            _ => vec![FRAC_PI_2, 3.0 * FRAC_PI_2],
+        }
+    }
+}

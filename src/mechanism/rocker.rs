@@ -1,0 +1,173 @@
+//! The configuration curve of a double rocker, and of a change point; see [`super::Curve`].
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::{Class, Linkage, Place};
+use crate::numeric::angle::Angle;
+use crate::numeric::exact::sum3;
+
+/// The double rocker and the change point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Rocker {
+    crank: Half,
+    rod: Half,
+    /// −1 mirrors the mechanism about the x axis: for e < 0.
+    mirror: f64,
+    /// −1: crank and rod of equal length on top of each other, the slider at O.
+    fold: f64,
+}
+
+/// Half an angle a with sin a = root · (sine or cosine of q) and cos a > 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Half {
+    root: f64,
+    /// 1 − root²; zero: cos a takes the sign of the other function of q.
+    rest: f64,
+}
+
+impl Rocker {
+    /// For an exact change point the lengths that count as equal are taken as equal. `folded`: crank and rod
+    /// point to opposite sides.
+    pub fn new(linkage: &Linkage, class: Class, folded: bool) -> Rocker {
+        let Linkage { r, l, e, .. } = *linkage;
+        let e = e.abs();
+        // r − h and l − h, and h.
+        let (beside_crank, beside_rod) = (0.5 * sum3(r, -l, e), 0.5 * sum3(l, -r, e));
+        let h = 0.5 * sum3(l, -e, r);
+        let exact = class == Class::ChangePoint;
+        let half = |length: f64, beside: f64| {
+            if exact && beside.abs() <= 8.0 * f64::EPSILON * (l + r) {
+                Half {
+                    root: 1.0,
+                    rest: 0.0,
+                }
+            } else {
+                Half {
+                    root: (h / length).sqrt(),
+                    rest: beside / length,
+                }
+            }
+        };
+        let (crank, rod) = (half(r, beside_crank), half(l, beside_rod));
+        let both = crank.rest == 0.0 && rod.rest == 0.0;
+        Rocker {
+            crank,
+            rod,
+            mirror: if linkage.e < 0.0 { -1.0 } else { 1.0 },
+            fold: if both && folded { -1.0 } else { 1.0 },
+        }
+    }
+
+    /// q of a position.
+    pub fn coordinate(&self, linkage: &Linkage, theta: f64, cos: f64, rod_cos: f64) -> f64 {
+        let from_below = Angle::from(self.mirror * theta + FRAC_PI_2).reduced().rest;
+        let sine = (0.5 * from_below).sin().abs() / self.crank.root;
+        // 1 − sin Φ on the mirrored mechanism.
+        let height = sum3(
+            linkage.l,
+            -linkage.e.abs(),
+            -self.mirror * linkage.r * theta.sin(),
+        );
+        let cosine = (0.5 * height.max(0.0) / linkage.l).sqrt() / self.rod.root;
+        let sign = |x: f64| if x < 0.0 { -1.0 } else { 1.0 };
+        let (a, b) = (sign(cos), sign(rod_cos));
+        let (s, c) = match (self.crank.rest == 0.0, self.rod.rest == 0.0) {
+            (false, false) => (a, b),
+            (true, false) => (a * b, b),
+            (false, true) => (a, a * b),
+            (true, true) => (a, 1.0),
+        };
+        (s * sine).atan2(c * cosine)
+    }
+
+    /// The crank angle.
+    pub fn crank_angle(&self, q: Angle) -> Angle {
+        let (turns, half) = if self.crank.rest == 0.0 {
+            (2.0 * q.turns, q.rest)
+        } else {
+            let (sin, cos) = q.rest.sin_cos();
+            let cosine = self.crank.cosine(sin, cos);
+            (0.0, (self.crank.root * sin).atan2(cosine))
+        };
+        Angle {
+            turns: self.mirror * turns,
+            rest: self.mirror * (2.0 * half - FRAC_PI_2),
+        }
+    }
+
+    /// Whether two positions of the same lengths lie on one curve, on which the slider moves.
+    pub fn joins(&self, other: &Rocker) -> bool {
+        self.fold == other.fold && self.fold > 0.0
+    }
+
+    /// Whether the rod is normal to the guide at q = 0 and 180° too.
+    pub fn crosses_where_folded(&self) -> bool {
+        self.rod.rest == 0.0
+    }
+
+    pub fn place(&self, linkage: &Linkage, q: f64) -> Place {
+        let (sin_q, cos_q) = q.sin_cos();
+        let Rocker { mirror, fold, .. } = *self;
+        let crank = self.crank.double(sin_q, cos_q);
+        // cos q as the sine of a quarter turn less.
+        let rod = self.rod.double(cos_q, sin_q);
+        let (r, l) = (linkage.r, linkage.l);
+        // θ = 2a − 90° and Φ = 90° − 2b; b falls where its sine's argument is cos q.
+        let (sin, cos) = (-mirror * crank.cos, crank.sin);
+        let (dtheta, d2theta) = (mirror * crank.d1, mirror * crank.d2);
+        let (rod_sin, rod_cos) = (mirror * rod.cos, fold * rod.sin);
+        let (drod, d2rod) = (mirror * fold * rod.d1, -mirror * fold * rod.d2);
+        let (y, rod_y) = (r * sin, l * rod_sin);
+        let (x, rod_x) = (r * cos, l * rod_cos);
+        Place {
+            sin,
+            cos,
+            dtheta,
+            d2theta,
+            rod_sin,
+            rod_cos,
+            drod,
+            d2rod,
+            x: x + rod_x,
+            dx: -y * dtheta - rod_y * drod,
+            d2x: -(x * dtheta * dtheta + y * d2theta) - (rod_x * drod * drod + rod_y * d2rod),
+        }
+    }
+}
+
+/// Sine and cosine of 2a and its derivatives with respect to the argument of the sine.
+struct Double {
+    sin: f64,
+    cos: f64,
+    d1: f64,
+    d2: f64,
+}
+
+impl Half {
+    fn cosine(&self, sin: f64, cos: f64) -> f64 {
+        if self.rest == 0.0 {
+            cos
+        } else {
+            (cos * cos + self.rest * sin * sin).sqrt()
+        }
+    }
+
+    fn double(&self, sin: f64, cos: f64) -> Double {
+        let (sine, cosine) = (self.root * sin, self.cosine(sin, cos));
+        if self.rest == 0.0 {
+            return Double {
+                sin: 2.0 * sine * cosine,
+                cos: 1.0 - 2.0 * sine * sine,
+                d1: 2.0,
+                d2: 0.0,
+            };
+        }
+        let per = 1.0 / cosine;
+        Double {
+            sin: 2.0 * sine * cosine,
+            cos: 1.0 - 2.0 * sine * sine,
+            d1: 2.0 * self.root * cos * per,
+            d2: -2.0 * sine * self.rest * per * per * per,
+        }
+    }
+}

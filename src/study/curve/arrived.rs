@@ -1,0 +1,58 @@
+//! A run on the curve: what it is given, what it hands on, and where it arrives.
+
+use super::phase::Phase;
+use crate::engine::step::Step;
+use crate::engine::time::{Finish, Settings, Start};
+use crate::mechanism::Constrained;
+use crate::numeric::angle::Angle;
+
+/// Takes what is computed.
+pub(super) trait Observer {
+    /// A part of the motion; true ends the run.
+    fn step(&mut self, step: &Step, phase: Phase) -> bool;
+
+    /// Something that happened.
+    fn event(&mut self, kind: &'static str, t: f64, angle: Angle, speed: f64);
+}
+
+/// A run.
+pub(super) struct Follow<'a> {
+    pub equation: &'a Constrained,
+    pub settings: Settings,
+    /// Of the coordinate.
+    pub start: Start,
+    /// How far the crank may turn, rad.
+    pub turn_limit: Option<f64>,
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum End {
+    /// At its time, or after its turns.
+    Done,
+    /// The integrator could not go on.
+    Integrator(Finish),
+    /// Rigid bodies do not say how it goes on.
+    Jam(String),
+    /// At rest for good before its turns are complete.
+    AtRest,
+    /// The observer ended it.
+    Stopped,
+}
+
+/// Where a run arrived.
+pub(super) struct Arrived {
+    /// Last piece.
+    pub last: Step,
+    /// Work of all that has no potential, J.
+    pub work: f64,
+    pub steps: u64,
+    pub evaluations: u64,
+    /// Pieces of the motion.
+    pub pieces: u64,
+    pub end: End,
+    /// Time, crank angle (rad) and crank speed of the last evaluation without a finite result.
+    pub impossible: Option<(f64, f64, f64)>,
+    /// Whether the run ended as it would pass a position without inertia.
+    pub vanished: bool,
+}

@@ -1,0 +1,228 @@
+//! Motion in time on the configuration curve: past the limits of a rocker, and with Coulomb friction.
+
+mod arrived;
+mod estimate;
+mod follow;
+mod phase;
+mod release;
+mod rest;
+mod watch;
+mod words;
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use arrived::{Arrived, End, Follow};
+use estimate::estimate;
+use phase::Phase;
+use watch::CurveWatch;
+use words::{warnings, why};
+
+use super::in_time::settings;
+use super::row::RowSink;
+use super::schedule::Schedule;
+use super::simulate::Simulation;
+use super::stopped;
+use super::summary::{Final, Solved, Summary};
+use super::task::Task;
+use crate::engine::step::Step;
+use crate::engine::time::{Finish, Start};
+use crate::error::Error;
+use crate::mechanism::{Class, Constrained, Curve, Equation};
+use crate::numeric::angle::Angle;
+use crate::scene::Extent;
+use crate::trajectory::Trajectory;
+
+/// Whether a free motion in time is computed here.
+pub(super) fn serves(task: &Task<'_>) -> bool {
+    task.limits.class != Class::RotatingCrank || task.scene.reduced().friction.is_some()
+}
+
+/// Runs a task.
+pub(super) fn run(
+    task: &Task<'_>,
+    rows: &mut dyn RowSink,
+    record: bool,
+) -> Result<Simulation, Error> {
+    let begun = Instant::now();
+    let equation = task.equation();
+    let (constrained, start) = on_curve(task)?;
+    let constrained = Arc::new(constrained);
+    let curve = constrained.curve();
+    let speed = task.scene.motion.speed;
+    let follow = Follow {
+        equation: &constrained,
+        settings: settings(task, equation),
+        start,
+        turn_limit: match task.extent {
+            Extent::Revolutions(turns) => Some(super::watch::radians(turns)),
+            Extent::Duration(_) => None,
+        },
+    };
+    let mut watch = CurveWatch {
+        equation: &constrained,
+        reactor: task.maker.reactor.as_ref(),
+        rows,
+        schedule: Schedule::new(task.scene.run.output_every, task.extent),
+        start: task.start(),
+        events_kept: task.options.events_kept,
+        events: Vec::new(),
+        events_total: 0,
+        speed: (speed, speed),
+        recorded: record.then(Vec::new),
+        row_time: Duration::ZERO,
+        error: None,
+        next_row: 0,
+        phase: Phase::Sticking,
+    };
+    let arrived = follow.run(&mut watch);
+    if let Some(error) = watch.error.take() {
+        return Err(error);
+    }
+    if arrived.end == End::Integrator(Finish::NoStart) {
+        let crank = Start {
+            angle: task.start(),
+            speed,
+            ..start
+        };
+        return Err(stopped::no_start(equation, crank, &task.limits));
+    }
+    watch.write_last_row(&arrived.last)?;
+    let wall_s = (begun.elapsed() - watch.row_time).as_secs_f64();
+    let stopped = why(task, &arrived, &constrained);
+    let estimate = if task.options.estimate && stopped.is_none() {
+        estimate(&follow, &arrived)
+    } else {
+        None
+    };
+    let mut warnings = warnings(task);
+    if task.options.estimate && stopped.is_none() && estimate.is_none() {
+        let why = "the error could not be estimated: the second, tighter run did not finish";
+        warnings.push(why.to_owned());
+    }
+    let end = &arrived.last.end;
+    let last = crank_state(curve, &arrived.last);
+    let peak = watch.speed.0.abs().max(watch.speed.1.abs());
+    let solved = Solved {
+        last: Final {
+            t_s: end.t,
+            theta_rad: last.0.radians(),
+            omega_rad_per_s: last.1,
+        },
+        turned: last.0.minus(task.start()),
+        error_estimate: estimate.map(|(error, _)| error),
+        energy: energy_residual(&constrained, equation, start, &arrived, peak),
+        evaluations: arrived.evaluations,
+        steps: arrived.steps,
+        wall_s,
+        estimate_cost: estimate.map(|(_, cost)| cost),
+        speed: watch.speed,
+        driving_torque: None,
+        events: watch.events,
+        events_total: watch.events_total,
+        warnings,
+        stopped,
+    };
+    let t_end = end.t;
+    let seen = constrained.clone();
+    let view = move |angle: Angle, speed: f64| {
+        let curve = seen.curve();
+        (
+            curve.crank_angle(angle),
+            curve.place(angle.rest).dtheta * speed,
+        )
+    };
+    Ok(Simulation {
+        summary: Summary::new(task, solved),
+        trajectory: watch
+            .recorded
+            .map(|steps| Trajectory::from_steps(steps, t_end).seen_as(Arc::new(view))),
+    })
+}
+
+/// The equation on the curve of the start, and the start on it.
+fn on_curve(task: &Task<'_>) -> Result<(Constrained, Start), Error> {
+    let theta = task.start();
+    let speed = task.scene.motion.speed;
+    let linkage = task.equation().linkage();
+    let start = |angle: Angle, speed: f64| Start {
+        t: 0.0,
+        angle,
+        speed,
+    };
+    let Some((curve, q)) = Curve::through(linkage, theta) else {
+        if task.limits.class == Class::ChangePoint && linkage.reaches(theta.rest) {
+            return Err(Error::refused(
+                "motion.angle is the change point itself, where the mechanism may go on in two ways",
+                "start away from it, or change a length a little to say which mechanism is meant",
+            ));
+        }
+        return Err(stopped::no_start(
+            task.equation(),
+            start(theta, speed),
+            &task.limits,
+        ));
+    };
+    refuse_turns(task)?;
+    let pace = speed / curve.place(q.rest).dtheta;
+    if speed != 0.0 && pace.abs() > 1e12 * speed.abs() {
+        return Err(Error::refused(
+            "motion.speed: at motion.angle the rod stands normal to the guide, and the crank has no speed there",
+            "start at rest, or away from the limit",
+        ));
+    }
+    let pace = if speed == 0.0 { 0.0 } else { pace };
+    Ok((Constrained::new(task.scene, curve), start(q, pace)))
+}
+
+/// Turns that a crank between limits can never make.
+fn refuse_turns(task: &Task<'_>) -> Result<(), Error> {
+    let widest = task
+        .limits
+        .reach
+        .iter()
+        .fold(0.0, |widest: f64, [from, to]| widest.max(to - from));
+    match task.extent {
+        Extent::Revolutions(turns) if widest > 0.0 && turns * TAU > widest => Err(Error::refused(
+            format!(
+                "run.revolutions: the crank cannot turn by more than {} deg between its limits and never completes {turns} turns",
+                widest.to_degrees()
+            ),
+            "give run.duration instead",
+        )),
+        _ => Ok(()),
+    }
+}
+
+fn crank_state(curve: &Curve, last: &Step) -> (Angle, f64) {
+    let angle = last.angle(last.end.theta);
+    let dtheta = curve.place(angle.rest).dtheta;
+    (curve.crank_angle(angle), dtheta * last.end.omega)
+}
+
+/// Energy at the end minus energy at the start minus work, J, and the largest energy that occurs.
+fn energy_residual(
+    constrained: &Constrained,
+    equation: &Equation,
+    start: Start,
+    arrived: &Arrived,
+    speed: f64,
+) -> (f64, f64) {
+    let last = &arrived.last;
+    let angle = last.angle(last.end.theta);
+    let turns = constrained.curve().crank_angle(start.angle).turns;
+    let potential = |q: Angle| constrained.potential_energy(equation, q, turns);
+    let kinetic = [
+        constrained.kinetic_energy(start.angle, start.speed),
+        constrained.kinetic_energy(angle, last.end.omega),
+    ];
+    let rise = potential(angle) - potential(start.angle);
+    let gained = (kinetic[1] - kinetic[0]) + rise;
+    let peak = equation.kinetic_energy(constrained.curve().crank_angle(angle).rest, speed);
+    let peak = if peak.is_finite() { peak } else { 0.0 };
+    let scale = [kinetic[0], kinetic[1], rise, arrived.work, peak]
+        .into_iter()
+        .fold(0.0, |largest: f64, energy| largest.max(energy.abs()));
+    (gained - arrived.work, scale)
+}
