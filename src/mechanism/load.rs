@@ -143,29 +143,35 @@ impl Loads {
         omega: f64,
         pose: &Pose,
     ) -> LoadValue {
-        let v = pose.dx * omega;
+        self.unsteady(&Instant {
+            t,
+            theta: theta.into().radians(),
+            omega,
+            x: pose.x,
+            v: pose.dx * omega,
+        })
+    }
+
+    /// Torque and force of all loads together, for a slider whose motion is not that of the ideal joints.
+    pub fn at(&self, now: &Instant) -> LoadValue {
+        let rest = self.unsteady(now);
+        LoadValue {
+            torque: self.torque + rest.torque,
+            force: self.force - self.stiffness * now.x + rest.force,
+        }
+    }
+
+    fn unsteady(&self, now: &Instant) -> LoadValue {
+        let sum = |loads: &[Load], on_slider: bool| -> f64 {
+            loads.iter().map(|load| single(load, on_slider, now)).sum()
+        };
         let mut value = LoadValue {
-            torque: -self.rotary_damping * omega,
-            force: -self.linear_damping * v,
+            torque: -self.rotary_damping * now.omega,
+            force: -self.linear_damping * now.v,
         };
         if !(self.torques.is_empty() && self.forces.is_empty()) {
-            let now = Instant {
-                t,
-                theta: theta.into().radians(),
-                omega,
-                x: pose.x,
-                v,
-            };
-            value.torque += self
-                .torques
-                .iter()
-                .map(|load| single(load, false, &now))
-                .sum::<f64>();
-            value.force += self
-                .forces
-                .iter()
-                .map(|load| single(load, true, &now))
-                .sum::<f64>();
+            value.torque += sum(&self.torques, false);
+            value.force += sum(&self.forces, true);
         }
         value
     }

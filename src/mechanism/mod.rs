@@ -2,6 +2,7 @@
 //! Knows no integrator.
 
 mod body;
+mod clearance;
 mod extremes;
 mod lagrange;
 mod limits;
@@ -10,6 +11,9 @@ mod load;
 mod reactions;
 
 pub use body::{Bodies, Body, Path};
+pub use clearance::{
+    Depth, LooseMechanism, LooseRates, LooseState, NormalForce, Touch, Turned,
+};
 pub use extremes::{Extreme, Extremes};
 pub use lagrange::{Equation, Inertia, Obstacle, Terms};
 pub use limits::{Class, DeadCentre, Limits};

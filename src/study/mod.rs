@@ -2,6 +2,7 @@
 
 mod by_angle;
 mod by_energy;
+pub mod clearance;
 mod closed_form;
 mod drive;
 mod explain;

@@ -1,0 +1,409 @@
+//! The mechanism with one loose joint: crank angle θ, direction ψ of the rod and slider position x are free of
+//! each other, and a force acts between the pin (journal) and the end of the rod (bearing).
+//!
+//! The rod stays pinned at its other end. With the clearance at the crank pin that is the slider, with the
+//! clearance at the wrist pin it is the crank. Equations by Newton and Euler, about the pinned end.
+
+mod energy;
+mod law;
+mod start;
+mod turn;
+
+pub use law::NormalForce;
+pub use turn::Turned;
+
+use super::Loads;
+use crate::numeric::angle::Angle;
+use crate::scene::{Clearance, Instant, Joint};
+
+/// Position and velocity.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LooseState {
+    /// s
+    pub t: f64,
+    /// Crank angle θ, rad.
+    pub theta: f64,
+    /// Direction ψ of the rod from the crank's end to the slider's, rad from +x; −φ on the right branch and
+    /// π + φ on the left one.
+    pub psi: f64,
+    /// Slider position, m.
+    pub x: f64,
+    /// rad/s
+    pub omega: f64,
+    /// ψ̇, rad/s
+    pub spin: f64,
+    /// m/s
+    pub v: f64,
+}
+
+/// What follows from a state and the forces in it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LooseRates {
+    /// rad/s²
+    pub alpha: f64,
+    /// ψ̈, rad/s²
+    pub spin_rate: f64,
+    /// m/s²
+    pub a: f64,
+    /// Power of the loads and of the torque that drives a crank of prescribed speed, W.
+    pub power: f64,
+    /// Power lost in the contact, W.
+    pub lost: f64,
+    /// Normal force, N: what the bearing's wall pushes the journal with.
+    pub normal: f64,
+    /// Torque on the crank beside those of the scene, N m, that keeps a prescribed speed.
+    pub driving_torque: f64,
+}
+
+/// Depth of the contact with its derivatives.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Depth {
+    /// Penetration δ, m, negative while apart.
+    pub value: f64,
+    /// δ̇, m/s
+    pub rate: f64,
+    /// δ̈, m/s²
+    pub acceleration: f64,
+}
+
+/// How journal and bearing act on each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Touch {
+    /// Not at all.
+    Apart,
+    /// By the contact law, for a contact that began with this speed, m/s. The penetration, m, may be known
+    /// better than from the position.
+    Pressed {
+        /// m/s
+        approach: f64,
+        /// m
+        depth: Option<f64>,
+    },
+    /// As the two ends of a massless link.
+    Linked,
+}
+
+/// A mechanism with a loose joint: constant, shared by all who evaluate it.
+#[derive(Clone, Debug)]
+pub struct LooseMechanism {
+    joint: Joint,
+    /// +1 where the crank carries the journal, −1 where the slider does.
+    side: f64,
+    r: f64,
+    l: f64,
+    e: f64,
+    driven: bool,
+    crank_inertia: f64,
+    /// Moment of gravity on the crank: cosine·cos θ − sine·sin θ.
+    crank_weight: [f64; 2],
+    rod_mass: f64,
+    /// Centre of gravity from the pinned end, along the rod and to its left.
+    rod_centre: [f64; 2],
+    /// About the pinned end.
+    rod_inertia: f64,
+    slider_mass: f64,
+    gravity: [f64; 2],
+    loads: Option<Loads>,
+    turns: f64,
+    clearance: Clearance,
+    bearing: f64,
+    force: NormalForce,
+    friction: f64,
+}
+
+/// A state with what is often needed of it.
+struct Frame {
+    crank_pin: [f64; 2],
+    axis: [f64; 2],
+    centre: [f64; 2],
+    /// From the bearing's centre to the journal's, and its rate.
+    offset: [f64; 2],
+    rate: [f64; 2],
+}
+
+/// Force on the rod at its loose end, and couples on rod and journal.
+#[derive(Clone, Copy, Default)]
+struct Action {
+    force: [f64; 2],
+    on_rod: f64,
+    on_journal: f64,
+}
+
+impl LooseMechanism {
+    fn frame(&self, s: &LooseState) -> Frame {
+        self.frame_from(s, s.theta.sin_cos(), s.psi.sin_cos())
+    }
+
+    #[inline]
+    fn frame_from(&self, s: &LooseState, crank: (f64, f64), rod: (f64, f64)) -> Frame {
+        let ((sin, cos), (dy, dx)) = (crank, rod);
+        let a = [self.r * cos, self.r * sin];
+        let [along, left] = self.rod_centre;
+        let side = self.side;
+        Frame {
+            crank_pin: a,
+            axis: [dx, dy],
+            centre: [along * dx - left * dy, along * dy + left * dx],
+            offset: [
+                side * (a[0] - s.x + self.l * dx),
+                side * (a[1] + self.e + self.l * dy),
+            ],
+            rate: [
+                side * (-s.omega * a[1] - s.v - self.l * s.spin * dy),
+                side * (s.omega * a[0] + self.l * s.spin * dx),
+            ],
+        }
+    }
+
+    /// Centre of the journal from the centre of the bearing, m.
+    pub fn journal(&self, s: &LooseState) -> [f64; 2] {
+        self.frame(s).offset
+    }
+
+    /// Penetration δ, m, negative while apart, and its rate, m/s.
+    pub fn depth(&self, s: &LooseState) -> (f64, f64) {
+        self.depth_in(&self.frame(s))
+    }
+
+    fn depth_in(&self, f: &Frame) -> (f64, f64) {
+        let distance = dot(f.offset, f.offset).sqrt();
+        let c = self.clearance.radial;
+        (distance - c, dot(f.offset, f.rate) / distance)
+    }
+
+    /// (c² − ε²)/2c, m, and its rate, m/s: the gap where it is small, and smooth everywhere.
+    pub fn gap(&self, s: &LooseState) -> (f64, f64) {
+        let f = self.frame(s);
+        let c = self.clearance.radial;
+        let distance = dot(f.offset, f.offset).sqrt();
+        (
+            (c - distance) * (c + distance) / (2.0 * c),
+            -dot(f.offset, f.rate) / c,
+        )
+    }
+
+    /// δ̈, m/s², that goes with accelerations.
+    fn depth_acceleration(&self, f: &Frame, s: &LooseState, rates: &LooseRates) -> f64 {
+        let distance = dot(f.offset, f.offset).sqrt();
+        let closing = dot(f.offset, f.rate) / distance;
+        let second = self.second(f, s, rates);
+        (dot(f.offset, second) + dot(f.rate, f.rate) - closing * closing) / distance
+    }
+
+    /// Second derivative of the offset.
+    fn second(&self, f: &Frame, s: &LooseState, rates: &LooseRates) -> [f64; 2] {
+        let (a, axis, l) = (f.crank_pin, f.axis, self.l);
+        let (turn, spin) = (s.omega * s.omega, s.spin * s.spin);
+        [
+            self.side
+                * (-rates.alpha * a[1]
+                    - turn * a[0]
+                    - rates.a
+                    - l * (rates.spin_rate * axis[1] + spin * axis[0])),
+            self.side
+                * (rates.alpha * a[0] - turn * a[1]
+                    + l * (rates.spin_rate * axis[0] - spin * axis[1])),
+        ]
+    }
+
+    /// Factor of the elastic force at a rate of the depth (m/s); a contact presses while it is positive.
+    pub fn pressing(&self, rate: f64, approach: f64) -> f64 {
+        self.force.factor(rate, approach)
+    }
+
+    /// Speed by which the contact law divides, m/s, for a contact that begins with this speed.
+    pub fn approach(&self, speed: f64) -> f64 {
+        speed.max(self.clearance.least_approach_speed)
+    }
+
+    /// The law of the contact.
+    pub fn force(&self) -> &NormalForce {
+        &self.force
+    }
+
+    /// The clearance of the scene.
+    pub fn clearance(&self) -> &Clearance {
+        &self.clearance
+    }
+
+    /// Accelerations, powers and forces.
+    pub fn rates(&self, s: &LooseState, touch: Touch) -> LooseRates {
+        self.rates_in(s, &self.frame(s), touch)
+    }
+
+    /// As [`Self::rates`], from the directions of crank and rod at a state nearby; and the depth.
+    #[inline]
+    pub fn rates_near(&self, near: &Turned, s: &LooseState, touch: Touch) -> (LooseRates, Depth) {
+        let f = self.frame_from(s, near.crank(s.theta), near.rod(s.psi));
+        let rates = self.rates_in(s, &f, touch);
+        let (value, rate) = self.depth_in(&f);
+        let depth = Depth {
+            value,
+            rate,
+            acceleration: self.depth_acceleration(&f, s, &rates),
+        };
+        (rates, depth)
+    }
+
+    #[inline]
+    fn rates_in(&self, s: &LooseState, f: &Frame, touch: Touch) -> LooseRates {
+        match touch {
+            Touch::Apart => self.accelerations(s, f, Action::default()),
+            Touch::Pressed { approach, depth } => {
+                let (action, normal, lost) = self.contact(s, f, approach, depth);
+                let mut rates = self.accelerations(s, f, action);
+                (rates.normal, rates.lost) = (normal, lost);
+                rates
+            }
+            Touch::Linked => self.linked(s, f),
+        }
+    }
+
+    #[inline]
+    fn contact(
+        &self,
+        s: &LooseState,
+        f: &Frame,
+        approach: f64,
+        depth: Option<f64>,
+    ) -> (Action, f64, f64) {
+        let distance = dot(f.offset, f.offset).sqrt();
+        let depth = depth.unwrap_or(distance - self.clearance.radial);
+        if depth <= 0.0 {
+            return (Action::default(), 0.0, 0.0);
+        }
+        let n = [f.offset[0] / distance, f.offset[1] / distance];
+        let closing = dot(n, f.rate);
+        let elastic = self.force.elastic(depth);
+        let normal = elastic * self.force.factor(closing, approach).max(0.0);
+        let mut action = Action {
+            force: [normal * n[0], normal * n[1]],
+            ..Action::default()
+        };
+        let mut lost = (normal - elastic) * closing;
+        if self.friction != 0.0 {
+            // Both surfaces at the one point where they touch, so that action equals reaction.
+            let arm = self.bearing - distance;
+            let turning = match self.joint {
+                Joint::CrankPin => s.omega,
+                Joint::WristPin => 0.0,
+            };
+            let sliding = n[0] * f.rate[1] - n[1] * f.rate[0] + arm * turning - self.bearing * s.spin;
+            let share = (sliding / self.clearance.friction_threshold).clamp(-1.0, 1.0);
+            let drag = self.friction * normal * share;
+            action.force[0] -= drag * n[1];
+            action.force[1] += drag * n[0];
+            action.on_rod = self.bearing * drag;
+            action.on_journal = -arm * drag;
+            lost += drag * sliding;
+        }
+        (action, normal, lost)
+    }
+
+    /// The link's force N keeps ε·ε̈ + ε̇² at zero; it is linear in the accelerations.
+    fn linked(&self, s: &LooseState, f: &Frame) -> LooseRates {
+        let distance = dot(f.offset, f.offset).sqrt();
+        let n = [f.offset[0] / distance, f.offset[1] / distance];
+        let at = |normal: f64| {
+            let action = Action {
+                force: [normal * n[0], normal * n[1]],
+                ..Action::default()
+            };
+            let rates = self.accelerations(s, f, action);
+            let bend = dot(f.offset, self.second(f, s, &rates)) + dot(f.rate, f.rate);
+            (rates, bend)
+        };
+        let unit = self.clearance_unit();
+        let (free, pressed) = (at(0.0).1, at(unit).1);
+        let normal = unit * free / (free - pressed);
+        let (mut rates, _) = at(normal);
+        rates.normal = normal;
+        rates
+    }
+
+    /// A force of the size of those that occur, N.
+    fn clearance_unit(&self) -> f64 {
+        self.slider_mass + self.rod_mass
+    }
+
+    #[inline]
+    fn accelerations(&self, s: &LooseState, f: &Frame, action: Action) -> LooseRates {
+        let load = match &self.loads {
+            Some(loads) => loads.at(&Instant {
+                t: s.t,
+                theta: Angle {
+                    turns: self.turns,
+                    rest: s.theta,
+                }
+                .radians(),
+                omega: s.omega,
+                x: s.x,
+                v: s.v,
+            }),
+            None => super::LoadValue::default(),
+        };
+        let fx = action.force[0];
+        let [gx, gy] = self.gravity;
+        let (m, k, a) = (self.rod_mass, f.centre, f.crank_pin);
+        let (turn, spin) = (s.omega * s.omega, s.spin * s.spin);
+        let (l, axis) = (self.l, f.axis);
+        // Moment on the crank of gravity, and of what acts through its pin without the rod's inertia.
+        let weight = (self.crank_weight[0] * a[0] - self.crank_weight[1] * a[1]) / self.r;
+        let mut rates = LooseRates::default();
+        let on_crank;
+        match self.joint {
+            Joint::CrankPin => {
+                on_crank = weight - cross(a, action.force) + action.on_journal;
+                if !self.driven {
+                    rates.alpha = (load.torque + on_crank) / self.crank_inertia;
+                }
+                // Rows: slider and rod along x; moments about the wrist pin.
+                let mass = m + self.slider_mass;
+                let (along, moment) = (
+                    load.force + mass * gx + fx + m * spin * k[0],
+                    m * cross(k, self.gravity) - l * cross(axis, action.force) + action.on_rod,
+                );
+                let coupling = -m * k[1];
+                let determinant = mass * self.rod_inertia - coupling * coupling;
+                rates.a = (self.rod_inertia * along - coupling * moment) / determinant;
+                rates.spin_rate = (mass * moment - coupling * along) / determinant;
+            }
+            Joint::WristPin => {
+                rates.a = (load.force - fx) / self.slider_mass + gx;
+                // Rows: moments about O with the rod's mass carried along; moments about the crank pin.
+                let together = m * dot(a, k);
+                let apart = m * cross(a, k);
+                let moment = m * cross(k, self.gravity) + l * cross(axis, action.force)
+                    + action.on_rod
+                    - turn * apart;
+                let pushed = weight + m * (a[0] * gy - a[1] * gx) + cross(a, action.force);
+                if self.driven {
+                    rates.spin_rate = moment / self.rod_inertia;
+                } else {
+                    let crank = self.crank_inertia + m * self.r * self.r;
+                    let torque = load.torque + pushed + spin * apart;
+                    let determinant = crank * self.rod_inertia - together * together;
+                    rates.alpha = (self.rod_inertia * torque - together * moment) / determinant;
+                    rates.spin_rate = (crank * moment - together * torque) / determinant;
+                }
+                on_crank = pushed + spin * apart - together * rates.spin_rate;
+            }
+        }
+        rates.power = load.force * s.v;
+        if self.driven {
+            rates.driving_torque = -on_crank - load.torque;
+            rates.power -= on_crank * s.omega;
+        } else {
+            rates.power += load.torque * s.omega;
+        }
+        rates
+    }
+}
+
+fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
