@@ -62,7 +62,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     /// The motion inside a step, and rates and depth at its end.
     pub(super) fn inside(&mut self, stages: &mut Stages<N>) -> (Dense<N>, Sample<N>) {
         let (model, phase) = (self.model, self.phase);
-        let near = model.near(&self.y);
+        let near = self.near;
         let then = self.sample(None, &{ *stages.end() });
         stages.set_last_rate(then.rates);
         self.evaluations += 3;
@@ -88,7 +88,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             if dt == 0.0 || !dt.is_finite() || dt.abs() > 1e-3 * h {
                 break;
             }
-            let near = model.near(&end);
+            let near = self.near;
             end = nudged(&end, dt, |y| model.sample(&near, phase, None, y).rates);
             self.evaluations += 2;
         }

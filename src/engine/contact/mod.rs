@@ -51,7 +51,7 @@ pub struct Sample<const N: usize> {
 /// A motion of N numbers, the first of them the time, s.
 pub trait Contact<const N: usize> {
     /// What makes evaluations near a state cheaper.
-    type Near;
+    type Near: Copy;
 
     /// Prepares evaluations near a state.
     fn near(&self, y: &[f64; N]) -> Self::Near;

@@ -38,6 +38,8 @@ pub(super) struct Runner<'a, M: Contact<N>, const N: usize> {
     pub follower: Follower<'a, N>,
     pub y: [f64; N],
     pub phase: Phase,
+    /// Prepared at `y`.
+    pub near: M::Near,
     /// Rates and depth at `y` in `phase`.
     pub now: Sample<N>,
     /// Next step, s.
@@ -70,6 +72,7 @@ pub fn run<M: Contact<N>, const N: usize>(
         follower,
         y: start,
         phase: if linked { Phase::Link } else { Phase::Flight },
+        near: model.near(&start),
         now: model.sample(&model.near(&start), Phase::Flight, None, &start),
         h: 0.0,
         flight_h: 0.0,
@@ -147,7 +150,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     /// Rates and depth at a state in the present phase.
     pub fn sample(&mut self, depth: Option<f64>, y: &[f64; N]) -> Sample<N> {
         self.evaluations += 1;
-        self.model.sample(&self.model.near(y), self.phase, depth, y)
+        self.model.sample(&self.near, self.phase, depth, y)
     }
 
     pub fn scale(&self) -> [f64; N] {
@@ -165,8 +168,8 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     #[inline]
     pub fn try_step(&mut self, h: f64) -> Stages<N> {
         let (model, phase) = (self.model, self.phase);
-        let near = model.near(&self.y);
-        let mut rates = |_: f64, y: &[f64; N]| model.sample(&near, phase, None, y).rates;
+        let near = &self.near;
+        let mut rates = |_: f64, y: &[f64; N]| model.sample(near, phase, None, y).rates;
         self.evaluations += 11;
         Stages::new(&mut rates, &self.y, &self.now.rates, h)
     }
@@ -225,8 +228,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
 
     /// Takes a step in time as accepted, with its end and the rates there.
     pub fn accept_to(&mut self, stages: &Stages<N>, end: [f64; N], then: Sample<N>) -> Halt {
-        let (model, phase) = (self.model, self.phase);
-        let near = model.near(&self.y);
+        let (model, phase, near) = (self.model, self.phase, self.near);
         let mut rates = |_: f64, y: &[f64; N]| model.sample(&near, phase, None, y).rates;
         self.follow(stages, &mut rates, end, then)
     }
@@ -252,6 +254,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         };
         let stop = (self.follower)(&mut stretch);
         (self.y, self.now) = (end, then);
+        self.near = self.model.near(&self.y);
         if stop { Err(Finish::Stopped) } else { Ok(()) }
     }
 
@@ -266,5 +269,5 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
 
 /// By how much the step may change.
 pub(super) fn growth(error: f64) -> f64 {
-    (0.9 * error.powf(-0.125)).clamp(0.2, 6.0)
+    (0.9 / error.sqrt().sqrt().sqrt()).clamp(0.2, 6.0)
 }

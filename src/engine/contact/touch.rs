@@ -98,17 +98,18 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         let scale = self.scale();
         while s != to {
             self.check_work()?;
-            let near = model.near(&self.y);
+            let near = self.near;
             let along = |s: f64, y: &[f64; N]| {
                 let sample = model.sample(&near, phase, Some(s * s), y);
                 let slope = 2.0 * s / sample.depth_rate;
                 sample.rates.map(|each| each * slope)
             };
-            let first = along(s, &self.y);
+            let slope = 2.0 * s / self.now.depth_rate;
+            let first = self.now.rates.map(|each| each * slope);
             let (s0, length) = (s, ds);
             let mut rates = |c: f64, y: &[f64; N]| along(s0 + c * length, y);
             let mut stages = Stages::new(&mut rates, &self.y, &first, length);
-            self.evaluations += 12;
+            self.evaluations += 11;
             let error = self.error(&stages, &scale);
             let end = *stages.end();
             let next = if ds == to - s { to } else { s + ds };
@@ -126,7 +127,8 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
                 return Ok(false);
             }
             s = next;
-            stages.set_last_rate(along(s, &end));
+            let slope = 2.0 * s / then.depth_rate;
+            stages.set_last_rate(then.rates.map(|each| each * slope));
             self.follow(&stages, &mut rates, end, then)?;
             ds *= growth(error);
             if (to - s).abs() <= ds.abs() {
@@ -142,9 +144,10 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         let (depth, rate) = depth(model, Phase::Flight, &self.y);
         let dt = -depth / rate;
         if dt.is_finite() && dt.abs() < 1e-3 * self.flight_h {
-            let near = model.near(&self.y);
+            let near = self.near;
             let rates = |y: &[f64; N]| model.sample(&near, Phase::Flight, None, y).rates;
             self.y = nudged(&self.y, dt, rates);
+            self.near = model.near(&self.y);
             self.evaluations += 2;
         }
         self.enter(Phase::Flight);

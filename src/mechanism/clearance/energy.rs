@@ -38,7 +38,7 @@ impl LooseMechanism {
         let centre = [pinned[0] + f.centre[0], pinned[1] + f.centre[1]];
         let crank = self.crank_weight[0] * f.crank_pin[1] + self.crank_weight[1] * f.crank_pin[0];
         let slider = self.slider_mass * dot(self.gravity, [s.x, -self.e]);
-        -crank / self.r - self.rod_mass * dot(self.gravity, centre) - slider
+        -crank - self.rod_mass * dot(self.gravity, centre) - slider
     }
 
     /// Energy stored in the contact, J.

@@ -94,14 +94,16 @@ pub struct LooseMechanism {
     e: f64,
     driven: bool,
     crank_inertia: f64,
-    /// Moment of gravity on the crank: cosine·cos θ − sine·sin θ.
+    /// Moment of gravity on the crank over the components of its pin.
     crank_weight: [f64; 2],
     rod_mass: f64,
     /// Centre of gravity from the pinned end, along the rod and to its left.
     rod_centre: [f64; 2],
     /// About the pinned end.
     rod_inertia: f64,
+    per_rod_inertia: f64,
     slider_mass: f64,
+    per_slider_mass: f64,
     gravity: [f64; 2],
     loads: Option<Loads>,
     turns: f64,
@@ -134,7 +136,7 @@ impl LooseMechanism {
         self.frame_from(s, s.theta.sin_cos(), s.psi.sin_cos())
     }
 
-    #[inline]
+    #[inline(always)]
     fn frame_from(&self, s: &LooseState, crank: (f64, f64), rod: (f64, f64)) -> Frame {
         let ((sin, cos), (dy, dx)) = (crank, rod);
         let a = [self.r * cos, self.r * sin];
@@ -165,10 +167,11 @@ impl LooseMechanism {
         self.depth_in(&self.frame(s))
     }
 
+    #[inline(always)]
     fn depth_in(&self, f: &Frame) -> (f64, f64) {
         let distance = dot(f.offset, f.offset).sqrt();
         let c = self.clearance.radial;
-        (distance - c, dot(f.offset, f.rate) / distance)
+        (distance - c, dot(f.offset, f.rate) * (1.0 / distance))
     }
 
     /// (c² − ε²)/2c, m, and its rate, m/s: the gap where it is small, and smooth everywhere.
@@ -183,6 +186,7 @@ impl LooseMechanism {
     }
 
     /// δ̈, m/s², that goes with accelerations.
+    #[inline(always)]
     fn depth_acceleration(&self, f: &Frame, s: &LooseState, rates: &LooseRates) -> f64 {
         let distance = dot(f.offset, f.offset).sqrt();
         let closing = dot(f.offset, f.rate) / distance;
@@ -191,6 +195,7 @@ impl LooseMechanism {
     }
 
     /// Second derivative of the offset.
+    #[inline(always)]
     fn second(&self, f: &Frame, s: &LooseState, rates: &LooseRates) -> [f64; 2] {
         let (a, axis, l) = (f.crank_pin, f.axis, self.l);
         let (turn, spin) = (s.omega * s.omega, s.spin * s.spin);
@@ -232,7 +237,7 @@ impl LooseMechanism {
     }
 
     /// As [`Self::rates`], from the directions of crank and rod at a state nearby; and the depth.
-    #[inline]
+    #[inline(always)]
     pub fn rates_near(&self, near: &Turned, s: &LooseState, touch: Touch) -> (LooseRates, Depth) {
         let f = self.frame_from(s, near.crank(s.theta), near.rod(s.psi));
         let rates = self.rates_in(s, &f, touch);
@@ -245,7 +250,7 @@ impl LooseMechanism {
         (rates, depth)
     }
 
-    #[inline]
+    #[inline(always)]
     fn rates_in(&self, s: &LooseState, f: &Frame, touch: Touch) -> LooseRates {
         match touch {
             Touch::Apart => self.accelerations(s, f, Action::default()),
@@ -259,7 +264,7 @@ impl LooseMechanism {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn contact(
         &self,
         s: &LooseState,
@@ -272,8 +277,9 @@ impl LooseMechanism {
         if depth <= 0.0 {
             return (Action::default(), 0.0, 0.0);
         }
-        let n = [f.offset[0] / distance, f.offset[1] / distance];
-        let closing = dot(n, f.rate);
+        let per_distance = 1.0 / distance;
+        let n = [f.offset[0] * per_distance, f.offset[1] * per_distance];
+        let closing = dot(f.offset, f.rate) * per_distance;
         let elastic = self.force.elastic(depth);
         let normal = elastic * self.force.factor(closing, approach).max(0.0);
         let mut action = Action {
@@ -301,6 +307,7 @@ impl LooseMechanism {
     }
 
     /// The link's force N keeps ε·ε̈ + ε̇² at zero; it is linear in the accelerations.
+    #[inline(never)]
     fn linked(&self, s: &LooseState, f: &Frame) -> LooseRates {
         let distance = dot(f.offset, f.offset).sqrt();
         let n = [f.offset[0] / distance, f.offset[1] / distance];
@@ -326,7 +333,7 @@ impl LooseMechanism {
         self.slider_mass + self.rod_mass
     }
 
-    #[inline]
+    #[inline(always)]
     fn accelerations(&self, s: &LooseState, f: &Frame, action: Action) -> LooseRates {
         let load = match &self.loads {
             Some(loads) => loads.at(&Instant {
@@ -348,7 +355,7 @@ impl LooseMechanism {
         let (turn, spin) = (s.omega * s.omega, s.spin * s.spin);
         let (l, axis) = (self.l, f.axis);
         // Moment on the crank of gravity, and of what acts through its pin without the rod's inertia.
-        let weight = (self.crank_weight[0] * a[0] - self.crank_weight[1] * a[1]) / self.r;
+        let weight = self.crank_weight[0] * a[0] - self.crank_weight[1] * a[1];
         let mut rates = LooseRates::default();
         let on_crank;
         match self.joint {
@@ -369,7 +376,7 @@ impl LooseMechanism {
                 rates.spin_rate = (mass * moment - coupling * along) / determinant;
             }
             Joint::WristPin => {
-                rates.a = (load.force - fx) / self.slider_mass + gx;
+                rates.a = (load.force - fx) * self.per_slider_mass + gx;
                 // Rows: moments about O with the rod's mass carried along; moments about the crank pin.
                 let together = m * dot(a, k);
                 let apart = m * cross(a, k);
@@ -378,7 +385,7 @@ impl LooseMechanism {
                     - turn * apart;
                 let pushed = weight + m * (a[0] * gy - a[1] * gx) + cross(a, action.force);
                 if self.driven {
-                    rates.spin_rate = moment / self.rod_inertia;
+                    rates.spin_rate = moment * self.per_rod_inertia;
                 } else {
                     let crank = self.crank_inertia + m * self.r * self.r;
                     let torque = load.torque + pushed + spin * apart;
@@ -400,10 +407,12 @@ impl LooseMechanism {
     }
 }
 
+#[inline(always)]
 fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
+#[inline(always)]
 fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }

@@ -18,7 +18,8 @@ impl LooseMechanism {
         let rod = RodInertia::new(scene, clearance.joint)?;
         let slider_mass = scene.slider.map_or(0.0, |slider| slider.mass);
         let [gx, gy] = gravity;
-        let (along, left) = (crank.mass * crank.cg, crank.mass * crank.cg_lateral);
+        let per_r = crank.mass / scene.geometry.crank;
+        let (along, left) = (per_r * crank.cg, per_r * crank.cg_lateral);
         let mechanism = LooseMechanism {
             joint: clearance.joint,
             side: match clearance.joint {
@@ -34,7 +35,9 @@ impl LooseMechanism {
             rod_mass: rod.mass,
             rod_centre: rod.centre,
             rod_inertia: rod.about_pinned_end,
+            per_rod_inertia: 1.0 / rod.about_pinned_end,
             slider_mass,
+            per_slider_mass: 1.0 / slider_mass,
             gravity,
             loads: (!scene.torques.is_empty() || !scene.forces.is_empty())
                 .then(|| Loads::new(scene)),

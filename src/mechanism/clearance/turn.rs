@@ -9,7 +9,7 @@ pub struct Turned {
 }
 
 /// Beyond this angle, rad, the series is not exact to rounding.
-const NEAR: f64 = 0.0625;
+const NEAR: f64 = 0.02;
 
 impl Turned {
     /// At a crank angle and a direction of the rod, rad.
@@ -25,27 +25,27 @@ impl Turned {
     }
 
     /// Sine and cosine of a crank angle, rad.
-    #[inline]
+    #[inline(always)]
     pub fn crank(&self, theta: f64) -> (f64, f64) {
         turned(&self.crank, theta)
     }
 
     /// Sine and cosine of a direction of the rod, rad.
-    #[inline]
+    #[inline(always)]
     pub fn rod(&self, psi: f64) -> (f64, f64) {
         turned(&self.rod, psi)
     }
 }
 
-#[inline]
+#[inline(always)]
 fn turned([from, sin, cos]: &[f64; 3], angle: f64) -> (f64, f64) {
     let turn = angle - from;
     if turn.abs() > NEAR {
         return angle.sin_cos();
     }
     let q = turn * turn;
-    let odd = turn * (1.0 - q * (1.0 / 6.0 - q * (1.0 / 120.0 - q * (1.0 / 5040.0 - q / 362_880.0))));
-    let even = -q * (0.5 - q * (1.0 / 24.0 - q * (1.0 / 720.0 - q * (1.0 / 40_320.0 - q / 3_628_800.0))));
+    let odd = turn - turn * q * (1.0 / 6.0 - q * (1.0 / 120.0 - q * (1.0 / 5040.0)));
+    let even = -q * (0.5 - q * (1.0 / 24.0 - q * (1.0 / 720.0)));
     (
         sin + (sin * even + cos * odd),
         cos + (cos * even - sin * odd),

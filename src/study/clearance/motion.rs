@@ -3,50 +3,80 @@
 use crate::engine::contact::{Contact, Phase, Sample};
 use crate::mechanism::{LooseMechanism, LooseState, Touch, Turned};
 
-/// Numbers of a state: t, θ, ψ, x, their rates, the work of loads and drive, and the energy lost in the contact.
-pub(super) const SIZE: usize = 9;
-/// Work of the loads and of the drive, J.
-pub(super) const WORK: usize = 7;
-/// Energy lost in the contact, J.
-pub(super) const LOST: usize = 8;
+/// Numbers of a state whose crank moves by itself: t, θ, ψ, x and their rates, the work of the loads and the
+/// energy lost in the contact.
+pub(super) const FREE: usize = 9;
+/// Numbers of a state whose crank has a prescribed speed: the same without θ and its rate; the work is that of
+/// the drive too.
+pub(super) const DRIVEN: usize = 7;
 
-/// A state, and its rates.
-pub(super) type State = [f64; SIZE];
-
-/// The mechanism with sizes for the error.
-pub(super) struct Loose<'a> {
+/// The mechanism with sizes for the error, and N numbers.
+pub(super) struct Loose<'a, const N: usize> {
     pub mechanism: &'a LooseMechanism,
-    /// m
+    /// Crank angle (rad) and speed (rad/s) at the start.
+    pub start: (f64, f64),
+    /// Size of the positions, m.
     pub length: f64,
-    /// 1/s
-    pub pace: f64,
-    /// Angle sizes, rad.
+    /// Size of the angles, rad.
     pub angle: f64,
+    /// Size of speeds over that of positions, 1/s.
+    pub pace: f64,
     /// Size of the mechanism, m.
     pub reach: f64,
-    /// Whether a load has corners in time.
+    /// The next time at which a load has a corner, s.
     pub corners: &'a dyn Fn(f64) -> f64,
 }
 
-pub(super) fn loose(y: &State) -> LooseState {
-    LooseState {
-        t: y[0],
-        theta: y[1],
-        psi: y[2],
-        x: y[3],
-        omega: y[4],
-        spin: y[5],
-        v: y[6],
+impl<const N: usize> Loose<'_, N> {
+    /// The state in these numbers.
+    #[inline(always)]
+    pub fn state(&self, y: &[f64; N]) -> LooseState {
+        if N == DRIVEN {
+            let (angle, speed) = self.start;
+            LooseState {
+                t: y[0],
+                theta: angle + speed * y[0],
+                psi: y[1],
+                x: y[2],
+                omega: speed,
+                spin: y[3],
+                v: y[4],
+            }
+        } else {
+            LooseState {
+                t: y[0],
+                theta: y[1],
+                psi: y[2],
+                x: y[3],
+                omega: y[4],
+                spin: y[5],
+                v: y[6],
+            }
+        }
+    }
+
+    /// The numbers of a state, with work and loss, J.
+    pub fn numbers(&self, s: &LooseState, [work, lost]: [f64; 2]) -> [f64; N] {
+        let free = [
+            s.t, s.theta, s.psi, s.x, s.omega, s.spin, s.v, work, lost,
+        ];
+        Self::packed(&free)
+    }
+
+    /// Work of loads and drive, and energy lost in the contact, J.
+    pub fn work(&self, y: &[f64; N]) -> [f64; 2] {
+        [y[N - 2], y[N - 1]]
+    }
+
+    #[inline(always)]
+    fn packed(free: &[f64; FREE]) -> [f64; N] {
+        const KEPT: [usize; DRIVEN] = [0, 2, 3, 5, 6, 7, 8];
+        std::array::from_fn(|i| free[if N == DRIVEN { KEPT[i] } else { i }])
     }
 }
 
-pub(super) fn state(s: &LooseState) -> State {
-    [
-        s.t, s.theta, s.psi, s.x, s.omega, s.spin, s.v, 0.0, 0.0,
-    ]
-}
-
 /// How a phase acts on the bodies.
+#[inline(always)]
 pub(super) fn touch(phase: Phase, depth: Option<f64>) -> Touch {
     match phase {
         Phase::Flight | Phase::Release { .. } => Touch::Apart,
@@ -55,35 +85,36 @@ pub(super) fn touch(phase: Phase, depth: Option<f64>) -> Touch {
     }
 }
 
-impl Contact<SIZE> for Loose<'_> {
+impl<const N: usize> Contact<N> for Loose<'_, N> {
     type Near = Turned;
 
-    fn near(&self, y: &State) -> Turned {
-        Turned::new(y[1], y[2])
+    fn near(&self, y: &[f64; N]) -> Turned {
+        let s = self.state(y);
+        Turned::new(s.theta, s.psi)
     }
 
-    #[inline]
+    #[inline(always)]
     fn sample(
         &self,
         near: &Turned,
         phase: Phase,
         depth: Option<f64>,
-        y: &State,
-    ) -> Sample<SIZE> {
-        let s = loose(y);
+        y: &[f64; N],
+    ) -> Sample<N> {
+        let s = self.state(y);
         let (r, d) = self.mechanism.rates_near(near, &s, touch(phase, depth));
         Sample {
-            rates: [
+            rates: Self::packed(&[
                 1.0, s.omega, s.spin, s.v, r.alpha, r.spin_rate, r.a, r.power, r.lost,
-            ],
+            ]),
             depth: d.value,
             depth_rate: d.rate,
             depth_acceleration: d.acceleration,
         }
     }
 
-    fn gap(&self, y: &State) -> (f64, f64) {
-        self.mechanism.gap(&loose(y))
+    fn gap(&self, y: &[f64; N]) -> (f64, f64) {
+        self.mechanism.gap(&self.state(y))
     }
 
     fn pressing(&self, approach: f64, rate: f64) -> f64 {
@@ -98,17 +129,15 @@ impl Contact<SIZE> for Loose<'_> {
         self.mechanism.approach(speed)
     }
 
-    fn relinked(&self, y: &State) -> State {
-        let mut linked = state(&self.mechanism.relinked(&loose(y)));
-        (linked[WORK], linked[LOST]) = (y[WORK], y[LOST]);
-        linked
+    fn relinked(&self, y: &[f64; N]) -> [f64; N] {
+        self.numbers(&self.mechanism.relinked(&self.state(y)), self.work(y))
     }
 
     fn next_corner(&self, t: f64) -> f64 {
         (self.corners)(t)
     }
 
-    fn sizes(&self) -> (State, usize) {
+    fn sizes(&self) -> ([f64; N], usize) {
         let (angle, length, pace) = (self.angle, self.length, self.pace);
         let sizes = [
             1.0 / pace,
@@ -121,6 +150,6 @@ impl Contact<SIZE> for Loose<'_> {
             1.0,
             1.0,
         ];
-        (sizes, WORK)
+        (Self::packed(&sizes), N - 2)
     }
 }
