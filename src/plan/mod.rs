@@ -8,7 +8,7 @@ mod terms;
 use serde::Serialize;
 
 pub use method::Method;
-use refusal::{refuse_what_cannot_move, refuse_what_is_not_modelled};
+use refusal::{refuse_what_cannot_move, refuse_what_is_not_modelled, refuse_what_jams};
 use terms::terms;
 
 use crate::error::Error;
@@ -27,6 +27,8 @@ pub enum Engine {
     Angle,
     /// Integration in time.
     Time,
+    /// Flight and contact in a loose joint, in time.
+    Contact,
 }
 
 impl Engine {
@@ -37,6 +39,7 @@ impl Engine {
             Engine::Energy => "energy",
             Engine::Angle => "angle",
             Engine::Time => "time",
+            Engine::Contact => "contact",
         }
     }
 }
@@ -96,7 +99,9 @@ impl Plan {
         let loads = Loads::new(&reduced);
         let prescribed = scene.motion.kind == MotionKind::ConstantSpeed;
         let (engine, stepper, reason) = engine(prescribed, method, &loads, &reduced)?;
-        if engine != Engine::ClosedForm {
+        if engine == Engine::Contact {
+            refuse_what_jams(&reduced, &linkage)?;
+        } else if engine != Engine::ClosedForm {
             refuse_what_cannot_move(&reduced, &linkage)?;
         }
         let mut state = Vec::new();
@@ -112,8 +117,14 @@ impl Plan {
                 state.push("t");
             }
         }
+        if engine == Engine::Contact {
+            state.extend(contact_state(prescribed));
+        }
         let mut events = vec!["dead-centre"];
-        if engine != Engine::ClosedForm {
+        if engine == Engine::Contact {
+            events.extend(["impact", "separation"]);
+        }
+        if engine != Engine::ClosedForm && !(engine == Engine::Contact && prescribed) {
             events.push("turning-point");
         }
         if engine == Engine::Time && linkage.margin() < 0.0 {
@@ -123,7 +134,11 @@ impl Plan {
             engine,
             reason,
             stepper,
-            coordinate: "crank angle theta".to_owned(),
+            coordinate: match engine {
+                Engine::Contact => "crank angle theta, direction psi of the rod, slider position x",
+                _ => "crank angle theta",
+            }
+            .to_owned(),
             state: state.into_iter().map(str::to_owned).collect(),
             events: events.into_iter().map(str::to_owned).collect(),
             kept,
@@ -152,6 +167,27 @@ fn is_smooth(load: &Load) -> bool {
     }
 }
 
+/// What the contact engine integrates.
+fn contact_state(prescribed: bool) -> Vec<&'static str> {
+    let mut state = vec!["t", "psi", "x", "psi.", "v", "work", "energy lost in the contact"];
+    if !prescribed {
+        state.splice(1..1, ["theta", "omega"]);
+    }
+    state
+}
+
+/// The engine of a scene with clearance.
+fn contact(method: Method) -> Result<(Engine, Option<Stepper>, String), Error> {
+    if method != Method::Auto {
+        return Err(Error::refused(
+            format!("method {method} cannot serve a scene with clearance in a joint"),
+            "use --method auto, or take [clearance] out of the scene",
+        ));
+    }
+    let reason = "a joint has clearance: rod and slider move freely of it but for the contact force; flight and contact are integrated apart";
+    Ok((Engine::Contact, None, reason.to_owned()))
+}
+
 fn engine(
     prescribed: bool,
     method: Method,
@@ -159,6 +195,9 @@ fn engine(
     scene: &Scene,
 ) -> Result<(Engine, Option<Stepper>, String), Error> {
     let reason = |text: &str| text.to_owned();
+    if scene.clearance.is_some() {
+        return contact(method);
+    }
     match (method, prescribed) {
         (Method::Auto | Method::ClosedForm, true) => Ok((
             Engine::ClosedForm,

@@ -2,7 +2,7 @@
 
 mod by_angle;
 mod by_energy;
-pub mod clearance;
+mod clearance;
 mod closed_form;
 mod drive;
 mod explain;
@@ -20,8 +20,9 @@ mod summary;
 mod task;
 mod watch;
 
+pub use clearance::{Beyond, ClearanceSummary, ContactStatistics, Horizon, LooseFinal};
 pub use explain::{Explanation, LoadAt, TermsAt, explain};
 pub use kinematics::{DeadCentre, Kinematics, KinematicsRow, Located, kinematics};
-pub use row::{NoRows, Row, RowSink};
+pub use row::{LooseRow, NoRows, Row, RowSink};
 pub use simulate::{Options, Simulation, simulate, simulate_rows};
 pub use summary::{Cost, ErrorEstimate, Event, Final, Summary, TorqueRange};

@@ -23,6 +23,8 @@ pub struct Ended<const N: usize> {
     pub finish: Finish,
     /// Last state.
     pub last: [f64; N],
+    /// The phase it is in.
+    pub phase: Phase,
     /// Evaluations of the rates.
     pub evaluations: u64,
     /// Accepted steps.
@@ -89,6 +91,7 @@ pub fn run<M: Contact<N>, const N: usize>(
     Ended {
         finish,
         last: runner.y,
+        phase: runner.phase,
         evaluations: runner.evaluations,
         steps: runner.steps,
     }
@@ -246,8 +249,8 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             phase: self.phase,
             start: self.y,
             end,
-            start_rates: self.now.rates,
-            end_rates: then.rates,
+            before: self.now,
+            after: then,
             stages,
             rates,
             dense: None,

@@ -1,6 +1,6 @@
 //! An accepted step as those who follow a run see it.
 
-use super::Phase;
+use super::{Phase, Sample};
 use super::step::{Dense, Stages};
 use crate::numeric::root;
 
@@ -12,10 +12,10 @@ pub struct Stretch<'a, const N: usize> {
     pub start: [f64; N],
     /// State at its end.
     pub end: [f64; N],
-    /// Rates at its beginning.
-    pub start_rates: [f64; N],
-    /// Rates at its end.
-    pub end_rates: [f64; N],
+    /// Rates and depth at its beginning.
+    pub before: Sample<N>,
+    /// Rates and depth at its end.
+    pub after: Sample<N>,
     pub(super) stages: &'a Stages<N>,
     pub(super) rates: &'a mut dyn FnMut(f64, &[f64; N]) -> [f64; N],
     pub(super) dense: Option<Dense<N>>,
