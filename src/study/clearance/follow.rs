@@ -4,12 +4,13 @@ use std::time::{Duration, Instant};
 
 use super::motion::{Loose, touch};
 use super::record::{Record, Tally, quintic};
-use crate::engine::contact::{Contact, Phase, Stretch};
+use crate::engine::contact::{Phase, Stretch};
 use crate::engine::events::{self, Crossing};
 use crate::engine::step::{Node, Step};
 use crate::error::Error;
 use crate::mechanism::LooseState;
 use crate::numeric::angle::Angle;
+use crate::numeric::root;
 use crate::study::row::{LooseRow, Row, RowMaker, RowSink};
 use crate::study::schedule::{Schedule, passed};
 use crate::study::summary::Event;
@@ -263,11 +264,9 @@ impl<const N: usize> Follow<'_, N> {
             }
             let turned = |y: &[f64; N]| (self.model.state(y).theta - self.asked.start) / spacing;
             for k in passed(turned(&stretch.start), turned(&stretch.end)) {
-                let time = {
-                    let mut way = |t: f64| turned(&stretch.at(t)) - k as f64;
-                    crate::numeric::root::bracketed(&mut way, stretch.start[0], stretch.end[0])
-                };
-                let t = time.unwrap_or(stretch.end[0]);
+                let (from, to) = (stretch.start[0], stretch.end[0]);
+                let way = |t: f64| turned(&stretch.at(t)) - k as f64;
+                let t = root::bracketed(way, from, to).unwrap_or(to);
                 if t < until * (1.0 - 1e-12) {
                     let s = self.model.state(&stretch.at(t));
                     self.write_row(&s, stretch.phase)?;

@@ -19,7 +19,7 @@ use super::summary::{Cost, ErrorEstimate, Event, Final, Solved, Summary};
 use super::task::Task;
 use super::watch::radians;
 use super::closed_form;
-use crate::engine::contact::{self, Contact, Ended, Finish, Phase, Settings, Stretch};
+use crate::engine::contact::{self, Ended, Finish, Phase, Settings, Stretch};
 use crate::error::Error;
 use crate::mechanism::{LooseMechanism, LooseState};
 use crate::numeric::angle::Angle;
@@ -51,7 +51,12 @@ pub(super) fn run(
         ));
     }
     let scene = task.scene.reduced();
-    let clearance = scene.clearance.expect("the plan saw a clearance");
+    let Some(clearance) = scene.clearance else {
+        return Err(Error::refused(
+            "the scene has no clearance in a joint",
+            "add [clearance]",
+        ));
+    };
     let mechanism = LooseMechanism::new(&scene, clearance)?;
     let start = mechanism.start(task.scene)?;
     match task.scene.motion.kind {
@@ -266,7 +271,7 @@ impl<'a, const N: usize> Run<'a, N> {
         let [work, lost] = model.work(&ended.last);
         let at_end = model.state(&ended.last);
         let gained = self.mechanism.energy(&at_end) - self.mechanism.energy(&self.start);
-        let horizon = tighter.as_ref().map(|t| self.horizon(&seen, t, last.t));
+        let horizon = tighter.as_ref().map(|t| self.horizon(&seen, t, &last));
         let same = horizon.is_some_and(|h| h.whole_run);
         let against = tighter.as_ref().filter(|_| same).map(|t| &t.last);
         let error = |value: fn(&LooseState) -> f64, size: f64| {
@@ -285,7 +290,7 @@ impl<'a, const N: usize> Run<'a, N> {
         if N == FREE && estimate.is_none() && self.task.options.estimate && stopped.is_none() {
             warnings.push("the crank at the end lies beyond the reproducible horizon: its error is not stated".to_owned());
         }
-        let solved = Solved {
+        Solved {
             last: Final {
                 t_s: last.t,
                 theta_rad: theta,
@@ -308,24 +313,23 @@ impl<'a, const N: usize> Run<'a, N> {
             stopped,
             clearance: Some(summary),
             ..Solved::default()
-        };
-        solved
+        }
     }
 
     /// Until when the journal's path is that of the tighter run, and what both runs say of the time after.
-    fn horizon(&self, seen: &Seen, tighter: &Tighter, end: f64) -> Horizon {
+    fn horizon(&self, seen: &Seen, tighter: &Tighter, end: &LooseState) -> Horizon {
         let distance = SAME_PLACE * self.mechanism.clearance().radial;
         let parted = seen.record.agrees_until(&tighter.record, distance);
-        let t = parted.unwrap_or(end);
+        let t = parted.unwrap_or(end.t);
         let statistics = |record: &Record| {
             let (tally, from) = record.since(t);
-            ContactStatistics::new(&tally, from, end)
+            ContactStatistics::new(&tally, from, end.t)
         };
         Horizon {
             t_s: t,
-            revolutions: match end > 0.0 {
-                // The mean speed will do for a number of turns.
-                true => (self.turned(seen, end) * t / end).abs() / TAU,
+            // The mean speed will do for a number of turns.
+            revolutions: match end.t > 0.0 {
+                true => ((end.theta - self.start.theta) * t / end.t).abs() / TAU,
                 false => 0.0,
             },
             whole_run: parted.is_none(),
@@ -333,13 +337,6 @@ impl<'a, const N: usize> Run<'a, N> {
                 run: statistics(&seen.record),
                 tighter: statistics(&tighter.record),
             }),
-        }
-    }
-
-    fn turned(&self, seen: &Seen, end: f64) -> f64 {
-        match (N, seen.steps.last()) {
-            (FREE, Some(step)) => step.end.theta - self.start.theta,
-            _ => self.start.omega * end,
         }
     }
 
