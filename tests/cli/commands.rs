@@ -58,7 +58,7 @@ fn every_command_serves_a_scene_file() {
     }
 }
 
-/// Friction and clearance in motion are not computed yet, and such a scene is not computed without them.
+/// Friction in motion is not computed yet, and such a scene is not computed without them.
 #[test]
 fn every_scene_in_data_is_simulated_or_refused_with_the_reason() {
     let folder = Folder::new();
@@ -68,7 +68,7 @@ fn every_scene_in_data_is_simulated_or_refused_with_the_reason() {
     let (mut simulated, mut refused) = (0, 0);
     for scene in scenes {
         let text = std::fs::read_to_string(&scene).expect("a scene");
-        let missing: Vec<_> = [("[friction]", "friction"), ("[clearance]", "clearance")]
+        let missing: Vec<_> = [("[friction]", "friction")]
             .into_iter()
             .filter(|(section, _)| text.lines().any(|line| line.starts_with(section)))
             .collect();

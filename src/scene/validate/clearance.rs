@@ -87,8 +87,16 @@ fn fits(list: &mut Check, clearance: &Clearance) {
     }
 }
 
-/// Laws that divide by the restitution.
+/// A massless link has no surfaces that slide; laws that divide by the restitution.
 fn restitution(list: &mut Check, clearance: &Clearance) {
+    let friction = clearance.friction.unwrap_or(0.0);
+    if clearance.law == ContactLaw::MasslessLink && friction > 0.0 {
+        list.add(
+            "clearance.friction",
+            format!("a massless link has no friction, but it is {}", show(friction)),
+            "leave it out, or use another contact_law",
+        );
+    }
     let divides = matches!(clearance.law, ContactLaw::Flores | ContactLaw::Gonthier);
     if divides && clearance.restitution == Some(0.0) {
         list.add(
