@@ -1,6 +1,7 @@
 //! The physics: geometry in closed form, energy terms, loads, the Lagrange equation, joint reactions.
 //! Knows no integrator.
 
+mod batch;
 mod body;
 mod clearance;
 mod extremes;
@@ -8,15 +9,18 @@ mod lagrange;
 mod limits;
 mod linkage;
 mod load;
+mod obstacle;
 mod reactions;
 
+pub use batch::Instants;
 pub use body::{Bodies, Body, Path};
 pub use clearance::{
     Depth, LooseMechanism, LooseRates, LooseState, NormalForce, Touch, Turned,
 };
 pub use extremes::{Extreme, Extremes};
-pub use lagrange::{Equation, Inertia, Obstacle, Terms};
+pub use lagrange::{Equation, Inertia, Terms};
 pub use limits::{Class, DeadCentre, Limits};
 pub use linkage::{Linkage, Pose};
 pub use load::{LoadValue, Loads, single};
+pub use obstacle::Obstacle;
 pub use reactions::{Reactions, Reactor};

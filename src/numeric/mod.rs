@@ -6,3 +6,4 @@ pub mod exact;
 pub mod gauss;
 pub mod interpolate;
 pub mod root;
+pub mod trigonometry;

@@ -1,11 +1,13 @@
-//! Results on paper: CSV rows, text, JSON. Knows neither mechanics nor integrators.
+//! Results on paper: CSV rows, text, figures, JSON. Knows neither mechanics nor integrators.
 
 mod explain;
+mod figure;
 mod output;
 mod rows;
 mod text;
 
 pub use explain::explanation;
+pub use figure::{Axis, Figure, ScaleKind, panels};
 pub use output::Output;
 pub use rows::{KinematicsWriter, Preview, RowWriter};
 pub use text::{kinematics, summary};
