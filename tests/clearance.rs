@@ -174,12 +174,18 @@ fn impacts_and_end_agree_with_another_integration() {
             .collect();
         for (got, want) in found.iter().zip(reference.events) {
             let error = (got / want - 1.0).abs();
-            assert!(want.is_nan() || error < 1e-8, "{number}: {got} instead of {want}");
+            assert!(
+                want.is_nan() || error < 1e-8,
+                "{number}: {got} instead of {want}"
+            );
         }
         assert!(found.len() >= reference.events.len(), "{number}: {found:?}");
         let joint = summary.clearance.expect("a loose joint");
         let close = |got: f64, want: f64, allowed: f64| {
-            assert!((got / want - 1.0).abs() < allowed, "{number}: {got} instead of {want}");
+            assert!(
+                (got / want - 1.0).abs() < allowed,
+                "{number}: {got} instead of {want}"
+            );
         };
         close(joint.last.x_m, reference.last[0], 1e-8);
         close(joint.last.v_m_per_s, reference.last[1], 1e-6);
@@ -220,7 +226,10 @@ fn lagrange(scene: &Scene, clearance: Clearance, s: LooseState) -> Result<(), Te
     };
     let h = 1e-6;
     let along = |sign: f64| {
-        let (dq, dv) = ([s.omega, s.spin, s.v], [rates.alpha, rates.spin_rate, rates.a]);
+        let (dq, dv) = (
+            [s.omega, s.spin, s.v],
+            [rates.alpha, rates.spin_rate, rates.a],
+        );
         moved(&s, dq.map(|d| sign * h * d), dv.map(|d| sign * h * d))
     };
     for i in 0..3 {
@@ -291,7 +300,11 @@ fn energy_is_lost_in_impacts_and_nowhere_else() {
             };
             let summary = run(&scene);
             let lost = summary.clearance.expect("a loose joint").dissipated_j;
-            assert!(summary.energy_residual.abs() < 1e-8, "{:e}", summary.energy_residual);
+            assert!(
+                summary.energy_residual.abs() < 1e-8,
+                "{:e}",
+                summary.energy_residual
+            );
             assert!(lost >= 0.0 && (restitution < 1.0) == (lost > 0.0), "{lost}");
         }
     }
@@ -368,13 +381,19 @@ fn a_smaller_clearance_is_nearer_to_the_ideal_joint() {
             clearance: Some(steel(Joint::CrankPin, radial, 0.01, 0.9)),
             ..free(0.01).constant_speed(0.3, 10.0).duration(0.7)
         };
-        let deepest = run(&scene).clearance.expect("a loose joint").penetration_peak_m;
+        let deepest = run(&scene)
+            .clearance
+            .expect("a loose joint")
+            .penetration_peak_m;
         let reach = |row: &Row| {
             let [x, y] = row.clearance.expect("a loose joint").journal;
             x.hypot(y)
         };
         let farthest = rows(&scene).iter().map(reach).fold(0.0, f64::max);
-        assert!(farthest <= (radial + deepest) * (1.0 + 1e-9), "{farthest:e}");
+        assert!(
+            farthest <= (radial + deepest) * (1.0 + 1e-9),
+            "{farthest:e}"
+        );
         assert!(farthest > 0.99 * radial && off(&scene) < 1.6 * (radial + deepest));
     }
 }
@@ -389,7 +408,11 @@ fn extremes_of_clearance_and_restitution_are_computed() {
             };
             let summary = run(&scene);
             assert_eq!(summary.stopped, None);
-            assert!(summary.energy_residual.abs() < 1e-7, "{:e}", summary.energy_residual);
+            assert!(
+                summary.energy_residual.abs() < 1e-7,
+                "{:e}",
+                summary.energy_residual
+            );
             let joint = summary.clearance.expect("a loose joint");
             assert!(joint.impacts > 0 && joint.force_peak_n.is_finite());
             let told = summary.warnings.iter().any(|w| w.contains("Hertz's law"));
@@ -441,8 +464,14 @@ fn a_mechanism_turned_half_round_moves_the_same() {
     turned.gravity = None;
     (upright.clearance, turned.clearance) = (clearance(0.0), clearance(half));
     for (a, b) in rows(&upright).iter().zip(rows(&turned)) {
-        assert!((a.x + b.x).abs() < 1e-9 && (a.v + b.v).abs() < 1e-5, "{a:?} {b:?}");
-        assert!((a.phi + b.phi).abs() < 1e-8 || (a.phi - b.phi).abs() < 1e-8, "{a:?} {b:?}");
+        assert!(
+            (a.x + b.x).abs() < 1e-9 && (a.v + b.v).abs() < 1e-5,
+            "{a:?} {b:?}"
+        );
+        assert!(
+            (a.phi + b.phi).abs() < 1e-8 || (a.phi - b.phi).abs() < 1e-8,
+            "{a:?} {b:?}"
+        );
     }
 }
 
@@ -450,16 +479,28 @@ fn a_mechanism_turned_half_round_moves_the_same() {
 fn the_horizon_ends_where_two_tolerances_part() {
     let scene = data("clearance-5000rpm.toml").revolutions(4.0);
     let summary = run(&scene);
-    let horizon = summary.clearance.expect("a loose joint").horizon.expect("asked for");
+    let horizon = summary
+        .clearance
+        .expect("a loose joint")
+        .horizon
+        .expect("asked for");
     assert!(!horizon.whole_run && horizon.revolutions > 0.5 && horizon.beyond.is_some());
     let within = scene.clone().duration(0.8 * horizon.t_s);
     let end = |tolerance: f64| {
-        let joint = run(&within.clone().tolerance(tolerance)).clearance.expect("a loose joint");
+        let joint = run(&within.clone().tolerance(tolerance))
+            .clearance
+            .expect("a loose joint");
         assert!(joint.horizon.expect("asked for").whole_run);
-        (joint.last.x_m, joint.last.error_x_m.expect("inside the horizon"))
+        (
+            joint.last.x_m,
+            joint.last.error_x_m.expect("inside the horizon"),
+        )
     };
     let ((coarse, stated), (fine, _)) = (end(1e-10), end(1e-13));
-    assert!((coarse - fine).abs() <= 2.0 * stated && stated < 1e-5, "{coarse} {fine} {stated:e}");
+    assert!(
+        (coarse - fine).abs() <= 2.0 * stated && stated < 1e-5,
+        "{coarse} {fine} {stated:e}"
+    );
 }
 
 #[test]
@@ -470,7 +511,10 @@ fn no_clearance_costs_nothing() {
         ..ideal.clone()
     };
     let (a, b) = (run(&ideal), run(&closed));
-    assert_eq!((a.last, a.evaluations, a.engine), (b.last, b.evaluations, b.engine));
+    assert_eq!(
+        (a.last, a.evaluations, a.engine),
+        (b.last, b.evaluations, b.engine)
+    );
     assert!(b.clearance.is_none());
 }
 
@@ -480,7 +524,9 @@ fn a_run_ends_at_its_work_limit() {
         max_evaluations: 5000,
         ..Options::default()
     };
-    let summary = simulate(&data("clearance-5000rpm.toml"), &options).expect("a run").summary;
+    let summary = simulate(&data("clearance-5000rpm.toml"), &options)
+        .expect("a run")
+        .summary;
     assert!(summary.stopped.expect("stopped").contains("work limit"));
     assert!(summary.evaluations < 5200 && summary.last.t_s > 0.0);
 }

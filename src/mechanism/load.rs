@@ -208,8 +208,7 @@ impl Loads {
         LoadValue {
             torque: self.torque + timed.torque - self.rotary_damping * now.omega
                 + sum(&self.torques, false, now),
-            force: self.force + timed.force - self.stiffness * now.x
-                - self.linear_damping * now.v
+            force: self.force + timed.force - self.stiffness * now.x - self.linear_damping * now.v
                 + sum(&self.forces, true, now),
         }
     }

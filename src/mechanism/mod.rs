@@ -14,9 +14,7 @@ mod reactions;
 
 pub use batch::Instants;
 pub use body::{Bodies, Body, Path};
-pub use clearance::{
-    Depth, LooseMechanism, LooseRates, LooseState, NormalForce, Touch, Turned,
-};
+pub use clearance::{Depth, LooseMechanism, LooseRates, LooseState, NormalForce, Touch, Turned};
 pub use extremes::{Extreme, Extremes};
 pub use lagrange::{Equation, Inertia, Terms};
 pub use limits::{Class, DeadCentre, Limits};

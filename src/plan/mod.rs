@@ -171,7 +171,15 @@ fn is_smooth(load: &Load) -> bool {
 
 /// What the contact engine integrates.
 fn contact_state(prescribed: bool) -> Vec<&'static str> {
-    let mut state = vec!["t", "psi", "x", "psi.", "v", "work", "energy lost in the contact"];
+    let mut state = vec![
+        "t",
+        "psi",
+        "x",
+        "psi.",
+        "v",
+        "work",
+        "energy lost in the contact",
+    ];
     if !prescribed {
         state.splice(1..1, ["theta", "omega"]);
     }

@@ -78,7 +78,11 @@ pub(super) fn terms(scene: &Scene, reduced: &Scene) -> (Vec<Term>, Vec<Term>) {
                 Joint::WristPin => "wrist pin",
             };
             let (radial, law) = (clearance.radial, clearance.law.name());
-            note("joint clearance", true, format!("{radial} m at the {joint}, contact law {law}"));
+            note(
+                "joint clearance",
+                true,
+                format!("{radial} m at the {joint}, contact law {law}"),
+            );
         }
         None => note("joint clearance", false, absent(scene.clearance.is_some())),
     }

@@ -2,12 +2,14 @@
 
 mod explain;
 mod figure;
+mod motion;
 mod output;
 mod rows;
 mod text;
 
 pub use explain::explanation;
 pub use figure::{Axis, Figure, ScaleKind, panels};
+pub use motion::PlotRows;
 pub use output::Output;
 pub use rows::{KinematicsWriter, Preview, RowWriter};
 pub use text::{kinematics, summary};

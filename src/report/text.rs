@@ -134,7 +134,10 @@ fn clearance(put: &mut impl FnMut(&str, String), joint: &ClearanceSummary) {
             ),
         );
         if let Some(beyond) = &horizon.beyond {
-            for (name, one) in [("  beyond", &beyond.run), ("  at 1/50 of tol.", &beyond.tighter)] {
+            for (name, one) in [
+                ("  beyond", &beyond.run),
+                ("  at 1/50 of tol.", &beyond.tighter),
+            ] {
                 put(
                     name,
                     format!(

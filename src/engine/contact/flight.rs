@@ -130,7 +130,13 @@ fn closing<M: Contact<N>, const N: usize>(model: &M, dense: &Dense<N>) -> Option
         let after = (u, gap(u));
         // From zero on the quotient by u keeps the sign and has no root at the start.
         let opens = i == 1 && before.1.0 <= before.1.1 * 1e-9;
-        let value = |u: f64| if opens && u > 0.0 { gap(u).0 / u } else { gap(u).0 };
+        let value = |u: f64| {
+            if opens && u > 0.0 {
+                gap(u).0 / u
+            } else {
+                gap(u).0
+            }
+        };
         let mut end = after;
         if after.1.0 >= 0.0 && before.1.1 < 0.0 && after.1.1 > 0.0 {
             let least = root::bracketed(|u| gap(u).1, before.0, after.0)?;

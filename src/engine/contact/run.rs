@@ -3,6 +3,9 @@
 use super::step::Stages;
 use super::{Contact, Phase, Sample, Settings, Stretch};
 
+/// Most relative error of the force that is put down to rounding of the depth.
+const MOST_DOUBT: f64 = 1e-6;
+
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Finish {
@@ -156,10 +159,19 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         self.model.sample(&self.near, self.phase, depth, y)
     }
 
-    pub fn scale(&self) -> [f64; N] {
-        // Rounding of the state sets a floor.
+    /// What the error of a step of this length (s) may be. Rounding sets a floor: that of the state, and that of
+    /// the depth, which makes the force of a shallow contact uncertain however short the step is.
+    pub fn scale(&self, h: f64) -> [f64; N] {
+        let doubt = match self.phase {
+            Phase::Contact { .. } if self.now.depth > 0.0 => {
+                (2.0 * self.model.rounding() / self.now.depth).min(MOST_DOUBT)
+            }
+            _ => 0.0,
+        };
         std::array::from_fn(|i| {
-            self.settings.tolerance * self.sizes[i] + f64::EPSILON * self.y[i].abs()
+            self.settings.tolerance * self.sizes[i]
+                + f64::EPSILON * self.y[i].abs()
+                + doubt * (h * self.now.rates[i]).abs()
         })
     }
 
@@ -179,7 +191,6 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
 
     /// The next step that keeps the error, and its length; `h` holds what the one after may be.
     pub fn controlled_step(&mut self, longest: f64) -> Result<(Stages<N>, f64), Finish> {
-        let scale = self.scale();
         let mut rejected = false;
         loop {
             self.check_work()?;
@@ -193,7 +204,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
                 return Err(Finish::StepTooSmall);
             }
             let stages = self.try_step(h);
-            let error = self.error(&stages, &scale);
+            let error = self.error(&stages, &self.scale(h));
             if error <= 1.0 {
                 let most = if rejected { 1.0 } else { 6.0 };
                 let grown = h * growth(error).min(most);
@@ -202,7 +213,11 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
                 return Ok((stages, h));
             }
             rejected = true;
-            self.h = if error.is_finite() { h * growth(error) } else { 0.1 * h };
+            self.h = if error.is_finite() {
+                h * growth(error)
+            } else {
+                0.1 * h
+            };
         }
     }
 

@@ -55,10 +55,7 @@ impl<const N: usize> Stages<N> {
         k[0] = *first;
         macro_rules! stage {
             ($index:literal, $terms:ident) => {
-                k[$index] = rates(
-                    const { node(&$terms) },
-                    &moved(start, length, &k, &$terms),
-                );
+                k[$index] = rates(const { node(&$terms) }, &moved(start, length, &k, &$terms));
             };
         }
         stage!(1, A1);

@@ -1,7 +1,7 @@
 //! An accepted step as those who follow a run see it.
 
-use super::{Phase, Sample};
 use super::step::{Dense, Stages};
+use super::{Phase, Sample};
 use crate::numeric::root;
 
 /// A part of the motion in one phase.

@@ -95,7 +95,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     fn by_root(&mut self, approach: f64, from: f64, to: f64) -> Result<bool, super::Finish> {
         let (model, phase) = (self.model, self.phase);
         let (mut s, mut ds) = (from, to - from);
-        let scale = self.scale();
+        let scale = self.scale(0.0);
         while s != to {
             self.check_work()?;
             let near = self.near;
@@ -116,7 +116,11 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             let then = self.sample(Some(next * next), &end);
             let sound = end[0] > self.y[0] && then.depth_rate * (to - from) > 0.0;
             if !sound || error.is_nan() || error > 1.0 {
-                let shrink = if error.is_finite() { growth(error).min(0.5) } else { 0.2 };
+                let shrink = if error.is_finite() {
+                    growth(error).min(0.5)
+                } else {
+                    0.2
+                };
                 ds *= shrink;
                 if ds.abs() < 1e-3 * (to - from).abs() {
                     return Ok(false);

@@ -57,7 +57,10 @@ impl LooseMechanism {
             let c = self.clearance.radial;
             let excess = dot(f.offset, f.offset) - c * c;
             // Least change of (ψ, x), weighed by the length of the rod.
-            let turn = [-self.side * self.l * f.axis[1], self.side * self.l * f.axis[0]];
+            let turn = [
+                -self.side * self.l * f.axis[1],
+                self.side * self.l * f.axis[0],
+            ];
             let slope = [
                 2.0 * dot(f.offset, turn) / self.l,
                 -2.0 * self.side * f.offset[0],

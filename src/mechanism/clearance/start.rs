@@ -105,7 +105,9 @@ impl LooseMechanism {
         let pose = linkage.pose(theta);
         if !pose.exists() {
             return Err(Error::refused(
-                format!("motion.angle: the rod does not reach the guide at crank angle {theta} rad with the journal where it begins"),
+                format!(
+                    "motion.angle: the rod does not reach the guide at crank angle {theta} rad with the journal where it begins"
+                ),
                 "start at another angle or eccentricity",
             ));
         }

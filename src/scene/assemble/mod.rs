@@ -9,7 +9,8 @@ use std::path::Path;
 use super::keys::{self, KindKeys};
 use super::read::{Reader, Values};
 use super::{
-    Branch, Clearance, ContactLaw, Extent, Friction, Gravity, Joint, Load, Motion, MotionKind, Run, Scene,
+    Branch, Clearance, ContactLaw, Extent, Friction, Gravity, Joint, Load, Motion, MotionKind, Run,
+    Scene,
 };
 
 /// The scene of these tables. What is missing or could not be read has a value that raises no further

@@ -56,7 +56,9 @@ fn fits(list: &mut Check, clearance: &Clearance) {
         let (radial, bearing) = apart(radial, bearing);
         list.add(
             "clearance.radial",
-            format!("a clearance of {radial} m leaves no journal in a bearing of radius {bearing} m"),
+            format!(
+                "a clearance of {radial} m leaves no journal in a bearing of radius {bearing} m"
+            ),
             "make the clearance smaller than the radius of the bearing",
         );
     }
@@ -93,7 +95,10 @@ fn restitution(list: &mut Check, clearance: &Clearance) {
     if clearance.law == ContactLaw::MasslessLink && friction > 0.0 {
         list.add(
             "clearance.friction",
-            format!("a massless link has no friction, but it is {}", show(friction)),
+            format!(
+                "a massless link has no friction, but it is {}",
+                show(friction)
+            ),
             "leave it out, or use another contact_law",
         );
     }

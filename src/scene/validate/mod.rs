@@ -6,9 +6,7 @@ mod loads;
 mod start;
 
 use super::number::{apart, show};
-use super::{
-    Every, Extent, Friction, Geometry, InertiaAbout, Problem, Rod, RodModel, Run, Scene,
-};
+use super::{Every, Extent, Friction, Geometry, InertiaAbout, Problem, Rod, RodModel, Run, Scene};
 use check::Check;
 
 /// Local error targets below this cannot be met in double precision.

@@ -57,9 +57,7 @@ impl<const N: usize> Loose<'_, N> {
 
     /// The numbers of a state, with work and loss, J.
     pub fn numbers(&self, s: &LooseState, [work, lost]: [f64; 2]) -> [f64; N] {
-        let free = [
-            s.t, s.theta, s.psi, s.x, s.omega, s.spin, s.v, work, lost,
-        ];
+        let free = [s.t, s.theta, s.psi, s.x, s.omega, s.spin, s.v, work, lost];
         Self::packed(&free)
     }
 
@@ -94,18 +92,20 @@ impl<const N: usize> Contact<N> for Loose<'_, N> {
     }
 
     #[inline(always)]
-    fn sample(
-        &self,
-        near: &Turned,
-        phase: Phase,
-        depth: Option<f64>,
-        y: &[f64; N],
-    ) -> Sample<N> {
+    fn sample(&self, near: &Turned, phase: Phase, depth: Option<f64>, y: &[f64; N]) -> Sample<N> {
         let s = self.state(y);
         let (r, d) = self.mechanism.rates_near(near, &s, touch(phase, depth));
         Sample {
             rates: Self::packed(&[
-                1.0, s.omega, s.spin, s.v, r.alpha, r.spin_rate, r.a, r.power, r.lost,
+                1.0,
+                s.omega,
+                s.spin,
+                s.v,
+                r.alpha,
+                r.spin_rate,
+                r.a,
+                r.power,
+                r.lost,
             ]),
             depth: d.value,
             depth_rate: d.rate,

@@ -117,7 +117,8 @@ impl Record {
     pub fn tally(&mut self, t: f64, tally: &Tally) {
         let index = (t / self.width) as usize;
         if index >= self.tallies.len() {
-            self.tallies.resize(index.min(2 * MOST) + 1, Tally::default());
+            self.tallies
+                .resize(index.min(2 * MOST) + 1, Tally::default());
         }
         let last = self.tallies.len() - 1;
         self.tallies[index.min(last)].add(tally);
@@ -134,9 +135,8 @@ impl Record {
 
     /// The last sample time, s, up to which two records agree to within a distance, m; none if to the end.
     pub fn agrees_until(&self, other: &Record, distance: f64) -> Option<f64> {
-        let apart = |(a, b): (&[f64; 2], &[f64; 2])| {
-            !((a[0] - b[0]).hypot(a[1] - b[1]) <= distance)
-        };
+        let apart =
+            |(a, b): (&[f64; 2], &[f64; 2])| !((a[0] - b[0]).hypot(a[1] - b[1]) <= distance);
         let first = self.samples.iter().zip(&other.samples).position(apart)?;
         Some(first.saturating_sub(1) as f64 * self.width)
     }
