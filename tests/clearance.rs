@@ -62,7 +62,8 @@ fn rows(scene: &Scene) -> Vec<Row> {
 
 /// What SciPy 1.17's DOP853 gives for the bodies' absolute coordinates, the force of the pinned joint solved for
 /// in each evaluation, events located on its dense output; rtol 1e-12, atol 1e-14, steps of at most 20 us in
-/// contact. Impacts and separations by turns, s; at the end slider position, its velocity, and the rod's spin.
+/// contact. For the first, whose impacts come fast, another program with the equations of the driven rod alone,
+/// rtol 3e-14. Impacts and separations by turns, s (NaN: not given); at the end the slider's position and velocity.
 struct Reference {
     scene: Scene,
     end: f64,
@@ -89,21 +90,21 @@ fn references() -> Vec<Reference> {
     vec![
         Reference {
             scene: data("clearance-5000rpm.toml"),
-            end: 0.012,
+            end: 0.004,
             events: &[
-                0.000227286032,
+                0.00022728603203978347,
                 f64::NAN,
-                0.000637056430,
+                0.000637056430166208,
                 f64::NAN,
-                0.000749700280,
+                0.0007497002798418116,
                 f64::NAN,
-                0.001085947034,
+                0.0010859470339108545,
                 f64::NAN,
-                0.001205816128,
+                0.001205816127987173,
                 f64::NAN,
-                0.001551486001,
+                0.001551486001304766,
             ],
-            last: [0.17033449912227802, 1.1032037181740864],
+            last: [0.08650183344177106, -18.727437857285704],
             theta: None,
         },
         Reference {
@@ -399,6 +400,27 @@ fn a_smaller_clearance_is_nearer_to_the_ideal_joint() {
 }
 
 #[test]
+fn a_massless_link_keeps_its_length_and_the_energy() {
+    for joint in [Joint::CrankPin, Joint::WristPin] {
+        let scene = Scene {
+            clearance: Some(Clearance {
+                law: ContactLaw::MasslessLink,
+                ..Clearance::new(joint, 5e-4)
+            }),
+            ..free(0.01).start(0.3, 50.0).duration(0.1)
+        };
+        let summary = run(&scene);
+        assert!(summary.energy_residual.abs() < 1e-9, "{:e}", summary.energy_residual);
+        let link = summary.clearance.expect("a loose joint");
+        assert_eq!((link.contact_share, link.impacts, link.dissipated_j), (1.0, 0, 0.0));
+        for row in rows(&scene) {
+            let [x, y] = row.clearance.expect("a loose joint").journal;
+            assert!((x.hypot(y) / 5e-4 - 1.0).abs() < 1e-9, "{x} {y}");
+        }
+    }
+}
+
+#[test]
 fn extremes_of_clearance_and_restitution_are_computed() {
     for joint in [Joint::CrankPin, Joint::WristPin] {
         for (radial, restitution) in [(1e-9, 0.9), (5e-3, 0.9), (5e-4, 0.0), (5e-4, 1.0)] {
@@ -570,7 +592,7 @@ fn what_cannot_be_computed_is_refused_with_the_reason() {
         ..default
     };
     refused(&good, &reactions, "joint forces");
-    let mut rocker = good.constant_speed(0.3, 10.0);
+    let mut rocker = good.constant_speed(4.0, 10.0);
     rocker.geometry.offset = 0.15;
     refused(&rocker, &default, "cannot turn fully");
 }

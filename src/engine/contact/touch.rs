@@ -21,6 +21,10 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             }
         }
         while self.y[0] < self.until {
+            if self.now.depth_rate < 0.0 && self.now.depth <= self.model.rounding() {
+                self.part();
+                return Ok(());
+            }
             if self.leaves() {
                 let from = self.now.depth.sqrt();
                 if self.by_root(approach, from, 0.0)? {

@@ -63,7 +63,7 @@ impl LooseMechanism {
             let bend = dot(f.offset, self.second(f, s, &rates)) + dot(f.rate, f.rate);
             (rates, bend)
         };
-        let unit = self.clearance_unit();
+        let unit = self.trial_force();
         let (free, pressed) = (at(0.0).1, at(unit).1);
         let normal = unit * free / (free - pressed);
         let (mut rates, _) = at(normal);
@@ -72,7 +72,7 @@ impl LooseMechanism {
     }
 
     /// A force of the size of those that occur, N.
-    fn clearance_unit(&self) -> f64 {
+    fn trial_force(&self) -> f64 {
         self.slider_mass + self.rod_mass
     }
 

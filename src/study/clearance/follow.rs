@@ -32,6 +32,8 @@ pub(super) struct Asked<'a> {
     pub events_kept: usize,
     /// Whether the dense motion of the crank is kept.
     pub keep_steps: bool,
+    /// Whether the journal is sampled, for comparison with another run.
+    pub sampled: bool,
 }
 
 /// What was seen so far.
@@ -88,7 +90,7 @@ impl<const N: usize> Follow<'_, N> {
             self.follow_crank(stretch);
         }
         self.follow_contact(stretch);
-        while self.seen.record.due() <= stretch.end[0] {
+        while self.asked.sampled && self.seen.record.due() <= stretch.end[0] {
             let y = stretch.at(self.seen.record.due());
             let journal = self.model.mechanism.journal(&self.model.state(&y));
             self.seen.record.sample(journal);

@@ -33,7 +33,7 @@ use record::Record;
 /// The second run of the horizon is this much tighter.
 const TIGHTER: f64 = 50.0;
 /// Samples of the journal's path in a turn, while there are few enough turns.
-const SAMPLES_IN_A_TURN: f64 = 256.0;
+const SAMPLES_IN_A_TURN: f64 = 64.0;
 
 /// Runs a scene with a loose joint.
 pub(super) fn run(
@@ -191,6 +191,7 @@ impl<'a, const N: usize> Run<'a, N> {
             },
             events_kept: task.options.events_kept,
             keep_steps: record,
+            sampled: task.options.estimate,
         }
     }
 

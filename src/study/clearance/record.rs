@@ -135,8 +135,10 @@ impl Record {
 
     /// The last sample time, s, up to which two records agree to within a distance, m; none if to the end.
     pub fn agrees_until(&self, other: &Record, distance: f64) -> Option<f64> {
-        let apart =
-            |(a, b): (&[f64; 2], &[f64; 2])| !((a[0] - b[0]).hypot(a[1] - b[1]) <= distance);
+        let apart = |(a, b): (&[f64; 2], &[f64; 2])| {
+            let off = (a[0] - b[0]).hypot(a[1] - b[1]);
+            off > distance || off.is_nan()
+        };
         let first = self.samples.iter().zip(&other.samples).position(apart)?;
         Some(first.saturating_sub(1) as f64 * self.width)
     }
