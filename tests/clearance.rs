@@ -410,9 +410,16 @@ fn a_massless_link_keeps_its_length_and_the_energy() {
             ..free(0.01).start(0.3, 50.0).duration(0.1)
         };
         let summary = run(&scene);
-        assert!(summary.energy_residual.abs() < 1e-9, "{:e}", summary.energy_residual);
+        assert!(
+            summary.energy_residual.abs() < 1e-9,
+            "{:e}",
+            summary.energy_residual
+        );
         let link = summary.clearance.expect("a loose joint");
-        assert_eq!((link.contact_share, link.impacts, link.dissipated_j), (1.0, 0, 0.0));
+        assert_eq!(
+            (link.contact_share, link.impacts, link.dissipated_j),
+            (1.0, 0, 0.0)
+        );
         for row in rows(&scene) {
             let [x, y] = row.clearance.expect("a loose joint").journal;
             assert!((x.hypot(y) / 5e-4 - 1.0).abs() < 1e-9, "{x} {y}");

@@ -239,6 +239,8 @@ impl<const N: usize> Follow<'_, N> {
             return Ok(());
         }
         let mechanism = self.model.mechanism;
+        let linked = matches!(phase, Phase::Link).then(|| mechanism.relinked(s));
+        let s = linked.as_ref().unwrap_or(s);
         let rates = mechanism.rates(s, touch(phase, None));
         let maker = self.asked.maker;
         let ideal = maker.row(s.t, self.angle(s.theta), s.omega, Some(rates.alpha));
