@@ -3,6 +3,7 @@
 mod check;
 mod explain;
 mod kinematics;
+mod precision;
 mod schema;
 mod simulate;
 
@@ -31,6 +32,8 @@ enum Command {
     Simulate(simulate::Arguments),
     /// One turn in closed form: dead centres, stroke, time ratio, extremes
     Kinematics(kinematics::Arguments),
+    /// Speed against error: every method at a ladder of tolerances
+    Precision(precision::Arguments),
     /// The equation, what is modelled and why, and what will compute it
     Explain(explain::Arguments),
     /// Says all that is wrong with a scene file
@@ -52,6 +55,7 @@ pub fn main() -> ExitCode {
     let result = match arguments.command {
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Kinematics(arguments) => kinematics::run(&arguments),
+        Command::Precision(arguments) => precision::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),

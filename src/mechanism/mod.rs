@@ -3,6 +3,7 @@
 
 mod batch;
 mod body;
+mod called;
 mod clearance;
 mod extremes;
 mod lagrange;
@@ -14,11 +15,12 @@ mod reactions;
 
 pub use batch::Instants;
 pub use body::{Bodies, Body, Path};
+pub use called::{LoadValue, single};
 pub use clearance::{Depth, LooseMechanism, LooseRates, LooseState, NormalForce, Touch, Turned};
 pub use extremes::{Extreme, Extremes};
 pub use lagrange::{Equation, Inertia, Terms};
 pub use limits::{Class, DeadCentre, Limits};
 pub use linkage::{Linkage, Pose};
-pub use load::{LoadValue, Loads, single};
+pub use load::Loads;
 pub use obstacle::Obstacle;
 pub use reactions::{Reactions, Reactor};

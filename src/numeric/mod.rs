@@ -2,6 +2,7 @@
 
 pub mod angle;
 pub mod chebyshev;
+pub mod double_double;
 pub mod exact;
 pub mod gauss;
 pub mod interpolate;

@@ -4,6 +4,7 @@ mod explain;
 mod figure;
 mod motion;
 mod output;
+mod precision;
 mod rows;
 mod text;
 
@@ -11,6 +12,7 @@ pub use explain::explanation;
 pub use figure::{Axis, Figure, ScaleKind, panels};
 pub use motion::PlotRows;
 pub use output::Output;
+pub use precision::{precision, precision_csv, precision_figure, precision_notes};
 pub use rows::{KinematicsWriter, Preview, RowWriter};
 pub use text::{kinematics, summary};
 

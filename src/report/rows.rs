@@ -18,11 +18,7 @@ const RATES: &str = "v_m_per_s,a_m_per_s2,rod_omega_rad_per_s,rod_alpha_rad_per_
 fn line(buffer: &mut csv::Writer<Vec<u8>>, values: &[f64]) -> Result<(), csv::Error> {
     for value in values {
         if value.is_finite() {
-            let mut shortest = ryu_like(*value);
-            if *value == 0.0 {
-                shortest = "0".to_owned();
-            }
-            buffer.write_field(shortest)?;
+            buffer.write_field(shortest(*value))?;
         } else {
             buffer.write_field("")?;
         }
@@ -31,7 +27,10 @@ fn line(buffer: &mut csv::Writer<Vec<u8>>, values: &[f64]) -> Result<(), csv::Er
 }
 
 /// The shortest text that reads back as the same number.
-fn ryu_like(value: f64) -> String {
+pub(super) fn shortest(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
     let plain = value.abs() >= 1e-5 && value.abs() < 1e16;
     if plain {
         format!("{value}")

@@ -7,6 +7,7 @@ mod commands;
 mod files;
 mod kinematics;
 mod limits;
+mod precision;
 mod program;
 mod simulate;
 mod streams;

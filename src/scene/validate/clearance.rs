@@ -21,7 +21,7 @@ pub(super) fn clearance(list: &mut Check, clearance: &Clearance) {
         ),
     ] {
         if let Some(value) = value {
-            list.positive(&format!("clearance.{name}"), value, unit);
+            list.positive(format_args!("clearance.{name}"), value, unit);
         }
     }
     for (name, value, low, high) in [
@@ -33,7 +33,7 @@ pub(super) fn clearance(list: &mut Check, clearance: &Clearance) {
             && !(low..=high).contains(&value)
         {
             list.add(
-                &format!("clearance.{name}"),
+                format_args!("clearance.{name}"),
                 format!("{} is not a possible {name}", show(value)),
                 "poisson_ratio lies between -1 and 0.5, restitution between 0 and 1, friction is not negative",
             );

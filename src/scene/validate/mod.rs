@@ -76,10 +76,10 @@ fn geometry(list: &mut Check, geometry: &Geometry) {
 }
 
 fn body(list: &mut Check, name: &str, mass: f64, inertia: f64, cg: [f64; 2]) {
-    list.not_negative(&format!("{name}.mass"), mass, "kg");
-    list.not_negative(&format!("{name}.inertia"), inertia, "kg m2");
-    list.finite(&format!("{name}.cg"), cg[0]);
-    list.finite(&format!("{name}.cg_lateral"), cg[1]);
+    list.not_negative(format_args!("{name}.mass"), mass, "kg");
+    list.not_negative(format_args!("{name}.inertia"), inertia, "kg m2");
+    list.finite(format_args!("{name}.cg"), cg[0]);
+    list.finite(format_args!("{name}.cg_lateral"), cg[1]);
 }
 
 fn rod(list: &mut Check, rod: &Rod, length: f64) {
