@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 use slider_crank::mechanism::single;
 use slider_crank::scene::{
-    Branch, Every, Extent, InertiaAbout, Instant, Joint, Load, MotionKind, RodModel, Scene, Table,
-    Variable, schema,
+    Branch, ContactLaw, Every, Extent, InertiaAbout, Instant, Joint, Load, MotionKind, RodModel,
+    Scene, Table, Variable, schema,
 };
 use tempfile::TempDir;
 
@@ -340,6 +340,11 @@ young_modulus = "207 GPa"
 poisson_ratio = 0.3
 restitution = 0.9
 friction = 0.05
+contact_law = "gonthier"
+friction_threshold = "5 mm/s"
+least_approach_speed = "2 mm/s"
+eccentricity = "0.2 mm"
+eccentricity_angle = "180 deg"
 
 [motion]
 kind = "constant-speed"
@@ -403,6 +408,15 @@ fn every_key_is_read_to_its_si_value() {
             clearance.friction
         ),
         (Some(0.3), Some(0.9), Some(0.05))
+    );
+    assert_eq!(clearance.law, ContactLaw::Gonthier);
+    assert_eq!(
+        (clearance.friction_threshold, clearance.least_approach_speed),
+        (0.005, 0.002)
+    );
+    assert_eq!(
+        (clearance.eccentricity, clearance.eccentricity_angle),
+        (Some(0.0002), Some(PI))
     );
     assert_eq!(scene.motion.kind, MotionKind::ConstantSpeed);
     close(scene.motion.angle, PI / 6.0);
@@ -500,6 +514,15 @@ fn what_is_not_said_has_its_default() {
         (None, None, None)
     );
     assert_eq!((clearance.restitution, clearance.friction), (None, None));
+    assert_eq!(clearance.law, ContactLaw::LankaraniNikravesh);
+    assert_eq!(
+        (clearance.friction_threshold, clearance.least_approach_speed),
+        (0.01, 0.001)
+    );
+    assert_eq!(
+        (clearance.eccentricity, clearance.eccentricity_angle),
+        (None, None)
+    );
 }
 
 #[test]
@@ -1280,7 +1303,8 @@ fn documented() -> BTreeMap<&'static str, BTreeSet<&'static str>> {
         ("friction", "coefficient static_coefficient"),
         (
             "clearance",
-            "joint radial bearing_radius young_modulus poisson_ratio restitution friction",
+            "joint radial bearing_radius young_modulus poisson_ratio restitution friction contact_law \
+             friction_threshold least_approach_speed eccentricity eccentricity_angle",
         ),
         ("motion", "kind angle speed"),
         ("run", "duration revolutions output_every tolerance"),

@@ -7,7 +7,7 @@ use clap::Args;
 use super::{Outcome, is_standard, print, say, scene};
 use crate::error::Error;
 use crate::plan::Method;
-use crate::report::{self, Output, Preview, RowWriter};
+use crate::report::{self, Output, PlotRows, Preview, RowWriter};
 use crate::study::{self, Options, Row, RowSink};
 
 /// Arguments of `simulate`.
@@ -18,6 +18,9 @@ pub(super) struct Arguments {
     /// Writes the rows as CSV to this file, `-` for standard output
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    /// Draws the rows as SVG: slider motion, and of a loose joint the force and the journal's path
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
     /// Prints the summary as one JSON object
     #[arg(long)]
     json: bool,
@@ -48,16 +51,20 @@ pub(super) struct Arguments {
 struct Rows {
     writer: Option<RowWriter>,
     preview: Option<Preview>,
+    plot: Option<PlotRows>,
 }
 
 impl RowSink for Rows {
     fn wants_rows(&self) -> bool {
-        self.writer.is_some() || self.preview.is_some()
+        self.writer.is_some() || self.preview.is_some() || self.plot.is_some()
     }
 
     fn row(&mut self, row: &Row) -> Result<(), Error> {
         if let Some(preview) = &mut self.preview {
             preview.take(row);
+        }
+        if let Some(plot) = &mut self.plot {
+            plot.take(row);
         }
         match &mut self.writer {
             Some(writer) => writer.row(row),
@@ -68,6 +75,12 @@ impl RowSink for Rows {
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let rows_on_stdout = is_standard(arguments.out.as_ref());
+    if is_standard(arguments.plot.as_ref()) {
+        return Err(Error::refused(
+            "the figure would go to standard output, where the summary is",
+            "write the figure to a file: --plot motion.svg",
+        ));
+    }
     if rows_on_stdout && arguments.json {
         return Err(Error::refused(
             "both the rows and the JSON summary would go to standard output",
@@ -87,7 +100,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         events_kept: arguments.max_events,
     };
     let output = arguments.out.as_deref().map(Output::create).transpose()?;
+    let figure = arguments.plot.as_deref().map(Output::create).transpose()?;
     let mut rows = Rows {
+        plot: figure.is_some().then(PlotRows::default),
         writer: output.map(RowWriter::new),
         preview: (!arguments.json).then(Preview::default),
     };
@@ -96,6 +111,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         writer.finish()?;
     }
     let summary = result.summary;
+    if let (Some(mut figure), Some(plot)) = (figure, &rows.plot) {
+        figure.write(plot.to_svg(&summary)?.as_bytes())?;
+        figure.finish()?;
+    }
     if arguments.json {
         print(&report::json(&summary)?)?;
     } else {

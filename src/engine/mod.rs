@@ -1,6 +1,7 @@
 //! Integrators. They see a motion with one coordinate, its acceleration and power; no mechanics.
 
 pub mod angle;
+pub mod contact;
 pub mod energy;
 pub mod events;
 pub mod guard;

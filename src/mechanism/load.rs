@@ -240,6 +240,11 @@ impl Loads {
         called.fold(damped, |sum, loads| sum.plus(loads.value(now)))
     }
 
+    /// Torque and force of all loads together, for a slider whose motion is not that of the ideal joints.
+    pub fn at(&self, now: &Instant) -> LoadValue {
+        self.with_potential_at(now.x).plus(self.spent(now))
+    }
+
     /// Potential of the loads that have one, J, from crank angle (from any fixed start) and position.
     pub fn potential(&self, theta: f64, x: f64) -> f64 {
         -self.torque * theta - self.force * x + 0.5 * self.stiffness * x * x

@@ -4,6 +4,7 @@
 mod batch;
 mod body;
 mod called;
+mod clearance;
 mod constrained;
 mod curve;
 mod equivalent;
@@ -28,6 +29,9 @@ mod torque_slope;
 pub use batch::Instants;
 pub use body::{Bodies, Body, Path};
 pub use called::{LoadValue, single};
+pub use clearance::{
+    Depth, JointTouch, LooseMechanism, LooseRates, LooseState, NormalForce, Turned,
+};
 pub use constrained::{Across, Constrained};
 pub use curve::{Curve, Place};
 pub use equivalent::EquivalentMasses;

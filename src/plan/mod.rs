@@ -1,6 +1,7 @@
 //! The plan: what a scene needs and which engine computes it. The one place where a scene becomes terms,
 //! coordinate, events and engine; `explain` prints it.
 
+mod contact;
 mod method;
 mod periodic;
 mod refusal;
@@ -8,9 +9,10 @@ mod terms;
 
 use serde::Serialize;
 
+use contact::{contact, contact_state};
 pub use method::Method;
 use periodic::repeats_with_each_turn;
-use refusal::{refuse_what_cannot_move, refuse_what_is_not_modelled};
+use refusal::{refuse_what_cannot_move, refuse_what_is_not_modelled, refuse_what_jams};
 use terms::terms;
 
 use crate::error::Error;
@@ -30,6 +32,8 @@ pub enum Engine {
     Angle,
     /// Integration in time.
     Time,
+    /// Flight and contact in a loose joint, in time.
+    Contact,
 }
 
 impl Engine {
@@ -40,6 +44,7 @@ impl Engine {
             Engine::Energy => "energy",
             Engine::Angle => "angle",
             Engine::Time => "time",
+            Engine::Contact => "contact",
         }
     }
 }
@@ -101,7 +106,9 @@ impl Plan {
         let loads = Loads::new(&reduced);
         let prescribed = scene.motion.kind == MotionKind::ConstantSpeed;
         let (engine, stepper, reason) = engine(prescribed, method, &loads, &reduced)?;
-        if engine != Engine::ClosedForm {
+        if engine == Engine::Contact {
+            refuse_what_jams(&reduced, &linkage)?;
+        } else if engine != Engine::ClosedForm {
             refuse_what_cannot_move(&reduced, &linkage)?;
         }
         let mut state = Vec::new();
@@ -117,8 +124,14 @@ impl Plan {
                 state.push("t");
             }
         }
+        if engine == Engine::Contact {
+            state.extend(contact_state(prescribed));
+        }
         let mut events = vec!["dead-centre"];
-        if engine != Engine::ClosedForm {
+        if engine == Engine::Contact {
+            events.extend(["impact", "separation"]);
+        }
+        if engine != Engine::ClosedForm && !(engine == Engine::Contact && prescribed) {
             events.push("turning-point");
         }
         let on_curve = (engine == Engine::Time)
@@ -137,7 +150,11 @@ impl Plan {
             engine,
             reason,
             stepper,
-            coordinate: coordinate.to_owned(),
+            coordinate: match engine {
+                Engine::Contact => "crank angle theta, direction psi of the rod, slider position x",
+                _ => coordinate,
+            }
+            .to_owned(),
             state: state.into_iter().map(str::to_owned).collect(),
             events: events.into_iter().map(str::to_owned).collect(),
             kept,
@@ -176,6 +193,9 @@ fn engine(
 ) -> Result<(Engine, Option<Stepper>, String), Error> {
     let reason = |text: &str| text.to_owned();
     let crosses = Limits::new(&Linkage::new(&scene.geometry), 0.0).class == Class::ChangePoint;
+    if scene.clearance.is_some() {
+        return contact(method);
+    }
     match (method, prescribed) {
         (Method::Auto | Method::ClosedForm, true) => Ok((
             Engine::ClosedForm,

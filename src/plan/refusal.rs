@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::mechanism::{Class, Curve, Limits, Linkage};
 use crate::numeric::angle::Angle;
-use crate::scene::{RodModel, Scene};
+use crate::scene::{MotionKind, RodModel, Scene};
 
 pub(super) fn refuse_what_is_not_modelled(scene: &Scene) -> Result<(), Error> {
     let spin_only = scene.rod.is_some_and(|rod| rod.model == RodModel::SpinOnly);
@@ -13,10 +13,10 @@ pub(super) fn refuse_what_is_not_modelled(scene: &Scene) -> Result<(), Error> {
             "use model = \"rigid\" or \"two-mass\" with [friction]",
         ));
     }
-    if scene.clearance.is_some() {
+    if scene.friction.is_some() && scene.clearance.is_some() {
         return Err(Error::refused(
-            "clearance is not part of this version",
-            "take [clearance] out of the scene, or set radial to 0",
+            "Coulomb friction at the guide together with clearance in a joint is not modelled",
+            "take [friction] or [clearance] out of the scene, or set its coefficient or radial to 0",
         ));
     }
     Ok(())
@@ -39,6 +39,25 @@ pub(super) fn refuse_what_cannot_move(scene: &Scene, linkage: &Linkage) -> Resul
         return Err(Error::refused(
             "motion.angle is the change point of these lengths, where the mechanism may go on in two ways, and the scene does not say which",
             "start away from it, or change a length a little to say which mechanism is meant",
+        ));
+    }
+    Ok(())
+}
+
+/// With clearance: a crank whose prescribed motion the rod cannot follow.
+pub(super) fn refuse_what_jams(scene: &Scene, linkage: &Linkage) -> Result<(), Error> {
+    let slack = scene.clearance.map_or(0.0, |clearance| clearance.radial);
+    if Limits::new(linkage, 0.0).class == Class::ChangePoint {
+        return Err(Error::refused(
+            "the lengths make a change point, where joints with clearance may go on in two ways",
+            "change a length a little to say which mechanism is meant",
+        ));
+    }
+    let prescribed = scene.motion.kind == MotionKind::ConstantSpeed;
+    if prescribed && linkage.margin() + slack < 0.0 {
+        return Err(Error::refused(
+            "the crank cannot turn fully, and at constant speed nothing gives way but the loose joint",
+            "use motion kind = \"free\", or lengths whose crank turns fully",
         ));
     }
     Ok(())

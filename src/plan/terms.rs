@@ -1,7 +1,7 @@
 //! Which terms of the equation are modelled, which are not, and why.
 
 use super::Term;
-use crate::scene::{RodModel, Scene};
+use crate::scene::{Joint, RodModel, Scene};
 
 /// Terms kept, terms left out.
 pub(super) fn terms(scene: &Scene, reduced: &Scene) -> (Vec<Term>, Vec<Term>) {
@@ -81,6 +81,20 @@ pub(super) fn terms(scene: &Scene, reduced: &Scene) -> (Vec<Term>, Vec<Term>) {
         ),
         None => note("Coulomb friction", false, absent(scene.friction.is_some())),
     }
-    note("joint clearance", false, absent(scene.clearance.is_some()));
+    match &reduced.clearance {
+        Some(clearance) => {
+            let joint = match clearance.joint {
+                Joint::CrankPin => "crank pin",
+                Joint::WristPin => "wrist pin",
+            };
+            let (radial, law) = (clearance.radial, clearance.law.name());
+            note(
+                "joint clearance",
+                true,
+                format!("{radial} m at the {joint}, contact law {law}"),
+            );
+        }
+        None => note("joint clearance", false, absent(scene.clearance.is_some())),
+    }
     (kept, left_out)
 }

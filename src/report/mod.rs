@@ -3,6 +3,8 @@
 mod calibration;
 mod explain;
 mod figure;
+mod joint;
+mod motion;
 mod one_turn;
 mod output;
 mod precision;
@@ -14,6 +16,7 @@ mod text;
 pub use calibration::calibration;
 pub use explain::explanation;
 pub use figure::{Axis, Figure, ScaleKind, panels};
+pub use motion::PlotRows;
 pub use one_turn::{TurnWriter, turn, turn_figure};
 pub use output::Output;
 pub use precision::{precision, precision_csv, precision_figure, precision_notes};

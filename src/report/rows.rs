@@ -7,6 +7,8 @@ use crate::study::{Reactions, Row, RowSink};
 const MOTION: &str =
     "t_s,theta_rad,omega_rad_per_s,alpha_rad_per_s2,x_m,v_m_per_s,a_m_per_s2,phi_rad";
 pub(super) const REACTIONS: &str = "crank_bearing_x_n,crank_bearing_y_n,crank_pin_x_n,crank_pin_y_n,wrist_pin_x_n,wrist_pin_y_n,guide_n,shaking_x_n,shaking_y_n,shaking_moment_nm";
+const CLEARANCE: &str =
+    "x_ideal_m,v_ideal_m_per_s,a_ideal_m_per_s2,journal_x_m,journal_y_m,contact_force_n";
 const TORQUE: &str = "crank_torque_nm";
 
 /// Cells of the columns [`REACTIONS`].
@@ -88,6 +90,7 @@ impl RowSink for RowWriter {
             for (given, columns) in [
                 (row.reactions.is_some(), REACTIONS),
                 (row.driving_torque.is_some(), TORQUE),
+                (row.clearance.is_some(), CLEARANCE),
             ] {
                 if given {
                     header.push(',');
@@ -105,6 +108,11 @@ impl RowSink for RowWriter {
             values.extend(reactions(forces));
         }
         values.extend(row.driving_torque);
+        if let Some(joint) = &row.clearance {
+            values.extend(joint.ideal);
+            values.extend(joint.journal);
+            values.push(joint.force);
+        }
         write(&mut self.output, &values)
     }
 }

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
+use super::joint::clearance;
 use crate::study::{Kinematics, Located, NamedPosition, Row, Summary};
 
 /// The summary of a run, with a few of its rows.
@@ -78,6 +79,9 @@ pub fn summary(summary: &Summary, rows: &[Row]) -> String {
         );
     }
     put("events", events(summary));
+    if let Some(joint) = &summary.clearance {
+        clearance(&mut put, joint);
+    }
     for warning in &summary.warnings {
         put("warning", warning.clone());
     }
@@ -93,6 +97,12 @@ pub fn summary(summary: &Summary, rows: &[Row]) -> String {
 
 fn events(summary: &Summary) -> String {
     let count = |kind: &str| summary.events.iter().filter(|e| e.kind == kind).count();
+    if summary.clearance.is_some() {
+        return format!(
+            "{} dead centres, impacts and separations",
+            summary.events_total
+        );
+    }
     if summary.events_total > summary.events.len() as u64 {
         return format!("{} in all", summary.events_total);
     }
@@ -111,7 +121,7 @@ fn events(summary: &Summary) -> String {
 }
 
 /// A value with the digits that its error leaves, and no more.
-fn digits(value: f64, error: f64) -> String {
+pub(super) fn digits(value: f64, error: f64) -> String {
     if error == 0.0 {
         return format!("{value}");
     }

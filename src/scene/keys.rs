@@ -411,7 +411,39 @@ pub const SECTIONS: &[Section] = &[
             quantity(
                 "friction",
                 Quantity::Number,
-                "coefficient of friction in the contact",
+                "coefficient of friction in the contact; default 0",
+            ),
+            key(
+                "contact_law",
+                Kind::Choice(&[
+                    "lankarani-nikravesh",
+                    "hunt-crossley",
+                    "flores",
+                    "gonthier",
+                    "hertz",
+                    "massless-link",
+                ]),
+                "law of the normal force; default lankarani-nikravesh",
+            ),
+            quantity(
+                "friction_threshold",
+                Quantity::Velocity,
+                "sliding speed up to which friction grows linearly; default 0.01 m/s",
+            ),
+            quantity(
+                "least_approach_speed",
+                Quantity::Velocity,
+                "contacts that begin slower are damped as if they began with this speed; default 0.001 m/s",
+            ),
+            quantity(
+                "eccentricity",
+                Quantity::Length,
+                "distance of the journal's centre from the bearing's at the start; default 0",
+            ),
+            quantity(
+                "eccentricity_angle",
+                Quantity::Angle,
+                "direction from the bearing's centre to the journal's at the start, from +x; default: as the ideal joint is loaded",
             ),
         ],
     },

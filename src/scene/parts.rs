@@ -1,4 +1,4 @@
-//! Geometry, gravity, friction and clearance.
+//! Geometry, gravity and friction.
 
 /// Lengths and assembly of the mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,32 +79,4 @@ pub struct Friction {
     pub coefficient: f64,
     /// Static coefficient.
     pub static_coefficient: f64,
-}
-
-/// Radial clearance at one revolute joint.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Clearance {
-    /// The joint.
-    pub joint: Joint,
-    /// Radial clearance, m.
-    pub radial: f64,
-    /// m
-    pub bearing_radius: Option<f64>,
-    /// Pa
-    pub young_modulus: Option<f64>,
-    /// dimensionless
-    pub poisson_ratio: Option<f64>,
-    /// dimensionless, 0 to 1
-    pub restitution: Option<f64>,
-    /// dimensionless
-    pub friction: Option<f64>,
-}
-
-/// A revolute joint of the connecting rod.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Joint {
-    /// A
-    CrankPin,
-    /// P
-    WristPin,
 }

@@ -31,6 +31,7 @@ pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, 
     let plain = Resolution {
         tail: (SHARE * task.scene.run.tolerance).max(LEAST_TAIL),
         other: false,
+        most_evaluations: task.options.max_evaluations,
     };
     let goal = match task.extent {
         Extent::Duration(duration) => Goal::Time(duration),
@@ -45,6 +46,7 @@ pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, 
         let finer = Resolution {
             tail: LEAST_TAIL,
             other: true,
+            most_evaluations: u64::MAX,
         };
         let better = run(Goal::Time(driving.end), finer)?;
         let cost = Cost {

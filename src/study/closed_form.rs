@@ -115,7 +115,7 @@ fn impossible(task: &Task<'_>, start: Angle) -> Option<Error> {
     })
 }
 
-fn duration(extent: Extent, speed: f64) -> Result<f64, Error> {
+pub(super) fn duration(extent: Extent, speed: f64) -> Result<f64, Error> {
     match extent {
         Extent::Duration(duration) => Ok(duration),
         Extent::Revolutions(turns) if speed != 0.0 => Ok(turns * TAU / speed.abs()),
@@ -138,7 +138,7 @@ fn time_to_limit(task: &Task<'_>, start: Angle, speed: f64) -> Option<f64> {
 }
 
 /// Passages of the dead centres, in the order of time.
-fn events(task: &Task<'_>, start: Angle, speed: f64, end: f64) -> (Vec<Event>, u64) {
+pub(super) fn events(task: &Task<'_>, start: Angle, speed: f64, end: f64) -> (Vec<Event>, u64) {
     if speed == 0.0 {
         return (Vec::new(), 0);
     }

@@ -114,6 +114,7 @@ pub(super) fn run(
         estimate_cost: estimate.map(|(_, cost)| cost),
         speed: seen.speed,
         driving_torque: None,
+        clearance: None,
         events: seen.events,
         events_total: seen.events_total,
         warnings,

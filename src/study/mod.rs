@@ -3,6 +3,7 @@
 mod by_angle;
 mod by_energy;
 mod calibration;
+mod clearance;
 mod closed_form;
 mod curve;
 mod drive;
@@ -29,6 +30,7 @@ mod watch;
 
 pub use crate::mechanism::{Length, Reactions, drum_torque, friction_from_tilt, size_from_stroke};
 pub use calibration::{Calibration, Measured, calibrate};
+pub use clearance::{Beyond, ClearanceSummary, ContactStatistics, Horizon, LooseFinal};
 pub use explain::{Explanation, LoadAt, TermsAt, explain};
 pub use forces::{ForceAnalysis, ForceRow, StrokeTorque, forces};
 pub use kinematics::{DeadCentre, Kinematics, KinematicsRow, Located, NamedPosition, kinematics};
@@ -36,7 +38,7 @@ pub use offsets::{OffsetExtremes, offset_extremes};
 pub use one_turn::{LengthSlope, LoopCheck, OneTurn, TurnOptions, TurnRow, one_turn};
 pub use precision::{Precision, PrecisionOptions, PrecisionRow, precision};
 pub use reproduce::{Drawing, Entry, Paper, Plot, Reproduction, Series, Style, Verdict, reproduce};
-pub use row::{NoRows, Row, RowSink};
+pub use row::{LooseRow, NoRows, Row, RowSink};
 pub use simulate::{Options, Simulation, simulate, simulate_rows};
 pub use statics::{StaticAnalysis, StaticsOptions, StaticsRow, statics};
 pub use summary::{Cost, ErrorEstimate, Event, Final, Summary, TorqueRange};

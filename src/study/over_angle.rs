@@ -83,6 +83,7 @@ fn reason(unserved: Unserved) -> &'static str {
         }
         Unserved::NotSmooth => "a load is not smooth",
         Unserved::TooSlow => "the crank comes too near to rest",
+        Unserved::WorkLimit => "it takes more evaluations than the work limit allows",
         Unserved::TooLong => "its turns differ from each other, and they are too many to be kept",
     }
 }

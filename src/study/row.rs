@@ -27,6 +27,20 @@ pub struct Row {
     pub reactions: Option<Reactions>,
     /// Torque that drives the crank beside the loads, N m, if asked for.
     pub driving_torque: Option<f64>,
+    /// What a loose joint does, if there is one; `x`, `v`, `a` and `phi` are then those of the free rod.
+    pub clearance: Option<LooseRow>,
+}
+
+/// A loose joint at one time, SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LooseRow {
+    /// Position (m), velocity (m/s) and acceleration (m/s²) of the slider with ideal joints, at the same
+    /// crank motion
+    pub ideal: [f64; 3],
+    /// Centre of the journal from the centre of the bearing, m
+    pub journal: [f64; 2],
+    /// Normal force in the joint, N
+    pub force: f64,
 }
 
 /// Takes the rows of a run as they are computed.
@@ -108,6 +122,7 @@ impl RowMaker<'_> {
             phi: pose.phi(),
             reactions,
             driving_torque,
+            clearance: None,
         }
     }
 }

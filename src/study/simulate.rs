@@ -3,7 +3,7 @@
 use super::row::{NoRows, RowMaker, RowSink};
 use super::summary::Summary;
 use super::task::Task;
-use super::{closed_form, in_time, over_angle};
+use super::{clearance, closed_form, in_time, over_angle};
 use crate::error::Error;
 use crate::mechanism::{Constrained, Curve, Equation, Limits, Reactor};
 use crate::plan::{Engine, Method, Plan};
@@ -116,6 +116,7 @@ fn run(
     match task.plan.engine {
         Engine::ClosedForm => closed_form::run(&task, rows),
         Engine::Energy | Engine::Angle => over_angle::run(&mut task, rows, record),
+        Engine::Contact => clearance::run(&task, rows, record),
         Engine::Time => in_time::run(&task, rows, record),
     }
 }

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::clearance::ClearanceSummary;
 use super::task::Task;
 use crate::plan::Plan;
 
@@ -41,7 +42,10 @@ pub struct Summary {
     /// Torque that keeps the prescribed speed, for prescribed motions.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub driving_torque: Option<TorqueRange>,
-    /// Dead centres and turning points: the first of them, at most as many as were asked for.
+    /// The loose joint, if there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clearance: Option<ClearanceSummary>,
+    /// Dead centres, turning points, impacts and separations: the first of them, at most as many as were asked for.
     pub events: Vec<Event>,
     /// How many there were.
     pub events_total: u64,
@@ -67,6 +71,7 @@ pub(super) struct Solved {
     pub estimate_cost: Option<Cost>,
     pub speed: (f64, f64),
     pub driving_torque: Option<TorqueRange>,
+    pub clearance: Option<ClearanceSummary>,
     pub events: Vec<Event>,
     pub events_total: u64,
     pub warnings: Vec<String>,
@@ -100,6 +105,7 @@ impl Summary {
             omega_min: solved.speed.0,
             omega_max: solved.speed.1,
             driving_torque: solved.driving_torque,
+            clearance: solved.clearance,
             events: solved.events,
             events_total: solved.events_total,
             warnings,
@@ -151,7 +157,7 @@ pub struct TorqueRange {
 /// Something that happened.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Event {
-    /// `dead-centre` or `turning-point`.
+    /// `dead-centre`, `turning-point`, `impact` or `separation`.
     pub kind: &'static str,
     /// s
     pub t_s: f64,

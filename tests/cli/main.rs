@@ -2,6 +2,7 @@
 
 mod arguments;
 mod bad_input;
+mod clearance;
 mod commands;
 mod files;
 mod kinematics;

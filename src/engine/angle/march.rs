@@ -37,6 +37,7 @@ pub(super) struct March<'a, D: Driven> {
     pub evaluations: u64,
     fastest: f64,
     start: Angle,
+    most_evaluations: u64,
     /// Whether a panel was cut or its degree raised since this was last cleared.
     pub refined: bool,
 }
@@ -91,6 +92,7 @@ impl<'a, D: Driven> March<'a, D> {
             evaluations: 0,
             fastest: kinetic,
             start,
+            most_evaluations: resolution.most_evaluations,
             refined: false,
         })
     }
@@ -121,6 +123,9 @@ impl<'a, D: Driven> March<'a, D> {
     /// The next panel.
     pub fn panel(&mut self) -> Result<Done, Unserved> {
         loop {
+            if self.evaluations > self.most_evaluations {
+                return Err(Unserved::WorkLimit);
+            }
             let start = Start {
                 t: self.t.0,
                 kinetic: self.kinetic,

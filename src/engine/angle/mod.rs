@@ -97,6 +97,8 @@ pub struct Resolution {
     pub tail: f64,
     /// Panels are cut unevenly once more from the start, which makes another discretization to compare with.
     pub other: bool,
+    /// Most evaluations of the loads.
+    pub most_evaluations: u64,
 }
 
 /// Most panels that are kept.

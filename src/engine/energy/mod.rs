@@ -43,6 +43,8 @@ pub enum Unserved {
     Equilibrium,
     /// A value is not finite: the mechanism reaches a limit, or a load has no value.
     NotFinite,
+    /// It takes more evaluations than are allowed.
+    WorkLimit,
     /// More panels than are kept: a long run whose turns differ from each other.
     TooLong,
     /// A load jumps, or has a corner that nobody announced.

@@ -9,7 +9,8 @@ use std::path::Path;
 use super::keys::{self, KindKeys};
 use super::read::{Reader, Values};
 use super::{
-    Branch, Clearance, Extent, Friction, Gravity, Joint, Load, Motion, MotionKind, Run, Scene,
+    Branch, Clearance, ContactLaw, Extent, Friction, Gravity, Joint, Load, Motion, MotionKind, Run,
+    Scene,
 };
 
 /// The scene of these tables. What is missing or could not be read has a value that raises no further
@@ -79,17 +80,26 @@ fn friction(values: &Values) -> Option<Friction> {
 }
 
 fn clearance(values: &Values) -> Option<Clearance> {
+    let joint = match values.text("joint")? {
+        "wrist-pin" => Joint::WristPin,
+        _ => Joint::CrankPin,
+    };
+    let default = Clearance::new(joint, values.number("radial")?);
+    let number = |key: &str, default: f64| values.number(key).unwrap_or(default);
+    let word = values.text("contact_law");
+    let law = ContactLaw::ALL.iter().find(|(name, _)| word == Some(*name));
     Some(Clearance {
-        joint: match values.text("joint")? {
-            "wrist-pin" => Joint::WristPin,
-            _ => Joint::CrankPin,
-        },
-        radial: values.number("radial")?,
         bearing_radius: values.number("bearing_radius"),
         young_modulus: values.number("young_modulus"),
         poisson_ratio: values.number("poisson_ratio"),
         restitution: values.number("restitution"),
         friction: values.number("friction"),
+        law: law.map_or(default.law, |(_, law)| *law),
+        friction_threshold: number("friction_threshold", default.friction_threshold),
+        least_approach_speed: number("least_approach_speed", default.least_approach_speed),
+        eccentricity: values.number("eccentricity"),
+        eccentricity_angle: values.number("eccentricity_angle"),
+        ..default
     })
 }
 

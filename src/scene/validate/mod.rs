@@ -1,13 +1,12 @@
 //! Values that no mechanism can have, wherever the scene comes from.
 
 mod check;
+mod clearance;
 mod loads;
 mod start;
 
 use super::number::{apart, show};
-use super::{
-    Clearance, Every, Extent, Friction, Geometry, InertiaAbout, Problem, Rod, RodModel, Run, Scene,
-};
+use super::{Every, Extent, Friction, Geometry, InertiaAbout, Problem, Rod, RodModel, Run, Scene};
 use check::Check;
 
 /// Local error targets below this cannot be met in double precision.
@@ -51,7 +50,7 @@ pub(super) fn problems(scene: &Scene, known: &mut Vec<Problem>) {
         self::friction(list, friction);
     }
     if let Some(clearance) = &scene.clearance {
-        self::clearance(list, clearance);
+        clearance::clearance(list, clearance);
     }
     list.finite("motion.angle", scene.motion.angle);
     list.finite("motion.speed", scene.motion.speed);
@@ -125,33 +124,6 @@ fn friction(list: &mut Check, friction: &Friction) {
             format!("the static coefficient {held} is below the kinetic one {kinetic}"),
             "give one at least as large, or leave it out",
         );
-    }
-}
-
-fn clearance(list: &mut Check, clearance: &Clearance) {
-    list.not_negative("clearance.radial", clearance.radial, "m");
-    for (name, value, unit) in [
-        ("bearing_radius", clearance.bearing_radius, "m"),
-        ("young_modulus", clearance.young_modulus, "Pa"),
-    ] {
-        if let Some(value) = value {
-            list.positive(format_args!("clearance.{name}"), value, unit);
-        }
-    }
-    for (name, value, low, high) in [
-        ("poisson_ratio", clearance.poisson_ratio, -1.0, 0.5),
-        ("restitution", clearance.restitution, 0.0, 1.0),
-        ("friction", clearance.friction, 0.0, f64::MAX),
-    ] {
-        if let Some(value) = value
-            && !(low..=high).contains(&value)
-        {
-            list.add(
-                format_args!("clearance.{name}"),
-                format!("{} is not a possible {name}", show(value)),
-                "poisson_ratio lies between -1 and 0.5, restitution between 0 and 1, friction is not negative",
-            );
-        }
     }
 }
 

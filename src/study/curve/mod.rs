@@ -105,6 +105,7 @@ pub(super) fn run(
     let last = crank_state(curve, &arrived.last);
     let peak = watch.speed.0.abs().max(watch.speed.1.abs());
     let solved = Solved {
+        clearance: None,
         last: Final {
             t_s: end.t,
             theta_rad: last.0.radians(),

@@ -186,6 +186,7 @@ impl CurveWatch<'_> {
             reactor.on_curve(&place, speed, acceleration, force, touch.normal)
         });
         Row {
+            clearance: None,
             t,
             theta: curve.crank_angle(angle).radians(),
             omega: place.dtheta * speed,

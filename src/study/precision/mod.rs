@@ -159,6 +159,12 @@ impl Precision {
 /// ```
 pub fn precision(scene: &Scene, options: &PrecisionOptions) -> Result<Precision, Error> {
     let plan = Plan::new(scene, Method::Auto)?;
+    if plan.engine == Engine::Contact {
+        return Err(Error::refused(
+            "one engine alone serves a scene with clearance in a joint, and there is no reference for it",
+            "use simulate, which states how far its motion is reproducible",
+        ));
+    }
     let t_end = last_time(scene, options)?;
     let mut scene = scene.clone();
     scene.run.extent = Some(Extent::Duration(t_end));

@@ -1,0 +1,291 @@
+//! The run, phase by phase.
+
+use super::step::Stages;
+use super::{Contact, Phase, Sample, Settings, Stretch};
+
+/// Most relative error of the force that is put down to rounding of the depth.
+const MOST_DOUBT: f64 = 1e-6;
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Finish {
+    /// At its last time.
+    AtEnd,
+    /// Because its follower wanted so.
+    Stopped,
+    /// At the most evaluations.
+    WorkLimit,
+    /// The rates are not finite, or change too fast.
+    StepTooSmall,
+}
+
+/// The end of a run.
+#[derive(Clone, Copy, Debug)]
+pub struct Ended<const N: usize> {
+    /// How.
+    pub finish: Finish,
+    /// Last state.
+    pub last: [f64; N],
+    /// The phase it is in.
+    pub phase: Phase,
+    /// Evaluations of the rates.
+    pub evaluations: u64,
+    /// Accepted steps.
+    pub steps: u64,
+}
+
+/// Takes each accepted step; true ends the run.
+pub(super) type Follower<'a, const N: usize> = &'a mut dyn FnMut(&mut Stretch<'_, N>) -> bool;
+
+pub(super) struct Runner<'a, M: Contact<N>, const N: usize> {
+    pub model: &'a M,
+    pub settings: Settings,
+    pub follower: Follower<'a, N>,
+    pub y: [f64; N],
+    pub phase: Phase,
+    /// Prepared at `y`.
+    pub near: M::Near,
+    /// Rates and depth at `y` in `phase`.
+    pub now: Sample<N>,
+    /// Next step, s.
+    pub h: f64,
+    /// Next step of a flight, s.
+    pub flight_h: f64,
+    /// The time the present piece goes to, s: the end or a corner of the rates.
+    pub until: f64,
+    pub evaluations: u64,
+    pub steps: u64,
+    sizes: [f64; N],
+    counted: usize,
+}
+
+/// Why a run does not go on.
+pub(super) type Halt = Result<(), Finish>;
+
+/// Runs from a state to the last time. `linked` holds the distance all the time.
+pub fn run<M: Contact<N>, const N: usize>(
+    model: &M,
+    start: [f64; N],
+    linked: bool,
+    settings: Settings,
+    follower: &mut dyn FnMut(&mut Stretch<'_, N>) -> bool,
+) -> Ended<N> {
+    let (sizes, counted) = model.sizes();
+    let mut runner = Runner {
+        model,
+        settings,
+        follower,
+        y: start,
+        phase: if linked { Phase::Link } else { Phase::Flight },
+        near: model.near(&start),
+        now: model.sample(&model.near(&start), Phase::Flight, None, &start),
+        h: 0.0,
+        flight_h: 0.0,
+        until: settings.t_end,
+        evaluations: 0,
+        steps: 0,
+        sizes,
+        counted,
+    };
+    let finish = match runner.all() {
+        Ok(()) => Finish::AtEnd,
+        Err(finish) => finish,
+    };
+    Ended {
+        finish,
+        last: runner.y,
+        phase: runner.phase,
+        evaluations: runner.evaluations,
+        steps: runner.steps,
+    }
+}
+
+impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
+    fn all(&mut self) -> Halt {
+        self.begin();
+        while self.y[0] < self.settings.t_end {
+            self.until = self.model.next_corner(self.y[0]).min(self.settings.t_end);
+            while self.y[0] < self.until {
+                match self.phase {
+                    Phase::Flight => self.fly()?,
+                    Phase::Contact { approach } => self.touch(approach)?,
+                    Phase::Release { approach } => self.recede(approach)?,
+                    Phase::Link => self.link()?,
+                }
+            }
+            // Beyond a corner the rates are others.
+            self.enter(self.phase);
+        }
+        Ok(())
+    }
+
+    /// The phase and the first step at the start.
+    fn begin(&mut self) {
+        self.enter(self.phase);
+        let Sample {
+            depth,
+            depth_rate: rate,
+            depth_acceleration,
+            ..
+        } = self.now;
+        let at_rest = rate.abs() <= self.model.approach(0.0);
+        if self.phase == Phase::Flight
+            && depth >= -self.model.rounding()
+            && at_rest
+            && depth_acceleration > 0.0
+        {
+            let approach = self.model.approach(rate);
+            self.enter(Phase::Contact { approach });
+        }
+        let fastest = (0..self.counted).fold(0.0, |most: f64, i| {
+            most.max(self.now.rates[i].abs() / self.sizes[i])
+        });
+        self.flight_h = 0.01 / fastest.max(1e-300);
+        self.h = match self.phase {
+            Phase::Contact { .. } => 1e-2 * self.flight_h,
+            _ => self.flight_h,
+        };
+    }
+
+    /// Goes over to a phase at the present state.
+    pub fn enter(&mut self, phase: Phase) {
+        self.phase = phase;
+        self.now = self.sample(None, &{ self.y });
+    }
+
+    /// Rates and depth at a state in the present phase.
+    pub fn sample(&mut self, depth: Option<f64>, y: &[f64; N]) -> Sample<N> {
+        self.evaluations += 1;
+        self.model.sample(&self.near, self.phase, depth, y)
+    }
+
+    /// What the error of a step of this length (s) may be. Rounding sets a floor: that of the state, and that of
+    /// the depth, which makes the force of a shallow contact uncertain however short the step is.
+    pub fn scale(&self, h: f64) -> [f64; N] {
+        let doubt = match self.phase {
+            Phase::Contact { .. } if self.now.depth > 0.0 => {
+                (2.0 * self.model.rounding() / self.now.depth).min(MOST_DOUBT)
+            }
+            _ => 0.0,
+        };
+        std::array::from_fn(|i| {
+            self.settings.tolerance * self.sizes[i]
+                + f64::EPSILON * self.y[i].abs()
+                + doubt * (h * self.now.rates[i]).abs()
+        })
+    }
+
+    pub fn error(&self, stages: &Stages<N>, scale: &[f64; N]) -> f64 {
+        stages.error(scale, self.counted)
+    }
+
+    /// A step in time of this length, not yet accepted.
+    #[inline]
+    pub fn try_step(&mut self, h: f64) -> Stages<N> {
+        let (model, phase) = (self.model, self.phase);
+        let near = &self.near;
+        let mut rates = |_: f64, y: &[f64; N]| model.sample(near, phase, None, y).rates;
+        self.evaluations += 11;
+        Stages::new(&mut rates, &self.y, &self.now.rates, h)
+    }
+
+    /// The next step that keeps the error, and its length; `h` holds what the one after may be.
+    pub fn controlled_step(&mut self, longest: f64) -> Result<(Stages<N>, f64), Finish> {
+        let mut rejected = false;
+        loop {
+            self.check_work()?;
+            let left = self.until - self.y[0];
+            let mut h = self.h.min(longest).min(left);
+            if h > 0.9 * left && h < left {
+                // Two steps of half the rest are better than one and a crumb.
+                h = 0.5 * left;
+            }
+            if h < left && (h <= 4.0 * f64::EPSILON * self.y[0].abs() || h < 1e-300) {
+                return Err(Finish::StepTooSmall);
+            }
+            let stages = self.try_step(h);
+            let error = self.error(&stages, &self.scale(h));
+            if error <= 1.0 {
+                let most = if rejected { 1.0 } else { 6.0 };
+                let grown = h * growth(error).min(most);
+                // A step that was cut short says little about the next.
+                self.h = if h < self.h { grown.max(self.h) } else { grown };
+                return Ok((stages, h));
+            }
+            rejected = true;
+            self.h = if error.is_finite() {
+                h * growth(error)
+            } else {
+                0.1 * h
+            };
+        }
+    }
+
+    pub fn check_work(&self) -> Halt {
+        if self.evaluations >= self.settings.max_evaluations {
+            return Err(Finish::WorkLimit);
+        }
+        Ok(())
+    }
+
+    /// Takes a step in time as accepted.
+    pub fn accept(&mut self, mut stages: Stages<N>, h: f64) -> Halt {
+        let end = self.snapped(*stages.end(), h);
+        let then = self.sample(None, &end);
+        stages.set_last_rate(then.rates);
+        self.accept_to(&stages, end, then)
+    }
+
+    /// The end of a step of length h, at the last time if it is that but for rounding.
+    pub fn snapped(&self, mut end: [f64; N], h: f64) -> [f64; N] {
+        if (self.until - end[0]).abs() <= 1e-10 * h {
+            end[0] = self.until;
+        }
+        end
+    }
+
+    /// Takes a step in time as accepted, with its end and the rates there.
+    pub fn accept_to(&mut self, stages: &Stages<N>, end: [f64; N], then: Sample<N>) -> Halt {
+        let (model, phase, near) = (self.model, self.phase, self.near);
+        let mut rates = |_: f64, y: &[f64; N]| model.sample(&near, phase, None, y).rates;
+        self.follow(stages, &mut rates, end, then)
+    }
+
+    /// Hands a step to the follower and goes to its end.
+    pub fn follow(
+        &mut self,
+        stages: &Stages<N>,
+        rates: &mut dyn FnMut(f64, &[f64; N]) -> [f64; N],
+        end: [f64; N],
+        then: Sample<N>,
+    ) -> Halt {
+        self.steps += 1;
+        let mut stretch = Stretch {
+            phase: self.phase,
+            start: self.y,
+            end,
+            before: self.now,
+            after: then,
+            stages,
+            rates,
+            dense: None,
+        };
+        let stop = (self.follower)(&mut stretch);
+        (self.y, self.now) = (end, then);
+        self.near = self.model.near(&self.y);
+        if stop { Err(Finish::Stopped) } else { Ok(()) }
+    }
+
+    fn link(&mut self) -> Halt {
+        let (mut stages, h) = self.controlled_step(f64::INFINITY)?;
+        let end = self.snapped(self.model.relinked(stages.end()), h);
+        let then = self.sample(None, &end);
+        stages.set_last_rate(then.rates);
+        self.accept_to(&stages, end, then)
+    }
+}
+
+/// By how much the step may change.
+pub(super) fn growth(error: f64) -> f64 {
+    (0.9 / error.sqrt().sqrt().sqrt()).clamp(0.2, 6.0)
+}

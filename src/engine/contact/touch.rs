@@ -1,0 +1,163 @@
+//! The phase of contact: in and out with the root of the depth as the independent variable, in time between.
+
+use super::flight::{depth, nudged};
+use super::run::{Halt, Runner, growth};
+use super::step::Stages;
+use super::{Contact, Phase};
+use crate::numeric::root;
+
+/// The rate of the depth may change by about this part while the depth's root is the independent variable.
+const CHANGE: f64 = 0.3;
+
+impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
+    pub(super) fn touch(&mut self, approach: f64) -> Halt {
+        let began = self.y[0];
+        let (depth, rate) = (self.now.depth, self.now.depth_rate);
+        if rate > 0.0 {
+            let reach = self.reach(rate);
+            if depth < 1e-3 * reach && self.by_root(approach, 0.0, reach.sqrt())? {
+                self.h = 0.7 * (self.y[0] - began);
+                self.enter(self.phase);
+            }
+        }
+        while self.y[0] < self.until {
+            if self.now.depth_rate < 0.0 && self.now.depth <= self.model.rounding() {
+                self.part();
+                return Ok(());
+            }
+            if self.leaves() {
+                let from = self.now.depth.sqrt();
+                if self.by_root(approach, from, 0.0)? {
+                    self.part();
+                    return Ok(());
+                }
+            }
+            if !self.press(approach)? {
+                return Ok(());
+            }
+        }
+        Ok(())
+    }
+
+    /// One step in time. False if the contact presses no more.
+    fn press(&mut self, approach: f64) -> Result<bool, super::Finish> {
+        let (depth, rate) = (self.now.depth, self.now.depth_rate);
+        let longest = if rate < 0.0 && depth > 0.0 {
+            0.8 * depth / -rate
+        } else {
+            f64::INFINITY
+        };
+        let (mut stages, h, end, then) = loop {
+            let (stages, h) = self.controlled_step(longest)?;
+            let end = self.snapped(*stages.end(), h);
+            let then = self.sample(None, &end);
+            if then.depth > 0.0 || depth <= 0.0 {
+                break (stages, h, end, then);
+            }
+            self.h = 0.3 * h;
+        };
+        let model = self.model;
+        if model.pressing(approach, then.depth_rate) >= 0.0 {
+            stages.set_last_rate(then.rates);
+            self.accept_to(&stages, end, then)?;
+            return Ok(true);
+        }
+        let (dense, _) = self.inside(&mut stages);
+        let phase = self.phase;
+        let pressing = |u: f64| model.pressing(approach, self::depth(model, phase, &dense.at(u)).1);
+        if let Some(u) = root::bracketed(pressing, 0.0, 1.0).filter(|u| *u > 0.0) {
+            self.cut_at(u * h)?;
+        }
+        self.enter(Phase::Release { approach });
+        Ok(false)
+    }
+
+    /// Depth up to which the root may be the independent variable, from the deceleration at a trial depth.
+    fn reach(&mut self, rate: f64) -> f64 {
+        const TRIAL: f64 = 1e-6;
+        let y = self.y;
+        let free = self.sample(Some(0.0), &y).depth_acceleration;
+        let pressed = self.sample(Some(TRIAL), &y).depth_acceleration;
+        let growth = (free - pressed).max(0.0) / (TRIAL * TRIAL.sqrt());
+        let energy = 0.5 * CHANGE * rate * rate;
+        let by_wall = (energy / growth.max(1e-300)).powf(0.4);
+        by_wall.min(energy / free.abs().max(1e-300))
+    }
+
+    /// Whether the contact is on its way out, with a rate that hardly changes until then.
+    fn leaves(&mut self) -> bool {
+        let (depth, rate) = (self.now.depth, self.now.depth_rate);
+        let bounded = |acceleration: f64| acceleration.abs() * depth < CHANGE * rate * rate;
+        if rate >= 0.0 || depth <= 0.0 || !bounded(self.now.depth_acceleration) {
+            return false;
+        }
+        bounded(self.sample(Some(0.0), &{ self.y }).depth_acceleration)
+    }
+
+    /// Goes from one root of the depth to another. False, and the state is that of the last good step, if that
+    /// is not possible: beyond the last time, without pressing, or with a rate that vanishes.
+    fn by_root(&mut self, approach: f64, from: f64, to: f64) -> Result<bool, super::Finish> {
+        let (model, phase) = (self.model, self.phase);
+        let (mut s, mut ds) = (from, to - from);
+        let scale = self.scale(0.0);
+        while s != to {
+            self.check_work()?;
+            let near = self.near;
+            let along = |s: f64, y: &[f64; N]| {
+                let sample = model.sample(&near, phase, Some(s * s), y);
+                let slope = 2.0 * s / sample.depth_rate;
+                sample.rates.map(|each| each * slope)
+            };
+            let slope = 2.0 * s / self.now.depth_rate;
+            let first = self.now.rates.map(|each| each * slope);
+            let (s0, length) = (s, ds);
+            let mut rates = |c: f64, y: &[f64; N]| along(s0 + c * length, y);
+            let mut stages = Stages::new(&mut rates, &self.y, &first, length);
+            self.evaluations += 11;
+            let error = self.error(&stages, &scale);
+            let end = *stages.end();
+            let next = if ds == to - s { to } else { s + ds };
+            let then = self.sample(Some(next * next), &end);
+            let sound = end[0] > self.y[0] && then.depth_rate * (to - from) > 0.0;
+            if !sound || error.is_nan() || error > 1.0 {
+                let shrink = if error.is_finite() {
+                    growth(error).min(0.5)
+                } else {
+                    0.2
+                };
+                ds *= shrink;
+                if ds.abs() < 1e-3 * (to - from).abs() {
+                    return Ok(false);
+                }
+                continue;
+            }
+            if end[0] > self.until || model.pressing(approach, then.depth_rate) < 0.0 {
+                return Ok(false);
+            }
+            s = next;
+            let slope = 2.0 * s / then.depth_rate;
+            stages.set_last_rate(then.rates.map(|each| each * slope));
+            self.follow(&stages, &mut rates, end, then)?;
+            ds *= growth(error);
+            if (to - s).abs() <= ds.abs() {
+                ds = to - s;
+            }
+        }
+        Ok(true)
+    }
+
+    /// The contact ends here; what the depth is off zero is put right in time.
+    fn part(&mut self) {
+        let model = self.model;
+        let (depth, rate) = depth(model, Phase::Flight, &self.y);
+        let dt = -depth / rate;
+        if dt.is_finite() && dt.abs() < 1e-3 * self.flight_h {
+            let near = self.near;
+            let rates = |y: &[f64; N]| model.sample(&near, Phase::Flight, None, y).rates;
+            self.y = nudged(&self.y, dt, rates);
+            self.near = model.near(&self.y);
+            self.evaluations += 2;
+        }
+        self.enter(Phase::Flight);
+    }
+}

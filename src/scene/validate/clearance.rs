@@ -1,0 +1,116 @@
+//! Clearances that no joint can have.
+
+use super::super::number::{apart, show};
+use super::super::{Clearance, ContactLaw};
+use super::check::Check;
+
+pub(super) fn clearance(list: &mut Check, clearance: &Clearance) {
+    list.not_negative("clearance.radial", clearance.radial, "m");
+    for (name, value, unit) in [
+        ("bearing_radius", clearance.bearing_radius, "m"),
+        ("young_modulus", clearance.young_modulus, "Pa"),
+        (
+            "friction_threshold",
+            Some(clearance.friction_threshold),
+            "m/s",
+        ),
+        (
+            "least_approach_speed",
+            Some(clearance.least_approach_speed),
+            "m/s",
+        ),
+    ] {
+        if let Some(value) = value {
+            list.positive(format_args!("clearance.{name}"), value, unit);
+        }
+    }
+    for (name, value, low, high) in [
+        ("poisson_ratio", clearance.poisson_ratio, -1.0, 0.5),
+        ("restitution", clearance.restitution, 0.0, 1.0),
+        ("friction", clearance.friction, 0.0, f64::MAX),
+    ] {
+        if let Some(value) = value
+            && !(low..=high).contains(&value)
+        {
+            list.add(
+                format_args!("clearance.{name}"),
+                format!("{} is not a possible {name}", show(value)),
+                "poisson_ratio lies between -1 and 0.5, restitution between 0 and 1, friction is not negative",
+            );
+        }
+    }
+    if let Some(angle) = clearance.eccentricity_angle {
+        list.finite("clearance.eccentricity_angle", angle);
+    }
+    fits(list, clearance);
+    restitution(list, clearance);
+}
+
+/// The journal fits into the bearing, and lies inside it at the start.
+fn fits(list: &mut Check, clearance: &Clearance) {
+    let radial = clearance.radial;
+    if let Some(bearing) = clearance.bearing_radius
+        && radial >= bearing
+        && list.sound(["clearance.radial", "clearance.bearing_radius"])
+    {
+        let (radial, bearing) = apart(radial, bearing);
+        list.add(
+            "clearance.radial",
+            format!(
+                "a clearance of {radial} m leaves no journal in a bearing of radius {bearing} m"
+            ),
+            "make the clearance smaller than the radius of the bearing",
+        );
+    }
+    let Some(eccentricity) = clearance.eccentricity else {
+        return;
+    };
+    list.not_negative("clearance.eccentricity", eccentricity, "m");
+    let linked = clearance.law == ContactLaw::MasslessLink;
+    let impossible = eccentricity > radial || (linked && eccentricity != radial);
+    if impossible && list.sound(["clearance.radial", "clearance.eccentricity"]) {
+        let (shown, radial) = apart(eccentricity, radial);
+        let (what, help) = if linked {
+            (
+                "a massless link keeps the journal at the radial clearance",
+                "leave out eccentricity, or give the radial clearance",
+            )
+        } else {
+            (
+                "the journal would begin inside the bearing's wall, and its approach speed would not be known",
+                "give at most the radial clearance",
+            )
+        };
+        list.add(
+            "clearance.eccentricity",
+            format!("{what}: {shown} m, and the radial clearance is {radial} m"),
+            help,
+        );
+    }
+}
+
+/// A massless link has no surfaces that slide; laws that divide by the restitution.
+fn restitution(list: &mut Check, clearance: &Clearance) {
+    let friction = clearance.friction.unwrap_or(0.0);
+    if clearance.law == ContactLaw::MasslessLink && friction > 0.0 {
+        list.add(
+            "clearance.friction",
+            format!(
+                "a massless link has no friction, but it is {}",
+                show(friction)
+            ),
+            "leave it out, or use another contact_law",
+        );
+    }
+    let divides = matches!(clearance.law, ContactLaw::Flores | ContactLaw::Gonthier);
+    if divides && clearance.restitution == Some(0.0) {
+        list.add(
+            "clearance.restitution",
+            format!(
+                "the damping of the law \"{}\" grows without bound as the restitution nears 0",
+                clearance.law.name()
+            ),
+            "use contact_law = \"lankarani-nikravesh\" or \"hunt-crossley\", or a restitution above 0",
+        );
+    }
+}

@@ -1,0 +1,155 @@
+//! The mechanism with a loose joint as the integrator sees it.
+
+use crate::engine::contact::{Contact, Phase, Sample};
+use crate::mechanism::{JointTouch, LooseMechanism, LooseState, Turned};
+
+/// Numbers of a state whose crank moves by itself: t, θ, ψ, x and their rates, the work of the loads and the
+/// energy lost in the contact.
+pub(super) const FREE: usize = 9;
+/// Numbers of a state whose crank has a prescribed speed: the same without θ and its rate; the work is that of
+/// the drive too.
+pub(super) const DRIVEN: usize = 7;
+
+/// The mechanism with sizes for the error, and N numbers.
+pub(super) struct Loose<'a, const N: usize> {
+    pub mechanism: &'a LooseMechanism,
+    /// Crank angle (rad) and speed (rad/s) at the start.
+    pub start: (f64, f64),
+    /// Size of the positions, m.
+    pub length: f64,
+    /// Size of the angles, rad.
+    pub angle: f64,
+    /// Size of speeds over that of positions, 1/s.
+    pub pace: f64,
+    /// Size of the mechanism, m.
+    pub reach: f64,
+    /// The next time at which a load has a corner, s.
+    pub corners: &'a dyn Fn(f64) -> f64,
+}
+
+impl<const N: usize> Loose<'_, N> {
+    /// The state in these numbers.
+    #[inline(always)]
+    pub fn state(&self, y: &[f64; N]) -> LooseState {
+        if N == DRIVEN {
+            let (angle, speed) = self.start;
+            LooseState {
+                t: y[0],
+                theta: angle + speed * y[0],
+                psi: y[1],
+                x: y[2],
+                omega: speed,
+                spin: y[3],
+                v: y[4],
+            }
+        } else {
+            LooseState {
+                t: y[0],
+                theta: y[1],
+                psi: y[2],
+                x: y[3],
+                omega: y[4],
+                spin: y[5],
+                v: y[6],
+            }
+        }
+    }
+
+    /// The numbers of a state, with work and loss, J.
+    pub fn numbers(&self, s: &LooseState, [work, lost]: [f64; 2]) -> [f64; N] {
+        let free = [s.t, s.theta, s.psi, s.x, s.omega, s.spin, s.v, work, lost];
+        Self::packed(&free)
+    }
+
+    /// Work of loads and drive, and energy lost in the contact, J.
+    pub fn work(&self, y: &[f64; N]) -> [f64; 2] {
+        [y[N - 2], y[N - 1]]
+    }
+
+    #[inline(always)]
+    fn packed(free: &[f64; FREE]) -> [f64; N] {
+        const KEPT: [usize; DRIVEN] = [0, 2, 3, 5, 6, 7, 8];
+        std::array::from_fn(|i| free[if N == DRIVEN { KEPT[i] } else { i }])
+    }
+}
+
+/// How a phase acts on the bodies.
+#[inline(always)]
+pub(super) fn touch(phase: Phase, depth: Option<f64>) -> JointTouch {
+    match phase {
+        Phase::Flight | Phase::Release { .. } => JointTouch::Apart,
+        Phase::Contact { approach } => JointTouch::Pressed { approach, depth },
+        Phase::Link => JointTouch::Linked,
+    }
+}
+
+impl<const N: usize> Contact<N> for Loose<'_, N> {
+    type Near = Turned;
+
+    fn near(&self, y: &[f64; N]) -> Turned {
+        let s = self.state(y);
+        Turned::new(s.theta, s.psi)
+    }
+
+    #[inline(always)]
+    fn sample(&self, near: &Turned, phase: Phase, depth: Option<f64>, y: &[f64; N]) -> Sample<N> {
+        let s = self.state(y);
+        let (r, d) = self.mechanism.rates_near(near, &s, touch(phase, depth));
+        Sample {
+            rates: Self::packed(&[
+                1.0,
+                s.omega,
+                s.spin,
+                s.v,
+                r.alpha,
+                r.spin_rate,
+                r.a,
+                r.power,
+                r.lost,
+            ]),
+            depth: d.value,
+            depth_rate: d.rate,
+            depth_acceleration: d.acceleration,
+        }
+    }
+
+    fn gap(&self, y: &[f64; N]) -> (f64, f64) {
+        self.mechanism.gap(&self.state(y))
+    }
+
+    fn pressing(&self, approach: f64, rate: f64) -> f64 {
+        self.mechanism.pressing(rate, approach)
+    }
+
+    fn rounding(&self) -> f64 {
+        8.0 * f64::EPSILON * self.reach
+    }
+
+    fn approach(&self, speed: f64) -> f64 {
+        self.mechanism.approach(speed)
+    }
+
+    fn relinked(&self, y: &[f64; N]) -> [f64; N] {
+        self.numbers(&self.mechanism.relinked(&self.state(y)), self.work(y))
+    }
+
+    fn next_corner(&self, t: f64) -> f64 {
+        (self.corners)(t)
+    }
+
+    fn sizes(&self) -> ([f64; N], usize) {
+        let (angle, length, pace) = (self.angle, self.length, self.pace);
+        let sizes = [
+            1.0 / pace,
+            angle,
+            angle,
+            length,
+            angle * pace,
+            angle * pace,
+            length * pace,
+            1.0,
+            1.0,
+        ];
+        (Self::packed(&sizes), N - 2)
+    }
+}

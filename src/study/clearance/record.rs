@@ -1,0 +1,163 @@
+//! What a run leaves behind in memory that does not grow with it: the journal's place at regular times, and what
+//! the contact did between them.
+
+use serde::Serialize;
+
+/// What the contact did over some time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Tally {
+    pub impacts: u64,
+    /// Time in contact, s.
+    pub touching: f64,
+    /// Time in which a massless link was drawn, s.
+    pub drawn: f64,
+    /// ∫ F dt, N s
+    pub impulse: f64,
+    /// ∫ F² dt, N² s
+    pub squared: f64,
+    /// Largest force, N.
+    pub peak: f64,
+    /// Largest penetration, m.
+    pub deepest: f64,
+}
+
+impl Tally {
+    pub fn add(&mut self, other: &Tally) {
+        self.impacts += other.impacts;
+        self.touching += other.touching;
+        self.drawn += other.drawn;
+        self.impulse += other.impulse;
+        self.squared += other.squared;
+        self.peak = self.peak.max(other.peak);
+        self.deepest = self.deepest.max(other.deepest);
+    }
+}
+
+/// Statistics of the contact over a part of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ContactStatistics {
+    /// s
+    pub from_s: f64,
+    /// s
+    pub to_s: f64,
+    /// Contacts that began.
+    pub impacts: u64,
+    /// Part of the time in contact.
+    pub contact_share: f64,
+    /// Largest normal force, N.
+    pub force_peak_n: f64,
+    /// Normal force, mean over time, N.
+    pub force_mean_n: f64,
+    /// Normal force, root of the mean square over time, N.
+    pub force_rms_n: f64,
+}
+
+impl ContactStatistics {
+    pub(super) fn new(tally: &Tally, from: f64, to: f64) -> ContactStatistics {
+        let mean = |sum: f64| if to > from { sum / (to - from) } else { 0.0 };
+        ContactStatistics {
+            from_s: from,
+            to_s: to,
+            impacts: tally.impacts,
+            contact_share: mean(tally.touching),
+            force_peak_n: tally.peak,
+            force_mean_n: mean(tally.impulse),
+            force_rms_n: mean(tally.squared).sqrt(),
+        }
+    }
+}
+
+/// Most samples kept; beyond them every second one goes.
+const MOST: usize = 1024;
+
+/// Samples and tallies of a run.
+#[derive(Clone, Debug)]
+pub(super) struct Record {
+    /// Distance of the samples, s.
+    width: f64,
+    samples: Vec<[f64; 2]>,
+    tallies: Vec<Tally>,
+}
+
+impl Record {
+    /// Samples this far apart, s, or twice, four times... as far in a long run.
+    pub fn new(width: f64) -> Record {
+        Record {
+            width,
+            samples: Vec::with_capacity(MOST + 1),
+            tallies: Vec::with_capacity(MOST + 1),
+        }
+    }
+
+    /// When the next sample is due, s.
+    pub fn due(&self) -> f64 {
+        self.samples.len() as f64 * self.width
+    }
+
+    /// The journal's place at the time that is due.
+    pub fn sample(&mut self, journal: [f64; 2]) {
+        self.samples.push(journal);
+        if self.samples.len() > MOST {
+            let mut index = 0;
+            self.samples.retain(|_| {
+                index += 1;
+                index % 2 == 1
+            });
+            let pairs = self.tallies.chunks(2).map(|pair| {
+                let mut both = pair[0];
+                pair[1..].iter().for_each(|other| both.add(other));
+                both
+            });
+            self.tallies = pairs.collect();
+            self.width *= 2.0;
+        }
+    }
+
+    /// What the contact did about time t, s.
+    pub fn tally(&mut self, t: f64, tally: &Tally) {
+        let index = (t / self.width) as usize;
+        if index >= self.tallies.len() {
+            self.tallies
+                .resize(index.min(2 * MOST) + 1, Tally::default());
+        }
+        let last = self.tallies.len() - 1;
+        self.tallies[index.min(last)].add(tally);
+    }
+
+    /// All tallies from time t (s) on, and where that begins.
+    pub fn since(&self, t: f64) -> (Tally, f64) {
+        let first = (t / self.width).round() as usize;
+        let mut sum = Tally::default();
+        let from = self.tallies.get(first..).unwrap_or_default();
+        from.iter().for_each(|tally| sum.add(tally));
+        (sum, first as f64 * self.width)
+    }
+
+    /// The last sample time, s, up to which two records agree to within a distance, m; none if to the end.
+    pub fn agrees_until(&self, other: &Record, distance: f64) -> Option<f64> {
+        let apart = |(a, b): (&[f64; 2], &[f64; 2])| {
+            let off = (a[0] - b[0]).hypot(a[1] - b[1]);
+            off > distance || off.is_nan()
+        };
+        let first = self.samples.iter().zip(&other.samples).position(apart)?;
+        Some(first.saturating_sub(1) as f64 * self.width)
+    }
+}
+
+/// The quintic through value, rate and second derivative at both ends of a step of length h, at u in [0, 1]:
+/// value and rate.
+pub(super) fn quintic(start: [f64; 3], end: [f64; 3], h: f64, u: f64) -> (f64, f64) {
+    let ([y0, d0, s0], [y1, d1, s1]) = (start, end);
+    let (v0, v1) = (h * d0, h * d1);
+    let (c0, c1) = (0.5 * h * h * s0, 0.5 * h * h * s1);
+    let rise = y1 - y0 - v0 - c0;
+    let slope = v1 - v0 - 2.0 * c0;
+    let bend = 2.0 * (c1 - c0);
+    let k3 = 10.0 * rise - 4.0 * slope + 0.5 * bend;
+    let k4 = -15.0 * rise + 7.0 * slope - bend;
+    let k5 = 6.0 * rise - 3.0 * slope + 0.5 * bend;
+    (
+        y0 + u * (v0 + u * (c0 + u * (k3 + u * (k4 + u * k5)))),
+        (v0 + u * (2.0 * c0 + u * (3.0 * k3 + u * (4.0 * k4 + u * 5.0 * k5)))) / h,
+    )
+}

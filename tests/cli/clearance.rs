@@ -1,0 +1,72 @@
+//! A loose joint on the command line: columns, summary, figure.
+
+use super::program::{Folder, Rows, at, repository};
+
+const COLUMNS: &str = "t_s,theta_rad,omega_rad_per_s,alpha_rad_per_s2,x_m,v_m_per_s,a_m_per_s2,phi_rad,\
+    crank_torque_nm,x_ideal_m,v_ideal_m_per_s,a_ideal_m_per_s2,journal_x_m,journal_y_m,contact_force_n";
+
+fn scene(name: &str) -> String {
+    repository(&format!("data/{name}"))
+        .to_str()
+        .expect("a plain path")
+        .to_owned()
+}
+
+#[test]
+fn rows_and_summary_show_the_loose_joint() {
+    let folder = Folder::new();
+    let scene = scene("clearance-5000rpm.toml");
+    let run = [
+        "simulate",
+        &scene,
+        "--torque",
+        "--json",
+        "--out",
+        "rows.csv",
+        "--plot",
+        "motion.svg",
+    ];
+    let summary = folder.run(&run).done().json();
+    let rows = Rows::read(&folder.read("rows.csv"));
+    assert_eq!(rows.header, COLUMNS);
+    // One row a degree over three turns, and the last state.
+    assert_eq!(rows.len(), 1081);
+    assert!(rows.complete());
+    let joint = &summary["clearance"];
+    assert_eq!(summary["engine"], "contact");
+    assert_eq!(joint["joint"], "wrist-pin");
+    // 6.61e10 in the literature on this case.
+    assert!((at(joint, "stiffness_n_per_m_1_5") / 6.61e10 - 1.0).abs() < 1e-3);
+    let kinds = |kind: &str| {
+        let events = summary["events"].as_array().expect("events");
+        events.iter().filter(|event| event["kind"] == kind).count() as f64
+    };
+    assert_eq!(kinds("impact"), at(joint, "impacts"));
+    assert_eq!(kinds("separation"), at(joint, "separations"));
+    assert_eq!(kinds("dead-centre"), 6.0);
+    assert!(at(joint, "dissipated_j") > 0.0);
+    assert!(folder.read("motion.svg").contains("path of the journal"));
+    let text = folder.run(&["simulate", &scene]).done().stdout;
+    for part in ["loose joint", "impacts", "reproducible", "beyond"] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+}
+
+#[test]
+fn the_plan_names_the_loose_joint() {
+    let folder = Folder::new();
+    let scene = scene("gupta-clearance.toml");
+    let text = folder.run(&["explain", &scene]).done().stdout;
+    for part in [
+        "contact",
+        "joint clearance",
+        "crank pin",
+        "impact, separation",
+    ] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    let words = ["method time", "clearance", "help:"];
+    folder
+        .run(&["simulate", &scene, "--method", "time"])
+        .fails(2, &words);
+}
