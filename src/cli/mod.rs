@@ -2,6 +2,7 @@
 
 mod check;
 mod explain;
+mod inverse;
 mod kinematics;
 mod schema;
 mod simulate;
@@ -29,6 +30,8 @@ struct Arguments {
 enum Command {
     /// Forward motion: summary, rows, joint forces
     Simulate(simulate::Arguments),
+    /// Slider force and crank torque from a measured motion
+    Inverse(inverse::Arguments),
     /// One turn in closed form: dead centres, stroke, time ratio, extremes
     Kinematics(kinematics::Arguments),
     /// The equation, what is modelled and why, and what will compute it
@@ -51,6 +54,7 @@ pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let result = match arguments.command {
         Command::Simulate(arguments) => simulate::run(&arguments),
+        Command::Inverse(arguments) => inverse::run(&arguments),
         Command::Kinematics(arguments) => kinematics::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),

@@ -3,6 +3,7 @@
 
 mod body;
 mod extremes;
+mod fold;
 mod lagrange;
 mod limits;
 mod linkage;
@@ -11,6 +12,7 @@ mod reactions;
 
 pub use body::{Bodies, Body, Path};
 pub use extremes::{Extreme, Extremes};
+pub use fold::Candidates;
 pub use lagrange::{Equation, Inertia, Obstacle, Terms};
 pub use limits::{Class, DeadCentre, Limits};
 pub use linkage::{Linkage, Pose};

@@ -22,6 +22,26 @@ pub struct Reactions {
     pub shaking_moment: f64,
 }
 
+impl Reactions {
+    /// The values in the order of output columns: each force x before y.
+    pub fn values(&self) -> [f64; 10] {
+        let ([ox, oy], [ax, ay], [px, py]) = (self.crank_bearing, self.crank_pin, self.wrist_pin);
+        let [sx, sy] = self.shaking;
+        [
+            ox,
+            oy,
+            ax,
+            ay,
+            px,
+            py,
+            self.guide,
+            sx,
+            sy,
+            self.shaking_moment,
+        ]
+    }
+}
+
 /// The rigid bodies that carry the forces.
 #[derive(Clone, Debug)]
 pub struct Reactor {

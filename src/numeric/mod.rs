@@ -2,7 +2,11 @@
 
 pub mod angle;
 pub mod chebyshev;
+pub mod double;
 pub mod exact;
+pub mod fit;
 pub mod gauss;
 pub mod interpolate;
+pub mod orthogonal;
 pub mod root;
+pub mod student;

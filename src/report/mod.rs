@@ -1,11 +1,13 @@
 //! Results on paper: CSV rows, text, JSON. Knows neither mechanics nor integrators.
 
 mod explain;
+mod inverse;
 mod output;
 mod rows;
 mod text;
 
 pub use explain::explanation;
+pub use inverse::{inverse, inverse_rows, residuals};
 pub use output::Output;
 pub use rows::{KinematicsWriter, Preview, RowWriter};
 pub use text::{kinematics, summary};

@@ -6,7 +6,7 @@ use crate::study::{KinematicsRow, Row, RowSink};
 
 const MOTION: &str =
     "t_s,theta_rad,omega_rad_per_s,alpha_rad_per_s2,x_m,v_m_per_s,a_m_per_s2,phi_rad";
-const REACTIONS: &str = "crank_bearing_x_n,crank_bearing_y_n,crank_pin_x_n,crank_pin_y_n,wrist_pin_x_n,wrist_pin_y_n,guide_n,shaking_x_n,shaking_y_n,shaking_moment_nm";
+pub(super) const REACTIONS: &str = "crank_bearing_x_n,crank_bearing_y_n,crank_pin_x_n,crank_pin_y_n,wrist_pin_x_n,wrist_pin_y_n,guide_n,shaking_x_n,shaking_y_n,shaking_moment_nm";
 const TORQUE: &str = "crank_torque_nm";
 const POSITION: &str =
     "theta_rad,x_m,dx_m_per_rad,d2x_m_per_rad2,phi_rad,dphi,d2phi,transmission_rad";
@@ -95,12 +95,7 @@ impl RowSink for RowWriter {
             row.t, row.theta, row.omega, row.alpha, row.x, row.v, row.a, row.phi,
         ];
         if let Some(forces) = &row.reactions {
-            values.extend(forces.crank_bearing);
-            values.extend(forces.crank_pin);
-            values.extend(forces.wrist_pin);
-            values.push(forces.guide);
-            values.extend(forces.shaking);
-            values.push(forces.shaking_moment);
+            values.extend(forces.values());
         }
         values.extend(row.driving_torque);
         write(&mut self.output, &values)

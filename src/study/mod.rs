@@ -7,6 +7,7 @@ mod drive;
 mod explain;
 mod forward;
 mod in_time;
+mod inverse;
 mod kinematics;
 mod over_angle;
 mod passages;
@@ -20,6 +21,10 @@ mod task;
 mod watch;
 
 pub use explain::{Explanation, LoadAt, TermsAt, explain};
+pub use inverse::{
+    BandRule, DataSummary, DeadCentreBand, FitKind, FitSize, FitSummary, ForceRange, Inverse,
+    InverseOptions, InverseRow, InverseSummary, Residual, inverse,
+};
 pub use kinematics::{DeadCentre, Kinematics, KinematicsRow, Located, kinematics};
 pub use row::{NoRows, Row, RowSink};
 pub use simulate::{Options, Simulation, simulate, simulate_rows};
