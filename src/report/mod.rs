@@ -1,12 +1,14 @@
-//! Results on paper: CSV rows, text, JSON. Knows neither mechanics nor integrators.
+//! Results on paper: CSV rows, text, figures, JSON. Knows neither mechanics nor integrators.
 
 mod explain;
+mod figure;
 mod inverse;
 mod output;
 mod rows;
 mod text;
 
 pub use explain::explanation;
+pub use figure::{Axis, Figure, ScaleKind, panels};
 pub use inverse::{inverse, inverse_rows, residuals};
 pub use output::Output;
 pub use rows::{KinematicsWriter, Preview, RowWriter};

@@ -1,0 +1,61 @@
+//! Lines cut at the limits of the axes, in places from 0 to 1.
+
+/// A place on the axes.
+pub(super) type Place = (f64, f64);
+
+/// Rounding of a point on the border.
+const SLACK: f64 = 1e-9;
+
+/// Whether a point lies between the axes.
+pub(super) fn inside((x, y): Place) -> bool {
+    let range = -SLACK..=1.0 + SLACK;
+    range.contains(&x) && range.contains(&y)
+}
+
+/// The pieces of a line that lie between the axes; a point that is not a number breaks the line.
+pub(super) fn pieces(points: &[Place]) -> Vec<Vec<Place>> {
+    let mut pieces: Vec<Vec<Place>> = Vec::new();
+    let runs = points.split(|(x, y)| !(x + y).is_finite());
+    for run in runs.filter(|run| !run.is_empty()) {
+        if let [only] = run {
+            pieces.extend(inside(*only).then(|| vec![*only]));
+            continue;
+        }
+        // Whether the last piece may go on with the next segment.
+        let mut open = false;
+        for pair in run.windows(2) {
+            let Some((begin, end)) = cut(pair[0], pair[1]) else {
+                open = false;
+                continue;
+            };
+            match pieces.last_mut() {
+                Some(piece) if open => piece.push(end),
+                _ => pieces.push(vec![begin, end]),
+            }
+            open = inside(pair[1]);
+        }
+    }
+    pieces
+}
+
+/// The part of a segment between the axes.
+fn cut(a: Place, b: Place) -> Option<(Place, Place)> {
+    if inside(a) && inside(b) {
+        return Some((a, b));
+    }
+    let (mut from, mut to) = (0.0f64, 1.0f64);
+    for (start, end) in [(a.0, b.0), (a.1, b.1)] {
+        let change = end - start;
+        if change == 0.0 {
+            if !(0.0..=1.0).contains(&start) {
+                return None;
+            }
+            continue;
+        }
+        let (first, second) = (-start / change, (1.0 - start) / change);
+        from = from.max(first.min(second));
+        to = to.min(first.max(second));
+    }
+    let at = |s: f64| (a.0 + s * (b.0 - a.0), a.1 + s * (b.1 - a.1));
+    (from < to).then(|| (at(from), at(to)))
+}
