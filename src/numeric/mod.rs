@@ -1,6 +1,7 @@
 //! Small numerical tools, each with its source.
 
 pub mod angle;
+pub mod banded;
 pub mod chebyshev;
 pub mod double;
 pub mod exact;

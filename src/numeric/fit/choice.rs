@@ -2,14 +2,11 @@
 
 use crate::numeric::double::Real;
 
-/// Degrees that are tried beyond the best one before it counts as the best.
+/// Steps that are tried beyond the best one before it counts as the best.
 const PATIENCE: usize = 8;
 
-/// Degrees that are added to the best one, so that what is left out stays below what is uncertain.
-pub(super) const MARGIN: usize = 2;
-
 /// Information criterion of Akaike, corrected for small samples (Hurvich and Tsai, Biometrika 76 (1989) 297).
-pub(super) fn criterion(rows: usize, parameters: usize, squares: f64) -> f64 {
+fn criterion(rows: usize, parameters: usize, squares: f64) -> f64 {
     let (n, p) = (rows as f64, parameters as f64 + 1.0);
     if n - p - 1.0 <= 0.0 {
         return f64::INFINITY;
@@ -17,14 +14,26 @@ pub(super) fn criterion(rows: usize, parameters: usize, squares: f64) -> f64 {
     n * (squares / n).ln() + 2.0 * p * n / (n - p - 1.0)
 }
 
-/// The number of parameters, less one, with the least criterion; `squares` has the sums of squared residuals for
-/// 1, 2, ... parameters, none taken to be below `least`.
-pub(super) fn best<T: Real>(rows: usize, squares: &[T], least: f64) -> usize {
-    let value = |i: usize| criterion(rows, i + 1, squares[i].value().max(least));
+/// The number of steps with the least criterion; `squares` has the sums of squared residuals for `first`,
+/// `first` + `step`, ... parameters, none taken to be below `least`.
+pub(super) fn best<T: Real>(
+    rows: usize,
+    first: usize,
+    step: usize,
+    squares: &[T],
+    least: f64,
+) -> usize {
+    let value = |i: usize| criterion(rows, first + step * i, squares[i].value().max(least));
     (0..squares.len()).fold(0, |best, i| if value(i) < value(best) { i } else { best })
 }
 
-/// Whether more terms may be better still.
-pub(super) fn undecided<T: Real>(rows: usize, squares: &[T], least: f64) -> bool {
-    squares.len() <= best(rows, squares, least) + PATIENCE
+/// Whether more steps may be better still.
+pub(super) fn undecided<T: Real>(
+    rows: usize,
+    first: usize,
+    step: usize,
+    squares: &[T],
+    least: f64,
+) -> bool {
+    squares.len() <= best(rows, first, step, squares, least) + PATIENCE
 }

@@ -1,22 +1,38 @@
 //! One type for all fitted curves.
 
-use super::{Polynomial, Quality, Samples, Size, State};
+use super::spline::DEGREE;
+use super::{Fourier, Polynomial, Quality, Samples, Size, Spline, State};
 
 /// Kinds of curves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// One polynomial.
     Polynomial,
+    /// A smoothing spline.
+    Spline,
+    /// Steady rotation with harmonics.
+    Fourier,
 }
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Kind; 1] = [Kind::Polynomial];
+    pub const ALL: [Kind; 3] = [Kind::Polynomial, Kind::Spline, Kind::Fourier];
 
     /// Its name in options and outputs.
     pub fn name(self) -> &'static str {
         match self {
             Kind::Polynomial => "polynomial",
+            Kind::Spline => "spline",
+            Kind::Fourier => "fourier",
+        }
+    }
+
+    /// Number of parameters of a curve of this size; of a spline without its penalty.
+    fn parameters(self, size: usize) -> usize {
+        match self {
+            Kind::Polynomial => size + 1,
+            Kind::Spline => size + DEGREE,
+            Kind::Fourier => 2 * size + 2,
         }
     }
 }
@@ -26,6 +42,10 @@ impl Kind {
 pub enum Curve {
     /// One polynomial.
     Polynomial(Polynomial),
+    /// A smoothing spline.
+    Spline(Spline),
+    /// Steady rotation with harmonics.
+    Fourier(Fourier),
 }
 
 impl Curve {
@@ -34,11 +54,25 @@ impl Curve {
     /// # Errors
     /// A text that says why the samples do not serve.
     pub fn fit(samples: &Samples<'_>, kind: Kind, size: Size) -> Result<Curve, String> {
-        match kind {
-            Kind::Polynomial => {
-                enough(samples, size, |degree| degree + 1)?;
-                Ok(Curve::Polynomial(Polynomial::fit(samples, size)))
+        let counting = match samples.weight {
+            Some(weight) => weight.iter().filter(|w| **w != 0.0).count(),
+            None => samples.t.len(),
+        };
+        if let Size::Fixed(size) = size {
+            let parameters = kind.parameters(size);
+            if kind == Kind::Spline && size == 0 {
+                return Err("a spline has at least one piece".to_owned());
             }
+            if counting <= parameters {
+                return Err(format!(
+                    "{counting} samples are too few for {parameters} parameters"
+                ));
+            }
+        }
+        match kind {
+            Kind::Polynomial => Ok(Curve::Polynomial(Polynomial::fit(samples, size))),
+            Kind::Spline => Spline::fit(samples, size).map(Curve::Spline),
+            Kind::Fourier => Fourier::fit(samples, size).map(Curve::Fourier),
         }
     }
 
@@ -46,6 +80,8 @@ impl Curve {
     pub fn state(&self, t: f64) -> State {
         match self {
             Curve::Polynomial(polynomial) => polynomial.state(t),
+            Curve::Spline(spline) => spline.state(t),
+            Curve::Fourier(fourier) => fourier.state(t),
         }
     }
 
@@ -53,6 +89,8 @@ impl Curve {
     pub fn quality(&self) -> Quality {
         match self {
             Curve::Polynomial(polynomial) => polynomial.quality(),
+            Curve::Spline(spline) => spline.quality(),
+            Curve::Fourier(fourier) => fourier.quality(),
         }
     }
 
@@ -60,18 +98,21 @@ impl Curve {
     pub fn kind(&self) -> Kind {
         match self {
             Curve::Polynomial(_) => Kind::Polynomial,
+            Curve::Spline(_) => Kind::Spline,
+            Curve::Fourier(_) => Kind::Fourier,
         }
     }
 
     /// Degree of the polynomial or of the spline's pieces, number of harmonics.
     pub fn degree(&self) -> usize {
         match self {
-            Curve::Polynomial(polynomial) => polynomial.degree(),
+            Curve::Spline(_) => DEGREE,
+            other => other.size(),
         }
     }
 
-    /// Coefficients, their standard errors for samples of unit variance, and the condition number of the design
-    /// matrix that belongs to them.
+    /// Coefficients, their standard errors for samples of unit variance, and the condition number that belongs to
+    /// them.
     pub fn coefficients(&self) -> (Vec<f64>, Vec<f64>, f64) {
         match self {
             Curve::Polynomial(polynomial) => {
@@ -82,32 +123,17 @@ impl Curve {
                     powers.condition,
                 )
             }
+            Curve::Spline(spline) => spline.coefficients(),
+            Curve::Fourier(fourier) => fourier.coefficients(),
         }
     }
 
-    /// Degree of the polynomial, number of harmonics.
+    /// Degree of the polynomial, number of pieces of the spline, number of harmonics.
     pub fn size(&self) -> usize {
         match self {
             Curve::Polynomial(polynomial) => polynomial.degree(),
+            Curve::Spline(spline) => spline.pieces(),
+            Curve::Fourier(fourier) => fourier.harmonics(),
         }
-    }
-}
-
-/// Whether there are more samples that count than parameters.
-fn enough(
-    samples: &Samples<'_>,
-    size: Size,
-    parameters: impl Fn(usize) -> usize,
-) -> Result<(), String> {
-    let counting = match samples.weight {
-        Some(weight) => weight.iter().filter(|w| **w != 0.0).count(),
-        None => samples.t.len(),
-    };
-    match size {
-        Size::Fixed(size) if counting <= parameters(size) => Err(format!(
-            "{counting} samples are too few for {} parameters",
-            parameters(size)
-        )),
-        _ => Ok(()),
     }
 }

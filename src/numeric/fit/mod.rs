@@ -2,12 +2,17 @@
 
 mod choice;
 mod curve;
+mod fourier;
 mod polynomial;
 mod powers;
+mod spline;
+mod triangle;
 
 pub use curve::{Curve, Kind};
+pub use fourier::Fourier;
 pub use polynomial::Polynomial;
 pub use powers::Powers;
+pub use spline::Spline;
 
 /// Rows `weight`·y(t) = `target` of a least-squares problem; t rises strictly.
 #[derive(Clone, Copy, Debug)]
@@ -40,22 +45,45 @@ pub struct State {
     pub rounding: [f64; 3],
     /// Covariance of the three, for samples of unit variance: rows of the lower triangle.
     pub covariance: [f64; 6],
+    /// Mean products of what terms that are left out may add to the three, in the same order.
+    pub bias: [f64; 6],
 }
 
 impl State {
     /// Variance of a combination of the three, for samples of unit variance.
     pub fn variance(&self, gradient: &[f64; 3]) -> f64 {
-        let [aa, ba, bb, ca, cb, cc] = self.covariance;
-        let [a, b, c] = *gradient;
-        let sum =
-            a * (a * aa + 2.0 * b * ba) + b * (b * bb + 2.0 * c * cb) + c * (c * cc + 2.0 * a * ca);
-        sum.max(0.0)
+        quadratic(&self.covariance, gradient)
+    }
+
+    /// Square of what terms that are left out may add to a combination of the three.
+    pub fn bias_of(&self, gradient: &[f64; 3]) -> f64 {
+        quadratic(&self.bias, gradient)
     }
 
     /// What rounding may have done to a combination of the three.
     pub fn rounding_of(&self, gradient: &[f64; 3]) -> f64 {
         let parts = gradient.iter().zip(&self.rounding);
         parts.map(|(g, r)| (g * r).abs()).sum()
+    }
+}
+
+/// gᵀ S g for a symmetric matrix given by its lower triangle.
+fn quadratic(matrix: &[f64; 6], gradient: &[f64; 3]) -> f64 {
+    let [aa, ba, bb, ca, cb, cc] = *matrix;
+    let [a, b, c] = *gradient;
+    let sum =
+        a * (a * aa + 2.0 * b * ba) + b * (b * bb + 2.0 * c * cb) + c * (c * cc + 2.0 * a * ca);
+    sum.max(0.0)
+}
+
+/// Adds the products of a vector with itself to a lower triangle.
+fn add_products(matrix: &mut [f64; 6], vector: &[f64; 3], factor: f64) {
+    let mut entry = 0;
+    for k in 0..3 {
+        for l in 0..=k {
+            matrix[entry] += factor * vector[k] * vector[l];
+            entry += 1;
+        }
     }
 }
 

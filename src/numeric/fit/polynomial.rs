@@ -1,12 +1,18 @@
 //! Polynomials of any degree.
 
-use super::choice::{MARGIN, best, undecided};
-use super::{MOST_IN_DOUBLE, Powers, Quality, Samples, Size, State};
+use super::choice::{best, undecided};
+use super::{MOST_IN_DOUBLE, Powers, Quality, Samples, Size, State, add_products};
 use crate::numeric::double::{Double, Real};
 use crate::numeric::orthogonal::{self, Expansion};
 
 /// The highest degree that is chosen from the samples.
 const MOST: usize = 40;
+
+/// Degrees that are added to the best one, so that what is left out stays below what is uncertain.
+const MARGIN: usize = 2;
+
+/// What is left out of a polynomial is taken to be as large as this many of its last terms.
+const LAST: usize = 2;
 
 /// A fitted polynomial, as an expansion in polynomials that are orthonormal over its samples.
 #[derive(Clone, Debug)]
@@ -46,14 +52,14 @@ impl Polynomial {
         let automatic = size == Size::Auto;
         let mut found: Expansion<T> =
             orthogonal::fit(samples.t, samples.target, samples.weight, |squares| {
-                squares.len() <= most && !(automatic && !undecided(rows, squares, least))
+                squares.len() <= most && !(automatic && !undecided(rows, 1, 1, squares, least))
             });
         if automatic {
-            let degree = best(rows, &found.squares, least) + MARGIN;
+            let degree = best(rows, 1, 1, &found.squares, least) + MARGIN;
             found.truncate(degree.min(most));
         }
         let parameters = found.coefficients.len();
-        let supported = best(rows, &found.squares, least);
+        let supported = best(rows, 1, 1, &found.squares, least);
         let squares = found.squares[parameters - 1].value();
         let free = (rows - parameters).max(1) as f64;
         let numbers = |values: &[T]| values.iter().map(|v| v.value()).collect::<Vec<f64>>();
@@ -121,12 +127,10 @@ impl Polynomial {
                 state.value[k] += c * now[k];
                 state.rounding[k] += (c * now[k]).abs();
             }
-            state.covariance[0] += now[0] * now[0];
-            state.covariance[1] += now[1] * now[0];
-            state.covariance[2] += now[1] * now[1];
-            state.covariance[3] += now[2] * now[0];
-            state.covariance[4] += now[2] * now[1];
-            state.covariance[5] += now[2] * now[2];
+            add_products(&mut state.covariance, &now, 1.0);
+            if j + LAST >= self.coefficients.len() {
+                add_products(&mut state.bias, &now, c * c);
+            }
             let Some(norm) = self.norms.get(j + 1) else {
                 break;
             };

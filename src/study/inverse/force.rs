@@ -71,7 +71,9 @@ impl Backwards<'_> {
             + known.abs();
         let rounding = 8.0 * f64::EPSILON * size;
         let error = |gradient: &[f64; 3], more: f64| {
-            (self.sigma * state.variance(gradient).sqrt()).hypot(state.rounding_of(gradient) + more)
+            let noise = self.sigma * self.sigma * state.variance(gradient);
+            let variance = noise + state.bias_of(gradient);
+            variance.sqrt().hypot(state.rounding_of(gradient) + more)
         };
         let (arm, bend) = (terms.pose.dx, terms.pose.d2x);
         let force = torque / arm;

@@ -100,7 +100,7 @@ pub fn inverse(
         linkage: equation.linkage(),
         measured: measurement.measured(),
     };
-    let unfolded = unfold::unfold(sensor.linkage, measurement, scene.motion.speed)?;
+    let unfolded = unfold::unfold(sensor.linkage, measurement, &scene.motion)?;
     let fitted = Fitted::new(
         &sensor,
         measurement,

@@ -16,7 +16,7 @@ pub(super) struct Anchors {
 }
 
 /// The motion between anchors, rad, that is enough however loud the noise.
-const ENOUGH: f64 = 0.15;
+const ENOUGH: f64 = 0.2;
 
 /// The motion between anchors, rad, that is wanted however still the noise.
 const LEAST: f64 = 0.01;
@@ -25,13 +25,14 @@ const LEAST: f64 = 0.01;
 const FEWEST: usize = 16;
 
 impl Anchors {
-    pub fn choose(times: &[f64], candidates: &[Candidates]) -> Anchors {
+    /// Chooses anchors between which the crank turns by at least `blur`, rad, or a little more.
+    pub fn choose(times: &[f64], candidates: &[Candidates], blur: f64) -> Anchors {
         // On either stroke the motion looks alike.
         let one: Vec<f64> = candidates
             .iter()
             .map(|c| c.angles().iter().fold(f64::NEG_INFINITY, |a, b| a.max(*b)))
             .collect();
-        let wanted = (8.0 * noise(&one)).clamp(LEAST, ENOUGH);
+        let wanted = (8.0 * noise(&one)).max(blur).clamp(LEAST, ENOUGH);
         let motion = |stride: usize| {
             let picked: Vec<f64> = one.iter().step_by(stride).copied().collect();
             let mut steps: Vec<f64> = picked.windows(2).map(|w| (w[1] - w[0]).abs()).collect();

@@ -13,7 +13,7 @@ use std::f64::consts::{PI, TAU};
 
 use crate::error::Error;
 use crate::mechanism::{Candidates, Linkage};
-use crate::scene::{Measured, Measurement};
+use crate::scene::{Measured, Measurement, Motion};
 use anchors::Anchors;
 
 /// Continuous crank angles, one for each sample, and what was decided on the way.
@@ -24,18 +24,24 @@ pub(super) struct Unfolded {
     pub warnings: Vec<String>,
 }
 
-/// The continuous crank angle of a measurement. `speed` has the sign of the crank's first motion; zero: not known.
+/// The continuous crank angle of a measurement. The scene's `start` decides between motions that the samples do not
+/// tell apart.
 pub(super) fn unfold(
     linkage: &Linkage,
     measurement: &Measurement,
-    speed: f64,
+    start: &Motion,
 ) -> Result<Unfolded, Error> {
     if measurement.measured() == Measured::Theta {
         return unwrap(linkage, measurement);
     }
     let candidates = candidates(linkage, measurement)?;
-    let anchors = Anchors::choose(measurement.times(), &candidates);
-    let path = search::smoothest(&anchors, speed);
+    let blur = match measurement.measured() {
+        // At a dead centre the crank angle is known to about √(2 noise/x'').
+        Measured::X => 3.0 * (2.0 * noise(measurement.values()) / linkage.r).sqrt(),
+        _ => 0.0,
+    };
+    let anchors = Anchors::choose(measurement.times(), &candidates, blur);
+    let path = search::smoothest(&anchors, start);
     if path.scale > TOO_COARSE {
         return Err(Error::refused(
             format!(
@@ -46,20 +52,16 @@ pub(super) fn unfold(
         ));
     }
     let mut warnings = Vec::new();
-    let direction = if path.theta[path.theta.len() - 1] < path.theta[0] {
-        "clockwise"
+    let from = if start.speed != 0.0 {
+        "the one that begins with the sense of the scene's speed is taken"
+    } else if start.angle != 0.0 {
+        "the one that begins nearer to the scene's angle is taken"
     } else {
-        "counter-clockwise"
-    };
-    let from = if speed == 0.0 {
-        "taken as counter-clockwise, as the scene has no speed"
-    } else {
-        "that of the scene's speed"
+        "the one that begins counter-clockwise is taken, as the scene has neither speed nor angle"
     };
     warnings.push(format!(
-        "{} does not tell a motion from the one on the other strokes: the first motion of the crank is {from}{}",
-        measurement.measured().name(),
-        if path.turned { format!("; in all the crank goes {direction}") } else { String::new() }
+        "{} does not tell a motion from the one on the other strokes: {from}",
+        measurement.measured().name()
     ));
     let doubts = doubt::doubts(&anchors, &path);
     if !doubts.is_empty() {
@@ -74,7 +76,7 @@ pub(super) fn unfold(
             measurement.place(first),
             measurement.times()[first]
         );
-        if doubts.len() > 3 && 2 * doubts.len() > path.passages {
+        if doubts.len() > 7 && doubts.len() >= path.passages {
             return Err(Error::refused(text, "sample more often, or measure theta"));
         }
         warnings.push(format!(
@@ -91,7 +93,7 @@ pub(super) fn unfold(
 const TOO_COARSE: f64 = 0.3;
 
 /// Part of the stroke, or rad, by which noise may take a value beyond what is possible.
-const BEYOND: f64 = 0.03;
+const BEYOND: f64 = 0.06;
 
 /// The crank angles of each sample.
 fn candidates(linkage: &Linkage, measurement: &Measurement) -> Result<Vec<Candidates>, Error> {

@@ -1,6 +1,7 @@
 //! The smoothest continuous motion through the anchors, by dynamic programming.
 
 use super::anchors::{Anchors, in_turn};
+use crate::scene::Motion;
 
 /// A motion through the anchors.
 #[derive(Debug)]
@@ -11,8 +12,6 @@ pub(super) struct Path {
     pub choice: Vec<usize>,
     /// Usual difference between an angle and the parabola through the three before it, as of single angles, rad.
     pub scale: f64,
-    /// Whether the crank ends more than half a turn from where it began.
-    pub turned: bool,
     /// How often the motion changes from one stroke to the other, or could have.
     pub passages: usize,
 }
@@ -28,7 +27,7 @@ struct Node {
 }
 
 #[derive(Clone, Debug)]
-struct Motion {
+struct Way {
     node: u8,
     cost: f64,
     /// The last three angles, newest first.
@@ -37,29 +36,31 @@ struct Motion {
     key: u8,
 }
 
-/// The smoothest path whose first motion has the sign of `speed` (zero: counter-clockwise), if one of that sign is as
-/// smooth as the other.
-pub(super) fn smoothest(anchors: &Anchors, speed: f64) -> Path {
-    let sign = if speed < 0.0 { -1.0 } else { 1.0 };
+/// The smoothest path; of several that are about as smooth the one that begins like the scene.
+pub(super) fn smoothest(anchors: &Anchors, start: &Motion) -> Path {
+    let sign = if start.speed < 0.0 { -1.0 } else { 1.0 };
     let starts = anchors.candidates[0].angles().len();
     let paths: Vec<(f64, Path)> = (0..starts).map(|start| from(anchors, start)).collect();
     let least = paths
         .iter()
         .fold(f64::INFINITY, |least, path| least.min(path.0));
     let worth = |(cost, path): &(f64, Path)| {
-        let with_speed = sign * first_motion(&path.theta) >= 0.0;
         let alike = *cost <= 4.0 * least + 1e-6;
-        (!(alike && with_speed), *cost)
+        let like_the_scene = if start.speed == 0.0 && start.angle != 0.0 {
+            (in_turn(path.theta[0], start.angle) - start.angle).abs()
+        } else {
+            f64::from(sign * first_motion(&path.theta) < 0.0)
+        };
+        (if alike { like_the_scene } else { f64::INFINITY }, *cost)
     };
     let best = paths.into_iter().min_by(|a, b| {
         let (a, b) = (worth(a), worth(b));
-        a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+        a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
     });
     best.map(|(_, path)| path).unwrap_or_else(|| Path {
         theta: vec![0.0; anchors.t.len()],
         choice: vec![0; anchors.t.len()],
         scale: f64::INFINITY,
-        turned: false,
         passages: 0,
     })
 }
@@ -99,14 +100,14 @@ fn from(anchors: &Anchors, start: usize) -> (f64, Path) {
         choice: start as u8,
         theta: first,
     }]];
-    let mut motions = vec![Motion {
+    let mut motions = vec![Way {
         node: 0,
         cost: 0.0,
         last: [first, 0.0, 0.0],
         key: start as u8,
     }];
     for at in 1..anchors.t.len() {
-        let mut next: Vec<(Motion, Node)> = Vec::with_capacity(4 * BEAM);
+        let mut next: Vec<(Way, Node)> = Vec::with_capacity(4 * BEAM);
         for motion in &motions {
             let (expected, spread) = predict(&anchors.t, at, &motion.last);
             for (choice, angle) in anchors.candidates[at].angles().iter().enumerate() {
@@ -120,7 +121,7 @@ fn from(anchors: &Anchors, start: usize) -> (f64, Path) {
                     choice: choice as u8,
                     theta,
                 };
-                let new = Motion {
+                let new = Way {
                     node: 0,
                     cost,
                     last,
@@ -139,7 +140,7 @@ fn from(anchors: &Anchors, start: usize) -> (f64, Path) {
         }
         next.sort_by(|a, b| a.0.cost.total_cmp(&b.0.cost));
         next.truncate(BEAM);
-        let number = |(i, (motion, _)): (usize, &(Motion, Node))| Motion {
+        let number = |(i, (motion, _)): (usize, &(Way, Node))| Way {
             node: i as u8,
             ..motion.clone()
         };
@@ -173,10 +174,8 @@ impl Path {
             true => 0.0,
             false => *errors.select_nth_unstable_by(middle, f64::total_cmp).1,
         };
-        let ends = theta[theta.len() - 1] - theta[0];
         Path {
             scale: 1.4826 * scale,
-            turned: ends.abs() > std::f64::consts::PI,
             passages: choice.windows(2).filter(|w| w[0] != w[1]).count(),
             theta,
             choice,
