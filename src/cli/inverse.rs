@@ -8,7 +8,7 @@ use super::{Outcome, is_standard, print, say, scene};
 use crate::error::Error;
 use crate::report::{self, Output};
 use crate::scene::{Measured, Measurement, Reading};
-use crate::study::{self, FitKind, FitSize, InverseOptions};
+use crate::study::{self, AsPrinted, FitKind, FitSize, InverseOptions};
 
 /// Arguments of `inverse`.
 #[derive(Debug, Args)]
@@ -40,9 +40,15 @@ pub(super) struct Arguments {
     /// Adds joint, guide and shaking forces to the rows
     #[arg(long)]
     reactions: bool,
+    /// Adds the slider force by the energies that Duarte et al. print, and by their equation (9) as printed, to the rows
+    #[arg(long)]
+    as_printed: bool,
     /// Writes samples, fit and residuals as CSV to this file
     #[arg(long, value_name = "FILE")]
     residuals: Option<PathBuf>,
+    /// Draws samples, fit, residuals, force and torque with their bands to this SVG file
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
     /// Prints the summary as one JSON object
     #[arg(long)]
     json: bool,
@@ -84,10 +90,10 @@ fn measurement(arguments: &Arguments) -> Result<Measurement, Error> {
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let rows_on_stdout = is_standard(arguments.out.as_ref());
-    if is_standard(arguments.residuals.as_ref()) {
+    if is_standard(arguments.residuals.as_ref()) || is_standard(arguments.plot.as_ref()) {
         return Err(Error::refused(
-            "the residuals go to a file",
-            "write --residuals residuals.csv",
+            "residuals and figure go to files",
+            "write --residuals residuals.csv, --plot figure.svg",
         ));
     }
     if rows_on_stdout && arguments.json {
@@ -111,18 +117,27 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         reactions: arguments.reactions,
         beside_forces: arguments.beside_forces,
     };
+    let printed = arguments
+        .as_printed
+        .then(|| AsPrinted::new(&scene))
+        .transpose()?;
     let out = arguments.out.as_deref().map(Output::create).transpose()?;
     let residuals = arguments
         .residuals
         .as_deref()
         .map(Output::create)
         .transpose()?;
+    let plot = arguments.plot.as_deref().map(Output::create).transpose()?;
     let result = study::inverse(&scene, &measurement, &options)?;
     if let Some(output) = out {
-        report::inverse_rows(&result, output)?;
+        report::inverse_rows(&result, printed.as_ref(), output)?;
     }
     if let Some(output) = residuals {
         report::residuals(&result, output)?;
+    }
+    if let Some(mut output) = plot {
+        output.write(report::inverse_figure(&result)?.as_bytes())?;
+        output.finish()?;
     }
     if arguments.json {
         print(&report::json(&result.summary)?)?;

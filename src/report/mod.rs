@@ -9,7 +9,7 @@ mod text;
 
 pub use explain::explanation;
 pub use figure::{Axis, Figure, ScaleKind, panels};
-pub use inverse::{inverse, inverse_rows, residuals};
+pub use inverse::{inverse, inverse_figure, inverse_rows, residuals};
 pub use output::Output;
 pub use rows::{KinematicsWriter, Preview, RowWriter};
 pub use text::{kinematics, summary};

@@ -22,8 +22,8 @@ mod watch;
 
 pub use explain::{Explanation, LoadAt, TermsAt, explain};
 pub use inverse::{
-    BandRule, DataSummary, DeadCentreBand, FitKind, FitSize, FitSummary, ForceRange, Inverse,
-    InverseOptions, InverseRow, InverseSummary, Residual, inverse,
+    AsPrinted, BandRule, DataSummary, DeadCentreBand, FitKind, FitSize, FitSummary, ForceRange,
+    Inverse, InverseOptions, InverseRow, InverseSummary, Residual, inverse,
 };
 pub use kinematics::{DeadCentre, Kinematics, KinematicsRow, Located, kinematics};
 pub use row::{NoRows, Row, RowSink};

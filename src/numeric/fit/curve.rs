@@ -1,6 +1,6 @@
 //! One type for all fitted curves.
 
-use super::spline::DEGREE;
+use super::pieces::DEGREE;
 use super::{Fourier, Polynomial, Quality, Samples, Size, Spline, State};
 
 /// Kinds of curves.

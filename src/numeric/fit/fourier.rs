@@ -2,7 +2,7 @@
 
 use super::choice::{best, undecided};
 use super::triangle::Triangle;
-use super::{Quality, Samples, Size, State};
+use super::{Quality, Samples, Size, State, add_products};
 
 /// Most harmonics that are chosen from the samples.
 const MOST: usize = 64;
@@ -92,17 +92,13 @@ impl Fourier {
             ..State::default()
         };
         for (column, parameter) in columns.iter().zip(&self.parameters) {
-            for k in 0..3 {
-                state.rounding[k] += 4.0 * f64::EPSILON * (column[k] * parameter).abs();
+            for (rounding, value) in state.rounding.iter_mut().zip(column) {
+                *rounding += 4.0 * f64::EPSILON * (value * parameter).abs();
             }
         }
         self.triangle.transposed_solve(&mut columns);
-        let mut entry = 0;
-        for k in 0..3 {
-            for l in 0..=k {
-                state.covariance[entry] = columns.iter().map(|column| column[k] * column[l]).sum();
-                entry += 1;
-            }
+        for column in &columns {
+            add_products(&mut state.covariance, column, 1.0);
         }
         state
     }
@@ -221,6 +217,9 @@ fn settle(samples: &Samples<'_>, middle: f64, parameters: &mut [f64]) -> Result<
             return Ok(());
         }
         before = size;
+    }
+    if before < 1e-6 {
+        return Ok(());
     }
     Err("the fit by rotation and harmonics does not settle".to_owned())
 }

@@ -3,6 +3,8 @@
 mod choice;
 mod curve;
 mod fourier;
+mod penalized;
+mod pieces;
 mod polynomial;
 mod powers;
 mod spline;

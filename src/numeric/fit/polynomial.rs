@@ -11,8 +11,10 @@ const MOST: usize = 40;
 /// Degrees that are added to the best one, so that what is left out stays below what is uncertain.
 const MARGIN: usize = 2;
 
-/// What is left out of a polynomial is taken to be as large as this many of its last terms.
-const LAST: usize = 2;
+/// What is left out of a polynomial is taken to be as large as its last terms: two, or a tenth of all.
+fn last(terms: usize) -> usize {
+    (terms / 10).max(2)
+}
 
 /// A fitted polynomial, as an expansion in polynomials that are orthonormal over its samples.
 #[derive(Clone, Debug)]
@@ -52,7 +54,7 @@ impl Polynomial {
         let automatic = size == Size::Auto;
         let mut found: Expansion<T> =
             orthogonal::fit(samples.t, samples.target, samples.weight, |squares| {
-                squares.len() <= most && !(automatic && !undecided(rows, 1, 1, squares, least))
+                squares.len() <= most && (!automatic || undecided(rows, 1, 1, squares, least))
             });
         if automatic {
             let degree = best(rows, 1, 1, &found.squares, least) + MARGIN;
@@ -123,12 +125,12 @@ impl Polynomial {
         let mut before = [0.0; 3];
         let mut now = [1.0 / self.norms[0], 0.0, 0.0];
         for (j, c) in self.coefficients.iter().enumerate() {
-            for k in 0..3 {
-                state.value[k] += c * now[k];
-                state.rounding[k] += (c * now[k]).abs();
+            for (k, q) in now.iter().enumerate() {
+                state.value[k] += c * q;
+                state.rounding[k] += (c * q).abs();
             }
             add_products(&mut state.covariance, &now, 1.0);
-            if j + LAST >= self.coefficients.len() {
+            if j + last(self.coefficients.len()) >= self.coefficients.len() {
                 add_products(&mut state.bias, &now, c * c);
             }
             let Some(norm) = self.norms.get(j + 1) else {

@@ -67,9 +67,14 @@ impl Triangle {
     /// Solves Rᵀ x = b in place for three right-hand sides.
     pub fn transposed_solve(&self, b: &mut [[f64; 3]]) {
         for i in 0..self.size {
-            for k in 0..3 {
-                let sum: f64 = (0..i).map(|j| self.rows[(j, i)] * b[j][k]).sum();
-                b[i][k] = (b[i][k] - sum) / self.rows[(i, i)];
+            let (done, rest) = b.split_at_mut(i);
+            for (j, known) in done.iter().enumerate() {
+                for (value, known) in rest[0].iter_mut().zip(known) {
+                    *value -= self.rows[(j, i)] * known;
+                }
+            }
+            for value in &mut rest[0] {
+                *value /= self.rows[(i, i)];
             }
         }
     }

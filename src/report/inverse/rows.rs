@@ -2,23 +2,33 @@
 
 use crate::error::Error;
 use crate::report::Output;
-use crate::study::{Inverse, InverseRow};
+use crate::study::{AsPrinted, Inverse, InverseRow};
 
 const COLUMNS: &str = "t_s,theta_rad,omega_rad_per_s,alpha_rad_per_s2,slider_force_n,slider_force_se_n,crank_torque_nm,near_dead_centre";
+
+const PRINTED: &str = "spin_only_force_n,duarte_9_force_n";
 
 /// Rows that one piece of text holds.
 const PIECE: usize = 1 << 14;
 
-/// Writes the rows, with joint forces if they were asked for.
+/// Writes the rows, with joint forces if they were asked for, and with the forces as Duarte et al. print them.
 ///
 /// # Errors
 /// [`Error::Write`].
-pub fn inverse_rows(result: &Inverse, mut output: Output) -> Result<(), Error> {
+pub fn inverse_rows(
+    result: &Inverse,
+    printed: Option<&AsPrinted>,
+    mut output: Output,
+) -> Result<(), Error> {
     let reactions = result.with_reactions();
     output.write(COLUMNS.as_bytes())?;
     if reactions {
         output.write(b",")?;
         output.write(crate::report::rows::REACTIONS.as_bytes())?;
+    }
+    if printed.is_some() {
+        output.write(b",")?;
+        output.write(PRINTED.as_bytes())?;
     }
     output.write(b"\n")?;
     in_pieces(&result.rows, &mut output, |row, text| {
@@ -30,6 +40,11 @@ pub fn inverse_rows(result: &Inverse, mut output: Output) -> Result<(), Error> {
                     .into_iter()
                     .for_each(|value| cell(value, text)),
                 None => text.extend(std::iter::repeat_n(b',', 10)),
+            }
+        }
+        if let Some(printed) = printed {
+            for force in printed.forces(row).unwrap_or([f64::NAN; 2]) {
+                cell(force, text);
             }
         }
     })?;

@@ -20,7 +20,7 @@ pub(super) fn check_rows(measurement: &mut Measurement) -> Result<(), Problems> 
         return Err(Problems::in_code(vec![Problem::new("samples", what, help)]));
     }
     for (name, list) in [("time", times), (measurement.measured.name(), values)] {
-        if let Some(at) = list.iter().position(|v| !(v.abs() <= LARGEST)) {
+        if let Some(at) = list.iter().position(|v| v.is_nan() || v.abs() > LARGEST) {
             let what = format!("{} is not a usable number", show(list[at]));
             let help = format!("give finite values below {LARGEST:e} in SI units");
             problems.push(place(measurement, at, name, what, help));

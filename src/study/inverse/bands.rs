@@ -57,10 +57,14 @@ impl BandRule {
 
     /// Why the force of a sample is left empty, if it is.
     pub(super) fn reason(&self, demand: &Demand, factor: f64) -> Option<&'static str> {
-        let near = demand.arm.abs() < self.arm_m;
-        if near && !(demand.arm.abs() > 5.0 * demand.arm_se) {
+        // Not-a-number counts as uncertain.
+        let certain = demand.arm.abs() > 5.0 * demand.arm_se;
+        let narrow = factor * demand.force_se <= self.half_width_max_n;
+        if demand.arm.abs() >= self.arm_m {
+            None
+        } else if !certain {
             Some(NO_SIGN)
-        } else if near && !(factor * demand.force_se <= self.half_width_max_n) {
+        } else if !narrow {
             Some(TOO_WIDE)
         } else {
             None

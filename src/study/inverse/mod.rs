@@ -5,6 +5,7 @@ mod bands;
 mod fitted;
 mod force;
 mod pattern;
+mod printed;
 mod row;
 mod sensor;
 mod summary;
@@ -12,6 +13,7 @@ mod unfold;
 mod warnings;
 
 pub use bands::{BandRule, DeadCentreBand};
+pub use printed::AsPrinted;
 pub use row::{InverseRow, Residual};
 pub use summary::{DataSummary, FitSummary, ForceRange, InverseSummary};
 
