@@ -23,7 +23,7 @@ pub(super) struct Arguments {
     fit: FitKind,
     /// Degree of the polynomial, number of harmonics, or number of pieces of the spline; `auto` chooses it from the
     /// samples
-    #[arg(long, value_name = "NUMBER", default_value = "auto", value_parser = size)]
+    #[arg(long, value_name = "NUMBER", default_value = "auto", value_parser = size, allow_hyphen_values = true)]
     degree: FitSize,
     /// The measured column, where the file has several: theta, gamma or x
     #[arg(long, value_name = "NAME")]

@@ -4,6 +4,7 @@ mod arguments;
 mod bad_input;
 mod commands;
 mod files;
+mod inverse;
 mod kinematics;
 mod limits;
 mod program;

@@ -26,7 +26,10 @@ pub fn inverse_figure(result: &Inverse) -> Result<String, Error> {
     let rows = || result.rows.iter().step_by(stride);
     let samples = || result.residuals.iter().step_by(stride);
     let time = || Axis::linear("time [s]");
-    let few = result.residuals.iter().step_by(result.residuals.len().div_ceil(SAMPLES));
+    let few = result
+        .residuals
+        .iter()
+        .step_by(result.residuals.len().div_ceil(SAMPLES));
     let measured = few.map(|s| (s.t, s.measured * scale)).collect();
     let fitted = samples()
         .map(|s| (s.t, (s.measured - s.residual) * scale))

@@ -79,7 +79,7 @@ pub(super) fn measurement(
         columns(&header, reading).map_err(|found| {
             let mut problem = Problem::new("header", found.what, found.help);
             match &reading.columns {
-                Some(_) => problem.field = "--columns".to_owned(),
+                Some(_) => problem.what = format!("--columns: {}", problem.what),
                 None => {
                     let whole = line_at(&text, end);
                     let part = found.column.map(|at| cell(&text, end, delimiter, at));
@@ -147,6 +147,17 @@ fn samples(
                 problems.push(problem);
             }
         };
+        if record.iter().any(|cell| cell.contains(&b'\n')) {
+            let quote = text.rfind('"').unwrap_or(0);
+            let mut problem = Problem::new(
+                "quote",
+                "a quote is not closed",
+                "write numbers without quotes",
+            );
+            problem.span = Some(quote..quote + 1);
+            problems.push(problem);
+            break;
+        }
         if record.len() != columns.count {
             let what = format!(
                 "{} where the header has {}",
