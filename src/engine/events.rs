@@ -13,25 +13,28 @@ pub enum Crossing {
     Turning,
 }
 
-/// When a step's speed may vanish inside although both ends have the same sign, and where it is extreme:
-/// the step cut into pieces on which the speed is monotone (to the eighth of a step).
+/// A step whose speed may vanish inside is cut into pieces, on each of which the speed has at most one
+/// extreme.
 const PIECES: usize = 8;
+
+/// Most turning points that are found in a step.
+const TURNINGS: usize = 6;
 
 /// All crossings inside a step, in the order of time, as (time, what). `watched` are angles in [0, 2π).
 pub fn crossings(step: &Step, watched: &[f64], found: &mut Vec<(f64, Crossing)>) {
     found.clear();
-    let mut cuts = [step.start.t, step.end.t, step.end.t, step.end.t];
+    let mut cuts = [step.start.t; TURNINGS + 2];
     let mut count = 1;
-    for (from, to) in turning_brackets(step) {
-        if let Some(t) = step.time_of_rest(from, to)
-            && count < 3
+    turning_brackets(step, |from, to| {
+        if count <= TURNINGS
+            && let Some(t) = step.time_of_rest(from, to)
             && t > step.start.t
         {
             found.push((t, Crossing::Turning));
             cuts[count] = t;
             count += 1;
         }
-    }
+    });
     cuts[count] = step.end.t;
     for w in cuts[..=count].windows(2) {
         passages(step, watched, w[0], w[1], found);
@@ -40,24 +43,57 @@ pub fn crossings(step: &Step, watched: &[f64], found: &mut Vec<(f64, Crossing)>)
 }
 
 /// Intervals in which the speed changes sign; none for the usual step whose speed stays clear of zero.
-fn turning_brackets(step: &Step) -> impl Iterator<Item = (f64, f64)> {
+fn turning_brackets(step: &Step, mut bracket: impl FnMut(f64, f64)) {
     let (w0, w1) = (step.start.omega, step.end.omega);
     let change = step.length() * step.start.alpha.abs().max(step.end.alpha.abs());
-    let clear = w0 * w1 > 0.0 && w0.abs().min(w1.abs()) > 2.0 * change;
-    let step = *step;
-    let time = move |i: usize| {
-        if i == PIECES {
-            step.end.t
+    if w0 * w1 > 0.0 && w0.abs().min(w1.abs()) > 2.0 * change {
+        return;
+    }
+    let mut before = Turn::at(step, step.start.t);
+    for i in 1..=PIECES {
+        let t = match i {
+            PIECES => step.end.t,
+            _ => step.start.t + step.length() * i as f64 / PIECES as f64,
+        };
+        let after = Turn::at(step, t);
+        // A speed that comes nearer to zero at first, and then leaves again.
+        let dips = before.approach < 0.0 && after.approach > 0.0 || before.speed == 0.0;
+        let lowest = if dips {
+            step.time_of_extreme_speed(before.t, t)
         } else {
-            step.start.t + step.length() * i as f64 / PIECES as f64
+            None
+        };
+        let mut from = before;
+        for to in [lowest.map(|t| Turn::at(step, t)), Some(after)]
+            .into_iter()
+            .flatten()
+        {
+            if from.speed * to.speed < 0.0 || (to.speed == 0.0 && from.speed != 0.0) {
+                bracket(from.t, to.t);
+            }
+            from = to;
         }
-    };
-    let pieces = if clear { 0 } else { PIECES };
-    (0..pieces).filter_map(move |i| {
-        let (from, to) = (time(i), time(i + 1));
-        let (a, b) = (step.at(from).1, step.at(to).1);
-        (a * b < 0.0 || (b == 0.0 && a != 0.0)).then_some((from, to))
-    })
+        before = after;
+    }
+}
+
+/// Speed at a time, and how fast its size grows.
+#[derive(Clone, Copy)]
+struct Turn {
+    t: f64,
+    speed: f64,
+    approach: f64,
+}
+
+impl Turn {
+    fn at(step: &Step, t: f64) -> Turn {
+        let speed = step.at(t).1;
+        Turn {
+            t,
+            speed,
+            approach: speed * step.acceleration_at(t),
+        }
+    }
 }
 
 /// Passages of watched angles on a piece where the angle is monotone; the start does not count.
@@ -75,6 +111,7 @@ fn passages(step: &Step, watched: &[f64], from: f64, to: f64, found: &mut Vec<(f
             if target >= low
                 && passed
                 && let Some(t) = step.time_of_angle(target, from, to)
+                && t > step.start.t
             {
                 found.push((t, Crossing::Angle(index)));
             }

@@ -4,6 +4,7 @@ pub mod angle;
 pub mod energy;
 pub mod events;
 pub mod library;
+pub mod picard;
 pub mod step;
 pub mod time;
 
@@ -27,6 +28,45 @@ pub trait Motion {
 
     /// The next time after `t` at which the acceleration is not smooth in time; steps end there.
     fn next_corner(&self, t: f64) -> f64;
+
+    /// What the motion takes from the time alone: computed once for each instant of a [`Batch`].
+    fn of_time(&self, _t: f64) -> [f64; 2] {
+        [0.0; 2]
+    }
+
+    /// Accelerations and powers of a batch.
+    fn fill(&self, batch: &mut Batch) {
+        for i in 0..NODES {
+            let angle = Angle {
+                turns: batch.turns,
+                rest: batch.theta[i],
+            };
+            (batch.alpha[i], batch.power[i]) =
+                self.acceleration_and_power(batch.t[i], angle, batch.omega[i]);
+        }
+    }
+}
+
+/// Instants in a batch.
+pub const NODES: usize = 12;
+
+/// Instants whose accelerations are asked for together.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Batch {
+    /// s
+    pub t: [f64; NODES],
+    /// [`Motion::of_time`] at these times.
+    pub of_time: [[f64; 2]; NODES],
+    /// Whole turns beside the angles.
+    pub turns: f64,
+    /// rad
+    pub theta: [f64; NODES],
+    /// rad/s
+    pub omega: [f64; NODES],
+    /// θ̈, rad/s²
+    pub alpha: [f64; NODES],
+    /// W
+    pub power: [f64; NODES],
 }
 
 /// A motion that counts its evaluations and remembers where one was not possible.
@@ -58,6 +98,10 @@ impl<'a> Counted<'a> {
 
     fn note(&self, acceleration: f64, t: f64, angle: Angle, speed: f64) {
         self.evaluations.set(self.evaluations.get() + 1);
+        self.remember(acceleration, t, angle, speed);
+    }
+
+    fn remember(&self, acceleration: f64, t: f64, angle: Angle, speed: f64) {
         // A state that is not finite itself comes from an impossible evaluation before it.
         let asked = angle.rest.is_finite() && speed.is_finite();
         if asked && !acceleration.is_finite() {
@@ -89,5 +133,21 @@ impl Motion for Counted<'_> {
 
     fn next_corner(&self, t: f64) -> f64 {
         self.motion.next_corner(t)
+    }
+
+    fn of_time(&self, t: f64) -> [f64; 2] {
+        self.motion.of_time(t)
+    }
+
+    fn fill(&self, batch: &mut Batch) {
+        self.motion.fill(batch);
+        self.evaluations.set(self.evaluations.get() + NODES as u64);
+        for i in 0..NODES {
+            let angle = Angle {
+                turns: batch.turns,
+                rest: batch.theta[i],
+            };
+            self.remember(batch.alpha[i], batch.t[i], angle, batch.omega[i]);
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! One accepted step and the motion inside it.
 
-use super::Motion;
+use super::{Motion, NODES};
 use crate::numeric::angle::Angle;
 use crate::numeric::root;
 
@@ -21,7 +21,7 @@ pub struct Node {
 
 /// A step from `start` to `end`. Between them θ is the quintic through angle, speed and acceleration of
 /// both ends; [`Step::refine`] adds three terms that make θ̈ right inside the step too (Hermite-Birkhoff
-/// interpolation of degree eight).
+/// interpolation of degree eight). A step may also come with a polynomial of its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
     /// Whole turns to be added to every angle of the step.
@@ -30,12 +30,26 @@ pub struct Step {
     pub start: Node,
     /// Later end.
     pub end: Node,
-    inside: Option<[f64; 3]>,
+    inside: Inside,
+}
+
+/// Terms of the polynomial of a step that came with one.
+pub const TERMS: usize = NODES + 2;
+
+/// What is known of the motion between the ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Inside {
+    /// Nothing more than the ends.
+    Ends,
+    /// The three added terms.
+    Refined([f64; 3]),
+    /// θ minus θ of the start, in powers of x = 2s − 1.
+    Powers([f64; TERMS]),
 }
 
 /// Where inside the step the acceleration is asked for. The nodes of a Lobatto rule would not do: the odd
 /// term has no acceleration there.
-const NODES: [f64; 3] = [0.25, 0.5, 0.75];
+const INNER: [f64; 3] = [0.25, 0.5, 0.75];
 
 impl Step {
     /// The step between two states.
@@ -44,8 +58,24 @@ impl Step {
             turns,
             start,
             end,
-            inside: None,
+            inside: Inside::Ends,
         }
+    }
+
+    /// The step between two states with its motion: θ minus θ of the start, in powers of x, which runs from
+    /// −1 to 1.
+    pub fn with_powers(turns: f64, start: Node, end: Node, powers: [f64; TERMS]) -> Step {
+        Step {
+            turns,
+            start,
+            end,
+            inside: Inside::Powers(powers),
+        }
+    }
+
+    /// Whether the motion inside is known as well as it can be.
+    pub fn is_refined(&self) -> bool {
+        self.inside != Inside::Ends
     }
 
     /// Its length, s.
@@ -71,19 +101,42 @@ impl Step {
         }
         let h = self.length();
         let s = (t - self.start.t) / h;
+        if let Inside::Powers(powers) = &self.inside {
+            let (mut value, mut slope, x) = (0.0, 0.0, 2.0 * s - 1.0);
+            for power in powers.iter().rev() {
+                slope = slope * x + value;
+                value = value * x + power;
+            }
+            return (self.start.theta + value, 2.0 / h * slope);
+        }
         let ([theta, dtheta, _], [bump, dbump, _]) = (self.quintic(s), self.bump(s));
         (theta + bump, (dtheta + dbump) / h)
     }
 
+    /// The second derivative of the angle of [`Self::at`].
+    pub fn acceleration_at(&self, t: f64) -> f64 {
+        let h = self.length();
+        let s = (t - self.start.t) / h;
+        if let Inside::Powers(powers) = &self.inside {
+            let x = 2.0 * s - 1.0;
+            let terms = powers.iter().enumerate().skip(2).rev();
+            let sum = terms.fold(0.0, |sum, (k, power)| {
+                sum * x + (k * (k - 1)) as f64 * power
+            });
+            return 4.0 / (h * h) * sum;
+        }
+        (self.quintic(s)[2] + self.bump(s)[2]) / (h * h)
+    }
+
     /// Makes the motion inside the step as exact as a method of order eight: six evaluations, once.
     pub fn refine(&mut self, motion: &dyn Motion) {
-        if self.inside.is_some() {
+        if self.is_refined() {
             return;
         }
         let h = self.length();
-        self.inside = Some([0.0; 3]);
+        self.inside = Inside::Refined([0.0; 3]);
         for _ in 0..2 {
-            let rest = NODES.map(|s| {
+            let rest = INNER.map(|s| {
                 let t = self.start.t + s * h;
                 let ([theta, dtheta, d2theta], [bump, dbump, _]) = (self.quintic(s), self.bump(s));
                 let angle = self.angle(theta + bump);
@@ -100,10 +153,10 @@ impl Step {
                 (-0.375 * even - 0.0703125 * rest[1]) / determinant,
             ];
             if !found.iter().all(|term| term.is_finite()) {
-                self.inside = Some([0.0; 3]);
+                self.inside = Inside::Refined([0.0; 3]);
                 return;
             }
-            self.inside = Some(found);
+            self.inside = Inside::Refined(found);
         }
     }
 
@@ -128,7 +181,7 @@ impl Step {
 
     /// The added terms s³(1−s)³(b0 + b1 σ + b2 σ²), σ = 2s − 1: value and derivatives.
     fn bump(&self, s: f64) -> [f64; 3] {
-        let Some([b0, b1, b2]) = self.inside else {
+        let Inside::Refined([b0, b1, b2]) = self.inside else {
             return [0.0; 3];
         };
         let sigma = 2.0 * s - 1.0;
@@ -149,6 +202,11 @@ impl Step {
     /// sides of it there.
     pub fn time_of_angle(&self, theta: f64, from: f64, to: f64) -> Option<f64> {
         root::bracketed(|t| self.at(t).0 - theta, from, to)
+    }
+
+    /// When the speed is extreme between `from` and `to`.
+    pub fn time_of_extreme_speed(&self, from: f64, to: f64) -> Option<f64> {
+        root::bracketed(|t| self.acceleration_at(t), from, to)
     }
 
     /// When the speed vanishes between `from` and `to`.

@@ -2,10 +2,20 @@
 
 use std::f64::consts::TAU;
 
-use super::library::{self, Call, Ended, Method};
+use super::library::{self, Call, Ended};
+use super::picard;
 use super::step::{Node, Step};
 use super::{Counted, Motion};
 use crate::numeric::angle::Angle;
+
+/// The methods.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// Gauss collocation of order 24 by sweeps.
+    Picard,
+    /// One of ode_solvers.
+    Library(library::Method),
+}
 
 /// How to integrate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,6 +69,19 @@ pub fn run(
     settings: &Settings,
     sink: &mut dyn FnMut(&Step) -> bool,
 ) -> (Finish, Step, u64) {
+    match settings.method {
+        Method::Picard => picard::run(motion, start, settings, sink),
+        Method::Library(method) => in_calls(motion, start, settings, method, sink),
+    }
+}
+
+fn in_calls(
+    motion: &Counted<'_>,
+    start: Start,
+    settings: &Settings,
+    method: library::Method,
+    sink: &mut dyn FnMut(&Step) -> bool,
+) -> (Finish, Step, u64) {
     let mut angle = start.angle.reduced();
     let mut node = Node {
         t: start.t,
@@ -82,7 +105,7 @@ pub fn run(
             / 12;
         let ended = library::integrate(Call {
             motion,
-            method: settings.method,
+            method,
             tolerance: settings.tolerance,
             turns: angle.turns,
             start: node,

@@ -60,6 +60,7 @@ impl Path {
         }
     }
 
+    #[inline(always)]
     /// Path of a point at (along, left) of the rod: A plus the point in the rod's axes
     /// d = (s cos φ, −sin φ), n = (sin φ, s cos φ), which turn by ψ' = −s φ'.
     pub fn on_rod(linkage: &Linkage, pose: &Pose, along: f64, left: f64) -> Path {

@@ -14,6 +14,7 @@ pub struct Inertia {
 }
 
 impl Inertia {
+    #[inline(always)]
     /// One kinetic term: M += m |p'|² + I ψ'², ½ M' += m p'·p'' + I ψ' ψ''.
     pub fn add(&mut self, mass: f64, inertia: f64, path: &Path) {
         let Path {
@@ -51,7 +52,7 @@ pub struct Equation {
     gravity: [f64; 2],
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct RodInertia {
     mass: f64,
     along: f64,
@@ -121,13 +122,31 @@ impl Equation {
 
     /// The terms that depend on the crank angle (rad) alone.
     pub fn terms(&self, theta: f64) -> Terms {
-        let pose = self.linkage.pose(theta);
+        self.terms_at(self.linkage.pose(theta))
+    }
+
+    /// The same at a position.
+    fn terms_at(&self, pose: Pose) -> Terms {
+        self.terms_of(pose, self.rod.as_ref(), self.weight.as_ref())
+    }
+
+    /// The same at many positions: without cases, a rod or a weight that is not there being zero, so that
+    /// the compiler can work on several side by side.
+    #[inline(always)]
+    pub(super) fn terms_without_cases(&self) -> impl Fn(Pose) -> Terms {
+        let rod = self.rod.unwrap_or_default();
+        let weight = self.weight.unwrap_or_default();
+        move |pose| self.terms_of(pose, Some(&rod), Some(&weight))
+    }
+
+    #[inline(always)]
+    fn terms_of(&self, pose: Pose, rod: Option<&RodInertia>, weight: Option<&Weight>) -> Terms {
         let mut inertia = Inertia {
             m: self.crank_inertia,
             half_dm: 0.0,
         };
         let mut rod_path = Path::default();
-        if let Some(rod) = &self.rod {
+        if let Some(rod) = rod {
             rod_path = Path::on_rod(&self.linkage, &pose, rod.along, rod.left);
             inertia.add(rod.mass, rod.inertia, &rod_path);
         }
@@ -135,7 +154,7 @@ impl Equation {
             inertia.m += self.slider_mass * pose.dx * pose.dx;
             inertia.half_dm += self.slider_mass * pose.dx * pose.d2x;
         }
-        let dv = self.weight.as_ref().map_or(0.0, |weight| {
+        let dv = weight.map_or(0.0, |weight| {
             weight.sine * pose.sin + weight.cosine * pose.cos
                 - (weight.rod[0] * rod_path.dp[0] + weight.rod[1] * rod_path.dp[1])
                 - weight.slider * pose.dx
@@ -149,7 +168,12 @@ impl Equation {
         let theta = theta.into();
         let terms = self.terms(theta.rest);
         let load = self.loads.value(t, theta, omega, &terms.pose);
-        forward(&terms, load.generalized(&terms.pose), omega)
+        forward(
+            &terms.inertia,
+            terms.dv,
+            load.generalized(&terms.pose),
+            omega,
+        )
     }
 
     /// θ̈ as in [`Self::acceleration`], and the power (W) of the loads that have no potential.
@@ -164,7 +188,7 @@ impl Equation {
         let pose = &terms.pose;
         let load = self.loads.value(t, theta, omega, pose);
         let spent = self.loads.without_potential(t, theta, omega, pose);
-        let alpha = forward(&terms, load.generalized(pose), omega);
+        let alpha = forward(&terms.inertia, terms.dv, load.generalized(pose), omega);
         (alpha, spent.generalized(pose) * omega)
     }
 
@@ -215,23 +239,6 @@ impl Equation {
         self.heavy.iter().map(energy).sum()
     }
 
-    /// Why there is no finite acceleration here, if there is none.
-    pub fn obstacle(&self, t: f64, theta: impl Into<Angle>, omega: f64) -> Option<Obstacle> {
-        let theta = theta.into();
-        let terms = self.terms(theta.rest);
-        if !terms.pose.exists() {
-            return Some(Obstacle::Blocked);
-        }
-        let load = self.loads.value(t, theta, omega, &terms.pose);
-        if !load.torque.is_finite() || !load.force.is_finite() {
-            return Some(Obstacle::Load);
-        }
-        if !self.acceleration(t, theta, omega).is_finite() {
-            return Some(Obstacle::NoInertia);
-        }
-        None
-    }
-
     /// Mass and place of a body.
     fn place(&self, body: &Body, pose: &Pose) -> (f64, [f64; 2]) {
         let (r, s, e) = (self.linkage.r, self.linkage.s, self.linkage.e);
@@ -260,19 +267,9 @@ impl Equation {
     }
 }
 
-/// What keeps the equation from having a finite acceleration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Obstacle {
-    /// The rod does not reach the guide, or stands normal to it.
-    Blocked,
-    /// A load has no finite value: outside its table or the domain of its formula.
-    Load,
-    /// M is zero.
-    NoInertia,
-}
-
-fn forward(terms: &Terms, q: f64, omega: f64) -> f64 {
-    (q - terms.dv - terms.inertia.half_dm * omega * omega) / terms.inertia.m
+#[inline]
+pub(super) fn forward(inertia: &Inertia, dv: f64, q: f64, omega: f64) -> f64 {
+    (q - dv - inertia.half_dm * omega * omega) / inertia.m
 }
 
 /// V' = −Σ m g·p', the points of the crank summed to one sine and one cosine.

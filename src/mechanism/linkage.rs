@@ -99,7 +99,12 @@ impl Linkage {
     /// 1 ∓ sin θ = cos²θ/(1 ± sin θ) where the difference would cancel.
     pub fn pose(&self, theta: f64) -> Pose {
         let (sin, cos) = theta.sin_cos();
-        let Linkage { r, l, e, s, .. } = *self;
+        self.pose_at(sin, cos)
+    }
+
+    /// The position at the crank angle of this sine and cosine.
+    pub(super) fn pose_at(&self, sin: f64, cos: f64) -> Pose {
+        let Linkage { r, l, e, .. } = *self;
         let u = e + r * sin;
         let (mut minus, mut plus) = (l - u, l + u);
         if minus < 0.25 * l && sin > 0.0 {
@@ -107,6 +112,26 @@ impl Linkage {
         } else if plus < 0.25 * l && sin < 0.0 {
             plus = self.below + r * (cos * cos / (1.0 - sin));
         }
+        self.pose_of(sin, cos, minus, plus)
+    }
+
+    /// Whether [`Self::pose_far_from_limits`] serves all crank angles.
+    pub(super) fn stays_far_from_limits(&self) -> bool {
+        self.margin() >= 0.25 * self.l
+    }
+
+    /// The same as [`Self::pose_at`] without its cases, for many positions side by side.
+    #[inline(always)]
+    pub(super) fn pose_far_from_limits(&self, sin: f64, cos: f64) -> Pose {
+        let u = self.e + self.r * sin;
+        self.pose_of(sin, cos, self.l - u, self.l + u)
+    }
+
+    /// The position with l − u and l + u, u = e + r sin θ.
+    #[inline(always)]
+    fn pose_of(&self, sin: f64, cos: f64, minus: f64, plus: f64) -> Pose {
+        let Linkage { r, l, e, s, .. } = *self;
+        let u = e + r * sin;
         let w = (minus * plus).sqrt();
         let per_w = 1.0 / w;
         let dphi = r * cos * per_w;

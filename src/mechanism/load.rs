@@ -31,8 +31,12 @@ pub struct Loads {
     stiffness: f64,
     /// −d force/d v, N s/m
     linear_damping: f64,
+    /// Loads that are called, beside those of time alone.
     torques: Vec<Load>,
     forces: Vec<Load>,
+    /// Loads that depend on time alone.
+    timed_torques: Vec<Load>,
+    timed_forces: Vec<Load>,
     reads: Variables,
     on_slider: bool,
 }
@@ -59,6 +63,9 @@ impl Loads {
                     loads.torque += stall;
                     loads.rotary_damping += stall / no_load_speed;
                 }
+                other if depends_on_time_alone(other, false) => {
+                    loads.timed_torques.push(other.clone());
+                }
                 other => loads.torques.push(other.clone()),
             }
         }
@@ -73,6 +80,9 @@ impl Loads {
                 Load::Spring { stiffness, rest } => {
                     loads.stiffness += stiffness;
                     loads.force += stiffness * rest;
+                }
+                other if depends_on_time_alone(other, true) => {
+                    loads.timed_forces.push(other.clone());
                 }
                 other => loads.forces.push(other.clone()),
             }
@@ -92,16 +102,17 @@ impl Loads {
 
     /// Whether all work of the loads follows from a potential.
     pub fn have_potential(&self) -> bool {
-        self.rotary_damping == 0.0
-            && self.linear_damping == 0.0
-            && self.torques.is_empty()
-            && self.forces.is_empty()
+        self.rotary_damping == 0.0 && self.linear_damping == 0.0 && self.called().next().is_none()
+    }
+
+    fn called(&self) -> impl Iterator<Item = &Load> {
+        let torques = self.torques.iter().chain(&self.timed_torques);
+        torques.chain(&self.forces).chain(&self.timed_forces)
     }
 
     /// Crank angles, rad, at which tables over the crank angle have their rows.
     pub fn angle_corners(&self) -> Vec<f64> {
-        let loads = self.torques.iter().chain(&self.forces);
-        loads.flat_map(Load::angle_corners).collect()
+        self.called().flat_map(Load::angle_corners).collect()
     }
 
     /// Whether a constant torque does work in every turn.
@@ -111,8 +122,7 @@ impl Loads {
 
     /// The next time after `t` (s) at which a load is not smooth in time.
     pub fn next_corner(&self, t: f64) -> f64 {
-        let loads = self.torques.iter().chain(&self.forces);
-        loads
+        self.called()
             .map(|load| load.next_corner(t))
             .fold(f64::INFINITY, f64::min)
     }
@@ -129,9 +139,14 @@ impl Loads {
 
     /// Torque and force of the loads that have a potential.
     pub fn with_potential(&self, pose: &Pose) -> LoadValue {
+        self.with_potential_at(pose.x)
+    }
+
+    /// The same at slider position x, m.
+    pub(super) fn with_potential_at(&self, x: f64) -> LoadValue {
         LoadValue {
             torque: self.torque,
-            force: self.force - self.stiffness * pose.x,
+            force: self.force - self.stiffness * x,
         }
     }
 
@@ -143,29 +158,46 @@ impl Loads {
         omega: f64,
         pose: &Pose,
     ) -> LoadValue {
-        let v = pose.dx * omega;
+        self.without_potential_beside(self.of_time(t), t, theta, omega, pose.x, pose.dx)
+    }
+
+    /// Torque and force of the loads that depend on time (s) alone.
+    pub fn of_time(&self, t: f64) -> LoadValue {
+        let now = Instant {
+            t,
+            ..Instant::default()
+        };
+        LoadValue {
+            torque: sum(&self.timed_torques, false, &now),
+            force: sum(&self.timed_forces, true, &now),
+        }
+    }
+
+    /// As [`Self::without_potential`], with [`Self::of_time`] already known, at slider position x (m) and its derivative.
+    pub(super) fn without_potential_beside(
+        &self,
+        of_time: LoadValue,
+        t: f64,
+        theta: impl Into<Angle>,
+        omega: f64,
+        x: f64,
+        dx: f64,
+    ) -> LoadValue {
+        let v = dx * omega;
         let mut value = LoadValue {
-            torque: -self.rotary_damping * omega,
-            force: -self.linear_damping * v,
+            torque: of_time.torque - self.rotary_damping * omega,
+            force: of_time.force - self.linear_damping * v,
         };
         if !(self.torques.is_empty() && self.forces.is_empty()) {
             let now = Instant {
                 t,
                 theta: theta.into().radians(),
                 omega,
-                x: pose.x,
+                x,
                 v,
             };
-            value.torque += self
-                .torques
-                .iter()
-                .map(|load| single(load, false, &now))
-                .sum::<f64>();
-            value.force += self
-                .forces
-                .iter()
-                .map(|load| single(load, true, &now))
-                .sum::<f64>();
+            value.torque += sum(&self.torques, false, &now);
+            value.force += sum(&self.forces, true, &now);
         }
         value
     }
@@ -174,6 +206,14 @@ impl Loads {
     pub fn potential(&self, theta: f64, x: f64) -> f64 {
         -self.torque * theta - self.force * x + 0.5 * self.stiffness * x * x
     }
+}
+
+fn depends_on_time_alone(load: &Load, on_slider: bool) -> bool {
+    load.reads(on_slider) == Variables::T
+}
+
+fn sum(loads: &[Load], on_slider: bool, now: &Instant) -> f64 {
+    loads.iter().map(|load| single(load, on_slider, now)).sum()
 }
 
 /// Value of one load, as a torque or as a force on the slider.

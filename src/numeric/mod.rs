@@ -11,3 +11,4 @@ pub mod interpolate;
 pub mod orthogonal;
 pub mod root;
 pub mod student;
+pub mod trigonometry;

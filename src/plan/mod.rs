@@ -45,6 +45,8 @@ impl Engine {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stepper {
+    /// Gauss collocation with 12 nodes (order 24), solved by Picard sweeps.
+    Picard,
     /// Dormand and Prince, order 8(5,3), of ode_solvers.
     Dop853,
     /// Dormand and Prince, order 5(4), of ode_solvers.
@@ -210,8 +212,10 @@ fn engine(
         )),
         (Method::Auto | Method::Time, false) => Ok((
             Engine::Time,
-            Some(Stepper::Dop853),
-            reason("the loads and the start decide the motion: integration in time, order 8"),
+            Some(Stepper::Picard),
+            reason(
+                "the loads and the start decide the motion: integration in time, by sweeps over Gauss nodes",
+            ),
         )),
     }
 }

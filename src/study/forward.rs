@@ -5,8 +5,8 @@ use std::time::Instant;
 use super::summary::{Cost, ErrorEstimate};
 use crate::engine::step::Step;
 use crate::engine::time::{self, Finish, Settings, Start};
-use crate::engine::{Counted, Motion};
-use crate::mechanism::Equation;
+use crate::engine::{Batch, Counted, Motion};
+use crate::mechanism::{Equation, Instants, LoadValue};
 use crate::numeric::angle::Angle;
 use crate::scene::Variable;
 
@@ -32,6 +32,26 @@ impl Motion for Forward<'_> {
 
     fn next_corner(&self, t: f64) -> f64 {
         self.0.loads().next_corner(t)
+    }
+
+    fn of_time(&self, t: f64) -> [f64; 2] {
+        let LoadValue { torque, force } = self.0.loads().of_time(t);
+        [torque, force]
+    }
+
+    fn fill(&self, batch: &mut Batch) {
+        let of_time = batch
+            .of_time
+            .map(|[torque, force]| LoadValue { torque, force });
+        let at = Instants {
+            t: &batch.t,
+            of_time: &of_time,
+            turns: batch.turns,
+            theta: &batch.theta,
+            omega: &batch.omega,
+        };
+        self.0
+            .accelerations(&at, &mut batch.alpha, &mut batch.power);
     }
 }
 

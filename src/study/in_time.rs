@@ -131,8 +131,9 @@ fn settings(task: &Task<'_>, equation: &Equation) -> Settings {
     let unit = 0.5 * inertia * motion.speed.powi(2).max(1.0);
     Settings {
         method: match task.plan.stepper {
-            Some(Stepper::Dopri5) => library::Method::Dopri5,
-            _ => library::Method::Dop853,
+            Some(Stepper::Dop853) => time::Method::Library(library::Method::Dop853),
+            Some(Stepper::Dopri5) => time::Method::Library(library::Method::Dopri5),
+            _ => time::Method::Picard,
         },
         tolerance: task.scene.run.tolerance,
         t_end: match task.extent {

@@ -139,14 +139,18 @@ impl Watch<'_> {
     fn look_for_events(&mut self, step: &mut Step) {
         let mut crossings = std::mem::take(&mut self.seen.crossings);
         events::crossings(step, &self.watched, &mut crossings);
-        if !crossings.is_empty() && self.seen.events.len() < self.events_kept {
+        let rough = !step.is_refined();
+        if rough && !crossings.is_empty() && self.seen.events.len() < self.events_kept {
             step.refine(self.motion);
             events::crossings(step, &self.watched, &mut crossings);
         }
         for &(t, what) in &crossings {
-            if self.seen.ends_at.is_some_and(|end| t > end) {
+            // An event at the end of the run may be off it by rounding.
+            let end = self.seen.ends_at.unwrap_or(t);
+            if t > end * (1.0 + 8.0 * f64::EPSILON) {
                 break;
             }
+            let t = t.min(end);
             let at_limit = matches!(what, Crossing::Angle(index) if index >= self.dead_centres);
             if at_limit {
                 self.seen.ends_at = Some(t);

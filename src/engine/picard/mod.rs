@@ -1,0 +1,110 @@
+//! Integration in time by Gauss collocation, solved by sweeps of fixed-point iteration.
+//!
+//! A step looks for the polynomial whose second derivative agrees with the acceleration at the nodes of the
+//! Gauss rule. Each sweep evaluates the accelerations at all nodes of a guess together, and integrates them
+//! twice for a better one (Picard, Lindelöf). The polynomial is the motion inside the step, too.
+
+mod collocate;
+mod state;
+mod tableau;
+
+use std::f64::consts::TAU;
+
+use super::step::{Node, Step};
+use super::time::{Finish, Settings, Start};
+use super::{Counted, Motion};
+use collocate::{Accepted, Collocation, Try};
+use state::State;
+pub use tableau::Tableau;
+
+/// Factors by which a step may change.
+const LEAST: f64 = 0.1;
+const MOST: f64 = 4.0;
+
+/// Integrates and hands every accepted step to `sink`, which ends the run by returning true. Returns how
+/// the run ended, the last step and the number of steps.
+pub fn run(
+    motion: &Counted<'_>,
+    start: Start,
+    settings: &Settings,
+    sink: &mut dyn FnMut(&Step) -> bool,
+) -> (Finish, Step, u64) {
+    let mut state = State::new(start);
+    let alpha = motion.acceleration(state.t, state.angle(), state.omega);
+    let node = state.node(alpha);
+    let mut last = Step::new(state.turns, node, node);
+    if !alpha.is_finite() {
+        return (Finish::NoStart, last, 0);
+    }
+    let mut collocation = Collocation::new(motion, settings.tolerance, alpha);
+    let mut wanted = first_length(&node);
+    let (mut steps, mut at_corner) = (0, false);
+    while state.t < settings.t_end {
+        let corner = motion.next_corner(state.t).min(settings.t_end);
+        let left = corner - state.t;
+        let way = wanted.min(TAU / state.omega.abs());
+        let length = fitted(way, left);
+        // The length that the rounded times have.
+        let h = (state.t + length) - state.t;
+        if h <= 0.0 {
+            return (Finish::StepTooSmall, last, steps);
+        }
+        if motion.evaluations() >= settings.max_evaluations {
+            return (Finish::WorkLimit, last, steps);
+        }
+        let ends_at_corner = state.t + h >= corner;
+        let attempt = Try {
+            h,
+            corners: [at_corner, ends_at_corner],
+        };
+        match collocation.attempt(&state, attempt) {
+            Err(factor) => wanted = h * factor.clamp(LEAST, 0.9),
+            Ok(Accepted { step, next, factor }) => {
+                let whole = length >= way;
+                // What is left of the way to a corner says little about the step that follows it.
+                wanted = if whole || factor < 1.0 {
+                    length * factor.clamp(LEAST, MOST)
+                } else {
+                    wanted
+                };
+                state = next;
+                last = step;
+                if ends_at_corner {
+                    state.t = corner;
+                    last.end.t = corner;
+                    collocation.begin_anew(last.end.alpha);
+                }
+                at_corner = ends_at_corner;
+                steps += 1;
+                if sink(&last) {
+                    let at_end = state.t >= settings.t_end;
+                    let finish = if at_end {
+                        Finish::AtEnd
+                    } else {
+                        Finish::Stopped
+                    };
+                    return (finish, last, steps);
+                }
+            }
+        }
+    }
+    (Finish::AtEnd, last, steps)
+}
+
+/// A tenth of a radian, at the speed or the acceleration of the start.
+fn first_length(start: &Node) -> f64 {
+    let by_speed = 0.1 / start.omega.abs();
+    let by_acceleration = (0.2 / start.alpha.abs()).sqrt();
+    by_speed.min(by_acceleration).min(0.1)
+}
+
+/// The step, or what is left, or half of that so that no tiny step is left.
+fn fitted(wanted: f64, left: f64) -> f64 {
+    if left <= wanted * 1.01 {
+        left
+    } else if left < 2.0 * wanted {
+        0.5 * left
+    } else {
+        wanted
+    }
+}

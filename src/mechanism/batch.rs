@@ -1,0 +1,88 @@
+//! The equation at many instants at once.
+
+use super::lagrange::forward;
+use super::{Equation, Inertia, LoadValue, Pose, Terms};
+use crate::numeric::angle::Angle;
+use crate::numeric::trigonometry::sin_cos;
+
+/// Instants of one motion. All angles share their whole turns.
+#[derive(Clone, Copy, Debug)]
+pub struct Instants<'a, const N: usize> {
+    /// s
+    pub t: &'a [f64; N],
+    /// The loads of time alone at these times: [`super::Loads::of_time`].
+    pub of_time: &'a [LoadValue; N],
+    /// Whole turns beside the crank angles.
+    pub turns: f64,
+    /// Crank angles, rad.
+    pub theta: &'a [f64; N],
+    /// rad/s
+    pub omega: &'a [f64; N],
+}
+
+/// What θ̈ needs of many positions, each kind side by side.
+struct Sides<const N: usize> {
+    x: [f64; N],
+    dx: [f64; N],
+    m: [f64; N],
+    half_dm: [f64; N],
+    dv: [f64; N],
+}
+
+impl Equation {
+    /// θ̈ (rad/s²) at N instants, and the power (W) of the loads without a potential, as
+    /// [`Equation::acceleration_and_power`] gives them one by one, to rounding.
+    pub fn accelerations<const N: usize>(
+        &self,
+        at: &Instants<'_, N>,
+        alpha: &mut [f64; N],
+        power: &mut [f64; N],
+    ) {
+        let (sin, cos) = sin_cos(at.theta);
+        let linkage = self.linkage();
+        let sides: Sides<N> = if linkage.stays_far_from_limits() {
+            self.sides(|i| linkage.pose_far_from_limits(sin[i], cos[i]))
+        } else {
+            self.sides(|i| linkage.pose_at(sin[i], cos[i]))
+        };
+        let loads = self.loads();
+        for i in 0..N {
+            let (x, dx, omega) = (sides.x[i], sides.dx[i], at.omega[i]);
+            let angle = Angle {
+                turns: at.turns,
+                rest: at.theta[i],
+            };
+            let steady = loads.with_potential_at(x);
+            let spent = loads.without_potential_beside(at.of_time[i], at.t[i], angle, omega, x, dx);
+            let spent = spent.torque + spent.force * dx;
+            let inertia = Inertia {
+                m: sides.m[i],
+                half_dm: sides.half_dm[i],
+            };
+            let q = steady.torque + steady.force * dx + spent;
+            alpha[i] = forward(&inertia, sides.dv[i], q, omega);
+            power[i] = spent * omega;
+        }
+    }
+
+    #[inline(always)]
+    fn sides<const N: usize>(&self, pose: impl Fn(usize) -> Pose) -> Sides<N> {
+        let mut sides = Sides {
+            x: [0.0; N],
+            dx: [0.0; N],
+            m: [0.0; N],
+            half_dm: [0.0; N],
+            dv: [0.0; N],
+        };
+        let terms = self.terms_without_cases();
+        for i in 0..N {
+            let Terms { pose, inertia, dv } = terms(pose(i));
+            sides.x[i] = pose.x;
+            sides.dx[i] = pose.dx;
+            sides.m[i] = inertia.m;
+            sides.half_dm[i] = inertia.half_dm;
+            sides.dv[i] = dv;
+        }
+        sides
+    }
+}

@@ -1,0 +1,34 @@
+//! Why an equation has no acceleration somewhere.
+
+use super::Equation;
+use crate::numeric::angle::Angle;
+
+/// What keeps the equation from having a finite acceleration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Obstacle {
+    /// The rod does not reach the guide, or stands normal to it.
+    Blocked,
+    /// A load has no finite value: outside its table or the domain of its formula.
+    Load,
+    /// M is zero.
+    NoInertia,
+}
+
+impl Equation {
+    /// Why there is no finite acceleration here, if there is none.
+    pub fn obstacle(&self, t: f64, theta: impl Into<Angle>, omega: f64) -> Option<Obstacle> {
+        let theta = theta.into();
+        let terms = self.terms(theta.rest);
+        if !terms.pose.exists() {
+            return Some(Obstacle::Blocked);
+        }
+        let load = self.loads().value(t, theta, omega, &terms.pose);
+        if !load.torque.is_finite() || !load.force.is_finite() {
+            return Some(Obstacle::Load);
+        }
+        if !self.acceleration(t, theta, omega).is_finite() {
+            return Some(Obstacle::NoInertia);
+        }
+        None
+    }
+}

@@ -1,0 +1,125 @@
+//! Sine and cosine of many angles at once, without branches, so that the compiler works on several at a
+//! time.
+
+use std::f64::consts::{FRAC_2_PI, PI};
+
+/// π/2 in three parts (fdlibm, e_rem_pio2.c): the first two have so few digits that their products with
+/// small whole numbers are exact.
+const QUARTER: [f64; 3] = [
+    f64::from_bits(0x3FF9_21FB_5440_0000),
+    f64::from_bits(0x3DD0_B461_1A60_0000),
+    f64::from_bits(0x3BA3_198A_2E03_7073),
+];
+
+/// Added to a number of moderate size, it leaves the nearest whole number in the last bits.
+const ROUND: f64 = 6_755_399_441_055_744.0;
+
+/// Beyond this the reduction to one quarter would lose digits.
+const FAR: f64 = 1e4 * PI;
+
+/// Minimax coefficients on ±π/4 (fdlibm, k_sin.c and k_cos.c).
+const SINE: [f64; 6] = [
+    -1.666_666_666_666_663_2e-1,
+    8.333_333_333_322_49e-3,
+    -1.984_126_982_985_795e-4,
+    2.755_731_370_707_006_8e-6,
+    -2.505_076_025_340_686_3e-8,
+    1.589_690_995_211_55e-10,
+];
+const COSINE: [f64; 6] = [
+    4.166_666_666_666_66e-2,
+    -1.388_888_888_887_411e-3,
+    2.480_158_728_947_673e-5,
+    -2.755_731_435_139_066_3e-7,
+    2.087_572_321_298_175e-9,
+    -1.135_964_755_778_819_5e-11,
+];
+
+/// Sines and cosines of angles (rad), right to about one unit in the last place.
+#[inline]
+pub fn sin_cos<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {
+    let (mut sin, mut cos) = ([0.0; N], [0.0; N]);
+    let mut near = true;
+    for i in 0..N {
+        near &= angles[i].abs() < FAR;
+        (sin[i], cos[i]) = near_zero(angles[i]);
+    }
+    if !near {
+        for i in 0..N {
+            (sin[i], cos[i]) = angles[i].sin_cos();
+        }
+    }
+    (sin, cos)
+}
+
+#[inline(always)]
+fn near_zero(angle: f64) -> (f64, f64) {
+    let shifted = angle * FRAC_2_PI + ROUND;
+    let (quarters, bits) = (shifted - ROUND, shifted.to_bits());
+    let r = ((angle - quarters * QUARTER[0]) - quarters * QUARTER[1]) - quarters * QUARTER[2];
+    let z = r * r;
+    let [s1, s2, s3, s4, s5, s6] = SINE;
+    let [c1, c2, c3, c4, c5, c6] = COSINE;
+    let s = r + (r * z) * (s1 + z * (s2 + z * (s3 + z * (s4 + z * (s5 + z * s6)))));
+    let tail = z * z * (c1 + z * (c2 + z * (c3 + z * (c4 + z * (c5 + z * c6)))));
+    // 1 − z/2 rounds; what it loses comes back with the tail.
+    let half = 0.5 * z;
+    let head = 1.0 - half;
+    let c = head + (((1.0 - head) - half) + tail);
+    let odd = 0u64.wrapping_sub(bits & 1);
+    let (s, c) = (s.to_bits(), c.to_bits());
+    let sine = ((s & !odd) | (c & odd)) ^ ((bits & 2) << 62);
+    let cosine = ((c & !odd) | (s & odd)) ^ ((bits.wrapping_add(1) & 2) << 62);
+    (f64::from_bits(sine), f64::from_bits(cosine))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_right_to_the_last_place_or_two() {
+        let mut angle = -40.0;
+        while angle < 40.0 {
+            let angles: [f64; 4] = std::array::from_fn(|i| angle + 0.003 * i as f64);
+            let (sin, cos) = sin_cos(&angles);
+            for i in 0..4 {
+                let (s, c) = angles[i].sin_cos();
+                assert!(
+                    (sin[i] - s).abs() <= 2.3e-16 * s.abs().max(1e-3),
+                    "{}",
+                    angles[i]
+                );
+                assert!(
+                    (cos[i] - c).abs() <= 2.3e-16 * c.abs().max(1e-3),
+                    "{}",
+                    angles[i]
+                );
+            }
+            angle += 0.0121;
+        }
+        let quarters: [f64; 8] = std::array::from_fn(|i| (i as f64 - 3.0) * 0.5 * PI);
+        let (sin, cos) = sin_cos(&quarters);
+        for i in 0..8 {
+            let (s, c) = quarters[i].sin_cos();
+            assert!(
+                (sin[i] - s).abs() < 1e-20 + 2e-16 * s.abs(),
+                "{} {s}",
+                sin[i]
+            );
+            assert!(
+                (cos[i] - c).abs() < 1e-20 + 2e-16 * c.abs(),
+                "{} {c}",
+                cos[i]
+            );
+        }
+    }
+
+    #[test]
+    fn angles_far_away_and_none_at_all_are_served() {
+        let (sin, cos) = sin_cos(&[1e9, 0.5, f64::NAN, f64::INFINITY]);
+        assert_eq!((sin[0], cos[0]), 1e9f64.sin_cos());
+        assert_eq!((sin[1], cos[1]), 0.5f64.sin_cos());
+        assert!(sin[2].is_nan() && cos[2].is_nan() && sin[3].is_nan() && cos[3].is_nan());
+    }
+}

@@ -1,0 +1,96 @@
+//! Runs in time take no memory per step, row or evaluation: ten times the steps, the same allocations.
+
+use allocation_counter::measure;
+use slider_crank::engine::time::{Method as Stepper, Settings, Start, run};
+use slider_crank::engine::{Counted, Motion};
+use slider_crank::error::Error;
+use slider_crank::numeric::angle::Angle;
+use slider_crank::plan::Method;
+use slider_crank::scene::{Load, Scene, Variables};
+use slider_crank::study::{Options, Row, RowSink, simulate_rows};
+
+/// A pendulum that is driven.
+struct Pendulum;
+
+impl Motion for Pendulum {
+    fn acceleration(&self, t: f64, angle: Angle, speed: f64) -> f64 {
+        (3.0 * t).cos() - angle.rest.sin() - 0.01 * speed
+    }
+
+    fn acceleration_and_power(&self, t: f64, angle: Angle, speed: f64) -> (f64, f64) {
+        (self.acceleration(t, angle, speed), speed)
+    }
+
+    fn depends_on_time(&self) -> bool {
+        true
+    }
+
+    fn has_power(&self) -> bool {
+        true
+    }
+
+    fn next_corner(&self, _: f64) -> f64 {
+        f64::INFINITY
+    }
+}
+
+#[test]
+fn steps_take_no_memory() {
+    let integrate = |t_end: f64| {
+        let settings = Settings {
+            method: Stepper::Picard,
+            tolerance: 1e-10,
+            t_end,
+            max_evaluations: u64::MAX,
+            work_unit: 1.0,
+        };
+        let start = Start {
+            t: 0.0,
+            angle: Angle::from(0.5),
+            speed: 3.0,
+        };
+        run(&Counted::new(&Pendulum), start, &settings, &mut |_| false).2
+    };
+    // The tableau is computed once.
+    integrate(1.0);
+    let mut steps = 0;
+    let info = measure(|| steps = integrate(1000.0));
+    assert!(steps > 1000, "{steps}");
+    assert_eq!(info.count_total, 0, "{info:?}");
+}
+
+/// Counts rows and keeps none.
+struct Counter(u64);
+
+impl RowSink for Counter {
+    fn row(&mut self, _: &Row) -> Result<(), Error> {
+        self.0 += 1;
+        Ok(())
+    }
+}
+
+#[test]
+fn a_longer_run_with_rows_takes_no_more_memory() {
+    let allocations = |duration: f64| {
+        let scene = Scene::duarte()
+            .torque(Load::Viscous(0.001))
+            .force(Load::function(Variables::T, |now| {
+                100.0 * (9.0 * now.t).sin()
+            }))
+            .duration(duration);
+        let options = Options {
+            method: Method::Time,
+            events_kept: 4,
+            ..Options::default()
+        };
+        let mut rows = Counter(0);
+        let info = measure(|| {
+            simulate_rows(&scene, &options, &mut rows).unwrap();
+        });
+        assert_eq!(rows.0, 500);
+        info.count_total
+    };
+    allocations(0.5);
+    let (short, long) = (allocations(0.5), allocations(20.0));
+    assert!(long <= short + 8, "{short} and {long}");
+}
