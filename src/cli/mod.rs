@@ -36,7 +36,7 @@ enum Command {
     Kinematics(kinematics::Arguments),
     /// The equation, what is modelled and why, and what will compute it
     Explain(explain::Arguments),
-    /// Says all that is wrong with a scene file
+    /// Says all that is wrong with a scene file or a data file
     Check(check::Arguments),
     /// JSON Schema of scene files
     Schema(schema::Arguments),

@@ -473,3 +473,35 @@ fn rows_with_joint_forces_residuals_and_figure() {
     );
     assert!(folder.read("figure.svg").starts_with("<svg"));
 }
+
+#[test]
+fn check_reads_data_files() {
+    let folder = folder(&data("t [s],theta [rad]", &rows(",")));
+    let said = folder.run(&["check", "data.csv"]).done().stdout;
+    assert_eq!(
+        said,
+        "data.csv: nothing is wrong with 12 samples of theta\n"
+    );
+    folder.write("data.csv", &with_row("0.04,abc"));
+    folder
+        .run(&["check", "data.csv"])
+        .fails(2, &["data.csv:6:6", "is not a number"]);
+}
+
+/// On the left branch every position of the right one is impossible, and said to be so.
+#[test]
+fn positions_of_the_other_branch() {
+    let rocker = super::program::ROCKER;
+    let folder = Folder::with(&rocker.replace("offset", "branch = \"left\"\noffset"));
+    let right: Vec<String> = (0..12)
+        .map(|i| format!("{},{}", f64::from(i) / 100.0, 99 - i))
+        .collect();
+    folder.write("data.csv", &data("t [s],x [mm]", &right));
+    let words = [
+        "data.csv:2:3",
+        "x = 99 mm is impossible for this mechanism on its branch",
+    ];
+    folder
+        .run(&["inverse", "scene.toml", "data.csv"])
+        .fails(2, &words);
+}

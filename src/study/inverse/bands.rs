@@ -32,9 +32,11 @@ pub struct BandRule {
     pub rule: &'static str,
 }
 
-const RULE: &str = "within |x'| < r/2 the slider force is left empty where half of its 95 % band is wider than the largest crank torque of the motion (or ten times the median half-width of that torque's band, if larger) over the crank length, or where x' is less than five standard errors from zero";
+const RULE: &str = "within |x'| < r/2 the slider force is left empty where half of its 95 % band is wider than the largest crank torque of the motion (or ten times the median half-width of that torque's band, if larger) over the crank length, or where x' is less than five standard errors from zero; so it is at the limit of a rocker";
 
 const NO_SIGN: &str = "the sign of the lever arm x' is not certain";
+const AT_LIMIT: &str =
+    "the rod stands normal to the guide: the position has no certain derivatives";
 const TOO_WIDE: &str =
     "the uncertainty of the motion over the lever arm x' is wider than the force";
 
@@ -60,7 +62,9 @@ impl BandRule {
         // Not-a-number counts as uncertain.
         let certain = demand.arm.abs() > 5.0 * demand.arm_se;
         let narrow = factor * demand.force_se <= self.half_width_max_n;
-        if demand.arm.abs() >= self.arm_m {
+        if !demand.force.is_finite() || !demand.force_se.is_finite() {
+            Some(AT_LIMIT)
+        } else if demand.arm.abs() >= self.arm_m {
             None
         } else if !certain {
             Some(NO_SIGN)

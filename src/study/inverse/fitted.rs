@@ -82,12 +82,18 @@ impl Fitted {
                 change = change.max((state.value[0] - *theta).abs() / error.max(f64::MIN_POSITIVE));
                 *theta = state.value[0];
             }
+            if now
+                .iter()
+                .any(|theta| !theta.is_finite() || !sensor.linkage.pose(*theta).exists())
+            {
+                return Err("the fit leaves the angles that the crank can take".to_owned());
+            }
             round += 1;
             // Once the motion is about right the choice of terms is made, so that it cannot go on alternating.
             if round == 4 {
                 size = Size::Fixed(curve.size());
             }
-            if change < SETTLED || round == MOST || change.is_nan() {
+            if change < SETTLED || round == MOST {
                 let residual = |(value, theta): (&f64, &f64)| sensor.residual(*value, *theta).0;
                 let residuals = values.iter().zip(&now).map(residual).collect();
                 return Ok(Fitted::of(curve, residuals, change < 1.0, None));

@@ -48,15 +48,21 @@ impl Backwards<'_> {
     pub fn demand(&self, t: f64, state: &State) -> Demand {
         let [theta, omega, alpha] = state.value;
         let terms = self.equation.terms(theta);
-        let (after, before) = (
-            self.equation.terms(theta + STEP),
-            self.equation.terms(theta - STEP),
-        );
+        // One-sided at the limit of a rocker.
+        let beside = |step: f64| {
+            let there = self.equation.terms(theta + step);
+            if there.pose.exists() {
+                (step, there)
+            } else {
+                (0.0, terms)
+            }
+        };
+        let ((up, after), (down, before)) = (beside(STEP), beside(-STEP));
         let needed = |terms: &Terms| self.equation.generalized_force(terms, omega, alpha);
         let known = self.known(t, theta, omega, &terms);
         let torque = needed(&terms) - known;
         let slope = |f: &dyn Fn(&Terms, f64) -> f64| {
-            (f(&after, theta + STEP) - f(&before, theta - STEP)) / (2.0 * STEP)
+            (f(&after, theta + up) - f(&before, theta + down)) / (up - down)
         };
         let by_theta = slope(&|terms, theta| needed(terms) - self.known(t, theta, omega, terms));
         let faster = STEP * omega.abs().max(1e-3);

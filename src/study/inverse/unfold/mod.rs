@@ -105,14 +105,23 @@ fn candidates(linkage: &Linkage, measurement: &Measurement) -> Result<Vec<Candid
     };
     let rounding = measurement.resolution() + 1e-12 * size;
     let most = (8.0 * noise).min(BEYOND * size) + rounding;
+    let angles = |value: f64| match measurement.measured() {
+        Measured::X => linkage.angles_of_x(value),
+        _ => linkage.angles_of_gamma(value),
+    };
     let impossible = |(sample, value): (usize, &f64)| {
         let beyond = excess(*value);
-        (beyond > most).then(|| {
+        let nowhere = angles(*value).angles().is_empty();
+        (nowhere || beyond > most).then(|| {
             let what = format!(
-                "{} = {} is impossible for this mechanism, by {}",
+                "{} = {} is impossible for this mechanism{}",
                 measurement.measured().name(),
                 measurement.shown(*value),
-                measurement.shown(beyond)
+                if nowhere {
+                    " on its branch".to_owned()
+                } else {
+                    format!(", by {}", measurement.shown(beyond))
+                }
             );
             let help = match measurement.measured() {
                 Measured::X => "the slider position x counts from the crank pivot, along the guide; `kinematics` shows its range",
@@ -130,13 +139,7 @@ fn candidates(linkage: &Linkage, measurement: &Measurement) -> Result<Vec<Candid
     if !list.is_empty() {
         return Err(measurement.problems(list).into());
     }
-    Ok(values
-        .iter()
-        .map(|value| match measurement.measured() {
-            Measured::X => linkage.angles_of_x(*value),
-            _ => linkage.angles_of_gamma(*value),
-        })
-        .collect())
+    Ok(values.iter().map(|value| angles(*value)).collect())
 }
 
 /// Standard deviation of the noise of evenly spaced samples, from the median of their third differences, which a
