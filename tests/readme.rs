@@ -153,6 +153,48 @@ fn the_output_shown_is_that_of_the_first_command() {
     assert!(!same("a 1.00001 b", "a 1 b") && !same("a b", "a c") && !same("a", "a b"));
 }
 
+/// Errors shown are found again: to a factor of three, and at the level of rounding to its size.
+#[test]
+fn the_errors_shown_are_those_of_precision() {
+    let arguments = [
+        "precision",
+        "--repeats",
+        "1",
+        "--json",
+        "--tolerances",
+        "1e-6,1e-9,1e-12",
+    ];
+    let result: Value = serde_json::from_str(&run(&arguments.map(str::to_owned))).expect("JSON");
+    let rows = result["scenes"][0]["rows"].as_array().expect("rows");
+    let text = readme();
+    let shown = text
+        .lines()
+        .skip_while(|line| !line.starts_with("| method and tolerance |"))
+        .skip(2)
+        .take_while(|line| line.starts_with('|'));
+    let mut seen = 0;
+    for line in shown {
+        let cells: Vec<_> = line.split('|').map(str::trim).collect();
+        let (method, tolerance) = cells[1].split_once(' ').expect("method and tolerance");
+        let tolerance: f64 = tolerance.parse().expect("a tolerance");
+        let row = rows
+            .iter()
+            .find(|row| row["method"] == method && row["tolerance"] == tolerance)
+            .unwrap_or_else(|| panic!("no row for {line}"));
+        for (cell, key) in [(2, "error_theta_rad"), (3, "estimate_theta_rad")] {
+            let shown: f64 = cells[cell].parse().expect("a number");
+            let found = row[key].as_f64().expect("a number");
+            let rounding = shown < 1e-12 && found < 1e-12;
+            assert!(
+                rounding || (shown / 3.0..3.0 * shown).contains(&found),
+                "{line}: {found:e}"
+            );
+        }
+        seen += 1;
+    }
+    assert!(seen > 4, "{seen} rows");
+}
+
 #[test]
 fn the_scene_shown_is_right() {
     let folder = tempfile::tempdir().expect("a temporary folder");

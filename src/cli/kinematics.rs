@@ -4,10 +4,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Outcome, is_standard, positive_angle, print, say, scene};
+use super::{
+    Outcome, angle, check_rows_of_turn, is_standard, length, positive_angle, print, quantity, say,
+    scene, write_text,
+};
 use crate::error::Error;
-use crate::report::{self, KinematicsWriter, Output};
-use crate::study;
+use crate::report::{self, Output, TurnWriter};
+use crate::scene::unit::Quantity;
+use crate::study::{self, Length, TurnOptions};
 
 /// Arguments of `kinematics`.
 #[derive(Debug, Args)]
@@ -20,13 +24,34 @@ pub(super) struct Arguments {
     /// Writes the rows as CSV to this file, `-` for standard output
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    /// Adds the forces at the scene's speed, taken as constant: torque, inertia forces, joint and shaking forces
+    #[arg(long)]
+    forces: bool,
+    /// Adds the derivatives of motion and driving torque with respect to crank, rod and offset
+    #[arg(long)]
+    sensitivity: bool,
+    /// Compares with a changed length, like "crank=150 mm"; keys crank, rod, offset; may be given again
+    #[arg(long, value_name = "KEY=LENGTH", value_parser = change)]
+    change: Vec<(Length, f64)>,
+    /// Lists the extremes with another offset, like "10 mm"; may be given again
+    #[arg(long, value_name = "LENGTH", value_parser = any_length, allow_hyphen_values = true)]
+    with_offset: Vec<f64>,
+    /// Sizes crank and rod for this stroke, like "80 mm", at the scene's offset
+    #[arg(long, value_name = "LENGTH", value_parser = length, requires = "rod_ratio")]
+    stroke: Option<f64>,
+    /// Rod length over crank length for --stroke, like 1.6
+    #[arg(long, value_name = "NUMBER", requires = "stroke")]
+    rod_ratio: Option<f64>,
+    /// Closes the loop by Newton-Raphson too, from this guess of the rod's angle seen from the slider, like "180 deg"
+    #[arg(long, value_name = "ANGLE", value_parser = angle, allow_hyphen_values = true)]
+    newton_guess: Option<f64>,
+    /// Draws position, velocity, acceleration, and torque with --forces, to this SVG file
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
     /// Prints the summary as one JSON object
     #[arg(long)]
     json: bool,
 }
-
-/// More rows than this in one turn are a slip of the unit.
-const MOST_ROWS: f64 = 1e8;
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let rows_on_stdout = is_standard(arguments.out.as_ref());
@@ -36,30 +61,58 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
             "write the rows to a file: --out rows.csv",
         ));
     }
-    if std::f64::consts::TAU / arguments.every > MOST_ROWS {
-        return Err(Error::refused(
-            format!(
-                "--every {} rad gives more than {MOST_ROWS} rows",
-                arguments.every
-            ),
-            "give an angle like \"1 deg\"",
-        ));
+    check_rows_of_turn(arguments.every)?;
+    let mut scene = scene(arguments.scene.as_ref())?;
+    if let Some((stroke, ratio)) = arguments.stroke.zip(arguments.rod_ratio) {
+        let (crank, rod) = study::size_from_stroke(stroke, ratio, scene.geometry.offset)?;
+        (scene.geometry.crank, scene.geometry.rod) = (crank, rod);
+        say(&format!("sized: crank {crank} m, rod {rod} m"));
     }
-    let result = study::kinematics(&scene(arguments.scene.as_ref())?)?;
+    let result = study::one_turn(&scene, &arguments.options())?;
     if let Some(path) = &arguments.out {
-        let output = Output::create(path)?;
-        let mut writer = KinematicsWriter::new(output, result.speed_rad_per_s.is_some())?;
+        let mut writer = TurnWriter::new(Output::create(path)?, &result)?;
         for row in result.rows(arguments.every) {
             writer.row(&row)?;
         }
         writer.finish()?;
     }
+    if let Some(path) = &arguments.plot {
+        write_text(path, &report::turn_figure(&result)?)?;
+    }
     if arguments.json {
         print(&report::json(&result)?)?;
     } else if rows_on_stdout {
-        say(report::kinematics(&result).trim_end());
+        say(report::turn(&result).trim_end());
     } else {
-        print(&report::kinematics(&result))?;
+        print(&report::turn(&result))?;
     }
     Ok(Outcome::Done)
+}
+
+impl Arguments {
+    fn options(&self) -> TurnOptions {
+        TurnOptions {
+            forces: self.forces,
+            sensitivity: self.sensitivity,
+            change: self.change.clone(),
+            offsets: self.with_offset.clone(),
+            iterate_from: self.newton_guess,
+        }
+    }
+}
+
+/// A length and its new value.
+fn change(text: &str) -> Result<(Length, f64), String> {
+    let help = "write it like \"crank=150 mm\"; the keys are crank, rod and offset";
+    let (key, value) = text.split_once('=').ok_or(help)?;
+    let length = Length::ALL
+        .into_iter()
+        .find(|length| length.name() == key.trim());
+    let value = quantity(value.trim(), Quantity::Length)?;
+    Ok((length.ok_or(help)?, value))
+}
+
+/// An offset, of either sign.
+fn any_length(text: &str) -> Result<f64, String> {
+    quantity(text, Quantity::Length)
 }

@@ -4,8 +4,11 @@ mod check;
 mod explain;
 mod inverse;
 mod kinematics;
+mod precision;
+mod reproduce;
 mod schema;
 mod simulate;
+mod statics;
 
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -34,6 +37,12 @@ enum Command {
     Inverse(inverse::Arguments),
     /// One turn in closed form: dead centres, stroke, time ratio, extremes
     Kinematics(kinematics::Arguments),
+    /// Speed against error: every method at a ladder of tolerances
+    Precision(precision::Arguments),
+    /// Static slider force against crank torque, with the band that friction allows
+    Statics(statics::Arguments),
+    /// Every number and figure of the four papers beside ours, with the verdict
+    Reproduce(reproduce::Arguments),
     /// The equation, what is modelled and why, and what will compute it
     Explain(explain::Arguments),
     /// Says all that is wrong with a scene file or a data file
@@ -56,6 +65,9 @@ pub fn main() -> ExitCode {
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Inverse(arguments) => inverse::run(&arguments),
         Command::Kinematics(arguments) => kinematics::run(&arguments),
+        Command::Precision(arguments) => precision::run(&arguments),
+        Command::Statics(arguments) => statics::run(&arguments),
+        Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
@@ -102,6 +114,13 @@ fn print(text: &str) -> Result<(), Error> {
     output.finish()
 }
 
+/// Writes a text to a file, `-` for standard output.
+fn write_text(path: &Path, text: &str) -> Result<(), Error> {
+    let mut output = Output::create(path)?;
+    output.write(text.as_bytes())?;
+    output.finish()
+}
+
 /// Whether rows go to standard output.
 fn is_standard(path: Option<&PathBuf>) -> bool {
     path.is_some_and(|path| path == Path::new("-"))
@@ -115,9 +134,28 @@ fn angle(text: &str) -> Result<f64, String> {
     quantity(text, Quantity::Angle)
 }
 
+fn length(text: &str) -> Result<f64, String> {
+    match quantity(text, Quantity::Length)? {
+        length if length > 0.0 => Ok(length),
+        _ => Err("the length must be positive, like \"27 mm\"".to_owned()),
+    }
+}
+
 fn positive_angle(text: &str) -> Result<f64, String> {
     match angle(text)? {
         step if step > 0.0 => Ok(step),
         _ => Err("the angle must be positive, like \"1 deg\"".to_owned()),
     }
+}
+
+/// Refuses a crank angle between rows (rad) so small that it is a slip of the unit.
+fn check_rows_of_turn(every: f64) -> Result<(), Error> {
+    const MOST_ROWS: f64 = 1e8;
+    if std::f64::consts::TAU / every > MOST_ROWS {
+        return Err(Error::refused(
+            format!("--every {every} rad gives more than {MOST_ROWS} rows"),
+            "give an angle like \"1 deg\"",
+        ));
+    }
+    Ok(())
 }

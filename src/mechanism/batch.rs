@@ -20,13 +20,19 @@ pub struct Instants<'a, const N: usize> {
     pub omega: &'a [f64; N],
 }
 
-/// What θ̈ needs of many positions, each kind side by side.
-struct Sides<const N: usize> {
-    x: [f64; N],
-    dx: [f64; N],
-    m: [f64; N],
-    half_dm: [f64; N],
-    dv: [f64; N],
+/// What the terms of the equation are at N crank angles.
+#[derive(Clone, Copy, Debug)]
+pub struct Positions<const N: usize> {
+    /// Slider position, m.
+    pub x: [f64; N],
+    /// x', m/rad.
+    pub dx: [f64; N],
+    /// M, kg m².
+    pub m: [f64; N],
+    /// ½ M', kg m²/rad.
+    pub half_dm: [f64; N],
+    /// V' of gravity, N m.
+    pub dv: [f64; N],
 }
 
 impl Equation {
@@ -38,13 +44,7 @@ impl Equation {
         alpha: &mut [f64; N],
         power: &mut [f64; N],
     ) {
-        let (sin, cos) = sin_cos(at.theta);
-        let linkage = self.linkage();
-        let sides: Sides<N> = if linkage.stays_far_from_limits() {
-            self.sides(|i| linkage.pose_far_from_limits(sin[i], cos[i]))
-        } else {
-            self.sides(|i| linkage.pose_at(sin[i], cos[i]))
-        };
+        let sides = self.positions(at.theta);
         let loads = self.loads();
         for i in 0..N {
             let (x, dx, omega) = (sides.x[i], sides.dx[i], at.omega[i]);
@@ -65,9 +65,21 @@ impl Equation {
         }
     }
 
+    /// Positions and terms at N crank angles, rad.
+    #[inline]
+    pub fn positions<const N: usize>(&self, theta: &[f64; N]) -> Positions<N> {
+        let (sin, cos) = sin_cos(theta);
+        let linkage = self.linkage();
+        if linkage.stays_far_from_limits() {
+            self.sides(|i| linkage.pose_far_from_limits(sin[i], cos[i]))
+        } else {
+            self.sides(|i| linkage.pose_at(sin[i], cos[i]))
+        }
+    }
+
     #[inline(always)]
-    fn sides<const N: usize>(&self, pose: impl Fn(usize) -> Pose) -> Sides<N> {
-        let mut sides = Sides {
+    fn sides<const N: usize>(&self, pose: impl Fn(usize) -> Pose) -> Positions<N> {
+        let mut sides = Positions {
             x: [0.0; N],
             dx: [0.0; N],
             m: [0.0; N],

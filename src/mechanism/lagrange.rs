@@ -133,7 +133,7 @@ impl Equation {
     /// The same at many positions: without cases, a rod or a weight that is not there being zero, so that
     /// the compiler can work on several side by side.
     #[inline(always)]
-    pub(super) fn terms_without_cases(&self) -> impl Fn(Pose) -> Terms {
+    pub fn terms_without_cases(&self) -> impl Fn(Pose) -> Terms {
         let rod = self.rod.unwrap_or_default();
         let weight = self.weight.unwrap_or_default();
         move |pose| self.terms_of(pose, Some(&rod), Some(&weight))

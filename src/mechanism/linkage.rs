@@ -103,7 +103,7 @@ impl Linkage {
     }
 
     /// The position at the crank angle of this sine and cosine.
-    pub(super) fn pose_at(&self, sin: f64, cos: f64) -> Pose {
+    pub fn pose_at(&self, sin: f64, cos: f64) -> Pose {
         let Linkage { r, l, e, .. } = *self;
         let u = e + r * sin;
         let (mut minus, mut plus) = (l - u, l + u);

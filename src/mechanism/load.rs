@@ -1,24 +1,9 @@
 //! Virtual work of the loads: all that is linear is summed once, the rest is called.
 
-use super::Pose;
+use super::called::Called;
+use super::{LoadValue, Pose};
 use crate::numeric::angle::Angle;
-use crate::scene::{Instant, Load, Scene, Variable, Variables};
-
-/// Torque on the crank and force on the slider at one instant.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LoadValue {
-    /// N m, counter-clockwise
-    pub torque: f64,
-    /// N, along +x
-    pub force: f64,
-}
-
-impl LoadValue {
-    /// The generalized force Q = τ + F x', N m.
-    pub fn generalized(&self, pose: &Pose) -> f64 {
-        self.torque + self.force * pose.dx
-    }
-}
+use crate::scene::{Instant, Load, Scene, Variables};
 
 /// All loads of a scene. Those with a potential (constant torque and force, springs) are kept apart from
 /// those whose work must be integrated.
@@ -31,12 +16,12 @@ pub struct Loads {
     stiffness: f64,
     /// −d force/d v, N s/m
     linear_damping: f64,
-    /// Loads that are called, beside those of time alone.
-    torques: Vec<Load>,
-    forces: Vec<Load>,
-    /// Loads that depend on time alone.
-    timed_torques: Vec<Load>,
-    timed_forces: Vec<Load>,
+    /// Loads of the position alone, without a potential that is known.
+    placed: Called,
+    /// Loads of the time alone.
+    timed: Called,
+    /// All others.
+    mixed: Called,
     reads: Variables,
     on_slider: bool,
 }
@@ -63,10 +48,7 @@ impl Loads {
                     loads.torque += stall;
                     loads.rotary_damping += stall / no_load_speed;
                 }
-                other if depends_on_time_alone(other, false) => {
-                    loads.timed_torques.push(other.clone());
-                }
-                other => loads.torques.push(other.clone()),
+                other => loads.class(other, false).torques.push(other.clone()),
             }
         }
         for load in &scene.forces {
@@ -81,10 +63,7 @@ impl Loads {
                     loads.stiffness += stiffness;
                     loads.force += stiffness * rest;
                 }
-                other if depends_on_time_alone(other, true) => {
-                    loads.timed_forces.push(other.clone());
-                }
-                other => loads.forces.push(other.clone()),
+                other => loads.class(other, true).forces.push(other.clone()),
             }
         }
         loads
@@ -105,9 +84,26 @@ impl Loads {
         self.rotary_damping == 0.0 && self.linear_damping == 0.0 && self.called().next().is_none()
     }
 
+    fn class(&mut self, load: &Load, on_slider: bool) -> &mut Called {
+        let reads = load.reads(on_slider);
+        let position = Variables::THETA.or(Variables::X);
+        if reads.or(position) == position {
+            &mut self.placed
+        } else if reads == Variables::T {
+            &mut self.timed
+        } else {
+            &mut self.mixed
+        }
+    }
+
     fn called(&self) -> impl Iterator<Item = &Load> {
-        let torques = self.torques.iter().chain(&self.timed_torques);
-        torques.chain(&self.forces).chain(&self.timed_forces)
+        let classes = [&self.placed, &self.timed, &self.mixed];
+        classes.into_iter().flat_map(Called::loads)
+    }
+
+    /// Whether there are loads that depend on speed or time otherwise than by damping.
+    pub fn are_called(&self) -> bool {
+        !(self.timed.is_empty() && self.mixed.is_empty())
     }
 
     /// Crank angles, rad, at which tables over the crank angle have their rows.
@@ -131,10 +127,7 @@ impl Loads {
     pub fn value(&self, t: f64, theta: impl Into<Angle>, omega: f64, pose: &Pose) -> LoadValue {
         let steady = self.with_potential(pose);
         let rest = self.without_potential(t, theta, omega, pose);
-        LoadValue {
-            torque: steady.torque + rest.torque,
-            force: steady.force + rest.force,
-        }
+        steady.plus(rest)
     }
 
     /// Torque and force of the loads that have a potential.
@@ -143,7 +136,7 @@ impl Loads {
     }
 
     /// The same at slider position x, m.
-    pub(super) fn with_potential_at(&self, x: f64) -> LoadValue {
+    pub fn with_potential_at(&self, x: f64) -> LoadValue {
         LoadValue {
             torque: self.torque,
             force: self.force - self.stiffness * x,
@@ -167,10 +160,51 @@ impl Loads {
             t,
             ..Instant::default()
         };
-        LoadValue {
-            torque: sum(&self.timed_torques, false, &now),
-            force: sum(&self.timed_forces, true, &now),
+        self.timed.value(&now)
+    }
+
+    /// Torque and force of the loads without a potential that depend on the position alone, at slider position
+    /// x, m.
+    pub fn of_place(&self, theta: impl Into<Angle>, x: f64) -> LoadValue {
+        if self.placed.is_empty() {
+            return LoadValue::default();
         }
+        self.placed.value(&Instant {
+            theta: theta.into().radians(),
+            x,
+            ..Instant::default()
+        })
+    }
+
+    /// −dQ/dω of the loads that are linear in the speed, N m s/rad, where x' is `dx` (m/rad).
+    pub fn damping(&self, dx: f64) -> f64 {
+        self.rotary_damping + self.linear_damping * dx * dx
+    }
+
+    /// Torque and force of the loads of speed and time that are no damping, at slider position x (m) and x'
+    /// (m/rad).
+    pub fn of_state(
+        &self,
+        t: f64,
+        theta: impl Into<Angle>,
+        omega: f64,
+        place: [f64; 2],
+    ) -> LoadValue {
+        let mixed = self.mixed_at(t, theta.into(), omega, place);
+        self.of_time(t).plus(mixed)
+    }
+
+    fn mixed_at(&self, t: f64, theta: Angle, omega: f64, [x, dx]: [f64; 2]) -> LoadValue {
+        if self.mixed.is_empty() {
+            return LoadValue::default();
+        }
+        self.mixed.value(&Instant {
+            t,
+            theta: theta.radians(),
+            omega,
+            x,
+            v: dx * omega,
+        })
     }
 
     /// As [`Self::without_potential`], with [`Self::of_time`] already known, at slider position x (m) and its derivative.
@@ -183,58 +217,20 @@ impl Loads {
         x: f64,
         dx: f64,
     ) -> LoadValue {
-        let v = dx * omega;
-        let mut value = LoadValue {
-            torque: of_time.torque - self.rotary_damping * omega,
-            force: of_time.force - self.linear_damping * v,
+        let theta = theta.into();
+        let damped = LoadValue {
+            torque: -self.rotary_damping * omega,
+            force: -self.linear_damping * (dx * omega),
         };
-        if !(self.torques.is_empty() && self.forces.is_empty()) {
-            let now = Instant {
-                t,
-                theta: theta.into().radians(),
-                omega,
-                x,
-                v,
-            };
-            value.torque += sum(&self.torques, false, &now);
-            value.force += sum(&self.forces, true, &now);
-        }
-        value
+        let mixed = self.mixed_at(t, theta, omega, [x, dx]);
+        damped
+            .plus(of_time)
+            .plus(self.of_place(theta, x))
+            .plus(mixed)
     }
 
     /// Potential of the loads that have one, J, from crank angle (from any fixed start) and position.
     pub fn potential(&self, theta: f64, x: f64) -> f64 {
         -self.torque * theta - self.force * x + 0.5 * self.stiffness * x * x
-    }
-}
-
-fn depends_on_time_alone(load: &Load, on_slider: bool) -> bool {
-    load.reads(on_slider) == Variables::T
-}
-
-fn sum(loads: &[Load], on_slider: bool, now: &Instant) -> f64 {
-    loads.iter().map(|load| single(load, on_slider, now)).sum()
-}
-
-/// Value of one load, as a torque or as a force on the slider.
-pub fn single(load: &Load, on_slider: bool, now: &Instant) -> f64 {
-    match load {
-        Load::Constant(value) => *value,
-        Load::Viscous(coefficient) if on_slider => -coefficient * now.v,
-        Load::Viscous(coefficient) => -coefficient * now.omega,
-        Load::Motor {
-            stall,
-            no_load_speed,
-        } => stall * (1.0 - now.omega / no_load_speed),
-        Load::Spring { stiffness, rest } => -stiffness * (now.x - rest),
-        Load::Table(table) => table.value(now.get(table.of())),
-        Load::Gas {
-            pressure,
-            ambient,
-            area,
-            towards_crank,
-        } => towards_crank * (pressure.value(now.get(Variable::Theta)) - ambient) * area,
-        Load::Expression(expression) => expression.value(now),
-        Load::Function { function, .. } => function(now),
     }
 }

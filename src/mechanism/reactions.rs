@@ -22,24 +22,17 @@ pub struct Reactions {
     pub shaking_moment: f64,
 }
 
-impl Reactions {
-    /// The values in the order of output columns: each force x before y.
-    pub fn values(&self) -> [f64; 10] {
-        let ([ox, oy], [ax, ay], [px, py]) = (self.crank_bearing, self.crank_pin, self.wrist_pin);
-        let [sx, sy] = self.shaking;
-        [
-            ox,
-            oy,
-            ax,
-            ay,
-            px,
-            py,
-            self.guide,
-            sx,
-            sy,
-            self.shaking_moment,
-        ]
-    }
+/// Inertia forces by d'Alembert, minus mass times acceleration, and the couple of the rod.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct InertiaForces {
+    /// At the crank's centre of gravity, N.
+    pub crank: [f64; 2],
+    /// At the rod's centre of gravity, N.
+    pub rod: [f64; 2],
+    /// Minus the rod's central moment of inertia times its angular acceleration, N m.
+    pub rod_couple: f64,
+    /// On the slider along +x, N.
+    pub slider: f64,
 }
 
 /// The rigid bodies that carry the forces.
@@ -162,6 +155,22 @@ impl Reactor {
                 -(crank_rate[1] + rod_rate[1]),
             ],
             shaking_moment: -spin,
+        }
+    }
+
+    /// The inertia forces of a motion (θ̇ in rad/s, θ̈ in rad/s²).
+    pub fn inertia_forces(&self, pose: &Pose, omega: f64, alpha: f64) -> InertiaForces {
+        let squared = omega * omega;
+        let force = |mass: f64, path: &Path| {
+            [0, 1].map(|i| -mass * (path.dp[i] * alpha + path.d2p[i] * squared))
+        };
+        let crank = Path::on_crank(pose, self.crank.along, self.crank.left);
+        let rod = Path::on_rod(&self.linkage, pose, self.rod.along, self.rod.left);
+        InertiaForces {
+            crank: force(self.crank.mass, &crank),
+            rod: force(self.rod.mass, &rod),
+            rod_couple: -self.rod.inertia * (rod.dpsi * alpha + rod.d2psi * squared),
+            slider: -self.slider_mass * (pose.dx * alpha + pose.d2x * squared),
         }
     }
 

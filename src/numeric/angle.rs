@@ -1,6 +1,6 @@
 //! An angle as whole turns and a remainder, so that a million turns cost no digits of the position.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// 2 pi − TAU: what the nearest double leaves out.
 const TAU_REST: f64 = 2.4492935982947064e-16;
@@ -54,6 +54,23 @@ impl Angle {
             rest: self.rest + more,
         }
     }
+}
+
+/// Angles of one turn, rad: from 0 to 2π inclusive, every `step`. Whole degrees are converted as such, so
+/// that 90 degrees is the double nearest to a right angle.
+pub fn turn(step: f64) -> impl Iterator<Item = f64> {
+    let whole = (TAU / step * (1.0 - 1e-12)).floor() as u64;
+    let degrees = (step * 180.0 / PI * 1e9).round() / 1e9;
+    let exact = (degrees * PI / 180.0 - step).abs() <= f64::EPSILON * step;
+    (0..=whole)
+        .map(move |i| {
+            if exact {
+                i as f64 * degrees / 180.0 * PI
+            } else {
+                i as f64 * step
+            }
+        })
+        .chain([TAU])
 }
 
 #[cfg(test)]

@@ -36,6 +36,12 @@ pub fn rule_14() -> &'static [(f64, f64); 14] {
     RULE.get_or_init(|| std::array::from_fn(|i| legendre(14, i)))
 }
 
+/// Nodes and weights of the rule with 18 points on [0, 1].
+pub fn rule_18() -> &'static [(f64, f64); 18] {
+    static RULE: std::sync::OnceLock<[(f64, f64); 18]> = std::sync::OnceLock::new();
+    RULE.get_or_init(|| std::array::from_fn(|i| legendre(18, i)))
+}
+
 /// ∫ f over [from, to], halved again and again where the halves together differ from the whole by more than
 /// `tolerance` and by more than rounding; at most a thousand times, where rounding of the argument is all
 /// that is left.

@@ -33,6 +33,11 @@ impl Method {
         ("dop853", Method::Dop853),
         ("dopri5", Method::Dopri5),
     ];
+
+    /// Every method, [`Method::Auto`] first.
+    pub fn each() -> impl Iterator<Item = Method> {
+        Method::ALL.into_iter().map(|(_, method)| method)
+    }
 }
 
 impl FromStr for Method {

@@ -1,18 +1,30 @@
 //! Results on paper: CSV rows, text, figures, JSON. Knows neither mechanics nor integrators.
 
+mod calibration;
 mod explain;
 mod figure;
 mod inverse;
+mod one_turn;
 mod output;
+mod precision;
+mod reproduce;
 mod rows;
+mod statics;
 mod text;
 
+pub use calibration::calibration;
 pub use explain::explanation;
 pub use figure::{Axis, Figure, ScaleKind, panels};
 pub use inverse::{inverse, inverse_figure, inverse_rows, residuals};
+pub use one_turn::{TurnWriter, turn, turn_figure};
 pub use output::Output;
-pub use rows::{KinematicsWriter, Preview, RowWriter};
-pub use text::{kinematics, summary};
+pub use precision::{precision, precision_csv, precision_figure, precision_notes};
+pub use reproduce::{
+    ReproductionSummary, drawing_csv, drawing_svg, file_name, reproduction, reproduction_csv,
+};
+pub use rows::{Preview, RowWriter};
+pub use statics::{StaticsWriter, statics, statics_figure};
+pub use text::summary;
 
 use crate::error::Error;
 

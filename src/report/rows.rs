@@ -2,25 +2,29 @@
 
 use super::Output;
 use crate::error::Error;
-use crate::study::{KinematicsRow, Row, RowSink};
+use crate::study::{Reactions, Row, RowSink};
 
 const MOTION: &str =
     "t_s,theta_rad,omega_rad_per_s,alpha_rad_per_s2,x_m,v_m_per_s,a_m_per_s2,phi_rad";
 pub(super) const REACTIONS: &str = "crank_bearing_x_n,crank_bearing_y_n,crank_pin_x_n,crank_pin_y_n,wrist_pin_x_n,wrist_pin_y_n,guide_n,shaking_x_n,shaking_y_n,shaking_moment_nm";
 const TORQUE: &str = "crank_torque_nm";
-const POSITION: &str =
-    "theta_rad,x_m,dx_m_per_rad,d2x_m_per_rad2,phi_rad,dphi,d2phi,transmission_rad";
-const RATES: &str = "v_m_per_s,a_m_per_s2,rod_omega_rad_per_s,rod_alpha_rad_per_s2";
+
+/// Cells of the columns [`REACTIONS`].
+pub(super) fn reactions(forces: &Reactions) -> impl Iterator<Item = f64> {
+    let pairs = [forces.crank_bearing, forces.crank_pin, forces.wrist_pin];
+    pairs
+        .into_iter()
+        .flatten()
+        .chain([forces.guide])
+        .chain(forces.shaking)
+        .chain([forces.shaking_moment])
+}
 
 /// One CSV line of numbers; what is not finite is left empty.
 fn line(buffer: &mut csv::Writer<Vec<u8>>, values: &[f64]) -> Result<(), csv::Error> {
     for value in values {
         if value.is_finite() {
-            let mut shortest = ryu_like(*value);
-            if *value == 0.0 {
-                shortest = "0".to_owned();
-            }
-            buffer.write_field(shortest)?;
+            buffer.write_field(shortest(*value))?;
         } else {
             buffer.write_field("")?;
         }
@@ -29,7 +33,10 @@ fn line(buffer: &mut csv::Writer<Vec<u8>>, values: &[f64]) -> Result<(), csv::Er
 }
 
 /// The shortest text that reads back as the same number.
-fn ryu_like(value: f64) -> String {
+pub(super) fn shortest(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
     let plain = value.abs() >= 1e-5 && value.abs() < 1e16;
     if plain {
         format!("{value}")
@@ -38,7 +45,7 @@ fn ryu_like(value: f64) -> String {
     }
 }
 
-fn write(output: &mut Output, values: &[f64]) -> Result<(), Error> {
+pub(super) fn write(output: &mut Output, values: &[f64]) -> Result<(), Error> {
     let failed = |message: String| Error::Write {
         target: "CSV".to_owned(),
         source: std::io::Error::other(message),
@@ -95,59 +102,10 @@ impl RowSink for RowWriter {
             row.t, row.theta, row.omega, row.alpha, row.x, row.v, row.a, row.phi,
         ];
         if let Some(forces) = &row.reactions {
-            values.extend(forces.values());
+            values.extend(reactions(forces));
         }
         values.extend(row.driving_torque);
         write(&mut self.output, &values)
-    }
-}
-
-/// Rows of `kinematics`.
-#[derive(Debug)]
-pub struct KinematicsWriter {
-    output: Output,
-}
-
-impl KinematicsWriter {
-    /// Writes the header to an output.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
-    pub fn new(mut output: Output, with_rates: bool) -> Result<KinematicsWriter, Error> {
-        output.write(POSITION.as_bytes())?;
-        if with_rates {
-            output.write(b",")?;
-            output.write(RATES.as_bytes())?;
-        }
-        output.write(b"\n")?;
-        Ok(KinematicsWriter { output })
-    }
-
-    /// Writes a row.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
-    pub fn row(&mut self, row: &KinematicsRow) -> Result<(), Error> {
-        let mut values = vec![
-            row.theta,
-            row.x,
-            row.dx,
-            row.d2x,
-            row.phi,
-            row.dphi,
-            row.d2phi,
-            row.transmission,
-        ];
-        values.extend(row.rates.into_iter().flatten());
-        write(&mut self.output, &values)
-    }
-
-    /// Completes the output.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
-    pub fn finish(self) -> Result<(), Error> {
-        self.output.finish()
     }
 }
 

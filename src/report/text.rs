@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-use crate::study::{Kinematics, Located, Row, Summary};
+use crate::study::{Kinematics, Located, NamedPosition, Row, Summary};
 
 /// The summary of a run, with a few of its rows.
 pub fn summary(summary: &Summary, rows: &[Row]) -> String {
@@ -150,8 +150,17 @@ fn table(text: &mut String, rows: &[Row]) {
     }
 }
 
+/// Where a named position is, and why it has its name.
+pub(super) fn place(position: &NamedPosition) -> String {
+    let from = position.theta_rad.to_degrees();
+    let to = position
+        .to_rad
+        .map_or(String::new(), |to| format!(" to {}", to.to_degrees()));
+    format!("{from}{to} deg: {}", position.reason)
+}
+
 /// What the lengths give.
-pub fn kinematics(result: &Kinematics) -> String {
+pub(super) fn kinematics(result: &Kinematics) -> String {
     let mut text = String::new();
     let mut put = |name: &str, value: String| {
         let _ = writeln!(text, "{name:<22} {value}");
@@ -183,6 +192,11 @@ pub fn kinematics(result: &Kinematics) -> String {
             "reachable crank angles",
             format!("{} to {} deg", from.to_degrees(), to.to_degrees()),
         );
+    }
+    for position in &result.positions {
+        if position.kind != "dead-centre" {
+            put(position.kind, place(position));
+        }
     }
     put(
         "least transmission",

@@ -30,7 +30,7 @@ pub use motion::{Every, Extent, Motion, MotionKind, Run};
 pub use parts::{Branch, Clearance, Friction, Geometry, Gravity, Joint};
 pub use problem::{Problem, Problems};
 pub use schema::schema;
-pub use table::{Interpolation, Table};
+pub use table::{Interpolation, Table, calibration_points};
 pub use variable::{Instant, Variable, Variables};
 
 /// A complete scene.

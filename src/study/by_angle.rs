@@ -56,6 +56,7 @@ pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, 
         None
     };
     Ok(Motion {
+        last: driving.orbit.state(driving.end),
         orbit: driving.orbit,
         end: driving.end,
         work: driving.work,
@@ -70,7 +71,7 @@ pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, 
 fn distance(task: &Task<'_>, driving: &Driving, better: &Driving) -> ErrorEstimate {
     let end = driving.end;
     let (a, b) = (driving.orbit.state(end), better.orbit.state(end));
-    let floor = late_by(task, &driving.orbit, end, ROUNDING * end);
+    let floor = late_by(task, a, end, ROUNDING * end);
     ErrorEstimate {
         theta_rad: MARGIN * a.0.minus(b.0).abs() + floor.theta_rad,
         omega_rad_per_s: MARGIN * (a.1 - b.1).abs() + floor.omega_rad_per_s,

@@ -10,22 +10,31 @@ use crate::engine::energy::{Orbit, Unserved};
 use crate::numeric::root;
 use crate::scene::Extent;
 
+/// Series end where their coefficients have decayed to this part of the tolerance,
+const SHARE: f64 = 1e-3;
+/// where rounding takes over at the latest, and early enough for all digits but the last ones at the first.
+const LEAST_TAIL: f64 = 4e-15;
+const MOST_TAIL: f64 = 1e-13;
+
 /// Solves a task.
 pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, Unserved> {
     let begun = Instant::now();
     let speed = task.scene.motion.speed;
+    let tail = (SHARE * task.scene.run.tolerance).clamp(LEAST_TAIL, MOST_TAIL);
     let (orbit, end, stopped) = until_the_end(task, |until| {
-        Orbit::new(position, task.start(), speed, until)
+        Orbit::new(position, task.start(), speed, until, tail)
     })?;
     let wall_s = begun.elapsed().as_secs_f64();
-    let work = position.work(task.start().rest, orbit.state(end).0.rest);
-    let late = orbit.time_error() * end;
-    let estimate = task
-        .options
-        .estimate
-        .then(|| (late_by(task, &orbit, end, late), None));
+    let last = orbit.state(end);
+    let work = position.work(task.start().rest, last.0.rest);
+    let estimate = task.options.estimate.then(|| {
+        let mut error = late_by(task, last, end, orbit.time_error() * end);
+        error.omega_rad_per_s += orbit.speed_error() * last.1.abs();
+        (error, None)
+    });
     Ok(Motion {
         end,
+        last,
         work,
         evaluations: position.evaluations(),
         wall_s,

@@ -1,11 +1,11 @@
 //! One turn in closed form.
 
-use std::f64::consts::{PI, TAU};
-
 use serde::Serialize;
 
 use crate::error::Error;
+pub use crate::mechanism::NamedPosition;
 use crate::mechanism::{Class, Extreme, Extremes, Limits, Linkage};
+use crate::numeric::angle;
 use crate::scene::Scene;
 
 /// What the lengths and the speed of a scene give.
@@ -39,6 +39,8 @@ pub struct Kinematics {
     pub speed_rad_per_s: Option<f64>,
     /// Reachable crank angles, rad; empty: all.
     pub reach_rad: Vec<[f64; 2]>,
+    /// Dead centres and other positions that have a name, by angle.
+    pub positions: Vec<NamedPosition>,
     /// What the reader should know.
     pub warnings: Vec<String>,
     #[serde(skip)]
@@ -156,6 +158,7 @@ pub fn kinematics(scene: &Scene) -> Result<Kinematics, Error> {
         acceleration_max: accelerations.map(|a| a[1]),
         acceleration_min: accelerations.map(|a| a[0]),
         speed_rad_per_s: (speed != 0.0).then_some(speed),
+        positions: linkage.named_positions(),
         reach_rad: limits.reach,
         warnings,
         linkage,
@@ -189,19 +192,6 @@ impl Kinematics {
 
     /// Rows of one turn, from 0 to 360 degrees inclusive, every `step` (rad).
     pub fn rows(&self, step: f64) -> impl Iterator<Item = KinematicsRow> + '_ {
-        let whole = (TAU / step * (1.0 - 1e-12)).floor() as u64;
-        // Whole degrees are converted as such, so that 90 degrees is the double nearest to a right angle.
-        let degrees = (step * 180.0 / PI * 1e9).round() / 1e9;
-        let exact = (degrees * PI / 180.0 - step).abs() <= f64::EPSILON * step;
-        (0..=whole)
-            .map(move |i| {
-                if exact {
-                    i as f64 * degrees / 180.0 * PI
-                } else {
-                    i as f64 * step
-                }
-            })
-            .chain([TAU])
-            .map(|theta| self.row(theta))
+        angle::turn(step).map(|theta| self.row(theta))
     }
 }

@@ -2,30 +2,45 @@
 
 mod by_angle;
 mod by_energy;
+mod calibration;
 mod closed_form;
 mod drive;
 mod explain;
+mod forces;
 mod forward;
 mod in_time;
 mod inverse;
 mod kinematics;
+mod offsets;
+mod one_turn;
 mod over_angle;
 mod passages;
+mod precision;
 mod profile;
+mod reproduce;
 mod row;
 mod schedule;
 mod simulate;
+mod statics;
 mod stopped;
 mod summary;
 mod task;
 mod watch;
 
+pub use crate::mechanism::{Length, Reactions, drum_torque, friction_from_tilt, size_from_stroke};
+pub use calibration::{Calibration, Measured, calibrate};
 pub use explain::{Explanation, LoadAt, TermsAt, explain};
+pub use forces::{ForceAnalysis, ForceRow, StrokeTorque, forces};
 pub use inverse::{
     AsPrinted, BandRule, DataSummary, DeadCentreBand, FitKind, FitSize, FitSummary, ForceRange,
     Inverse, InverseOptions, InverseRow, InverseSummary, Residual, inverse,
 };
-pub use kinematics::{DeadCentre, Kinematics, KinematicsRow, Located, kinematics};
+pub use kinematics::{DeadCentre, Kinematics, KinematicsRow, Located, NamedPosition, kinematics};
+pub use offsets::{OffsetExtremes, offset_extremes};
+pub use one_turn::{LengthSlope, LoopCheck, OneTurn, TurnOptions, TurnRow, one_turn};
+pub use precision::{Precision, PrecisionOptions, PrecisionRow, precision};
+pub use reproduce::{Drawing, Entry, Paper, Plot, Reproduction, Series, Style, Verdict, reproduce};
 pub use row::{NoRows, Row, RowSink};
 pub use simulate::{Options, Simulation, simulate, simulate_rows};
+pub use statics::{StaticAnalysis, StaticsOptions, StaticsRow, statics};
 pub use summary::{Cost, ErrorEstimate, Event, Final, Summary, TorqueRange};

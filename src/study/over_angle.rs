@@ -1,5 +1,7 @@
 //! Motion over the crank angle: what the energy and the angle engine have in common.
 
+use std::f64::consts::TAU;
+
 use super::passages;
 use super::profile::Position;
 use super::row::RowSink;
@@ -7,16 +9,19 @@ use super::simulate::Simulation;
 use super::summary::{Cost, ErrorEstimate, Final, Solved, Summary};
 use super::task::Task;
 use super::{by_angle, by_energy, in_time};
-use crate::engine::energy::{Orbit, Unserved};
+use crate::engine::energy::{Orbit, Profile, Unserved};
 use crate::error::Error;
 use crate::numeric::angle::Angle;
 use crate::plan::{Engine, Method, Plan};
+use crate::scene::Extent;
 use crate::trajectory::Trajectory;
 
 /// A motion over the crank angle.
 pub(super) struct Motion {
     pub orbit: Orbit,
     pub end: f64,
+    /// Angle and speed there.
+    pub last: (Angle, f64),
     /// Work of the loads without potential, J.
     pub work: f64,
     pub evaluations: u64,
@@ -35,6 +40,10 @@ pub(super) fn run(
     let position = Position::new(task.equation(), &task.limits);
     let solved = match task.plan.engine {
         Engine::Angle => by_angle::solve(task, &position),
+        // Turns that differ are many panels; the map from turn to turn is for them.
+        _ if !position.repeats() && is_long(task) => {
+            by_angle::solve(task, &position).or_else(|_| by_energy::solve(task, &position))
+        }
         _ => by_energy::solve(task, &position),
     };
     match solved {
@@ -56,6 +65,16 @@ pub(super) fn run(
     }
 }
 
+/// Whether the start speed makes for a run of very many turns.
+fn is_long(task: &Task<'_>) -> bool {
+    const MANY: f64 = 256.0;
+    let speed = task.scene.motion.speed.abs();
+    match task.extent {
+        Extent::Duration(duration) => speed * duration > MANY * TAU,
+        Extent::Revolutions(turns) => turns > MANY,
+    }
+}
+
 fn reason(unserved: Unserved) -> &'static str {
     match unserved {
         Unserved::Equilibrium => "it starts at rest without a force",
@@ -70,8 +89,8 @@ fn reason(unserved: Unserved) -> &'static str {
 
 fn finish(task: &Task<'_>, motion: Motion, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
     let Motion { orbit, end, .. } = &motion;
-    let (angle, omega) = orbit.state(*end);
-    let (speed, warnings) = speeds(task, orbit, *end);
+    let (angle, omega) = motion.last;
+    let (speed, warnings) = speeds(task, &motion);
     let (events, events_total) = passages::events(task, orbit, *end);
     passages::write_rows(task, orbit, *end, rows)?;
     let solved = Solved {
@@ -100,10 +119,14 @@ fn finish(task: &Task<'_>, motion: Motion, rows: &mut dyn RowSink) -> Result<Sim
     })
 }
 
-/// Error of the last state if its time may be off by `late` (s): it moves the state along the motion. The
-/// angle itself is rounded once more.
-pub(super) fn late_by(task: &Task<'_>, orbit: &Orbit, end: f64, late: f64) -> ErrorEstimate {
-    let (angle, omega) = orbit.state(end);
+/// Error of a state if its time may be off by `late` (s): it moves the state along the motion. The angle
+/// itself is rounded once more.
+pub(super) fn late_by(
+    task: &Task<'_>,
+    (angle, omega): (Angle, f64),
+    end: f64,
+    late: f64,
+) -> ErrorEstimate {
     let alpha = task.equation().acceleration(end, angle, omega);
     let rounding = f64::EPSILON * (1.0 + angle.radians().abs());
     ErrorEstimate {
@@ -114,14 +137,14 @@ pub(super) fn late_by(task: &Task<'_>, orbit: &Orbit, end: f64, late: f64) -> Er
 
 /// Smallest and largest speed. Where the inertia vanishes, at the dead centres of a crank without inertia, the
 /// speed has no bound.
-fn speeds(task: &Task<'_>, orbit: &Orbit, end: f64) -> ((f64, f64), Vec<String>) {
-    let (low, high) = orbit.speed_range(end);
+fn speeds(task: &Task<'_>, motion: &Motion) -> ((f64, f64), Vec<String>) {
+    let (low, high) = motion.orbit.speed_range(motion.end);
     let inertia = |theta: f64| task.equation().terms(theta).inertia.m;
     let vanishes = |theta: f64| inertia(theta) <= 1e-12 * inertia(theta + 1.0);
     if !task.limits.dead_centres.iter().any(|dc| vanishes(dc.theta)) {
         return ((low, high), Vec::new());
     }
-    let usual = task.scene.motion.speed.abs().max(orbit.state(end).1.abs());
+    let usual = task.scene.motion.speed.abs().max(motion.last.1.abs());
     let bounded = |speed: f64| speed.abs() < 1e6 * usual;
     let shown = |speed: f64| {
         if bounded(speed) {
@@ -142,7 +165,7 @@ fn speeds(task: &Task<'_>, orbit: &Orbit, end: f64) -> ((f64, f64), Vec<String>)
 fn energy_residual(task: &Task<'_>, motion: &Motion) -> (f64, f64) {
     let equation = task.equation();
     let start = task.start();
-    let (angle, omega) = motion.orbit.state(motion.end);
+    let (angle, omega) = motion.last;
     let turned = Angle {
         turns: angle.turns - start.turns,
         rest: angle.rest,

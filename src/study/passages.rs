@@ -72,7 +72,46 @@ pub(super) fn events(task: &Task<'_>, orbit: &Orbit, end: f64) -> (Vec<Event>, u
             break;
         }
     }
-    (events, total as u64)
+    let later = later_events(task, orbit, end, &is_dead_centre, &mut events);
+    (events, total as u64 + later)
+}
+
+/// Adds the dead centres of the turns after the first ones, and says how many there are.
+fn later_events(
+    task: &Task<'_>,
+    orbit: &Orbit,
+    end: f64,
+    is_dead_centre: &dyn Fn(f64) -> bool,
+    events: &mut Vec<Event>,
+) -> u64 {
+    let kept = task.options.events_kept;
+    orbit.later_passages(|passage| {
+        if passage.t > end * (1.0 + 1e-14) {
+            return false;
+        }
+        if is_dead_centre(passage.angle.rest) && events.len() < kept {
+            events.push(Event {
+                kind: "dead-centre",
+                t_s: passage.t,
+                theta_rad: passage.angle.radians(),
+                omega_rad_per_s: passage.speed,
+            });
+        }
+        events.len() < kept
+    });
+    // Each dead centre is passed once in a turn.
+    let Some(begin) = orbit.later_from() else {
+        return 0;
+    };
+    let way = (orbit.state(end).0.minus(task.start()).abs(), begin);
+    let direction = task.scene.motion.speed.signum();
+    let passes = |dead_centre: &f64| {
+        let ahead = (direction * (dead_centre - task.start().rest)).rem_euclid(TAU);
+        let until = |way: f64| ((way - ahead) / TAU + 1e-12).floor();
+        (until(way.0) - until(way.1)).max(0.0) as u64
+    };
+    let all = task.limits.dead_centres.iter().map(|dc| dc.theta);
+    all.map(|theta| passes(&theta)).sum()
 }
 
 /// Rows of the run.

@@ -3,11 +3,13 @@
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
-use crate::engine::angle::Driven;
+use crate::engine::angle::{Driven, Table};
 use crate::engine::energy::Profile;
-use crate::mechanism::{Equation, Limits, Pose};
+use crate::mechanism::{Equation, Limits};
 use crate::numeric::angle::Angle;
+use crate::numeric::chebyshev::Values;
 use crate::numeric::gauss;
+use crate::scene::Variable;
 
 /// Inertia, potential and force of an equation whose loads depend on the position alone.
 pub(super) struct Position<'a> {
@@ -44,6 +46,11 @@ impl<'a> Position<'a> {
         self.evaluations.get()
     }
 
+    fn count(&self, positions: usize) {
+        self.evaluations
+            .set(self.evaluations.get() + positions as u64);
+    }
+
     /// Work (J) of the loads without potential between two angles, by a quadrature of its own.
     pub fn work(&self, from: f64, to: f64) -> f64 {
         let loads = self.equation.loads();
@@ -72,21 +79,38 @@ impl<'a> Position<'a> {
 }
 
 impl Driven for Position<'_> {
-    type Place = Pose;
+    /// x (m) and x' (m/rad).
+    type Place = [f64; 2];
 
-    fn place(&self, theta: f64) -> (f64, f64, Pose) {
-        self.evaluations.set(self.evaluations.get() + 1);
-        let terms = self.equation.terms(theta);
-        let steady = self.equation.loads().with_potential(&terms.pose);
-        let force = steady.generalized(&terms.pose) - terms.dv;
-        (terms.inertia.m, force, terms.pose)
+    fn tabulate(&self, angles: &Values, count: usize, table: &mut Table<[f64; 2]>) {
+        self.count(count);
+        let loads = self.equation.loads();
+        let driven = self.is_driven();
+        let at = self.equation.positions(angles);
+        table.places.clear();
+        for (i, angle) in angles.iter().enumerate().take(count) {
+            let (x, dx) = (at.x[i], at.dx[i]);
+            table.inertia[i] = at.m[i];
+            table.force[i] = loads.with_potential_at(x).over(dx) - at.dv[i];
+            table.push[i] = loads.of_place(*angle, x).over(dx);
+            table.damping[i] = loads.damping(dx);
+            if driven {
+                table.places.push([x, dx]);
+            }
+        }
     }
 
-    fn drive(&self, pose: &Pose, t: f64, angle: Angle, speed: f64) -> f64 {
-        let loads = self.equation.loads();
-        loads
-            .without_potential(t, angle, speed, pose)
-            .generalized(pose)
+    fn is_driven(&self) -> bool {
+        self.equation.loads().are_called()
+    }
+
+    fn reads_time(&self) -> bool {
+        self.equation.loads().reads().has(Variable::T)
+    }
+
+    fn drive(&self, place: &[f64; 2], t: f64, angle: Angle, speed: f64) -> f64 {
+        let load = self.equation.loads().of_state(t, angle, speed, *place);
+        load.over(place[1])
     }
 
     fn corners(&self) -> &[f64] {
@@ -96,10 +120,23 @@ impl Driven for Position<'_> {
 
 impl Profile for Position<'_> {
     fn inertia_and_force(&self, theta: f64) -> (f64, f64) {
-        self.evaluations.set(self.evaluations.get() + 1);
+        self.count(1);
         let terms = self.equation.terms(theta);
         let load = self.equation.loads().value(0.0, theta, 0.0, &terms.pose);
         (terms.inertia.m, load.generalized(&terms.pose) - terms.dv)
+    }
+
+    fn tabulate(&self, angles: &Values, count: usize, inertia: &mut Values, force: &mut Values) {
+        self.count(count);
+        let loads = self.equation.loads();
+        let at = self.equation.positions(angles);
+        for (i, angle) in angles.iter().enumerate().take(count) {
+            let load = loads
+                .with_potential_at(at.x[i])
+                .plus(loads.of_place(*angle, at.x[i]));
+            inertia[i] = at.m[i];
+            force[i] = load.over(at.dx[i]) - at.dv[i];
+        }
     }
 
     fn corners(&self) -> &[f64] {

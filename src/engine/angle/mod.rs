@@ -2,34 +2,71 @@
 //! as long as the speed keeps its sign.
 //!
 //! On each panel of Chebyshev points the kinetic energy and the time are found together by collocation,
-//! K' = F(θ) + L(θ, ω, t), t' = 1/ω, with fixed-point sweeps that start from the profile of the turn before.
-//! What depends on the position alone is tabulated in the first turn and used in all.
+//! K' = F(θ) + L(θ, ω, t), t' = 1/ω, with sweeps that start from the profile of the turns before and with
+//! Newton's method where the loads are steep in the speed. What depends on the position alone is tabulated
+//! once and used in every turn. Where time does not occur, a turn maps the kinetic energy at its start to
+//! that at its end: long runs iterate an interpolant of this map.
 
+mod map;
+mod march;
+mod newton;
 mod station;
+mod sweep;
 
 use std::f64::consts::TAU;
 
 use super::energy::leg::Leg;
-use super::energy::panel::Panel;
 use super::energy::{Orbit, Unserved};
 use crate::numeric::angle::Angle;
-use crate::numeric::chebyshev::{self, DEGREE, POINTS, Values};
-use station::{Station, split, stations};
+use crate::numeric::chebyshev::{MOST, Values};
+use march::{Done, March};
 
 /// What the engine needs of a mechanism.
 pub trait Driven {
     /// What the loads need to know of a position.
     type Place: Copy;
 
-    /// Inertia M, the part F of the force that depends on the position alone (N m), and the place itself, at
-    /// an angle, rad.
-    fn place(&self, theta: f64) -> (f64, f64, Self::Place);
+    /// Fills a table at the first `count` of some angles, rad.
+    fn tabulate(&self, angles: &Values, count: usize, table: &mut Table<Self::Place>);
 
-    /// The rest L of the force, N m, at time t (s), angle and speed (rad/s).
+    /// Whether there are loads beside those of the table.
+    fn is_driven(&self) -> bool;
+
+    /// Whether these depend on time.
+    fn reads_time(&self) -> bool;
+
+    /// Their generalized force, N m, at time t (s), angle and speed (rad/s).
     fn drive(&self, place: &Self::Place, t: f64, angle: Angle, speed: f64) -> f64;
 
     /// Angles in [0, 2π), in rising order, at which panels end.
     fn corners(&self) -> &[f64];
+}
+
+/// What depends on the angle alone, at some angles.
+#[derive(Clone)]
+pub struct Table<P> {
+    /// Inertia M, kg m².
+    pub inertia: Values,
+    /// Force that has a potential, N m.
+    pub force: Values,
+    /// Force of the position alone that has none, N m.
+    pub push: Values,
+    /// Damping, N m s/rad: the force is less by this times the speed.
+    pub damping: Values,
+    /// What [`Driven::drive`] needs; empty if there is nothing to be driven.
+    pub places: Vec<P>,
+}
+
+impl<P> Default for Table<P> {
+    fn default() -> Table<P> {
+        Table {
+            inertia: [0.0; MOST + 1],
+            force: [0.0; MOST + 1],
+            push: [0.0; MOST + 1],
+            damping: [0.0; MOST + 1],
+            places: Vec::new(),
+        }
+    }
 }
 
 /// Where a run ends.
@@ -47,18 +84,11 @@ pub struct Driving {
     pub orbit: Orbit,
     /// Its last time, s.
     pub end: f64,
-    /// Work of L until its end, J.
+    /// Work of the loads without a potential until its end, J.
     pub work: f64,
-    /// How often L was evaluated.
+    /// How often the loads were evaluated.
     pub evaluations: u64,
 }
-
-/// With less than this part of the largest kinetic energy the crank is near to rest.
-const SLOW: f64 = 1e-2;
-/// Most panels that are kept.
-const MOST_PANELS: usize = 200_000;
-/// Most sweeps over a panel.
-const MOST_SWEEPS: u32 = 40;
 
 /// How fine the panels are.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,6 +98,11 @@ pub struct Resolution {
     /// Panels are cut unevenly once more from the start, which makes another discretization to compare with.
     pub other: bool,
 }
+
+/// Most panels that are kept.
+const MOST_PANELS: usize = 200_000;
+/// Turns after which the map of a turn takes over, where there is one.
+const TURNS_BEFORE_MAP: f64 = 48.0;
 
 /// Runs from `angle` with `speed` (rad/s) until the goal is reached.
 ///
@@ -80,60 +115,25 @@ pub fn run<D: Driven>(
     goal: Goal,
     resolution: Resolution,
 ) -> Result<Driving, Unserved> {
-    let tail = resolution.tail;
     let start = angle.reduced();
-    let direction = speed.signum();
-    let (inertia, ..) = driven.place(start.rest);
-    let kinetic = 0.5 * inertia * speed * speed;
-    if !kinetic.is_finite() {
-        return Err(Unserved::NotFinite);
-    }
-    if kinetic == 0.0 {
-        return Err(Unserved::TooSlow);
-    }
-    let mut stations = stations(driven, start.rest, direction)?;
-    if resolution.other {
-        for index in (0..stations.len()).rev() {
-            split(driven, &mut stations, index, 0.37)?;
-        }
-    }
-    let mut now = Now {
-        t: 0.0,
-        kinetic,
-        turns: start.turns,
-        direction,
-        work: 0.0,
-        evaluations: 0,
-    };
+    let mut march = March::new(driven, start, speed, resolution)?;
+    let repeats = !(driven.is_driven() && driven.reads_time());
     let mut leg = Leg::open();
-    let mut next = 0;
-    let mut fastest = kinetic;
     loop {
         if leg.len() >= MOST_PANELS {
             return Err(Unserved::TooLong);
         }
-        fastest = fastest.max(now.kinetic);
-        let before = now.work;
-        let Some((panel, drives)) = now.sweep(driven, &mut stations[next], tail) else {
-            if !split(driven, &mut stations, next, 0.5)? {
-                let slow = now.kinetic < SLOW * fastest;
-                return Err(if slow {
-                    Unserved::TooSlow
-                } else {
-                    Unserved::NotSmooth
-                });
-            }
-            continue;
-        };
-        let mut panel = panel;
-        panel.turns = now.turns - start.turns;
-        leg.push(panel);
+        if repeats && march.at_turn() && march.turns.abs() >= TURNS_BEFORE_MAP {
+            return map::run(march, leg, start, speed, goal, resolution);
+        }
+        let before = march.work;
+        let done = march.panel()?;
+        let to = done.panel.piece.to;
+        let turned = (to - start.rest).abs() + done.panel.turns.abs() * TAU;
+        leg.push(done.panel.clone());
         let passed = match goal {
             Goal::Time(until) => leg.duration.0 > until,
-            Goal::Turned(way) => {
-                let turned = direction * (stations[next].piece.to - start.rest);
-                turned + direction * (now.turns - start.turns) * TAU >= way - 1e-12
-            }
+            Goal::Turned(way) => turned >= way - 1e-12,
         };
         if passed {
             let orbit = Orbit::one_way(start, speed, leg);
@@ -141,134 +141,22 @@ pub fn run<D: Driven>(
                 Goal::Time(until) => until,
                 Goal::Turned(way) => orbit.time_of_turn(way).unwrap_or(orbit.length()),
             };
-            let work = before + work_until(orbit.leg(), end, &stations[next], &drives);
+            let work = before + work_until(orbit.last_leg(), end, &done);
             return Ok(Driving {
                 orbit,
                 end,
                 work,
-                evaluations: now.evaluations,
+                evaluations: march.evaluations,
             });
         }
-        now.t = leg.duration.0;
-        next += 1;
-        if next == stations.len() {
-            next = 0;
-            now.turns += direction;
-        }
     }
 }
 
-/// The state between two panels.
-struct Now {
-    t: f64,
-    kinetic: f64,
-    turns: f64,
-    direction: f64,
-    work: f64,
-    evaluations: u64,
-}
-
-impl Now {
-    /// Sweeps a panel until its kinetic energy stands still; none if it does not, or is not resolved.
-    /// Also gives L at the points.
-    fn sweep<D: Driven>(
-        &mut self,
-        driven: &D,
-        station: &mut Station<D::Place>,
-        tail: f64,
-    ) -> Option<(Panel, Values)> {
-        let half = 0.5 * (station.piece.to - station.piece.from);
-        let mut kinetic = match &station.last {
-            Some(last) => {
-                let lift = self.kinetic - last[0];
-                last.map(|k| k + lift)
-            }
-            None => {
-                let gained = chebyshev::integrals(&station.force);
-                gained.map(|work| self.kinetic + half * work)
-            }
-        };
-        let mut drives = [0.0; POINTS];
-        let mut change = f64::INFINITY;
-        for _ in 0..MOST_SWEEPS {
-            let slopes = slopes(&kinetic, &station.inertia, half)?;
-            let times = chebyshev::integrals(&slopes);
-            for j in 0..POINTS {
-                let angle = Angle {
-                    turns: self.turns,
-                    rest: station.piece.angle(chebyshev::points()[j]),
-                };
-                let speed = self.direction * half.abs() / slopes[j];
-                drives[j] = driven.drive(&station.places[j], self.t + times[j], angle, speed);
-            }
-            self.evaluations += POINTS as u64;
-            let forces: Values = std::array::from_fn(|j| station.force[j] + drives[j]);
-            let gained = chebyshev::integrals(&forces);
-            let mut largest: f64 = 0.0;
-            for (k, work) in kinetic.iter_mut().zip(&gained) {
-                let new = self.kinetic + half * work;
-                largest = largest.max((new - *k).abs() / new.abs());
-                *k = new;
-            }
-            if !largest.is_finite() {
-                return None;
-            }
-            let still = largest <= 0.1 * tail || (largest < 1e-14 && largest >= 0.3 * change);
-            if still {
-                return self.finish(station, kinetic, &forces, drives, tail);
-            }
-            if largest > 0.5 * change {
-                return None;
-            }
-            change = largest;
-        }
-        None
-    }
-
-    fn finish<P>(
-        &mut self,
-        station: &mut Station<P>,
-        kinetic: Values,
-        forces: &Values,
-        drives: Values,
-        tail: f64,
-    ) -> Option<(Panel, Values)> {
-        let half = 0.5 * (station.piece.to - station.piece.from);
-        let slopes = slopes(&kinetic, &station.inertia, half)?;
-        let series = chebyshev::coefficients(&slopes);
-        let noise = 8.0 * f64::EPSILON * (1.0 + station.piece.from.abs() / half.abs());
-        let accepted = tail.max(noise);
-        let series_tail = chebyshev::tail(&series);
-        let force_series = chebyshev::coefficients(forces);
-        let largest = force_series.iter().fold(0.0f64, |m, c| m.max(c.abs()));
-        let share = (largest * half.abs() / self.kinetic).min(1.0);
-        if series_tail > accepted || chebyshev::tail(&force_series) * share > accepted {
-            return None;
-        }
-        self.kinetic = kinetic[DEGREE];
-        let weights = chebyshev::weights().iter();
-        self.work += half * weights.zip(&drives).map(|(w, d)| w * d).sum::<f64>();
-        station.last = Some(kinetic);
-        let panel = Panel::from_slopes(station.piece, &slopes, series, series_tail, self.kinetic);
-        Some((panel, drives))
-    }
-}
-
-/// dt/dx at the points; none where the kinetic energy is not positive.
-fn slopes(kinetic: &Values, inertia: &Values, half: f64) -> Option<Values> {
-    let slopes = std::array::from_fn(|j| half.abs() * (0.5 * inertia[j] / kinetic[j]).sqrt());
-    slopes
-        .iter()
-        .all(|slope: &f64| slope.is_finite())
-        .then_some(slopes)
-}
-
-/// Work of L from the begin of the last panel until a time in it.
-fn work_until<P>(leg: &Leg, until: f64, station: &Station<P>, drives: &Values) -> f64 {
+/// Work from the begin of the last panel until a time in it.
+fn work_until(leg: &Leg, until: f64, done: &Done) -> f64 {
     let Some((panel, since)) = leg.panel_at(until) else {
         return 0.0;
     };
-    let work = chebyshev::integral(&chebyshev::coefficients(drives));
-    let half = 0.5 * (station.piece.to - station.piece.from);
-    half * chebyshev::value(&work, panel.position(since))
+    let work = panel.rule.series(&done.spent).integral();
+    0.5 * panel.piece.span() * work.value(panel.position(since))
 }

@@ -1,29 +1,149 @@
-//! The panels of one turn and the positions on them.
+//! The panels of one turn and what is known on them.
 
 use std::f64::consts::TAU;
 
-use super::Driven;
+use super::{Driven, Table};
 use crate::engine::energy::Unserved;
 use crate::engine::energy::piece::{Piece, Turning};
-use crate::numeric::chebyshev::{self, POINTS, Values};
+use crate::numeric::chebyshev::{Rule, Values};
 
-/// The positions of a panel, the same in each turn.
+/// A panel with what depends on the position alone: the same in each turn.
+#[derive(Clone)]
 pub(super) struct Station<P> {
     pub piece: Piece,
-    pub inertia: Values,
-    pub force: Values,
-    pub places: [P; POINTS],
-    /// Kinetic energy at the points in the turn before.
-    pub last: Option<Values>,
+    pub rule: &'static Rule,
+    pub table: Table<P>,
+    /// Kinetic energy at the points in the last turn and in the one before.
+    past: [Option<Values>; 2],
+    /// Whether it was too long for a turn before.
+    pub failed: bool,
 }
 
 /// Panels are not cut below this, rad.
-const SHORTEST: f64 = 1e-3;
+const SHORTEST: f64 = 1e-9;
+/// Degree of the series that are tried first.
+const FIRST_DEGREE: usize = 24;
+
+impl<P: Copy> Station<P> {
+    /// The panel from one angle to another; its degree is the least that resolves inertia and force to `tail`.
+    pub fn new<D: Driven<Place = P>>(
+        driven: &D,
+        from: f64,
+        to: f64,
+        tail: f64,
+    ) -> Result<Station<P>, Unserved> {
+        let mut station = Station {
+            piece: Piece {
+                from,
+                to,
+                turning: Turning::Nowhere,
+            },
+            rule: Rule::of(FIRST_DEGREE),
+            table: Table::default(),
+            past: [None; 2],
+            failed: false,
+        };
+        station.tabulate(driven)?;
+        let enough = station.degree_for(tail);
+        if enough != FIRST_DEGREE {
+            station.rule = Rule::of(enough);
+            station.tabulate(driven)?;
+        }
+        Ok(station)
+    }
+
+    fn tabulate<D: Driven<Place = P>>(&mut self, driven: &D) -> Result<(), Unserved> {
+        let piece = self.piece;
+        let angles = self.rule.values(|x| piece.angle(x));
+        let count = self.rule.degree() + 1;
+        driven.tabulate(&angles, count, &mut self.table);
+        let known = |values: &Values| values[..count].iter().all(|value| value.is_finite());
+        if known(&self.table.inertia) && known(&self.table.force) && known(&self.table.push) {
+            Ok(())
+        } else {
+            Err(Unserved::NotFinite)
+        }
+    }
+
+    /// The least degree at which the series of inertia and force end below a part `tail` of themselves.
+    fn degree_for(&self, tail: f64) -> usize {
+        let all = [&self.table.inertia, &self.table.force, &self.table.push];
+        let series = all.map(|values| self.rule.series(values));
+        let resolved = |degree: &&usize| {
+            let ends = |series: &crate::numeric::chebyshev::Series| series.tail_at(**degree);
+            series.iter().all(|series| ends(series) <= tail)
+        };
+        let mut smaller = Rule::DEGREES.iter().filter(|d| **d <= self.rule.degree());
+        *smaller.find(resolved).unwrap_or(&32)
+    }
+
+    /// Takes the next degree; false if there is none.
+    pub fn raise<D: Driven<Place = P>>(&mut self, driven: &D) -> Result<bool, Unserved> {
+        let Some(next) = Rule::DEGREES.iter().find(|d| **d > self.rule.degree()) else {
+            return Ok(false);
+        };
+        self.rule = Rule::of(*next);
+        self.past = [None; 2];
+        self.tabulate(driven)?;
+        Ok(true)
+    }
+
+    /// The two parts of the panel; none if it is too short to be cut.
+    pub fn parts<D: Driven<Place = P>>(
+        &self,
+        driven: &D,
+        share: f64,
+        tail: f64,
+    ) -> Result<Option<[Station<P>; 2]>, Unserved> {
+        let Piece { from, to, .. } = self.piece;
+        if (to - from).abs() < SHORTEST * from.abs().max(1.0) {
+            return Ok(None);
+        }
+        let middle = from + share * (to - from);
+        let first = Station::new(driven, from, middle, tail)?;
+        Ok(Some([first, Station::new(driven, middle, to, tail)?]))
+    }
+
+    /// Half its length with sign, rad.
+    pub fn half(&self) -> f64 {
+        0.5 * (self.piece.to - self.piece.from)
+    }
+
+    /// Kinetic energy at the points, from that at the start (J): the profile of the last turns carried on.
+    pub fn guess(&self, start: f64) -> Values {
+        match &self.past {
+            [Some(last), Some(before)] => {
+                let apart = last[0] - before[0];
+                let share = (start - last[0]) / apart;
+                if share.abs() <= 2.0 {
+                    std::array::from_fn(|j| last[j] + share * (last[j] - before[j]))
+                } else {
+                    last.map(|k| k + (start - last[0]))
+                }
+            }
+            [Some(last), None] => last.map(|k| k + (start - last[0])),
+            _ => {
+                let half = self.half();
+                let force: Values =
+                    std::array::from_fn(|j| self.table.force[j] + self.table.push[j]);
+                let gained = self.rule.integrals(&force);
+                gained.map(|work| start + half * work)
+            }
+        }
+    }
+
+    /// Keeps the kinetic energy of this turn for the next.
+    pub fn remember(&mut self, kinetic: &Values) {
+        self.past = [Some(*kinetic), self.past[0]];
+    }
+}
+
 /// Panels of one turn between the corners.
 pub(super) fn stations<D: Driven>(
     driven: &D,
     start: f64,
     direction: f64,
+    tail: f64,
 ) -> Result<Vec<Station<D::Place>>, Unserved> {
     let mut ends: Vec<f64> = driven
         .corners()
@@ -36,52 +156,9 @@ pub(super) fn stations<D: Driven>(
     let mut from = 0.0;
     let mut list = Vec::with_capacity(8);
     for to in ends {
-        list.push(station(
-            driven,
-            start + direction * from,
-            start + direction * to,
-        )?);
+        let (begin, end) = (start + direction * from, start + direction * to);
+        list.push(Station::new(driven, begin, end, tail)?);
         from = to;
     }
     Ok(list)
-}
-
-fn station<D: Driven>(driven: &D, from: f64, to: f64) -> Result<Station<D::Place>, Unserved> {
-    let piece = Piece {
-        from,
-        to,
-        turning: Turning::Nowhere,
-    };
-    let (m, f, place) = driven.place(from);
-    let mut station = Station {
-        piece,
-        inertia: [m; POINTS],
-        force: [f; POINTS],
-        places: [place; POINTS],
-        last: None,
-    };
-    for (j, x) in chebyshev::points().iter().enumerate() {
-        (station.inertia[j], station.force[j], station.places[j]) = driven.place(piece.angle(*x));
-        if !station.inertia[j].is_finite() || !station.force[j].is_finite() {
-            return Err(Unserved::NotFinite);
-        }
-    }
-    Ok(station)
-}
-
-/// Cuts a panel in two at a share of its length; false if it is too short for that.
-pub(super) fn split<D: Driven>(
-    driven: &D,
-    stations: &mut Vec<Station<D::Place>>,
-    index: usize,
-    share: f64,
-) -> Result<bool, Unserved> {
-    let Piece { from, to, .. } = stations[index].piece;
-    if (to - from).abs() < SHORTEST {
-        return Ok(false);
-    }
-    let middle = from + share * (to - from);
-    stations[index] = station(driven, from, middle)?;
-    stations.insert(index + 1, station(driven, middle, to)?);
-    Ok(true)
 }

@@ -2,7 +2,7 @@
 
 use super::panel::Tried;
 use super::piece::{Piece, Turning};
-use crate::numeric::chebyshev::{self, POINTS, Values};
+use crate::numeric::chebyshev::{Rule, Series, Values};
 use crate::numeric::{gauss, root};
 
 /// The kinetic energy on a piece, from the series of the force. It is integrated from the piece's own start
@@ -11,42 +11,41 @@ pub(super) struct Energy<'a> {
     pub piece: Piece,
     /// At the start, J.
     pub kinetic: f64,
-    pub force: &'a Values,
+    pub rule: &'static Rule,
+    pub force: &'a Series,
 }
 
 impl Energy<'_> {
     /// Whether the force's error hardly counts, relative to the force or to the energy.
     pub fn is_resolved(&self, accepted: f64) -> bool {
-        let largest = self.force.iter().fold(0.0f64, |m, c| m.max(c.abs()));
+        let largest = self.force.largest();
         let share = match self.piece.turning {
             Turning::Nowhere => (largest * self.piece.span().abs() / self.kinetic).min(1.0),
             _ => 1.0,
         };
-        chebyshev::tail(self.force) * share <= 4.0 * accepted
+        self.force.tail() * share <= 4.0 * accepted
     }
 
     /// K at the points of a piece that does not turn: K at its start plus the integral of the force.
     pub fn kinetic_at_points(&self, force: &Values) -> Values {
-        if force.iter().all(|f| *f == 0.0) {
-            return [self.kinetic; POINTS];
-        }
-        let work = chebyshev::integral(self.force);
         let half = 0.5 * self.piece.span();
-        chebyshev::points().map(|x| self.kinetic + half * chebyshev::value(&work, x))
+        self.rule
+            .integrals(force)
+            .map(|work| self.kinetic + half * work)
     }
 
     /// ∫ F u du over [0, 1] between the turning end (u = 0) and x (u = 1), times the direction: there
-    /// K = ½ span (1 ± x)² times this, without cancellation. Gauss-Legendre with 14 points is exact for the
+    /// K = ½ span (1 ± x)² times this, without cancellation. Gauss-Legendre with 18 points is exact for the
     /// series.
     pub fn mean_force(&self, x: f64) -> f64 {
-        let sum: f64 = gauss::rule_14()
+        let sum: f64 = gauss::rule_18()
             .iter()
             .map(|(u, weight)| {
                 let at = match self.piece.turning {
                     Turning::AtEnd => 1.0 - u * (1.0 - x),
                     _ => u * (1.0 + x) - 1.0,
                 };
-                weight * u * chebyshev::value(self.force, at)
+                weight * u * self.force.value(at)
             })
             .sum();
         sum * self.piece.span().signum()
@@ -54,15 +53,15 @@ impl Energy<'_> {
 
     /// The turning point just before the point `j`, at which the energy is not positive.
     pub fn turns_before(&self, j: usize) -> Tried {
-        let points = chebyshev::points();
+        let points = self.rule.points();
         if j == 0 {
             return Tried::Unresolved;
         }
-        let work = chebyshev::integral(self.force);
+        let work = self.force.integral();
         let half = 0.5 * self.piece.span();
         let x = root::bracketed(
             |x| match self.piece.turning {
-                Turning::Nowhere => self.kinetic + half * chebyshev::value(&work, x),
+                Turning::Nowhere => self.kinetic + half * work.value(x),
                 _ => self.mean_force(x),
             },
             points[j - 1],

@@ -30,14 +30,16 @@ pub(in crate::engine) struct Leg {
     pub after: After,
     /// Bound of the error of its duration, s.
     pub error: f64,
+    /// What the series of its panels leave out at most, relative to their values.
+    pub tail: f64,
 }
 
-/// Series end where their coefficients have decayed to this.
-const TOLERANCE: f64 = 4e-15;
 /// Most panels that are tried for a leg.
 const MOST_ATTEMPTS: usize = 200_000;
 /// Panels no longer than this are taken as they are, rad: a corner that nobody announced.
 const SHORTEST: f64 = 1e-13;
+/// Most panels whose extremes are looked for between their points.
+const MOST_LOOKED_AT: u32 = 64;
 /// The first guess of a panel's length, rad.
 const LONGEST: f64 = 2.0 * FRAC_PI_2 + 1e-9;
 
@@ -50,17 +52,20 @@ impl Leg {
             duration: (0.0, 0.0),
             after: After::Ends,
             error: 0.0,
+            tail: 0.0,
         }
     }
 
     /// Panels from `start` in `direction` (+1 or −1) with kinetic energy `kinetic` (J), until the time
-    /// `until` is passed. Without kinetic energy the start is a turning point.
+    /// `until` is passed; their series end where they have decayed to `tolerance`. Without kinetic energy the
+    /// start is a turning point.
     pub fn build(
         profile: &dyn Profile,
         start: f64,
         direction: f64,
         kinetic: f64,
         until: f64,
+        tolerance: f64,
     ) -> Result<Leg, Unserved> {
         let mut leg = Leg::open();
         let whole_turn = start + direction * TAU;
@@ -96,7 +101,7 @@ impl Leg {
                 }
             }
             let short = (to - at).abs() <= SHORTEST * at.abs().max(1.0);
-            let accepted = if short { f64::INFINITY } else { TOLERANCE };
+            let accepted = if short { f64::INFINITY } else { tolerance };
             let piece = Piece {
                 from: at,
                 to,
@@ -127,11 +132,25 @@ impl Leg {
         Ok(leg)
     }
 
+    /// Legs with the same panels, blended by shares whose sum is one.
+    pub fn blend(legs: &[Leg], shares: &[f64]) -> Leg {
+        let mut leg = Leg::open();
+        for index in 0..legs.first().map_or(0, Leg::len) {
+            let parts = legs.iter().zip(shares);
+            let panel = Panel::blend(parts.map(|(leg, share)| (&leg.panels[index], *share)));
+            if let Some(panel) = panel {
+                leg.push(panel);
+            }
+        }
+        leg
+    }
+
     pub fn push(&mut self, panel: Panel) {
         self.begins.push(self.duration.0);
         let (sum, lost) = two_sum(self.duration.0, panel.duration.0);
         self.duration = two_sum(sum, lost + self.duration.1 + panel.duration.1);
         self.error += panel.error;
+        self.tail = self.tail.max(panel.tail);
         self.panels.push(panel);
     }
 
@@ -202,22 +221,22 @@ impl Leg {
     }
 }
 
-/// Panels that are looked at between their points for the extreme of all.
-const CANDIDATES: usize = 6;
-
-/// Largest sign·|speed| on panels: those with the largest at their points are looked at between them too.
+/// Largest sign·|speed| on panels: those that may have it are looked at between their points.
 fn extreme(panels: &[&Panel], sign: f64) -> f64 {
-    let mut best: Vec<&Panel> = Vec::with_capacity(CANDIDATES + 1);
-    for panel in panels {
-        let value = panel.extreme_at_points(sign);
-        let place = best.partition_point(|other| other.extreme_at_points(sign) >= value);
-        if place < CANDIDATES {
-            best.insert(place, panel);
-            best.truncate(CANDIDATES);
+    let at_points = panels.iter().map(|panel| panel.extreme_at_points(sign));
+    let mut best = at_points.fold(f64::NEG_INFINITY, f64::max);
+    let mut looked = 0;
+    let at_most = best;
+    for panel in panels
+        .iter()
+        .filter(|panel| panel.extreme_bound(sign) >= at_most)
+    {
+        if panel.extreme_bound(sign) > best && looked < MOST_LOOKED_AT {
+            looked += 1;
+            best = best.max(panel.extreme(sign));
         }
     }
-    let found = best.iter().map(|panel| panel.extreme(sign));
-    found.fold(f64::NEG_INFINITY, f64::max)
+    best
 }
 
 /// The end of a panel that begins at `at`: its length, or the next corner before.

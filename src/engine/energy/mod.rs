@@ -6,21 +6,28 @@
 //! one that turns back at both ends does too. Ends of a libration are taken with θ = θ_end ∓ s², which
 //! makes dt/ds smooth.
 
+mod extreme;
 mod kinetic;
 pub(in crate::engine) mod leg;
 mod orbit;
 pub(in crate::engine) mod panel;
 mod passages;
 pub(in crate::engine) mod piece;
+pub(in crate::engine) mod turns;
+
+use crate::numeric::chebyshev::Values;
 
 pub use orbit::Orbit;
 pub use passages::Passage;
 
 /// What the engine needs of a mechanism.
 pub trait Profile {
-    /// Inertia M and the generalized force that accelerates it, K' = F, at an angle, rad. Both only need to
-    /// be smooth between the corners.
+    /// Inertia M (kg m²) and the generalized force (N m) that accelerates it, K' = F, at an angle, rad. Both only
+    /// need to be smooth between the corners.
     fn inertia_and_force(&self, theta: f64) -> (f64, f64);
+
+    /// The same at the first `count` of some angles.
+    fn tabulate(&self, angles: &Values, count: usize, inertia: &mut Values, force: &mut Values);
 
     /// Angles in [0, 2π), in rising order, at which panels must end.
     fn corners(&self) -> &[f64];

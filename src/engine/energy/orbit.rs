@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::leg::{After, Leg};
+use super::turns::Turns;
 use super::{Profile, Unserved};
 use crate::numeric::angle::Angle;
 
@@ -10,18 +11,21 @@ use crate::numeric::angle::Angle;
 #[derive(Clone, Debug)]
 pub struct Orbit {
     pub(super) start: Angle,
-    direction: f64,
+    pub(super) direction: f64,
     /// At the start, rad/s
-    speed: f64,
+    pub(super) speed: f64,
     /// Whether the start is a turning point.
     pub(super) from_rest: bool,
     pub(super) forward: Leg,
     /// From the start the other way, for motions that turn back.
     pub(super) backward: Option<Leg>,
+    /// What follows after the first turns, for long motions whose turns differ.
+    pub(super) later: Option<Box<Turns>>,
 }
 
 impl Orbit {
-    /// The motion from `angle` with `speed` until the time `until`.
+    /// The motion from `angle` with `speed` until the time `until`; series end where they have decayed to
+    /// `tolerance`.
     ///
     /// # Errors
     /// [`Unserved`] where it cannot be computed from its energy.
@@ -30,6 +34,7 @@ impl Orbit {
         angle: Angle,
         speed: f64,
         until: f64,
+        tolerance: f64,
     ) -> Result<Orbit, Unserved> {
         let start = angle.reduced();
         let theta = start.rest;
@@ -46,12 +51,14 @@ impl Orbit {
         } else {
             speed.signum()
         };
-        let forward = Leg::build(profile, theta, direction, kinetic, until)?;
+        let forward = Leg::build(profile, theta, direction, kinetic, until, tolerance)?;
         let there = forward.duration.0;
         let turns_back = forward.after == After::TurnsBack;
         let backward = if turns_back && kinetic != 0.0 && 2.0 * there < until {
             let left = until - 2.0 * there;
-            Some(Leg::build(profile, theta, -direction, kinetic, left)?)
+            Some(Leg::build(
+                profile, theta, -direction, kinetic, left, tolerance,
+            )?)
         } else {
             None
         };
@@ -62,6 +69,7 @@ impl Orbit {
             from_rest: kinetic == 0.0,
             forward,
             backward,
+            later: None,
         })
     }
 
@@ -74,6 +82,15 @@ impl Orbit {
             from_rest: false,
             forward: leg,
             backward: None,
+            later: None,
+        }
+    }
+
+    /// A motion in one direction of many turns, the first of them on a leg.
+    pub(in crate::engine) fn of_turns(start: Angle, speed: f64, leg: Leg, later: Turns) -> Orbit {
+        Orbit {
+            later: Some(Box::new(later)),
+            ..Orbit::one_way(start, speed, leg)
         }
     }
 
@@ -105,6 +122,11 @@ impl Orbit {
     pub fn state(&self, t: f64) -> (Angle, f64) {
         if t == 0.0 {
             return (self.start, self.speed);
+        }
+        if let Some(later) = self.later.as_ref().filter(|_| t > self.forward.duration.0) {
+            let (angle, speed) = later.state(t, self.direction);
+            let turns = self.start.turns + angle.turns;
+            return (Angle { turns, ..angle }, speed);
         }
         let (turns, after) = self.split(t);
         let (angle, speed) = self.within(after);
@@ -174,34 +196,11 @@ impl Orbit {
             let (period, low) = self.forward.duration;
             return Some((turns.mul_add(period, after) + turns * low).max(0.0));
         }
-        self.forward.time_of(angle(turns)).map(|t| t.max(0.0))
-    }
-
-    /// Smallest and largest speed until a time, with sign.
-    pub fn speed_range(&self, until: f64) -> (f64, f64) {
-        let signed = |leg: &Leg, direction: f64, until: f64| {
-            let (low, high) = leg.speed_range(until);
-            if direction > 0.0 {
-                (low, high)
-            } else {
-                (-high, -low)
-            }
-        };
-        let mut range = signed(&self.forward, self.direction, until);
-        let there = self.forward.duration.0;
-        if self.forward.after == After::TurnsBack && until > there {
-            let back = signed(&self.forward, -self.direction, 2.0 * there);
-            range = (range.0.min(back.0), range.1.max(back.1));
-            if let Some(leg) = self.backward.as_ref().filter(|_| until > 2.0 * there) {
-                let there = signed(leg, -self.direction, until - 2.0 * there);
-                range = (range.0.min(there.0), range.1.max(there.1));
-                if leg.after == After::TurnsBack {
-                    let again = signed(leg, self.direction, f64::INFINITY);
-                    range = (range.0.min(again.0), range.1.max(again.1));
-                }
-            }
-        }
-        range
+        let early = self.forward.time_of(angle(turns)).map(|t| t.max(0.0));
+        early.or_else(|| {
+            let later = self.later.as_ref()?;
+            later.time_of_turn(radians, self.start.rest, self.direction)
+        })
     }
 
     /// Bound of the relative error of times: the tails of the series and their rounding.
@@ -212,23 +211,40 @@ impl Orbit {
         error / duration + 2.0 * f64::EPSILON
     }
 
-    /// Its first leg.
-    pub(in crate::engine) fn leg(&self) -> &Leg {
-        &self.forward
+    /// What the series leave out of the speed, relative to it.
+    pub fn speed_error(&self) -> f64 {
+        let back = self.backward.as_ref().map_or(0.0, |leg| leg.tail);
+        self.forward.tail.max(back)
+    }
+
+    /// Its last leg.
+    pub(in crate::engine) fn last_leg(&self) -> &Leg {
+        self.later
+            .as_ref()
+            .map_or(&self.forward, |later| &later.last)
     }
 
     /// How long it is known, s: for ever if it repeats.
     pub fn length(&self) -> f64 {
         match self.period() {
             Some(_) => f64::INFINITY,
-            None => self.forward.duration.0,
+            None => self
+                .later
+                .as_ref()
+                .map_or(self.forward.duration.0, |later| {
+                    later.last_mark().t.0 + later.last.duration.0
+                }),
         }
     }
 
     /// Largest kinetic energy at the ends of panels, J.
     pub fn largest_kinetic(&self) -> f64 {
         let back = self.backward.as_ref().map_or(0.0, Leg::largest_kinetic);
-        self.forward.largest_kinetic().max(back)
+        let later = self.later.as_ref().map_or(0.0, |later| {
+            let marks = later.marks.iter().map(|mark| mark.kinetic);
+            marks.fold(later.last.largest_kinetic(), f64::max)
+        });
+        self.forward.largest_kinetic().max(back).max(later)
     }
 
     /// Number of panels.

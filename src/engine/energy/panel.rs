@@ -1,10 +1,13 @@
 //! One panel: dt/dθ and t as series over a piece of the angle.
 
+use super::extreme::{Extreme, extremes};
 use super::kinetic::Energy;
 use super::piece::{Piece, Turning};
 use super::{Profile, Unserved};
-use crate::numeric::chebyshev::{self, DEGREE, POINTS, Values};
-use crate::numeric::{exact, root};
+use crate::numeric::chebyshev::{self, Rule, Series, Values};
+
+/// Degree of the series: half a turn of a usual engine is right to rounding.
+const DEGREE: usize = chebyshev::MOST;
 
 /// A piece with its series.
 #[derive(Clone, Debug)]
@@ -12,16 +15,19 @@ pub(in crate::engine) struct Panel {
     pub piece: Piece,
     /// Whole turns to be added to its angles.
     pub turns: f64,
+    pub rule: &'static Rule,
     /// dt/dx
-    slope: Values,
+    pub(super) slope: Series,
     /// Its duration, s: rounded value and rest.
     pub duration: (f64, f64),
     /// Kinetic energy at its end, J.
     pub kinetic_at_end: f64,
     /// Bound of the error of its duration, s.
     pub error: f64,
-    /// Slowest and fastest of its points, with their |speed|.
-    extremes: [(usize, f64); 2],
+    /// Slowest and fastest of its points.
+    pub(super) extremes: [Extreme; 2],
+    /// What its series of dt/dx leaves out, relative to the largest.
+    pub tail: f64,
 }
 
 /// What is found when a panel is tried.
@@ -44,21 +50,22 @@ impl Panel {
         tolerance: f64,
         rounding: f64,
     ) -> Result<Tried, Unserved> {
-        let points = chebyshev::points();
-        let (mut inertia, mut force) = ([0.0; POINTS], [0.0; POINTS]);
-        for j in 0..POINTS {
-            (inertia[j], force[j]) = profile.inertia_and_force(piece.angle(points[j]));
-            if !inertia[j].is_finite() || !force[j].is_finite() {
-                return Err(Unserved::NotFinite);
-            }
+        let rule = Rule::of(DEGREE);
+        let (mut inertia, mut force) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
+        let angles = rule.values(|x| piece.angle(x));
+        profile.tabulate(&angles, DEGREE + 1, &mut inertia, &mut force);
+        let known = |values: &Values| values.iter().all(|value| value.is_finite());
+        if !known(&inertia) || !known(&force) {
+            return Err(Unserved::NotFinite);
         }
         // Angles are rounded, which the series of a short panel sees as noise.
         let noise = 8.0 * f64::EPSILON * (1.0 + piece.from.abs() / piece.span().abs());
         let accepted = tolerance.max(noise);
-        let series = chebyshev::coefficients(&force);
+        let series = rule.series(&force);
         let energy = Energy {
             piece,
             kinetic,
+            rule,
             force: &series,
         };
         if !energy.is_resolved(accepted) {
@@ -66,7 +73,7 @@ impl Panel {
         }
         let kinetic: Values = match piece.turning {
             Turning::Nowhere => energy.kinetic_at_points(&force),
-            _ => std::array::from_fn(|j| energy.mean_force(points[j])),
+            _ => rule.values(|x| energy.mean_force(x)),
         };
         if piece.turning != Turning::AtEnd
             && let Some(j) = kinetic.iter().position(|k| *k <= 0.0)
@@ -81,50 +88,74 @@ impl Panel {
         if !slopes.iter().all(|slope| slope.is_finite()) {
             return Ok(Tried::Unresolved);
         }
-        let slope = chebyshev::coefficients(&slopes);
-        let tail = chebyshev::tail(&slope);
+        let slope = rule.series(&slopes);
+        let tail = slope.tail();
         if tail > accepted {
             return Ok(Tried::Unresolved);
         }
-        let duration = duration(&slopes);
         let least = match piece.turning {
             Turning::Nowhere => kinetic.iter().fold(f64::INFINITY, |m, k| m.min(*k)),
             Turning::AtStart => f64::INFINITY,
             Turning::AtEnd => energy.kinetic,
         };
-        Ok(Tried::Done(Box::new(Panel {
+        let kinetic_at_end = match piece.turning {
+            Turning::Nowhere => kinetic[DEGREE],
+            Turning::AtStart => 2.0 * piece.span().abs() * energy.mean_force(1.0),
+            Turning::AtEnd => 0.0,
+        };
+        Ok(Tried::Done(Box::new(Panel::from_slopes(
             piece,
-            turns: 0.0,
-            extremes: extremes(&piece, &slopes),
+            rule,
+            &slopes,
             slope,
-            duration,
-            kinetic_at_end: match piece.turning {
-                Turning::Nowhere => kinetic[DEGREE],
-                Turning::AtStart => 2.0 * piece.span().abs() * energy.mean_force(1.0),
-                Turning::AtEnd => 0.0,
-            },
-            error: (tail + shaken(rounding / least)) * duration.0,
-        })))
+            shaken(rounding / least),
+            kinetic_at_end,
+        ))))
     }
 
-    /// A panel from dt/dx at the points and its coefficients.
+    /// A panel from dt/dx at the points of a rule and its series, the relative error of dt/dx by rounding, and
+    /// the kinetic energy (J) at its end.
     pub fn from_slopes(
         piece: Piece,
+        rule: &'static Rule,
         slopes: &Values,
-        slope: Values,
-        tail: f64,
-        kinetic: f64,
+        slope: Series,
+        shaken: f64,
+        kinetic_at_end: f64,
     ) -> Panel {
-        let duration = duration(slopes);
+        let duration = rule.integral(slopes);
+        let tail = slope.tail();
+        // What the series leaves out alternates: its integral is smaller by the degree at least.
+        let uncertain = tail / rule.degree() as f64 + shaken;
         Panel {
             piece,
             turns: 0.0,
-            extremes: extremes(&piece, slopes),
+            extremes: extremes(&piece, rule, slopes),
+            rule,
             slope,
             duration,
-            kinetic_at_end: kinetic,
-            error: tail * duration.0,
+            kinetic_at_end,
+            error: uncertain * duration.0,
+            tail,
         }
+    }
+
+    /// Panels over the same piece, blended by shares whose sum is one; its durations are right to rounding of the
+    /// sum, its extremes those of the points.
+    pub fn blend<'a>(panels: impl Iterator<Item = (&'a Panel, f64)> + Clone) -> Option<Panel> {
+        let (first, _) = panels.clone().next()?;
+        let slope = Series::blend(panels.clone().map(|(panel, share)| (&panel.slope, share)));
+        let sum = |of: fn(&Panel) -> f64| -> f64 {
+            panels.clone().map(|(panel, share)| share * of(panel)).sum()
+        };
+        let slopes = first.rule.values(|x| slope.value(x));
+        Some(Panel {
+            slope,
+            duration: (sum(|panel| panel.duration.0), sum(|panel| panel.duration.1)),
+            kinetic_at_end: sum(|panel| panel.kinetic_at_end),
+            extremes: extremes(&first.piece, first.rule, &slopes),
+            ..first.clone()
+        })
     }
 
     /// Angle and speed a time `after` its start, rad and rad/s; the sign of the speed is that of the panel.
@@ -142,17 +173,17 @@ impl Panel {
         if after >= total {
             return 1.0;
         }
-        let time = chebyshev::integral(&self.slope);
+        let time = self.slope.integral();
         let (mut low, mut high) = (-1.0, 1.0);
         let mut x = 2.0 * after / total - 1.0;
         for _ in 0..60 {
-            let excess = chebyshev::value(&time, x) - after;
+            let excess = time.value(x) - after;
             if excess > 0.0 {
                 high = x;
             } else {
                 low = x;
             }
-            let newton = x - excess / chebyshev::value(&self.slope, x);
+            let newton = x - excess / self.slope.value(x);
             let next = if newton > low && newton < high {
                 newton
             } else {
@@ -167,51 +198,13 @@ impl Panel {
         x
     }
 
-    fn speed(&self, x: f64) -> f64 {
-        self.piece.stretch(x) / chebyshev::value(&self.slope, x)
+    pub(super) fn speed(&self, x: f64) -> f64 {
+        self.piece.stretch(x) / self.slope.value(x)
     }
 
     /// Time after the start at which an angle of the panel is reached.
     pub fn time_of(&self, theta: f64) -> f64 {
-        let time = chebyshev::integral(&self.slope);
-        chebyshev::value(&time, self.piece.variable(theta))
-    }
-
-    /// Largest speed·sign among the points, where `sign` is +1 or −1, with |speed| for speed.
-    pub fn extreme_at_points(&self, sign: f64) -> f64 {
-        sign * self.extremes[usize::from(sign > 0.0)].1
-    }
-
-    /// The same between the points.
-    pub fn extreme(&self, sign: f64) -> f64 {
-        let (index, _) = self.extremes[usize::from(sign > 0.0)];
-        self.extreme_near(chebyshev::points(), index, sign)
-    }
-
-    /// Largest sign·|speed| near one of some points: there, or next to it where the derivative of the speed
-    /// vanishes.
-    fn extreme_near(&self, points: &Values, index: usize, sign: f64) -> f64 {
-        let from = points[index.saturating_sub(1)];
-        let to = points[(index + 1).min(DEGREE)];
-        let bend = chebyshev::derivative(&self.slope);
-        let stretch_rate = self.piece.stretch_rate();
-        // Speed is stretch/slope.
-        let rate = |x: f64| {
-            stretch_rate * chebyshev::value(&self.slope, x)
-                - self.piece.stretch(x) * chebyshev::value(&bend, x)
-        };
-        let at_point = sign * self.speed(points[index]).abs();
-        root::bracketed(rate, from, to)
-            .map_or(at_point, |x| at_point.max(sign * self.speed(x).abs()))
-    }
-
-    /// Largest sign·|speed| until a time after the start.
-    pub fn extreme_until(&self, until: f64, sign: f64) -> f64 {
-        let share = 0.5 * (1.0 + self.position(until));
-        let points = chebyshev::points().map(|x| share * (1.0 + x) - 1.0);
-        let value = |index: &usize| sign * self.speed(points[*index]).abs();
-        let best = (0..POINTS).max_by(|a, b| value(a).total_cmp(&value(b)));
-        self.extreme_near(&points, best.unwrap_or(0), sign)
+        self.slope.integral().value(self.piece.variable(theta))
     }
 }
 
@@ -223,31 +216,4 @@ fn shaken(part: f64) -> f64 {
     } else {
         0.5 * part
     }
-}
-
-/// Slowest and fastest of the points with their |speed|, from dt/dx there.
-fn extremes(piece: &Piece, slopes: &Values) -> [(usize, f64); 2] {
-    let speed = |j: usize| (piece.stretch(chebyshev::points()[j]) / slopes[j]).abs();
-    let mut found = [(0, speed(0)); 2];
-    for j in 1..POINTS {
-        let here = speed(j);
-        if here < found[0].1 {
-            found[0] = (j, here);
-        }
-        if here > found[1].1 {
-            found[1] = (j, here);
-        }
-    }
-    found
-}
-
-/// ∫ dt/dx by Clenshaw and Curtis, summed without rounding loss.
-pub(in crate::engine) fn duration(slopes: &Values) -> (f64, f64) {
-    let (mut sum, mut rest) = (0.0, 0.0);
-    for (weight, slope) in chebyshev::weights().iter().zip(slopes) {
-        let (next, lost) = exact::two_sum(sum, weight * slope);
-        sum = next;
-        rest += lost;
-    }
-    exact::two_sum(sum, rest)
 }

@@ -1,5 +1,7 @@
 //! What a motion passes: ends of panels, among them the corners, and turning points.
 
+use std::f64::consts::TAU;
+
 use super::Orbit;
 use super::leg::{After, Leg};
 use crate::numeric::angle::Angle;
@@ -18,6 +20,34 @@ pub struct Passage {
 }
 
 impl Orbit {
+    /// Calls for the ends of panels in the turns after the first ones, in order, until it says that it is
+    /// enough.
+    pub fn later_passages(&self, mut visit: impl FnMut(Passage) -> bool) {
+        let Some(later) = &self.later else {
+            return;
+        };
+        later.each_turn(|mark, leg| {
+            leg.ends().all(|(after, angle)| {
+                let turns = self.direction * mark.turns + angle.turns;
+                visit(Passage {
+                    t: mark.t.0 + (mark.t.1 + after),
+                    angle: Angle {
+                        turns: self.start.turns + turns,
+                        rest: angle.rest,
+                    },
+                    speed: leg.state(after).1,
+                    turning: false,
+                })
+            })
+        });
+    }
+
+    /// How far (rad) the crank has turned in the first turns, if others follow that are not among
+    /// [`Self::passages`].
+    pub fn later_from(&self) -> Option<f64> {
+        Some(self.later.as_ref()?.marks[0].turns * TAU)
+    }
+
     /// When it turns back, until a time.
     pub fn turning_times(&self, until: f64) -> Vec<f64> {
         let turnings = self

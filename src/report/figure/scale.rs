@@ -79,13 +79,13 @@ impl Scale {
     pub(super) fn ticks(&self, most: usize) -> Vec<Tick> {
         match self.kind {
             ScaleKind::Linear => self.even_ticks(self.low, self.high, most),
-            ScaleKind::Log if self.high - self.low >= 1.5 => self.decades(most),
             ScaleKind::Log => {
                 let parts = self.parts_of_decades();
-                if (2..=most).contains(&parts.len()) {
-                    return parts;
+                match self.high - self.low {
+                    _ if (2..=most).contains(&parts.len()) => parts,
+                    decades if decades >= 1.5 => self.decades(most),
+                    _ => self.even_ticks(10f64.powf(self.low), 10f64.powf(self.high), most),
                 }
-                self.even_ticks(10f64.powf(self.low), 10f64.powf(self.high), most)
             }
         }
     }

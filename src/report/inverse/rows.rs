@@ -35,10 +35,9 @@ pub fn inverse_rows(
         line(row, text);
         if reactions {
             match result.reactions(row) {
-                Some(forces) => forces
-                    .values()
-                    .into_iter()
-                    .for_each(|value| cell(value, text)),
+                Some(forces) => {
+                    crate::report::rows::reactions(&forces).for_each(|value| cell(value, text))
+                }
                 None => text.extend(std::iter::repeat_n(b',', 10)),
             }
         }

@@ -7,6 +7,7 @@ use csv::StringRecord;
 use super::header;
 use super::rows::{Column, Rows, columns_error};
 use super::{Interpolation, Table, TableError};
+use crate::error::Error;
 use crate::scene::Variable;
 use crate::scene::number::{self, counted};
 use crate::scene::unit::Quantity;
@@ -61,6 +62,56 @@ impl Table {
         let curve = rows.curve(interpolation, period)?;
         Ok(Table { of, curve, name })
     }
+}
+
+/// Reads a calibration: loads with a unit of force in the first column, N, readings of any kind in the
+/// second. The rows may stand in any order.
+///
+/// # Errors
+/// [`Error::Read`] if the file cannot be read, [`Error::Refused`] with line and column for what is no
+/// calibration.
+pub fn calibration_points(file: &Path) -> Result<Vec<(f64, f64)>, Error> {
+    let name = file.display().to_string();
+    let text = std::fs::read_to_string(file).map_err(|source| Error::Read {
+        file: file.to_owned(),
+        source,
+    })?;
+    let wrong = |what: String| {
+        Error::refused(
+            what,
+            "the file has two columns, as `load [N],reading`, and a row for each load",
+        )
+    };
+    let mut reader = csv::ReaderBuilder::new()
+        .delimiter(delimiter(&text))
+        .comment(Some(b'#'))
+        .trim(csv::Trim::All)
+        .flexible(true)
+        .from_reader(text.as_bytes());
+    let place = |end: u64| format!("{name} line {}", line_before(&text, end));
+    let header = reader.headers().map_err(|e| wrong(e.to_string()))?.clone();
+    let end = reader.position().byte();
+    if header.len() != 2 || header.iter().any(|h| h.parse::<f64>().is_ok()) {
+        let what = format!("{}: the first line must name two columns", place(end));
+        return Err(wrong(what));
+    }
+    let load = header::split(&header[0])
+        .column(Quantity::Force)
+        .map_err(|what| wrong(format!("{}: {what}", place(end))))?;
+    let mut points = Vec::new();
+    let mut record = StringRecord::new();
+    while reader
+        .read_record(&mut record)
+        .map_err(|e| wrong(e.to_string()))?
+    {
+        let end = reader.position().byte();
+        let (x, y) = point(&record).map_err(|what| wrong(format!("{}{what}", place(end))))?;
+        if !(x.is_finite() && y.is_finite()) {
+            return Err(wrong(format!("{}: a value is not finite", place(end))));
+        }
+        points.push((x * load.factor, y));
+    }
+    Ok(points)
 }
 
 /// The number of the line that ends at or before a byte of the text, from 1.

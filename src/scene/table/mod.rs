@@ -9,6 +9,7 @@ use std::fmt;
 use super::Variable;
 use crate::numeric::interpolate::Curve;
 pub use crate::numeric::interpolate::Interpolation;
+pub use file::calibration_points;
 use rows::{Column, Rows};
 
 /// Values over one variable, SI and radians.

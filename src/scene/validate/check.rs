@@ -1,5 +1,7 @@
 //! The list that the checks of single values write to.
 
+use std::fmt::Display;
+
 use crate::scene::Problem;
 use crate::scene::number::{apart, with_unit};
 
@@ -19,8 +21,8 @@ const MASS_KEYS: [&str; 8] = [
 pub(super) struct Check<'a>(pub &'a mut Vec<Problem>);
 
 impl Check<'_> {
-    pub fn add(&mut self, field: &str, what: String, help: &str) {
-        self.0.push(Problem::new(field, what, help));
+    pub fn add(&mut self, field: impl Display, what: String, help: &str) {
+        self.0.push(Problem::new(&field.to_string(), what, help));
     }
 
     /// Whether none of these fields has a problem yet.
@@ -29,7 +31,7 @@ impl Check<'_> {
         !named.any(|field| fields.contains(&field))
     }
 
-    pub fn finite(&mut self, field: &str, value: f64) -> bool {
+    pub fn finite(&mut self, field: impl Display, value: f64) -> bool {
         if !value.is_finite() {
             let what = format!("{value} is not a finite number");
             self.add(field, what, "give a finite value");
@@ -37,14 +39,15 @@ impl Check<'_> {
         value.is_finite()
     }
 
-    pub fn positive(&mut self, field: &str, value: f64, unit: &str) {
-        if self.finite(field, value) && value <= 0.0 {
-            self.0.push(Problem::not_positive(field, value, unit));
+    pub fn positive(&mut self, field: impl Display, value: f64, unit: &str) {
+        if self.finite(&field, value) && value <= 0.0 {
+            self.0
+                .push(Problem::not_positive(&field.to_string(), value, unit));
         }
     }
 
-    pub fn not_negative(&mut self, field: &str, value: f64, unit: &str) {
-        if self.finite(field, value) && value < 0.0 {
+    pub fn not_negative(&mut self, field: impl Display, value: f64, unit: &str) {
+        if self.finite(&field, value) && value < 0.0 {
             let what = format!("{} is negative", with_unit(value, unit));
             self.add(field, what, "give zero or a positive value");
         }
@@ -52,11 +55,14 @@ impl Check<'_> {
 
     /// The moment of inertia of a body about a point, against the `least` that its centre of gravity allows.
     pub fn inertia(&mut self, body: &str, about: &str, inertia: f64, least: f64) {
+        if inertia >= least * (1.0 - 1e-9) {
+            return;
+        }
         let fields = MASS_KEYS.map(|key| format!("{body}.{key}"));
-        if inertia < least * (1.0 - 1e-9) && self.sound(fields.each_ref().map(String::as_str)) {
+        if self.sound(fields.each_ref().map(String::as_str)) {
             let (inertia, least) = apart(inertia, least);
             self.add(
-                &format!("{body}.inertia"),
+                format_args!("{body}.inertia"),
                 format!(
                     "{inertia} kg m2 about {about} is less than mass times distance of the centre of gravity squared, {least} kg m2"
                 ),

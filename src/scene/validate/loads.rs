@@ -17,35 +17,35 @@ pub(super) fn load(list: &mut Check, field: &str, on_slider: bool, load: &Load) 
     }
     match load {
         Load::Constant(value) => {
-            list.finite(&key("value"), *value);
+            list.finite(key("value"), *value);
         }
         Load::Viscous(coefficient) => {
             let unit = if on_slider { "N s/m" } else { "N m s/rad" };
-            list.not_negative(&key("coefficient"), *coefficient, unit);
+            list.not_negative(key("coefficient"), *coefficient, unit);
         }
         Load::Motor {
             stall,
             no_load_speed,
         } => {
-            if list.finite(&key("stall"), *stall)
-                && list.finite(&key("no_load_speed"), *no_load_speed)
+            if list.finite(key("stall"), *stall)
+                && list.finite(key("no_load_speed"), *no_load_speed)
                 && (*no_load_speed == 0.0 || *stall * *no_load_speed < 0.0)
             {
                 let (speed, stall) = (show(*no_load_speed), show(*stall));
                 list.add(
-                    &key("no_load_speed"),
+                    key("no_load_speed"),
                     format!("{speed} rad/s does not fit a stall torque of {stall} N m"),
                     "a motor's no-load speed is not zero and has the sign of its stall torque",
                 );
             }
         }
         Load::Spring { stiffness, rest } => {
-            list.not_negative(&key("stiffness"), *stiffness, "N/m");
-            list.finite(&key("rest"), *rest);
+            list.not_negative(key("stiffness"), *stiffness, "N/m");
+            list.finite(key("rest"), *rest);
         }
         Load::Gas { area, ambient, .. } => {
-            list.positive(&key("area"), *area, "m2");
-            list.not_negative(&key("ambient"), *ambient, "Pa");
+            list.positive(key("area"), *area, "m2");
+            list.not_negative(key("ambient"), *ambient, "Pa");
         }
         Load::Table(_) | Load::Expression(_) | Load::Function { .. } => {}
     }

@@ -77,10 +77,10 @@ fn geometry(list: &mut Check, geometry: &Geometry) {
 }
 
 fn body(list: &mut Check, name: &str, mass: f64, inertia: f64, cg: [f64; 2]) {
-    list.not_negative(&format!("{name}.mass"), mass, "kg");
-    list.not_negative(&format!("{name}.inertia"), inertia, "kg m2");
-    list.finite(&format!("{name}.cg"), cg[0]);
-    list.finite(&format!("{name}.cg_lateral"), cg[1]);
+    list.not_negative(format_args!("{name}.mass"), mass, "kg");
+    list.not_negative(format_args!("{name}.inertia"), inertia, "kg m2");
+    list.finite(format_args!("{name}.cg"), cg[0]);
+    list.finite(format_args!("{name}.cg_lateral"), cg[1]);
 }
 
 fn rod(list: &mut Check, rod: &Rod, length: f64) {
@@ -135,7 +135,7 @@ fn clearance(list: &mut Check, clearance: &Clearance) {
         ("young_modulus", clearance.young_modulus, "Pa"),
     ] {
         if let Some(value) = value {
-            list.positive(&format!("clearance.{name}"), value, unit);
+            list.positive(format_args!("clearance.{name}"), value, unit);
         }
     }
     for (name, value, low, high) in [
@@ -147,7 +147,7 @@ fn clearance(list: &mut Check, clearance: &Clearance) {
             && !(low..=high).contains(&value)
         {
             list.add(
-                &format!("clearance.{name}"),
+                format_args!("clearance.{name}"),
                 format!("{} is not a possible {name}", show(value)),
                 "poisson_ratio lies between -1 and 0.5, restitution between 0 and 1, friction is not negative",
             );

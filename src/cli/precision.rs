@@ -1,0 +1,173 @@
+//! `precision`: speed against error.
+
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::{Outcome, is_standard, print, say, scene};
+use crate::error::Error;
+use crate::report::{self, Output};
+use crate::scene::Scene;
+use crate::study::{self, Precision, PrecisionOptions};
+
+/// Arguments of `precision`.
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    /// Scene files, folders of scene files, `-` for standard input; without one the built-in Duarte engine
+    scenes: Vec<PathBuf>,
+    /// Tolerances, separated by commas; without it 1e-4 to 1e-13 in decades
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = tolerance)]
+    tolerances: Vec<f64>,
+    /// Writes the rows as CSV to this file, `-` for standard output
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Draws error against time as SVG to this file, one panel for each scene; `-` for standard output
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+    /// Prints the comparison as one JSON object
+    #[arg(long)]
+    json: bool,
+    /// Timed runs of each method at each tolerance
+    #[arg(long, value_name = "COUNT", default_value_t = PrecisionOptions::default().repeats)]
+    repeats: u32,
+    /// Most time for repeated runs of one scene, in seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = PrecisionOptions::default().most_s)]
+    most_time: f64,
+    /// Work limit: most evaluations of the equation in one run
+    #[arg(long, value_name = "COUNT", default_value_t = PrecisionOptions::default().max_evaluations)]
+    max_evaluations: u64,
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    match text.trim().parse() {
+        Ok(tolerance) if tolerance > 0.0 && tolerance < 1.0 => Ok(tolerance),
+        _ => Err("give numbers between 0 and 1, like 1e-6,1e-9".to_owned()),
+    }
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+    let [rows_on_stdout, plot_on_stdout] =
+        [&arguments.out, &arguments.plot].map(|path| is_standard(path.as_ref()));
+    if [rows_on_stdout, plot_on_stdout, arguments.json]
+        .iter()
+        .filter(|taken| **taken)
+        .count()
+        > 1
+    {
+        return Err(Error::refused(
+            "more than one of rows, figure and JSON would go to standard output",
+            "write to files: --out rows.csv --plot figure.svg",
+        ));
+    }
+    let mut options = PrecisionOptions {
+        repeats: arguments.repeats,
+        most_s: arguments.most_time,
+        max_evaluations: arguments.max_evaluations,
+        ..PrecisionOptions::default()
+    };
+    if !arguments.tolerances.is_empty() {
+        options.tolerances = arguments.tolerances.clone();
+    }
+    let scenes = scenes(&arguments.scenes)?;
+    let create = |path: &Option<PathBuf>| path.as_deref().map(Output::create).transpose();
+    let (rows, plot) = (create(&arguments.out)?, create(&arguments.plot)?);
+    let text_on_stdout = !(rows_on_stdout || plot_on_stdout || arguments.json);
+    let mut results = Vec::new();
+    let mut failed = 0;
+    for (number, scene) in scenes.iter().enumerate() {
+        if scenes.len() > 1 && std::io::stderr().is_terminal() {
+            let title = scene.title.as_deref().unwrap_or_default();
+            say(&format!("{} of {}: {title}", number + 1, scenes.len()));
+        }
+        let result = match study::precision(scene, &options) {
+            Err(error @ Error::Refused { .. }) if scenes.len() > 1 => {
+                Precision::refused(scene, &error)
+            }
+            result => result?,
+        };
+        failed += usize::from(!result.has_results());
+        let gap = if number > 0 { "\n" } else { "" };
+        let text = format!("{gap}{}", report::precision(&result));
+        if text_on_stdout {
+            print(&text)?;
+        } else {
+            for note in report::precision_notes(&result) {
+                say(&format!("note: {}: {note}", result.scene));
+            }
+        }
+        results.push(result);
+    }
+    write(rows, || report::precision_csv(&results))?;
+    write(plot, || report::precision_figure(&results))?;
+    if arguments.json {
+        print(&report::json(&serde_json::json!({ "scenes": results }))?)?;
+    }
+    Ok(match failed {
+        0 => Outcome::Done,
+        _ => Outcome::Incomplete(format!(
+            "{failed} of {} scenes cannot be computed to their end; their rows are empty",
+            scenes.len()
+        )),
+    })
+}
+
+fn write(output: Option<Output>, text: impl Fn() -> Result<String, Error>) -> Result<(), Error> {
+    let Some(mut output) = output else {
+        return Ok(());
+    };
+    output.write(text()?.as_bytes())?;
+    output.finish()
+}
+
+/// All scenes that are named; of a folder those in files `*.toml`, by their names.
+fn scenes(named: &[PathBuf]) -> Result<Vec<Scene>, Error> {
+    if named.is_empty() {
+        return Ok(vec![scene(None)?]);
+    }
+    let mut files = Vec::new();
+    for path in named {
+        if path.is_dir() {
+            files.extend(scene_files(path)?);
+        } else {
+            files.push(path.clone());
+        }
+    }
+    files.iter().map(titled).collect()
+}
+
+fn scene_files(folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    let failed = |source| Error::Read {
+        file: folder.to_owned(),
+        source,
+    };
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        if path.is_file()
+            && path
+                .extension()
+                .is_some_and(|extension| extension == "toml")
+        {
+            files.push(path);
+        }
+    }
+    if files.is_empty() {
+        return Err(Error::refused(
+            format!("the folder `{}` holds no scene file", folder.display()),
+            "name a scene file, or a folder with files *.toml",
+        ));
+    }
+    files.sort();
+    Ok(files)
+}
+
+/// The scene of a file; one without a title is called like the file.
+fn titled(file: &PathBuf) -> Result<Scene, Error> {
+    let mut scene = scene(Some(file))?;
+    let name = file
+        .file_stem()
+        .map(|name| name.to_string_lossy().into_owned());
+    scene.title = scene.title.or(name);
+    Ok(scene)
+}

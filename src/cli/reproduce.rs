@@ -1,0 +1,66 @@
+//! `reproduce`: the numbers and figures of the four papers beside ours.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::{Outcome, print, say, write_text};
+use crate::error::Error;
+use crate::report::{self, ReproductionSummary};
+use crate::study::{self, Paper};
+
+/// Arguments of `reproduce`.
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    /// obaseki-alfred, gupta, ng or duarte; without it all four
+    #[arg(value_parser = paper)]
+    paper: Option<Paper>,
+    /// Folder for the table and for every figure as CSV and SVG; made if it does not exist
+    #[arg(long, value_name = "FOLDER")]
+    out: Option<PathBuf>,
+    /// Prints everything as one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+fn paper(name: &str) -> Result<Paper, String> {
+    let names = || Paper::ALL.map(Paper::name).join(", ");
+    Paper::named(name).ok_or_else(|| format!("the papers are {}", names()))
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+    let papers = arguments
+        .paper
+        .map_or(Paper::ALL.to_vec(), |paper| vec![paper]);
+    let result = study::reproduce(&papers)?;
+    if let Some(folder) = &arguments.out {
+        let files = write_files(folder, &result)?;
+        say(&format!("{files} files written to {}", folder.display()));
+    }
+    print(&if arguments.json {
+        report::json(&ReproductionSummary::new(&result))?
+    } else {
+        report::reproduction(&result)
+    })?;
+    let unexpected = result.surprises().count();
+    Ok(if unexpected == 0 {
+        Outcome::Done
+    } else {
+        Outcome::Incomplete(format!("{unexpected} verdicts are not the known ones"))
+    })
+}
+
+fn write_files(folder: &Path, result: &study::Reproduction) -> Result<usize, Error> {
+    std::fs::create_dir_all(folder).map_err(|source| Error::Write {
+        target: folder.display().to_string(),
+        source,
+    })?;
+    let write = |name: String, text: String| write_text(&folder.join(name), &text);
+    write("numbers.csv".to_owned(), report::reproduction_csv(result)?)?;
+    for drawing in &result.drawings {
+        let name = report::file_name(drawing);
+        write(format!("{name}.csv"), report::drawing_csv(drawing)?)?;
+        write(format!("{name}.svg"), report::drawing_svg(drawing)?)?;
+    }
+    Ok(1 + 2 * result.drawings.len())
+}

@@ -1,0 +1,140 @@
+//! `statics`: slider force against crank torque at rest.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::{
+    Outcome, angle, check_rows_of_turn, is_standard, length, positive_angle, print, quantity, say,
+    scene, write_text,
+};
+use crate::error::Error;
+use crate::report::{self, Output, StaticsWriter};
+use crate::scene::unit::Quantity;
+use crate::study::{self, StaticsOptions};
+
+/// Arguments of `statics`.
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    /// Scene file, `-` for standard input; without it the built-in Duarte engine, under 1 N m if no load is given
+    scene: Option<PathBuf>,
+    /// Crank torque in place of the scene's torques, like "0.26487 N m"; the slider force is sought
+    #[arg(long, value_name = "TORQUE", value_parser = torque, allow_hyphen_values = true, conflicts_with = "weight")]
+    torque: Option<f64>,
+    /// Weight on a cord round a drum on the crank, like "9.81 N": gives the torque
+    #[arg(long, value_name = "FORCE", value_parser = force, requires = "drum_radius", allow_hyphen_values = true)]
+    weight: Option<f64>,
+    /// Radius of the drum, like "27 mm"
+    #[arg(long, value_name = "LENGTH", value_parser = length, requires = "weight")]
+    drum_radius: Option<f64>,
+    /// Slider force in place of the scene's forces, like "-200 N"; the crank torque is sought
+    #[arg(long, value_name = "FORCE", value_parser = force, allow_hyphen_values = true, conflicts_with_all = ["torque", "weight"])]
+    force: Option<f64>,
+    /// Static friction coefficient at the guide, in place of the scene's
+    #[arg(
+        long,
+        value_name = "NUMBER",
+        conflicts_with = "tilt",
+        allow_hyphen_values = true
+    )]
+    friction: Option<f64>,
+    /// Tilt at which the slider begins to slide, like "45 deg": gives the friction coefficient
+    #[arg(long, value_name = "ANGLE", value_parser = tilt)]
+    tilt: Option<f64>,
+    /// Crank angle between rows, from 0 to 360 degrees inclusive
+    #[arg(long, value_name = "ANGLE", default_value = "1 deg", value_parser = positive_angle)]
+    every: f64,
+    /// Adds the velocity ratio and the angle at the crank pin to the rows
+    #[arg(long)]
+    details: bool,
+    /// Writes the rows as CSV to this file, `-` for standard output
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Draws force or torque with its friction band, and the side thrust, to this SVG file
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+    /// Calibration of a force sensor instead: a CSV file of loads and readings, like `load [N],strain`
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "out", "plot", "torque", "weight", "force"])]
+    calibration: Option<PathBuf>,
+    /// Reading that the calibration takes back to a force; may be given again
+    #[arg(
+        long,
+        value_name = "NUMBER",
+        requires = "calibration",
+        allow_hyphen_values = true
+    )]
+    reading: Vec<f64>,
+    /// Prints the summary as one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+fn torque(text: &str) -> Result<f64, String> {
+    quantity(text, Quantity::Torque)
+}
+
+fn force(text: &str) -> Result<f64, String> {
+    quantity(text, Quantity::Force)
+}
+
+fn tilt(text: &str) -> Result<f64, String> {
+    let tilt = angle(text)?;
+    if (0.0..std::f64::consts::FRAC_PI_2).contains(&tilt) {
+        Ok(tilt)
+    } else {
+        Err("the tilt must be from 0 to below 90 degrees, like \"45 deg\"".to_owned())
+    }
+}
+
+impl Arguments {
+    fn options(&self) -> StaticsOptions {
+        let hung = self.weight.zip(self.drum_radius);
+        let hung = hung.map(|(weight, radius)| study::drum_torque(weight, radius));
+        let nothing = self.scene.is_none() && self.force.is_none();
+        StaticsOptions {
+            torque: self.torque.or(hung).or(nothing.then_some(1.0)),
+            force: self.force,
+            friction: self.friction.or(self.tilt.map(study::friction_from_tilt)),
+        }
+    }
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+    if let Some(file) = &arguments.calibration {
+        let result = study::calibrate(file, &arguments.reading)?;
+        print(&if arguments.json {
+            report::json(&result)?
+        } else {
+            report::calibration(&result)
+        })?;
+        return Ok(Outcome::Done);
+    }
+    let rows_on_stdout = is_standard(arguments.out.as_ref());
+    if rows_on_stdout && arguments.json {
+        return Err(Error::refused(
+            "both the rows and the JSON summary would go to standard output",
+            "write the rows to a file: --out rows.csv",
+        ));
+    }
+    check_rows_of_turn(arguments.every)?;
+    let result = study::statics(&scene(arguments.scene.as_ref())?, &arguments.options())?;
+    if let Some(path) = &arguments.out {
+        let output = Output::create(path)?;
+        let mut writer = StaticsWriter::new(output, &result, arguments.details)?;
+        for row in result.rows(arguments.every) {
+            writer.row(&row)?;
+        }
+        writer.finish()?;
+    }
+    if let Some(path) = &arguments.plot {
+        write_text(path, &report::statics_figure(&result)?)?;
+    }
+    if arguments.json {
+        print(&report::json(&result)?)?;
+    } else if rows_on_stdout {
+        say(report::statics(&result).trim_end());
+    } else {
+        print(&report::statics(&result))?;
+    }
+    Ok(Outcome::Done)
+}

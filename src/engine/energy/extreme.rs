@@ -1,0 +1,139 @@
+//! Smallest and largest speeds.
+
+use super::Orbit;
+use super::leg::{After, Leg};
+use super::panel::Panel;
+use super::piece::{Piece, Turning};
+use crate::numeric::chebyshev::{Rule, Values};
+use crate::numeric::root;
+
+/// An extreme |speed| among the points.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Extreme {
+    point: usize,
+    /// rad/s
+    speed: f64,
+    /// How far it differs from its neighbours, rad/s: no more is added between the points.
+    step: f64,
+}
+
+impl Panel {
+    /// Largest speed·sign among the points, where `sign` is +1 or −1, with |speed| for speed.
+    pub fn extreme_at_points(&self, sign: f64) -> f64 {
+        sign * self.extremes[usize::from(sign > 0.0)].speed
+    }
+
+    /// A bound of it between the points.
+    pub fn extreme_bound(&self, sign: f64) -> f64 {
+        self.extreme_at_points(sign) + self.extremes[usize::from(sign > 0.0)].step
+    }
+
+    /// The same between the points.
+    pub fn extreme(&self, sign: f64) -> f64 {
+        let index = self.extremes[usize::from(sign > 0.0)].point;
+        self.extreme_near(self.rule.points(), index, sign)
+    }
+
+    /// Largest sign·|speed| near one of some points: there, or next to it where the derivative of the speed
+    /// vanishes.
+    fn extreme_near(&self, points: &[f64], index: usize, sign: f64) -> f64 {
+        let from = points[index.saturating_sub(1)];
+        let to = points[(index + 1).min(self.rule.degree())];
+        let bend = self.slope.derivative();
+        let stretch_rate = self.piece.stretch_rate();
+        // Speed is stretch/slope.
+        let rate =
+            |x: f64| stretch_rate * self.slope.value(x) - self.piece.stretch(x) * bend.value(x);
+        let at_point = sign * self.speed(points[index]).abs();
+        root::bracketed(rate, from, to)
+            .map_or(at_point, |x| at_point.max(sign * self.speed(x).abs()))
+    }
+
+    /// Largest sign·|speed| until a time after the start.
+    pub fn extreme_until(&self, until: f64, sign: f64) -> f64 {
+        let share = 0.5 * (1.0 + self.position(until));
+        let points = self.rule.values(|x| share * (1.0 + x) - 1.0);
+        let value = |index: &usize| sign * self.speed(points[*index]).abs();
+        let best = (0..=self.rule.degree()).max_by(|a, b| value(a).total_cmp(&value(b)));
+        self.extreme_near(&points, best.unwrap_or(0), sign)
+    }
+}
+
+impl Orbit {
+    /// Smallest and largest speed until a time, with sign.
+    pub fn speed_range(&self, until: f64) -> (f64, f64) {
+        if until == 0.0 {
+            return (self.speed, self.speed);
+        }
+        let signed = |leg: &Leg, direction: f64, until: f64| {
+            let (low, high) = leg.speed_range(until);
+            if direction > 0.0 {
+                (low, high)
+            } else {
+                (-high, -low)
+            }
+        };
+        let mut range = signed(&self.forward, self.direction, until);
+        if let Some(later) = self
+            .later
+            .as_ref()
+            .filter(|_| until > self.forward.duration.0)
+        {
+            let (low, high) = later.speed_range(until);
+            let (low, high) = if self.direction > 0.0 {
+                (low, high)
+            } else {
+                (-high, -low)
+            };
+            range = (range.0.min(low), range.1.max(high));
+        }
+        let there = self.forward.duration.0;
+        if self.forward.after == After::TurnsBack && until > there {
+            let back = signed(&self.forward, -self.direction, 2.0 * there);
+            range = (range.0.min(back.0), range.1.max(back.1));
+            if let Some(leg) = self.backward.as_ref().filter(|_| until > 2.0 * there) {
+                let there = signed(leg, -self.direction, until - 2.0 * there);
+                range = (range.0.min(there.0), range.1.max(there.1));
+                if leg.after == After::TurnsBack {
+                    let again = signed(leg, self.direction, f64::INFINITY);
+                    range = (range.0.min(again.0), range.1.max(again.1));
+                }
+            }
+        }
+        range
+    }
+}
+
+/// Slowest and fastest of the points, from dt/dx there.
+pub(super) fn extremes(piece: &Piece, rule: &Rule, slopes: &Values) -> [Extreme; 2] {
+    let speeds = match piece.turning {
+        Turning::Nowhere => slopes.map(|slope| (piece.stretch(0.0) / slope).abs()),
+        _ => {
+            let mut index = 0;
+            rule.values(|x| {
+                index += 1;
+                (piece.stretch(x) / slopes[index - 1]).abs()
+            })
+        }
+    };
+    let last = rule.degree();
+    let (mut slow, mut fast) = (0, 0);
+    for j in 1..=last {
+        if speeds[j] < speeds[slow] {
+            slow = j;
+        }
+        if speeds[j] > speeds[fast] {
+            fast = j;
+        }
+    }
+    [slow, fast].map(|point| {
+        let before = speeds[point.saturating_sub(1)];
+        let after = speeds[(point + 1).min(last)];
+        let speed = speeds[point];
+        Extreme {
+            point,
+            speed,
+            step: (speed - before).abs().max((speed - after).abs()),
+        }
+    })
+}

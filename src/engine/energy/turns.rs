@@ -1,0 +1,225 @@
+//! Turns that follow from the kinetic energy at their start, by interpolation between turns that were computed.
+
+use std::f64::consts::TAU;
+
+use super::leg::Leg;
+use crate::numeric::angle::Angle;
+use crate::numeric::chebyshev::{Rule, Series};
+use crate::numeric::exact::two_sum;
+
+/// The start of a turn.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::engine) struct Mark {
+    /// Turns before it, without sign.
+    pub turns: f64,
+    /// s, rounded value and rest
+    pub t: (f64, f64),
+    /// J
+    pub kinetic: f64,
+    /// Work of the loads without a potential until here, J.
+    pub work: f64,
+}
+
+impl Mark {
+    /// Seconds from here until a time.
+    fn until(&self, t: f64) -> f64 {
+        (t - self.t.0) - self.t.1
+    }
+
+    /// The start of the turn after `count` turns like this one.
+    pub fn after(&self, step: &Turn, count: f64) -> Mark {
+        let (sum, lost) = two_sum(self.t.0, count * step.duration);
+        Mark {
+            turns: self.turns + count,
+            t: two_sum(sum, lost + self.t.1),
+            kinetic: self.kinetic + count * step.gain,
+            work: self.work + count * step.work,
+        }
+    }
+}
+
+/// What a turn does.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::engine) struct Turn {
+    /// s
+    pub duration: f64,
+    /// Kinetic energy gained, J.
+    pub gain: f64,
+    /// J
+    pub work: f64,
+}
+
+/// Turns over a range of the kinetic energy at their start.
+#[derive(Clone, Debug)]
+pub(in crate::engine) struct Cell {
+    middle: f64,
+    half: f64,
+    rule: &'static Rule,
+    legs: Vec<Leg>,
+    duration: Series,
+    gain: Series,
+    work: Series,
+}
+
+impl Cell {
+    /// A cell from turns that begin with the energies `middle + half·x`, J, at the points x of a rule.
+    pub fn new(middle: f64, half: f64, rule: &'static Rule, turns: Vec<(Leg, Turn)>) -> Cell {
+        let series = |of: fn(&Turn) -> f64| {
+            let mut values = [0.0; crate::numeric::chebyshev::MOST + 1];
+            for (value, (_, turn)) in values.iter_mut().zip(&turns) {
+                *value = of(turn);
+            }
+            rule.series(&values)
+        };
+        Cell {
+            middle,
+            half,
+            rule,
+            duration: series(|turn| turn.duration),
+            gain: series(|turn| turn.gain),
+            work: series(|turn| turn.work),
+            legs: turns.into_iter().map(|(leg, _)| leg).collect(),
+        }
+    }
+
+    /// What the interpolation leaves out: relative to the duration, and to the kinetic energy.
+    pub fn tail(&self) -> f64 {
+        let gain = self.gain.tail() * self.gain.largest() / self.middle;
+        self.duration.tail().max(gain)
+    }
+
+    pub fn covers(&self, kinetic: f64) -> bool {
+        (kinetic - self.middle).abs() <= self.half
+    }
+
+    pub fn turn(&self, kinetic: f64) -> Turn {
+        let x = (kinetic - self.middle) / self.half;
+        Turn {
+            duration: self.duration.value(x),
+            gain: self.gain.value(x),
+            work: self.work.value(x),
+        }
+    }
+
+    fn leg(&self, kinetic: f64) -> Leg {
+        let x = (kinetic - self.middle) / self.half;
+        Leg::blend(&self.legs, &self.rule.shares(x)[..self.legs.len()])
+    }
+}
+
+/// Many turns in one direction.
+#[derive(Clone, Debug)]
+pub(in crate::engine) struct Turns {
+    pub cells: Vec<Cell>,
+    /// Starts of some of the turns, in order, the first and the last turn among them.
+    pub marks: Vec<Mark>,
+    /// The last turn, as far as it was needed.
+    pub last: Leg,
+    /// Whether the turns from the last mark but one on are all the same.
+    pub steady: bool,
+}
+
+impl Turns {
+    /// The turn after a mark.
+    pub fn turn(&self, kinetic: f64) -> Option<Turn> {
+        Some(self.cell(kinetic)?.turn(kinetic))
+    }
+
+    fn cell(&self, kinetic: f64) -> Option<&Cell> {
+        self.cells.iter().rev().find(|cell| cell.covers(kinetic))
+    }
+
+    /// The start of the turn before which `is_before` does not hold any more, from the marks before it.
+    fn find(
+        &self,
+        is_before: impl Fn(&Mark) -> bool,
+        turns_left: impl Fn(&Mark, &Turn) -> f64,
+    ) -> Mark {
+        let index = self.marks.partition_point(&is_before).max(1) - 1;
+        let mut mark = self.marks[index];
+        if index + 1 == self.marks.len() {
+            return mark;
+        }
+        if self.steady && index + 2 == self.marks.len() {
+            let Some(turn) = self.turn(mark.kinetic) else {
+                return mark;
+            };
+            let turn = Turn { gain: 0.0, ..turn };
+            return mark.after(&turn, turns_left(&mark, &turn).max(0.0).floor());
+        }
+        while let Some(turn) = self.turn(mark.kinetic) {
+            let next = mark.after(&turn, 1.0);
+            if !is_before(&next) || next.turns >= self.marks[index + 1].turns {
+                break;
+            }
+            mark = next;
+        }
+        mark
+    }
+
+    /// The last mark.
+    pub fn last_mark(&self) -> &Mark {
+        &self.marks[self.marks.len() - 1]
+    }
+
+    /// The motion in the turn that begins at a mark.
+    fn leg(&self, mark: &Mark) -> Leg {
+        if mark.turns >= self.last_mark().turns {
+            return self.last.clone();
+        }
+        self.cell(mark.kinetic)
+            .map_or_else(|| self.last.clone(), |cell| cell.leg(mark.kinetic))
+    }
+
+    /// Angle from the start of the run's first turn, and speed.
+    pub fn state(&self, t: f64, direction: f64) -> (Angle, f64) {
+        let left = |mark: &Mark, turn: &Turn| mark.until(t) / turn.duration;
+        let mark = self.find(|mark| mark.until(t) >= 0.0, left);
+        let (angle, speed) = self.leg(&mark).state(mark.until(t));
+        let angle = Angle {
+            turns: angle.turns + direction * mark.turns,
+            rest: angle.rest,
+        };
+        (angle, speed)
+    }
+
+    /// When the crank has turned by `radians`, from the start angle `rest` (rad).
+    pub fn time_of_turn(&self, radians: f64, rest: f64, direction: f64) -> Option<f64> {
+        let whole = (radians / TAU).floor();
+        let mark = self.find(|mark| mark.turns <= whole, |mark, _| whole - mark.turns);
+        let ahead = radians - mark.turns * TAU;
+        let after = self.leg(&mark).time_of((rest + direction * ahead).into())?;
+        Some(mark.t.0 + (mark.t.1 + after))
+    }
+
+    /// Smallest and largest |speed| until a time.
+    pub fn speed_range(&self, until: f64) -> (f64, f64) {
+        let last = self.last_mark();
+        let by_energy = |a: &&Mark, b: &&Mark| a.kinetic.total_cmp(&b.kinetic);
+        let whole = || self.marks.iter().filter(|mark| mark.turns < last.turns);
+        let mut range = self.last.speed_range(last.until(until));
+        let first = self.marks.first();
+        let marks = [whole().min_by(by_energy), whole().max_by(by_energy), first];
+        for mark in marks.into_iter().flatten() {
+            let (low, high) = self.leg(mark).speed_range(f64::INFINITY);
+            range = (range.0.min(low), range.1.max(high));
+        }
+        range
+    }
+
+    /// Calls for each turn in order, with its start and its motion, until it says that it is enough.
+    pub fn each_turn(&self, mut visit: impl FnMut(&Mark, &Leg) -> bool) {
+        let last = *self.last_mark();
+        let mut mark = self.marks[0];
+        while mark.turns < last.turns {
+            if !visit(&mark, &self.leg(&mark)) {
+                return;
+            }
+            let Some(turn) = self.turn(mark.kinetic) else {
+                return;
+            };
+            mark = mark.after(&turn, 1.0);
+        }
+        visit(&last, &self.last);
+    }
+}

@@ -1,0 +1,32 @@
+//! The approximation of the literature: first order in r/l and e/l.
+
+use super::Linkage;
+
+/// Slider motion to first order in r/l and e/l: l cos φ taken as l − (e + r sin θ)²/(2 l).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FirstOrder {
+    /// m
+    pub x: f64,
+    /// m/rad
+    pub dx: f64,
+    /// m/rad²; for e = 0 Obaseki & Alfred (52), −r (cos θ + (r/l) cos 2θ).
+    pub d2x: f64,
+    /// x' x'' with terms of second order left out, m²; for e = 0 Obaseki & Alfred (53) is −m ω² times it.
+    pub dx_d2x: f64,
+}
+
+impl Linkage {
+    /// The first-order motion at a crank angle, rad.
+    pub fn first_order(&self, theta: f64) -> FirstOrder {
+        let Linkage { r, l, e, s, .. } = *self;
+        let (sin, cos) = theta.sin_cos();
+        let (u, cos_2) = (e + r * sin, (cos - sin) * (cos + sin));
+        let tilt = r * cos_2 - e * sin;
+        FirstOrder {
+            x: r * cos + s * (l - u * u / (2.0 * l)),
+            dx: -r * sin - s * u * r * cos / l,
+            d2x: -r * cos - s * r * tilt / l,
+            dx_d2x: r * r * (sin * cos + s * (sin * tilt + u * cos * cos) / l),
+        }
+    }
+}

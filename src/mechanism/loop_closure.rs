@@ -1,0 +1,66 @@
+//! Loop closure by the Newton-Raphson method, as Gupta's script does it: a check of the closed form that
+//! shares nothing with it.
+
+use super::Linkage;
+
+/// Where the iteration went.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Closure {
+    /// Angle of the rod as seen from the slider, from +x, rad.
+    pub theta3: f64,
+    /// Slider position, m.
+    pub x: f64,
+    /// Newton-Raphson steps.
+    pub iterations: u32,
+    /// Branch sign of the solution: −1 where cos θ₃ > 0.
+    pub branch: f64,
+}
+
+/// The iteration does not end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NotClosed {
+    /// The Jacobian is singular: the rod is guessed normal to the guide.
+    Singular,
+    /// No solution within the steps allowed.
+    TooManySteps,
+}
+
+impl Linkage {
+    /// Solves r cos θ − l cos θ₃ − x = 0, e + r sin θ − l sin θ₃ = 0 (Gupta (2), (3)) for θ₃ and x from a
+    /// guess, until the norm of the two is at most `tolerance` (m). Either branch can be what it finds.
+    ///
+    /// # Errors
+    /// [`NotClosed`]
+    pub fn close_loop(
+        &self,
+        theta: f64,
+        guess: (f64, f64),
+        tolerance: f64,
+    ) -> Result<Closure, NotClosed> {
+        const MOST_STEPS: u32 = 100;
+        let Linkage { r, l, e, .. } = *self;
+        let (mut theta3, mut x) = guess;
+        for iterations in 0..=MOST_STEPS {
+            let (sin3, cos3) = theta3.sin_cos();
+            let f1 = r * theta.cos() - l * cos3 - x;
+            let f2 = e + r * theta.sin() - l * sin3;
+            if f1.hypot(f2) <= tolerance {
+                return Ok(Closure {
+                    theta3,
+                    x,
+                    iterations,
+                    branch: if cos3 > 0.0 { -1.0 } else { 1.0 },
+                });
+            }
+            // [l sin θ₃, −1; −l cos θ₃, 0] (δ, ξ) = −(f1, f2).
+            let step = f2 / (l * cos3);
+            let shift = f1 + l * sin3 * step;
+            if !(step.is_finite() && shift.is_finite()) {
+                return Err(NotClosed::Singular);
+            }
+            theta3 += step;
+            x += shift;
+        }
+        Err(NotClosed::TooManySteps)
+    }
+}

@@ -1,0 +1,99 @@
+//! Derivatives of the motion with respect to the lengths of the mechanism, in closed form.
+//!
+//! With u = e + r sin θ, W = l cos φ and a subscript for the length: W W_p = l l_p − u u_p, and the same
+//! differentiated once and twice more along the crank angle.
+
+use super::{Linkage, Pose};
+
+/// A length of the mechanism.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Length {
+    /// Crank length r.
+    Crank,
+    /// Rod length l.
+    Rod,
+    /// Offset e.
+    Offset,
+}
+
+impl Length {
+    /// All three, in the order of the scene file.
+    pub const ALL: [Length; 3] = [Length::Crank, Length::Rod, Length::Offset];
+
+    /// Its key in the scene file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Length::Crank => "crank",
+            Length::Rod => "rod",
+            Length::Offset => "offset",
+        }
+    }
+
+    /// Derivatives of (r, l, e) with respect to it.
+    fn unit(self) -> [f64; 3] {
+        match self {
+            Length::Crank => [1.0, 0.0, 0.0],
+            Length::Rod => [0.0, 1.0, 0.0],
+            Length::Offset => [0.0, 0.0, 1.0],
+        }
+    }
+}
+
+/// Derivatives of a [`Pose`] with respect to one length, the crank angle held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PoseSlope {
+    /// of x, dimensionless
+    pub x: f64,
+    /// of x', 1/rad
+    pub dx: f64,
+    /// of x'', 1/rad²
+    pub d2x: f64,
+    /// of φ, rad/m
+    pub phi: f64,
+    /// of φ', 1/m
+    pub dphi: f64,
+    /// of φ'', 1/m
+    pub d2phi: f64,
+    /// Of the unit vector from crank pin to wrist pin, and of its first two derivatives along the angle, 1/m.
+    pub(super) axis: [[f64; 2]; 3],
+    /// Of the crank length.
+    pub(super) crank: f64,
+}
+
+impl Linkage {
+    /// Derivatives of a position with respect to a length, at the same crank angle:
+    /// dx/dr = cos(θ + φ)/cos φ, dx/dl = 1/cos φ, dx/de = −tan φ on the right branch, and so on.
+    pub fn slope(&self, pose: &Pose, length: Length) -> PoseSlope {
+        let Linkage { r, l, e, s, .. } = *self;
+        let [r_p, l_p, e_p] = length.unit();
+        let (sin, cos) = (pose.sin, pose.cos);
+        // u and W with their derivatives along θ, then the derivatives of all with respect to the length.
+        let (u, w) = (e + r * sin, l * pose.cos_phi);
+        let (du, d2u) = (r * cos, -r * sin);
+        let dw = -u * du / w;
+        let d2w = -(du * du + u * d2u + dw * dw) / w;
+        let (u_p, du_p, d2u_p) = (e_p + r_p * sin, r_p * cos, -r_p * sin);
+        let w_p = (l * l_p - u * u_p) / w;
+        let dw_p = -(u_p * du + u * du_p + w_p * dw) / w;
+        let d2w_p = -(2.0 * du * du_p + u_p * d2u + u * d2u_p + 2.0 * dw * dw_p + w_p * d2w) / w;
+        let dphi_p = (du_p - pose.dphi * w_p) / w;
+        let d2phi_p = (d2u_p - dw_p * pose.dphi - dw * dphi_p - w_p * pose.d2phi) / w;
+        // sin φ = u/l and cos φ = W/l; (a/l)_p = (a_p − a l_p/l)/l.
+        let over_l = |a: f64, a_p: f64| (a_p - a * l_p / l) / l;
+        let axis = [
+            [s * over_l(w, w_p), -over_l(u, u_p)],
+            [s * over_l(dw, dw_p), -over_l(du, du_p)],
+            [s * over_l(d2w, d2w_p), -over_l(d2u, d2u_p)],
+        ];
+        PoseSlope {
+            x: r_p * cos + s * w_p,
+            dx: -r_p * sin + s * dw_p,
+            d2x: -r_p * cos + s * d2w_p,
+            phi: over_l(u, u_p) / pose.cos_phi,
+            dphi: dphi_p,
+            d2phi: d2phi_p,
+            axis,
+            crank: r_p,
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! Static equilibrium of slider force and crank torque, with the band that friction at the guide allows.
+
+use super::{Equation, Linkage, LoadValue, Pose, Reactor};
+use crate::error::Error;
+use crate::scene::{RodModel, Scene};
+
+/// The static problem of a scene: its weight and its loads at rest.
+#[derive(Clone, Debug)]
+pub struct Statics {
+    equation: Equation,
+    reactor: Reactor,
+    friction: f64,
+}
+
+/// Equilibrium at one crank angle, without friction and with the most that friction can do.
+///
+/// What does not exist is `None`: a slider force that is to balance a torque at a dead centre, and
+/// everything where the rod does not reach the guide or stands normal to it, or a load has no value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Balance {
+    /// What holds the equilibrium without friction, between the least and the greatest that hold it with
+    /// friction: slider force (N) or crank torque (N m), beside the loads of the scene.
+    pub band: Option<Band>,
+    /// Force of the slider on the guide along +y without friction, N.
+    pub side_thrust: Option<f64>,
+    /// μ |tan φ| ≥ 1: no crank torque, however large, moves the slider against friction.
+    pub self_locking: bool,
+}
+
+/// A value and the range around it; an edge that does not exist is `None`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Band {
+    /// Without friction.
+    pub value: f64,
+    /// The least.
+    pub min: Option<f64>,
+    /// The greatest.
+    pub max: Option<f64>,
+}
+
+impl Statics {
+    /// The static problem of a scene under the friction coefficient `friction`.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] for a rod of model `spin-only` under gravity, to which no joint forces belong.
+    pub fn new(scene: &Scene, friction: f64) -> Result<Statics, Error> {
+        let mut scene = scene.reduced();
+        if scene.gravity.is_none() {
+            // Without weight the masses play no part.
+            scene.rod = scene.rod.filter(|rod| rod.model != RodModel::SpinOnly);
+        }
+        Ok(Statics {
+            equation: Equation::new(&scene),
+            reactor: Reactor::new(&scene)?,
+            friction,
+        })
+    }
+
+    /// The equation of the scene.
+    pub fn equation(&self) -> &Equation {
+        &self.equation
+    }
+
+    /// The slider force (N, along +x) that holds the scene in equilibrium, beside its loads:
+    /// F = (V' − τ)/x', Ng (2) and (6) for any offset, with weight.
+    ///
+    /// The crank torque fixes the force of the rod, and so the normal force N of the guide, whatever friction
+    /// does; so the band is F ± μ |N|, Ng (8) with both of its edges.
+    pub fn slider_force(&self, theta: f64) -> Balance {
+        let (terms, load) = self.at(theta);
+        let pose = &terms.pose;
+        let mut balance = self.unknown(pose);
+        let linkage = self.equation.linkage();
+        if !pose.exists() || !finite(&load) || dead_centre(linkage, pose, theta) {
+            return balance;
+        }
+        let whole = (terms.dv - load.torque) / pose.dx;
+        let guide = self.guide(pose, load.torque, whole);
+        let (force, friction) = (whole - load.force, self.friction * guide.abs());
+        balance.side_thrust = Some(0.0 - guide);
+        let edge = |value: f64| value.is_finite().then_some(value + 0.0);
+        balance.band = edge(force).map(|value| Band {
+            value,
+            min: edge(force - friction),
+            max: edge(force + friction),
+        });
+        balance
+    }
+
+    /// The crank torque (N m, counter-clockwise) that holds the scene in equilibrium, beside its loads:
+    /// τ = V' − F x'.
+    ///
+    /// The normal force depends on how much of the slider force reaches the rod: it is n₀ + n₁ R for a rod
+    /// force R along +x on the slider, and R + F is at most μ |n₀ + n₁ R|. Where μ |n₁| ≥ 1 the mechanism
+    /// locks itself and a torque of any size is held; no edge is stated there.
+    pub fn crank_torque(&self, theta: f64) -> Balance {
+        let (terms, load) = self.at(theta);
+        let pose = &terms.pose;
+        let mut balance = self.unknown(pose);
+        if !pose.exists() || !finite(&load) {
+            return balance;
+        }
+        let torque = |force: f64| terms.dv - force * pose.dx - load.torque + 0.0;
+        let guide = |force: f64| self.guide(pose, load.torque, force);
+        balance.side_thrust = Some(0.0 - guide(load.force));
+        // The guide force is affine in the force that reaches the rod.
+        let at_rest = guide(0.0);
+        let slope = guide(1.0) - at_rest;
+        let edge = |sign: f64| {
+            let mu = sign * self.friction;
+            (load.force + mu * at_rest) / (1.0 - mu * slope)
+        };
+        let edges = (!balance.self_locking).then(|| [torque(edge(1.0)), torque(edge(-1.0))]);
+        balance.band = Some(Band {
+            value: torque(load.force),
+            min: edges.map(|[a, b]| a.min(b)),
+            max: edges.map(|[a, b]| a.max(b)),
+        });
+        balance
+    }
+
+    fn at(&self, theta: f64) -> (super::Terms, LoadValue) {
+        (
+            self.equation.terms(theta),
+            self.equation.load(0.0, theta, 0.0),
+        )
+    }
+
+    fn unknown(&self, pose: &Pose) -> Balance {
+        Balance {
+            band: None,
+            side_thrust: None,
+            self_locking: pose.exists()
+                && self.friction * pose.sin_phi.abs() >= pose.cos_phi
+                && self.friction > 0.0,
+        }
+    }
+
+    /// Normal force of the guide on the slider along +y, N, if `force` (N) drives the slider.
+    fn guide(&self, pose: &Pose, torque: f64, force: f64) -> f64 {
+        let load = LoadValue { torque, force };
+        self.reactor.reactions(pose, 0.0, 0.0, &load).guide
+    }
+}
+
+/// Whether the loads have a value: an angle may be outside a table.
+fn finite(load: &LoadValue) -> bool {
+    load.torque.is_finite() && load.force.is_finite()
+}
+
+/// Whether a crank angle cannot be told from a dead centre: x' is within what rounding of the angle changes.
+fn dead_centre(linkage: &Linkage, pose: &Pose, theta: f64) -> bool {
+    let angle = 2.0 * f64::EPSILON * (1.0 + theta.abs());
+    let size = linkage.r * (1.0 + pose.sin_phi.abs() / pose.cos_phi);
+    pose.dx.abs() <= angle * (pose.d2x.abs() + size)
+}
+
+/// Friction coefficient from the tilt (rad) at which a body begins to slide, Ng (10): tan of the angle.
+///
+/// ```
+/// use slider_crank::mechanism::friction_from_tilt;
+/// assert!((friction_from_tilt(std::f64::consts::FRAC_PI_4) - 1.0).abs() < 1e-15);
+/// ```
+pub fn friction_from_tilt(angle: f64) -> f64 {
+    angle.tan()
+}
+
+/// Torque (N m) of a weight (N) on a cord round a drum of the given radius (m).
+pub fn drum_torque(weight: f64, radius: f64) -> f64 {
+    weight * radius
+}

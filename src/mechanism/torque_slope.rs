@@ -1,0 +1,174 @@
+//! Derivatives of the driving torque at constant speed with respect to the lengths, in closed form.
+
+use super::{Bodies, Body, Length, Linkage, Path, Pose, PoseSlope, single};
+use crate::error::Error;
+use crate::scene::{Instant, Load, RodModel, Scene, Variables};
+
+/// The bodies and loads whose torque changes with the lengths; masses, moments of inertia and centres of
+/// gravity stay where they are, measured from the crank pivot and the crank pin.
+#[derive(Clone, Debug)]
+pub struct TorqueSlope {
+    linkage: Linkage,
+    moving: Vec<Body>,
+    heavy: Vec<Body>,
+    gravity: [f64; 2],
+    force: f64,
+    stiffness: f64,
+    damping: f64,
+    /// Forces on the slider that do not depend on where it is and how fast it moves.
+    others: Vec<Load>,
+    /// Rod mass, place of its centre of gravity and mass at the crank pin, of two point masses.
+    two_mass: Option<[f64; 3]>,
+    /// Mass of a rod whose weight acts on the crank's line beyond its end.
+    spin_only: Option<f64>,
+}
+
+impl TorqueSlope {
+    /// The bodies and loads of a scene.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] for tables and formulas of the slider's position or velocity, whose slope is not
+    /// known.
+    pub fn new(scene: &Scene) -> Result<TorqueSlope, Error> {
+        let scene = scene.reduced();
+        let bodies = Bodies::new(&scene);
+        let mut found = TorqueSlope {
+            linkage: Linkage::new(&scene.geometry),
+            moving: bodies.moving,
+            heavy: bodies.heavy,
+            gravity: scene.gravity.map_or([0.0; 2], |gravity| gravity.vector()),
+            force: 0.0,
+            stiffness: 0.0,
+            damping: 0.0,
+            others: Vec::new(),
+            two_mass: None,
+            spin_only: None,
+        };
+        match &scene.rod {
+            Some(rod) if rod.model == RodModel::TwoMass => {
+                // Its mass at the crank pin moves with the pin, and is not fixed to the crank.
+                let on_crank = |body: &Body| matches!(body, Body::OnCrank { .. });
+                if let Some(last) = found.heavy.iter().rposition(on_crank)
+                    && let Body::OnCrank { mass, .. } = found.heavy.remove(last)
+                {
+                    found.two_mass = Some([rod.mass, rod.cg, mass]);
+                }
+            }
+            Some(rod) if rod.model == RodModel::SpinOnly => found.spin_only = Some(rod.mass),
+            _ => {}
+        }
+        for load in &scene.forces {
+            match load {
+                Load::Viscous(coefficient) => found.damping += coefficient,
+                Load::Spring { stiffness, rest } => {
+                    found.stiffness += stiffness;
+                    found.force += stiffness * rest;
+                }
+                other if other.reads(true).disjoint(Variables::X.or(Variables::V)) => {
+                    found.others.push(other.clone());
+                }
+                other => {
+                    let what = format!(
+                        "the slope of a slider force of kind \"{}\" over position or velocity is not known, so neither is the torque's sensitivity to the lengths",
+                        other.kind()
+                    );
+                    return Err(Error::refused(what, "compare two scenes"));
+                }
+            }
+        }
+        Ok(found)
+    }
+
+    /// d τ/d length, N, of the torque τ = ½ M' ω² + V' − F x' that drives the crank at constant speed ω
+    /// (rad/s) at a crank angle (rad); time counts from θ = 0.
+    pub fn driving_torque(&self, theta: f64, omega: f64, length: Length) -> f64 {
+        let pose = &self.linkage.pose(theta);
+        let slope = self.linkage.slope(pose, length);
+        let squared = omega * omega;
+        let moving = self.moving.iter().map(|body| {
+            let (mass, inertia, path, change) = self.paths(body, pose, &slope);
+            let bilinear = |a: &Path, b: &Path| {
+                mass * (a.dp[0] * b.d2p[0] + a.dp[1] * b.d2p[1]) + inertia * a.dpsi * b.d2psi
+            };
+            squared * (bilinear(&change, &path) + bilinear(&path, &change))
+        });
+        let heavy = self.heavy.iter().map(|body| {
+            let (mass, _, _, change) = self.paths(body, pose, &slope);
+            -mass * (self.gravity[0] * change.dp[0] + self.gravity[1] * change.dp[1])
+        });
+        let inertia: f64 = moving.chain(heavy).sum();
+        let now = Instant {
+            t: theta / omega,
+            theta,
+            omega,
+            x: pose.x,
+            v: pose.dx * omega,
+        };
+        let others: f64 = self
+            .others
+            .iter()
+            .map(|load| single(load, true, &now))
+            .sum();
+        let force = others + self.force - self.stiffness * pose.x - self.damping * pose.dx * omega;
+        let force_slope = -self.stiffness * slope.x - self.damping * slope.dx * omega;
+        inertia - force * slope.dx - force_slope * pose.dx + self.moved_mass(pose, squared, length)
+    }
+
+    /// Mass, moment of inertia, path, and the change of the path with the length.
+    fn paths(&self, body: &Body, pose: &Pose, slope: &PoseSlope) -> (f64, f64, Path, Path) {
+        match *body {
+            Body::OnCrank { mass, along, left } => {
+                let path = Path::on_crank(pose, along, left);
+                (mass, 0.0, path, Path::default())
+            }
+            Body::OnRod {
+                mass,
+                along,
+                left,
+                inertia,
+            } => {
+                let path = Path::on_rod(&self.linkage, pose, along, left);
+                let pin = Path::on_crank(pose, slope.crank, 0.0);
+                let part = |pin: [f64; 2], [x, y]: [f64; 2]| {
+                    [pin[0] + along * x - left * y, pin[1] + along * y + left * x]
+                };
+                let s = self.linkage.s;
+                let change = Path {
+                    dp: part(pin.dp, slope.axis[1]),
+                    d2p: part(pin.d2p, slope.axis[2]),
+                    dpsi: -s * slope.dphi,
+                    d2psi: -s * slope.d2phi,
+                };
+                (mass, inertia, path, change)
+            }
+            Body::OnSlider { mass } => {
+                let change = Path {
+                    dp: [slope.dx, 0.0],
+                    d2p: [slope.d2x, 0.0],
+                    ..Path::default()
+                };
+                (mass, 0.0, Path::on_slider(pose), change)
+            }
+        }
+    }
+
+    /// What the lengths change beside the motion of the bodies: the shares and the place of two point masses,
+    /// and the place of a weight that is measured from the crank's end.
+    fn moved_mass(&self, pose: &Pose, squared: f64, length: Length) -> f64 {
+        let [gx, gy] = self.gravity;
+        let crank = Path::on_crank(pose, 1.0, 0.0);
+        // V' of a unit mass on the crank, per length along it.
+        let lift = -(gx * crank.dp[0] + gy * crank.dp[1]);
+        match (length, self.two_mass, self.spin_only) {
+            (Length::Crank, Some([_, _, at_crank_pin]), _) => at_crank_pin * lift,
+            (Length::Rod, Some([mass, cg, _]), _) => {
+                // m c/l at the wrist pin falls, and the rest at the crank pin grows.
+                let to_crank_pin = mass * cg / (self.linkage.l * self.linkage.l);
+                let at_wrist_pin = squared * pose.dx * pose.d2x - gx * pose.dx;
+                to_crank_pin * (self.linkage.r * lift - at_wrist_pin)
+            }
+            (Length::Rod, _, Some(mass)) => mass * lift,
+            _ => 0.0,
+        }
+    }
+}

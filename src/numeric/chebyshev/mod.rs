@@ -1,0 +1,171 @@
+//! Chebyshev series on [−1, 1]: through values at the Lobatto points, evaluated, integrated (Trefethen,
+//! Approximation Theory and Approximation Practice, ch. 3 and 19).
+
+mod rule;
+
+pub use rule::Rule;
+
+/// The largest degree of a series.
+pub const MOST: usize = 32;
+
+/// Values at the points of a rule, or coefficients; what is beyond its degree is zero.
+pub type Values = [f64; MOST + 1];
+
+/// A series Σ cₖ Tₖ(x).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Series {
+    degree: usize,
+    coefficients: Values,
+}
+
+impl Series {
+    /// Its degree.
+    pub fn degree(&self) -> usize {
+        self.degree
+    }
+
+    /// A series from its coefficients.
+    pub fn new(degree: usize, coefficients: Values) -> Series {
+        Series {
+            degree,
+            coefficients,
+        }
+    }
+
+    fn terms(&self) -> &[f64] {
+        &self.coefficients[..=self.degree]
+    }
+
+    /// Its value at `x` in [−1, 1], by Clenshaw's recurrence.
+    pub fn value(&self, x: f64) -> f64 {
+        let twice = 2.0 * x;
+        let (mut b1, mut b2) = (0.0, 0.0);
+        for c in self.terms()[1..].iter().rev() {
+            (b1, b2) = ((c - b2) + twice * b1, b1);
+        }
+        (self.coefficients[0] - b2) + x * b1
+    }
+
+    /// Its integral from −1; the term beyond the degree is left out, for it is as small as the tail.
+    pub fn integral(&self) -> Series {
+        let c = |k: usize| self.terms().get(k).copied().unwrap_or(0.0);
+        let mut result = [0.0; MOST + 1];
+        let mut at_start = 0.0;
+        let mut sign = -1.0;
+        for (k, term) in result.iter_mut().enumerate().take(self.degree + 1).skip(1) {
+            let before = if k == 1 { 2.0 * c(0) } else { c(k - 1) };
+            *term = (before - c(k + 1)) / (2.0 * k as f64);
+            at_start += sign * *term;
+            sign = -sign;
+        }
+        result[0] = -at_start;
+        Series::new(self.degree, result)
+    }
+
+    /// The sum of series of one degree, each times its share.
+    pub fn blend<'a>(parts: impl Iterator<Item = (&'a Series, f64)>) -> Series {
+        let mut sum = Series::new(0, [0.0; MOST + 1]);
+        for (series, share) in parts {
+            sum.degree = series.degree;
+            for (c, part) in sum.coefficients.iter_mut().zip(&series.coefficients) {
+                *c += share * part;
+            }
+        }
+        sum
+    }
+
+    /// Its derivative.
+    pub fn derivative(&self) -> Series {
+        let mut result = [0.0; MOST + 1];
+        for k in (0..self.degree).rev() {
+            let after = result.get(k + 2).copied().unwrap_or(0.0);
+            result[k] = after + 2.0 * (k + 1) as f64 * self.coefficients[k + 1];
+        }
+        result[0] *= 0.5;
+        Series::new(self.degree, result)
+    }
+
+    /// The largest of its coefficients, as a magnitude.
+    pub fn largest(&self) -> f64 {
+        self.terms().iter().fold(0.0f64, |m, c| m.max(c.abs()))
+    }
+
+    /// How far the coefficients have not yet decayed, relative to the largest: the last two of them.
+    pub fn tail(&self) -> f64 {
+        self.tail_at(self.degree)
+    }
+
+    /// The same if the series ended at a smaller degree.
+    pub fn tail_at(&self, degree: usize) -> f64 {
+        let largest = self.largest();
+        if largest == 0.0 {
+            return 0.0;
+        }
+        (self.coefficients[degree - 1].abs() + self.coefficients[degree].abs()) / largest
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_smooth_function_is_right_to_rounding() {
+        for degree in [24, 32] {
+            let rule = Rule::of(degree);
+            let values = rule.values(|x| (3.0 * x + 0.2).exp());
+            let series = rule.series(&values);
+            let primitive = series.integral();
+            let slope = series.derivative();
+            for x in [-0.9f64, 0.1, 0.8] {
+                let exact = 3.0 * (3.0 * x + 0.2).exp();
+                assert!((slope.value(x) / exact - 1.0).abs() < 1e-12, "{x}");
+            }
+            assert!(series.tail() < 1e-15);
+            for x in [-1.0f64, -0.7, 0.0, 0.3, 1.0] {
+                let exact = (3.0 * x + 0.2).exp();
+                // Rounding is relative to the largest value, e^3.2.
+                assert!((series.value(x) - exact).abs() < 4e-15 * 3.2f64.exp());
+                let exact = ((3.0 * x + 0.2).exp() - (-2.8f64).exp()) / 3.0;
+                assert!((primitive.value(x) - exact).abs() < 1e-14, "{x}");
+            }
+            let (sum, rest) = rule.integral(&values);
+            let exact = ((3.2f64).exp() - (-2.8f64).exp()) / 3.0;
+            assert!((sum + rest - exact).abs() < 2e-14);
+        }
+    }
+
+    #[test]
+    fn polynomials_of_the_degree_are_reproduced() {
+        for degree in Rule::DEGREES {
+            let rule = Rule::of(degree);
+            // T_k itself, whose only coefficient is 1.
+            for k in 0..=degree {
+                let values = rule.values(|x| (k as f64 * x.acos()).cos());
+                let series = rule.series(&values);
+                for (i, c) in series.terms().iter().enumerate() {
+                    let exact = if i == k { 1.0 } else { 0.0 };
+                    assert!((c - exact).abs() < 1e-13, "{degree} {k} {i}: {c}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn integrals_at_the_points_are_those_of_the_function() {
+        for degree in [16, 24, 32] {
+            let rule = Rule::of(degree);
+            let values = rule.values(|x| (2.0 * x).cos() + x * x * x);
+            for (sum, x) in rule.integrals(&values).iter().zip(rule.points()) {
+                let exact = 0.5 * ((2.0 * x).sin() + 2f64.sin()) + 0.25 * (x.powi(4) - 1.0);
+                assert!((sum - exact).abs() < 1e-15, "{x}: {sum} {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_corner_is_not_taken_for_smooth() {
+        let rule = Rule::of(32);
+        assert!(rule.series(&rule.values(|x| (x - 0.1).abs())).tail() > 1e-5);
+    }
+}

@@ -1,0 +1,244 @@
+//! One turn as CSV, text and figure.
+
+use std::fmt::Write;
+
+use super::rows::{REACTIONS, reactions, write};
+use super::text::kinematics;
+use super::{Axis, Figure, Output, panels};
+use crate::error::Error;
+use crate::study::{Located, OneTurn, StrokeTorque, TurnRow};
+
+const POSITION: &str =
+    "theta_rad,x_m,dx_m_per_rad,d2x_m_per_rad2,phi_rad,dphi,d2phi,transmission_rad";
+const RATES: &str = "v_m_per_s,a_m_per_s2,rod_omega_rad_per_s,rod_alpha_rad_per_s2";
+const FORCES: &str = "crank_torque_nm,crank_inertia_x_n,crank_inertia_y_n,rod_inertia_x_n,rod_inertia_y_n,rod_inertia_couple_nm,slider_inertia_n,rod_axial_n,crank_tangential_n,crank_radial_n";
+const FIRST_ORDER: &str = "a_first_order_m_per_s2,crank_torque_first_order_nm";
+
+/// Rows of `kinematics`.
+#[derive(Debug)]
+pub struct TurnWriter {
+    output: Output,
+}
+
+impl TurnWriter {
+    /// Writes the header to an output.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn new(mut output: Output, result: &OneTurn) -> Result<TurnWriter, Error> {
+        let moves = result.kinematics.speed_rad_per_s.is_some();
+        let mut columns = vec![POSITION.to_owned()];
+        if moves {
+            columns.push(RATES.to_owned());
+        }
+        if result.forces.is_some() {
+            columns.push(format!("{FORCES},{REACTIONS},{FIRST_ORDER}"));
+        }
+        if result.has_slopes() {
+            for length in ["crank", "rod", "offset"] {
+                columns.push(if moves {
+                    format!("x_by_{length},v_by_{length}_per_s,a_by_{length}_per_s2,crank_torque_by_{length}_n")
+                } else {
+                    format!("x_by_{length},dx_by_{length}_per_rad,d2x_by_{length}_per_rad2")
+                });
+            }
+        }
+        if result.changed.is_some() {
+            columns.push(
+                if moves {
+                    "x_change_m,v_change_m_per_s,a_change_m_per_s2"
+                } else {
+                    "x_change_m,dx_change_m_per_rad,d2x_change_m_per_rad2"
+                }
+                .to_owned(),
+            );
+        }
+        output.write(format!("{}\n", columns.join(",")).as_bytes())?;
+        Ok(TurnWriter { output })
+    }
+
+    /// Writes a row.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn row(&mut self, row: &TurnRow) -> Result<(), Error> {
+        let at = &row.kinematics;
+        let mut values = vec![
+            at.theta,
+            at.x,
+            at.dx,
+            at.d2x,
+            at.phi,
+            at.dphi,
+            at.d2phi,
+            at.transmission,
+        ];
+        values.extend(at.rates.into_iter().flatten());
+        if let Some(forces) = &row.forces {
+            values.push(forces.torque);
+            values.extend(forces.inertia.crank);
+            values.extend(forces.inertia.rod);
+            values.extend([
+                forces.inertia.rod_couple,
+                forces.inertia.slider,
+                forces.rod_axial,
+                forces.crank_tangential,
+                forces.crank_radial,
+            ]);
+            values.extend(reactions(&forces.reactions));
+            values.extend([forces.first_order_acceleration, forces.first_order_torque]);
+        }
+        for slope in row.slopes.iter().flatten() {
+            values.extend([slope.x, slope.v, slope.a]);
+            values.extend(slope.torque);
+        }
+        values.extend(row.change.into_iter().flatten());
+        write(&mut self.output, &values)
+    }
+
+    /// Completes the output.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn finish(self) -> Result<(), Error> {
+        self.output.finish()
+    }
+}
+
+/// What the lengths give, and what was asked for beside it.
+pub fn turn(result: &OneTurn) -> String {
+    let mut text = kinematics(&result.kinematics);
+    let mut put = |name: &str, value: String| {
+        let _ = writeln!(text, "{name:<22} {value}");
+    };
+    if let Some(forces) = &result.forces {
+        let masses = &forces.masses;
+        put(
+            "rotating mass",
+            format!("{} kg at the crank pin", masses.rotating_kg),
+        );
+        put(
+            "reciprocating mass",
+            format!("{} kg at the wrist pin", masses.reciprocating_kg),
+        );
+        for (name, stroke) in [("outward", forces.outward), ("inward", forces.inward)] {
+            if let Some(StrokeTorque { max, min }) = stroke {
+                let at = |found: Located| {
+                    let angle = found.theta_rad.to_degrees();
+                    format!("{} N m at {angle} deg", found.value)
+                };
+                put(
+                    &format!("torque, {name} stroke"),
+                    format!("{} to {}", at(min), at(max)),
+                );
+            }
+        }
+    }
+    for with in &result.offsets {
+        let mut line = format!("stroke {} m", with.stroke_m);
+        let mut add = |name: &str, found: Option<Located>, unit: &str| {
+            if let Some(Located { value, theta_rad }) = found {
+                let angle = theta_rad.to_degrees();
+                let _ = write!(line, "; {name} {value:.7} {unit} at {angle:.5} deg");
+            }
+        };
+        let unit = match result.kinematics.speed_rad_per_s {
+            Some(_) => "m/s2",
+            None => "m/rad2",
+        };
+        add("largest acceleration", with.acceleration_max, unit);
+        add("smallest", with.acceleration_min, unit);
+        for (name, stroke) in [("outward", with.outward), ("inward", with.inward)] {
+            add(&format!("{name} torque from"), stroke.map(|s| s.min), "N m");
+            add("to", stroke.map(|s| s.max), "N m");
+        }
+        put(&format!("with offset {} m", with.offset_m), line);
+    }
+    if let Some(check) = &result.loop_closure {
+        let guess = check.guess_rad.to_degrees();
+        put(
+            "Newton-Raphson",
+            format!(
+                "from {guess} deg: {} to {} steps; {} angles on the scene's branch, {} on the other, {} without end",
+                check.iterations_min,
+                check.iterations_max,
+                check.on_branch,
+                check.on_other_branch,
+                check.failed
+            ),
+        );
+        put(
+            "  off the closed form",
+            format!("{:.1e} m", check.worst_x_m),
+        );
+    }
+    if let Some(changed) = &result.changed {
+        let _ = write!(text, "\nwith the changed lengths\n{}", kinematics(changed));
+    }
+    text
+}
+
+/// Slider position, velocity and acceleration over the crank angle, with those of the changed lengths, and
+/// the driving torque, exact and to first order.
+///
+/// # Errors
+/// [`Error::Write`] if the figure cannot be drawn.
+pub fn turn_figure(result: &OneTurn) -> Result<String, Error> {
+    let moves = result.kinematics.speed_rad_per_s.is_some();
+    let quantities = if moves {
+        [
+            "slider position [m]",
+            "slider velocity [m/s]",
+            "slider acceleration [m/s2]",
+        ]
+    } else {
+        ["slider position [m]", "x' [m/rad]", "x'' [m/rad2]"]
+    };
+    let rows: Vec<TurnRow> = result.rows(1f64.to_radians()).collect();
+    let of = |value: &dyn Fn(&TurnRow) -> f64| -> Vec<(f64, f64)> {
+        let point = |row: &TurnRow| (row.kinematics.theta.to_degrees(), value(row));
+        rows.iter().map(point).collect()
+    };
+    let angle = || Axis::linear("crank angle [deg]").range(0.0, 360.0);
+    let mut figures: Vec<Figure> = quantities
+        .into_iter()
+        .enumerate()
+        .map(|(i, name)| {
+            let motion = move |row: &TurnRow| match row.kinematics.rates {
+                Some([v, a, ..]) => [row.kinematics.x, v, a][i],
+                None => [row.kinematics.x, row.kinematics.dx, row.kinematics.d2x][i],
+            };
+            let figure = Figure::new("", angle(), Axis::linear(name));
+            match result.changed {
+                None => figure.line("", of(&motion)),
+                Some(_) => {
+                    let changed =
+                        move |row: &TurnRow| motion(row) + row.change.map_or(f64::NAN, |c| c[i]);
+                    figure
+                        .line("scene", of(&motion))
+                        .dashed("changed lengths", of(&changed))
+                }
+            }
+        })
+        .collect();
+    if result.forces.is_some() {
+        let value = |row: &TurnRow, first: bool| {
+            row.forces.map_or(f64::NAN, |forces| {
+                if first {
+                    forces.first_order_torque
+                } else {
+                    forces.torque
+                }
+            })
+        };
+        figures.push(
+            Figure::new("", angle(), Axis::linear("driving torque [N m]"))
+                .line("exact", of(&|row| value(row, false)))
+                .dashed(
+                    "reciprocating mass, first order",
+                    of(&|row| value(row, true)),
+                ),
+        );
+    }
+    panels(&result.kinematics.scene, &figures, 1)
+}

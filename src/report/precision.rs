@@ -1,0 +1,190 @@
+//! The comparison of methods: CSV, text and figure.
+
+use std::fmt::Write;
+
+use super::figure::{Axis, Figure, panels};
+use super::rows::shortest;
+use crate::error::Error;
+use crate::study::{Precision, PrecisionRow};
+
+/// The comparison of several scenes as CSV: one row for each method and tolerance, times the least; cells of
+/// what does not exist are empty.
+///
+/// # Errors
+/// [`Error::Write`] if it cannot be made.
+pub fn precision_csv(scenes: &[Precision]) -> Result<String, Error> {
+    let failed = |source: String| Error::Write {
+        target: "CSV".to_owned(),
+        source: std::io::Error::other(source),
+    };
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let header = [
+        "scene",
+        "method",
+        "tolerance",
+        "error_theta_rad",
+        "error_omega_rad_per_s",
+        "estimate_theta_rad",
+        "wall_s",
+        "evaluations",
+        "steps",
+    ];
+    let mut put = |cells: &[String]| {
+        writer
+            .write_record(cells)
+            .map_err(|e| failed(e.to_string()))
+    };
+    put(&header.map(str::to_owned))?;
+    for scene in scenes {
+        for row in &scene.rows {
+            let number = |value: Option<f64>| value.map_or(String::new(), shortest);
+            let count = |value: Option<u64>| value.map_or(String::new(), |value| value.to_string());
+            put(&[
+                scene.scene.clone(),
+                row.method.clone(),
+                shortest(row.tolerance),
+                number(row.error_theta_rad),
+                number(row.error_omega_rad_per_s),
+                number(row.estimate_theta_rad),
+                number(row.wall_s),
+                count(row.evaluations),
+                count(row.steps),
+            ])?;
+        }
+    }
+    let bytes = writer.into_inner().map_err(|e| failed(e.to_string()))?;
+    String::from_utf8(bytes).map_err(|e| failed(e.to_string()))
+}
+
+/// The comparison of one scene as a table.
+pub fn precision(scene: &Precision) -> String {
+    let mut text = String::new();
+    let mut put = |line: std::fmt::Arguments<'_>| {
+        let _ = writeln!(text, "{line}");
+    };
+    if !scene.scene.is_empty() {
+        put(format_args!("scene      {}", scene.scene));
+    }
+    put(format_args!("end        t = {} s", scene.t_s));
+    put(format_args!("reference  {}", scene.reference));
+    if let (Some(theta), Some(omega)) = (
+        scene.reference_error_theta_rad,
+        scene.reference_error_omega_rad_per_s,
+    ) {
+        let own = format!("{theta:.1e} rad, {omega:.1e} rad/s or less");
+        put(format_args!("its error  {own}"));
+    }
+    put(format_args!(
+        "\n{:<12} {:>9} {:>12} {:>14} {:>13} {:>10} {:>10} {:>11} {:>8}",
+        "method",
+        "tolerance",
+        "error [rad]",
+        "error [rad/s]",
+        "stated [rad]",
+        "least [us]",
+        "median",
+        "evaluations",
+        "steps"
+    ));
+    for row in &scene.rows {
+        put(format_args!("{}", line(row)));
+    }
+    for note in notes(scene) {
+        put(format_args!("note: {note}"));
+    }
+    text
+}
+
+fn line(row: &PrecisionRow) -> String {
+    let name = format!("{:<12} {:>9}", row.method, format!("{:.0e}", row.tolerance));
+    if row.failure.is_some() {
+        return format!("{name} {:>12}", "failed");
+    }
+    let bound = if row.error_is_bound { "<= " } else { "" };
+    let error = |value: Option<f64>| value.map_or("-".to_owned(), |v| format!("{bound}{v:.1e}"));
+    let plain = |value: Option<f64>| value.map_or("-".to_owned(), |v| format!("{v:.1e}"));
+    let micro = |value: Option<f64>| value.map_or("-".to_owned(), |v| format!("{:.1}", 1e6 * v));
+    let count = |value: Option<u64>| value.map_or("-".to_owned(), |v| v.to_string());
+    format!(
+        "{name} {:>12} {:>14} {:>13} {:>10} {:>10} {:>11} {:>8}",
+        error(row.error_theta_rad),
+        error(row.error_omega_rad_per_s),
+        plain(row.estimate_theta_rad),
+        micro(row.wall_s),
+        micro(row.wall_median_s),
+        count(row.evaluations),
+        count(row.steps)
+    )
+}
+
+/// What the reader of the rows has to know.
+pub fn precision_notes(scene: &Precision) -> Vec<String> {
+    notes(scene)
+}
+
+fn notes(scene: &Precision) -> Vec<String> {
+    let mut notes: Vec<String> = scene.left_out.clone();
+    if scene.rows.iter().any(|row| row.error_is_bound) {
+        notes.push(
+            "<= is an upper bound: the reference is less than 100 times better than this row"
+                .to_owned(),
+        );
+    }
+    // Tolerances that share a note are named together.
+    let mut said: Vec<(String, Vec<String>)> = Vec::new();
+    for row in &scene.rows {
+        // Where a run stopped differs from row to row; the JSON object has it.
+        let reason = |why: &String| why.split(": stopped at").next().unwrap_or(why).to_owned();
+        let failure = row
+            .failure
+            .iter()
+            .map(|why| format!("failed: {}", reason(why)));
+        let against = row.measured_against.iter();
+        let against = against.map(|what| format!("measured against {what}"));
+        for what in failure.chain(against) {
+            let text = format!("{}: {what}", row.method);
+            let tolerance = format!("{:.0e}", row.tolerance);
+            match said.iter_mut().find(|(known, _)| *known == text) {
+                Some((_, tolerances)) => tolerances.push(tolerance),
+                None => said.push((text, vec![tolerance])),
+            }
+        }
+    }
+    let say = |(text, tolerances): (String, Vec<String>)| {
+        format!("{text} (tolerance {})", tolerances.join(", "))
+    };
+    notes.extend(said.into_iter().map(say));
+    notes
+}
+
+/// Error of the crank angle against time, one panel for each scene.
+///
+/// # Errors
+/// [`Error::Write`] if it cannot be drawn.
+pub fn precision_figure(scenes: &[Precision]) -> Result<String, Error> {
+    let figures: Vec<_> = scenes.iter().map(panel).collect();
+    match &figures[..] {
+        [only] => only.to_svg(),
+        _ => panels("Speed against error", &figures, 2),
+    }
+}
+
+fn panel(scene: &Precision) -> Figure {
+    let mut figure = Figure::new(
+        scene.scene.clone(),
+        Axis::log("wall time, least of repeated runs [s]"),
+        Axis::log("error of the crank angle at the end [rad]"),
+    );
+    let mut methods: Vec<&str> = scene.rows.iter().map(|row| row.method.as_str()).collect();
+    methods.dedup();
+    for method in methods {
+        let rows = scene.rows.iter().filter(|row| row.method == method);
+        let points: Vec<_> = rows
+            .filter_map(|row| Some((row.wall_s?, row.error_theta_rad?)))
+            .collect();
+        if !points.is_empty() {
+            figure = figure.line_with_points(method, points);
+        }
+    }
+    figure
+}

@@ -1,0 +1,196 @@
+//! Static equilibrium as CSV and text.
+
+use std::fmt::Write;
+
+use super::rows::write;
+use super::text::place;
+use super::{Axis, Figure, Output, panels};
+use crate::error::Error;
+use crate::study::{Located, StaticAnalysis, StaticsRow};
+
+const FORCE: &str = "slider_force_n,slider_force_min_n,slider_force_max_n";
+const TORQUE: &str = "crank_torque_nm,crank_torque_min_nm,crank_torque_max_nm";
+const REST: &str = "side_thrust_n,transmission_rad,self_locking";
+const DETAILS: &str = "velocity_ratio,crank_pin_angle_rad";
+
+/// Rows of `statics`.
+#[derive(Debug)]
+pub struct StaticsWriter {
+    output: Output,
+    details: bool,
+}
+
+impl StaticsWriter {
+    /// Writes the header to an output; with `details` also velocity ratio and angle at the crank pin.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn new(
+        mut output: Output,
+        result: &StaticAnalysis,
+        details: bool,
+    ) -> Result<StaticsWriter, Error> {
+        let sought = match result.sought {
+            "crank-torque" => TORQUE,
+            _ => FORCE,
+        };
+        let more = if details { "," } else { "" };
+        let details_header = if details { DETAILS } else { "" };
+        let header = format!("theta_rad,{sought},{REST}{more}{details_header}\n");
+        output.write(header.as_bytes())?;
+        Ok(StaticsWriter { output, details })
+    }
+
+    /// Writes a row.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn row(&mut self, row: &StaticsRow) -> Result<(), Error> {
+        let cell = |value: Option<f64>| value.unwrap_or(f64::NAN);
+        let band = row.balance.band;
+        let mut values = vec![
+            row.theta,
+            cell(band.map(|band| band.value)),
+            cell(band.and_then(|band| band.min)),
+            cell(band.and_then(|band| band.max)),
+            cell(row.balance.side_thrust),
+            row.transmission,
+            f64::from(u8::from(row.balance.self_locking)),
+        ];
+        if self.details {
+            values.extend([row.velocity_ratio, row.crank_pin_angle]);
+        }
+        write(&mut self.output, &values)
+    }
+
+    /// Completes the output.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn finish(self) -> Result<(), Error> {
+        self.output.finish()
+    }
+}
+
+/// What holds the equilibrium, in words and in a table of a few angles.
+pub fn statics(result: &StaticAnalysis) -> String {
+    let mut text = String::new();
+    let mut put = |name: &str, value: String| {
+        let _ = writeln!(text, "{name:<24} {value}");
+    };
+    if !result.scene.is_empty() {
+        put("scene", result.scene.clone());
+    }
+    let (what, unit) = match result.sought {
+        "crank-torque" => ("crank torque", "N m"),
+        _ => ("slider force", "N"),
+    };
+    put("class", result.class.to_owned());
+    put("sought", format!("{what} beside the other loads"));
+    put("friction coefficient", format!("{}", result.friction));
+    let least = |found: &Located| {
+        let angle = found.theta_rad.to_degrees();
+        format!("{} {unit} at {angle} deg", found.value)
+    };
+    for found in &result.least {
+        put("least", least(found));
+    }
+    for found in &result.least_with_friction {
+        put("least with friction", least(found));
+    }
+    for position in &result.positions {
+        put(position.kind, place(position));
+    }
+    for warning in &result.warnings {
+        put("warning", warning.clone());
+    }
+    let header = [
+        "theta [deg]".to_owned(),
+        format!("{what} [{unit}]"),
+        "from".to_owned(),
+        "to".to_owned(),
+        "side thrust [N]".to_owned(),
+        "transmission [deg]".to_owned(),
+    ];
+    let _ = writeln!(text);
+    line(&mut text, &header);
+    for row in result.rows(15f64.to_radians()) {
+        let cell = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.5}"));
+        let band = row.balance.band;
+        let finite = |value: f64| value.is_finite().then_some(value);
+        let cells = [
+            format!("{:.0}", row.theta.to_degrees()),
+            cell(band.map(|band| band.value)),
+            cell(band.and_then(|band| band.min)),
+            cell(band.and_then(|band| band.max)),
+            cell(row.balance.side_thrust),
+            cell(finite(row.transmission.to_degrees())),
+        ];
+        line(&mut text, &cells);
+    }
+    text
+}
+
+fn line(text: &mut String, cells: &[String; 6]) {
+    let [theta, value, from, to, thrust, transmission] = cells;
+    let _ = writeln!(
+        text,
+        "{theta:>11} {value:>18} {from:>14} {to:>14} {thrust:>16} {transmission:>19}"
+    );
+}
+
+/// What is sought over the crank angle, with its friction band, and the side thrust.
+///
+/// # Errors
+/// [`Error::Write`] if the figure cannot be drawn.
+pub fn statics_figure(result: &StaticAnalysis) -> Result<String, Error> {
+    let rows: Vec<StaticsRow> = result.rows(1f64.to_radians()).collect();
+    let of = |value: &dyn Fn(&StaticsRow) -> Option<f64>| -> Vec<(f64, f64)> {
+        let point = |row: &StaticsRow| (row.theta.to_degrees(), value(row).unwrap_or(f64::NAN));
+        rows.iter().map(point).collect()
+    };
+    let value = of(&|row| row.balance.band.map(|band| band.value));
+    // Towards a dead centre the force grows without bound; what is worth seeing is around its median.
+    let mut sizes: Vec<f64> = value
+        .iter()
+        .map(|(_, y)| y.abs())
+        .filter(|y| y.is_finite())
+        .collect();
+    sizes.sort_by(f64::total_cmp);
+    let most = 5.0
+        * sizes
+            .get(sizes.len() / 2)
+            .copied()
+            .unwrap_or(1.0)
+            .max(f64::MIN_POSITIVE);
+    let band = rows.iter().map(|row| {
+        let edge = |edge: Option<f64>| edge.unwrap_or(f64::NAN).clamp(-most, most);
+        let band = row.balance.band;
+        (
+            row.theta.to_degrees(),
+            edge(band.and_then(|band| band.min)),
+            edge(band.and_then(|band| band.max)),
+        )
+    });
+    let angle = || Axis::linear("crank angle [deg]").range(0.0, 360.0);
+    let inside = |points: Vec<(f64, f64)>| -> Vec<(f64, f64)> {
+        points
+            .into_iter()
+            .map(|(x, y)| (x, if y.abs() <= most { y } else { f64::NAN }))
+            .collect()
+    };
+    let name = match result.sought {
+        "crank-torque" => "crank torque [N m]",
+        _ => "slider force [N]",
+    };
+    let mut sought = Figure::new("", angle(), Axis::linear(name));
+    if result.friction > 0.0 {
+        sought = sought.band("held by friction", band.collect());
+    }
+    let thrust = of(&|row| row.balance.side_thrust);
+    let figures = [
+        sought.line("without friction", inside(value)),
+        Figure::new("", angle(), Axis::linear("side thrust [N]")).line("", thrust),
+    ];
+    panels(&result.scene, &figures, 1)
+}

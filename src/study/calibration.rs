@@ -1,0 +1,76 @@
+//! Calibration of a force sensor: a straight line through readings under known loads, and its inverse use.
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use crate::error::Error;
+use crate::numeric::line_fit::LineFit;
+use crate::scene::calibration_points;
+
+/// The line reading = intercept + slope load, and the forces of given readings.
+#[derive(Clone, Debug, Serialize)]
+pub struct Calibration {
+    /// Slope (reading per N), intercept, their standard errors, R² about the mean.
+    pub fit: LineFit,
+    /// Forces that belong to readings.
+    pub forces: Vec<Measured>,
+    /// What the reader should know.
+    pub warnings: Vec<String>,
+}
+
+/// A reading and the force it stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Measured {
+    /// As read.
+    pub reading: f64,
+    /// N
+    pub force_n: f64,
+    /// Standard uncertainty of the force from the scatter about the line, N; none with two points.
+    pub force_se_n: Option<f64>,
+}
+
+/// Fits loads (N) in the first column of a CSV file to readings in the second, and takes `readings` back to
+/// forces.
+///
+/// # Errors
+/// [`Error::Read`] and [`Error::Refused`] for files that are no calibration, fewer than two different loads,
+/// or readings that do not depend on the load.
+pub fn calibrate(file: &Path, readings: &[f64]) -> Result<Calibration, Error> {
+    let points = calibration_points(file)?;
+    let refused = |what: &str| {
+        Error::refused(
+            format!("{}: {what}", file.display()),
+            "give readings under at least two different loads",
+        )
+    };
+    let fit = LineFit::new(&points)
+        .ok_or_else(|| refused("no straight line goes through these points"))?;
+    let mut warnings = Vec::new();
+    let (least, most) = points
+        .iter()
+        .fold((f64::MAX, f64::MIN), |(low, high), (x, _)| {
+            (low.min(*x), high.max(*x))
+        });
+    let mut forces = Vec::new();
+    for reading in readings {
+        let (force_n, force_se_n) = fit
+            .inverse(*reading)
+            .ok_or_else(|| refused("the readings do not depend on the load"))?;
+        if !(least..=most).contains(&force_n) {
+            warnings.push(format!(
+                "the force {force_n} N of the reading {reading} is outside the loads of the calibration, {least} to {most} N"
+            ));
+        }
+        forces.push(Measured {
+            reading: *reading,
+            force_n,
+            force_se_n,
+        });
+    }
+    Ok(Calibration {
+        fit,
+        forces,
+        warnings,
+    })
+}

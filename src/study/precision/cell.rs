@@ -1,0 +1,190 @@
+//! One method at one tolerance: its run, its times, its distance from a reference.
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use super::reference::Reference;
+use super::{PrecisionOptions, PrecisionRow, first_line};
+use crate::error::Error;
+use crate::numeric::double_double::DoubleDouble;
+use crate::plan::{Engine, Method, Stepper};
+use crate::scene::Scene;
+use crate::study::row::NoRows;
+use crate::study::simulate::{Options, simulate_rows};
+use crate::study::summary::Summary;
+
+/// The reference must be this much better than what it measures.
+const BETTER: f64 = 100.0;
+
+/// The tolerance of methods that others are measured against.
+const TIGHTEST: f64 = 1e-13;
+
+pub(super) fn run(
+    scene: &Scene,
+    method: Method,
+    estimate: bool,
+    options: &PrecisionOptions,
+) -> Result<Summary, Error> {
+    let options = Options {
+        method,
+        estimate,
+        max_evaluations: options.max_evaluations,
+        events_kept: 0,
+        ..Options::default()
+    };
+    Ok(simulate_rows(scene, &options, &mut NoRows)?.summary)
+}
+
+/// Runs of the other methods, for scenes without a reference of their own.
+pub(super) fn other_methods(
+    scene: &Scene,
+    options: &PrecisionOptions,
+) -> Vec<(Identity, Reference)> {
+    let mut scene = scene.clone();
+    scene.run.tolerance = TIGHTEST;
+    let methods = Method::each().filter(|method| *method != Method::Auto);
+    let runs = methods.filter_map(|method| {
+        let run = run(&scene, method, true, options).ok()?;
+        let error = run.error_estimate.filter(|_| run.stopped.is_none())?;
+        let reference = Reference {
+            what: format!("{method} at tolerance {TIGHTEST:e}"),
+            theta: DoubleDouble::from(run.last.theta_rad),
+            omega: DoubleDouble::from(run.last.omega_rad_per_s),
+            theta_error: error.theta_rad,
+            omega_error: error.omega_rad_per_s,
+        };
+        Some(((run.plan.engine, run.plan.stepper), reference))
+    });
+    runs.collect()
+}
+
+/// What computes a motion: two names may stand for the same.
+pub(super) type Identity = (Engine, Option<Stepper>);
+
+/// One method at one tolerance.
+pub(super) struct Cell {
+    scene: Scene,
+    method: Method,
+    options: PrecisionOptions,
+    result: Result<Summary, String>,
+    walls: Vec<f64>,
+}
+
+impl Cell {
+    pub(super) fn new(
+        scene: &Scene,
+        method: Method,
+        tolerance: f64,
+        options: &PrecisionOptions,
+    ) -> Result<Cell, Error> {
+        let mut scene = scene.clone();
+        scene.run.tolerance = tolerance;
+        scene.check()?;
+        let result = match run(&scene, method, true, options) {
+            Ok(Summary {
+                stopped: Some(why), ..
+            }) => Err(why),
+            Ok(summary) => Ok(summary),
+            Err(refused) => Err(first_line(&refused)),
+        };
+        Ok(Cell {
+            scene,
+            method,
+            options: options.clone(),
+            result,
+            walls: Vec::new(),
+        })
+    }
+
+    fn run_again(&mut self) {
+        if let Ok(summary) = run(&self.scene, self.method, false, &self.options) {
+            self.walls.push(black_box(summary).wall_s);
+        }
+    }
+
+    /// The best of the others that is computed by something else.
+    pub(super) fn independent<'a>(
+        &self,
+        others: &'a [(Identity, Reference)],
+    ) -> Option<&'a Reference> {
+        let plan = &self.result.as_ref().ok()?.plan;
+        let own = (plan.engine, plan.stepper);
+        others
+            .iter()
+            .filter(|(identity, _)| *identity != own)
+            .map(|(_, reference)| reference)
+            .min_by(|a, b| a.theta_error.total_cmp(&b.theta_error))
+    }
+
+    pub(super) fn row(&self, reference: Option<&Reference>, named: bool) -> PrecisionRow {
+        let mut row = PrecisionRow::empty(self.method, self.scene.run.tolerance);
+        row.runs = self.walls.len();
+        let summary = match &self.result {
+            Ok(summary) => summary,
+            Err(why) => {
+                row.failure = Some(why.clone());
+                return row;
+            }
+        };
+        row.estimate_theta_rad = summary.error_estimate.map(|error| error.theta_rad);
+        let mut walls = self.walls.clone();
+        walls.sort_by(f64::total_cmp);
+        row.wall_s = walls.first().copied();
+        row.wall_median_s = walls.get(walls.len() / 2).copied();
+        row.evaluations = Some(summary.evaluations);
+        row.steps = Some(summary.steps);
+        let Some(reference) = reference else {
+            row.measured_against = Some("nothing: no other method reaches the end".to_owned());
+            return row;
+        };
+        if named {
+            let (what, error) = (&reference.what, reference.theta_error);
+            row.measured_against = Some(format!("{what}, its error {error:.1e} rad or less"));
+        }
+        let (theta, theta_bound) = error(
+            summary.last.theta_rad,
+            reference.theta,
+            reference.theta_error,
+        );
+        let (omega, omega_bound) = error(
+            summary.last.omega_rad_per_s,
+            reference.omega,
+            reference.omega_error,
+        );
+        row.error_theta_rad = Some(theta);
+        row.error_omega_rad_per_s = Some(omega);
+        row.error_is_bound = theta_bound || omega_bound;
+        row
+    }
+}
+
+/// Distance from a reference; with the reference's own error, if that is not much smaller.
+fn error(value: f64, reference: DoubleDouble, reference_error: f64) -> (f64, bool) {
+    let distance = (reference - value).value().abs();
+    if BETTER * reference_error > distance {
+        (distance + reference_error, true)
+    } else {
+        (distance, false)
+    }
+}
+
+/// Times all cells in turns, so that a disturbance of the machine meets all of them.
+pub(super) fn time(cells: &mut [Cell], options: &PrecisionOptions) {
+    let begun = Instant::now();
+    let most = Duration::from_secs_f64(options.most_s.clamp(0.0, 1e6));
+    for round in 0..options.repeats.max(1) {
+        if round > 0 && begun.elapsed() > most {
+            break;
+        }
+        let mut served: Vec<_> = cells
+            .iter_mut()
+            .filter(|cell| cell.result.is_ok())
+            .collect();
+        if round % 2 == 1 {
+            served.reverse();
+        }
+        for cell in served {
+            cell.run_again();
+        }
+    }
+}

@@ -1,0 +1,222 @@
+//! Speed against error: every method that can serve a scene, at a ladder of tolerances, against a reference
+//! that none of them takes part in.
+
+mod cell;
+mod collocation;
+mod extended;
+mod reference;
+
+use serde::Serialize;
+
+use crate::error::Error;
+use crate::plan::{Engine, Method, Plan};
+use crate::scene::{Extent, Scene};
+use cell::{Cell, other_methods, run, time};
+
+/// What is asked of a comparison.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PrecisionOptions {
+    /// Tolerances, each for every method.
+    pub tolerances: Vec<f64>,
+    /// Timed runs of each method at each tolerance; fewer if they take longer than `most_s`.
+    pub repeats: u32,
+    /// Most time for repeated runs of one scene, s.
+    pub most_s: f64,
+    /// Most evaluations of the equation in one run; a run that needs more is a row that says so.
+    pub max_evaluations: u64,
+}
+
+impl Default for PrecisionOptions {
+    fn default() -> PrecisionOptions {
+        PrecisionOptions {
+            tolerances: (4..=13).map(|k| 10f64.powi(-k)).collect(),
+            repeats: 15,
+            most_s: 5.0,
+            max_evaluations: 5_000_000,
+        }
+    }
+}
+
+/// One method at one tolerance. What does not exist is empty.
+#[derive(Clone, Debug, Serialize)]
+pub struct PrecisionRow {
+    /// The method, as `--method` names it.
+    pub method: String,
+    /// Its tolerance.
+    pub tolerance: f64,
+    /// Error of the crank angle at the end, rad; an upper bound if [`Self::error_is_bound`].
+    pub error_theta_rad: Option<f64>,
+    /// Error of the crank speed at the end, rad/s; an upper bound if [`Self::error_is_bound`].
+    pub error_omega_rad_per_s: Option<f64>,
+    /// What the run states as error of its angle, rad.
+    pub estimate_theta_rad: Option<f64>,
+    /// Least time of the solution, without error estimate, s.
+    pub wall_s: Option<f64>,
+    /// Median of that time, s.
+    pub wall_median_s: Option<f64>,
+    /// Timed runs.
+    pub runs: usize,
+    /// Evaluations of the equation.
+    pub evaluations: Option<u64>,
+    /// Steps.
+    pub steps: Option<u64>,
+    /// Whether the reference is less than a hundred times better than the error of angle or speed: these are
+    /// then the distance from the reference and the reference's own error, added.
+    pub error_is_bound: bool,
+    /// What it was measured against, if that is not the reference of the scene.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub measured_against: Option<String>,
+    /// Why there are no numbers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub failure: Option<String>,
+}
+
+impl PrecisionRow {
+    fn empty(method: Method, tolerance: f64) -> PrecisionRow {
+        PrecisionRow {
+            method: method.to_string(),
+            tolerance,
+            error_theta_rad: None,
+            error_omega_rad_per_s: None,
+            estimate_theta_rad: None,
+            wall_s: None,
+            wall_median_s: None,
+            runs: 0,
+            evaluations: None,
+            steps: None,
+            error_is_bound: false,
+            measured_against: None,
+            failure: None,
+        }
+    }
+}
+
+/// The comparison of one scene.
+#[derive(Clone, Debug, Serialize)]
+pub struct Precision {
+    /// Title of the scene.
+    pub scene: String,
+    /// Time of the state that is compared, s.
+    pub t_s: f64,
+    /// What the runs were measured against.
+    pub reference: String,
+    /// How far the reference's angle may be off, rad.
+    pub reference_error_theta_rad: Option<f64>,
+    /// How far the reference's speed may be off, rad/s.
+    pub reference_error_omega_rad_per_s: Option<f64>,
+    /// Methods that cannot serve the scene, with the reason.
+    pub left_out: Vec<String>,
+    /// The rows, method by method.
+    pub rows: Vec<PrecisionRow>,
+}
+
+impl Precision {
+    /// Whether any method reached the end.
+    pub fn has_results(&self) -> bool {
+        self.rows.iter().any(|row| row.failure.is_none())
+    }
+
+    /// A scene that cannot be computed: one row that says why.
+    pub fn refused(scene: &Scene, why: &Error) -> Precision {
+        let mut row = PrecisionRow::empty(Method::Auto, scene.run.tolerance);
+        row.failure = Some(first_line(why));
+        Precision {
+            scene: scene.title.clone().unwrap_or_default(),
+            t_s: 0.0,
+            reference: "none".to_owned(),
+            reference_error_theta_rad: None,
+            reference_error_omega_rad_per_s: None,
+            left_out: Vec::new(),
+            rows: vec![row],
+        }
+    }
+}
+
+/// Compares all methods that the plan of a scene allows. A run of so many turns is compared at the time at
+/// which the planned method completes them.
+///
+/// The reference is a Gauss collocation in double-double arithmetic of equations written apart from those of
+/// the engines; its own error is the distance of two resolutions. Where it cannot serve (too long a run, a
+/// singularity), each method is measured against the best of the other methods, and its row says so.
+///
+/// # Errors
+/// [`Error::Scene`] for impossible values or tolerances, [`Error::Refused`] for a scene that cannot be
+/// computed.
+///
+/// ```
+/// use slider_crank::scene::Scene;
+/// use slider_crank::study::{PrecisionOptions, precision};
+///
+/// let options = PrecisionOptions {
+///     tolerances: vec![1e-9],
+///     repeats: 1,
+///     ..PrecisionOptions::default()
+/// };
+/// let result = precision(&Scene::duarte().duration(0.1), &options)?;
+/// let energy = result.rows.iter().find(|row| row.method == "energy").unwrap();
+/// assert!(energy.error_theta_rad.unwrap() < 1e-13);
+/// # Ok::<(), slider_crank::error::Error>(())
+/// ```
+pub fn precision(scene: &Scene, options: &PrecisionOptions) -> Result<Precision, Error> {
+    let plan = Plan::new(scene, Method::Auto)?;
+    let t_end = last_time(scene, options)?;
+    let mut scene = scene.clone();
+    scene.run.extent = Some(Extent::Duration(t_end));
+    let mut left_out = Vec::new();
+    let mut cells = Vec::new();
+    for method in Method::each().filter(|method| *method != Method::Auto) {
+        if let Err(refused) = Plan::new(&scene, method) {
+            if (method == Method::ClosedForm) == (plan.engine == Engine::ClosedForm) {
+                left_out.push(first_line(&refused));
+            }
+            continue;
+        }
+        for &tolerance in &options.tolerances {
+            cells.push(Cell::new(&scene, method, tolerance, options)?);
+        }
+    }
+    let common = reference::extended(&scene, t_end, EVALUATIONS);
+    let others = match &common {
+        Some(_) => Vec::new(),
+        None => other_methods(&scene, options),
+    };
+    time(&mut cells, options);
+    let rows = cells.iter().map(|cell| match &common {
+        Some(reference) => cell.row(Some(reference), false),
+        None => cell.row(cell.independent(&others), true),
+    });
+    let failed = "none in double-double arithmetic; each method against the best of the others";
+    Ok(Precision {
+        scene: scene.title.clone().unwrap_or_default(),
+        t_s: t_end,
+        rows: rows.collect(),
+        reference: common
+            .as_ref()
+            .map_or(failed, |found| &found.what)
+            .to_owned(),
+        reference_error_theta_rad: common.as_ref().map(|found| found.theta_error),
+        reference_error_omega_rad_per_s: common.as_ref().map(|found| found.omega_error),
+        left_out,
+    })
+}
+
+/// Most evaluations of the reference, some seconds.
+const EVALUATIONS: u64 = 4_000_000;
+
+fn first_line(error: &Error) -> String {
+    let text = error.to_string();
+    text.lines().next().unwrap_or_default().to_owned()
+}
+
+fn last_time(scene: &Scene, options: &PrecisionOptions) -> Result<f64, Error> {
+    match scene.run.extent {
+        Some(Extent::Duration(duration)) => Ok(duration),
+        _ => {
+            let run = run(scene, Method::Auto, false, options)?;
+            match run.stopped {
+                None => Ok(run.last.t_s),
+                Some(why) => Err(Error::refused(why, "give the run a duration")),
+            }
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! What the runs are measured against.
+
+use crate::numeric::double_double::DoubleDouble;
+
+use std::f64::consts::TAU;
+
+use super::collocation::{self, Acceleration, CORNER, Place, Resolution};
+use super::extended::{Extended, State};
+use crate::mechanism::Equation;
+use crate::scene::{Load, MotionKind, Scene, Variable};
+
+/// The state at the end of a run, and how far it may be off.
+#[derive(Clone, Debug)]
+pub(super) struct Reference {
+    pub what: String,
+    pub theta: DoubleDouble,
+    pub omega: DoubleDouble,
+    pub theta_error: f64,
+    pub omega_error: f64,
+}
+
+/// Two runs of the reference must agree; what is stated is larger than their distance by this.
+const MARGIN: f64 = 4.0;
+
+/// Relative rounding of the last operations in double-double arithmetic.
+const ROUNDING: f64 = 1e-29;
+
+/// Ends of the series of the two runs, and where iterations end. Coarser ones follow for motions near a limit,
+/// where digits are lost; loads in floats have their rounding in the series.
+const EXACT: [([f64; 2], f64); 2] = [([1e-20, 1e-22], 1e-23), ([1e-15, 1e-17], 1e-19)];
+const ROUNDED: [([f64; 2], f64); 1] = [([1e-9, 1e-11], 1e-15)];
+
+/// The reference in double-double arithmetic; none if it would take more evaluations than this, or the
+/// motion does not get to the end.
+pub(super) fn extended(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
+    let motion = &scene.motion;
+    let start = Place {
+        t: DoubleDouble::ZERO,
+        theta: DoubleDouble::from(motion.angle),
+        omega: DoubleDouble::from(motion.speed),
+    };
+    if motion.kind == MotionKind::ConstantSpeed {
+        let theta = start.omega * t_end + start.theta;
+        return Some(Reference {
+            what: "angle + speed t in double-double arithmetic".to_owned(),
+            theta,
+            omega: start.omega,
+            theta_error: theta.value().abs() * ROUNDING,
+            omega_error: 0.0,
+        });
+    }
+    let motion = Motion {
+        extended: Extended::new(scene),
+        equation: Equation::new(scene),
+    };
+    let exact = motion.extended.is_exact();
+    let both_ends = |(tails, settled): &([f64; 2], f64)| {
+        let end = |tail| {
+            let resolution = Resolution {
+                tail,
+                settled: *settled,
+                evaluations,
+            };
+            let until = |t_end| collocation::integrate(&motion, start, t_end, resolution);
+            let turns = start.omega.value() * t_end / TAU;
+            let repeated = motion.extended.repeats() && turns.abs() > FEW_TURNS;
+            let repeated = repeated.then(|| motion.repeated(start, t_end, &until));
+            repeated.flatten().or_else(|| until(t_end))
+        };
+        Some((end(tails[0])?, end(tails[1])?))
+    };
+    let resolutions: &[_] = if exact { &EXACT } else { &ROUNDED };
+    let (coarse, fine) = resolutions.iter().find_map(both_ends)?;
+    let distance = |a: DoubleDouble, b: DoubleDouble| {
+        let rounding = b.value().abs() * ROUNDING;
+        MARGIN * (a - b).value().abs() + rounding
+    };
+    let loads = if exact {
+        ""
+    } else {
+        ", loads in double precision"
+    };
+    Some(Reference {
+        what: format!("Gauss collocation of order 32 in double-double arithmetic{loads}"),
+        theta: fine.theta,
+        omega: fine.omega,
+        theta_error: distance(coarse.theta, fine.theta),
+        omega_error: distance(coarse.omega, fine.omega),
+    })
+}
+
+/// Runs of more turns are made of one turn, if all are the same.
+const FEW_TURNS: f64 = 64.0;
+
+/// The motion as the collocation sees it.
+struct Motion {
+    extended: Extended,
+    /// For the slopes alone, which decide how fast the iteration converges and not where to.
+    equation: Equation,
+}
+
+impl Motion {
+    /// The state at `t_end` of a motion that repeats with every turn: whole periods, and the rest of one. None
+    /// if the crank does not turn.
+    fn repeated(
+        &self,
+        start: Place,
+        t_end: f64,
+        until: &dyn Fn(f64) -> Option<Place>,
+    ) -> Option<Place> {
+        let turn = DoubleDouble::TAU * start.omega.value().signum();
+        let mut period = DoubleDouble::from((turn / start.omega).value());
+        for _ in 0..NEWTON_STEPS {
+            let end = until(period.value())?;
+            let change = (start.theta + turn - end.theta) / end.omega;
+            let found = DoubleDouble::from(period.value()) + change;
+            // Newton's method squares what is left: the last change is right to all digits.
+            let settled = change.value().abs() <= 1e-13 * found.value();
+            period = found;
+            if !(period.value() > 0.0 && period.value() < t_end) {
+                return None;
+            }
+            if settled {
+                let turns = (t_end / period.value()).floor();
+                let rest = DoubleDouble::from(t_end) - period * turns;
+                let mut place = until(rest.value())?;
+                let beyond = rest - rest.value();
+                let alpha = self.exactly(place.t, place.theta, place.omega);
+                place.theta += place.omega * beyond + turn * turns;
+                place.omega += alpha * beyond;
+                return Some(place);
+            }
+        }
+        None
+    }
+}
+
+/// Most steps in search of the period.
+const NEWTON_STEPS: usize = 40;
+
+impl Acceleration for Motion {
+    fn exactly(&self, t: DoubleDouble, theta: DoubleDouble, omega: DoubleDouble) -> DoubleDouble {
+        let t = t.value();
+        self.extended.acceleration(&State { t, theta, omega })
+    }
+
+    fn slopes(&self, t: f64, theta: f64, omega: f64) -> (f64, f64) {
+        let at = |theta, omega| self.equation.acceleration(t, theta, omega);
+        let (dtheta, domega) = (1e-6, 1e-6 * omega.abs().max(1.0));
+        let central = |high: f64, low: f64, step: f64| (high - low) / (2.0 * step);
+        (
+            central(at(theta + dtheta, omega), at(theta - dtheta, omega), dtheta),
+            central(at(theta, omega + domega), at(theta, omega - domega), domega),
+        )
+    }
+
+    fn next_time(&self, t: f64) -> f64 {
+        let loads = self.extended.loads();
+        loads
+            .map(|load| load.next_corner(t))
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    fn corner_between(&self, theta: f64, towards: f64) -> Option<f64> {
+        let corners = self.extended.loads().filter_map(|load| match load {
+            Load::Table(table)
+            | Load::Gas {
+                pressure: table, ..
+            } => Some(table),
+            _ => None,
+        });
+        // A corner that was met is not met again.
+        let slack = 4.0 * CORNER + 16.0 * f64::EPSILON * theta.abs().max(towards.abs());
+        let (low, high) = (theta.min(towards) + slack, theta.max(towards) - slack);
+        let between = corners
+            .filter(|table| table.of() == Variable::Theta)
+            .flat_map(|table| {
+                table.rows().iter().map(move |row| {
+                    let Some(period) = table.period() else {
+                        return *row;
+                    };
+                    // The repetition that is met first.
+                    let turns = if towards > theta {
+                        ((low - row) / period).ceil()
+                    } else {
+                        ((high - row) / period).floor()
+                    };
+                    row + turns * period
+                })
+            })
+            .filter(|corner| (low..=high).contains(corner));
+        between.min_by(|a, b| (a - theta).abs().total_cmp(&(b - theta).abs()))
+    }
+}

@@ -1,0 +1,228 @@
+//! `kinematics` with forces, sensitivities, changed lengths, sizing and the iterated loop.
+
+use super::program::{Folder, PUMP, Rows, at, close, repository};
+
+fn run(more: &[&str]) -> (serde_json::Value, Rows) {
+    let folder = Folder::new();
+    let scene = repository("data/obaseki-alfred.toml");
+    let arguments = [
+        "kinematics",
+        scene.to_str().unwrap(),
+        "--json",
+        "--out",
+        "rows.csv",
+    ];
+    let outcome = folder.run(&[&arguments[..], more].concat()).done();
+    (outcome.json(), Rows::read(&folder.read("rows.csv")))
+}
+
+/// Extremes of the driving torque by 40-digit arithmetic, for both senses of rotation.
+#[test]
+fn forces_at_constant_speed() {
+    let (summary, rows) = run(&["--forces", "--every", "5 deg"]);
+    for (path, want) in [
+        ("forces.inward.min.value", -316.0611128),
+        ("forces.inward.max.value", 185.2973566),
+        ("forces.outward.max.value", 47.50780798),
+        ("forces.outward.min.value", -81.30245599),
+        ("forces.masses.rotating_kg", 0.35),
+        ("forces.masses.reciprocating_kg", 1.05),
+    ] {
+        close(at(&summary, path), want, 1e-7 * want.abs());
+    }
+    assert!(rows.complete());
+    // With the crank's inertia balanced the pin carries the torque.
+    for (torque, tangential) in rows
+        .column("crank_torque_nm")
+        .iter()
+        .zip(rows.column("crank_tangential_n"))
+    {
+        close(*torque, 0.04 * tangential, 1e-10);
+    }
+    for (guide, lateral) in rows
+        .column("guide_n")
+        .iter()
+        .zip(rows.column("wrist_pin_y_n"))
+    {
+        close(guide + lateral, 0.0, 1e-10);
+    }
+}
+
+/// Extremes by 40-digit arithmetic.
+#[test]
+fn extremes_with_other_offsets() {
+    let (summary, _) = run(&["--with-offset", "10 mm", "--with-offset", "0 mm"]);
+    let offsets = summary["offsets"].as_array().unwrap();
+    assert_eq!(offsets.len(), 2);
+    for (i, stroke, inward, ratio) in [
+        (0, 0.08170069013, [-133.7494065, 130.3897829], 1.237506101),
+        (1, 0.08, [-85.72588325, 105.0859843], 1.0),
+    ] {
+        close(at(&offsets[i], "stroke_m"), stroke, 1e-10);
+        close(at(&offsets[i], "time_ratio"), ratio, 1e-8);
+        close(at(&offsets[i], "inward.min.value"), inward[0], 1e-6);
+        close(at(&offsets[i], "inward.max.value"), inward[1], 1e-6);
+    }
+}
+
+/// Clockwise, the stroke with the high torque is the outward one.
+#[test]
+fn reversed_rotation_exchanges_the_strokes() {
+    let scene = std::fs::read_to_string(repository("data/obaseki-alfred.toml")).unwrap();
+    let folder = Folder::with(&scene.replace("speed = \"251 rad/s\"", "speed = \"-251 rad/s\""));
+    let summary = folder
+        .run(&["kinematics", "scene.toml", "--forces", "--json"])
+        .done()
+        .json();
+    close(at(&summary, "forces.outward.min.value"), -316.0611128, 1e-6);
+    close(at(&summary, "forces.inward.max.value"), 47.50780798, 1e-6);
+}
+
+#[test]
+fn sensitivity_and_change_agree_for_a_small_change() {
+    let (_, rows) = run(&[
+        "--sensitivity",
+        "--change",
+        "rod=64.0001 mm",
+        "--every",
+        "15 deg",
+    ]);
+    for (slope, change) in [
+        ("x_by_rod", "x_change_m"),
+        ("v_by_rod_per_s", "v_change_m_per_s"),
+        ("a_by_rod_per_s2", "a_change_m_per_s2"),
+    ] {
+        let size = rows
+            .column(slope)
+            .iter()
+            .fold(0.0f64, |m, v| m.max(v.abs()));
+        for (slope, change) in rows.column(slope).iter().zip(rows.column(change)) {
+            close(change / 1e-7, *slope, 1e-4 * size);
+        }
+    }
+    assert!(rows.header.contains("crank_torque_by_offset_n"));
+}
+
+/// Friction at the guide is not in the forces at constant speed, and that is said.
+#[test]
+fn friction_that_is_left_out_is_named() {
+    let scene = repository("data/ng.toml");
+    let asked = ["kinematics", scene.to_str().unwrap(), "--json"];
+    let folder = Folder::new();
+    let warnings = |more: &[&str]| {
+        let summary = folder.run(&[&asked[..], more].concat()).done().json();
+        summary["warnings"].as_array().unwrap().len()
+    };
+    assert_eq!((warnings(&[]), warnings(&["--forces"])), (0, 1));
+}
+
+/// A force that follows a formula of the position leaves the torque's cells empty, and says so.
+#[test]
+fn a_torque_of_unknown_slope_is_left_out() {
+    let force =
+        "[[force]]\nkind = \"expression\"\nvalue = \"-3*x^3\"\n[motion]\nspeed = \"20 rad/s\"";
+    let folder = Folder::with(&format!("{PUMP}\n{force}\n"));
+    let asked = [
+        "kinematics",
+        "scene.toml",
+        "--sensitivity",
+        "--json",
+        "--out",
+        "rows.csv",
+    ];
+    let summary = folder.run(&asked).done().json();
+    assert!(
+        summary["warnings"][0].as_str().unwrap().contains("slope"),
+        "{summary}"
+    );
+    let rows = Rows::read(&folder.read("rows.csv"));
+    assert!(
+        rows.cells_of("crank_torque_by_rod_n")
+            .iter()
+            .all(Option::is_none)
+    );
+    assert!(rows.cells_of("a_by_rod_per_s2").iter().all(Option::is_some));
+}
+
+#[test]
+fn the_iterated_loop_is_the_closed_form() {
+    let (summary, _) = run(&["--newton-guess", "180 deg"]);
+    assert_eq!(at(&summary, "loop_closure.on_branch"), 361.0);
+    assert!(at(&summary, "loop_closure.worst_x_m") < 1e-9);
+    let (summary, _) = run(&["--newton-guess", "0 deg"]);
+    assert_eq!(at(&summary, "loop_closure.on_other_branch"), 361.0);
+    let (summary, _) = run(&["--newton-guess", "90 deg"]);
+    assert!(at(&summary, "loop_closure.on_branch") < 361.0, "{summary}");
+}
+
+#[test]
+fn sizing_from_the_stroke() {
+    let folder = Folder::with(PUMP);
+    let sized = [
+        "kinematics",
+        "scene.toml",
+        "--stroke",
+        "80 mm",
+        "--rod-ratio",
+        "1.6",
+        "--json",
+    ];
+    let outcome = folder.run(&sized);
+    assert_eq!(outcome.code, Some(0), "{outcome:?}");
+    assert!(
+        outcome.stderr.contains("crank 0.04 m, rod 0.064 m"),
+        "{}",
+        outcome.stderr
+    );
+    close(at(&outcome.json(), "stroke_m"), 0.08, 1e-16);
+}
+
+#[test]
+fn what_cannot_be_is_refused() {
+    let folder = Folder::with(PUMP);
+    for (arguments, words) in [
+        (&["--forces"][..], &["speed"][..]),
+        (&["--change", "crank=1 kg"], &["--change", "length"]),
+        (&["--change", "lever=1 mm"], &["crank, rod and offset"]),
+        (&["--change", "crank=-1 mm"], &["crank"]),
+        (&["--stroke", "80 mm"], &["--rod-ratio"]),
+        (&["--stroke", "80 mm", "--rod-ratio", "0.9"], &["ratio"]),
+    ] {
+        let outcome = folder.run(&[&["kinematics", "scene.toml"][..], arguments].concat());
+        assert_eq!(
+            (outcome.code, outcome.stdout.as_str()),
+            (Some(2), ""),
+            "{arguments:?}"
+        );
+        for word in words {
+            assert!(
+                outcome.stderr.contains(word),
+                "{word} in {}",
+                outcome.stderr
+            );
+        }
+    }
+}
+
+#[test]
+fn the_plot_has_its_axes() {
+    let folder = Folder::with(PUMP);
+    folder
+        .run(&[
+            "kinematics",
+            "scene.toml",
+            "--change",
+            "crank=55 mm",
+            "--plot",
+            "turn.svg",
+        ])
+        .done();
+    let plot = folder.read("turn.svg");
+    for text in [
+        "slider position [m]",
+        "crank angle [deg]",
+        "changed lengths",
+    ] {
+        assert!(plot.contains(text), "{text}");
+    }
+}

@@ -1,0 +1,195 @@
+//! `statics`: columns, rows, options, and what is refused.
+
+use super::program::{Folder, PUMP, ROCKER, Rows, at, close, has_keys};
+
+const COLUMNS: &str = "theta_rad,slider_force_n,slider_force_min_n,slider_force_max_n,side_thrust_n,transmission_rad,self_locking";
+
+fn rows(folder: &Folder, more: &[&str]) -> Rows {
+    let arguments = [&["statics", "scene.toml", "--out", "rows.csv"][..], more].concat();
+    folder.run(&arguments).done();
+    Rows::read(&folder.read("rows.csv"))
+}
+
+/// Force from torque is torque/(r sin θ) where the rod lies along the guide's normal plane: at 90 degrees
+/// in line, x' = −r.
+#[test]
+fn rows_have_the_columns_and_one_turn() {
+    let folder = Folder::with(PUMP);
+    let found = rows(
+        &folder,
+        &[
+            "--torque",
+            "2 N m",
+            "--friction",
+            "0.1",
+            "--every",
+            "10 deg",
+        ],
+    );
+    assert_eq!((found.header.as_str(), found.len()), (COLUMNS, 37));
+    let cell = |name: &str| found.cells_of(name)[9].expect("a value");
+    close(cell("slider_force_n"), 2.0 / 0.05, 1e-12);
+    // tan φ = 1/sqrt(8) with sin φ = 1/3.
+    let thrust = 40.0 / 8f64.sqrt();
+    close(cell("side_thrust_n"), thrust, 1e-12);
+    close(cell("slider_force_min_n"), 40.0 - 0.1 * thrust, 1e-12);
+    close(cell("slider_force_max_n"), 40.0 + 0.1 * thrust, 1e-12);
+    for dead_centre in [0, 18, 36] {
+        assert_eq!(found.cells_of("slider_force_n")[dead_centre], None);
+        assert_eq!(found.cells_of("side_thrust_n")[dead_centre], None);
+    }
+    let filled = found.cells_of("slider_force_n").iter().flatten().count();
+    assert_eq!(filled, 34);
+}
+
+#[test]
+fn a_force_gives_the_torque() {
+    let folder = Folder::with(PUMP);
+    let found = rows(
+        &folder,
+        &["--force", "-40 N", "--every", "90 deg", "--details"],
+    );
+    let header = COLUMNS
+        .replace("slider_force", "crank_torque")
+        .replace("_n,crank", "_nm,crank");
+    let header = header.replace("max_n,", "max_nm,") + ",velocity_ratio,crank_pin_angle_rad";
+    assert_eq!(found.header, header);
+    close(found.column("crank_torque_nm")[1], -2.0, 1e-12);
+    close(found.column("velocity_ratio")[1], 1.0, 1e-14);
+    assert!(found.complete(), "a torque exists at the dead centres too");
+}
+
+#[test]
+fn weight_drum_and_tilt_are_torque_and_friction() {
+    let folder = Folder::with(PUMP);
+    let a = rows(
+        &folder,
+        &[
+            "--weight",
+            "9.81 N",
+            "--drum-radius",
+            "27 mm",
+            "--tilt",
+            "45 deg",
+        ],
+    );
+    let b = rows(&folder, &["--torque", "264.87 N mm", "--friction", "1"]);
+    for column in ["slider_force_n", "slider_force_min_n", "slider_force_max_n"] {
+        for (a, b) in a.cells_of(column).iter().zip(b.cells_of(column)) {
+            match (a, b) {
+                (Some(a), Some(b)) => close(*a, b, 1e-12 * b.abs().max(1.0)),
+                (a, b) => assert_eq!((*a, b), (None, None)),
+            }
+        }
+    }
+}
+
+/// The rocker's range is left open, and its limits and locked ranges are named.
+#[test]
+fn a_rocker_is_blocked_and_locked() {
+    let folder = Folder::with(ROCKER);
+    let found = rows(&folder, &["--torque", "1 N m", "--friction", "0.5"]);
+    assert_eq!(found.cells_of("slider_force_n")[90], None);
+    assert_eq!(found.cells_of("transmission_rad")[90], None);
+    assert!(found.column("self_locking").contains(&1.0));
+    let summary = folder
+        .run(&["statics", "scene.toml", "--friction", "0.5", "--json"])
+        .done()
+        .json();
+    has_keys(
+        &summary,
+        &[
+            "scene",
+            "class",
+            "sought",
+            "friction",
+            "least",
+            "positions",
+            "warnings",
+        ],
+    );
+    let kinds: Vec<_> = summary["positions"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|p| p["kind"].as_str().unwrap())
+        .collect();
+    for kind in [
+        "dead-centre",
+        "rod-normal-to-guide",
+        "blocked",
+        "self-locking",
+    ] {
+        assert!(kinds.contains(&kind), "{kind} in {kinds:?}");
+    }
+}
+
+#[test]
+fn the_built_in_scene_shows_a_result() {
+    let folder = Folder::new();
+    let shown = folder.run(&["statics"]).done().stdout;
+    assert!(
+        shown.contains("slider force [N]") && shown.contains("dead-centre"),
+        "{shown}"
+    );
+    folder.run(&["statics", "--plot", "plot.svg"]).done();
+    assert!(folder.read("plot.svg").contains("slider force [N]"));
+}
+
+#[test]
+fn a_calibration_takes_a_reading_back_to_its_force() {
+    let folder = Folder::new();
+    folder.write("c.csv", "force [kN];volt\n0;0.5\n1;2.5\n2;4.5\n");
+    let result = folder
+        .run(&[
+            "statics",
+            "--calibration",
+            "c.csv",
+            "--reading",
+            "3.5",
+            "--json",
+        ])
+        .done()
+        .json();
+    close(at(&result, "fit.slope"), 2e-3, 1e-15);
+    close(
+        result["forces"][0]["force_n"].as_f64().unwrap(),
+        1500.0,
+        1e-9,
+    );
+}
+
+#[test]
+fn what_cannot_be_meant_is_refused() {
+    let folder = Folder::with(PUMP);
+    folder.write("c.csv", "force [N],volt\n0,1\n1,x\n");
+    for (arguments, words) in [
+        (&["--torque", "2 N"][..], &["--torque", "torque"][..]),
+        (&["--torque", "2 N m", "--force", "1 N"], &["--force"]),
+        (&["--friction", "-0.1"], &["-0.1"]),
+        (&["--friction", "0.1", "--tilt", "10 deg"], &["--tilt"]),
+        (&["--tilt", "90 deg"], &["tilt"]),
+        (&["--weight", "9 N"], &["--drum-radius"]),
+        (&["--every", "0 deg"], &["positive"]),
+        (&["--every", "1e-9 deg"], &["rows"]),
+        (&["--out", "-", "--json"], &["standard output"]),
+    ] {
+        let arguments = [&["statics", "scene.toml"][..], arguments].concat();
+        let outcome = folder.run(&arguments);
+        assert_eq!(
+            (outcome.code, outcome.stdout.as_str()),
+            (Some(2), ""),
+            "{arguments:?}"
+        );
+        for word in words {
+            assert!(
+                outcome.stderr.contains(word),
+                "{word} in {}",
+                outcome.stderr
+            );
+        }
+    }
+    folder
+        .run(&["statics", "--calibration", "c.csv"])
+        .fails(2, &["c.csv line 3", "column 2", "`x`"]);
+}
