@@ -208,7 +208,6 @@ fn bands_without_noise_cover_the_force() {
     covers(&swing(), FitKind::Polynomial, Measured::Theta, 0.0, 1);
     covers(&swing(), FitKind::Polynomial, Measured::X, 0.0, 1);
     covers(&turns(), FitKind::Spline, Measured::Theta, 0.0, 1);
-    covers(&steady(), FitKind::Fourier, Measured::Theta, 0.0, 1);
 }
 
 /// Motions by formula on mechanisms of all kinds: turning either way, swinging back before the dead centres and passing
