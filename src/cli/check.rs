@@ -1,20 +1,39 @@
-//! `check`: all that is wrong with a scene file.
+//! `check`: all that is wrong with a scene file or a data file.
 
 use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Outcome, print, scene};
+use super::{Outcome, print, say, scene};
 use crate::error::Error;
+use crate::scene::{Measurement, Reading};
 
 /// Arguments of `check`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
-    /// Scene file, `-` for standard input; without it the built-in Duarte engine
+    /// Scene file, or measured motion as a file ending in .csv; `-` for a scene from standard input; without it the
+    /// built-in Duarte engine
     scene: Option<PathBuf>,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+    if let Some(file) = &arguments.scene
+        && file
+            .extension()
+            .is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
+    {
+        let motion = Measurement::load(file, &Reading::default())?;
+        print(&format!(
+            "{}: nothing is wrong with {} samples of {}\n",
+            file.display(),
+            motion.len(),
+            motion.measured().name()
+        ))?;
+        for note in motion.notes() {
+            say(&format!("note: {note}"));
+        }
+        return Ok(Outcome::Done);
+    }
     let scene = scene(arguments.scene.as_ref())?;
     let name = match &arguments.scene {
         Some(file) if file.as_os_str() == "-" => "standard input".to_owned(),

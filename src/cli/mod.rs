@@ -2,6 +2,7 @@
 
 mod check;
 mod explain;
+mod inverse;
 mod kinematics;
 mod precision;
 mod reproduce;
@@ -32,6 +33,8 @@ struct Arguments {
 enum Command {
     /// Forward motion: summary, rows, joint forces
     Simulate(simulate::Arguments),
+    /// Slider force and crank torque from a measured motion
+    Inverse(inverse::Arguments),
     /// One turn in closed form: dead centres, stroke, time ratio, extremes
     Kinematics(kinematics::Arguments),
     /// Speed against error: every method at a ladder of tolerances
@@ -42,7 +45,7 @@ enum Command {
     Reproduce(reproduce::Arguments),
     /// The equation, what is modelled and why, and what will compute it
     Explain(explain::Arguments),
-    /// Says all that is wrong with a scene file
+    /// Says all that is wrong with a scene file or a data file
     Check(check::Arguments),
     /// JSON Schema of scene files
     Schema(schema::Arguments),
@@ -60,6 +63,7 @@ pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let result = match arguments.command {
         Command::Simulate(arguments) => simulate::run(&arguments),
+        Command::Inverse(arguments) => inverse::run(&arguments),
         Command::Kinematics(arguments) => kinematics::run(&arguments),
         Command::Precision(arguments) => precision::run(&arguments),
         Command::Statics(arguments) => statics::run(&arguments),

@@ -1,12 +1,17 @@
 //! Small numerical tools, each with its source.
 
 pub mod angle;
+pub mod banded;
 pub mod chebyshev;
 pub mod difference;
+pub mod double;
 pub mod double_double;
 pub mod exact;
+pub mod fit;
 pub mod gauss;
 pub mod interpolate;
 pub mod line_fit;
+pub mod orthogonal;
 pub mod root;
+pub mod student;
 pub mod trigonometry;

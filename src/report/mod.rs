@@ -3,6 +3,7 @@
 mod calibration;
 mod explain;
 mod figure;
+mod inverse;
 mod joint;
 mod motion;
 mod one_turn;
@@ -16,6 +17,7 @@ mod text;
 pub use calibration::calibration;
 pub use explain::explanation;
 pub use figure::{Axis, Figure, ScaleKind, panels};
+pub use inverse::{inverse, inverse_figure, inverse_rows, residuals};
 pub use motion::PlotRows;
 pub use one_turn::{TurnWriter, turn, turn_figure};
 pub use output::Output;

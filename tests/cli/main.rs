@@ -5,6 +5,7 @@ mod bad_input;
 mod clearance;
 mod commands;
 mod files;
+mod inverse;
 mod kinematics;
 mod limits;
 mod one_turn;

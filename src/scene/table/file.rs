@@ -143,7 +143,8 @@ fn point(record: &StringRecord) -> Result<(f64, f64), String> {
     Ok((number(0)?, number(1)?))
 }
 
-fn delimiter(text: &str) -> u8 {
+/// What separates the columns: a semicolon or a tab if the first line has one, else a comma.
+pub(in crate::scene) fn delimiter(text: &str) -> u8 {
     let first = text
         .trim_start_matches('\u{feff}')
         .lines()

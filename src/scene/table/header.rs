@@ -5,7 +5,7 @@ use crate::scene::unit::{self, Quantity};
 
 /// A header split into the name and the unit of its column.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Header {
+pub(in crate::scene) struct Header {
     /// What the column holds, in lower case.
     pub name: String,
     /// Its unit as written, empty if there is none.
@@ -13,7 +13,7 @@ pub struct Header {
 }
 
 /// Splits a column header.
-pub fn split(text: &str) -> Header {
+pub(in crate::scene) fn split(text: &str) -> Header {
     let text = text.trim().trim_start_matches('\u{feff}');
     for (open, close) in [('[', ']'), ('(', ')')] {
         if let Some((name, rest)) = text.split_once(open)
@@ -40,7 +40,7 @@ fn header(name: &str, unit: &str) -> Header {
 
 impl Header {
     /// The unit of the column, which must hold `quantity`.
-    pub fn column(self, quantity: Quantity) -> Result<Column, String> {
+    pub(in crate::scene) fn column(self, quantity: Quantity) -> Result<Column, String> {
         if self.unit.is_empty() {
             return Err(format!(
                 "the column `{}` has no unit: write it like `{} [{}]`",

@@ -1,8 +1,8 @@
 //! Loads given by measured or designed values: two columns, interpolated.
 
-mod file;
-mod header;
-mod rows;
+pub(super) mod file;
+pub(super) mod header;
+pub(super) mod rows;
 
 use std::fmt;
 

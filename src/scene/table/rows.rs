@@ -9,7 +9,8 @@ use crate::scene::number::{apart, counted, show, with_unit};
 const SAME: f64 = 1e-9;
 
 /// The unit in which messages show the numbers of a column.
-pub(super) struct Column {
+#[derive(Clone, Debug)]
+pub(in crate::scene) struct Column {
     /// SI value of one unit.
     pub factor: f64,
     pub unit: String,

@@ -1,0 +1,150 @@
+//! `inverse`: slider force and crank torque from a measured motion.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::{Outcome, is_standard, print, say, scene};
+use crate::error::Error;
+use crate::report::{self, Output};
+use crate::scene::{Measured, Measurement, Reading};
+use crate::study::{self, AsPrinted, FitKind, FitSize, InverseOptions};
+
+/// Arguments of `inverse`.
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    /// Scene file; without it the built-in Duarte engine
+    scene: Option<PathBuf>,
+    /// Measured motion as CSV, `-` for standard input: time and theta, gamma or x, units in the header; without it
+    /// (and without a scene) the motion of Duarte et al.
+    data: Option<PathBuf>,
+    /// Kind of curve fitted to the motion: polynomial, spline or fourier
+    #[arg(long, value_name = "KIND", default_value = "polynomial", value_parser = kind)]
+    fit: FitKind,
+    /// Degree of the polynomial, number of harmonics, or number of pieces of the spline; `auto` chooses it from the
+    /// samples
+    #[arg(long, value_name = "NUMBER", default_value = "auto", value_parser = size, allow_hyphen_values = true)]
+    degree: FitSize,
+    /// The measured column, where the file has several: theta, gamma or x
+    #[arg(long, value_name = "NAME")]
+    column: Option<Measured>,
+    /// What the columns of a file without header are, like "t [s],theta [deg]"
+    #[arg(long, value_name = "HEADER")]
+    columns: Option<String>,
+    /// Gives the force that acts beside the forces of the scene, not the whole force on the slider
+    #[arg(long)]
+    beside_forces: bool,
+    /// Writes the rows as CSV to this file, `-` for standard output
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Adds joint, guide and shaking forces to the rows
+    #[arg(long)]
+    reactions: bool,
+    /// Adds the slider force by the energies that Duarte et al. print, and by their equation (9) as printed, to the rows
+    #[arg(long)]
+    as_printed: bool,
+    /// Writes samples, fit and residuals as CSV to this file
+    #[arg(long, value_name = "FILE")]
+    residuals: Option<PathBuf>,
+    /// Draws samples, fit, residuals, force and torque with their bands to this SVG file
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+    /// Prints the summary as one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+fn kind(text: &str) -> Result<FitKind, String> {
+    let found = FitKind::ALL.into_iter().find(|kind| kind.name() == text);
+    found.ok_or_else(|| "the fit is polynomial, spline or fourier".to_owned())
+}
+
+/// Larger degrees are a slip.
+const HIGHEST: usize = 10_000;
+
+fn size(text: &str) -> Result<FitSize, String> {
+    if text == "auto" {
+        return Ok(FitSize::Auto);
+    }
+    match text.parse() {
+        Ok(size) if size <= HIGHEST => Ok(FitSize::Fixed(size)),
+        Ok(_) => Err(format!("the degree is `auto` or at most {HIGHEST}")),
+        Err(_) => Err("the degree is a whole number or `auto`".to_owned()),
+    }
+}
+
+fn measurement(arguments: &Arguments) -> Result<Measurement, Error> {
+    let reading = Reading {
+        columns: arguments.columns.clone(),
+        column: arguments.column,
+    };
+    match (&arguments.scene, &arguments.data) {
+        (_, Some(data)) => Measurement::load(data, &reading),
+        (None, None) => Ok(Measurement::duarte()),
+        (Some(_), None) => Err(Error::refused(
+            "inverse needs a scene and the data of a motion",
+            "slider-crank inverse SCENE DATA.csv",
+        )),
+    }
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+    let rows_on_stdout = is_standard(arguments.out.as_ref());
+    if is_standard(arguments.residuals.as_ref()) || is_standard(arguments.plot.as_ref()) {
+        return Err(Error::refused(
+            "residuals and figure go to files",
+            "write --residuals residuals.csv, --plot figure.svg",
+        ));
+    }
+    if rows_on_stdout && arguments.json {
+        return Err(Error::refused(
+            "both the rows and the JSON summary would go to standard output",
+            "write the rows to a file: --out rows.csv",
+        ));
+    }
+    let standard = |path: &Option<PathBuf>| path.as_deref() == Some(Path::new("-"));
+    if standard(&arguments.scene) && standard(&arguments.data) {
+        return Err(Error::refused(
+            "scene and data cannot both come from standard input",
+            "give one of them as a file",
+        ));
+    }
+    let scene = scene(arguments.scene.as_ref())?;
+    let measurement = measurement(arguments)?;
+    let options = InverseOptions {
+        fit: arguments.fit,
+        size: arguments.degree,
+        reactions: arguments.reactions,
+        beside_forces: arguments.beside_forces,
+    };
+    let printed = arguments
+        .as_printed
+        .then(|| AsPrinted::new(&scene))
+        .transpose()?;
+    let out = arguments.out.as_deref().map(Output::create).transpose()?;
+    let residuals = arguments
+        .residuals
+        .as_deref()
+        .map(Output::create)
+        .transpose()?;
+    let plot = arguments.plot.as_deref().map(Output::create).transpose()?;
+    let result = study::inverse(&scene, &measurement, &options)?;
+    if let Some(output) = out {
+        report::inverse_rows(&result, printed.as_ref(), output)?;
+    }
+    if let Some(output) = residuals {
+        report::residuals(&result, output)?;
+    }
+    if let Some(mut output) = plot {
+        output.write(report::inverse_figure(&result)?.as_bytes())?;
+        output.finish()?;
+    }
+    if arguments.json {
+        print(&report::json(&result.summary)?)?;
+    } else if rows_on_stdout {
+        say(report::inverse(&result).trim_end());
+    } else {
+        print(&report::inverse(&result))?;
+    }
+    Ok(Outcome::Done)
+}

@@ -1,0 +1,139 @@
+//! One type for all fitted curves.
+
+use super::pieces::DEGREE;
+use super::{Fourier, Polynomial, Quality, Samples, Size, Spline, State};
+
+/// Kinds of curves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// One polynomial.
+    Polynomial,
+    /// A smoothing spline.
+    Spline,
+    /// Steady rotation with harmonics.
+    Fourier,
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Kind; 3] = [Kind::Polynomial, Kind::Spline, Kind::Fourier];
+
+    /// Its name in options and outputs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Polynomial => "polynomial",
+            Kind::Spline => "spline",
+            Kind::Fourier => "fourier",
+        }
+    }
+
+    /// Number of parameters of a curve of this size; of a spline without its penalty.
+    fn parameters(self, size: usize) -> usize {
+        match self {
+            Kind::Polynomial => size + 1,
+            Kind::Spline => size + DEGREE,
+            Kind::Fourier => 2 * size + 2,
+        }
+    }
+}
+
+/// A fitted curve.
+#[derive(Clone, Debug)]
+pub enum Curve {
+    /// One polynomial.
+    Polynomial(Polynomial),
+    /// A smoothing spline.
+    Spline(Spline),
+    /// Steady rotation with harmonics.
+    Fourier(Fourier),
+}
+
+impl Curve {
+    /// Fits a curve.
+    ///
+    /// # Errors
+    /// A text that says why the samples do not serve.
+    pub fn fit(samples: &Samples<'_>, kind: Kind, size: Size) -> Result<Curve, String> {
+        let counting = match samples.weight {
+            Some(weight) => weight.iter().filter(|w| **w != 0.0).count(),
+            None => samples.t.len(),
+        };
+        if let Size::Fixed(size) = size {
+            let parameters = kind.parameters(size);
+            if kind == Kind::Spline && size == 0 {
+                return Err("a spline has at least one piece".to_owned());
+            }
+            if counting <= parameters {
+                return Err(format!(
+                    "{counting} samples are too few for {parameters} parameters"
+                ));
+            }
+        }
+        match kind {
+            Kind::Polynomial => Ok(Curve::Polynomial(Polynomial::fit(samples, size))),
+            Kind::Spline => Spline::fit(samples, size).map(Curve::Spline),
+            Kind::Fourier => Fourier::fit(samples, size).map(Curve::Fourier),
+        }
+    }
+
+    /// The curve and its derivatives.
+    pub fn state(&self, t: f64) -> State {
+        match self {
+            Curve::Polynomial(polynomial) => polynomial.state(t),
+            Curve::Spline(spline) => spline.state(t),
+            Curve::Fourier(fourier) => fourier.state(t),
+        }
+    }
+
+    /// What it leaves of the samples.
+    pub fn quality(&self) -> Quality {
+        match self {
+            Curve::Polynomial(polynomial) => polynomial.quality(),
+            Curve::Spline(spline) => spline.quality(),
+            Curve::Fourier(fourier) => fourier.quality(),
+        }
+    }
+
+    /// Its kind.
+    pub fn kind(&self) -> Kind {
+        match self {
+            Curve::Polynomial(_) => Kind::Polynomial,
+            Curve::Spline(_) => Kind::Spline,
+            Curve::Fourier(_) => Kind::Fourier,
+        }
+    }
+
+    /// Degree of the polynomial or of the spline's pieces, number of harmonics.
+    pub fn degree(&self) -> usize {
+        match self {
+            Curve::Spline(_) => DEGREE,
+            other => other.size(),
+        }
+    }
+
+    /// Coefficients, their standard errors for samples of unit variance, and the condition number that belongs to
+    /// them.
+    pub fn coefficients(&self) -> (Vec<f64>, Vec<f64>, f64) {
+        match self {
+            Curve::Polynomial(polynomial) => {
+                let powers = polynomial.powers();
+                (
+                    powers.coefficients.clone(),
+                    powers.errors.clone(),
+                    powers.condition,
+                )
+            }
+            Curve::Spline(spline) => spline.coefficients(),
+            Curve::Fourier(fourier) => fourier.coefficients(),
+        }
+    }
+
+    /// Degree of the polynomial, number of pieces of the spline, number of harmonics.
+    pub fn size(&self) -> usize {
+        match self {
+            Curve::Polynomial(polynomial) => polynomial.degree(),
+            Curve::Spline(spline) => spline.pieces(),
+            Curve::Fourier(fourier) => fourier.harmonics(),
+        }
+    }
+}

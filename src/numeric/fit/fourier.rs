@@ -1,0 +1,225 @@
+//! Steady rotation plus harmonics: θ = c + Ω τ + Σ a_k cos kΩτ + b_k sin kΩτ, τ counted from the middle of the record.
+
+use super::choice::{best, undecided};
+use super::triangle::Triangle;
+use super::{Quality, Samples, Size, State, add_products};
+
+/// Most harmonics that are chosen from the samples.
+const MOST: usize = 64;
+
+/// Harmonics that are added to the best number, so that what is left out stays below what is uncertain.
+const MARGIN: usize = 1;
+
+/// Corrections of the rotation after which a fit is given up.
+const ROUNDS: usize = 40;
+
+/// A fitted steady rotation with harmonics.
+#[derive(Clone, Debug)]
+pub struct Fourier {
+    middle: f64,
+    /// c, Ω, a_1, b_1, a_2, b_2, ...
+    parameters: Vec<f64>,
+    triangle: Triangle,
+    quality: Quality,
+}
+
+/// Value and two derivatives in time.
+type Jet = [f64; 3];
+
+impl Fourier {
+    /// Fits rotation and harmonics.
+    ///
+    /// # Errors
+    /// A text that says why the samples do not serve.
+    pub fn fit(samples: &Samples<'_>, size: Size) -> Result<Fourier, String> {
+        let (first, last) = (samples.t[0], samples.t[samples.t.len() - 1]);
+        let middle = 0.5 * first + 0.5 * last;
+        let line = solve(samples, middle, &[0.0, 0.0], 0)?.1;
+        let mut parameters = vec![line[0], line[1]];
+        let rounds = if size == Size::Auto { 3 } else { 1 };
+        for _ in 0..rounds {
+            let turns = parameters[1].abs() * (last - first) / std::f64::consts::TAU;
+            if turns < 1.2 {
+                return Err(format!(
+                    "a fit by rotation and harmonics needs more than one turn in one sense, here are {turns:.2}"
+                ));
+            }
+            let count = match size {
+                Size::Fixed(count) => count,
+                Size::Auto => harmonics(samples, middle, &parameters)?,
+            };
+            parameters.resize(2 + 2 * count, 0.0);
+            settle(samples, middle, &mut parameters)?;
+        }
+        let (triangle, _) = solve(samples, middle, &parameters, parameters.len() / 2 - 1)?;
+        let squares = squares(samples, middle, &parameters);
+        let free = (samples.t.len() - parameters.len()).max(1) as f64;
+        Ok(Fourier {
+            middle,
+            quality: Quality {
+                squares,
+                parameters: parameters.len() as f64,
+                sigma: (squares / free).sqrt().max(samples.floor),
+                floor: samples.floor,
+            },
+            parameters,
+            triangle,
+        })
+    }
+
+    /// Number of harmonics.
+    pub fn harmonics(&self) -> usize {
+        self.parameters.len() / 2 - 1
+    }
+
+    /// What it leaves of the samples.
+    pub fn quality(&self) -> Quality {
+        self.quality
+    }
+
+    /// c, Ω, a_1, b_1, a_2, b_2, ..., their standard errors for samples of unit variance, and the condition number of
+    /// the design matrix.
+    pub fn coefficients(&self) -> (Vec<f64>, Vec<f64>, f64) {
+        let (errors, condition) = self.triangle.errors();
+        (self.parameters.clone(), errors, condition)
+    }
+
+    /// The curve and its derivatives at `t`.
+    pub fn state(&self, t: f64) -> State {
+        let (value, mut columns) = columns(t - self.middle, &self.parameters);
+        let mut state = State {
+            value: [value[0], value[1], value[2]],
+            ..State::default()
+        };
+        for (column, parameter) in columns.iter().zip(&self.parameters) {
+            for (rounding, value) in state.rounding.iter_mut().zip(column) {
+                *rounding += 4.0 * f64::EPSILON * (value * parameter).abs();
+            }
+        }
+        self.triangle.transposed_solve(&mut columns);
+        for column in &columns {
+            add_products(&mut state.covariance, column, 1.0);
+        }
+        state
+    }
+}
+
+/// The curve with three derivatives, and the derivative of the curve by each parameter, with two in time.
+fn columns(tau: f64, parameters: &[f64]) -> ([f64; 4], Vec<Jet>) {
+    let omega = parameters[1];
+    let mut value = [parameters[0] + omega * tau, omega, 0.0, 0.0];
+    let mut columns = vec![[1.0, 0.0, 0.0], [0.0; 3]];
+    let mut rate = 0.0;
+    for pair in parameters[2..].chunks_exact(2) {
+        rate += omega;
+        let (sin, cos) = (rate * tau).sin_cos();
+        let squared = rate * rate;
+        let (even, odd) = (pair[0] * cos + pair[1] * sin, pair[1] * cos - pair[0] * sin);
+        value[0] += even;
+        value[1] += rate * odd;
+        value[2] -= squared * even;
+        value[3] -= squared * rate * odd;
+        columns.push([cos, -rate * sin, -squared * cos]);
+        columns.push([sin, rate * cos, -squared * sin]);
+    }
+    let per = if omega == 0.0 { 0.0 } else { 1.0 / omega };
+    columns[1] = [
+        if omega == 0.0 {
+            tau
+        } else {
+            tau * value[1] * per
+        },
+        if omega == 0.0 {
+            1.0
+        } else {
+            (value[1] + tau * value[2]) * per
+        },
+        (2.0 * value[2] + tau * value[3]) * per,
+    ];
+    (value, columns)
+}
+
+fn squares(samples: &Samples<'_>, middle: f64, parameters: &[f64]) -> f64 {
+    residuals(samples, middle, parameters)
+        .map(|(_, _, r)| r * r)
+        .sum()
+}
+
+/// Weight, columns and residual of each sample.
+fn residuals<'a>(
+    samples: &'a Samples<'a>,
+    middle: f64,
+    parameters: &'a [f64],
+) -> impl Iterator<Item = (f64, Vec<Jet>, f64)> + 'a {
+    samples.t.iter().enumerate().map(move |(i, t)| {
+        let weight = samples.weight.map_or(1.0, |w| w[i]);
+        let (value, columns) = columns(t - middle, parameters);
+        (weight, columns, samples.target[i] - weight * value[0])
+    })
+}
+
+/// The triangle of the design matrix at these parameters, extended by zeros to `count` harmonics, and the correction
+/// of the parameters.
+fn solve(
+    samples: &Samples<'_>,
+    middle: f64,
+    parameters: &[f64],
+    count: usize,
+) -> Result<(Triangle, Vec<f64>), String> {
+    let mut extended = parameters.to_vec();
+    extended.resize(2 + 2 * count, 0.0);
+    let mut triangle = Triangle::new(extended.len());
+    for (weight, columns, residual) in residuals(samples, middle, &extended) {
+        triangle.add(columns.iter().map(|column| weight * column[0]), residual);
+    }
+    let step = triangle.solve();
+    match step {
+        Some(step) if step.iter().all(|s| s.is_finite()) => Ok((triangle, step)),
+        _ => Err("the samples do not determine rotation and harmonics".to_owned()),
+    }
+}
+
+/// The number of harmonics that the samples support at about this rotation.
+fn harmonics(samples: &Samples<'_>, middle: f64, parameters: &[f64]) -> Result<usize, String> {
+    let rows = samples.t.len();
+    let least = rows as f64 * samples.floor * samples.floor;
+    let most = MOST.min((rows / 2).saturating_sub(2) / 2);
+    let mut tried = 4.min(most);
+    loop {
+        let line = &parameters[..2];
+        let (triangle, _) = solve(samples, middle, line, tried)?;
+        let squares: Vec<f64> = triangle.squares().into_iter().skip(2).collect();
+        // Both parameters of a harmonic come together.
+        let pairs: Vec<f64> = squares.iter().step_by(2).copied().collect();
+        let found = best(rows, 2, 2, &pairs, least);
+        if tried == most || !undecided(rows, 2, 2, &pairs, least) {
+            return Ok((found + MARGIN).min(most));
+        }
+        tried = (2 * tried).min(most);
+    }
+}
+
+/// Gauss and Newton's method for all parameters.
+fn settle(samples: &Samples<'_>, middle: f64, parameters: &mut [f64]) -> Result<(), String> {
+    let count = parameters.len() / 2 - 1;
+    let mut before = f64::INFINITY;
+    for _ in 0..ROUNDS {
+        let (_, step) = solve(samples, middle, parameters, count)?;
+        for (parameter, step) in parameters.iter_mut().zip(&step) {
+            *parameter += step;
+        }
+        let size: f64 = step
+            .iter()
+            .zip(parameters.iter())
+            .map(|(s, p)| (s / (1.0 + p.abs())).abs())
+            .fold(0.0, f64::max);
+        if size <= 1e-15 || size < 1e-9 && size >= 0.5 * before {
+            return Ok(());
+        }
+        before = size;
+    }
+    if before < 1e-6 {
+        return Ok(());
+    }
+    Err("the fit by rotation and harmonics does not settle".to_owned())
+}

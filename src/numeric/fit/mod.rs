@@ -1,0 +1,106 @@
+//! Curves fitted to samples by least squares, with their derivatives and what is known of their errors.
+
+mod choice;
+mod curve;
+mod fourier;
+mod penalized;
+mod pieces;
+mod polynomial;
+mod powers;
+mod spline;
+mod triangle;
+
+pub use curve::{Curve, Kind};
+pub use fourier::Fourier;
+pub use polynomial::Polynomial;
+pub use powers::Powers;
+pub use spline::Spline;
+
+/// Rows `weight`·y(t) = `target` of a least-squares problem; t rises strictly.
+#[derive(Clone, Copy, Debug)]
+pub struct Samples<'a> {
+    /// Arguments.
+    pub t: &'a [f64],
+    /// Right-hand sides.
+    pub target: &'a [f64],
+    /// Weights; none: all 1.
+    pub weight: Option<&'a [f64]>,
+    /// Standard deviation of a target that is due to its digits alone.
+    pub floor: f64,
+}
+
+/// How many terms a fit has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Size {
+    /// As many as the samples support.
+    Auto,
+    /// Degree of the polynomial, number of harmonics.
+    Fixed(usize),
+}
+
+/// Value, first and second derivative of a fitted curve at one argument.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct State {
+    /// The curve and its derivatives.
+    pub value: [f64; 3],
+    /// What rounding may have done to them.
+    pub rounding: [f64; 3],
+    /// Covariance of the three, for samples of unit variance: rows of the lower triangle.
+    pub covariance: [f64; 6],
+    /// Mean products of what terms that are left out may add to the three, in the same order.
+    pub bias: [f64; 6],
+}
+
+impl State {
+    /// Variance of a combination of the three, for samples of unit variance.
+    pub fn variance(&self, gradient: &[f64; 3]) -> f64 {
+        quadratic(&self.covariance, gradient)
+    }
+
+    /// Square of what terms that are left out may add to a combination of the three.
+    pub fn bias_of(&self, gradient: &[f64; 3]) -> f64 {
+        quadratic(&self.bias, gradient)
+    }
+
+    /// What rounding may have done to a combination of the three.
+    pub fn rounding_of(&self, gradient: &[f64; 3]) -> f64 {
+        let parts = gradient.iter().zip(&self.rounding);
+        parts.map(|(g, r)| (g * r).abs()).sum()
+    }
+}
+
+/// gᵀ S g for a symmetric matrix given by its lower triangle.
+fn quadratic(matrix: &[f64; 6], gradient: &[f64; 3]) -> f64 {
+    let [aa, ba, bb, ca, cb, cc] = *matrix;
+    let [a, b, c] = *gradient;
+    let sum =
+        a * (a * aa + 2.0 * b * ba) + b * (b * bb + 2.0 * c * cb) + c * (c * cc + 2.0 * a * ca);
+    sum.max(0.0)
+}
+
+/// Adds the products of a vector with itself to a lower triangle.
+fn add_products(matrix: &mut [f64; 6], vector: &[f64; 3], factor: f64) {
+    let mut entry = 0;
+    for k in 0..3 {
+        for l in 0..=k {
+            matrix[entry] += factor * vector[k] * vector[l];
+            entry += 1;
+        }
+    }
+}
+
+/// What a fit leaves of the samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quality {
+    /// Sum of squared residuals.
+    pub squares: f64,
+    /// Number of parameters, or what they are worth under a penalty.
+    pub parameters: f64,
+    /// Estimated standard deviation of a target, at least that of its digits.
+    pub sigma: f64,
+    /// That of its digits.
+    pub floor: f64,
+}
+
+/// The most rows for which polynomials are fitted in double-double arithmetic.
+const MOST_IN_DOUBLE: usize = 100_000;

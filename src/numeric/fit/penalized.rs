@@ -1,0 +1,210 @@
+//! Penalized least squares with B-splines, and the penalty of the largest restricted likelihood.
+
+use super::Samples;
+use super::pieces::{DEGREE, Grid, basis};
+use crate::numeric::banded::{Banded, DIAGONALS};
+
+/// Order of the differences that are kept small.
+pub(super) const ORDER: usize = 4;
+
+/// Sums over the samples for one grid.
+pub(super) struct Normal<'a> {
+    pub grid: Grid,
+    samples: &'a Samples<'a>,
+    pub matrix: Banded,
+    penalty: Banded,
+    /// Logarithm of the product of the penalty's nonzero eigenvalues.
+    log_penalty: f64,
+}
+
+impl<'a> Normal<'a> {
+    pub fn new(samples: &'a Samples<'a>, pieces: usize) -> Normal<'a> {
+        let grid = Grid::new(samples, pieces);
+        let mut matrix = Banded::new(grid.size());
+        for (i, t) in samples.t.iter().enumerate() {
+            let (piece, u) = grid.place(*t);
+            let b = basis(DEGREE, u);
+            let weight = samples.weight.map_or(1.0, |w| w[i] * w[i]);
+            for row in 0..DIAGONALS {
+                for column in 0..=row {
+                    matrix.add(piece + row, piece + column, weight * b[row] * b[column]);
+                }
+            }
+        }
+        let (penalty, log_penalty) = penalty(grid.size());
+        Normal {
+            grid,
+            samples,
+            matrix,
+            penalty,
+            log_penalty,
+        }
+    }
+
+    /// Residuals of the samples, their sum of squares, and Bᵀ times them.
+    pub fn residuals(&self, coefficients: &[f64]) -> (f64, Vec<f64>) {
+        let mut right = vec![0.0; self.grid.size()];
+        let mut squares = 0.0;
+        for (i, (t, target)) in self.samples.t.iter().zip(self.samples.target).enumerate() {
+            let (piece, u) = self.grid.place(*t);
+            let b = basis(DEGREE, u);
+            let weight = self.samples.weight.map_or(1.0, |w| w[i]);
+            let part = &coefficients[piece..piece + DIAGONALS];
+            let value: f64 = b.iter().zip(part).map(|(b, c)| b * c).sum();
+            let residual = target - weight * value;
+            squares += residual * residual;
+            for (right, b) in right[piece..].iter_mut().zip(b) {
+                *right += weight * b * residual;
+            }
+        }
+        (squares, right)
+    }
+
+    /// Whether the residuals look like noise: hardly correlated, each with the next.
+    pub fn follows(&self, coefficients: &[f64]) -> bool {
+        let (mut squares, mut products, mut before) = (0.0, 0.0, 0.0);
+        for (i, (t, target)) in self.samples.t.iter().zip(self.samples.target).enumerate() {
+            let (piece, u) = self.grid.place(*t);
+            let part = &coefficients[piece..piece + DIAGONALS];
+            let value: f64 = basis(DEGREE, u).iter().zip(part).map(|(b, c)| b * c).sum();
+            let residual = target - self.samples.weight.map_or(1.0, |w| w[i]) * value;
+            squares += residual * residual;
+            products += residual * before;
+            before = residual;
+        }
+        products <= 3.0 * squares / (self.samples.t.len() as f64).sqrt()
+    }
+
+    /// Cholesky's factor of the normal matrix with a penalty of this strength.
+    pub fn factor(&self, strength: f64) -> Option<Banded> {
+        self.matrix.plus(strength, &self.penalty).cholesky()
+    }
+
+    /// Improves a solution for one strength of the penalty until rounding.
+    fn solve(&self, strength: f64, factor: &Banded, from: Vec<f64>) -> Vec<f64> {
+        let mut coefficients = from;
+        for _ in 0..3 {
+            let (_, mut right) = self.residuals(&coefficients);
+            let pull = self.penalty.times(&coefficients);
+            right
+                .iter_mut()
+                .zip(pull)
+                .for_each(|(r, p)| *r -= strength * p);
+            let step = factor.solve(&right);
+            coefficients.iter_mut().zip(step).for_each(|(c, s)| *c += s);
+        }
+        coefficients
+    }
+}
+
+/// Weights of a difference: binomial coefficients of alternating sign.
+fn difference() -> [f64; ORDER + 1] {
+    let mut difference = [0.0; ORDER + 1];
+    difference[0] = 1.0;
+    for order in 1..=ORDER {
+        for k in (1..=order).rev() {
+            difference[k] -= difference[k - 1];
+        }
+    }
+    difference
+}
+
+/// Sum of squares of the differences of coefficients.
+pub(super) fn roughness(coefficients: &[f64]) -> f64 {
+    let difference = difference();
+    let one = |w: &[f64]| w.iter().zip(difference).map(|(c, d)| c * d).sum::<f64>();
+    coefficients
+        .windows(ORDER + 1)
+        .map(|w| one(w) * one(w))
+        .sum()
+}
+
+/// DᵀD for differences of `ORDER`, and the logarithm of the determinant of DDᵀ.
+fn penalty(size: usize) -> (Banded, f64) {
+    let difference = difference();
+    let mut penalty = Banded::new(size);
+    for row in 0..size - ORDER {
+        for i in 0..=ORDER {
+            for j in 0..=i {
+                penalty.add(row + i, row + j, difference[i] * difference[j]);
+            }
+        }
+    }
+    // The determinant of the symmetric Toeplitz matrix of the symbol (2 − 2 cos)^ORDER, but for a constant factor
+    // (Böttcher and Silbermann, Integral Equations Oper. Theory 9 (1986) 1; for order 1 it is the size plus 1).
+    let rows = (size - ORDER) as f64;
+    let pairs = (0..ORDER).flat_map(|i| (0..ORDER).map(move |j| i + j));
+    let log_determinant = pairs.map(|k| (rows + 1.0 + k as f64).ln()).sum();
+    (penalty, log_determinant)
+}
+
+/// A grid with its best penalty.
+pub(super) struct Choice {
+    /// Minus twice the logarithm of the restricted likelihood.
+    pub cost: f64,
+    /// Strength of the penalty.
+    pub strength: f64,
+    pub coefficients: Vec<f64>,
+}
+
+impl Normal<'_> {
+    /// The strength of the penalty with the largest restricted likelihood.
+    pub fn choose(&self) -> Option<Choice> {
+        let rows = self.samples.t.len() as f64;
+        let size = self.grid.size();
+        let trace = (0..size).map(|i| self.matrix.get(i, i)).sum::<f64>() / size as f64;
+        let weak = 1e-7 * trace;
+        let near = self.solve(weak, &self.factor(weak)?, vec![0.0; size]);
+        let (squares, data) = self.residuals(&near);
+        let pull = self.penalty.times(&near);
+        let least = rows * self.samples.floor * self.samples.floor;
+        let free = rows - ORDER as f64;
+        // All sums are taken about the weakly smoothed solution, so that nothing cancels where the noise is small.
+        let cost = |log_strength: f64| {
+            let strength = trace * log_strength.exp();
+            let Some(factor) = self.factor(strength) else {
+                return f64::INFINITY;
+            };
+            let right: Vec<f64> = data
+                .iter()
+                .zip(&pull)
+                .map(|(r, p)| r - strength * p)
+                .collect();
+            let step = factor.solve(&right);
+            let fitted = self.matrix.times(&step);
+            // Squares of the residuals after the step, and the penalty from the differences themselves: sums of
+            // squares both, so that nothing cancels where the penalty is strong.
+            let change: f64 = (0..size)
+                .map(|i| step[i] * (fitted[i] - 2.0 * data[i]))
+                .sum();
+            let moved: Vec<f64> = near.iter().zip(&step).map(|(c, s)| c + s).collect();
+            let penalized = (squares + change).max(0.0) + strength * roughness(&moved);
+            let penalized = penalized.max(least);
+            free * (penalized / free).ln() + factor.log_determinant()
+                - (size - ORDER) as f64 * strength.ln()
+                - self.log_penalty
+        };
+        let log_strength = minimum(&cost, -15.0, 24.0);
+        let strength = trace * log_strength.exp();
+        Some(Choice {
+            cost: cost(log_strength),
+            strength,
+            coefficients: self.solve(strength, &self.factor(strength)?, near),
+        })
+    }
+}
+
+/// Place of the least value: a grid of 2, then golden section.
+fn minimum(f: &dyn Fn(f64) -> f64, from: f64, to: f64) -> f64 {
+    let steps = ((to - from) / 2.0).ceil() as usize;
+    let place = |i: usize| from + 2.0 * i as f64;
+    let values: Vec<f64> = (0..=steps).map(|i| f(place(i))).collect();
+    let best = (0..=steps).fold(0, |best, i| if values[i] < values[best] { i } else { best });
+    let (mut a, mut b) = (place(best.saturating_sub(1)), place((best + 1).min(steps)));
+    const GOLDEN: f64 = 0.618_033_988_749_895;
+    for _ in 0..14 {
+        let (c, d) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
+        if f(c) < f(d) { b = d } else { a = c }
+    }
+    0.5 * (a + b)
+}

@@ -1,0 +1,56 @@
+//! B-splines of degree 5 over evenly spaced knots.
+
+use super::Samples;
+use crate::numeric::banded::DIAGONALS;
+
+/// Degree of the pieces.
+pub(super) const DEGREE: usize = 5;
+
+/// Evenly spaced knots.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Grid {
+    pub start: f64,
+    /// Width of a piece.
+    pub width: f64,
+    pub pieces: usize,
+}
+
+impl Grid {
+    pub fn new(samples: &Samples<'_>, pieces: usize) -> Grid {
+        let (first, last) = (samples.t[0], samples.t[samples.t.len() - 1]);
+        Grid {
+            start: first,
+            width: (last - first) / pieces as f64,
+            pieces,
+        }
+    }
+
+    /// Number of coefficients.
+    pub fn size(&self) -> usize {
+        self.pieces + DEGREE
+    }
+
+    /// The piece at `t` and the place in it, from 0 to 1.
+    pub fn place(&self, t: f64) -> (usize, f64) {
+        let at = (t - self.start) / self.width;
+        let piece = (at.max(0.0) as usize).min(self.pieces - 1);
+        (piece, at - piece as f64)
+    }
+}
+
+/// The cardinal B-splines of a degree at place u of a piece (de Boor's recurrence on even knots).
+pub(super) fn basis(degree: usize, u: f64) -> [f64; DIAGONALS] {
+    let mut b = [0.0; DIAGONALS];
+    b[0] = 1.0;
+    for d in 1..=degree {
+        let per = 1.0 / d as f64;
+        let mut saved = 0.0;
+        for (r, value) in b.iter_mut().enumerate().take(d) {
+            let part = *value * per;
+            *value = saved + ((r + 1) as f64 - u) * part;
+            saved = (u + (d - 1 - r) as f64) * part;
+        }
+        b[d] = saved;
+    }
+    b
+}

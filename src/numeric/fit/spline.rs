@@ -1,0 +1,133 @@
+//! Smoothing splines: pieces of degree 5 with a penalty on the differences of their coefficients (Eilers and Marx,
+//! Statist. Sci. 11 (1996) 89). Penalty and number of pieces are those of the largest restricted likelihood, and the
+//! covariance is that of the Bayesian view, which has the error of smoothing in it (Wahba, J. R. Statist. Soc. B 45
+//! (1983) 133).
+
+use super::penalized::{Normal, ORDER, roughness};
+use super::pieces::{DEGREE, Grid, basis};
+use super::{Quality, Samples, Size, State};
+use crate::numeric::banded::{Banded, DIAGONALS};
+
+/// Pieces for each one that the samples ask for, so that the penalty and not the pieces decide how smooth it is.
+const FINER: usize = 4;
+
+/// Fewest pieces that are tried.
+const FEWEST: usize = 4;
+
+/// A fitted smoothing spline.
+#[derive(Clone, Debug)]
+pub struct Spline {
+    grid: Grid,
+    coefficients: Vec<f64>,
+    /// Band of the inverse of the penalized normal matrix.
+    inverse: Banded,
+    quality: Quality,
+    condition: f64,
+}
+
+impl Spline {
+    /// Fits a smoothing spline of this many pieces, or of as many as the samples ask for.
+    ///
+    /// # Errors
+    /// A text that says why the samples do not serve.
+    pub fn fit(samples: &Samples<'_>, size: Size) -> Result<Spline, String> {
+        let failed = || "the samples do not determine a spline".to_owned();
+        let rows = samples.t.len();
+        let pieces = match size {
+            Size::Fixed(pieces) => pieces,
+            Size::Auto => {
+                let most = (rows / 2).saturating_sub(DEGREE).max(1);
+                let (mut pieces, mut worse) = (FEWEST.min(most), 0);
+                let mut best: Option<(f64, usize, bool)> = None;
+                while pieces <= most && (worse < 2 || best.is_some_and(|best| !best.2)) {
+                    let normal = Normal::new(samples, pieces);
+                    let choice = normal.choose().ok_or_else(failed)?;
+                    if best.is_none_or(|best| choice.cost < best.0) {
+                        let follows = normal.follows(&choice.coefficients);
+                        best = Some((choice.cost, pieces, follows));
+                        worse = 0;
+                    } else {
+                        worse += 1;
+                    }
+                    pieces *= 2;
+                }
+                let enough = best.ok_or_else(failed)?.1;
+                (FINER * enough).min(most).max(enough)
+            }
+        };
+        let normal = Normal::new(samples, pieces);
+        let choice = normal.choose().ok_or_else(failed)?;
+        let factor = normal.factor(choice.strength).ok_or_else(failed)?;
+        let inverse = factor.inverse_band();
+        let (squares, _) = normal.residuals(&choice.coefficients);
+        let bent = roughness(&choice.coefficients);
+        let free = (rows - ORDER) as f64;
+        let sigma = ((squares + choice.strength * bent) / free).sqrt();
+        Ok(Spline {
+            grid: normal.grid,
+            quality: Quality {
+                squares,
+                parameters: inverse.trace_of_product(&normal.matrix),
+                sigma: sigma.max(samples.floor),
+                floor: samples.floor,
+            },
+            condition: factor.diagonal_ratio(),
+            coefficients: choice.coefficients,
+            inverse,
+        })
+    }
+
+    /// Number of its pieces.
+    pub fn pieces(&self) -> usize {
+        self.grid.pieces
+    }
+
+    /// What it leaves of the samples.
+    pub fn quality(&self) -> Quality {
+        self.quality
+    }
+
+    /// Coefficients of the B-splines, their standard errors for samples of unit variance, and the ratio of the largest
+    /// to the smallest pivot of their equations.
+    pub fn coefficients(&self) -> (Vec<f64>, Vec<f64>, f64) {
+        let error = |i| self.inverse.get(i, i).sqrt();
+        let errors = (0..self.coefficients.len()).map(error).collect();
+        (self.coefficients.clone(), errors, self.condition)
+    }
+
+    /// The spline and its derivatives at `t`.
+    pub fn state(&self, t: f64) -> State {
+        let (piece, u) = self.grid.place(t);
+        let per = 1.0 / self.grid.width;
+        let (value, lower, lowest) = (basis(DEGREE, u), basis(DEGREE - 1, u), basis(DEGREE - 2, u));
+        let at = |list: &[f64; DIAGONALS], i: usize, back: usize| {
+            if i >= back { list[i - back] } else { 0.0 }
+        };
+        let bases: [[f64; DIAGONALS]; 3] = [
+            value,
+            std::array::from_fn(|i| per * (at(&lower, i, 1) - lower[i])),
+            std::array::from_fn(|i| {
+                per * per * (at(&lowest, i, 2) - 2.0 * at(&lowest, i, 1) + lowest[i])
+            }),
+        ];
+        let mut state = State::default();
+        for (k, basis) in bases.iter().enumerate() {
+            for (b, c) in basis.iter().zip(&self.coefficients[piece..]) {
+                state.value[k] += b * c;
+                state.rounding[k] += 2.0 * f64::EPSILON * (b * c).abs();
+            }
+        }
+        let mut entry = 0;
+        for k in 0..3 {
+            for l in 0..=k {
+                for (i, a) in bases[k].iter().enumerate() {
+                    for (j, b) in bases[l].iter().enumerate() {
+                        state.covariance[entry] += a * b * self.inverse.get(piece + i, piece + j);
+                    }
+                }
+                entry += 1;
+            }
+        }
+        state
+    }
+}

@@ -1,0 +1,93 @@
+//! QR factorization of a tall matrix, some rows at a time: memory does not grow with the rows.
+
+use nalgebra::DMatrix;
+
+/// The triangle R of A = QR, with Qᵀ times the right-hand side.
+#[derive(Clone, Debug)]
+pub(super) struct Triangle {
+    size: usize,
+    /// Rows of A and b that are not in the triangle yet, below the triangle.
+    rows: DMatrix<f64>,
+    filled: usize,
+}
+
+impl Triangle {
+    /// For a matrix of this many columns.
+    pub fn new(size: usize) -> Triangle {
+        let width = size + 1;
+        Triangle {
+            size,
+            rows: DMatrix::zeros(width + (4 * width).max(64), width),
+            filled: width,
+        }
+    }
+
+    /// Takes a row of the matrix and its right-hand side.
+    pub fn add(&mut self, row: impl Iterator<Item = f64>, right: f64) {
+        for (column, value) in row.enumerate() {
+            self.rows[(self.filled, column)] = value;
+        }
+        self.rows[(self.filled, self.size)] = right;
+        self.filled += 1;
+        if self.filled == self.rows.nrows() {
+            self.reduce();
+        }
+    }
+
+    fn reduce(&mut self) {
+        let (rows, width) = self.rows.shape();
+        let r = std::mem::replace(&mut self.rows, DMatrix::zeros(0, 0))
+            .qr()
+            .unpack_r();
+        self.rows = DMatrix::zeros(rows, width);
+        self.rows.rows_mut(0, width).copy_from(&r);
+        self.filled = width;
+    }
+
+    /// The least-squares solution; none for a singular matrix.
+    pub fn solve(&mut self) -> Option<Vec<f64>> {
+        self.reduce();
+        let n = self.size;
+        let triangle = self.rows.view((0, 0), (n, n));
+        let solution = triangle.solve_upper_triangular(&self.rows.view((0, n), (n, 1)))?;
+        Some(solution.iter().copied().collect())
+    }
+
+    /// Sums of squared residuals with the first 0, 1, 2, ... columns alone.
+    pub fn squares(&self) -> Vec<f64> {
+        let mut sums = vec![0.0; self.size + 1];
+        let mut sum = 0.0;
+        for i in (0..=self.size).rev() {
+            sum += self.rows[(i, self.size)].powi(2);
+            sums[i] = sum;
+        }
+        sums
+    }
+
+    /// Solves Rᵀ x = b in place for three right-hand sides.
+    pub fn transposed_solve(&self, b: &mut [[f64; 3]]) {
+        for i in 0..self.size {
+            let (done, rest) = b.split_at_mut(i);
+            for (j, known) in done.iter().enumerate() {
+                for (value, known) in rest[0].iter_mut().zip(known) {
+                    *value -= self.rows[(j, i)] * known;
+                }
+            }
+            for value in &mut rest[0] {
+                *value /= self.rows[(i, i)];
+            }
+        }
+    }
+
+    /// Standard errors of the solution for a right-hand side of unit variance, and the condition number in the
+    /// Frobenius norm.
+    pub fn errors(&self) -> (Vec<f64>, f64) {
+        let n = self.size;
+        let triangle = self.rows.view((0, 0), (n, n)).upper_triangle();
+        let Some(inverse) = triangle.solve_upper_triangular(&DMatrix::identity(n, n)) else {
+            return (vec![f64::NAN; n], f64::INFINITY);
+        };
+        let errors = inverse.row_iter().map(|row| row.norm()).collect();
+        (errors, triangle.norm() * inverse.norm())
+    }
+}

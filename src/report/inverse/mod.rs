@@ -1,0 +1,9 @@
+//! Slider force from a measured motion, on paper.
+
+mod plot;
+mod rows;
+mod text;
+
+pub use plot::inverse_figure;
+pub use rows::{inverse_rows, residuals};
+pub use text::inverse;

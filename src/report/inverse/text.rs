@@ -1,0 +1,117 @@
+//! The summary of `inverse` as text.
+
+use std::fmt::Write;
+
+use crate::study::{ForceRange, Inverse, InverseRow};
+
+/// Rows of the table.
+const ROWS: usize = 16;
+
+/// Summary and some rows.
+pub fn inverse(result: &Inverse) -> String {
+    let summary = &result.summary;
+    let mut text = String::new();
+    let mut put = |name: &str, value: String| {
+        let _ = writeln!(text, "{name:<22} {value}");
+    };
+    if !summary.scene.is_empty() {
+        put("scene", summary.scene.clone());
+    }
+    let data = &summary.data;
+    put(
+        "data",
+        format!(
+            "{} samples of {} from {} to {} s, {:.4} turns",
+            data.rows, data.column, data.from_s, data.to_s, data.revolutions
+        ),
+    );
+    let fit = &summary.fit;
+    put(
+        "fit",
+        format!(
+            "{}, degree {}, {:.4} parameters",
+            fit.kind, fit.degree, fit.parameters
+        ),
+    );
+    if fit.kind != "spline" {
+        for (power, (c, e)) in fit
+            .coefficients
+            .iter()
+            .zip(&fit.standard_errors)
+            .enumerate()
+        {
+            let value = match (c, e) {
+                (Some(c), Some(e)) => format!("{c:.15e} +- {e:.2e}"),
+                _ => "no digits in plain time".to_owned(),
+            };
+            put(&format!("  coefficient {power}"), value);
+        }
+    }
+    put("  R^2", format!("{:.9}", fit.r_squared));
+    put("  residual rms", format!("{:.6e} {}", fit.rms, data.unit));
+    if let Some(condition) = fit.condition {
+        put("  condition", format!("{condition:.3e}"));
+    }
+    if let Some(force) = &summary.slider_force {
+        put("slider force", range(force, "N"));
+    } else {
+        put("slider force", "not determined at any sample".to_owned());
+    }
+    put("crank torque", range(&summary.crank_torque, "N m"));
+    for band in &summary.dead_centre_bands {
+        put(
+            "no slider force",
+            format!(
+                "t = {} to {} s, theta = {:.4} to {:.4} deg, {} rows: {}",
+                band.from_s,
+                band.to_s,
+                band.from_theta_rad.to_degrees(),
+                band.to_theta_rad.to_degrees(),
+                band.rows,
+                band.reason
+            ),
+        );
+    }
+    for warning in &summary.warnings {
+        put("warning", warning.clone());
+    }
+    table(&mut text, &result.rows);
+    text
+}
+
+fn range(range: &ForceRange, unit: &str) -> String {
+    format!(
+        "{:.6} {unit} at {} s to {:.6} {unit} at {} s, median standard error {:.2e} {unit}",
+        range.min, range.min_t_s, range.max, range.max_t_s, range.median_se
+    )
+}
+
+fn table(text: &mut String, rows: &[InverseRow]) {
+    let _ = writeln!(
+        text,
+        "\n{:>12} {:>12} {:>13} {:>13} {:>13} {:>11} {:>13}",
+        "t [s]",
+        "theta [deg]",
+        "omega [rad/s]",
+        "alpha [1/s2]",
+        "force [N]",
+        "+- [N]",
+        "torque [N m]"
+    );
+    let stride = rows.len().div_ceil(ROWS);
+    let cell = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |v| format!("{v:.5}"));
+    let error = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |v| format!("{v:.2e}"));
+    for row in rows.iter().step_by(stride) {
+        let _ = writeln!(
+            text,
+            "{:>12.6} {:>12.4} {:>13.6} {:>13.6} {:>13} {:>11} {:>13.6}",
+            row.t,
+            row.theta.to_degrees(),
+            row.omega,
+            row.alpha,
+            cell(row.slider_force),
+            error(row.slider_force_se),
+            row.crank_torque
+        );
+    }
+}

@@ -1,0 +1,232 @@
+//! Measured motion: time and crank angle, crank-pin angle or slider position, sample by sample.
+
+mod columns;
+mod read;
+mod rows;
+mod source;
+
+use std::path::Path;
+
+use super::{Problem, Problems};
+use crate::error::Error;
+use crate::scene::unit::Quantity;
+use rows::check_rows;
+use source::Source;
+
+/// The motion of Duarte et al. 2018 (11), sampled; see the comments in the file.
+pub const DUARTE_MOTION: &str = include_str!("../../../data/duarte-motion.csv");
+
+/// Fewest samples of a motion.
+const LEAST_ROWS: usize = 6;
+
+/// What was measured beside the time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measured {
+    /// Crank angle θ, rad.
+    Theta,
+    /// Angle at the crank pin between crank and rod, Duarte et al. (10), rad from 0 to π.
+    Gamma,
+    /// Slider position x, m.
+    X,
+}
+
+impl Measured {
+    /// All of them; of several in one file the first is taken.
+    pub const ALL: [Measured; 3] = [Measured::Theta, Measured::Gamma, Measured::X];
+
+    /// Its name in headers.
+    pub fn name(self) -> &'static str {
+        match self {
+            Measured::Theta => "theta",
+            Measured::Gamma => "gamma",
+            Measured::X => "x",
+        }
+    }
+
+    /// The SI unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Measured::X => "m",
+            _ => "rad",
+        }
+    }
+
+    fn quantity(self) -> Quantity {
+        match self {
+            Measured::X => Quantity::Length,
+            _ => Quantity::Angle,
+        }
+    }
+}
+
+impl std::str::FromStr for Measured {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Measured, String> {
+        let found = Measured::ALL.into_iter().find(|kind| kind.name() == text);
+        found.ok_or_else(|| format!("`{text}` is none of theta, gamma and x"))
+    }
+}
+
+/// How a file of measured motion is read.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reading {
+    /// Names and units of the columns of a file without header, written like a header: `"t [s],theta [deg]"`.
+    pub columns: Option<String>,
+    /// The measured column, where the file has several.
+    pub column: Option<Measured>,
+}
+
+/// Samples of a motion, SI and radians, in the order of time.
+#[derive(Clone, Debug)]
+pub struct Measurement {
+    measured: Measured,
+    times: Vec<f64>,
+    values: Vec<f64>,
+    resolution: f64,
+    notes: Vec<String>,
+    source: Option<Source>,
+}
+
+impl Measurement {
+    /// Samples of code: times (s) that rise strictly, and values (rad, m for the slider position).
+    ///
+    /// # Errors
+    /// [`Problems`]: what is wrong, with the sample, counted from 1.
+    ///
+    /// ```
+    /// use slider_crank::scene::{Measured, Measurement};
+    /// let times: Vec<f64> = (0..20).map(|i| 0.01 * f64::from(i)).collect();
+    /// let angles = times.iter().map(|t| 3.0 * t + t * t).collect();
+    /// let motion = Measurement::new(Measured::Theta, times, angles).unwrap();
+    /// assert_eq!(motion.len(), 20);
+    /// ```
+    pub fn new(
+        measured: Measured,
+        times: Vec<f64>,
+        values: Vec<f64>,
+    ) -> Result<Measurement, Problems> {
+        let mut measurement = Measurement {
+            measured,
+            times,
+            values,
+            resolution: 0.0,
+            notes: Vec::new(),
+            source: None,
+        };
+        check_rows(&mut measurement)?;
+        Ok(measurement)
+    }
+
+    /// The motion that belongs to the built-in scene: the polynomial (11) of Duarte et al. 2018, sampled.
+    pub fn duarte() -> Measurement {
+        let file = Path::new("duarte-motion.csv");
+        Measurement::parse(file, DUARTE_MOTION.to_owned(), &Reading::default())
+            .unwrap_or_else(|problems| unreachable!("the built-in motion is right: {problems}"))
+    }
+
+    /// Reads a CSV file; `-` is standard input.
+    ///
+    /// # Errors
+    /// [`Error::Read`] if the file cannot be read, [`Error::Scene`] with all that is wrong with it.
+    pub fn load(file: &Path, reading: &Reading) -> Result<Measurement, Error> {
+        let bytes = if file == Path::new("-") {
+            let mut bytes = Vec::new();
+            std::io::Read::read_to_end(&mut std::io::stdin(), &mut bytes).map(|_| bytes)
+        } else {
+            std::fs::read(file)
+        };
+        let bytes = bytes.map_err(|source| Error::Read {
+            file: file.to_owned(),
+            source,
+        })?;
+        let text = read::text(file, bytes)?;
+        Ok(Measurement::parse(file, text, reading)?)
+    }
+
+    /// Reads the text of a CSV file; `file` is its name in messages.
+    ///
+    /// # Errors
+    /// [`Problems`]: all that is wrong, with lines and columns.
+    pub fn parse(file: &Path, text: String, reading: &Reading) -> Result<Measurement, Problems> {
+        let mut measurement = read::measurement(file, text, reading)?;
+        check_rows(&mut measurement)?;
+        Ok(measurement)
+    }
+
+    /// What was measured.
+    pub fn measured(&self) -> Measured {
+        self.measured
+    }
+
+    /// Times, s.
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// Measured values, rad or m.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// Number of samples.
+    pub fn len(&self) -> usize {
+        self.times.len()
+    }
+
+    /// Whether there is no sample; never so for samples that were checked.
+    pub fn is_empty(&self) -> bool {
+        self.times.is_empty()
+    }
+
+    /// The least difference that the digits of the values can show, rad or m; 0 for values of code.
+    pub fn resolution(&self) -> f64 {
+        self.resolution
+    }
+
+    /// What the reader should know: columns not taken, gaps.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// Name of the file, if the samples came from one.
+    pub fn file(&self) -> Option<String> {
+        let source = self.source.as_ref()?;
+        Some(source.file.display().to_string())
+    }
+
+    /// Where a sample (from 0) is: `line 12` of the file, or `sample 11`.
+    pub fn place(&self, sample: usize) -> String {
+        match &self.source {
+            Some(source) => format!("line {}", source.line(sample)),
+            None => format!("sample {}", sample + 1),
+        }
+    }
+
+    /// A value in the unit of its column, with the unit.
+    pub fn shown(&self, value: f64) -> String {
+        let (factor, unit) = match &self.source {
+            Some(source) => (source.value.factor, source.value.unit.as_str()),
+            None => (1.0, self.measured.unit()),
+        };
+        super::number::with_unit(value / factor, unit)
+    }
+
+    /// Problems with the measured values of some samples (from 0): what is wrong and what would be right.
+    pub fn problems(&self, list: Vec<(usize, String, String)>) -> Problems {
+        let list = list.into_iter().map(|(sample, what, help)| {
+            let field = match &self.source {
+                Some(_) => self.measured.name().to_owned(),
+                None => format!("{}, {}", self.measured.name(), self.place(sample)),
+            };
+            let mut problem = Problem::new(&field, what, help);
+            problem.span = self.source.as_ref().map(|s| s.value_span(sample));
+            problem
+        });
+        let list = list.collect();
+        match &self.source {
+            Some(source) => Problems::in_file(&source.file, &source.text, list),
+            None => Problems::in_code(list),
+        }
+    }
+}

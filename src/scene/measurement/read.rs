@@ -1,0 +1,249 @@
+//! Measured motion from CSV files.
+
+use std::path::Path;
+
+use csv::ByteRecord;
+
+use super::columns::{Columns, columns};
+use super::source::{Source, cell, line_at, reader};
+use super::{Measurement, Reading};
+use crate::scene::number::{self, counted};
+use crate::scene::table::file::delimiter;
+use crate::scene::{Problem, Problems};
+
+/// Problems that are listed; all are counted.
+const MOST_LISTED: usize = 20;
+
+/// The text of a file, or where it stops being one.
+pub(super) fn text(file: &Path, bytes: Vec<u8>) -> Result<String, Problems> {
+    let wrong = |what: String| {
+        let help = "save the data as plain CSV text in UTF-8";
+        Problems::in_file(file, "", vec![Problem::new("", what, help)])
+    };
+    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+        return Err(wrong("the file is UTF-16 text".to_owned()));
+    }
+    let line = |at: usize| bytes[..at].iter().filter(|b| **b == b'\n').count() + 1;
+    if let Some(at) = bytes.iter().position(|byte| *byte == 0) {
+        return Err(wrong(format!(
+            "line {}: the file is not text, it has a zero byte",
+            line(at)
+        )));
+    }
+    match String::from_utf8(bytes) {
+        Ok(text) => Ok(text),
+        Err(error) => {
+            let at = error.utf8_error().valid_up_to();
+            let bytes = error.as_bytes();
+            let line = bytes[..at].iter().filter(|b| **b == b'\n').count() + 1;
+            let start = bytes[..at]
+                .iter()
+                .rposition(|b| *b == b'\n')
+                .map_or(0, |n| n + 1);
+            Err(wrong(format!(
+                "line {line}, column {}: the byte 0x{:02x} is not UTF-8 text",
+                at - start + 1,
+                bytes[at]
+            )))
+        }
+    }
+}
+
+/// A file's samples, each a number, not yet checked against each other.
+pub(super) fn measurement(
+    file: &Path,
+    text: String,
+    reading: &Reading,
+) -> Result<Measurement, Problems> {
+    let (has_header, delimiter) = (reading.columns.is_none(), delimiter(&text));
+    let columns = {
+        let mut records = reader(&text, delimiter, has_header);
+        let (header, end) = match &reading.columns {
+            Some(given) => (split(given), 0),
+            None => {
+                let header = records.byte_headers().cloned().unwrap_or_default();
+                (
+                    header,
+                    usize::try_from(records.position().byte()).unwrap_or(0),
+                )
+            }
+        };
+        if has_header && header.iter().all(<[u8]>::is_empty) {
+            let problem = Problem::new(
+                "",
+                "the file is empty",
+                "give rows of time and motion below a header, as `t [s],theta [deg]`",
+            );
+            return Err(Problems::in_file(file, &text, vec![problem]));
+        }
+        columns(&header, reading).map_err(|found| {
+            let mut problem = Problem::new("header", found.what, found.help);
+            match &reading.columns {
+                Some(_) => problem.what = format!("--columns: {}", problem.what),
+                None => {
+                    let whole = line_at(&text, end);
+                    let part = found.column.map(|at| cell(&text, end, delimiter, at));
+                    problem.span = Some(part.unwrap_or(whole));
+                }
+            }
+            Problems::in_file(file, &text, vec![problem])
+        })?
+    };
+    let (times, values, decimals) = samples(file, &text, delimiter, has_header, &columns)?;
+    let resolution = columns.value.factor * 10f64.powi(-decimals.unwrap_or(0));
+    Ok(Measurement {
+        measured: columns.measured,
+        times,
+        values,
+        resolution,
+        notes: columns.note.into_iter().collect(),
+        source: Some(Source {
+            file: file.to_owned(),
+            delimiter,
+            has_header,
+            columns: columns.at,
+            time: columns.time,
+            value: columns.value,
+            text,
+        }),
+    })
+}
+
+/// The cells of a header given as an option.
+fn split(header: &str) -> ByteRecord {
+    let separator = [';', '\t'].into_iter().find(|c| header.contains(*c));
+    header
+        .split(separator.unwrap_or(','))
+        .map(str::trim)
+        .collect::<Vec<_>>()
+        .into()
+}
+
+type Samples = (Vec<f64>, Vec<f64>, Option<i32>);
+
+/// Times, values, and the most decimals that a value has.
+fn samples(
+    file: &Path,
+    text: &str,
+    delimiter: u8,
+    has_header: bool,
+    columns: &Columns,
+) -> Result<Samples, Problems> {
+    let mut records = reader(text, delimiter, has_header);
+    let mut record = ByteRecord::new();
+    let (mut times, mut values, mut decimals) = (Vec::new(), Vec::new(), None);
+    let (mut problems, mut count) = (Vec::new(), 0);
+    let names = ["time", columns.measured.name()];
+    while matches!(records.read_byte_record(&mut record), Ok(true)) {
+        let mut wrong = |column: Option<usize>, field: &str, what: String, help: String| {
+            count += 1;
+            if problems.len() < MOST_LISTED {
+                let end = usize::try_from(records.position().byte()).unwrap_or(text.len());
+                let mut problem = Problem::new(field, what, help);
+                problem.span = Some(match column {
+                    Some(column) => cell(text, end, delimiter, column),
+                    None => line_at(text, end),
+                });
+                problems.push(problem);
+            }
+        };
+        if record.iter().any(|cell| cell.contains(&b'\n')) {
+            let quote = text.rfind('"').unwrap_or(0);
+            let mut problem = Problem::new(
+                "quote",
+                "a quote is not closed",
+                "write numbers without quotes",
+            );
+            problem.span = Some(quote..quote + 1);
+            problems.push(problem);
+            break;
+        }
+        if record.len() != columns.count {
+            let what = format!(
+                "{} where the header has {}",
+                counted(record.len(), "value"),
+                counted(columns.count, "column")
+            );
+            let help = "give one value for each column; leave no quote open".to_owned();
+            wrong(None, "row", what, help);
+            continue;
+        }
+        let mut pair = [f64::NAN; 2];
+        for (value, (column, name)) in pair.iter_mut().zip(columns.at.into_iter().zip(names)) {
+            match parse(&record[column]) {
+                Ok(found) => *value = found,
+                Err((what, help)) => wrong(Some(column), name, what, help),
+            }
+        }
+        let [time, value] = pair;
+        times.push(time * columns.time.factor);
+        values.push(value * columns.value.factor);
+        decimals = decimals.max(decimals_of(&record[columns.at[1]]));
+    }
+    if count > problems.len() {
+        let more = format!(
+            "{} more like these",
+            counted(count - problems.len(), "problem")
+        );
+        let mut last = Problem::new("", more, "repair the data, or take the rows out");
+        last.span = Some(text.len()..text.len());
+        problems.push(last);
+    }
+    if problems.is_empty() {
+        Ok((times, values, decimals))
+    } else {
+        Err(Problems::in_file(file, text, problems))
+    }
+}
+
+/// A number, or what is wrong with it and what would be right.
+fn parse(cell: &[u8]) -> Result<f64, (String, String)> {
+    let text = std::str::from_utf8(cell).unwrap_or_default();
+    let parsed = text.parse::<f64>().or_else(|_| number::plain(text).parse());
+    match parsed {
+        Ok(value) if value.is_finite() => Ok(value),
+        Ok(_) => Err((
+            format!("`{text}` is not a finite number"),
+            "give a number, or take the row out".to_owned(),
+        )),
+        Err(_) => Err(not_a_number(text)),
+    }
+}
+
+fn not_a_number(text: &str) -> (String, String) {
+    if text.is_empty() {
+        return (
+            "the value is missing".to_owned(),
+            "give a number, or take the row out".to_owned(),
+        );
+    }
+    if text.replacen(',', ".", 1).parse::<f64>().is_ok() {
+        return (
+            format!("`{text}` has a decimal comma where a point is expected"),
+            "write decimal points".to_owned(),
+        );
+    }
+    let digits = number::length(text.trim_start_matches(['+', '-', number::MINUS]));
+    let help = if digits > 0 {
+        "write the number alone, as 12.5 or 1.25e1; units belong in the header"
+    } else {
+        "give a number; units belong in the header, comments begin with #"
+    };
+    (format!("`{text}` is not a number"), help.to_owned())
+}
+
+/// The power of ten of the last digit of a number, changed in sign.
+fn decimals_of(cell: &[u8]) -> Option<i32> {
+    let end = cell.iter().position(|b| matches!(b, b'e' | b'E'));
+    let mantissa = &cell[..end.unwrap_or(cell.len())];
+    let exponent = end.and_then(|at| std::str::from_utf8(&cell[at + 1..]).ok()?.parse().ok());
+    let after = mantissa
+        .iter()
+        .rposition(|b| *b == b'.')
+        .map_or(0, |at| mantissa.len() - at - 1);
+    Some(
+        (after as i32)
+            .saturating_sub(exponent.unwrap_or(0))
+            .clamp(-300, 300),
+    )
+}

@@ -1,0 +1,110 @@
+//! Samples checked against each other.
+
+use super::{LEAST_ROWS, Measured, Measurement};
+use crate::scene::number::{counted, show};
+use crate::scene::{Problem, Problems};
+
+/// A step of time this many times the usual one is a gap.
+const GAP: f64 = 4.5;
+
+/// Larger values leave no digits for what is computed from them.
+const LARGEST: f64 = 1e12;
+
+/// Says what is wrong with the samples, and notes gaps between them.
+pub(super) fn check_rows(measurement: &mut Measurement) -> Result<(), Problems> {
+    let (times, values) = (&measurement.times, &measurement.values);
+    let mut problems = Vec::new();
+    if times.len() != values.len() {
+        let what = format!("{} times but {} values", times.len(), values.len());
+        let help = "give one value for each time";
+        return Err(Problems::in_code(vec![Problem::new("samples", what, help)]));
+    }
+    for (name, list) in [("time", times), (measurement.measured.name(), values)] {
+        if let Some(at) = list.iter().position(|v| v.is_nan() || v.abs() > LARGEST) {
+            let what = format!("{} is not a usable number", show(list[at]));
+            let help = format!("give finite values below {LARGEST:e} in SI units");
+            problems.push(place(measurement, at, name, what, help));
+        }
+    }
+    let factor = measurement
+        .source
+        .as_ref()
+        .map_or(1.0, |source| source.time.factor);
+    let faults = times.windows(2).enumerate().filter(|(_, w)| w[1] <= w[0]);
+    for (i, w) in faults.take(20) {
+        let (now, before) = (show(w[1] / factor), show(w[0] / factor));
+        let what = if w[1] == w[0] {
+            format!("the time {now} is repeated")
+        } else {
+            format!("the time {now} follows {before}")
+        };
+        let help = "times must rise strictly; take out or put right the row".to_owned();
+        problems.push(place(measurement, i + 1, "time", what, help));
+    }
+    if problems.is_empty() && times.len() < LEAST_ROWS {
+        let rows = counted(times.len(), "sample");
+        let what = format!("{rows} where at least {LEAST_ROWS} are needed");
+        let help = "give more of the motion";
+        let mut problem = Problem::new("samples", what, help);
+        problem.span = measurement
+            .source
+            .as_ref()
+            .map(|s| s.text.len()..s.text.len());
+        problems.push(problem);
+    }
+    if problems.is_empty() {
+        let note = gaps(measurement);
+        measurement.notes.extend(note);
+        return Ok(());
+    }
+    Err(match &measurement.source {
+        Some(source) => Problems::in_file(&source.file, &source.text, problems),
+        None => Problems::in_code(problems),
+    })
+}
+
+fn place(
+    measurement: &Measurement,
+    sample: usize,
+    name: &str,
+    what: String,
+    help: String,
+) -> Problem {
+    let mut problem = Problem::new(name, what, help);
+    match &measurement.source {
+        Some(source) if name == "time" => problem.span = Some(source.time_span(sample)),
+        Some(source) => problem.span = Some(source.value_span(sample)),
+        None => problem.field = format!("{name}, sample {}", sample + 1),
+    }
+    problem
+}
+
+/// Steps of time far above the usual one.
+fn gaps(measurement: &Measurement) -> Option<String> {
+    let times = &measurement.times;
+    let mut steps: Vec<f64> = times.windows(2).map(|w| w[1] - w[0]).collect();
+    let middle = steps.len() / 2;
+    let usual = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let wide = |w: &[f64]| w[1] - w[0] > GAP * usual;
+    let count = times.windows(2).filter(|w| wide(w)).count();
+    let first = times.windows(2).position(wide)?;
+    let factor = measurement
+        .source
+        .as_ref()
+        .map_or(1.0, |source| source.time.factor);
+    Some(format!(
+        "{}, the first before {} (time {}), where {} passes without a sample and {} is usual: nothing is known of the motion there but what the fit assumes",
+        counted(count, "gap"),
+        measurement.place(first + 1),
+        show(times[first + 1] / factor),
+        show((times[first + 1] - times[first]) / factor),
+        show(usual / factor)
+    ))
+}
+
+impl Measured {
+    /// Whether several crank angles have the same measured value.
+    pub fn folds(self) -> bool {
+        self != Measured::Theta
+    }
+}

@@ -1,0 +1,77 @@
+//! Where the motion does not determine the slider force: near the dead centres.
+
+use serde::Serialize;
+
+use super::force::Demand;
+
+/// A stretch of the motion in which the slider force is left empty.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DeadCentreBand {
+    /// First sample in it, s.
+    pub from_s: f64,
+    /// Last sample in it, s.
+    pub to_s: f64,
+    /// Crank angle of the first sample, rad.
+    pub from_theta_rad: f64,
+    /// Crank angle of the last sample, rad.
+    pub to_theta_rad: f64,
+    /// Samples in it.
+    pub rows: usize,
+    /// Why the force is not determined there.
+    pub reason: &'static str,
+}
+
+/// The rule by which samples are left without a force.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct BandRule {
+    /// Largest half-width of the 95 % band of the slider force at which the force is given, N.
+    pub half_width_max_n: f64,
+    /// Lever arm |x'| below which the rule applies, m/rad: half a crank.
+    pub arm_m: f64,
+    /// The rule in words.
+    pub rule: &'static str,
+}
+
+const RULE: &str = "within |x'| < r/2 the slider force is left empty where half of its 95 % band is wider than the largest crank torque of the motion (or ten times the median half-width of that torque's band, if larger) over the crank length, or where x' is less than five standard errors from zero; so it is at the limit of a rocker";
+
+const NO_SIGN: &str = "the sign of the lever arm x' is not certain";
+const AT_LIMIT: &str =
+    "the rod stands normal to the guide: the position has no certain derivatives";
+const TOO_WIDE: &str =
+    "the uncertainty of the motion over the lever arm x' is wider than the force";
+
+impl BandRule {
+    /// The rule for a motion: crank length in m, torque and its standard error in N m at each sample, half of a 95 % band
+    /// in standard errors.
+    pub(super) fn new(r: f64, torques: &[(f64, f64)], factor: f64) -> BandRule {
+        let largest = torques
+            .iter()
+            .fold(0.0f64, |m, (torque, _)| m.max(torque.abs()));
+        let mut errors: Vec<f64> = torques.iter().map(|(_, se)| *se).collect();
+        let middle = errors.len() / 2;
+        let median = *errors.select_nth_unstable_by(middle, f64::total_cmp).1;
+        BandRule {
+            half_width_max_n: largest.max(10.0 * factor * median) / r,
+            arm_m: 0.5 * r,
+            rule: RULE,
+        }
+    }
+
+    /// Why the force of a sample is left empty, if it is.
+    pub(super) fn reason(&self, demand: &Demand, factor: f64) -> Option<&'static str> {
+        // Not-a-number counts as uncertain.
+        let certain = demand.arm.abs() > 5.0 * demand.arm_se;
+        let narrow = factor * demand.force_se <= self.half_width_max_n;
+        if !demand.force.is_finite() || !demand.force_se.is_finite() {
+            Some(AT_LIMIT)
+        } else if demand.arm.abs() >= self.arm_m {
+            None
+        } else if !certain {
+            Some(NO_SIGN)
+        } else if !narrow {
+            Some(TOO_WIDE)
+        } else {
+            None
+        }
+    }
+}

@@ -1,0 +1,221 @@
+//! Slider force and crank torque from a measured motion: a fitted θ(t) is a prescribed motion, for which the
+//! equation is read backwards.
+
+mod bands;
+mod fitted;
+mod force;
+mod pattern;
+mod printed;
+mod row;
+mod sensor;
+mod summary;
+mod unfold;
+mod warnings;
+
+pub use bands::{BandRule, DeadCentreBand};
+pub use printed::AsPrinted;
+pub use row::{InverseRow, Residual};
+pub use summary::{DataSummary, FitSummary, ForceRange, InverseSummary};
+
+use self::fitted::{Fitted, states};
+use self::force::Backwards;
+use self::row::Rows;
+use self::sensor::Sensor;
+use crate::error::Error;
+use crate::mechanism::{Equation, Reactions, Reactor};
+use crate::numeric::fit::State;
+pub use crate::numeric::fit::{Kind as FitKind, Size as FitSize};
+use crate::numeric::student;
+use crate::plan::{Method, Plan};
+use crate::scene::{Measurement, MotionKind, Scene};
+
+/// What is asked of an inverse computation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InverseOptions {
+    /// Kind of curve that is fitted to the motion.
+    pub fit: FitKind,
+    /// Its degree, or number of harmonics.
+    pub size: FitSize,
+    /// Joint forces for the rows.
+    pub reactions: bool,
+    /// Whether the slider force is what acts beside the forces of the scene; if not it is the whole force on the
+    /// slider.
+    pub beside_forces: bool,
+}
+
+impl Default for InverseOptions {
+    fn default() -> InverseOptions {
+        InverseOptions {
+            fit: FitKind::Polynomial,
+            size: FitSize::Auto,
+            reactions: false,
+            beside_forces: false,
+        }
+    }
+}
+
+/// Slider force and crank torque along a measured motion.
+#[derive(Debug)]
+pub struct Inverse {
+    /// The numbers.
+    pub summary: InverseSummary,
+    /// One row for each sample.
+    pub rows: Vec<InverseRow>,
+    /// One residual for each sample.
+    pub residuals: Vec<Residual>,
+    equation: Equation,
+    reactor: Option<Reactor>,
+}
+
+/// Slider force and crank torque from a measured motion.
+///
+/// # Errors
+/// [`Error::Scene`] for impossible values of scene or data, [`Error::Refused`] for what cannot be computed.
+///
+/// ```
+/// use slider_crank::scene::{Measured, Measurement, Scene, Slider};
+/// use slider_crank::study::{InverseOptions, inverse};
+///
+/// // A massless crank and rod of 50 and 150 mm, a slider of 2 kg, turned at 10 rad/s.
+/// let scene = Scene::new(0.05, 0.15).slider(Slider { mass: 2.0 });
+/// let times: Vec<f64> = (0..40).map(|i| 0.01 * f64::from(i)).collect();
+/// let angles = times.iter().map(|t| 0.3 + 10.0 * t).collect();
+/// let motion = Measurement::new(Measured::Theta, times, angles)?;
+///
+/// let found = inverse(&scene, &motion, &InverseOptions::default())?;
+/// let row = found.rows[12];
+/// // Newton: force = mass times acceleration of the slider, x'' omega^2.
+/// let x = |theta: f64| 0.05 * theta.cos() + (0.15f64.powi(2) - (0.05 * theta.sin()).powi(2)).sqrt();
+/// let second = (x(row.theta + 1e-4) - 2.0 * x(row.theta) + x(row.theta - 1e-4)) / 1e-8;
+/// assert!((row.slider_force.unwrap() - 2.0 * second * 100.0).abs() < 1e-4);
+/// # Ok::<(), slider_crank::error::Error>(())
+/// ```
+pub fn inverse(
+    scene: &Scene,
+    measurement: &Measurement,
+    options: &InverseOptions,
+) -> Result<Inverse, Error> {
+    let plan = plan(scene)?;
+    let reactor = options.reactions.then(|| Reactor::new(scene)).transpose()?;
+    let equation = Equation::new(scene);
+    let sensor = Sensor {
+        linkage: equation.linkage(),
+        measured: measurement.measured(),
+    };
+    let unfolded = unfold::unfold(sensor.linkage, measurement, &scene.motion)?;
+    let fitted = Fitted::new(
+        &sensor,
+        measurement,
+        unfolded.theta,
+        options.fit,
+        options.size,
+    );
+    let fitted =
+        fitted.map_err(|what| Error::refused(what, "give more samples, or a lower --degree"))?;
+    let states = states(&fitted.curve, measurement.times());
+    reachable(sensor.linkage, measurement, &states)?;
+    let backwards = Backwards {
+        equation: &equation,
+        beside_forces: options.beside_forces,
+        sigma: fitted.sigma(),
+    };
+    let free = measurement.len() as f64 - fitted.curve.quality().parameters;
+    let factor = student::half_band(free.max(1.0));
+    let found = Rows::new(&backwards, measurement.times(), &states, factor);
+    finite(measurement, &found.rows)?;
+    let mut warnings = measurement.notes().to_vec();
+    warnings.extend(unfolded.warnings);
+    warnings.extend(warnings::of_scene(scene, options));
+    warnings.extend(warnings::of_fit(&fitted, measurement, options));
+    let summary = InverseSummary::new(
+        scene,
+        plan,
+        measurement,
+        &fitted,
+        &found,
+        (options.beside_forces, factor),
+        warnings,
+    );
+    let residuals = Residual::list(&fitted, measurement);
+    Ok(Inverse {
+        summary,
+        rows: found.rows,
+        residuals,
+        reactor,
+        equation,
+    })
+}
+
+impl Inverse {
+    /// Whether joint forces were asked for.
+    pub fn with_reactions(&self) -> bool {
+        self.reactor.is_some()
+    }
+
+    /// The joint forces of a row, with its slider force acting; none where that is empty, or if they were not asked
+    /// for.
+    pub fn reactions(&self, row: &InverseRow) -> Option<Reactions> {
+        let reactor = self.reactor.as_ref()?;
+        let pose = self.equation.linkage().pose(row.theta);
+        let mut load = self.equation.load(row.t, row.theta, row.omega);
+        let force = row.slider_force?;
+        load.force = if self.summary.beside_forces {
+            load.force + force
+        } else {
+            force
+        };
+        Some(reactor.reactions(&pose, row.omega, row.alpha, &load))
+    }
+}
+
+/// The plan of a scene whose motion was measured.
+fn plan(scene: &Scene) -> Result<Plan, Error> {
+    if scene.reduced().friction.is_some() {
+        return Err(Error::refused(
+            "Coulomb friction at the slider is not taken into account when the slider force is computed from a motion",
+            "take [friction] out of the scene: the slider force is then what remains beside friction",
+        ));
+    }
+    let mut prescribed = scene.clone();
+    prescribed.motion.kind = MotionKind::ConstantSpeed;
+    let mut plan = Plan::new(&prescribed, Method::Auto)?;
+    plan.reason = "the crank motion is measured: nothing to integrate, the equation is read backwards along the fitted theta(t)".to_owned();
+    Ok(plan)
+}
+
+/// Refuses a fit that leaves the angles that the crank can take.
+fn reachable(
+    linkage: &crate::mechanism::Linkage,
+    measurement: &Measurement,
+    states: &[State],
+) -> Result<(), Error> {
+    let blocked = |state: &State| !linkage.pose(state.value[0]).exists();
+    let Some(sample) = states.iter().position(blocked) else {
+        return Ok(());
+    };
+    Err(Error::refused(
+        format!(
+            "the fitted crank angle at {}, {} rad, is one at which the rod does not reach the guide",
+            measurement.place(sample),
+            states[sample].value[0]
+        ),
+        "try another --fit or --degree, or check the lengths of the scene",
+    ))
+}
+
+/// Refuses loads without a value along the motion.
+fn finite(measurement: &Measurement, rows: &[InverseRow]) -> Result<(), Error> {
+    let bad = |row: &InverseRow| !row.crank_torque.is_finite();
+    let Some(sample) = rows.iter().position(bad) else {
+        return Ok(());
+    };
+    Err(Error::refused(
+        format!(
+            "the loads of the scene have no finite value at {} (t = {} s, theta = {} rad)",
+            measurement.place(sample),
+            rows[sample].t,
+            rows[sample].theta
+        ),
+        "let the tables of the scene cover the measured motion, or take the load out",
+    ))
+}

@@ -1,0 +1,209 @@
+//! The result of an inverse computation in numbers.
+
+use serde::Serialize;
+
+use super::bands::{BandRule, DeadCentreBand};
+use super::fitted::Fitted;
+use super::row::{InverseRow, Rows};
+use crate::numeric::fit::Curve;
+use crate::plan::Plan;
+use crate::scene::{Measurement, Scene};
+
+/// Summary of an inverse computation; its JSON is the object that `inverse --json` prints.
+#[derive(Clone, Debug, Serialize)]
+pub struct InverseSummary {
+    /// Title of the scene.
+    pub scene: String,
+    /// What was computed, and how.
+    pub plan: Plan,
+    /// The samples.
+    pub data: DataSummary,
+    /// The fit of the crank angle over time.
+    pub fit: FitSummary,
+    /// Whether the slider force acts beside the forces of the scene; if not it is the whole force on the slider.
+    pub beside_forces: bool,
+    /// Half of a 95 % band in standard errors: Student's factor for the degrees of freedom of the fit.
+    pub band_factor: f64,
+    /// Range of the slider force; none if no sample has one.
+    pub slider_force: Option<ForceRange>,
+    /// Range of the crank torque.
+    pub crank_torque: ForceRange,
+    /// Stretches in which the slider force is left empty.
+    pub dead_centre_bands: Vec<DeadCentreBand>,
+    /// The rule by which it is.
+    pub dead_centre_rule: BandRule,
+    /// What the reader should know.
+    pub warnings: Vec<String>,
+}
+
+/// The samples that were read.
+#[derive(Clone, Debug, Serialize)]
+pub struct DataSummary {
+    /// Name of the file, if they came from one.
+    pub file: Option<String>,
+    /// The measured column.
+    pub column: &'static str,
+    /// Its SI unit.
+    pub unit: &'static str,
+    /// Number of samples.
+    pub rows: usize,
+    /// First time, s.
+    pub from_s: f64,
+    /// Last time, s.
+    pub to_s: f64,
+    /// Turns from the first to the last sample, negative clockwise.
+    pub revolutions: f64,
+}
+
+/// What was fitted, and how well.
+#[derive(Clone, Debug, Serialize)]
+pub struct FitSummary {
+    /// `polynomial`, `spline` or `fourier`.
+    pub kind: &'static str,
+    /// Degree of the polynomial or of the spline's pieces, number of harmonics.
+    pub degree: usize,
+    /// Of the powers 1, t, t², ... (t in s, angle in rad); of 1, t, cos, sin, cos 2, ... of the mean rotation; of the
+    /// B-splines. Null where plain time leaves no digits.
+    pub coefficients: Vec<Option<f64>>,
+    /// Their standard errors, for residuals that are noise.
+    pub standard_errors: Vec<Option<f64>>,
+    /// 1 − squares of the residuals over squares about the mean, of what was measured.
+    pub r_squared: f64,
+    /// Root mean square of the residuals, rad or m.
+    pub rms: f64,
+    /// Condition number (Frobenius norm) of the design matrix that belongs to the coefficients; none if it overflows.
+    pub condition: Option<f64>,
+    /// Standard deviation of a sample, rad or m: rms corrected for the parameters, at least what the digits allow.
+    pub sigma: f64,
+    /// Number of parameters, or what they are worth under a penalty.
+    pub parameters: f64,
+    /// `double-double` or `double`.
+    pub arithmetic: &'static str,
+    /// Correlation of each residual with the next.
+    pub residual_lag_one: f64,
+    /// Runs of one sign among the residuals, in standard deviations from what noise has.
+    pub residual_runs: f64,
+    /// Factor by which the standard errors of the rows are widened because the residuals have a pattern.
+    pub widening: f64,
+}
+
+/// Smallest and largest value and the largest standard error.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ForceRange {
+    /// N or N m
+    pub min: f64,
+    /// When, s
+    pub min_t_s: f64,
+    /// N or N m
+    pub max: f64,
+    /// When, s
+    pub max_t_s: f64,
+    /// Median of the standard errors, N or N m
+    pub median_se: f64,
+}
+
+impl ForceRange {
+    fn of(values: impl Iterator<Item = (f64, f64, f64)>) -> Option<ForceRange> {
+        let values: Vec<(f64, f64, f64)> = values.collect();
+        let min = values.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let max = values.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let mut errors: Vec<f64> = values.iter().map(|v| v.2).collect();
+        let middle = errors.len() / 2;
+        Some(ForceRange {
+            min: min.1,
+            min_t_s: min.0,
+            max: max.1,
+            max_t_s: max.0,
+            median_se: *errors.select_nth_unstable_by(middle, f64::total_cmp).1,
+        })
+    }
+}
+
+impl InverseSummary {
+    pub(super) fn new(
+        scene: &Scene,
+        plan: Plan,
+        measurement: &Measurement,
+        fitted: &Fitted,
+        found: &Rows,
+        (beside_forces, band_factor): (bool, f64),
+        warnings: Vec<String>,
+    ) -> InverseSummary {
+        let force = |row: &InverseRow| Some((row.t, row.slider_force?, row.slider_force_se?));
+        let torque = |row: &InverseRow| (row.t, row.crank_torque, row.crank_torque_se);
+        let nothing = ForceRange {
+            min: 0.0,
+            min_t_s: 0.0,
+            max: 0.0,
+            max_t_s: 0.0,
+            median_se: 0.0,
+        };
+        InverseSummary {
+            scene: scene.title.clone().unwrap_or_default(),
+            plan,
+            data: DataSummary::new(measurement, &found.rows),
+            fit: FitSummary::new(fitted, measurement),
+            beside_forces,
+            band_factor,
+            slider_force: ForceRange::of(found.rows.iter().filter_map(force)),
+            crank_torque: ForceRange::of(found.rows.iter().map(torque)).unwrap_or(nothing),
+            dead_centre_bands: found.bands.clone(),
+            dead_centre_rule: found.rule,
+            warnings,
+        }
+    }
+}
+
+impl DataSummary {
+    fn new(measurement: &Measurement, rows: &[InverseRow]) -> DataSummary {
+        let (first, last) = (&rows[0], &rows[rows.len() - 1]);
+        DataSummary {
+            file: measurement.file(),
+            column: measurement.measured().name(),
+            unit: measurement.measured().unit(),
+            rows: rows.len(),
+            from_s: first.t,
+            to_s: last.t,
+            revolutions: (last.theta - first.theta) / std::f64::consts::TAU,
+        }
+    }
+}
+
+impl FitSummary {
+    fn new(fitted: &Fitted, measurement: &Measurement) -> FitSummary {
+        let quality = fitted.curve.quality();
+        let (coefficients, errors, condition) = fitted.curve.coefficients();
+        let finite = |value: f64| value.is_finite().then_some(value);
+        let n = fitted.residuals.len() as f64;
+        let squares: f64 = fitted.residuals.iter().map(|r| r * r).sum();
+        let measured = fitted.measured(measurement);
+        let mean = measured.iter().sum::<f64>() / n;
+        let about: f64 = measured.iter().map(|v| (v - mean) * (v - mean)).sum();
+        FitSummary {
+            kind: fitted.curve.kind().name(),
+            degree: fitted.curve.degree(),
+            standard_errors: coefficients
+                .iter()
+                .zip(&errors)
+                .map(|(c, e)| finite(c + e).and(finite(e * quality.sigma)))
+                .collect(),
+            coefficients: coefficients.into_iter().map(finite).collect(),
+            r_squared: if about > 0.0 {
+                1.0 - squares / about
+            } else {
+                1.0
+            },
+            rms: (squares / n).sqrt(),
+            condition: finite(condition),
+            sigma: quality.sigma,
+            parameters: quality.parameters,
+            arithmetic: match &fitted.curve {
+                Curve::Polynomial(polynomial) if polynomial.extended() => "double-double",
+                _ => "double",
+            },
+            residual_lag_one: fitted.pattern.lag_one,
+            residual_runs: fitted.pattern.runs,
+            widening: fitted.pattern.widening,
+        }
+    }
+}

@@ -1,0 +1,215 @@
+//! From what was measured to a continuous crank angle.
+//!
+//! A crank-pin angle or a slider position belongs to two crank angles of a turn (to more on some rockers), which meet
+//! at the dead centres; a crank angle that was reduced to one turn belongs to one in each turn. Of all continuous
+//! motions through the samples the smoothest is taken: the one with the least sum of squared differences
+//! between each angle and the parabola through the three before it.
+
+mod anchors;
+mod doubt;
+mod search;
+
+use std::f64::consts::{PI, TAU};
+
+use crate::error::Error;
+use crate::mechanism::{Candidates, Linkage};
+use crate::scene::{Measured, Measurement, Motion};
+use anchors::Anchors;
+
+/// Continuous crank angles, one for each sample, and what was decided on the way.
+#[derive(Debug)]
+pub(super) struct Unfolded {
+    /// rad
+    pub theta: Vec<f64>,
+    pub warnings: Vec<String>,
+}
+
+/// The continuous crank angle of a measurement. The scene's `start` decides between motions that the samples do not
+/// tell apart.
+pub(super) fn unfold(
+    linkage: &Linkage,
+    measurement: &Measurement,
+    start: &Motion,
+) -> Result<Unfolded, Error> {
+    if measurement.measured() == Measured::Theta {
+        return unwrap(linkage, measurement);
+    }
+    let candidates = candidates(linkage, measurement)?;
+    let blur = match measurement.measured() {
+        // At a dead centre the crank angle is known to about √(2 noise/x'').
+        Measured::X => 3.0 * (2.0 * noise(measurement.values()) / linkage.r).sqrt(),
+        _ => 0.0,
+    };
+    let anchors = Anchors::choose(measurement.times(), &candidates, blur);
+    let path = search::smoothest(&anchors, start);
+    if path.scale > TOO_COARSE {
+        return Err(Error::refused(
+            format!(
+                "the samples are too far apart: from one to the next the crank turns so far that the {} does not say which way",
+                measurement.measured().name()
+            ),
+            "give at least 20 samples for each turn of the crank",
+        ));
+    }
+    let mut warnings = Vec::new();
+    let from = if start.speed != 0.0 {
+        "the one that begins with the sense of the scene's speed is taken"
+    } else if start.angle != 0.0 {
+        "the one that begins nearer to the scene's angle is taken"
+    } else {
+        "the one that begins counter-clockwise is taken, as the scene has neither speed nor angle"
+    };
+    warnings.push(format!(
+        "{} does not tell a motion from the one on the other strokes: {from}",
+        measurement.measured().name()
+    ));
+    let doubts = doubt::doubts(&anchors, &path);
+    if !doubts.is_empty() {
+        let first = anchors.index[doubts[0]];
+        let text = format!(
+            "{} of the motion past or back from a dead centre cannot be told from the samples, the first near {} (t = {} s)",
+            if doubts.len() == 1 {
+                "one choice".to_owned()
+            } else {
+                format!("{} choices", doubts.len())
+            },
+            measurement.place(first),
+            measurement.times()[first]
+        );
+        if doubts.len() > 7 && doubts.len() >= path.passages {
+            return Err(Error::refused(text, "sample more often, or measure theta"));
+        }
+        warnings.push(format!(
+            "{text}: the smoother motion is taken, and all after it depends on that"
+        ));
+    }
+    Ok(Unfolded {
+        theta: anchors.spread(measurement.times(), &candidates, &path.theta),
+        warnings,
+    })
+}
+
+/// Prediction errors beyond this, rad, are not those of a motion that was followed.
+const TOO_COARSE: f64 = 0.3;
+
+/// Part of the stroke, or rad, by which noise may take a value beyond what is possible.
+const BEYOND: f64 = 0.06;
+
+/// The crank angles of each sample.
+fn candidates(linkage: &Linkage, measurement: &Measurement) -> Result<Vec<Candidates>, Error> {
+    let values = measurement.values();
+    let noise = noise(values);
+    let (size, excess): (f64, &dyn Fn(f64) -> f64) = match measurement.measured() {
+        Measured::X => (linkage.r, &|x| linkage.excess_of_x(x)),
+        _ => (1.0, &|gamma| linkage.excess_of_gamma(gamma)),
+    };
+    let rounding = measurement.resolution() + 1e-12 * size;
+    let most = (8.0 * noise).min(BEYOND * size) + rounding;
+    let angles = |value: f64| match measurement.measured() {
+        Measured::X => linkage.angles_of_x(value),
+        _ => linkage.angles_of_gamma(value),
+    };
+    let impossible = |(sample, value): (usize, &f64)| {
+        let beyond = excess(*value);
+        let nowhere = angles(*value).angles().is_empty();
+        (nowhere || beyond > most).then(|| {
+            let what = format!(
+                "{} = {} is impossible for this mechanism{}",
+                measurement.measured().name(),
+                measurement.shown(*value),
+                if nowhere {
+                    " on its branch".to_owned()
+                } else {
+                    format!(", by {}", measurement.shown(beyond))
+                }
+            );
+            let help = match measurement.measured() {
+                Measured::X => "the slider position x counts from the crank pivot, along the guide; `kinematics` shows its range",
+                _ => "gamma is the angle at the crank pin between crank and rod, from 0 to 180 deg",
+            };
+            (sample, what, help.to_owned())
+        })
+    };
+    let list: Vec<_> = values
+        .iter()
+        .enumerate()
+        .filter_map(impossible)
+        .take(20)
+        .collect();
+    if !list.is_empty() {
+        return Err(measurement.problems(list).into());
+    }
+    Ok(values.iter().map(|value| angles(*value)).collect())
+}
+
+/// Standard deviation of the noise of evenly spaced samples, from the median of their third differences, which a
+/// smooth motion hardly adds to.
+fn noise(values: &[f64]) -> f64 {
+    let mut third: Vec<f64> = values
+        .windows(4)
+        .map(|w| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]).abs())
+        .collect();
+    let middle = third.len() / 2;
+    if third.is_empty() {
+        return 0.0;
+    }
+    1.4826 * *third.select_nth_unstable_by(middle, f64::total_cmp).1 / 20f64.sqrt()
+}
+
+/// A measured crank angle as it is, or continued over the turns if it was reduced to one.
+fn unwrap(linkage: &Linkage, measurement: &Measurement) -> Result<Unfolded, Error> {
+    let values = measurement.values();
+    let (least, most) = values
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| {
+            (a.min(*v), b.max(*v))
+        });
+    let jumps = values.windows(2).any(|w| (w[1] - w[0]).abs() > PI);
+    let mut warnings = Vec::new();
+    let mut theta = values.to_vec();
+    if jumps && most - least <= TAU * (1.0 + 1e-6) {
+        let mut turns = 0.0;
+        let mut doubtful = None;
+        for i in 1..values.len() {
+            let step = values[i] - values[i - 1];
+            turns -= (step / TAU).round();
+            theta[i] = values[i] + turns * TAU;
+            if (theta[i] - theta[i - 1]).abs() > 0.8 * PI {
+                doubtful = doubtful.or(Some(i));
+            }
+        }
+        warnings.push("theta stays within one turn and jumps: it is taken as reduced to one turn, and continued over the turns by the shorter way".to_owned());
+        if let Some(sample) = doubtful {
+            return Err(Error::refused(
+                format!(
+                    "theta jumps by almost half a turn at {}: the samples do not say which way the crank went",
+                    measurement.place(sample)
+                ),
+                "sample more often, or give theta without reducing it to one turn",
+            ));
+        }
+    }
+    let unreachable = |(sample, theta): (usize, &f64)| {
+        (!linkage.pose(*theta).exists()).then(|| {
+            let what = format!(
+                "theta = {} cannot be reached: the rod is too short for it",
+                measurement.shown(values[sample])
+            );
+            (
+                sample,
+                what,
+                "`kinematics` shows the crank angles that can be reached".to_owned(),
+            )
+        })
+    };
+    let list: Vec<_> = theta
+        .iter()
+        .enumerate()
+        .filter_map(unreachable)
+        .take(20)
+        .collect();
+    if !list.is_empty() {
+        return Err(measurement.problems(list).into());
+    }
+    Ok(Unfolded { theta, warnings })
+}

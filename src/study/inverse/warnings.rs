@@ -1,0 +1,93 @@
+//! When a result is not to be trusted, and why.
+
+use super::InverseOptions;
+use super::fitted::Fitted;
+use crate::numeric::fit::{Curve, Kind, Size};
+use crate::scene::{Measurement, Scene};
+
+/// Residuals beyond this many standard deviations are named.
+const OUTLIER: f64 = 6.0;
+
+/// What is to be known of the scene's loads.
+pub(super) fn of_scene(scene: &Scene, options: &InverseOptions) -> Vec<String> {
+    if scene.reduced().forces.is_empty() {
+        return Vec::new();
+    }
+    let text = if options.beside_forces {
+        "the scene has forces on the slider: slider_force_n and crank_torque_nm are what acts beside them"
+    } else {
+        "the scene has forces on the slider: slider_force_n is the whole force on it, with those of the scene in it (--beside-forces takes them off)"
+    };
+    vec![text.to_owned()]
+}
+
+/// What is to be known of the fit.
+pub(super) fn of_fit(
+    fitted: &Fitted,
+    measurement: &Measurement,
+    options: &InverseOptions,
+) -> Vec<String> {
+    let quality = fitted.curve.quality();
+    let mut warnings = Vec::new();
+    if !fitted.settled {
+        warnings.push(
+            "the fit did not settle: the motion between the samples is not certain".to_owned(),
+        );
+    }
+    let rows = measurement.len() as f64;
+    if rows < 3.0 * quality.parameters {
+        warnings.push(format!(
+            "{rows} samples are few for a fit of {} parameters: its error is hardly known",
+            quality.parameters.round()
+        ));
+    }
+    if fitted.pattern.is_clear() {
+        warnings.push(format!(
+            "the residuals are not noise (correlation of each with the next {:.2}, runs of one sign {:+.0} standard deviations): the fit misses part of the motion, or the samples are not independent; the standard errors are widened by {:.1}, and {}",
+            fitted.pattern.lag_one,
+            fitted.pattern.runs,
+            fitted.pattern.widening,
+            match options.fit {
+                Kind::Polynomial if options.size == Size::Auto => "--fit spline may follow the motion better",
+                Kind::Polynomial => "a higher --degree or --fit spline may follow the motion better",
+                _ => "another --fit may follow the motion better",
+            }
+        ));
+    }
+    warnings.extend(superfluous(fitted, options));
+    if fitted.curve.coefficients().0.iter().any(|c| !c.is_finite()) {
+        warnings.push("coefficients in plain time are left out where cancellation leaves no digits: let the time begin near 0".to_owned());
+    }
+    warnings.extend(outliers(fitted, measurement));
+    warnings
+}
+
+/// Terms of a polynomial of given degree that the samples do not support.
+fn superfluous(fitted: &Fitted, options: &InverseOptions) -> Option<String> {
+    let Curve::Polynomial(polynomial) = &fitted.curve else {
+        return None;
+    };
+    let degree = polynomial.degree();
+    let enough = polynomial.supported_degree();
+    (options.size != Size::Auto && enough + 2 < degree).then(|| {
+        format!("degree {degree} is higher than the samples support: beyond degree {enough} no term differs from zero, and each makes the force less certain")
+    })
+}
+
+/// Samples far off the fit.
+fn outliers(fitted: &Fitted, measurement: &Measurement) -> Option<String> {
+    let limit = OUTLIER * fitted.curve.quality().sigma;
+    let far = |residual: &f64| residual.abs() > limit;
+    let count = fitted.residuals.iter().filter(|r| far(r)).count();
+    let first = fitted.residuals.iter().position(far)?;
+    let samples = if count == 1 {
+        "1 sample lies".to_owned()
+    } else {
+        format!("{count} samples lie")
+    };
+    Some(format!(
+        "{samples} more than {OUTLIER} standard deviations off the fit, the first at {} by {}: none was left out",
+        measurement.place(first),
+        measurement.shown(fitted.residuals[first])
+    ))
+}

@@ -1,0 +1,507 @@
+//! `inverse`: data files good and damaged, columns, rows, keys.
+
+use super::program::{Folder, PUMP, Rows, at, close, has_keys};
+
+const COLUMNS: &str = "t_s,theta_rad,omega_rad_per_s,alpha_rad_per_s2,slider_force_n,slider_force_se_n,crank_torque_nm,near_dead_centre";
+
+/// Twelve samples of a crank that turns at 3 rad/s from 0.3 rad.
+fn rows(separator: &str) -> Vec<String> {
+    let row = |i: u32| {
+        let t = f64::from(i) / 100.0;
+        format!("{t}{separator}{:.6}", 0.3 + 3.0 * t)
+    };
+    (0..12).map(row).collect()
+}
+
+fn data(header: &str, rows: &[String]) -> String {
+    format!("{header}\n{}\n", rows.join("\n"))
+}
+
+fn folder(data: &str) -> Folder {
+    let folder = Folder::with(PUMP);
+    folder.write("data.csv", data);
+    folder
+}
+
+/// A damaged file ends the program with code 2, words that say what and where, and no output of any kind.
+#[track_caller]
+fn refused(data: &str, words: &[&str]) {
+    refused_with(data, &[], words);
+}
+
+#[track_caller]
+fn refused_with(data: &str, options: &[&str], words: &[&str]) {
+    let folder = folder(data);
+    let outputs = [
+        "--out",
+        "rows.csv",
+        "--residuals",
+        "residuals.csv",
+        "--plot",
+        "figure.svg",
+    ];
+    let arguments = [
+        &["inverse", "scene.toml", "data.csv"],
+        &outputs[..],
+        options,
+    ]
+    .concat();
+    folder.run(&arguments).fails(2, words);
+    assert_eq!(folder.names(), ["data.csv", "scene.toml"], "{data}");
+}
+
+/// The usual file with one row in place of the fifth, which is on line 6.
+fn with_row(row: &str) -> String {
+    let mut rows = rows(",");
+    rows[4] = row.to_owned();
+    data("t [s],theta [rad]", &rows)
+}
+
+#[test]
+fn damaged_numbers_are_shown_with_line_and_column() {
+    for (row, words) in [
+        ("0.04,abc", ["data.csv:6:6", "`abc` is not a number"]),
+        ("abc,0.42", ["data.csv:6:1", "`abc` is not a number"]),
+        ("0.04,", ["data.csv:6", "the value is missing"]),
+        (",0.42", ["data.csv:6", "the value is missing"]),
+        ("0.04,NaN", ["data.csv:6:6", "not a finite number"]),
+        ("0.04,inf", ["data.csv:6:6", "not a finite number"]),
+        ("0.04,1e999", ["data.csv:6:6", "not a finite number"]),
+        (
+            "0.04,0.42 rad",
+            ["data.csv:6:6", "units belong in the header"],
+        ),
+        ("0.04,#REF!", ["data.csv:6:6", "`#REF!` is not a number"]),
+        ("0.04,0.4.2", ["data.csv:6:6", "`0.4.2` is not a number"]),
+        ("0.04,1e15", ["data.csv:6:6", "below 1e12"]),
+        ("0.04,--0.4", ["data.csv:6:6", "is not a number"]),
+        (
+            "2026-01-01,0.42",
+            ["data.csv:6:1", "`2026-01-01` is not a number"],
+        ),
+        (
+            "0.04,1,234.5",
+            ["data.csv:6:1", "3 values where the header has 2 columns"],
+        ),
+        (
+            "0.04",
+            ["data.csv:6:1", "1 value where the header has 2 columns"],
+        ),
+        ("0.04,\"0.42", ["data.csv:6:6", "a quote is not closed"]),
+    ] {
+        refused(&with_row(row), &words);
+    }
+}
+
+#[test]
+fn damaged_times_are_shown_with_line_and_column() {
+    for (row, words) in [
+        ("0.03,0.42", ["data.csv:6:1", "the time 0.03 is repeated"]),
+        ("0.02,0.42", ["data.csv:6:1", "the time 0.02 follows 0.03"]),
+        (
+            "-0.04,0.42",
+            ["data.csv:6:1", "the time -0.04 follows 0.03"],
+        ),
+    ] {
+        refused(&with_row(row), &words);
+    }
+}
+
+#[test]
+fn damaged_headers_are_shown() {
+    for (header, words) in [
+        (
+            "theta [rad],value [rad]",
+            ["data.csv:1", "no column holds the time"],
+        ),
+        (
+            "t [s],angle [rad]",
+            ["data.csv:1", "no column is called theta, gamma or x"],
+        ),
+        (
+            "t [s],theta",
+            ["data.csv:1:7", "the column `theta` has no unit"],
+        ),
+        (
+            "t,theta [rad]",
+            ["data.csv:1:1", "the column `t` has no unit"],
+        ),
+        (
+            "t [s],theta [mm]",
+            ["data.csv:1:7", "`mm` is not the unit of an angle"],
+        ),
+        (
+            "t [s],x [deg]",
+            ["data.csv:1:7", "`deg` is not the unit of a length"],
+        ),
+        (
+            "t [s],theta [grad]",
+            ["data.csv:1:7", "`grad` is not a known unit"],
+        ),
+        (
+            "t [m],theta [rad]",
+            ["data.csv:1:1", "`m` is not the unit of a time"],
+        ),
+        (
+            "theta [rad],theta [deg]",
+            ["data.csv:1", "no column holds the time"],
+        ),
+        ("t [s],t [ms]", ["data.csv:1:7", "two columns `t`"]),
+        (
+            "t [s] theta [rad]",
+            ["data.csv:1", "separated by comma, semicolon or tab"],
+        ),
+    ] {
+        refused(&data(header, &rows(",")), &words);
+    }
+    refused(
+        &data("t [s],theta [rad],theta [deg]", &rows(",")),
+        &["two columns `theta`"],
+    );
+    let no_header = rows(",").join("\n");
+    refused(
+        &no_header,
+        &["data.csv:1:1", "there is no header", "--columns"],
+    );
+    refused_with(
+        &data("t [s],theta [rad]", &rows(",")),
+        &["--column", "x"],
+        &["no column is called `x`"],
+    );
+    refused_with(
+        &no_header,
+        &["--columns", "t [s],theta"],
+        &["--columns", "has no unit"],
+    );
+}
+
+#[test]
+fn files_that_hold_too_little_or_something_else() {
+    refused("", &["the file is empty"]);
+    refused("\n\n", &["the file is empty"]);
+    refused("# only a comment\n", &["the file is empty"]);
+    refused(
+        "t [s],theta [rad]\n",
+        &["0 samples where at least 6 are needed"],
+    );
+    refused(
+        &data("t [s],theta [rad]", &rows(",")[..5]),
+        &["5 samples where at least 6 are needed"],
+    );
+    refused(
+        &data("t [s];theta [rad]", &with_commas()),
+        &["data.csv:2:3", "decimal comma"],
+    );
+    let zero = data("t [s],theta [rad]", &rows(",")).replace("0.33", "0\u{0}33");
+    refused(&zero, &["line 3", "zero byte"]);
+    for (bytes, words) in [
+        (&b"\xff\xfet\0"[..], "UTF-16"),
+        (
+            &b"t [s],theta [\xb0]\n"[..],
+            "line 1, column 14: the byte 0xb0 is not UTF-8",
+        ),
+    ] {
+        let folder = Folder::with(PUMP);
+        std::fs::write(folder.path("data.csv"), bytes).expect("the folder can be written");
+        folder
+            .run(&["inverse", "scene.toml", "data.csv", "--out", "rows.csv"])
+            .fails(2, &[words]);
+        assert_eq!(folder.names(), ["data.csv", "scene.toml"]);
+    }
+    Folder::with(PUMP)
+        .run(&["inverse", "scene.toml", "none.csv"])
+        .fails(2, &["`none.csv` cannot be read"]);
+    Folder::with(PUMP)
+        .run(&["inverse", "scene.toml"])
+        .fails(2, &["needs a scene and the data"]);
+}
+
+fn with_commas() -> Vec<String> {
+    rows(";").iter().map(|row| row.replace('.', ",")).collect()
+}
+
+#[test]
+fn values_that_the_mechanism_cannot_have() {
+    let column = |header: &str, bad: &str| {
+        let mut rows: Vec<String> = (0..12)
+            .map(|i| format!("{},{}", f64::from(i) / 100.0, 120 - i))
+            .collect();
+        rows[4] = format!("0.04,{bad}");
+        data(header, &rows)
+    };
+    refused(
+        &column("t [s],gamma [deg]", "-116"),
+        &["data.csv:6:6", "gamma = -116 deg is impossible"],
+    );
+    refused(
+        &column("t [s],gamma [deg]", "200"),
+        &["data.csv:6:6", "gamma = 200 deg is impossible"],
+    );
+    refused(
+        &column("t [s],x [mm]", "20"),
+        &["data.csv:6:6", "x = 20 mm is impossible"],
+    );
+    refused(
+        &column("t [s],x [mm]", "260"),
+        &["data.csv:6:6", "x = 260 mm is impossible", "by 60 mm"],
+    );
+    refused(
+        &column("t [s],x [mm]", "-116"),
+        &["data.csv:6:6", "x = -116 mm is impossible"],
+    );
+}
+
+#[test]
+fn a_crank_angle_out_of_reach() {
+    let folder = Folder::with(super::program::ROCKER);
+    folder.write(
+        "data.csv",
+        &data(
+            "t [s],theta [deg]",
+            &rows(",")
+                .iter()
+                .map(|r| r.replace("0.420000", "80"))
+                .collect::<Vec<_>>(),
+        ),
+    );
+    folder
+        .run(&["inverse", "scene.toml", "data.csv", "--out", "rows.csv"])
+        .fails(2, &["data.csv:6:6", "theta = 80 deg cannot be reached"]);
+}
+
+#[test]
+fn every_problem_of_a_file_is_listed() {
+    let mut rows = rows(",");
+    rows[2] = "0.02,abc".to_owned();
+    rows[7] = "0.07,".to_owned();
+    rows[9] = "0.09,1,2".to_owned();
+    refused(
+        &data("t [s],theta [rad]", &rows),
+        &["data.csv:4:6", "data.csv:9", "data.csv:11"],
+    );
+}
+
+#[test]
+fn files_as_instruments_write_them() {
+    let plain = data("t [s],theta [rad]", &rows(","));
+    let degrees: Vec<String> = (0..12)
+        .map(|i| {
+            format!(
+                "x;{};{}",
+                i * 10,
+                (0.3f64 + 0.03 * f64::from(i)).to_degrees()
+            )
+        })
+        .collect();
+    for (text, options) in [
+        (plain.clone(), &[][..]),
+        (plain.replace('\n', "\r\n"), &[]),
+        (format!("\u{feff}# bench 3\n{plain}\n\n# end\n"), &[]),
+        (data("t_s\ttheta_rad", &rows("\t")), &[]),
+        (data("note;time (ms);theta [deg]", &degrees), &[]),
+        (rows(",").join("\n"), &["--columns", "t [s],theta [rad]"]),
+        (
+            plain
+                .replace("0.3,", "0.30,")
+                .replace("theta [rad]", "theta / rad"),
+            &[],
+        ),
+    ] {
+        let folder = folder(&text);
+        let arguments = [
+            &[
+                "inverse",
+                "scene.toml",
+                "data.csv",
+                "--json",
+                "--out",
+                "rows.csv",
+                "--degree",
+                "1",
+            ],
+            options,
+        ]
+        .concat();
+        let summary = folder.run(&arguments).done().json();
+        close(
+            summary["fit"]["coefficients"][1]
+                .as_f64()
+                .expect("a number"),
+            3.0,
+            1e-5,
+        );
+        let rows = Rows::read(&folder.read("rows.csv"));
+        assert_eq!((rows.header.as_str(), rows.len()), (COLUMNS, 12));
+        close(rows.column("omega_rad_per_s")[5], 3.0, 1e-5);
+    }
+}
+
+#[test]
+fn gaps_and_unused_columns_are_noted() {
+    let mut rows: Vec<String> = (0..40)
+        .map(|i| {
+            format!(
+                "{},{:.6},0.1",
+                f64::from(i) / 100.0,
+                0.3 + 0.03 * f64::from(i)
+            )
+        })
+        .collect();
+    rows.drain(20..28);
+    let summary = folder(&data("t [s],theta [rad],x [m]", &rows))
+        .run(&["inverse", "scene.toml", "data.csv", "--json"])
+        .done()
+        .json();
+    let warnings = summary["warnings"].to_string();
+    assert!(warnings.contains("x is not used"), "{warnings}");
+    assert!(
+        warnings.contains("1 gap, the first before line 22 (time 0.28)"),
+        "{warnings}"
+    );
+}
+
+#[test]
+fn the_summary_has_every_key() {
+    let folder = Folder::new();
+    for fit in ["polynomial", "spline"] {
+        let summary = folder
+            .run(&["inverse", "--json", "--fit", fit])
+            .done()
+            .json();
+        has_keys(&summary, &["fit", "dead_centre_bands", "warnings"]);
+        let keys = [
+            "kind",
+            "degree",
+            "coefficients",
+            "standard_errors",
+            "r_squared",
+            "rms",
+            "condition",
+        ];
+        has_keys(&summary["fit"], &keys);
+        assert_eq!(summary["fit"]["kind"], fit);
+        assert!(at(&summary, "fit.r_squared") > 1.0 - 1e-12);
+    }
+}
+
+#[test]
+fn the_built_in_motion_gives_back_its_polynomial() {
+    let summary = Folder::new()
+        .run(&["inverse", "--json", "--degree", "4"])
+        .done()
+        .json();
+    for (power, expected) in [0.0649, 0.522, 2.166, -2.129, 0.472]
+        .into_iter()
+        .enumerate()
+    {
+        close(
+            summary["fit"]["coefficients"][power]
+                .as_f64()
+                .expect("a number"),
+            expected,
+            1e-13,
+        );
+    }
+}
+
+#[test]
+fn options_that_go_wrong() {
+    let folder = folder(&data("t [s],theta [rad]", &rows(",")));
+    for (options, words) in [
+        (
+            &["--fit", "cubic"][..],
+            "the fit is polynomial, spline or fourier",
+        ),
+        (&["--degree", "-1"], "--degree"),
+        (
+            &["--degree", "2.5"],
+            "the degree is a whole number or `auto`",
+        ),
+        (
+            &["--degree", "11"],
+            "12 samples are too few for 12 parameters",
+        ),
+        (&["--fit", "fourier"], "more than one turn"),
+        (&["--column", "y"], "none of theta, gamma and x"),
+        (&["--residuals", "-"], "residuals and figure go to files"),
+        (&["--json", "--out", "-"], "both the rows and the JSON"),
+        (&["--as-printed"], "in line with the pivot"),
+    ] {
+        folder
+            .run(&[&["inverse", "scene.toml", "data.csv"], options].concat())
+            .fails(2, &[words]);
+    }
+    folder
+        .run(&["inverse", "-", "-"])
+        .fails(2, &["cannot both come from standard input"]);
+}
+
+#[test]
+fn rows_with_joint_forces_residuals_and_figure() {
+    let folder = folder(&data("t [s],theta [rad]", &rows(",")));
+    let arguments = [
+        "inverse",
+        "scene.toml",
+        "data.csv",
+        "--reactions",
+        "--out",
+        "rows.csv",
+        "--residuals",
+        "residuals.csv",
+        "--plot",
+        "figure.svg",
+    ];
+    folder.run(&arguments).done();
+    let forces = Rows::read(&folder.read("rows.csv"));
+    // The wrist pin carries the slider's inertia less the force on it; nothing else moves along x.
+    let (pin, force) = (
+        forces.column("wrist_pin_x_n"),
+        forces.column("slider_force_n"),
+    );
+    let shaking = forces.column("shaking_x_n");
+    for i in 0..pin.len() {
+        close(
+            pin[i],
+            -shaking[i] - force[i],
+            1e-12 * force[i].abs().max(1.0),
+        );
+    }
+    assert!(
+        folder
+            .read("residuals.csv")
+            .starts_with("t_s,theta_rad,fitted_theta_rad,residual_rad\n")
+    );
+    assert!(folder.read("figure.svg").starts_with("<svg"));
+}
+
+#[test]
+fn check_reads_data_files() {
+    let folder = folder(&data("t [s],theta [rad]", &rows(",")));
+    let said = folder.run(&["check", "data.csv"]).done().stdout;
+    assert_eq!(
+        said,
+        "data.csv: nothing is wrong with 12 samples of theta\n"
+    );
+    folder.write("data.csv", &with_row("0.04,abc"));
+    folder
+        .run(&["check", "data.csv"])
+        .fails(2, &["data.csv:6:6", "is not a number"]);
+}
+
+/// On the left branch every position of the right one is impossible, and said to be so.
+#[test]
+fn positions_of_the_other_branch() {
+    let rocker = super::program::ROCKER;
+    let folder = Folder::with(&rocker.replace("offset", "branch = \"left\"\noffset"));
+    let right: Vec<String> = (0..12)
+        .map(|i| format!("{},{}", f64::from(i) / 100.0, 99 - i))
+        .collect();
+    folder.write("data.csv", &data("t [s],x [mm]", &right));
+    let words = [
+        "data.csv:2:3",
+        "x = 99 mm is impossible for this mechanism on its branch",
+    ];
+    folder
+        .run(&["inverse", "scene.toml", "data.csv"])
+        .fails(2, &words);
+}

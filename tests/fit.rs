@@ -1,0 +1,201 @@
+//! Fitted curves against exactly known answers.
+
+use slider_crank::numeric::fit::{Curve, Fourier, Kind, Polynomial, Samples, Size, Spline};
+
+fn samples<'a>(t: &'a [f64], target: &'a [f64]) -> Samples<'a> {
+    Samples {
+        t,
+        target,
+        weight: None,
+        floor: 0.0,
+    }
+}
+
+/// Correct digits.
+fn digits(found: f64, exact: f64) -> f64 {
+    if found == exact {
+        17.0
+    } else {
+        -((found - exact) / exact).abs().log10()
+    }
+}
+
+/// The five problems of Wampler (J. Am. Statist. Assoc. 65 (1970) 549): polynomials of degree 5 over 0, 1, ..., 20, three of
+/// them with deviations of growing size that are orthogonal to all polynomials of degree 5.
+#[test]
+fn wampler() {
+    let t: Vec<f64> = (0..21).map(f64::from).collect();
+    let deviations = [
+        759.0, -2048.0, 2048.0, -2048.0, 2523.0, -2048.0, 2048.0, -2048.0, 1838.0, -2048.0, 2048.0,
+        -2048.0, 1838.0, -2048.0, 2048.0, -2048.0, 2523.0, -2048.0, 2048.0, -2048.0, 759.0,
+    ];
+    let ones = |t: f64| (0..6).map(|k| t.powi(k)).sum::<f64>();
+    let tenths = |t: f64| (0..6).map(|k| (t / 10.0).powi(k)).sum::<f64>();
+    let fit = |y: &[f64]| Polynomial::fit(&samples(&t, y), Size::Fixed(5));
+    let worst = |fit: &Polynomial, exact: &dyn Fn(usize) -> f64| {
+        let found = fit.powers().coefficients.iter().enumerate();
+        found
+            .map(|(k, c)| digits(*c, exact(k)))
+            .fold(17.0, f64::min)
+    };
+    let first: Vec<f64> = t.iter().map(|t| ones(*t)).collect();
+    assert!(worst(&fit(&first), &|_| 1.0) > 15.0);
+    let second: Vec<f64> = t.iter().map(|t| tenths(*t)).collect();
+    // The samples themselves are rounded: 13 digits of the smallest coefficient are what they hold.
+    assert!(worst(&fit(&second), &|k| 0.1f64.powi(k as i32)) > 12.5);
+    let squares: f64 = deviations.iter().map(|d| d * d).sum();
+    for factor in [1.0, 100.0, 10_000.0] {
+        let y: Vec<f64> = t
+            .iter()
+            .zip(deviations)
+            .map(|(t, d)| ones(*t) + factor * d)
+            .collect();
+        let found = fit(&y);
+        assert!(worst(&found, &|_| 1.0) > 14.0, "{factor}");
+        let sigma = factor * (squares / 15.0).sqrt();
+        assert!(digits(found.quality().sigma, sigma) > 14.5, "{factor}");
+    }
+}
+
+/// Standard errors of a straight line over −n..n: σ/√(2n+1) for the constant, σ/√(Σ t²) for the slope; shifted by a million,
+/// where the constant has lost six digits to the slope.
+#[test]
+fn standard_errors_of_a_line() {
+    for shift in [0.0, 1e6] {
+        let t: Vec<f64> = (-50..=50).map(|i| f64::from(i) + shift).collect();
+        let y: Vec<f64> = t.iter().map(|t| 3.0 - 2.0 * t).collect();
+        let powers = Polynomial::fit(&samples(&t, &y), Size::Fixed(1))
+            .powers()
+            .clone();
+        let square = 50.0 * 51.0 * 101.0 / 3.0;
+        assert!(digits(powers.errors[1], (1.0f64 / square).sqrt()) > 14.5);
+        let constant: f64 = 1.0 / 101.0 + shift * shift / square;
+        assert!(digits(powers.errors[0], constant.sqrt()) > 14.5);
+        assert!(digits(powers.coefficients[0], 3.0) > 9.0);
+        assert!(digits(powers.coefficients[1], -2.0) > 15.0);
+        // ‖A‖ ‖A⁻¹‖ of the matrix of 1 and t, from its normal matrix with determinant 101·Σ(t − mean)².
+        let trace = 101.0 + (square + 101.0 * shift * shift);
+        let expected = trace / (101.0 * square).sqrt();
+        assert!(
+            digits(powers.condition, expected) > 12.0,
+            "{}",
+            powers.condition
+        );
+    }
+}
+
+/// A polynomial of degree 10 whose powers are ill-conditioned (10^14): (t + 5)^10 over −8.5 to −3, known to all its
+/// binomial coefficients, as all samples are exact in 53 bits.
+#[test]
+fn ten_binomial_coefficients_and_derivatives() {
+    let t: Vec<f64> = (0..23).map(|i| -8.5 + 0.25 * f64::from(i)).collect();
+    let scale = 2f64.powi(20);
+    let y: Vec<f64> = t
+        .iter()
+        .map(|t| (4.0 * (t + 5.0)).powi(10) / scale)
+        .collect();
+    let fit = Polynomial::fit(&samples(&t, &y), Size::Fixed(10));
+    assert!(fit.powers().condition > 1e13);
+    let mut binomial = 1.0;
+    for k in (0..=10usize).rev() {
+        let exact = binomial * 5f64.powi(10 - k as i32);
+        assert!(
+            digits(fit.powers().coefficients[k], exact) > 11.0,
+            "{k}: {}",
+            fit.powers().coefficients[k]
+        );
+        binomial = binomial * k as f64 / (11 - k) as f64;
+    }
+    let size = 3.5f64.powi(8) * 90.0;
+    for t in t {
+        let state = fit.state(t);
+        let u = t + 5.0;
+        for (found, exact, size) in [
+            (state.value[1], 10.0 * u.powi(9), size),
+            (state.value[2], 90.0 * u.powi(8), size),
+        ] {
+            assert!(
+                (found - exact).abs() < 1e-11 * size,
+                "{t}: {found} for {exact}"
+            );
+        }
+        assert!((state.value[2] - 90.0 * u.powi(8)).abs() <= state.rounding[2] + 1e-12 * size);
+    }
+}
+
+/// Derivatives of every kind of curve are those of its values.
+#[test]
+fn derivatives_are_consistent() {
+    let t: Vec<f64> = (0..300).map(|i| 0.01 * f64::from(i)).collect();
+    let y: Vec<f64> = t
+        .iter()
+        .map(|t| 1.0 + 9.0 * t + 0.3 * (9.0 * t).sin() + 0.01 * (77.7 * t).sin())
+        .collect();
+    for kind in Kind::ALL {
+        let size = if kind == Kind::Spline {
+            Size::Fixed(30)
+        } else {
+            Size::Fixed(6)
+        };
+        let curve = Curve::fit(&samples(&t, &y), kind, size).expect("a fit");
+        for at in [0.503, 1.4, 2.71] {
+            let h = 1e-4;
+            let (a, b, c) = (curve.state(at - h), curve.state(at), curve.state(at + h));
+            let first = (c.value[0] - a.value[0]) / (2.0 * h);
+            let second = (c.value[1] - a.value[1]) / (2.0 * h);
+            assert!(
+                (b.value[1] - first).abs() < 1e-5 * first.abs().max(1.0),
+                "{kind:?}"
+            );
+            assert!(
+                (b.value[2] - second).abs() < 1e-4 * second.abs().max(10.0),
+                "{kind:?}"
+            );
+        }
+    }
+}
+
+/// The rotation and harmonics that a signal is made of are found.
+#[test]
+fn harmonics_that_are_there() {
+    let t: Vec<f64> = (0..400).map(|i| 1.0 + 0.005 * f64::from(i)).collect();
+    let (omega, middle) = (21.7, 0.5 * (t[0] + t[399]));
+    let y: Vec<f64> = t
+        .iter()
+        .map(|t| {
+            let psi = omega * (t - middle);
+            0.4 + psi + 0.2 * psi.cos() - 0.1 * psi.sin() + 0.03 * (2.0 * psi).sin()
+        })
+        .collect();
+    let fit = Fourier::fit(&samples(&t, &y), Size::Fixed(3)).expect("a fit");
+    let exact = [0.4, omega, 0.2, -0.1, 0.0, 0.03, 0.0, 0.0];
+    for (found, exact) in fit.coefficients().0.iter().zip(exact) {
+        assert!((found - exact).abs() < 1e-13, "{found} for {exact}");
+    }
+}
+
+/// A spline has no penalty on a cubic.
+#[test]
+fn a_cubic_is_a_spline() {
+    let t: Vec<f64> = (0..50).map(|i| 0.1 * f64::from(i)).collect();
+    let y: Vec<f64> = t
+        .iter()
+        .map(|t| 1.0 - t + 0.5 * t * t - 0.2 * t * t * t)
+        .collect();
+    let spline = Spline::fit(
+        &Samples {
+            floor: 1e-13,
+            ..samples(&t, &y)
+        },
+        Size::Auto,
+    )
+    .expect("a fit");
+    for t in [0.0, 1.234, 4.9] {
+        let state = spline.state(t);
+        assert!(
+            (state.value[2] - (1.0 - 1.2 * t)).abs() < 1e-9,
+            "{t}: {:?}",
+            state.value
+        );
+    }
+}
