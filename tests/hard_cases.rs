@@ -125,7 +125,6 @@ fn every_case_ends_at_its_reference() {
 
 /// A pendulum of 1e-3 rad: the speed follows from a difference of energies that cancels to 1e-7 of them.
 #[test]
-#[ignore = "the energy engine states 2e-15 rad/s for a speed that is off by 1.2e-13"]
 fn a_small_libration_ends_at_its_reference() {
     let run = run("07-small-libration", Method::Auto);
     check(
@@ -198,7 +197,6 @@ fn ten_thousand_reversals_keep_the_energy_balance() {
 /// At rest at the inner dead centre, 180 degrees, which no float is: the motion from the float next to it, which
 /// grows as cosh(18.26 t), stays below 1e-8 rad, and the estimate says so.
 #[test]
-#[ignore = "the energy engine states less than half of how far it moves"]
 fn rest_at_a_rounded_dead_centre_says_how_unsure_it_is() {
     let run = run("05-rest-at-inner-dead-centre", Method::Auto);
     let moved = (run.summary.last.theta_rad - std::f64::consts::PI).abs();

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use super::home::Return;
 use super::panel::{Panel, Tried};
 use super::piece::{Piece, Turning};
 use super::{Profile, Unserved};
@@ -40,6 +41,8 @@ const MOST_ATTEMPTS: usize = 200_000;
 const SHORTEST: f64 = 1e-13;
 /// Most panels whose extremes are looked for between their points.
 const MOST_LOOKED_AT: u32 = 64;
+/// Below this part of the largest kinetic energy its sum over the panels has lost digits.
+const NEAR_REST: f64 = 1e-3;
 /// The first guess of a panel's length, rad.
 const LONGEST: f64 = 2.0 * FRAC_PI_2 + 1e-9;
 
@@ -69,6 +72,7 @@ impl Leg {
     ) -> Result<Leg, Unserved> {
         let mut leg = Leg::open();
         let whole_turn = start + direction * TAU;
+        let home = Return::new(profile, whole_turn, kinetic);
         let mut at = start;
         let mut kinetic = kinetic;
         let mut length = LONGEST;
@@ -100,6 +104,14 @@ impl Leg {
                     turning = Turning::AtEnd;
                 }
             }
+            let mut rounding = f64::EPSILON * largest;
+            if let Some(again) = &home
+                && kinetic < NEAR_REST * largest
+                && let Some(exact) = again.kinetic(at)
+            {
+                kinetic = exact;
+                rounding = f64::EPSILON * kinetic * (1.0 + at.abs() / (whole_turn - at).abs());
+            }
             let short = (to - at).abs() <= SHORTEST * at.abs().max(1.0);
             let accepted = if short { f64::INFINITY } else { tolerance };
             let piece = Piece {
@@ -107,7 +119,6 @@ impl Leg {
                 to,
                 turning,
             };
-            let rounding = f64::EPSILON * largest;
             match Panel::attempt(profile, piece, kinetic, accepted, rounding)? {
                 Tried::Done(panel) => {
                     at = to;
@@ -124,7 +135,10 @@ impl Leg {
                         return Ok(leg);
                     }
                 }
-                Tried::TurnsAt(end) if end != at => turns_at = Some(end),
+                Tried::TurnsAt(end) if end != at => {
+                    let exact = home.as_ref().and_then(|again| again.turning_point(at, end));
+                    turns_at = Some(exact.unwrap_or(end));
+                }
                 _ if short => return Err(Unserved::NotFinite),
                 _ => length = 0.5 * (to - at).abs(),
             }

@@ -7,6 +7,7 @@
 //! makes dt/ds smooth.
 
 mod extreme;
+mod home;
 mod kinetic;
 pub(in crate::engine) mod leg;
 mod orbit;

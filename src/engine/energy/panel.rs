@@ -98,6 +98,7 @@ impl Panel {
             Turning::AtStart => f64::INFINITY,
             Turning::AtEnd => energy.kinetic,
         };
+        let shaken = shaken(rounding / least) + misplaced(&piece, &force);
         let kinetic_at_end = match piece.turning {
             Turning::Nowhere => kinetic[DEGREE],
             Turning::AtStart => 2.0 * piece.span().abs() * energy.mean_force(1.0),
@@ -108,7 +109,7 @@ impl Panel {
             rule,
             &slopes,
             slope,
-            shaken(rounding / least),
+            shaken,
             kinetic_at_end,
         ))))
     }
@@ -216,4 +217,20 @@ fn shaken(part: f64) -> f64 {
     } else {
         0.5 * part
     }
+}
+
+/// Relative error of the time because angles are rounded: near a turning point it is the force that is off,
+/// by more than itself where the crank starts next to an unstable rest.
+fn misplaced(piece: &Piece, force: &Values) -> f64 {
+    let at_turn = match piece.turning {
+        Turning::Nowhere => return 0.0,
+        Turning::AtStart => force[0],
+        Turning::AtEnd => force[DEGREE],
+    };
+    let (low, high) = force.iter().fold((f64::MAX, f64::MIN), |(low, high), f| {
+        (low.min(*f), high.max(*f))
+    });
+    let steepness = (high - low) / piece.span().abs();
+    let rounding = 0.5 * f64::EPSILON * piece.from.abs().max(piece.to.abs());
+    0.25 * (rounding * steepness / at_turn.abs()).min(2.0)
 }
