@@ -63,52 +63,64 @@ impl Rule {
             integration: OnceLock::new(),
         };
         let n = degree as f64;
+        let cosines = cosines(degree);
         for j in 0..=degree {
             // From the sine of a symmetric argument, so that the points are symmetric to the last bit.
             rule.points[j] = (PI * (2.0 * j as f64 - n) / (2.0 * n)).sin();
-            rule.weights[j] = weight(degree, j);
+            rule.weights[j] = weight(&cosines, j);
         }
         let half = degree / 2;
         for j in 0..=half {
             let at_end = if j == 0 { 0.5 } else { 1.0 };
             for k in 0..=half {
                 let last = if k == 0 || k == half { 1.0 } else { 2.0 };
-                rule.even[j][k] = last / n * at_end * cosine(degree, 2 * k * j);
+                rule.even[j][k] = last / n * at_end * cosine(&cosines, 2 * k * j);
                 if k < half && j < half {
-                    rule.odd[j][k] = 2.0 / n * at_end * cosine(degree, (2 * k + 1) * j);
+                    rule.odd[j][k] = 2.0 / n * at_end * cosine(&cosines, (2 * k + 1) * j);
                 }
             }
         }
-        for j in 0..=half {
-            rule.fill_integrals(j);
-        }
+        rule.fill_integrals(&cosines);
         rule
     }
 
-    /// Integrals of the even and the odd function that are one at the pair of points `j` from the ends.
-    fn fill_integrals(&mut self, j: usize) {
+    /// Integrals of the even and the odd functions that are one at one pair of points and zero at the others.
+    fn fill_integrals(&mut self, cosines: &[f64]) {
         let half = self.degree / 2;
-        let (mut even, mut odd) = ([0.0; MOST + 1], [0.0; MOST + 1]);
-        for k in 0..=half {
-            even[2 * k] = self.even[j][k];
-            if k < half {
-                odd[2 * k + 1] = self.odd[j][k];
+        let primitives: Vec<Half> = (0..=self.degree)
+            .map(|k| self.primitives(cosines, k))
+            .collect();
+        for j in 0..=half {
+            for (k, primitive) in primitives.iter().enumerate() {
+                let (factor, sums) = if k % 2 == 0 {
+                    (self.even[j][k / 2], &mut self.even_integrals[j])
+                } else {
+                    (self.odd[j][k / 2], &mut self.odd_integrals[j])
+                };
+                for (sum, value) in sums.iter_mut().zip(primitive) {
+                    *sum += factor * value;
+                }
             }
         }
-        let primitive = |c: &Values, i: usize| {
-            let t = |k: usize| cosine(self.degree, k * i);
-            let term = |k: usize| match k {
-                0 => c[0] * t(1),
-                1 => c[1] * 0.25 * t(2),
-                _ => 0.5 * c[k] * (t(k + 1) / (k + 1) as f64 - t(k - 1) / (k - 1) as f64),
-            };
-            (0..=self.degree).map(term).sum::<f64>()
+    }
+
+    /// Integrals of T_k from 0 to the points: of T_1, T_2/4 and (T_(k+1)/(k+1) − T_(k−1)/(k−1))/2 for k = 0, 1
+    /// and more.
+    fn primitives(&self, cosines: &[f64], k: usize) -> Half {
+        let half = self.degree / 2;
+        let primitive = |i: usize| {
+            let t = |k: usize| cosine(cosines, k * i);
+            match k {
+                0 => t(1),
+                1 => 0.25 * t(2),
+                _ => 0.5 * (t(k + 1) / (k + 1) as f64 - t(k - 1) / (k - 1) as f64),
+            }
         };
-        let (even_at_middle, odd_at_middle) = (primitive(&even, half), primitive(&odd, half));
-        for i in 0..=half {
-            self.even_integrals[j][i] = primitive(&even, i) - even_at_middle;
-            self.odd_integrals[j][i] = primitive(&odd, i) - odd_at_middle;
+        let mut result = [0.0; HALF];
+        for (i, value) in result.iter_mut().enumerate().take(half + 1) {
+            *value = primitive(i) - primitive(half);
         }
+        result
     }
 
     /// The degree n.
@@ -258,20 +270,26 @@ fn product<const N: usize>(matrix: &Matrix, vector: &Half) -> Half {
     result
 }
 
-/// cos(π m/degree), exactly symmetric.
-fn cosine(degree: usize, m: usize) -> f64 {
+/// cos(π m/degree) for m from 0 to 2·degree − 1, exactly symmetric.
+fn cosines(degree: usize) -> Vec<f64> {
     let n = degree as f64;
-    let m = (m % (2 * degree)) as f64;
-    (PI * (n - 2.0 * m) / (2.0 * n)).sin()
+    let cosine = |m: usize| (PI * (n - 2.0 * m as f64) / (2.0 * n)).sin();
+    (0..2 * degree).map(cosine).collect()
+}
+
+/// cos(π m/degree) of any m.
+fn cosine(cosines: &[f64], m: usize) -> f64 {
+    cosines[m % cosines.len()]
 }
 
 /// Weight of the point `j` in the rule of Clenshaw and Curtis.
-fn weight(degree: usize, j: usize) -> f64 {
+fn weight(cosines: &[f64], j: usize) -> f64 {
+    let degree = cosines.len() / 2;
     let end = j == 0 || j == degree;
     let sum: f64 = (1..=degree / 2)
         .map(|k| {
             let last = if 2 * k == degree { 1.0 } else { 2.0 };
-            last * cosine(degree, 2 * k * j) / (4.0 * (k * k) as f64 - 1.0)
+            last * cosine(cosines, 2 * k * j) / (4.0 * (k * k) as f64 - 1.0)
         })
         .sum();
     (1.0 - sum) * if end { 1.0 } else { 2.0 } / degree as f64
