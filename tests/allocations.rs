@@ -94,3 +94,28 @@ fn a_longer_run_with_rows_takes_no_more_memory() {
     let (short, long) = (allocations(0.5), allocations(20.0));
     assert!(long <= short + 8, "{short} and {long}");
 }
+
+/// Turns over the crank angle: their series are kept in one list, which doubles when it is full.
+#[test]
+fn turns_take_no_memory_but_their_place_in_the_list() {
+    let allocations = |turns: f64| {
+        let scene = Scene::duarte()
+            .torque(Load::Constant(1.0))
+            .torque(Load::Viscous(0.01))
+            .revolutions(turns);
+        let options = Options {
+            estimate: false,
+            events_kept: 0,
+            ..Options::default()
+        };
+        let run = || slider_crank::study::simulate(&scene, &options).unwrap();
+        assert_eq!(run().summary.engine, "angle");
+        measure(|| assert!(run().summary.evaluations > 0)).count_total
+    };
+    let (few, more) = (allocations(5.0), allocations(40.0));
+    // 70 panels more: a handful of lists that double a few times.
+    assert!(more <= few + 16, "{few} {more}");
+    // Many turns follow from the map of one: a million take no more than ten thousand.
+    let (many, most) = (allocations(1e4), allocations(1e6));
+    assert!(most <= many + 16, "{many} {most}");
+}
