@@ -8,7 +8,7 @@ use super::{Outcome, is_standard, print, say, scene};
 use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{self, Output, PlotRows, Preview, RowWriter};
-use crate::study::{self, Options, Row, RowSink};
+use crate::study::{self, Options, Row, RowSink, SteadyOptions};
 
 /// Arguments of `simulate`.
 #[derive(Debug, Args)]
@@ -39,6 +39,12 @@ pub(super) struct Arguments {
     /// Does without the error estimate, which takes a second run
     #[arg(long)]
     no_estimate: bool,
+    /// Starts the run in the periodic steady state, one turn if the scene gives no run, and adds its key figures
+    #[arg(long)]
+    steady_state: bool,
+    /// Adds the flywheel for this coefficient of speed fluctuation in the steady state
+    #[arg(long, value_name = "NUMBER", requires = "steady_state")]
+    fluctuation: Option<f64>,
     /// Work limit: most evaluations of the equation
     #[arg(long, value_name = "COUNT", default_value_t = Options::default().max_evaluations)]
     max_evaluations: u64,
@@ -73,6 +79,13 @@ impl RowSink for Rows {
     }
 }
 
+fn steady_options(arguments: &Arguments) -> SteadyOptions {
+    SteadyOptions {
+        fluctuation: arguments.fluctuation,
+        max_evaluations: arguments.max_evaluations,
+    }
+}
+
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let rows_on_stdout = is_standard(arguments.out.as_ref());
     if is_standard(arguments.plot.as_ref()) {
@@ -99,6 +112,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         max_evaluations: arguments.max_evaluations,
         events_kept: arguments.max_events,
     };
+    let steady = arguments
+        .steady_state
+        .then(|| study::steady_state(&scene, &steady_options(arguments)))
+        .transpose()?;
+    if let Some(steady) = &steady {
+        scene = steady.start(&scene);
+    }
     let output = arguments.out.as_deref().map(Output::create).transpose()?;
     let figure = arguments.plot.as_deref().map(Output::create).transpose()?;
     let mut rows = Rows {
@@ -110,7 +130,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     if let Some(writer) = rows.writer {
         writer.finish()?;
     }
-    let summary = result.summary;
+    let mut summary = result.summary;
+    summary.steady_state = steady;
     if let (Some(mut figure), Some(plot)) = (figure, &rows.plot) {
         figure.write(plot.to_svg(&summary)?.as_bytes())?;
         figure.finish()?;

@@ -12,6 +12,7 @@ mod precision;
 mod reproduce;
 mod rows;
 mod statics;
+mod steady;
 mod text;
 
 pub use calibration::calibration;

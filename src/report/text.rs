@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use super::joint::clearance;
+use super::steady::steady_state;
 use crate::study::{Kinematics, Located, NamedPosition, Row, Summary};
 
 /// The summary of a run, with a few of its rows.
@@ -81,6 +82,9 @@ pub fn summary(summary: &Summary, rows: &[Row]) -> String {
     put("events", events(summary));
     if let Some(joint) = &summary.clearance {
         clearance(&mut put, joint);
+    }
+    if let Some(steady) = &summary.steady_state {
+        steady_state(&mut put, steady);
     }
     for warning in &summary.warnings {
         put("warning", warning.clone());

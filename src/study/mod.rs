@@ -24,6 +24,7 @@ mod row;
 mod schedule;
 mod simulate;
 mod statics;
+mod steady;
 mod stopped;
 mod summary;
 mod task;
@@ -46,4 +47,7 @@ pub use reproduce::{Drawing, Entry, Paper, Plot, Reproduction, Series, Style, Ve
 pub use row::{LooseRow, NoRows, Row, RowSink};
 pub use simulate::{Options, Simulation, simulate, simulate_rows};
 pub use statics::{StaticAnalysis, StaticsOptions, StaticsRow, statics};
+pub use steady::{
+    Estimated, Flywheel, LoadWork, SpeedExtreme, SteadyOptions, SteadyState, steady_state,
+};
 pub use summary::{Cost, ErrorEstimate, Event, Final, Summary, TorqueRange};

@@ -75,7 +75,8 @@ fn is_long(task: &Task<'_>) -> bool {
     }
 }
 
-fn reason(unserved: Unserved) -> &'static str {
+/// Why these engines cannot serve.
+pub(super) fn reason(unserved: Unserved) -> &'static str {
     match unserved {
         Unserved::Equilibrium => "it starts at rest without a force",
         Unserved::NotFinite => {

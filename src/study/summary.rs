@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::clearance::ClearanceSummary;
+use super::steady::SteadyState;
 use super::task::Task;
 use crate::plan::Plan;
 
@@ -45,6 +46,9 @@ pub struct Summary {
     /// The loose joint, if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<ClearanceSummary>,
+    /// The periodic motion, for a run that was started in it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steady_state: Option<SteadyState>,
     /// Dead centres, turning points, impacts and separations: the first of them, at most as many as were asked for.
     pub events: Vec<Event>,
     /// How many there were.
@@ -106,6 +110,7 @@ impl Summary {
             omega_max: solved.speed.1,
             driving_torque: solved.driving_torque,
             clearance: solved.clearance,
+            steady_state: None,
             events: solved.events,
             events_total: solved.events_total,
             warnings,

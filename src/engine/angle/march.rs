@@ -115,6 +115,11 @@ impl<'a, D: Driven> March<'a, D> {
         self.gain > 0.0
     }
 
+    /// Largest kinetic energy at the ends of panels so far, J.
+    pub fn fastest(&self) -> f64 {
+        self.fastest
+    }
+
     /// Whether the next panel begins a turn.
     pub fn at_turn(&self) -> bool {
         self.next == 0 && self.parts.is_empty()

@@ -11,6 +11,7 @@ mod map;
 mod march;
 mod newton;
 mod station;
+mod steady;
 mod sweep;
 
 use std::f64::consts::TAU;
@@ -20,6 +21,7 @@ use super::energy::{Orbit, Unserved};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MOST, Values};
 use march::{Done, March};
+pub use steady::{Cycle, NoCycle, one_turn, steady};
 
 /// What the engine needs of a mechanism.
 pub trait Driven {

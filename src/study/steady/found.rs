@@ -1,0 +1,203 @@
+//! One computation of the periodic motion, and where its speed is extreme.
+
+use std::f64::consts::TAU;
+
+use super::Estimated;
+use super::refusal::{always_gains, no_cycle, unbounded};
+use crate::engine::angle::{self, Cycle, Resolution};
+use crate::engine::energy::Orbit;
+use crate::error::Error;
+use crate::mechanism::{Equation, Limits};
+use crate::numeric::angle::Angle;
+use crate::numeric::root;
+use crate::scene::{Scene, Variable};
+use crate::study::profile::Position;
+
+/// What is stated is larger than the distance of two computations by this.
+pub(super) const MARGIN: f64 = 1.5;
+/// Relative error of speeds and times by rounding.
+pub(super) const ROUNDING: f64 = 8.0 * f64::EPSILON;
+/// Series end where rounding takes over: what a turn leaves out adds up over all turns that are remembered.
+const TAIL: f64 = 4e-15;
+/// A turn that gains no more than this part of its largest energy gains nothing.
+const NOTHING: f64 = 1e-12;
+/// First step of the search in the logarithm of the energy; of a search beside a motion that is known.
+const STEP: f64 = 0.05;
+const STEP_BESIDE: f64 = 1e-10;
+
+/// An extreme of the speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Extreme {
+    /// Turned since the start, rad, positive.
+    pub turned: f64,
+    /// Signed, rad/s.
+    pub omega: f64,
+}
+
+/// A periodic motion.
+pub(super) struct Found {
+    pub start: Angle,
+    pub orbit: Orbit,
+    pub speed: f64,
+    pub period: f64,
+    /// Least and largest speed.
+    pub extremes: [Extreme; 2],
+    pub multiplier: f64,
+    pub multiplier_error: f64,
+    /// What is left open of its energies, relative to them.
+    pub uncertain: f64,
+    pub approached: bool,
+    /// Whether every speed is periodic.
+    pub any_speed: bool,
+    /// Largest kinetic energy, J.
+    pub largest: f64,
+}
+
+impl Found {
+    pub fn fluctuation(&self) -> f64 {
+        let [slow, fast] = self.extremes;
+        (fast.omega - slow.omega).abs() * self.period / TAU
+    }
+
+    /// Speed where the crank has turned by this since the start, rad, rad/s.
+    pub fn omega(&self, turned: f64) -> f64 {
+        self.orbit
+            .time_of_turn(turned)
+            .map_or(f64::NAN, |t| self.orbit.state(t).1)
+    }
+}
+
+/// What looks for the periodic motion of a scene.
+pub(super) struct Seeker {
+    equation: Equation,
+    start: Angle,
+    /// rad/s
+    speed: f64,
+    max_evaluations: u64,
+}
+
+impl Seeker {
+    /// Looks from a speed on, rad/s.
+    pub fn new(scene: &Scene, speed: f64, max_evaluations: u64) -> Seeker {
+        Seeker {
+            equation: Equation::new(scene),
+            start: Angle::from(scene.motion.angle).reduced(),
+            speed,
+            max_evaluations,
+        }
+    }
+
+    pub fn find(&self) -> Result<Found, Error> {
+        self.search(STEP, false)
+    }
+
+    /// The same motion, cut at other angles: on the same panels it would have the same error.
+    pub fn again(&self) -> Result<Found, Error> {
+        self.search(STEP_BESIDE, true)
+    }
+
+    fn search(&self, step: f64, other: bool) -> Result<Found, Error> {
+        let limits = Limits::new(self.equation.linkage(), self.speed);
+        let inertia = |theta: f64| self.equation.terms(theta).inertia.m;
+        let vanishes = |theta: f64| inertia(theta) <= 1e-12 * inertia(theta + 1.0);
+        if limits.dead_centres.iter().any(|dc| vanishes(dc.theta)) {
+            return Err(unbounded());
+        }
+        let position = Position::new(&self.equation, &limits);
+        let resolution = Resolution {
+            tail: TAIL,
+            other,
+            most_evaluations: self.max_evaluations,
+        };
+        let reads = self.equation.loads().reads();
+        let any_speed = !reads.has(Variable::Omega) && !reads.has(Variable::V);
+        let cycle = if any_speed {
+            let turn = angle::one_turn(&position, self.start, self.speed, resolution);
+            let turn = turn.map_err(|unserved| no_cycle(unserved.into()))?;
+            if turn.gain.abs() > NOTHING * turn.largest {
+                return Err(always_gains(turn.gain));
+            }
+            turn
+        } else {
+            angle::steady(&position, self.start, self.speed, step, resolution).map_err(no_cycle)?
+        };
+        self.found(cycle, any_speed)
+    }
+
+    fn found(&self, cycle: Cycle, any_speed: bool) -> Result<Found, Error> {
+        let mut found = Found {
+            start: self.start,
+            orbit: cycle.orbit,
+            speed: cycle.speed,
+            period: cycle.period,
+            extremes: [Extreme {
+                turned: 0.0,
+                omega: cycle.speed,
+            }; 2],
+            multiplier: cycle.multiplier,
+            multiplier_error: cycle.multiplier_error,
+            uncertain: cycle.uncertain,
+            approached: cycle.approached,
+            any_speed,
+            largest: cycle.largest,
+        };
+        found.extremes = [-1.0, 1.0].map(|sign| self.extreme(&found, sign));
+        let known = found
+            .extremes
+            .iter()
+            .all(|extreme| extreme.omega.is_finite());
+        if known { Ok(found) } else { Err(unbounded()) }
+    }
+
+    /// The largest sign·|speed|: of the angles of a fine grid, then where the acceleration vanishes beside it.
+    fn extreme(&self, found: &Found, sign: f64) -> Extreme {
+        let sense = found.speed.signum();
+        let grid = self.equation.linkage().turn_grid();
+        let since = |theta: &f64| (sense * (theta - self.start.rest)).rem_euclid(TAU);
+        let mut ways: Vec<f64> = grid.iter().map(since).collect();
+        ways.push(0.0);
+        ways.sort_by(f64::total_cmp);
+        ways.dedup();
+        let value = |way: f64| sign * sense * found.omega(way.rem_euclid(TAU));
+        let best = (0..ways.len()).max_by(|a, b| value(ways[*a]).total_cmp(&value(ways[*b])));
+        let best = best.unwrap_or(0);
+        let count = ways.len();
+        let before = if best == 0 {
+            ways[count - 1] - TAU
+        } else {
+            ways[best - 1]
+        };
+        let after = if best + 1 == count {
+            TAU
+        } else {
+            ways[best + 1]
+        };
+        let slope = |way: f64| {
+            let way = way.rem_euclid(TAU);
+            let angle = self.start.plus(sense * way);
+            self.equation.acceleration(0.0, angle, found.omega(way))
+        };
+        let way = root::bracketed(slope, before, after)
+            .filter(|way| value(*way) > value(ways[best]))
+            .unwrap_or(ways[best])
+            .rem_euclid(TAU);
+        Extreme {
+            turned: way,
+            omega: found.omega(way),
+        }
+    }
+}
+
+/// The crank angle of an extreme, with its error: the speed is flat there, so that an error of the speed by a part
+/// `relative` moves it by the root of that part of the curvature at most.
+pub(super) fn place(found: &Found, check: &Found, which: usize, relative: f64) -> Estimated {
+    let [here, there] = [found, check].map(|f| f.extremes[which].turned);
+    let apart = (here - there).abs();
+    let apart = apart.min((TAU - apart).abs());
+    let sense = found.speed.signum();
+    let angle = found.start.rest + sense * here;
+    Estimated {
+        value: angle.rem_euclid(TAU),
+        error: MARGIN * apart + relative * TAU / found.fluctuation().clamp(1e-12, 1.0),
+    }
+}
