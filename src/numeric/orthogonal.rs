@@ -3,7 +3,7 @@
 //! The three-term recurrence of Forsythe (J. SIAM 5 (1957) 74) makes the columns of Q in the QR
 //! factorization of the matrix of powers, one after the other, in time and memory linear in the points.
 
-use super::double::Real;
+use super::real::Real;
 
 /// Coefficients over orthonormal polynomials q_j of s = (t − middle)/half:
 /// norm_{j+1} q_{j+1} = (s − centre_j) q_j − norm_j q_{j−1}, q_0 = 1/norm_0.

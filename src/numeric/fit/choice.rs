@@ -1,6 +1,6 @@
 //! How many terms the samples support.
 
-use crate::numeric::double::Real;
+use crate::numeric::real::Real;
 
 /// Steps that are tried beyond the best one before it counts as the best.
 const PATIENCE: usize = 8;

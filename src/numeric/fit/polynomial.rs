@@ -2,8 +2,9 @@
 
 use super::choice::{best, undecided};
 use super::{MOST_IN_DOUBLE, Powers, Quality, Samples, Size, State, add_products};
-use crate::numeric::double::{Double, Real};
+use crate::numeric::double_double::DoubleDouble;
 use crate::numeric::orthogonal::{self, Expansion};
+use crate::numeric::real::Real;
 
 /// The highest degree that is chosen from the samples.
 const MOST: usize = 40;
@@ -34,16 +35,16 @@ impl Polynomial {
     /// Fits a polynomial. There must be more samples than coefficients.
     pub fn fit(samples: &Samples<'_>, size: Size) -> Polynomial {
         if samples.t.len() <= MOST_IN_DOUBLE {
-            Polynomial::with::<Double>(samples, size, |x| x)
+            Polynomial::with::<DoubleDouble>(samples, size, |x| x)
         } else {
-            Polynomial::with::<f64>(samples, size, Double::from)
+            Polynomial::with::<f64>(samples, size, DoubleDouble::from)
         }
     }
 
     fn with<T: Real>(
         samples: &Samples<'_>,
         size: Size,
-        double: impl Fn(T) -> Double,
+        double: impl Fn(T) -> DoubleDouble,
     ) -> Polynomial {
         let rows = samples.t.len();
         let least = rows as f64 * samples.floor * samples.floor;
@@ -65,7 +66,12 @@ impl Polynomial {
         let squares = found.squares[parameters - 1].value();
         let free = (rows - parameters).max(1) as f64;
         let numbers = |values: &[T]| values.iter().map(|v| v.value()).collect::<Vec<f64>>();
-        let convert = |values: &[T]| values.iter().map(|v| double(*v)).collect::<Vec<Double>>();
+        let convert = |values: &[T]| {
+            values
+                .iter()
+                .map(|v| double(*v))
+                .collect::<Vec<DoubleDouble>>()
+        };
         let powers = Powers::new(&Expansion {
             middle: found.middle,
             half: found.half,

@@ -1,7 +1,8 @@
 //! A polynomial in powers of its argument, with standard errors and what the conversion costs.
 
-use crate::numeric::double::{Double, Real};
+use crate::numeric::double_double::DoubleDouble;
 use crate::numeric::orthogonal::Expansion;
+use crate::numeric::real::Real;
 
 /// Coefficients of 1, t, t², ...
 #[derive(Clone, Debug, PartialEq)]
@@ -17,17 +18,20 @@ pub struct Powers {
 impl Powers {
     /// Converts an expansion over orthonormal polynomials, whose powers have huge coefficients of alternating
     /// sign where the arguments are far from zero: hence the extended precision.
-    pub(super) fn new(expansion: &Expansion<Double>) -> Powers {
-        let zero = Double::default();
+    pub(super) fn new(expansion: &Expansion<DoubleDouble>) -> Powers {
+        let zero = DoubleDouble::default();
         let count = expansion.coefficients.len();
-        let (middle, half) = (Double::from(expansion.middle), Double::from(expansion.half));
-        let slope = Double::from(1.0) / half;
+        let (middle, half) = (
+            DoubleDouble::from(expansion.middle),
+            DoubleDouble::from(expansion.half),
+        );
+        let slope = DoubleDouble::from(1.0) / half;
         let mut sums = vec![zero; count];
         let mut sizes = vec![0.0; count];
         let mut squares = vec![zero; count];
         let mut before = vec![zero; count];
         let mut now = vec![zero; count];
-        now[0] = Double::from(1.0) / expansion.norms[0];
+        now[0] = DoubleDouble::from(1.0) / expansion.norms[0];
         for j in 0..count {
             for k in 0..=j {
                 let term = expansion.coefficients[j] * now[k];
@@ -39,7 +43,7 @@ impl Powers {
                 break;
             };
             let shift = middle * slope + expansion.centres[j];
-            let next: Vec<Double> = (0..count)
+            let next: Vec<DoubleDouble> = (0..count)
                 .map(|k| {
                     let lower = if k > 0 { now[k - 1] * slope } else { zero };
                     (lower - shift * now[k] - expansion.norms[j] * before[k]) / *norm
@@ -48,8 +52,8 @@ impl Powers {
             before = now;
             now = next;
         }
-        let coefficient = |(sum, size): (&Double, &f64)| {
-            let lost = 1e3 * Double::ROUNDING * size;
+        let coefficient = |(sum, size): (&DoubleDouble, &f64)| {
+            let lost = 1e3 * DoubleDouble::ROUNDING * size;
             if lost <= 1e-8 * sum.value().abs() || *size == 0.0 {
                 sum.value()
             } else {
@@ -67,10 +71,14 @@ impl Powers {
 
 /// Sum of squares of the matrix that expands the powers of t in the orthonormal polynomials: t times a
 /// polynomial is a product with the tridiagonal matrix of the recurrence.
-fn powers_over(expansion: &Expansion<Double>, middle: Double, half: Double) -> f64 {
+fn powers_over(
+    expansion: &Expansion<DoubleDouble>,
+    middle: DoubleDouble,
+    half: DoubleDouble,
+) -> f64 {
     let count = expansion.coefficients.len();
     let (centres, norms) = (&expansion.centres, &expansion.norms);
-    let mut column = vec![Double::default(); count];
+    let mut column = vec![DoubleDouble::default(); count];
     column[0] = norms[0];
     let mut total = 0.0;
     for _ in 0..count {

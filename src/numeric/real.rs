@@ -1,0 +1,53 @@
+//! The precisions least squares are solved in.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::double_double::DoubleDouble;
+
+/// What a number must do for least squares, so that one algorithm serves both precisions.
+pub trait Real:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + From<f64>
+{
+    /// Relative rounding error of one operation, about.
+    const ROUNDING: f64;
+
+    /// The nearest float.
+    fn value(self) -> f64;
+
+    /// Square root of a number that is not negative.
+    fn root(self) -> Self;
+}
+
+impl Real for f64 {
+    const ROUNDING: f64 = f64::EPSILON;
+
+    fn value(self) -> f64 {
+        self
+    }
+
+    fn root(self) -> f64 {
+        self.sqrt()
+    }
+}
+
+impl Real for DoubleDouble {
+    const ROUNDING: f64 = 5e-32;
+
+    fn value(self) -> f64 {
+        DoubleDouble::value(self)
+    }
+
+    fn root(self) -> DoubleDouble {
+        // Rounding may have left a sum of squares below zero.
+        if self.value() <= 0.0 {
+            return DoubleDouble::ZERO;
+        }
+        self.sqrt()
+    }
+}
