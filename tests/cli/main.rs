@@ -13,5 +13,6 @@ mod program;
 mod reproduce;
 mod simulate;
 mod statics;
+mod steady;
 mod streams;
 mod summary;
