@@ -172,6 +172,15 @@ fn a_torque_that_varies_over_the_angle() {
     }
 }
 
+/// SciPy's DOP853 at rtol 3e-14 over the angle, on energies written from the loop closure, and Brent's root.
+#[test]
+fn the_motor_driven_pump_agrees_with_scipy() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/data/motor-and-losses.toml");
+    let found = steady(&Scene::load(file.as_ref()).unwrap());
+    assert!((found.omega_rad_per_s.value / 98.246_838_379_917_1 - 1.0).abs() < 1e-12);
+    assert!((found.period_s.value / 0.064_244_052_574_139_12 - 1.0).abs() < 1e-12);
+}
+
 #[test]
 fn a_long_simulation_in_time_comes_to_the_same_motion() {
     for branch in [Branch::Right, Branch::Left] {

@@ -188,8 +188,8 @@ impl Seeker {
     }
 }
 
-/// The crank angle of an extreme, with its error: the speed is flat there, so that an error of the speed by a part
-/// `relative` moves it by the root of that part of the curvature at most.
+/// The crank angle of an extreme, with its error: that of the acceleration by a part `relative` of the speed moves it
+/// the more, the less the speed varies.
 pub(super) fn place(found: &Found, check: &Found, which: usize, relative: f64) -> Estimated {
     let [here, there] = [found, check].map(|f| f.extremes[which].turned);
     let apart = (here - there).abs();
