@@ -14,5 +14,6 @@ mod program;
 mod reproduce;
 mod simulate;
 mod statics;
+mod steady;
 mod streams;
 mod summary;

@@ -10,6 +10,7 @@
 mod map;
 mod march;
 mod newton;
+mod one_turn;
 mod station;
 mod steady;
 mod sweep;
@@ -21,7 +22,8 @@ use super::energy::{Orbit, Unserved};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MOST, Values};
 use march::{Done, March};
-pub use steady::{Cycle, NoCycle, one_turn, steady};
+pub use one_turn::{Cycle, one_turn};
+pub use steady::{NoCycle, steady};
 
 /// What the engine needs of a mechanism.
 pub trait Driven {

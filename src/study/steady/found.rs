@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::Estimated;
-use super::refusal::{always_gains, no_cycle, unbounded};
+use super::refusal::{always_gains, no_cycle, not_turned, unbounded};
 use crate::engine::angle::{self, Cycle, Resolution};
 use crate::engine::energy::Orbit;
 use crate::error::Error;
@@ -113,7 +113,7 @@ impl Seeker {
         let any_speed = !reads.has(Variable::Omega) && !reads.has(Variable::V);
         let cycle = if any_speed {
             let turn = angle::one_turn(&position, self.start, self.speed, resolution);
-            let turn = turn.map_err(|unserved| no_cycle(unserved.into()))?;
+            let turn = turn.map_err(not_turned)?;
             if turn.gain.abs() > NOTHING * turn.largest {
                 return Err(always_gains(turn.gain));
             }
@@ -188,8 +188,8 @@ impl Seeker {
     }
 }
 
-/// The crank angle of an extreme, with its error: the speed is flat there, so that an error of the speed by a part
-/// `relative` moves it by the root of that part of the curvature at most.
+/// The crank angle of an extreme, with its error: that of the acceleration by a part `relative` of the speed moves it
+/// the more, the less the speed varies.
 pub(super) fn place(found: &Found, check: &Found, which: usize, relative: f64) -> Estimated {
     let [here, there] = [found, check].map(|f| f.extremes[which].turned);
     let apart = (here - there).abs();

@@ -1,6 +1,7 @@
 //! Scenes without a periodic steady state over the crank angle, with the reason.
 
 use crate::engine::angle::NoCycle;
+use crate::engine::energy::Unserved;
 use crate::error::Error;
 use crate::mechanism::{Class, Limits, Linkage};
 use crate::plan::{Method, Plan};
@@ -79,6 +80,17 @@ pub(super) fn no_cycle(reason: NoCycle) -> Error {
         ),
     };
     Error::refused(what, help)
+}
+
+/// A turn of loads that do not depend on the speed cannot be computed.
+pub(super) fn not_turned(reason: Unserved) -> Error {
+    if reason != Unserved::TooSlow {
+        return no_cycle(reason.into());
+    }
+    Error::refused(
+        "no steady state: from its start speed the crank does not complete a turn, and no load depends on the speed",
+        "give a greater start speed, or a load that drives the crank and depends on the speed",
+    )
 }
 
 /// A turn of loads that do not depend on the speed gains energy, J, at every speed.

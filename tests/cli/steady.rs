@@ -1,0 +1,84 @@
+//! `simulate --steady-state`: a run that starts in the periodic motion.
+
+use std::f64::consts::TAU;
+
+use super::program::{Folder, PUMP, Rows, close, driven};
+
+const LOADS: &str = "\n[[torque]]\nkind = \"motor\"\nstall = \"6 N m\"\nno_load_speed = \"100 rad/s\"\n\
+    \n[[force]]\nkind = \"viscous\"\ncoefficient = \"15 N s/m\"\n";
+
+fn scene(rest: &str) -> String {
+    format!("{PUMP}{LOADS}\n[motion]\nangle = \"25 deg\"\nspeed = \"10 rad/s\"\n{rest}")
+}
+
+#[test]
+fn a_run_without_an_extent_is_one_period() {
+    let folder = Folder::new();
+    folder.write("scene.toml", &scene(""));
+    let options = ["--steady-state", "--out", "rows.csv", "--json"];
+    let json = folder
+        .run(&[&["simulate", "scene.toml"][..], &options].concat())
+        .done()
+        .json();
+    let steady = &json["steady_state"];
+    let value = |key: &str| steady[key]["value"].as_f64().unwrap();
+    let rows = Rows::read(&folder.read("rows.csv"));
+    let omega = rows.column("omega_rad_per_s");
+    close(omega[0], value("omega_rad_per_s"), 1e-12);
+    close(omega[omega.len() - 1], omega[0], 1e-10);
+    close(rows.column("t_s")[rows.len() - 1], value("period_s"), 1e-10);
+    close(
+        value("period_s"),
+        TAU / value("omega_mean_rad_per_s"),
+        1e-14,
+    );
+    assert!(steady.get("flywheel").is_none());
+    assert_eq!(json["revolutions"].as_f64().unwrap().round(), 1.0);
+}
+
+#[test]
+fn the_flywheel_comes_with_the_fluctuation() {
+    let folder = Folder::new();
+    folder.write("scene.toml", &scene("\n[run]\nduration = \"0.5 s\"\n"));
+    let options = ["--steady-state", "--fluctuation", "0.01"];
+    let arguments = [&["simulate", "scene.toml"][..], &options].concat();
+    let text = folder.run(&arguments).done().stdout;
+    for word in ["steady state", "fluctuation", "to be added to the crank"] {
+        assert!(text.contains(word), "{word}: {text}");
+    }
+    let json = folder
+        .run(&[&arguments[..], &["--json"]].concat())
+        .done()
+        .json();
+    close(json["final"]["t_s"].as_f64().unwrap(), 0.5, 1e-15);
+    let wheel = &json["steady_state"]["flywheel"];
+    close(wheel["fluctuation"]["value"].as_f64().unwrap(), 0.01, 1e-9);
+}
+
+#[test]
+fn a_plain_run_says_nothing_of_it() {
+    let folder = Folder::new();
+    let json = folder.run(&["simulate", "--json"]).done().json();
+    assert!(json.get("steady_state").is_none());
+}
+
+#[test]
+fn what_has_none_is_refused_and_nothing_is_written() {
+    let folder = Folder::new();
+    folder.write("driven.toml", &driven("duration = \"1 s\""));
+    let arguments = [
+        "simulate",
+        "driven.toml",
+        "--steady-state",
+        "--out",
+        "rows.csv",
+    ];
+    folder.run(&arguments).fails(2, &["prescribes"]);
+    assert!(!folder.path("rows.csv").exists());
+    folder
+        .run(&["simulate", "--fluctuation", "0.02"])
+        .fails(2, &["--steady-state"]);
+    folder
+        .run(&["simulate", "--steady-state", "--fluctuation", "x"])
+        .fails(2, &["x"]);
+}
