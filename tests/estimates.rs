@@ -1,0 +1,186 @@
+//! Error estimates against true errors, over random scenes.
+
+use std::f64::consts::TAU;
+use std::thread;
+
+use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::{RngSeed, TestRunner};
+use slider_crank::scene::{
+    Branch, Crank, Expression, Gravity, InertiaAbout, Load, Rod, Scene, Slider,
+};
+use slider_crank::study::{PrecisionOptions, PrecisionRow, precision};
+
+const SCENES: usize = 520;
+
+/// A load on the crank or on the slider, of the size of the torque and the force given.
+#[derive(Clone, Copy, Debug)]
+enum Part {
+    Gravity,
+    Torque,
+    CrankLoss,
+    SliderLoss,
+    Motor,
+    Spring,
+    OfAngle,
+    OfSpeed,
+    OfTime,
+}
+
+const PARTS: [Part; 9] = [
+    Part::Gravity,
+    Part::Torque,
+    Part::CrankLoss,
+    Part::SliderLoss,
+    Part::Motor,
+    Part::Spring,
+    Part::OfAngle,
+    Part::OfSpeed,
+    Part::OfTime,
+];
+
+fn expression(text: String) -> Load {
+    Load::Expression(Expression::parse(&text).unwrap())
+}
+
+/// `size` is from −1 to 1, `energy` (J) the kinetic energy of the mechanism, roughly.
+fn with_part(scene: Scene, part: Part, size: f64, r: f64, speed: f64, energy: f64) -> Scene {
+    let torque = 0.2 * size * energy;
+    let force = torque / r;
+    let damping = 0.3 * torque.abs() / speed.abs();
+    match part {
+        Part::Gravity => scene.gravity(Gravity::standard()),
+        Part::Torque => scene.torque(Load::Constant(torque)),
+        Part::CrankLoss => scene.torque(Load::Viscous(damping)),
+        Part::SliderLoss => scene.force(Load::Viscous(damping / (r * r))),
+        Part::Motor => scene.torque(Load::Motor {
+            stall: torque.abs().copysign(speed),
+            no_load_speed: 1.3 * speed,
+        }),
+        Part::Spring => scene.force(Load::Spring {
+            stiffness: force.abs() / r,
+            rest: 2.0 * r,
+        }),
+        Part::OfAngle => scene.force(expression(format!("{force} * sin(2*theta + 0.3)"))),
+        Part::OfSpeed => {
+            let drag = damping / speed.abs();
+            scene.torque(expression(format!("-{drag} * omega * abs(omega)")))
+        }
+        Part::OfTime => {
+            let rate = 0.7 * speed.abs();
+            scene.force(expression(format!("{force} * sin({rate}*t)")))
+        }
+    }
+}
+
+/// A mechanism with loads, one to six turns of it at its first speed, and two tolerances.
+fn case() -> impl Strategy<Value = (Scene, [f64; 2])> {
+    let lengths = (0.02..0.2f64, -3.0..1.0f64, -0.9..0.9f64, any::<bool>());
+    let masses = (0.1..2.0f64, 0.0..2.0f64, 0.0..2.0f64, -0.1..0.1f64);
+    let motion = (0.0..TAU, 0.5..2.3f64, any::<bool>(), 0.3..4.0f64);
+    let load = || prop::sample::select(&PARTS[..]);
+    let loads = (
+        0..4usize,
+        [load(), load(), load()],
+        [-1.0..1.0f64, -1.0..1.0, -1.0..1.0],
+    );
+    let tolerances = [-12.0..-5.0f64, -12.0..-5.0];
+    (lengths, masses, motion, loads, tolerances).prop_map(
+        |(lengths, masses, motion, (count, parts, sizes), tolerances)| {
+            let (r, room, offset, left) = lengths;
+            let e = offset * r;
+            let l = r + e.abs() + 10f64.powf(room) * 2.0 * r;
+            let (crank, rod, slider, aside) = masses;
+            let (angle, speed, clockwise, turns) = motion;
+            let speed = 10f64.powf(speed) * if clockwise { -1.0 } else { 1.0 };
+            let energy = 0.5 * (crank + 0.6 * rod + 0.5 * slider) * (r * speed).powi(2);
+            let mut scene = Scene::new(r, l)
+                .offset(e)
+                .branch(if left { Branch::Left } else { Branch::Right })
+                .crank(Crank {
+                    inertia: crank * r * r,
+                    ..Crank::default()
+                })
+                .rod(Rod {
+                    mass: rod,
+                    cg: 0.4 * l,
+                    cg_lateral: aside * l,
+                    inertia: 0.1 * rod * l * l,
+                    inertia_about: InertiaAbout::Cg,
+                    ..Rod::default()
+                })
+                .slider(Slider { mass: slider })
+                .start(angle, speed)
+                .duration(turns * TAU / speed.abs());
+            for (part, size) in parts.into_iter().zip(sizes).take(count) {
+                scene = with_part(scene, part, size, r, speed, energy);
+            }
+            (scene, tolerances.map(|exponent: f64| 10f64.powf(exponent)))
+        },
+    )
+}
+
+fn cases(seed: u64, count: usize) -> Vec<(Scene, [f64; 2])> {
+    let mut runner = TestRunner::new(ProptestConfig {
+        rng_seed: RngSeed::Fixed(seed),
+        ..ProptestConfig::default()
+    });
+    let case = case();
+    (0..count)
+        .map(|_| case.new_tree(&mut runner).unwrap().current())
+        .collect()
+}
+
+fn measure(cases: &[(Scene, [f64; 2])]) -> Vec<(usize, PrecisionRow)> {
+    let one = |(index, (scene, tolerances)): (usize, &(Scene, [f64; 2]))| {
+        let options = PrecisionOptions {
+            tolerances: tolerances.to_vec(),
+            repeats: 1,
+            most_s: 0.0,
+            ..PrecisionOptions::default()
+        };
+        let result = precision(scene, &options).unwrap();
+        result
+            .rows
+            .into_iter()
+            .map(move |row| (index, row))
+            .collect::<Vec<_>>()
+    };
+    let threads = thread::available_parallelism().map_or(2, usize::from);
+    thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads)
+            .map(|k| {
+                scope.spawn(move || {
+                    let mine = cases.iter().enumerate().skip(k).step_by(threads);
+                    mine.flat_map(one).collect::<Vec<_>>()
+                })
+            })
+            .collect();
+        workers
+            .into_iter()
+            .flat_map(|worker| worker.join().unwrap())
+            .collect()
+    })
+}
+
+#[test]
+fn measure_them() {
+    let cases = cases(5, SCENES);
+    let begun = std::time::Instant::now();
+    for (i, row) in measure(&cases) {
+        let last = cases[i].0.motion.angle.abs() + cases[i].0.motion.speed.abs();
+        println!(
+            "ROW {i} {} {:e} {:e} {:e} {:e} {:e} {} {} {last} {:?}",
+            row.method,
+            row.tolerance,
+            row.error_theta_rad.unwrap_or(-1.0),
+            row.estimate_theta_rad.unwrap_or(-1.0),
+            row.error_omega_rad_per_s.unwrap_or(-1.0),
+            row.estimate_omega_rad_per_s.unwrap_or(-1.0),
+            row.error_is_bound,
+            row.measured_against.is_some(),
+            row.failure
+        );
+    }
+    println!("TIME {:?}", begun.elapsed());
+}
