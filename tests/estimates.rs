@@ -6,10 +6,11 @@ use std::thread;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{RngSeed, TestRunner};
+use slider_crank::plan::Method;
 use slider_crank::scene::{
-    Branch, Crank, Expression, Gravity, InertiaAbout, Load, Rod, Scene, Slider,
+    Branch, Crank, Expression, Extent, Gravity, InertiaAbout, Load, Rod, Scene, Slider,
 };
-use slider_crank::study::{PrecisionOptions, PrecisionRow, precision};
+use slider_crank::study::{Options, PrecisionOptions, PrecisionRow, precision, simulate};
 
 const SCENES: usize = 520;
 
@@ -131,7 +132,59 @@ fn cases(seed: u64, count: usize) -> Vec<(Scene, [f64; 2])> {
         .collect()
 }
 
-fn measure(cases: &[(Scene, [f64; 2])]) -> Vec<(usize, PrecisionRow)> {
+/// An error of angle or speed, as it is and as it was stated.
+#[derive(Clone, Copy, Debug)]
+struct Judged {
+    scene: usize,
+    tolerance: f64,
+    /// Bounds of the true error.
+    error: [f64; 2],
+    stated: f64,
+    /// What rounding the scene's own numbers does to the result.
+    floor: f64,
+}
+
+const RELATIVE: f64 = 1e-8;
+
+fn last(scene: &Scene, tolerance: f64, method: Method) -> Option<[f64; 2]> {
+    let options = Options {
+        method,
+        estimate: false,
+        ..Options::default()
+    };
+    let run = simulate(&scene.clone().tolerance(tolerance), &options).ok()?;
+    let last = run.summary.last;
+    run.summary
+        .stopped
+        .is_none()
+        .then_some([last.theta_rad, last.omega_rad_per_s])
+}
+
+/// Changes of angle and speed at the end if lengths, start and duration change by one unit in the last place
+/// each.
+fn floors(scene: &Scene) -> [f64; 2] {
+    let base = last(scene, 1e-13, Method::Auto).unwrap();
+    let changed = |change: &dyn Fn(&mut Scene)| {
+        let mut scene = scene.clone();
+        change(&mut scene);
+        let there = last(&scene, 1e-13, Method::Auto).unwrap();
+        [0, 1].map(|k| (there[k] - base[k]).abs() * f64::EPSILON / RELATIVE)
+    };
+    let changes = [
+        changed(&|scene| scene.geometry.crank *= 1.0 + RELATIVE),
+        changed(&|scene| scene.geometry.rod *= 1.0 + RELATIVE),
+        changed(&|scene| scene.motion.speed *= 1.0 + RELATIVE),
+        changed(&|scene| scene.motion.angle += TAU * RELATIVE),
+        changed(&|scene| match &mut scene.run.extent {
+            Some(Extent::Duration(duration)) => *duration *= 1.0 + RELATIVE,
+            _ => unreachable!(),
+        }),
+    ];
+    [0, 1]
+        .map(|k| changes.iter().map(|change| change[k]).sum::<f64>() + f64::EPSILON * base[k].abs())
+}
+
+fn measure(cases: &[(Scene, [f64; 2])]) -> Vec<(usize, PrecisionRow, [f64; 2], [f64; 2])> {
     let one = |(index, (scene, tolerances)): (usize, &(Scene, [f64; 2]))| {
         let options = PrecisionOptions {
             tolerances: tolerances.to_vec(),
@@ -140,10 +193,15 @@ fn measure(cases: &[(Scene, [f64; 2])]) -> Vec<(usize, PrecisionRow)> {
             ..PrecisionOptions::default()
         };
         let result = precision(scene, &options).unwrap();
+        let floors = floors(scene);
+        let refs = [
+            result.reference_error_theta_rad.unwrap(),
+            result.reference_error_omega_rad_per_s.unwrap(),
+        ];
         result
             .rows
             .into_iter()
-            .map(move |row| (index, row))
+            .map(move |row| (index, row, floors, refs))
             .collect::<Vec<_>>()
     };
     let threads = thread::available_parallelism().map_or(2, usize::from);
@@ -165,12 +223,16 @@ fn measure(cases: &[(Scene, [f64; 2])]) -> Vec<(usize, PrecisionRow)> {
 
 #[test]
 fn measure_them() {
-    let cases = cases(5, SCENES);
+    let seed = std::env::var("SEED").map_or(5, |s| s.parse().unwrap());
+    let cases = cases(seed, SCENES);
     let begun = std::time::Instant::now();
-    for (i, row) in measure(&cases) {
-        let last = cases[i].0.motion.angle.abs() + cases[i].0.motion.speed.abs();
+    for (i, row, floors, refs) in measure(&cases) {
+        if row.failure.is_some() {
+            println!("FAIL {i} {} {:?}", row.method, row.failure);
+            continue;
+        }
         println!(
-            "ROW {i} {} {:e} {:e} {:e} {:e} {:e} {} {} {last} {:?}",
+            "ROW {i} {} {:e} {:e} {:e} {:e} {:e} {} {:e} {:e} {:e} {:e}",
             row.method,
             row.tolerance,
             row.error_theta_rad.unwrap_or(-1.0),
@@ -178,8 +240,10 @@ fn measure_them() {
             row.error_omega_rad_per_s.unwrap_or(-1.0),
             row.estimate_omega_rad_per_s.unwrap_or(-1.0),
             row.error_is_bound,
-            row.measured_against.is_some(),
-            row.failure
+            floors[0],
+            floors[1],
+            refs[0],
+            refs[1]
         );
     }
     println!("TIME {:?}", begun.elapsed());
