@@ -63,7 +63,7 @@ const TIGHTER: f64 = 50.0;
 /// What is stated is larger than the distance of the two runs by this, for the error of the second.
 const MARGIN: f64 = 1.5;
 /// Rounding of one evaluation of the acceleration, in units of the last place.
-const EVALUATION: f64 = 64.0;
+const EVALUATION: f64 = 8.0;
 /// Where rounding inside a step takes over.
 const TIGHTEST: f64 = 1e-15;
 /// Evaluations of the collocation for one of the run that it judges, and beside them.
