@@ -17,6 +17,9 @@ const SHARE: f64 = 1e-3;
 const LEAST_TAIL: f64 = 4e-15;
 const MOST_TAIL: f64 = 1e-13;
 
+/// Relative error of times by rounding of the positions.
+const ROUNDING: f64 = 2.0 * f64::EPSILON;
+
 /// Solves a task.
 pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, Unserved> {
     let begun = Instant::now();
@@ -29,7 +32,7 @@ pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, 
     let last = orbit.state(end);
     let work = position.work(task.start().rest, last.0.rest);
     let estimate = task.options.estimate.then(|| {
-        let mut error = late_by(task, last, end, orbit.time_error() * end);
+        let mut error = late_by(task, last, end, (orbit.time_error() + ROUNDING) * end);
         error.omega_rad_per_s += off_the_energy(task, &orbit, last, work);
         (error, None)
     });

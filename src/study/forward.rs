@@ -165,17 +165,15 @@ impl Better {
         let angle_noise = 0.5 * f64::EPSILON * (last.end.theta.abs() + 1.0) * roundings
             + speed_noise * duration
             + f64::EPSILON * whole.radians().abs();
+        // An angle that is off while the crank is fast is a delay.
+        let delayed = if run.largest_speed == 0.0 {
+            0.0
+        } else {
+            (last.end.alpha / run.largest_speed * angle_noise).abs()
+        };
         ErrorEstimate {
             theta_rad: MARGIN * angle + angle_noise,
-            omega_rad_per_s: MARGIN * speed + speed_noise + alpha_noise(last, angle_noise),
+            omega_rad_per_s: MARGIN * speed + speed_noise + delayed,
         }
     }
-}
-
-/// The speed differs by θ̈/θ̇ times an angle error at the same time.
-fn alpha_noise(last: &Step, angle_noise: f64) -> f64 {
-    if last.end.omega == 0.0 {
-        return 0.0;
-    }
-    (last.end.alpha / last.end.omega * angle_noise).abs()
 }
