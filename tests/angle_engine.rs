@@ -143,11 +143,10 @@ proptest! {
             let (a, b) = (angle.summary.last, time.summary.last);
             let (ea, eb) = (angle.summary.error_estimate.unwrap(), time.summary.error_estimate.unwrap());
             let apart = (a.theta_rad - b.theta_rad).abs();
-            prop_assert!(apart <= 2.0 * ea.theta_rad + 8.0 * eb.theta_rad + 1e-13, "{tolerance:e}: {apart:e} {ea:?} {eb:?}");
+            prop_assert!(apart <= 2.0 * (ea.theta_rad + eb.theta_rad), "{tolerance:e}: {apart:e} {ea:?} {eb:?}");
             prop_assert!(ea.theta_rad <= 100.0 * tolerance * b.theta_rad.abs().max(1.0), "{ea:?}");
             let apart = (a.omega_rad_per_s - b.omega_rad_per_s).abs();
-            // The run in time is at its rounding here, where two runs may by chance agree with each other.
-            prop_assert!(apart <= 2.0 * ea.omega_rad_per_s + 8.0 * eb.omega_rad_per_s + 1e-12, "{tolerance:e}: {apart:e} {ea:?} {eb:?}");
+            prop_assert!(apart <= 2.0 * (ea.omega_rad_per_s + eb.omega_rad_per_s), "{tolerance:e}: {apart:e} {ea:?} {eb:?}");
             prop_assert!(angle.summary.energy_residual.abs() < 1e-2 * tolerance + 1e-13);
             prop_assert_eq!(angle.summary.events.len(), time.summary.events.len());
         }

@@ -3,10 +3,11 @@
 use std::f64::consts::TAU;
 use std::time::Instant;
 
-use super::over_angle::{Motion, late_by};
+use super::over_angle::{Motion, energy_residual, late_by};
 use super::profile::Position;
 use super::task::Task;
 use crate::engine::energy::{Orbit, Unserved};
+use crate::numeric::angle::Angle;
 use crate::numeric::root;
 use crate::scene::Extent;
 
@@ -15,6 +16,9 @@ const SHARE: f64 = 1e-3;
 /// where rounding takes over at the latest, and early enough for all digits but the last ones at the first.
 const LEAST_TAIL: f64 = 4e-15;
 const MOST_TAIL: f64 = 1e-13;
+
+/// Relative error of times by rounding of the positions.
+const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 /// Solves a task.
 pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, Unserved> {
@@ -28,8 +32,8 @@ pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, 
     let last = orbit.state(end);
     let work = position.work(task.start().rest, last.0.rest);
     let estimate = task.options.estimate.then(|| {
-        let mut error = late_by(task, last, end, orbit.time_error() * end);
-        error.omega_rad_per_s += orbit.speed_error() * last.1.abs();
+        let mut error = late_by(task, last, end, (orbit.time_error() + ROUNDING) * end);
+        error.omega_rad_per_s += off_the_energy(task, &orbit, last, work);
         (error, None)
     });
     Ok(Motion {
@@ -42,6 +46,18 @@ pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, 
         estimate,
         orbit,
     })
+}
+
+/// How far the speed may be off that of its angle, rad/s: what the series leave out of it somewhere, or less if
+/// the energy of the state says so. The energies are right to their rounding.
+fn off_the_energy(task: &Task<'_>, orbit: &Orbit, last: (Angle, f64), work: f64) -> f64 {
+    let (angle, omega) = last;
+    let left_out = orbit.speed_error() * omega.abs();
+    let (residual, scale) = energy_residual(task, orbit, last, work);
+    let momentum = task.equation().terms(angle.rest).inertia.m * omega.abs();
+    let seen = 2.0 * (residual.abs() + f64::EPSILON * scale) / momentum;
+    // Not a number at rest.
+    left_out.min(seen)
 }
 
 /// A motion, its last time, and why it does not complete its turns, if it does not.

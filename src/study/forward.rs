@@ -55,17 +55,34 @@ impl Motion for Forward<'_> {
     }
 }
 
-/// The second run of the estimate is this much tighter, so that its own error hardly counts.
+/// The second run of the estimate is so much tighter that its own error does not count, whatever the first
+/// one's happens to be: at the order of collocation two more digits take a fifth more evaluations.
+const MUCH_TIGHTER: f64 = 1e4;
+/// Where collocation does not get to the end, the same method again, this much tighter.
 const TIGHTER: f64 = 50.0;
 /// What is stated is larger than the distance of the two runs by this, for the error of the second.
 const MARGIN: f64 = 1.5;
 /// Rounding of one evaluation of the acceleration, in units of the last place.
-const EVALUATION: f64 = 64.0;
+const EVALUATION: f64 = 8.0;
 /// Where rounding inside a step takes over.
 const TIGHTEST: f64 = 1e-15;
+/// Evaluations of the collocation for one of the run that it judges, and beside them.
+const MOST_EVALUATIONS: (u64, u64) = (20, 20_000);
 
-/// Global error of a run that ended in `last` after `steps` steps: its distance from a run with a much
-/// tighter tolerance, and what rounding may have added to both.
+/// A run as it ended.
+#[derive(Clone, Copy)]
+pub(super) struct Ended<'a> {
+    /// Its last step.
+    pub last: &'a Step,
+    /// Number of its steps.
+    pub steps: u64,
+    /// Evaluations it took.
+    pub evaluations: u64,
+    /// The largest speed in it, rad/s.
+    pub largest_speed: f64,
+}
+
+/// Global error of a run: its distance from a much better one, and what rounding may have added to both.
 ///
 /// Rounding: each step rounds θ and θ̇ to half a unit in the last place, independently of the others, and a
 /// rounded angle changes the acceleration; an error of the speed grows to one of the angle over the rest of
@@ -74,61 +91,89 @@ pub(super) fn estimate(
     equation: &Equation,
     start: Start,
     settings: &Settings,
-    last: &Step,
-    steps: u64,
-    largest_speed: f64,
+    run: Ended<'_>,
 ) -> Option<(ErrorEstimate, Cost)> {
     let begun = Instant::now();
     let forward = Forward(equation);
     let motion = Counted::new(&forward);
+    let t_end = run.last.end.t;
+    let (factor, beside) = MOST_EVALUATIONS;
+    let collocation = Settings {
+        method: time::Method::Picard,
+        tolerance: (settings.tolerance / MUCH_TIGHTER).max(TIGHTEST),
+        t_end,
+        max_evaluations: run
+            .evaluations
+            .saturating_mul(factor)
+            .saturating_add(beside),
+        ..*settings
+    };
     let tighter = Settings {
         tolerance: (settings.tolerance / TIGHTER).max(TIGHTEST),
-        t_end: last.end.t,
+        t_end,
         max_evaluations: settings.max_evaluations.saturating_mul(4),
         ..*settings
     };
-    let mut unevenness = 0.0;
-    let (finish, best, tight_steps) = time::run(&motion, start, &tighter, &mut |step| {
-        let travel = step.end.theta - step.start.theta;
-        if travel != 0.0 && step.end.alpha.is_finite() {
-            let slope = (step.end.alpha - step.start.alpha) / travel;
-            let angle = 4.0 * step.end.theta.abs() * slope;
-            let evaluation = EVALUATION * step.end.alpha;
-            unevenness += (angle * angle + evaluation * evaluation) * step.length().powi(2);
-        }
-        false
-    });
-    if finish != Finish::AtEnd {
-        return None;
-    }
-    let angle = best
-        .angle(best.end.theta)
-        .minus(last.angle(last.end.theta))
-        .abs();
-    let speed = (best.end.omega - last.end.omega).abs();
-    let roundings = ((steps + tight_steps) as f64).sqrt();
-    // The acceleration is evaluated at rounded angles; fewer, longer steps average less.
-    let shaken = (unevenness * tight_steps.max(1) as f64 / steps.max(1) as f64).sqrt();
-    let speed_noise = f64::EPSILON * (0.5 * largest_speed * roundings + shaken);
-    let duration = last.end.t - start.t;
-    let angle_noise = 0.5 * f64::EPSILON * (last.end.theta.abs() + 1.0) * roundings
-        + speed_noise * duration
-        + f64::EPSILON * last.angle(last.end.theta).radians().abs();
-    let estimate = ErrorEstimate {
-        theta_rad: MARGIN * angle + angle_noise,
-        omega_rad_per_s: MARGIN * speed + speed_noise + alpha_noise(last, angle_noise),
-    };
+    let better = Better::run(&motion, start, &collocation)
+        .or_else(|| Better::run(&motion, start, &tighter))?;
     let cost = Cost {
         evaluations: motion.evaluations(),
         wall_s: begun.elapsed().as_secs_f64(),
     };
-    Some((estimate, cost))
+    Some((better.distance(start, run), cost))
 }
 
-/// The speed differs by θ̈/θ̇ times an angle error at the same time.
-fn alpha_noise(last: &Step, angle_noise: f64) -> f64 {
-    if last.end.omega == 0.0 {
-        return 0.0;
+/// The run that another is compared with.
+struct Better {
+    last: Step,
+    steps: u64,
+    /// Sum of squares of what rounding does to the speed in its steps, in units of the last place.
+    unevenness: f64,
+}
+
+impl Better {
+    fn run(motion: &Counted<'_>, start: Start, settings: &Settings) -> Option<Better> {
+        let mut unevenness = 0.0;
+        let (finish, last, steps) = time::run(motion, start, settings, &mut |step| {
+            let travel = step.end.theta - step.start.theta;
+            if travel != 0.0 && step.end.alpha.is_finite() {
+                let slope = (step.end.alpha - step.start.alpha) / travel;
+                let angle = 4.0 * step.end.theta.abs() * slope;
+                let evaluation = EVALUATION * step.end.alpha;
+                unevenness += (angle * angle + evaluation * evaluation) * step.length().powi(2);
+            }
+            false
+        });
+        (finish == Finish::AtEnd).then_some(Better {
+            last,
+            steps,
+            unevenness,
+        })
     }
-    (last.end.alpha / last.end.omega * angle_noise).abs()
+
+    fn distance(&self, start: Start, run: Ended<'_>) -> ErrorEstimate {
+        let (best, last) = (&self.last, run.last);
+        let whole = last.angle(last.end.theta);
+        let angle = best.angle(best.end.theta).minus(whole).abs();
+        let speed = (best.end.omega - last.end.omega).abs();
+        let roundings = ((run.steps + self.steps) as f64).sqrt();
+        // The acceleration is evaluated at rounded angles; fewer, longer steps average less.
+        let fewer = self.steps as f64 / run.steps.max(1) as f64;
+        let shaken = (self.unevenness * fewer.max(1.0)).sqrt();
+        let speed_noise = f64::EPSILON * (0.5 * run.largest_speed * roundings + shaken);
+        let duration = last.end.t - start.t;
+        let angle_noise = 0.5 * f64::EPSILON * (last.end.theta.abs() + 1.0) * roundings
+            + speed_noise * duration
+            + f64::EPSILON * whole.radians().abs();
+        // An angle that is off while the crank is fast is a delay.
+        let delayed = if run.largest_speed == 0.0 {
+            0.0
+        } else {
+            (last.end.alpha / run.largest_speed * angle_noise).abs()
+        };
+        ErrorEstimate {
+            theta_rad: MARGIN * angle + angle_noise,
+            omega_rad_per_s: MARGIN * speed + speed_noise + delayed,
+        }
+    }
 }

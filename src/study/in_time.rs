@@ -88,7 +88,13 @@ pub(super) fn run(
     };
     let largest_speed = seen.speed.0.abs().max(seen.speed.1.abs());
     let estimate = if task.options.estimate && stopped.is_none() {
-        forward::estimate(equation, start, &settings, &last, steps, largest_speed)
+        let run = forward::Ended {
+            last: &last,
+            steps,
+            evaluations,
+            largest_speed,
+        };
+        forward::estimate(equation, start, &settings, run)
     } else {
         None
     };

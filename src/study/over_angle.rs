@@ -104,7 +104,7 @@ fn finish(task: &Task<'_>, motion: Motion, rows: &mut dyn RowSink) -> Result<Sim
         turned: angle.minus(task.start()),
         error_estimate: motion.estimate.map(|(error, _)| error),
         estimate_cost: motion.estimate.and_then(|(_, cost)| cost),
-        energy: energy_residual(task, &motion),
+        energy: energy_residual(task, orbit, motion.last, motion.work),
         evaluations: motion.evaluations,
         steps: orbit.panels() as u64,
         wall_s: motion.wall_s,
@@ -163,11 +163,15 @@ fn speeds(task: &Task<'_>, motion: &Motion) -> ((f64, f64), Vec<String>) {
     ((shown(low), shown(high)), warnings)
 }
 
-/// The energy of the last state against that of the first and the work, J, and the largest energy.
-fn energy_residual(task: &Task<'_>, motion: &Motion) -> (f64, f64) {
+/// The energy of the last state against that of the first and the work (J), J, and the largest energy.
+pub(super) fn energy_residual(
+    task: &Task<'_>,
+    orbit: &Orbit,
+    (angle, omega): (Angle, f64),
+    work: f64,
+) -> (f64, f64) {
     let equation = task.equation();
     let start = task.start();
-    let (angle, omega) = motion.last;
     let turned = Angle {
         turns: angle.turns - start.turns,
         rest: angle.rest,
@@ -175,7 +179,7 @@ fn energy_residual(task: &Task<'_>, motion: &Motion) -> (f64, f64) {
     let begin = equation.kinetic_energy(start.rest, task.scene.motion.speed)
         + equation.potential_energy(start.rest);
     let last = equation.kinetic_energy(angle.rest, omega) + equation.potential_energy(turned);
-    let largest = begin.abs().max(last.abs()).max(motion.work.abs());
-    let scale = motion.orbit.largest_kinetic().max(largest);
-    (last - begin - motion.work, scale)
+    let largest = begin.abs().max(last.abs()).max(work.abs());
+    let scale = orbit.largest_kinetic().max(largest);
+    (last - begin - work, scale)
 }

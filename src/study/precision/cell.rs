@@ -126,7 +126,9 @@ impl Cell {
                 return row;
             }
         };
-        row.estimate_theta_rad = summary.error_estimate.map(|error| error.theta_rad);
+        let estimate = summary.error_estimate;
+        row.estimate_theta_rad = estimate.map(|error| error.theta_rad);
+        row.estimate_omega_rad_per_s = estimate.map(|error| error.omega_rad_per_s);
         let mut walls = self.walls.clone();
         walls.sort_by(f64::total_cmp);
         row.wall_s = walls.first().copied();

@@ -50,6 +50,8 @@ pub struct PrecisionRow {
     pub error_omega_rad_per_s: Option<f64>,
     /// What the run states as error of its angle, rad.
     pub estimate_theta_rad: Option<f64>,
+    /// What it states as error of its speed, rad/s.
+    pub estimate_omega_rad_per_s: Option<f64>,
     /// Least time of the solution, without error estimate, s.
     pub wall_s: Option<f64>,
     /// Median of that time, s.
@@ -79,6 +81,7 @@ impl PrecisionRow {
             error_theta_rad: None,
             error_omega_rad_per_s: None,
             estimate_theta_rad: None,
+            estimate_omega_rad_per_s: None,
             wall_s: None,
             wall_median_s: None,
             runs: 0,
