@@ -4,7 +4,9 @@
 // Each test file uses a part of this.
 #![allow(dead_code)]
 
+pub mod alike;
 pub mod exact;
+pub mod image;
 pub mod newton;
 pub mod random;
 pub mod run;
