@@ -121,33 +121,27 @@ pub(super) fn nudged<const N: usize>(
 }
 
 /// Where inside a step the gap closes first, if it does: by its sign at the ends of the pieces and at the least
-/// gaps between them, so that a graze is not missed. A gap of zero at the start that opens is open.
+/// gaps between them, so that a graze is not missed. A gap of zero at the start that opens is open up to its
+/// greatest width; before that its sign is rounding.
 fn closing<M: Contact<N>, const N: usize>(model: &M, dense: &Dense<N>) -> Option<f64> {
     let gap = |u: f64| model.gap(&dense.at(u));
     let mut before = (0.0, gap(0.0));
     for i in 1..=PIECES {
         let u = i as f64 / PIECES as f64;
         let after = (u, gap(u));
-        // From zero on the quotient by u keeps the sign and has no root at the start.
         let opens = i == 1 && before.1.0 <= before.1.1 * 1e-9;
-        let value = |u: f64| {
-            if opens && u > 0.0 {
-                gap(u).0 / u
-            } else {
-                gap(u).0
-            }
-        };
         let mut end = after;
         if after.1.0 >= 0.0 && before.1.1 < 0.0 && after.1.1 > 0.0 {
             let least = root::bracketed(|u| gap(u).1, before.0, after.0)?;
             end = (least, gap(least));
         }
         if end.1.0 < 0.0 {
-            let from = if opens { 1e-9 * u } else { before.0 };
-            if value(from) <= 0.0 {
+            let widest = || root::bracketed(|u| gap(u).1, 1e-9 * u, u).unwrap_or(1e-9 * u);
+            let from = if opens { widest() } else { before.0 };
+            if gap(from).0 <= 0.0 {
                 return Some(from);
             }
-            return root::bracketed(value, from, end.0);
+            return root::bracketed(|u| gap(u).0, from, end.0);
         }
         before = after;
     }

@@ -83,8 +83,11 @@ pub trait Contact<const N: usize> {
     /// Size of each number, which the tolerance is relative to; the first `counted` are under error control.
     fn sizes(&self) -> ([f64; N], usize);
 
-    /// What the depth (m) may be off zero by rounding.
-    fn rounding(&self) -> f64;
+    /// What the depth (m) at a state may be off zero by rounding.
+    fn rounding(&self, y: &[f64; N]) -> f64;
+
+    /// The end of a step of [`Phase::Release`]: no force gives back what was stored in between, so it is lost.
+    fn receded(&self, start: &[f64; N], end: &[f64; N]) -> [f64; N];
 }
 
 /// How a run is made.

@@ -130,7 +130,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         } = self.now;
         let at_rest = rate.abs() <= self.model.approach(0.0);
         if self.phase == Phase::Flight
-            && depth >= -self.model.rounding()
+            && depth >= -self.model.rounding(&self.y)
             && at_rest
             && depth_acceleration > 0.0
         {
@@ -164,7 +164,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     pub fn scale(&self, h: f64) -> [f64; N] {
         let doubt = match self.phase {
             Phase::Contact { .. } if self.now.depth > 0.0 => {
-                (2.0 * self.model.rounding() / self.now.depth).min(MOST_DOUBT)
+                (2.0 * self.model.rounding(&self.y) / self.now.depth).min(MOST_DOUBT)
             }
             _ => 0.0,
         };
@@ -247,6 +247,10 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     /// Takes a step in time as accepted, with its end and the rates there.
     pub fn accept_to(&mut self, stages: &Stages<N>, end: [f64; N], then: Sample<N>) -> Halt {
         let (model, phase, near) = (self.model, self.phase, self.near);
+        let end = match phase {
+            Phase::Release { .. } => model.receded(&self.y, &end),
+            _ => end,
+        };
         let mut rates = |_: f64, y: &[f64; N]| model.sample(&near, phase, None, y).rates;
         self.follow(stages, &mut rates, end, then)
     }

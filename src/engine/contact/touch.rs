@@ -21,7 +21,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             }
         }
         while self.y[0] < self.until {
-            if self.now.depth_rate < 0.0 && self.now.depth <= self.model.rounding() {
+            if self.now.depth_rate < 0.0 && self.now.depth <= self.model.rounding(&self.y) {
                 self.part();
                 return Ok(());
             }
@@ -51,7 +51,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             let (stages, h) = self.controlled_step(longest)?;
             let end = self.snapped(*stages.end(), h);
             let then = self.sample(None, &end);
-            if then.depth > 0.0 || depth <= 0.0 {
+            if then.depth > 0.0 || depth <= self.model.rounding(&self.y) {
                 break (stages, h, end, then);
             }
             self.h = 0.3 * h;

@@ -42,7 +42,7 @@ impl LooseMechanism {
     }
 
     /// Energy stored in the contact, J.
-    fn stored(&self, s: &LooseState) -> f64 {
+    pub fn stored(&self, s: &LooseState) -> f64 {
         if self.clearance.law == ContactLaw::MasslessLink {
             return 0.0;
         }

@@ -121,8 +121,17 @@ impl<const N: usize> Contact<N> for Loose<'_, N> {
         self.mechanism.pressing(rate, approach)
     }
 
-    fn rounding(&self) -> f64 {
-        8.0 * f64::EPSILON * self.reach
+    /// A crank angle rounds by more as it grows, and the crank pin with it.
+    fn rounding(&self, y: &[f64; N]) -> f64 {
+        let crank = self.length / self.angle;
+        f64::EPSILON * (8.0 * self.reach + 2.0 * crank * self.state(y).theta.abs())
+    }
+
+    fn receded(&self, start: &[f64; N], end: &[f64; N]) -> [f64; N] {
+        let stored = |y: &[f64; N]| self.mechanism.stored(&self.state(y));
+        let mut receded = *end;
+        receded[N - 1] += stored(start) - stored(end);
+        receded
     }
 
     fn approach(&self, speed: f64) -> f64 {
