@@ -181,6 +181,7 @@ fn angle_serves(scene: &Scene) -> bool {
 fn is_smooth(load: &Load) -> bool {
     match load {
         Load::Table(table) => table.of() == Variable::Theta,
+        Load::Expression(expression) => !expression.jumps(),
         _ => true,
     }
 }
@@ -243,10 +244,10 @@ fn engine(
         )),
         (Method::Energy, false) => Err(Error::refused(
             format!(
-                "method energy cannot serve loads that depend on {}",
+                "method energy cannot serve these loads, which depend on {}",
                 loads.reads()
             ),
-            "use --method auto; energy needs loads of theta and x alone, and tables over theta only",
+            "use --method auto; energy needs loads of theta and x alone, tables over theta only, and formulas without step, sign, floor and mod",
         )),
         (Method::Auto | Method::Angle, false) if angle_serves(scene) => Ok((
             Engine::Angle,
@@ -254,7 +255,7 @@ fn engine(
             reason("the crank turns: its energy and the time over the crank angle"),
         )),
         (Method::Angle, false) => Err(Error::refused(
-            "method angle needs a crank that turns from the start, tables over theta only, and loads over theta that repeat with each turn",
+            "method angle needs a crank that turns from the start, tables over theta only, formulas without step, sign, floor and mod, and loads over theta that repeat with each turn",
             "use --method auto, time, dop853 or dopri5",
         )),
         (Method::Dopri5, false) => Ok((

@@ -127,10 +127,10 @@ fn finish<D: Driven>(
     }
     let forces = Forces::new(driven, station, start, &slopes);
     let series = station.rule.series(&forces.total);
-    let tail = series.tail() * series.largest() * half.abs() / start.kinetic;
+    let share = series.largest() * half.abs() / start.kinetic;
     // Large forces that balance each other leave their rounding.
     let noise = 64.0 * f64::EPSILON * forces.largest_part(station) * half.abs() / start.kinetic;
-    if tail.min(series.tail()) > accepted + noise {
+    if series.tail() * share.min(1.0) > tail + noise && series.tail() > accepted {
         return None;
     }
     Some(Swept {

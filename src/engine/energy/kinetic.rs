@@ -16,14 +16,17 @@ pub(super) struct Energy<'a> {
 }
 
 impl Energy<'_> {
-    /// Whether the force's error hardly counts, relative to the force or to the energy.
-    pub fn is_resolved(&self, accepted: f64) -> bool {
-        let largest = self.force.largest();
-        let share = match self.piece.turning {
-            Turning::Nowhere => (largest * self.piece.span().abs() / self.kinetic).min(1.0),
-            _ => 1.0,
-        };
-        self.force.tail() * share <= 4.0 * accepted
+    /// Whether the force's error hardly counts, relative to the force or to the energy. Next to a turning point
+    /// the rounding of angles is seen as `noise`.
+    pub fn is_resolved(&self, tolerance: f64, noise: f64) -> bool {
+        let tail = self.force.tail();
+        match self.piece.turning {
+            Turning::Nowhere => {
+                let share = self.force.largest() * self.piece.span().abs() / self.kinetic;
+                tail * share.min(1.0) <= 4.0 * tolerance || tail <= noise
+            }
+            _ => tail <= 4.0 * tolerance.max(noise),
+        }
     }
 
     /// K at the points of a piece that does not turn: K at its start plus the integral of the force.

@@ -68,7 +68,7 @@ impl Panel {
             rule,
             force: &series,
         };
-        if !energy.is_resolved(accepted) {
+        if !energy.is_resolved(tolerance, noise) {
             return Ok(Tried::Unresolved);
         }
         let kinetic: Values = match piece.turning {

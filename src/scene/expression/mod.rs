@@ -58,6 +58,10 @@ const FUNCTIONS_2: &[Function2] = &[
     ("mod", f64::rem_euclid),
 ];
 
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_')
+}
+
 fn sign(a: f64) -> f64 {
     if a == 0.0 { 0.0 } else { a.signum() }
 }
@@ -72,7 +76,11 @@ pub struct Expression {
     text: String,
     ops: Vec<Op>,
     reads: Variables,
+    jumps: bool,
 }
+
+/// Functions whose values jump.
+const JUMPING: [&str; 4] = ["floor", "sign", "step", "mod"];
 
 /// What is wrong in an expression, and where.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -130,12 +138,18 @@ impl Expression {
             text: text.to_owned(),
             ops,
             reads,
+            jumps: words(text).any(|word| JUMPING.contains(&word)),
         })
     }
 
     /// The variables that occur in it.
     pub fn reads(&self) -> Variables {
         self.reads
+    }
+
+    /// Whether a function occurs in it whose values jump.
+    pub fn jumps(&self) -> bool {
+        self.jumps
     }
 
     /// Its value at an instant, in SI; not finite outside the domain of its functions.
