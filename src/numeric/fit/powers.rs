@@ -35,9 +35,9 @@ impl Powers {
         for j in 0..count {
             for k in 0..=j {
                 let term = expansion.coefficients[j] * now[k];
-                sums[k] = sums[k] + term;
+                sums[k] += term;
                 sizes[k] += term.value().abs();
-                squares[k] = squares[k] + now[k] * now[k];
+                squares[k] += now[k] * now[k];
             }
             let Some(norm) = expansion.norms.get(j + 1).filter(|_| j + 1 < count) else {
                 break;
@@ -87,10 +87,10 @@ fn powers_over(
             .map(|j| {
                 let mut sum = (middle + half * centres[j]) * column[j];
                 if j > 0 {
-                    sum = sum + half * norms[j] * column[j - 1];
+                    sum += half * norms[j] * column[j - 1];
                 }
                 if j + 1 < count {
-                    sum = sum + half * norms[j + 1] * column[j + 1];
+                    sum += half * norms[j + 1] * column[j + 1];
                 }
                 sum
             })
