@@ -121,8 +121,8 @@ pub(super) fn nudged<const N: usize>(
 }
 
 /// Where inside a step the gap closes first, if it does: by its sign at the ends of the pieces and at the least
-/// gaps between them, so that a graze is not missed. A gap of zero at the start that opens is open up to its
-/// greatest width; before that its sign is rounding.
+/// gaps between them, so that a graze is not missed. A gap of zero at the start that opens is looked at
+/// from its end backwards: at the start its sign is rounding.
 fn closing<M: Contact<N>, const N: usize>(model: &M, dense: &Dense<N>) -> Option<f64> {
     let gap = |u: f64| model.gap(&dense.at(u));
     let mut before = (0.0, gap(0.0));
@@ -136,12 +136,17 @@ fn closing<M: Contact<N>, const N: usize>(model: &M, dense: &Dense<N>) -> Option
             end = (least, gap(least));
         }
         if end.1.0 < 0.0 {
-            let widest = || root::bracketed(|u| gap(u).1, 1e-9 * u, u).unwrap_or(1e-9 * u);
-            let from = if opens { widest() } else { before.0 };
+            let (mut from, mut to) = (before.0, end.0);
+            if opens {
+                from = 0.5 * to;
+                while gap(from).0 <= 0.0 && from > 1e-9 * u {
+                    (from, to) = (0.5 * from, from);
+                }
+            }
             if gap(from).0 <= 0.0 {
                 return Some(from);
             }
-            return root::bracketed(|u| gap(u).0, from, end.0);
+            return root::bracketed(|u| gap(u).0, from, to);
         }
         before = after;
     }
