@@ -27,7 +27,8 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             }
             if self.leaves() {
                 let from = self.now.depth.sqrt();
-                if self.by_root(approach, from, 0.0)? {
+                let out = self.by_root(approach, from, 0.0)?;
+                if out || self.now.depth <= self.model.rounding(&self.y) {
                     self.part();
                     return Ok(());
                 }
