@@ -139,3 +139,26 @@ fn in_calls(
         return (finish, last, steps);
     }
 }
+
+/// A step ended at the time `t_end` (s) inside it, integrated anew; `sink` sees what it consists of.
+pub fn shortened(
+    motion: &Counted<'_>,
+    step: &Step,
+    t_end: f64,
+    settings: &Settings,
+    sink: &mut dyn FnMut(&Step) -> bool,
+) -> Step {
+    let start = Start {
+        t: step.start.t,
+        angle: step.angle(step.start.theta),
+        speed: step.start.omega,
+    };
+    let settings = Settings {
+        t_end,
+        max_evaluations: u64::MAX,
+        ..*settings
+    };
+    let mut last = run(motion, start, &settings, sink).1;
+    last.end.work += step.start.work;
+    last
+}

@@ -163,18 +163,8 @@ fn shortened(
     settings: &Settings,
     watch: &mut Watch<'_>,
 ) -> Step {
-    let start = Start {
-        t: step.start.t,
-        angle: step.angle(step.start.theta),
-        speed: step.start.omega,
-    };
     let until = |t_end: f64, sink: &mut dyn FnMut(&Step) -> bool| {
-        let settings = Settings {
-            t_end,
-            max_evaluations: u64::MAX,
-            ..*settings
-        };
-        time::run(motion, start, &settings, sink).1
+        time::shortened(motion, step, t_end, settings, sink)
     };
     let mut t = t;
     if let Some(limit) = watch.turn_limit.filter(|_| !watch.seen.at_limit) {
@@ -188,12 +178,10 @@ fn shortened(
             t = (t + missing / end.end.omega).clamp(step.start.t, step.end.t);
         }
     }
-    let mut end = until(t, &mut |step| {
+    until(t, &mut |step| {
         watch.follow_speed(&mut step.clone());
         false
-    });
-    end.end.work += step.start.work;
-    end
+    })
 }
 
 /// Energy at the end minus energy at the start minus work, J, and the largest energy that occurs.

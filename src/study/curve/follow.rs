@@ -240,18 +240,9 @@ impl Run<'_, '_> {
 
     /// The step ended at a change inside it, integrated anew.
     fn shorten(&mut self, motion: &Counted<'_>, step: &Step, change: Change, phase: Phase) -> Step {
-        let start = Start {
-            t: step.start.t,
-            angle: step.angle(step.start.theta),
-            speed: step.start.omega,
-        };
+        let settings = &self.follow.settings;
         let until = |t_end: f64, sink: &mut dyn FnMut(&Step) -> bool| {
-            let settings = Settings {
-                t_end,
-                max_evaluations: u64::MAX,
-                ..self.follow.settings
-            };
-            time::run(motion, start, &settings, sink).1
+            time::shortened(motion, step, t_end, settings, sink)
         };
         let mut t = change.t;
         if change.index == TURNED {
@@ -276,12 +267,10 @@ impl Run<'_, '_> {
             }
             step
         };
-        let mut last = rested(&until(t, &mut |step| {
+        rested(&until(t, &mut |step| {
             observer.step(&rested(step), phase);
             false
-        }));
-        last.end.work += step.start.work;
-        last
+        }))
     }
 
     pub fn arrive(&mut self, last: Step) {
