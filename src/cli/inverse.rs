@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Outcome, is_standard, print, say, scene};
+use super::{Outcome, Streams, scene};
 use crate::error::Error;
 use crate::report::{self, Output};
 use crate::scene::{Measured, Measurement, Reading};
@@ -89,19 +89,12 @@ fn measurement(arguments: &Arguments) -> Result<Measurement, Error> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
-    let rows_on_stdout = is_standard(arguments.out.as_ref());
-    if is_standard(arguments.residuals.as_ref()) || is_standard(arguments.plot.as_ref()) {
-        return Err(Error::refused(
-            "residuals and figure go to files",
-            "write --residuals residuals.csv, --plot figure.svg",
-        ));
-    }
-    if rows_on_stdout && arguments.json {
-        return Err(Error::refused(
-            "both the rows and the JSON summary would go to standard output",
-            "write the rows to a file: --out rows.csv",
-        ));
-    }
+    let streams = Streams::new(
+        &[arguments.scene.as_ref(), arguments.data.as_ref()],
+        arguments.out.as_ref(),
+        &[arguments.residuals.as_ref(), arguments.plot.as_ref()],
+        arguments.json,
+    )?;
     let standard = |path: &Option<PathBuf>| path.as_deref() == Some(Path::new("-"));
     if standard(&arguments.scene) && standard(&arguments.data) {
         return Err(Error::refused(
@@ -139,12 +132,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         output.write(report::inverse_figure(&result)?.as_bytes())?;
         output.finish()?;
     }
-    if arguments.json {
-        print(&report::json(&result.summary)?)?;
-    } else if rows_on_stdout {
-        say(report::inverse(&result).trim_end());
-    } else {
-        print(&report::inverse(&result))?;
-    }
+    streams.show(&result.summary, || report::inverse(&result))?;
     Ok(Outcome::Done)
 }

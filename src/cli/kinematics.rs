@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
-    Outcome, angle, check_rows_of_turn, is_standard, length, positive_angle, print, quantity, say,
-    scene, write_text,
+    Outcome, Streams, angle, check_rows_of_turn, length, positive_angle, quantity, say, scene,
+    write_text,
 };
 use crate::error::Error;
 use crate::report::{self, Output, TurnWriter};
@@ -54,13 +54,12 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
-    let rows_on_stdout = is_standard(arguments.out.as_ref());
-    if rows_on_stdout && arguments.json {
-        return Err(Error::refused(
-            "both the rows and the JSON summary would go to standard output",
-            "write the rows to a file: --out rows.csv",
-        ));
-    }
+    let streams = Streams::new(
+        &[arguments.scene.as_ref()],
+        arguments.out.as_ref(),
+        &[arguments.plot.as_ref()],
+        arguments.json,
+    )?;
     check_rows_of_turn(arguments.every)?;
     let mut scene = scene(arguments.scene.as_ref())?;
     if let Some((stroke, ratio)) = arguments.stroke.zip(arguments.rod_ratio) {
@@ -79,13 +78,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     if let Some(path) = &arguments.plot {
         write_text(path, &report::turn_figure(&result)?)?;
     }
-    if arguments.json {
-        print(&report::json(&result)?)?;
-    } else if rows_on_stdout {
-        say(report::turn(&result).trim_end());
-    } else {
-        print(&report::turn(&result))?;
-    }
+    streams.show(&result, || report::turn(&result))?;
     Ok(Outcome::Done)
 }
 

@@ -9,17 +9,18 @@ mod reproduce;
 mod schema;
 mod simulate;
 mod statics;
+mod streams;
 
-use std::io::{IsTerminal, Write};
-use std::path::{Path, PathBuf};
+use std::io::IsTerminal;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
 use crate::error::Error;
-use crate::report::Output;
 use crate::scene::Scene;
 use crate::scene::unit::{self, Quantity};
+use streams::{Streams, check_files, is_standard, print, say, write_text};
 
 /// Dynamics of the offset slider-crank from its Lagrange equation.
 #[derive(Debug, Parser)]
@@ -89,11 +90,6 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// The one place that talks to the user beside the results.
-fn say(message: &str) {
-    let _ = writeln!(std::io::stderr(), "{message}");
-}
-
 fn colour() -> bool {
     std::io::stderr().is_terminal()
         && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
@@ -105,25 +101,6 @@ fn scene(file: Option<&PathBuf>) -> Result<Scene, Error> {
         Some(file) => Scene::load(file),
         None => Ok(Scene::duarte()),
     }
-}
-
-/// Writes a text to standard output.
-fn print(text: &str) -> Result<(), Error> {
-    let mut output = Output::standard();
-    output.write(text.as_bytes())?;
-    output.finish()
-}
-
-/// Writes a text to a file, `-` for standard output.
-fn write_text(path: &Path, text: &str) -> Result<(), Error> {
-    let mut output = Output::create(path)?;
-    output.write(text.as_bytes())?;
-    output.finish()
-}
-
-/// Whether rows go to standard output.
-fn is_standard(path: Option<&PathBuf>) -> bool {
-    path.is_some_and(|path| path == Path::new("-"))
 }
 
 fn quantity(text: &str, quantity: Quantity) -> Result<f64, String> {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Outcome, is_standard, print, say, scene};
+use super::{Outcome, check_files, is_standard, print, say, scene};
 use crate::error::Error;
 use crate::report::{self, Output};
 use crate::scene::Scene;
@@ -69,7 +69,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     if !arguments.tolerances.is_empty() {
         options.tolerances = arguments.tolerances.clone();
     }
-    let scenes = scenes(&arguments.scenes)?;
+    let files = scene_files(&arguments.scenes)?;
+    let read: Vec<_> = files.iter().map(Some).collect();
+    let written: Vec<_> = [&arguments.out, &arguments.plot]
+        .into_iter()
+        .flatten()
+        .collect();
+    check_files(&read, &written)?;
+    let scenes = scenes(&files)?;
     let create = |path: &Option<PathBuf>| path.as_deref().map(Output::create).transpose();
     let (rows, plot) = (create(&arguments.out)?, create(&arguments.plot)?);
     let text_on_stdout = !(rows_on_stdout || plot_on_stdout || arguments.json);
@@ -120,23 +127,28 @@ fn write(output: Option<Output>, text: impl Fn() -> Result<String, Error>) -> Re
     output.finish()
 }
 
-/// All scenes that are named; of a folder those in files `*.toml`, by their names.
-fn scenes(named: &[PathBuf]) -> Result<Vec<Scene>, Error> {
-    if named.is_empty() {
-        return Ok(vec![scene(None)?]);
+/// The scenes of files; without any the built-in one.
+fn scenes(files: &[PathBuf]) -> Result<Vec<Scene>, Error> {
+    match files {
+        [] => Ok(vec![scene(None)?]),
+        files => files.iter().map(titled).collect(),
     }
+}
+
+/// All scene files that are named; of a folder those called `*.toml`, by their names.
+fn scene_files(named: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
     let mut files = Vec::new();
     for path in named {
         if path.is_dir() {
-            files.extend(scene_files(path)?);
+            files.extend(files_of(path)?);
         } else {
             files.push(path.clone());
         }
     }
-    files.iter().map(titled).collect()
+    Ok(files)
 }
 
-fn scene_files(folder: &Path) -> Result<Vec<PathBuf>, Error> {
+fn files_of(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     let failed = |source| Error::Read {
         file: folder.to_owned(),
         source,

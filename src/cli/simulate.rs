@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Outcome, is_standard, print, say, scene};
+use super::{Outcome, Streams, scene};
 use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{self, Output, PlotRows, Preview, RowWriter};
@@ -87,19 +87,12 @@ fn steady_options(arguments: &Arguments) -> SteadyOptions {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
-    let rows_on_stdout = is_standard(arguments.out.as_ref());
-    if is_standard(arguments.plot.as_ref()) {
-        return Err(Error::refused(
-            "the figure would go to standard output, where the summary is",
-            "write the figure to a file: --plot motion.svg",
-        ));
-    }
-    if rows_on_stdout && arguments.json {
-        return Err(Error::refused(
-            "both the rows and the JSON summary would go to standard output",
-            "write the rows to a file: --out rows.csv",
-        ));
-    }
+    let streams = Streams::new(
+        &[arguments.scene.as_ref()],
+        arguments.out.as_ref(),
+        &[arguments.plot.as_ref()],
+        arguments.json,
+    )?;
     let mut scene = scene(arguments.scene.as_ref())?;
     if let Some(tolerance) = arguments.tolerance {
         scene.run.tolerance = tolerance;
@@ -124,7 +117,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let mut rows = Rows {
         plot: figure.is_some().then(PlotRows::default),
         writer: output.map(RowWriter::new),
-        preview: (!arguments.json).then(Preview::default),
+        preview: streams.text_on_stdout().then(Preview::default),
     };
     let result = study::simulate_rows(&scene, &options, &mut rows)?;
     if let Some(writer) = rows.writer {
@@ -136,19 +129,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         figure.write(plot.to_svg(&summary)?.as_bytes())?;
         figure.finish()?;
     }
-    if arguments.json {
-        print(&report::json(&summary)?)?;
-    } else {
-        let preview = rows
-            .preview
-            .map(|preview| preview.rows())
-            .unwrap_or_default();
-        if rows_on_stdout {
-            say(report::summary(&summary, &[]).trim_end());
-        } else {
-            print(&report::summary(&summary, &preview))?;
-        }
-    }
+    let preview = rows.preview.map(|preview| preview.rows());
+    streams.show(&summary, || {
+        report::summary(&summary, preview.as_deref().unwrap_or_default())
+    })?;
     Ok(match summary.stopped {
         Some(message) => Outcome::Incomplete(message),
         None => Outcome::Done,

@@ -14,6 +14,7 @@ mod rows;
 mod statics;
 mod steady;
 mod text;
+mod thinned;
 
 pub use calibration::calibration;
 pub use explain::explanation;

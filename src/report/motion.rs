@@ -3,16 +3,13 @@
 use std::f64::consts::TAU;
 
 use super::figure::{Axis, Figure, panels};
+use super::thinned::Thinned;
 use crate::error::Error;
 use crate::study::{Row, Summary};
 
 /// Rows for a figure, evenly thinned out where there are more than a figure can show.
-#[derive(Debug, Default)]
-pub struct PlotRows {
-    rows: Vec<Row>,
-    seen: u64,
-    stride: u64,
-}
+#[derive(Debug)]
+pub struct PlotRows(Thinned<Row>);
 
 /// Of the area of one panel in two columns, so that a circle looks like one.
 const WIDTH_OVER_HEIGHT: f64 = 1.65;
@@ -20,22 +17,16 @@ const WIDTH_OVER_HEIGHT: f64 = 1.65;
 /// Most rows that are kept.
 const MOST: usize = 20_000;
 
+impl Default for PlotRows {
+    fn default() -> PlotRows {
+        PlotRows(Thinned::new(MOST))
+    }
+}
+
 impl PlotRows {
     /// Takes a row.
     pub fn take(&mut self, row: &Row) {
-        self.stride = self.stride.max(1);
-        if self.seen.is_multiple_of(self.stride) {
-            self.rows.push(*row);
-        }
-        self.seen += 1;
-        if self.rows.len() > MOST {
-            let mut index = 0;
-            self.rows.retain(|_| {
-                index += 1;
-                index % 2 == 1
-            });
-            self.stride *= 2;
-        }
+        self.0.take(*row);
     }
 
     /// Slider motion over time, beside that of ideal joints where a joint is loose, with the contact force and
@@ -44,7 +35,7 @@ impl PlotRows {
     /// # Errors
     /// [`Error::Refused`] if there is nothing to draw.
     pub fn to_svg(&self, summary: &Summary) -> Result<String, Error> {
-        let end = self.rows.last().map_or(0.0, |row| row.t);
+        let end = self.0.kept().last().map_or(0.0, |row| row.t);
         let (scale, unit) = if end < 0.5 { (1e3, "ms") } else { (1.0, "s") };
         let over_time = |title: &str, axis: &str| {
             Figure::new(
@@ -54,12 +45,13 @@ impl PlotRows {
             )
         };
         let series = |value: &dyn Fn(&Row) -> f64| -> Vec<(f64, f64)> {
-            self.rows
+            self.0
+                .kept()
                 .iter()
                 .map(|row| (scale * row.t, value(row)))
                 .collect()
         };
-        let loose = self.rows.iter().any(|row| row.clearance.is_some());
+        let loose = self.0.kept().iter().any(|row| row.clearance.is_some());
         let ideal = |row: &Row, index: usize| row.clearance.map_or(f64::NAN, |c| c.ideal[index]);
         type Column = fn(&Row) -> f64;
         let columns: [(&str, &str, f64, Column); 3] = [
@@ -96,7 +88,7 @@ impl PlotRows {
 
     /// Path of the journal's centre in the bearing, with the circle of the clearance, mm.
     fn orbit(&self, radial: f64) -> Figure {
-        let path = self.rows.iter().filter_map(|row| row.clearance);
+        let path = self.0.kept().iter().filter_map(|row| row.clearance);
         let path: Vec<_> = path
             .map(|joint| (1e3 * joint.journal[0], 1e3 * joint.journal[1]))
             .collect();

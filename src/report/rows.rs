@@ -1,6 +1,7 @@
 //! Rows as CSV: header, shortest numbers that read back the same, empty cells for what does not exist.
 
 use super::Output;
+use super::thinned::Thinned;
 use crate::error::Error;
 use crate::study::{Reactions, Row, RowSink};
 
@@ -118,39 +119,34 @@ impl RowSink for RowWriter {
 }
 
 /// Some rows, evenly spread over a run of unknown length, for a table on the terminal.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Preview {
-    rows: Vec<Row>,
+    few: Thinned<Row>,
     last: Option<Row>,
-    seen: u64,
-    stride: u64,
 }
 
 /// Twice the least number of rows in a preview.
 const MOST: usize = 24;
 
+impl Default for Preview {
+    fn default() -> Preview {
+        Preview {
+            few: Thinned::new(MOST),
+            last: None,
+        }
+    }
+}
+
 impl Preview {
     /// Takes a row; keeps it if it is one of the few.
     pub fn take(&mut self, row: &Row) {
-        self.stride = self.stride.max(1);
-        if self.seen.is_multiple_of(self.stride) {
-            self.rows.push(*row);
-            if self.rows.len() > MOST {
-                let mut index = 0;
-                self.rows.retain(|_| {
-                    index += 1;
-                    index % 2 == 1
-                });
-                self.stride *= 2;
-            }
-        }
-        self.seen += 1;
+        self.few.take(*row);
         self.last = Some(*row);
     }
 
     /// The rows kept, the last one of the run among them.
     pub fn rows(&self) -> Vec<Row> {
-        let mut rows = self.rows.clone();
+        let mut rows = self.few.kept().to_vec();
         if let Some(last) = self.last
             && rows.last().is_none_or(|row| row.t < last.t)
         {

@@ -423,7 +423,7 @@ fn options_that_go_wrong() {
         ),
         (&["--fit", "fourier"], "more than one turn"),
         (&["--column", "y"], "none of theta, gamma and x"),
-        (&["--residuals", "-"], "residuals and figure go to files"),
+        (&["--residuals", "-"], "write them to files"),
         (&["--json", "--out", "-"], "both the rows and the JSON"),
         (&["--as-printed"], "in line with the pivot"),
     ] {

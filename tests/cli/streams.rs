@@ -238,3 +238,20 @@ fn an_output_that_cannot_be_written_is_an_error() {
         );
     }
 }
+
+#[test]
+fn nothing_is_written_onto_what_is_read_or_twice_to_one_file() {
+    let scene = free(GOOD);
+    let folder = Folder::with(&scene);
+    for command in ["simulate", "kinematics", "statics", "precision"] {
+        folder
+            .run(&[command, "scene.toml", "--out", "./scene.toml"])
+            .fails(2, &["scene.toml", "is read by this command", "help:"]);
+        folder
+            .run(&[command, "scene.toml", "--out", "new", "--plot", "./new"])
+            .fails(2, &["new", "two results", "help:"]);
+    }
+    let kept = std::fs::read_to_string(folder.path("scene.toml")).unwrap();
+    assert_eq!(kept, scene);
+    assert!(!folder.path("new").exists());
+}

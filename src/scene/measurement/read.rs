@@ -8,7 +8,7 @@ use super::columns::{Columns, columns};
 use super::source::{Source, cell, line_at, reader};
 use super::{Measurement, Reading};
 use crate::scene::number::{self, counted};
-use crate::scene::table::file::delimiter;
+use crate::scene::table::pairs::delimiter;
 use crate::scene::{Problem, Problems};
 
 /// Problems that are listed; all are counted.

@@ -5,11 +5,12 @@ use std::path::Path;
 use csv::StringRecord;
 
 use super::header;
+use super::pairs::Pairs;
 use super::rows::{Column, Rows, columns_error};
 use super::{Interpolation, Table, TableError};
 use crate::error::Error;
 use crate::scene::Variable;
-use crate::scene::number::{self, counted};
+use crate::scene::number::counted;
 use crate::scene::unit::Quantity;
 
 impl Table {
@@ -28,36 +29,21 @@ impl Table {
             help: "give the path of a CSV file, relative to the scene file".to_owned(),
         })?;
         let wrong = |what: String| columns_error(of, what);
-        let mut reader = csv::ReaderBuilder::new()
-            .delimiter(delimiter(&text))
-            .comment(Some(b'#'))
-            .trim(csv::Trim::All)
-            .flexible(true)
-            .from_reader(text.as_bytes());
-        // A record's own position is where the search for it begins, before comments and empty lines;
-        // the byte at which it ends tells its line.
-        let place = |end: u64| format!("{name} line {}", line_before(&text, end));
-        let header = reader.headers().map_err(|e| wrong(e.to_string()))?.clone();
-        let end = reader.position().byte();
+        let mut pairs = Pairs::new(&name, &text).map_err(wrong)?;
+        let place = pairs.place(pairs.end());
         let columns =
-            columns(&header, of, value).map_err(|what| wrong(format!("{}: {what}", place(end))))?;
+            columns(pairs.header(), of, value).map_err(|what| wrong(format!("{place}: {what}")))?;
         let (mut points, mut ends) = (Vec::new(), Vec::new());
-        let mut record = StringRecord::new();
-        while reader
-            .read_record(&mut record)
-            .map_err(|e| wrong(e.to_string()))?
-        {
-            let end = reader.position().byte();
-            let (x, y) = point(&record).map_err(|what| wrong(format!("{}{what}", place(end))))?;
+        while let Some((x, y)) = pairs.next().map_err(wrong)? {
             points.push((x * columns[0].factor, y * columns[1].factor));
-            ends.push(end);
+            ends.push(pairs.end());
         }
         let rows = Rows {
             of,
             points,
             columns,
             whole: format!("{name}: "),
-            place: &|row| format!("{}: ", place(ends[row])),
+            place: &|row| format!("{}: ", pairs.place(ends[row])),
         };
         let curve = rows.curve(interpolation, period)?;
         Ok(Table { of, curve, name })
@@ -82,78 +68,26 @@ pub fn calibration_points(file: &Path) -> Result<Vec<(f64, f64)>, Error> {
             "the file has two columns, as `load [N],reading`, and a row for each load",
         )
     };
-    let mut reader = csv::ReaderBuilder::new()
-        .delimiter(delimiter(&text))
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .flexible(true)
-        .from_reader(text.as_bytes());
-    let place = |end: u64| format!("{name} line {}", line_before(&text, end));
-    let header = reader.headers().map_err(|e| wrong(e.to_string()))?.clone();
-    let end = reader.position().byte();
+    let mut pairs = Pairs::new(&name, &text).map_err(wrong)?;
+    let place = pairs.place(pairs.end());
+    let header = pairs.header();
     if header.len() != 2 || header.iter().any(|h| h.parse::<f64>().is_ok()) {
-        let what = format!("{}: the first line must name two columns", place(end));
-        return Err(wrong(what));
+        return Err(wrong(format!(
+            "{place}: the first line must name two columns"
+        )));
     }
     let load = header::split(&header[0])
         .column(Quantity::Force)
-        .map_err(|what| wrong(format!("{}: {what}", place(end))))?;
+        .map_err(|what| wrong(format!("{place}: {what}")))?;
     let mut points = Vec::new();
-    let mut record = StringRecord::new();
-    while reader
-        .read_record(&mut record)
-        .map_err(|e| wrong(e.to_string()))?
-    {
-        let end = reader.position().byte();
-        let (x, y) = point(&record).map_err(|what| wrong(format!("{}{what}", place(end))))?;
+    while let Some((x, y)) = pairs.next().map_err(wrong)? {
         if !(x.is_finite() && y.is_finite()) {
-            return Err(wrong(format!("{}: a value is not finite", place(end))));
+            let place = pairs.place(pairs.end());
+            return Err(wrong(format!("{place}: a value is not finite")));
         }
         points.push((x * load.factor, y));
     }
     Ok(points)
-}
-
-/// The number of the line that ends at or before a byte of the text, from 1.
-fn line_before(text: &str, end: u64) -> usize {
-    let end = usize::try_from(end).map_or(text.len(), |end| end.min(text.len()));
-    let read = text.as_bytes()[..end].trim_ascii_end();
-    read.iter().filter(|byte| **byte == b'\n').count() + 1
-}
-
-/// The two numbers of a row, or what follows its place in the message.
-fn point(record: &StringRecord) -> Result<(f64, f64), String> {
-    if record.len() != 2 {
-        return Err(format!(
-            ": {} where 2 are expected",
-            counted(record.len(), "value")
-        ));
-    }
-    let number = |column: usize| {
-        let cell = &record[column];
-        number::plain(cell).parse::<f64>().map_err(|_| {
-            let what = if cell.replacen(',', ".", 1).parse::<f64>().is_ok() {
-                "has a decimal comma where a point is expected"
-            } else {
-                "is not a number"
-            };
-            format!(" column {}: `{cell}` {what}", column + 1)
-        })
-    };
-    Ok((number(0)?, number(1)?))
-}
-
-/// What separates the columns: a semicolon or a tab if the first line has one, else a comma.
-pub(in crate::scene) fn delimiter(text: &str) -> u8 {
-    let first = text
-        .trim_start_matches('\u{feff}')
-        .lines()
-        .find(|line| !line.trim().is_empty() && !line.starts_with('#'))
-        .unwrap_or_default();
-    [b';', b'\t']
-        .into_iter()
-        .find(|d| first.as_bytes().contains(d))
-        .unwrap_or(b',')
 }
 
 /// Units of the two columns.

@@ -2,6 +2,7 @@
 
 pub(super) mod file;
 pub(super) mod header;
+pub(super) mod pairs;
 pub(super) mod rows;
 
 use std::fmt;

@@ -1,0 +1,133 @@
+//! What a command reads and where its results go.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use crate::error::Error;
+use crate::report::{self, Output};
+
+/// The files and streams of a command, checked before anything is computed.
+pub(super) struct Streams {
+    rows_on_stdout: bool,
+    json: bool,
+}
+
+impl Streams {
+    /// Rows go to `rows`, a JSON summary to standard output if `json`, what else is written to `files`.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] if two results would go to one place, or a result onto something that is read.
+    pub fn new(
+        read: &[Option<&PathBuf>],
+        rows: Option<&PathBuf>,
+        files: &[Option<&PathBuf>],
+        json: bool,
+    ) -> Result<Streams, Error> {
+        let rows_on_stdout = is_standard(rows);
+        if files.iter().any(|file| is_standard(*file)) {
+            return Err(Error::refused(
+                "a figure or residuals would go to standard output, where the summary is",
+                "write them to files, like --plot figure.svg",
+            ));
+        }
+        if rows_on_stdout && json {
+            return Err(Error::refused(
+                "both the rows and the JSON summary would go to standard output",
+                "write the rows to a file: --out rows.csv",
+            ));
+        }
+        let written: Vec<&PathBuf> = rows
+            .into_iter()
+            .chain(files.iter().flatten().copied())
+            .collect();
+        check_files(read, &written)?;
+        Ok(Streams {
+            rows_on_stdout,
+            json,
+        })
+    }
+
+    /// Whether a summary for the reader goes to standard output.
+    pub fn text_on_stdout(&self) -> bool {
+        !(self.json || self.rows_on_stdout)
+    }
+
+    /// Shows a result: as JSON if that is asked for, else as text, on the standard error stream if the rows
+    /// have the standard output.
+    pub fn show(
+        &self,
+        result: &impl Serialize,
+        text: impl FnOnce() -> String,
+    ) -> Result<(), Error> {
+        if self.json {
+            print(&report::json(result)?)
+        } else if self.rows_on_stdout {
+            say(text().trim_end());
+            Ok(())
+        } else {
+            print(&text())
+        }
+    }
+}
+
+/// Refuses to write two results to one file, or one onto a file that is read.
+///
+/// # Errors
+/// [`Error::Refused`].
+pub(super) fn check_files(read: &[Option<&PathBuf>], written: &[&PathBuf]) -> Result<(), Error> {
+    for (index, path) in written.iter().enumerate() {
+        let (shown, here) = (path.display(), place(path));
+        if is_standard(Some(path)) || (here.exists() && !here.is_file()) {
+            continue;
+        }
+        if read.iter().flatten().any(|file| place(file) == here) {
+            return Err(Error::refused(
+                format!("`{shown}` is read by this command and would be overwritten"),
+                "write the result to another file",
+            ));
+        }
+        if written[..index].iter().any(|other| place(other) == here) {
+            return Err(Error::refused(
+                format!("two results would be written to `{shown}`"),
+                "give each its own file",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// The one name of a file that may not exist yet.
+fn place(path: &Path) -> PathBuf {
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
+    let folder = std::fs::canonicalize(folder.unwrap_or(Path::new(".")));
+    let new = || Some(folder.ok()?.join(path.file_name()?));
+    std::fs::canonicalize(path).unwrap_or_else(|_| new().unwrap_or_else(|| path.to_owned()))
+}
+
+/// Whether a path stands for standard input or output.
+pub(super) fn is_standard(path: Option<&PathBuf>) -> bool {
+    path.is_some_and(|path| path == Path::new("-"))
+}
+
+/// The one place that talks to the user beside the results.
+pub(super) fn say(message: &str) {
+    let _ = writeln!(std::io::stderr(), "{message}");
+}
+
+/// Writes a text to standard output.
+pub(super) fn print(text: &str) -> Result<(), Error> {
+    let mut output = Output::standard();
+    output.write(text.as_bytes())?;
+    output.finish()
+}
+
+/// Writes a text to a file, `-` for standard output.
+pub(super) fn write_text(path: &Path, text: &str) -> Result<(), Error> {
+    let mut output = Output::create(path)?;
+    output.write(text.as_bytes())?;
+    output.finish()
+}
