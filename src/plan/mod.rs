@@ -252,7 +252,9 @@ fn engine(
         (Method::Auto | Method::Angle, false) if angle_serves(scene) => Ok((
             Engine::Angle,
             None,
-            reason("the crank turns: its energy and the time over the crank angle"),
+            reason(
+                "the crank turns: its energy and the time over the crank angle; where it comes near to rest, integration in time takes over",
+            ),
         )),
         (Method::Angle, false) => Err(Error::refused(
             "method angle needs a crank that turns from the start, tables over theta only, formulas without step, sign, floor and mod, and loads over theta that repeat with each turn",

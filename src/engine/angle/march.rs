@@ -24,7 +24,9 @@ pub(super) struct March<'a, D: Driven> {
     /// Parts of a panel that was too long this time, the next one last.
     parts: Vec<Station<D::Place>>,
     next: usize,
-    /// s, rounded value and rest
+    /// When the run begins, s.
+    pub begin: f64,
+    /// Time since then, s; rounded value and rest.
     pub t: (f64, f64),
     /// J
     pub kinetic: f64,
@@ -37,7 +39,7 @@ pub(super) struct March<'a, D: Driven> {
     pub evaluations: u64,
     fastest: f64,
     start: Angle,
-    most_evaluations: u64,
+    pub most_evaluations: u64,
     /// Whether a panel was cut or its degree raised since this was last cleared.
     pub refined: bool,
 }
@@ -84,6 +86,7 @@ impl<'a, D: Driven> March<'a, D> {
             stations,
             parts: Vec::new(),
             next: 0,
+            begin: 0.0,
             t: (0.0, 0.0),
             kinetic,
             turns: 0.0,
@@ -132,7 +135,7 @@ impl<'a, D: Driven> March<'a, D> {
                 return Err(Unserved::WorkLimit);
             }
             let start = Start {
-                t: self.t.0,
+                t: self.begin + self.t.0,
                 kinetic: self.kinetic,
                 turns: self.start.turns + self.turns,
                 direction: self.direction,
