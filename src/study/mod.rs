@@ -23,6 +23,7 @@ mod reproduce;
 mod row;
 mod schedule;
 mod simulate;
+mod sliding;
 mod statics;
 mod steady;
 mod stopped;

@@ -37,7 +37,9 @@ pub(super) fn run(
     rows: &mut dyn RowSink,
     record: bool,
 ) -> Result<Simulation, Error> {
-    let position = Position::new(task.equation(), &task.limits);
+    let direction = task.scene.motion.speed.signum();
+    let position =
+        Position::new(task.equation(), &task.limits).with_friction(task.maker.sliding, direction);
     let solved = match task.plan.engine {
         Engine::Angle => by_angle::solve(task, &position),
         // Turns that differ are many panels; the map from turn to turn is for them.
@@ -52,12 +54,12 @@ pub(super) fn run(
             format!(
                 "method {} cannot serve this scene: {}",
                 task.options.method,
-                reason(unserved)
+                why(task, unserved)
             ),
             "use --method auto or time",
         )),
         Err(unserved) => {
-            let why = format!("integration in time, for {}", reason(unserved));
+            let why = format!("integration in time, for {}", why(task, unserved));
             task.plan = Plan::new(task.scene, Method::Time)?;
             task.plan.reason = why;
             in_time::run(task, rows, record)
@@ -72,6 +74,14 @@ fn is_long(task: &Task<'_>) -> bool {
     match task.extent {
         Extent::Duration(duration) => speed * duration > MANY * TAU,
         Extent::Revolutions(turns) => turns > MANY,
+    }
+}
+
+/// Why these engines cannot serve a task.
+fn why(task: &Task<'_>, unserved: Unserved) -> &'static str {
+    match task.maker.sliding {
+        Some(sliding) if sliding.jams() => "the slider jams in its guide at an angle of the turn",
+        _ => reason(unserved),
     }
 }
 
@@ -129,7 +139,7 @@ pub(super) fn late_by(
     end: f64,
     late: f64,
 ) -> ErrorEstimate {
-    let alpha = task.equation().acceleration(end, angle, omega);
+    let (alpha, _) = task.maker.forward(end, angle, omega);
     let rounding = f64::EPSILON * (1.0 + angle.radians().abs());
     ErrorEstimate {
         theta_rad: omega.abs() * late + rounding,

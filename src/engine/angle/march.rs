@@ -2,6 +2,7 @@
 
 use super::station::{Station, stations};
 use super::sweep::{Start, Swept, sweep};
+use super::switch::{Side, side};
 use super::{Driven, Resolution};
 use crate::engine::energy::Unserved;
 use crate::engine::energy::panel::Panel;
@@ -127,6 +128,7 @@ impl<'a, D: Driven> March<'a, D> {
 
     /// The next panel.
     pub fn panel(&mut self) -> Result<Done, Unserved> {
+        let mut turned_over = 0;
         loop {
             if self.evaluations > self.most_evaluations {
                 return Err(Unserved::WorkLimit);
@@ -141,12 +143,40 @@ impl<'a, D: Driven> March<'a, D> {
                 .parts
                 .last_mut()
                 .unwrap_or(&mut self.stations[self.next]);
-            if let Some(swept) = sweep(self.driven, station, start, self.tail) {
-                station.remember(&swept.kinetic);
-                return Ok(self.pass(swept));
+            let Some(swept) = sweep(self.driven, station, start, self.tail) else {
+                self.refine()?;
+                continue;
+            };
+            match side(self.driven, station, start, &swept) {
+                Side::Stays => {
+                    station.remember(&swept.kinetic);
+                    return Ok(self.pass(swept));
+                }
+                // Once more the other way round: then it has no sign.
+                Side::Other if turned_over == 2 => return Ok(self.pass(swept)),
+                Side::Other => {
+                    turned_over += 1;
+                    station.turn_over(self.driven)?;
+                }
+                Side::Leaves(share) => {
+                    station.remember(&swept.kinetic);
+                    self.cut_at_switch(share)?;
+                }
             }
-            self.refine()?;
+            self.evaluations += swept.evaluations;
         }
+    }
+
+    /// Cuts the next panel for this turn where the switch changes its sign.
+    fn cut_at_switch(&mut self, share: f64) -> Result<(), Unserved> {
+        let station = self.parts.last().unwrap_or(&self.stations[self.next]);
+        let Some([first, mut second]) = station.parts(self.driven, share, self.tail)? else {
+            return Err(Unserved::NotSmooth);
+        };
+        second.turn_over(self.driven)?;
+        self.parts.pop();
+        self.parts.extend([second, first]);
+        Ok(())
     }
 
     fn pass(&mut self, swept: Swept) -> Done {
