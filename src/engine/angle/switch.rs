@@ -13,6 +13,9 @@ const NOISE: f64 = 32.0 * f64::EPSILON;
 /// square of that.
 pub(super) const AT_END: f64 = 1e-9;
 
+/// At the start of a panel that begins where the switch changes, it is zero within this part of its largest value.
+const AT_CUT: f64 = 1e-9;
+
 /// What the switch does on a panel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Side {
@@ -90,6 +93,9 @@ fn values<D: Driven>(
 /// The first place at which values fall below zero, by more than `noise`; −1 if they begin there.
 fn first_below<P: Copy>(station: &Station<P>, values: &Values, noise: f64) -> Option<f64> {
     let points = station.rule.points();
+    if values[0] < -noise.max(AT_CUT * values.iter().fold(0.0f64, |m, value| m.max(value.abs()))) {
+        return Some(-1.0);
+    }
     let series = || station.rule.series(values);
     for j in 1..points.len() {
         if values[j] < -noise {
