@@ -11,6 +11,7 @@ use crate::numeric::angle::Angle;
 #[derive(Clone, Debug)]
 pub struct Trajectory {
     motion: Motion,
+    begin: f64,
     end: f64,
     view: Option<View>,
 }
@@ -29,37 +30,55 @@ impl fmt::Debug for View {
 
 #[derive(Clone, Debug)]
 enum Motion {
-    Uniform { angle: Angle, speed: f64 },
+    Uniform {
+        angle: Angle,
+        speed: f64,
+    },
     Orbit(Box<Orbit>),
     Steps(Vec<Step>),
+    /// Each begins where the one before ends.
+    Pieces(Vec<Trajectory>),
 }
 
 impl Trajectory {
-    /// Constant speed (rad/s) from `angle` at t = 0 until `end`, s.
-    pub fn uniform(angle: Angle, speed: f64, end: f64) -> Trajectory {
+    fn new(motion: Motion, begin: f64, end: f64) -> Trajectory {
         Trajectory {
-            motion: Motion::Uniform { angle, speed },
+            motion,
+            begin,
             end,
             view: None,
         }
     }
 
-    /// A motion known from its energy, until `end`, s.
-    pub fn orbit(orbit: Orbit, end: f64) -> Trajectory {
-        Trajectory {
-            motion: Motion::Orbit(Box::new(orbit)),
-            end,
-            view: None,
-        }
+    /// Constant speed (rad/s) from `angle` at t = 0 until `end`, s.
+    pub fn uniform(angle: Angle, speed: f64, end: f64) -> Trajectory {
+        Trajectory::new(Motion::Uniform { angle, speed }, 0.0, end)
+    }
+
+    /// A motion over the crank angle, whose own time begins at `begin`, until `end`, s.
+    pub fn orbit(orbit: Orbit, begin: f64, end: f64) -> Trajectory {
+        Trajectory::new(Motion::Orbit(Box::new(orbit)), begin, end)
     }
 
     /// Refined steps, each beginning where the one before ends, until `end`, s.
     pub fn from_steps(steps: Vec<Step>, end: f64) -> Trajectory {
-        Trajectory {
-            motion: Motion::Steps(steps),
-            end,
-            view: None,
-        }
+        let begin = steps.first().map_or(end, |step| step.start.t);
+        Trajectory::new(Motion::Steps(steps), begin, end)
+    }
+
+    /// Pieces, each beginning where the one before ends.
+    ///
+    /// ```
+    /// use slider_crank::numeric::angle::Angle;
+    /// use slider_crank::trajectory::Trajectory;
+    /// let whole = Trajectory::joined(vec![Trajectory::uniform(Angle::from(0.5), 2.0, 1.0)]);
+    /// assert_eq!(whole.at(0.5), Some((1.5, 2.0)));
+    /// assert_eq!(whole.at(1.5), None);
+    /// ```
+    pub fn joined(pieces: Vec<Trajectory>) -> Trajectory {
+        let begin = pieces.first().map_or(0.0, |piece| piece.begin);
+        let end = pieces.last().map_or(0.0, |piece| piece.end);
+        Trajectory::new(Motion::Pieces(pieces), begin, end)
     }
 
     /// The same steps, of a coordinate from which `view` gives crank angle and speed.
@@ -68,19 +87,23 @@ impl Trajectory {
         self
     }
 
-    /// Last time, s; the first is 0.
+    /// Last time, s; the first of a whole run is 0.
     pub fn end(&self) -> f64 {
         self.end
     }
 
     /// Crank angle, as turns and rest, and speed (rad/s) at time `t` (s); none outside the run.
     pub fn state(&self, t: f64) -> Option<(Angle, f64)> {
-        if !(0.0..=self.end).contains(&t) {
+        if !(self.begin..=self.end).contains(&t) {
             return None;
         }
         match &self.motion {
             Motion::Uniform { angle, speed } => Some((angle.plus(speed * t), *speed)),
-            Motion::Orbit(orbit) => Some(orbit.state(t)),
+            Motion::Orbit(orbit) => Some(orbit.state(t - self.begin)),
+            Motion::Pieces(pieces) => {
+                let after = pieces.partition_point(|piece| piece.end < t);
+                pieces.get(after)?.state(t)
+            }
             Motion::Steps(steps) => {
                 let after = steps.partition_point(|step| step.end.t < t);
                 let step = steps.get(after)?;

@@ -181,15 +181,3 @@ fn rows_at_angles_and_ends_after_turns_are_exact() {
     .unwrap();
     assert!((time.summary.last.t_s / result.summary.last.t_s - 1.0).abs() < 1e-12);
 }
-
-#[test]
-fn a_crank_that_comes_to_rest_is_handed_over_to_time() {
-    let scene = Scene::duarte().torque(Load::Viscous(0.5)).duration(3.0);
-    let result = run(&scene, Method::Auto);
-    assert_eq!(result.summary.engine, "time");
-    assert!(
-        result.summary.plan.reason.contains("near to rest"),
-        "{}",
-        result.summary.plan.reason
-    );
-}

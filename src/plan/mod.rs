@@ -265,7 +265,9 @@ fn engine(
             Ok((
                 Engine::Angle,
                 None,
-                reason("the crank turns: its energy and the time over the crank angle"),
+                reason(
+                    "the crank turns: its energy and the time over the crank angle; where it comes near to rest, integration in time takes over",
+                ),
             ))
         }
         (Method::Angle, false) => Err(Error::refused(

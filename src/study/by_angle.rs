@@ -17,38 +17,56 @@ const SHARE: f64 = 1e-2;
 const LEAST_TAIL: f64 = 4e-15;
 
 /// Relative error of times by rounding.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
+pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// What is stated is larger than the distance of two runs by this.
-const MARGIN: f64 = 1.5;
+pub(super) const MARGIN: f64 = 1.5;
+
+/// A task that is not solved over the angle alone.
+pub(super) struct Unsolved {
+    pub why: Unserved,
+    /// How far it came.
+    pub first: Option<Box<First>>,
+}
+
+/// A first piece.
+pub(super) struct First {
+    pub driving: Driving,
+    /// Positions that were tabulated for it.
+    pub places: u64,
+    pub wall_s: f64,
+}
 
 /// Solves a task.
-pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, Unserved> {
+pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, Unsolved> {
     let begun = Instant::now();
-    let speed = task.scene.motion.speed;
     let run = |goal: Goal, resolution: Resolution| {
-        angle::run(position, task.start(), speed, goal, resolution)
-    };
-    let plain = Resolution {
-        tail: (SHARE * task.scene.run.tolerance).max(LEAST_TAIL),
-        other: false,
-        most_evaluations: task.options.max_evaluations,
+        let driving = angle::run(position, task.first_state(), goal, resolution);
+        driving.map_err(|why| Unsolved { why, first: None })
     };
     let goal = match task.extent {
         Extent::Duration(duration) => Goal::Time(duration),
         Extent::Revolutions(turns) => Goal::Turned(turns * TAU),
     };
-    let driving = run(goal, plain)?;
+    let driving = run(goal, plain(task))?;
     let wall_s = begun.elapsed().as_secs_f64();
     let places = position.evaluations();
+    let handed = |driving: Driving, why: Unserved| Unsolved {
+        why,
+        first: Some(Box::new(First {
+            driving,
+            places,
+            wall_s,
+        })),
+    };
+    if let Some(short) = driving.short {
+        return Err(handed(driving, short.why));
+    }
     let estimate = if task.options.estimate {
         let begun = Instant::now();
-        // Finer, and cut at other angles: two runs on the same panels would have the same error.
-        let finer = Resolution {
-            tail: LEAST_TAIL,
-            other: true,
-            most_evaluations: u64::MAX,
-        };
-        let better = run(Goal::Time(driving.end), finer)?;
+        let better = run(Goal::Time(driving.end), finer())?;
+        if let Some(short) = better.short {
+            return Err(handed(driving, short.why));
+        }
         let cost = Cost {
             evaluations: position.evaluations() - places + better.evaluations,
             wall_s: begun.elapsed().as_secs_f64(),
@@ -67,6 +85,24 @@ pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, 
         stopped: None,
         estimate,
     })
+}
+
+/// As fine as the tolerance asks for.
+pub(super) fn plain(task: &Task<'_>) -> Resolution {
+    Resolution {
+        tail: (SHARE * task.scene.run.tolerance).max(LEAST_TAIL),
+        other: false,
+        most_evaluations: task.options.max_evaluations,
+    }
+}
+
+/// Finer, and cut at other angles: two runs on the same panels would have the same error.
+pub(super) fn finer() -> Resolution {
+    Resolution {
+        tail: LEAST_TAIL,
+        other: true,
+        most_evaluations: u64::MAX,
+    }
 }
 
 /// Distance of two runs at the end of the first, and what rounding may add.

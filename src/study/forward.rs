@@ -100,7 +100,7 @@ pub(super) fn estimate(
     let (factor, beside) = MOST_EVALUATIONS;
     let collocation = Settings {
         method: time::Method::Picard,
-        tolerance: (settings.tolerance / MUCH_TIGHTER).max(TIGHTEST),
+        tolerance: tighter(settings.tolerance),
         t_end,
         max_evaluations: run
             .evaluations
@@ -108,19 +108,36 @@ pub(super) fn estimate(
             .saturating_add(beside),
         ..*settings
     };
-    let tighter = Settings {
+    let same = Settings {
         tolerance: (settings.tolerance / TIGHTER).max(TIGHTEST),
         t_end,
         max_evaluations: settings.max_evaluations.saturating_mul(4),
         ..*settings
     };
-    let better = Better::run(&motion, start, &collocation)
-        .or_else(|| Better::run(&motion, start, &tighter))?;
+    let better =
+        Better::run(&motion, start, &collocation).or_else(|| Better::run(&motion, start, &same))?;
     let cost = Cost {
         evaluations: motion.evaluations(),
         wall_s: begun.elapsed().as_secs_f64(),
     };
     Some((better.distance(start, run), cost))
+}
+
+/// Tolerance of a run in time that is so much tighter that its own error does not count.
+pub(super) fn tighter(tolerance: f64) -> f64 {
+    (tolerance / MUCH_TIGHTER).max(TIGHTEST)
+}
+
+/// Square of what rounding does to the speed in a step, in units of the last place.
+pub(super) fn unevenness(step: &Step) -> f64 {
+    let travel = step.end.theta - step.start.theta;
+    if travel == 0.0 || !step.end.alpha.is_finite() {
+        return 0.0;
+    }
+    let slope = (step.end.alpha - step.start.alpha) / travel;
+    let angle = 4.0 * step.end.theta.abs() * slope;
+    let evaluation = EVALUATION * step.end.alpha;
+    (angle * angle + evaluation * evaluation) * step.length().powi(2)
 }
 
 /// The run that another is compared with.
@@ -135,13 +152,7 @@ impl Better {
     fn run(motion: &Counted<'_>, start: Start, settings: &Settings) -> Option<Better> {
         let mut unevenness = 0.0;
         let (finish, last, steps) = time::run(motion, start, settings, &mut |step| {
-            let travel = step.end.theta - step.start.theta;
-            if travel != 0.0 && step.end.alpha.is_finite() {
-                let slope = (step.end.alpha - step.start.alpha) / travel;
-                let angle = 4.0 * step.end.theta.abs() * slope;
-                let evaluation = EVALUATION * step.end.alpha;
-                unevenness += (angle * angle + evaluation * evaluation) * step.length().powi(2);
-            }
+            unevenness += self::unevenness(step);
             false
         });
         (finish == Finish::AtEnd).then_some(Better {

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::time::Instant;
 
+use super::log::Log;
 use super::row::RowSink;
 use super::schedule::Schedule;
 use super::simulate::Simulation;
@@ -34,37 +35,15 @@ pub(super) fn run(
     let equation = task.equation();
     let forward = forward::Forward(equation);
     let motion = Counted::new(&forward);
-    let start = Start {
-        t: 0.0,
-        angle: task.start(),
-        speed: task.scene.motion.speed,
-    };
+    let start = task.first_state();
     let settings = settings(task, equation);
     let reach = Limits::clear_reach(equation.linkage());
     if !stopped::inside(&reach, start.angle.rest) {
         return Err(stopped::no_start(equation, start, &task.limits));
     }
-    let dead_centres = task.limits.dead_centres.iter().map(|dc| dc.theta);
-    let guards = reach.iter().flatten().map(|angle| angle.rem_euclid(TAU));
-    let watched = dead_centres.chain(guards).collect();
     // What rows and events cost is counted apart: it does not change how far a run goes.
     let looked_at = Counted::new(&forward);
-    let mut watch = Watch {
-        motion: &looked_at,
-        maker: &task.maker,
-        rows,
-        schedule: Schedule::new(task.scene.run.output_every, task.extent),
-        start,
-        dead_centres: task.limits.dead_centres.len(),
-        watched,
-        turn_limit: match task.extent {
-            Extent::Revolutions(turns) => Some(radians(turns)),
-            Extent::Duration(_) => None,
-        },
-        events_kept: task.options.events_kept,
-        seen: Seen::new(start.speed),
-        recorded: record.then(Vec::new),
-    };
+    let mut watch = watch(task, &looked_at, rows, record);
     let (mut finish, mut last, steps) =
         time::run(&motion, start, &settings, &mut |step| watch.step(step));
     if let Some(error) = watch.seen.error.take() {
@@ -78,15 +57,20 @@ pub(super) fn run(
         finish = Finish::AtEnd;
     }
     watch.write_last_row(&last)?;
-    let (seen, recorded) = (watch.seen, watch.recorded);
-    let wall_s = (begun.elapsed() - seen.row_time).as_secs_f64();
+    let Watch {
+        seen,
+        log,
+        recorded,
+        ..
+    } = watch;
+    let wall_s = (begun.elapsed() - log.row_time).as_secs_f64();
     let evaluations = motion.evaluations();
     let stopped = if seen.at_limit {
         Some(stopped::at_limit(&last))
     } else {
-        stopped::reason(finish, equation, &motion, &last, &task.extent)
+        stopped::reason(finish, equation, motion.impossible(), &last, &task.extent)
     };
-    let largest_speed = seen.speed.0.abs().max(seen.speed.1.abs());
+    let largest_speed = log.speed.0.abs().max(log.speed.1.abs());
     let estimate = if task.options.estimate && stopped.is_none() {
         let run = forward::Ended {
             last: &last,
@@ -118,11 +102,11 @@ pub(super) fn run(
         steps,
         wall_s,
         estimate_cost: estimate.map(|(_, cost)| cost),
-        speed: seen.speed,
+        speed: log.speed,
         driving_torque: None,
         clearance: None,
-        events: seen.events,
-        events_total: seen.events_total,
+        events: log.events,
+        events_total: log.events_total,
         warnings,
         stopped,
     };
@@ -130,6 +114,34 @@ pub(super) fn run(
         summary: Summary::new(task, solved),
         trajectory: recorded.map(|steps| Trajectory::from_steps(steps, t_end)),
     })
+}
+
+/// What follows the steps of a task.
+pub(super) fn watch<'a>(
+    task: &'a Task<'_>,
+    motion: &'a Counted<'a>,
+    rows: &'a mut dyn RowSink,
+    record: bool,
+) -> Watch<'a> {
+    let reach = Limits::clear_reach(task.equation().linkage());
+    let dead_centres = task.limits.dead_centres.iter().map(|dc| dc.theta);
+    let guards = reach.iter().flatten().map(|angle| angle.rem_euclid(TAU));
+    Watch {
+        motion,
+        maker: &task.maker,
+        rows,
+        schedule: Schedule::new(task.scene.run.output_every, task.extent),
+        start: task.first_state(),
+        dead_centres: task.limits.dead_centres.len(),
+        watched: dead_centres.chain(guards).collect(),
+        turn_limit: match task.extent {
+            Extent::Revolutions(turns) => Some(radians(turns)),
+            Extent::Duration(_) => None,
+        },
+        log: Log::new(task, false),
+        seen: Seen::default(),
+        recorded: record.then(Vec::new),
+    }
 }
 
 /// A run that ends after a number of turns has no last time of its own.
@@ -156,7 +168,7 @@ pub(super) fn settings(task: &Task<'_>, equation: &Equation) -> Settings {
 }
 
 /// The step ended at time `t` inside it, integrated anew; at a turn limit once more, to meet the limit exactly.
-fn shortened(
+pub(super) fn shortened(
     motion: &Counted<'_>,
     step: &Step,
     t: f64,

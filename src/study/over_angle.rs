@@ -2,13 +2,15 @@
 
 use std::f64::consts::TAU;
 
-use super::passages;
+use super::by_angle::Unsolved;
+use super::log::Log;
+use super::passages::Stretch;
 use super::profile::Position;
 use super::row::RowSink;
 use super::simulate::Simulation;
 use super::summary::{Cost, ErrorEstimate, Final, Solved, Summary};
 use super::task::Task;
-use super::{by_angle, by_energy, in_time};
+use super::{by_angle, by_energy, curve, in_time, relay};
 use crate::engine::energy::{Orbit, Profile, Unserved};
 use crate::error::Error;
 use crate::numeric::angle::Angle;
@@ -37,11 +39,17 @@ pub(super) fn run(
     rows: &mut dyn RowSink,
     record: bool,
 ) -> Result<Simulation, Error> {
-    let direction = task.scene.motion.speed.signum();
-    let position =
-        Position::new(task.equation(), &task.limits).with_friction(task.maker.sliding, direction);
+    let position = Position::new(task.equation(), &task.limits).with_friction(task.maker.sliding);
     let solved = match task.plan.engine {
-        Engine::Angle => by_angle::solve(task, &position),
+        Engine::Angle => match by_angle::solve(task, &position) {
+            Ok(motion) => Ok(motion),
+            Err(Unsolved { why, first })
+                if task.maker.sliding.is_none() && (first.is_some() || hands_over(task, why)) =>
+            {
+                return relay::run(task, &position, first, rows, record);
+            }
+            Err(Unsolved { why, .. }) => Err(why),
+        },
         // Turns that differ are many panels; the map from turn to turn is for them.
         _ if !position.repeats() && is_long(task) => {
             by_angle::solve(task, &position).or_else(|_| by_energy::solve(task, &position))
@@ -65,6 +73,11 @@ pub(super) fn run(
             in_time::run(task, rows, record)
         }
     }
+}
+
+/// Whether a run that cannot begin over the angle may be served by it later.
+fn hands_over(task: &Task<'_>, why: Unserved) -> bool {
+    why == Unserved::TooSlow && task.options.method == Method::Auto && !curve::serves(task)
 }
 
 /// Whether the start speed makes for a run of very many turns.
@@ -102,9 +115,15 @@ pub(super) fn reason(unserved: Unserved) -> &'static str {
 fn finish(task: &Task<'_>, motion: Motion, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
     let Motion { orbit, end, .. } = &motion;
     let (angle, omega) = motion.last;
-    let (speed, warnings) = speeds(task, &motion);
-    let (events, events_total) = passages::events(task, orbit, *end);
-    passages::write_rows(task, orbit, *end, rows)?;
+    let mut log = Log::new(task, false);
+    let stretch = Stretch {
+        orbit,
+        begin: 0.0,
+        end: *end,
+        is_last: true,
+    };
+    write_rows(task, &mut log, &stretch, rows)?;
+    let (speed, warnings) = speeds(task, log.speed, omega);
     let solved = Solved {
         last: Final {
             t_s: *end,
@@ -120,15 +139,32 @@ fn finish(task: &Task<'_>, motion: Motion, rows: &mut dyn RowSink) -> Result<Sim
         wall_s: motion.wall_s,
         speed,
         warnings,
-        events,
-        events_total,
+        events: log.events,
+        events_total: log.events_total,
         stopped: motion.stopped.clone(),
         ..Solved::default()
     };
     Ok(Simulation {
         summary: Summary::new(task, solved),
-        trajectory: Some(Trajectory::orbit(motion.orbit, motion.end)),
+        trajectory: Some(Trajectory::orbit(motion.orbit, 0.0, motion.end)),
     })
+}
+
+/// Notes a stretch that is the whole run, and writes its rows.
+fn write_rows(
+    task: &Task<'_>,
+    log: &mut Log,
+    stretch: &Stretch<'_>,
+    rows: &mut dyn RowSink,
+) -> Result<(), Error> {
+    if !rows.wants_rows() {
+        return log.stretch(task, stretch, None);
+    }
+    let mut write =
+        |t: f64, angle: Angle, omega: f64| rows.row(&task.maker.row(t, angle, omega, None));
+    log.stretch(task, stretch, Some(&mut write))?;
+    let (angle, omega) = stretch.orbit.state(stretch.end);
+    write(stretch.begin + stretch.end, angle, omega)
 }
 
 /// Error of a state if its time may be off by `late` (s): it moves the state along the motion. The angle
@@ -149,14 +185,17 @@ pub(super) fn late_by(
 
 /// Smallest and largest speed. Where the inertia vanishes, at the dead centres of a crank without inertia, the
 /// speed has no bound.
-fn speeds(task: &Task<'_>, motion: &Motion) -> ((f64, f64), Vec<String>) {
-    let (low, high) = motion.orbit.speed_range(motion.end);
+pub(super) fn speeds(
+    task: &Task<'_>,
+    (low, high): (f64, f64),
+    last: f64,
+) -> ((f64, f64), Vec<String>) {
     let inertia = |theta: f64| task.equation().terms(theta).inertia.m;
     let vanishes = |theta: f64| inertia(theta) <= 1e-12 * inertia(theta + 1.0);
     if !task.limits.dead_centres.iter().any(|dc| vanishes(dc.theta)) {
         return ((low, high), Vec::new());
     }
-    let usual = task.scene.motion.speed.abs().max(motion.last.1.abs());
+    let usual = task.scene.motion.speed.abs().max(last.abs());
     let bounded = |speed: f64| speed.abs() < 1e6 * usual;
     let shown = |speed: f64| {
         if bounded(speed) {
@@ -177,8 +216,18 @@ fn speeds(task: &Task<'_>, motion: &Motion) -> ((f64, f64), Vec<String>) {
 pub(super) fn energy_residual(
     task: &Task<'_>,
     orbit: &Orbit,
+    last: (Angle, f64),
+    work: f64,
+) -> (f64, f64) {
+    balance(task, last, work, orbit.largest_kinetic())
+}
+
+/// The same for a run whose largest kinetic energy is known, J.
+pub(super) fn balance(
+    task: &Task<'_>,
     (angle, omega): (Angle, f64),
     work: f64,
+    largest_kinetic: f64,
 ) -> (f64, f64) {
     let equation = task.equation();
     let start = task.start();
@@ -190,6 +239,5 @@ pub(super) fn energy_residual(
         + equation.potential_energy(start.rest);
     let last = equation.kinetic_energy(angle.rest, omega) + equation.potential_energy(turned);
     let largest = begin.abs().max(last.abs()).max(work.abs());
-    let scale = orbit.largest_kinetic().max(largest);
-    (last - begin - work, scale)
+    (last - begin - work, largest_kinetic.max(largest))
 }

@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use super::row::RowSink;
 use super::schedule::{Schedule, passed};
 use super::summary::Event;
 use super::task::Task;
@@ -11,20 +10,40 @@ use crate::error::Error;
 use crate::numeric::angle::Angle;
 use crate::numeric::root;
 
-/// Dead centres and turning points in the order of time: those of a period again and again.
-pub(super) fn events(task: &Task<'_>, orbit: &Orbit, end: f64) -> (Vec<Event>, u64) {
-    let dead_centres: Vec<f64> = task.limits.dead_centres.iter().map(|dc| dc.theta).collect();
-    let is_dead_centre = |theta: f64| {
-        dead_centres.iter().any(|dead_centre| {
-            let apart = (theta - dead_centre).rem_euclid(TAU);
-            apart.min(TAU - apart) < 1e-12
-        })
-    };
+/// A motion over the crank angle, or a piece of one, in the time of the whole run.
+pub(super) struct Stretch<'a> {
+    /// Its own time begins at 0.
+    pub orbit: &'a Orbit,
+    /// When it begins, s.
+    pub begin: f64,
+    /// Last time of its own, s.
+    pub end: f64,
+    /// Whether the run ends with it.
+    pub is_last: bool,
+}
+
+impl Stretch<'_> {
+    /// Sign of the turns it makes: +1 or −1.
+    fn direction(&self) -> f64 {
+        self.orbit.direction()
+    }
+
+    fn is_over(&self, t: f64) -> bool {
+        t > self.end * (1.0 + 1e-14)
+    }
+}
+
+/// Dead centres and turning points in the order of time, those of a period again and again: the first ones, at most
+/// `kept`, and how many there are.
+pub(super) fn events(task: &Task<'_>, stretch: &Stretch<'_>, kept: usize) -> (Vec<Event>, u64) {
+    let Stretch {
+        orbit, begin, end, ..
+    } = *stretch;
     let mut once: Vec<(f64, &'static str, Angle, f64)> = Vec::new();
     for passage in orbit.passages() {
         let kind = if passage.turning {
             "turning-point"
-        } else if is_dead_centre(passage.angle.rest) {
+        } else if is_dead_centre(task, passage.angle.rest) {
             "dead-centre"
         } else {
             continue;
@@ -34,7 +53,7 @@ pub(super) fn events(task: &Task<'_>, orbit: &Orbit, end: f64) -> (Vec<Event>, u
     let period = orbit.period().map_or(f64::INFINITY, |period| period.0);
     let total = once
         .iter()
-        .filter(|event| event.0 <= end * (1.0 + 1e-14))
+        .filter(|event| !stretch.is_over(event.0))
         .map(|event| {
             if period.is_finite() {
                 ((end - event.0) / period + 1e-9).floor() + 1.0
@@ -48,11 +67,11 @@ pub(super) fn events(task: &Task<'_>, orbit: &Orbit, end: f64) -> (Vec<Event>, u
     'all: loop {
         for (t, kind, angle, speed) in &once {
             let t = if round == 0.0 { *t } else { t + round * period };
-            if t > end * (1.0 + 1e-14) || events.len() >= task.options.events_kept {
+            if stretch.is_over(t) || events.len() >= kept {
                 break 'all;
             }
             let turns = if orbit.rotates() {
-                round * task.scene.motion.speed.signum()
+                round * stretch.direction()
             } else {
                 0.0
             };
@@ -62,7 +81,7 @@ pub(super) fn events(task: &Task<'_>, orbit: &Orbit, end: f64) -> (Vec<Event>, u
             };
             events.push(Event {
                 kind,
-                t_s: t,
+                t_s: begin + t,
                 theta_rad: angle.radians(),
                 omega_rad_per_s: *speed,
             });
@@ -72,87 +91,100 @@ pub(super) fn events(task: &Task<'_>, orbit: &Orbit, end: f64) -> (Vec<Event>, u
             break;
         }
     }
-    let later = later_events(task, orbit, end, &is_dead_centre, &mut events);
+    let later = later_events(task, stretch, kept, &mut events);
     (events, total as u64 + later)
+}
+
+/// Whether a crank angle, rad, is that of a dead centre.
+pub(super) fn is_dead_centre(task: &Task<'_>, theta: f64) -> bool {
+    task.limits.dead_centres.iter().any(|dead_centre| {
+        let apart = (theta - dead_centre.theta).rem_euclid(TAU);
+        apart.min(TAU - apart) < 1e-12
+    })
 }
 
 /// Adds the dead centres of the turns after the first ones, and says how many there are.
 fn later_events(
     task: &Task<'_>,
-    orbit: &Orbit,
-    end: f64,
-    is_dead_centre: &dyn Fn(f64) -> bool,
+    stretch: &Stretch<'_>,
+    kept: usize,
     events: &mut Vec<Event>,
 ) -> u64 {
-    let kept = task.options.events_kept;
+    let orbit = stretch.orbit;
+    // Each dead centre is passed once in a turn.
+    let Some(first) = orbit.later_from() else {
+        return 0;
+    };
     orbit.later_passages(|passage| {
-        if passage.t > end * (1.0 + 1e-14) {
+        if stretch.is_over(passage.t) {
             return false;
         }
-        if is_dead_centre(passage.angle.rest) && events.len() < kept {
+        if is_dead_centre(task, passage.angle.rest) && events.len() < kept {
             events.push(Event {
                 kind: "dead-centre",
-                t_s: passage.t,
+                t_s: stretch.begin + passage.t,
                 theta_rad: passage.angle.radians(),
                 omega_rad_per_s: passage.speed,
             });
         }
         events.len() < kept
     });
-    // Each dead centre is passed once in a turn.
-    let Some(begin) = orbit.later_from() else {
-        return 0;
-    };
-    let way = (orbit.state(end).0.minus(task.start()).abs(), begin);
-    let direction = task.scene.motion.speed.signum();
+    let start = orbit.start();
+    let last = orbit.state(stretch.end).0.minus(start).abs();
     let passes = |dead_centre: &f64| {
-        let ahead = (direction * (dead_centre - task.start().rest)).rem_euclid(TAU);
+        let ahead = (stretch.direction() * (dead_centre - start.rest)).rem_euclid(TAU);
         let until = |way: f64| ((way - ahead) / TAU + 1e-12).floor();
-        (until(way.0) - until(way.1)).max(0.0) as u64
+        (until(last) - until(first)).max(0.0) as u64
     };
     let all = task.limits.dead_centres.iter().map(|dc| dc.theta);
     all.map(|theta| passes(&theta)).sum()
 }
 
-/// Rows of the run.
+/// Rows of a stretch, but not that of its end; `next` is the index of the next row at a time.
 pub(super) fn write_rows(
     task: &Task<'_>,
-    orbit: &Orbit,
-    end: f64,
-    rows: &mut dyn RowSink,
+    stretch: &Stretch<'_>,
+    next: &mut u64,
+    write: &mut dyn FnMut(f64, Angle, f64) -> Result<(), Error>,
 ) -> Result<(), Error> {
-    if !rows.wants_rows() {
-        return Ok(());
-    }
-    let mut write = |t: f64| {
-        let (angle, omega) = orbit.state(t);
-        rows.row(&task.maker.row(t, angle, omega, None))
+    let Stretch {
+        orbit, begin, end, ..
+    } = *stretch;
+    let mut at = |own: f64, t: f64| {
+        let (angle, omega) = orbit.state(own);
+        write(t, angle, omega)
     };
     let schedule = Schedule::new(task.scene.run.output_every, task.extent);
     if let Some(step) = schedule.angle_step() {
-        write(0.0)?;
-        each_angle(task, orbit, end, step, &mut write)?;
-    } else {
-        let mut index = 0;
-        while let Some(t) = schedule.time(index).filter(|t| *t < end) {
-            write(t)?;
-            index += 1;
+        if *next == 0 {
+            at(0.0, begin)?;
+            *next = 1;
         }
+        return each_angle(task, stretch, step, &mut |own| at(own, begin + own));
     }
-    write(end)
+    while let Some(t) = schedule.time(*next).filter(|t| t - begin < end) {
+        at(t - begin, t)?;
+        *next += 1;
+    }
+    Ok(())
 }
 
-/// Times at which the angle from the start passes multiples of `step`.
+/// Times at which the angle from the start of the run passes multiples of `step`.
 fn each_angle(
     task: &Task<'_>,
-    orbit: &Orbit,
-    end: f64,
+    stretch: &Stretch<'_>,
     step: f64,
-    write: &mut impl FnMut(f64) -> Result<(), Error>,
+    write: &mut dyn FnMut(f64) -> Result<(), Error>,
 ) -> Result<(), Error> {
+    let Stretch { orbit, end, .. } = *stretch;
+    let before = orbit.start().minus(task.start());
     let turned = |t: f64| orbit.state(t).0.minus(task.start());
-    // The end is a row of its own.
-    let last = end * (1.0 - 1e-12);
+    // The end of the run is a row of its own.
+    let last = if stretch.is_last {
+        end * (1.0 - 1e-12)
+    } else {
+        f64::INFINITY
+    };
     let mut from = 0.0;
     let mut turnings = orbit.turning_times(end);
     turnings.push(end);
@@ -160,7 +192,7 @@ fn each_angle(
         for k in passed(turned(from) / step, turned(to) / step) {
             let target = k as f64 * step;
             let t = if orbit.rotates() {
-                orbit.time_of_turn(target.abs())
+                orbit.time_of_turn((target - before).abs())
             } else {
                 root::bracketed(|t| turned(t) - target, from, to)
             };

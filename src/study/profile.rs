@@ -15,8 +15,7 @@ use crate::scene::Variable;
 /// Inertia, potential and force of an equation whose loads depend on the position alone.
 pub(super) struct Position<'a> {
     equation: &'a Equation,
-    /// Friction, and the sign of the speed.
-    sliding: Option<(&'a Sliding, f64)>,
+    sliding: Option<&'a Sliding>,
     corners: Vec<f64>,
     repeats: bool,
     evaluations: Cell<u64>,
@@ -45,9 +44,9 @@ impl<'a> Position<'a> {
         }
     }
 
-    /// With friction at the guide, for a crank that turns in `direction`, ±1.
-    pub fn with_friction(mut self, sliding: Option<&'a Sliding>, direction: f64) -> Position<'a> {
-        self.sliding = sliding.map(|sliding| (sliding, direction));
+    /// With friction at the guide.
+    pub fn with_friction(mut self, sliding: Option<&'a Sliding>) -> Position<'a> {
+        self.sliding = sliding;
         self
     }
 
@@ -117,7 +116,9 @@ impl Driven for Position<'_> {
                 table.places.push(Spot { at: [x, dx], grip });
             }
         }
-        if let Some((sliding, direction)) = self.sliding {
+        if let Some(sliding) = self.sliding {
+            // Panels run in the direction of the motion.
+            let direction = (angles[count - 1] - angles[0]).signum();
             sliding.tabulate(angles, count, direction * side, loads, table);
         }
     }

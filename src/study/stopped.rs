@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 
 use super::in_time::FAR;
-use crate::engine::Counted;
 use crate::engine::step::Step;
 use crate::engine::time::{Finish, Start};
 use crate::error::Error;
 use crate::mechanism::{Equation, Limits, Obstacle};
+use crate::numeric::angle::Angle;
 use crate::scene::Extent;
 
 pub(super) fn at_limit(last: &Step) -> String {
@@ -34,7 +34,7 @@ pub(super) fn work_limit(place: &str) -> String {
 pub(super) fn reason(
     finish: Finish,
     equation: &Equation,
-    motion: &Counted<'_>,
+    impossible: Option<(f64, Angle, f64)>,
     last: &Step,
     extent: &Extent,
 ) -> Option<String> {
@@ -52,10 +52,7 @@ pub(super) fn reason(
         (Finish::AtEnd | Finish::Stopped | Finish::NoStart, _) => None,
         (Finish::WorkLimit, _) => Some(work_limit(&place)),
         (Finish::StepTooSmall, _) => {
-            let (t, angle, speed) =
-                motion
-                    .impossible()
-                    .unwrap_or((end.t, last.angle(end.theta), end.omega));
+            let (t, angle, speed) = impossible.unwrap_or((end.t, last.angle(end.theta), end.omega));
             Some(match equation.obstacle(t, angle, speed) {
                 Some(Obstacle::Blocked) => at_limit(last),
                 Some(Obstacle::Load) => format!(

@@ -2,6 +2,7 @@
 
 use super::row::RowMaker;
 use super::simulate::Options;
+use crate::engine::time::Start;
 use crate::mechanism::{Equation, Limits};
 use crate::numeric::angle::Angle;
 use crate::plan::Plan;
@@ -24,5 +25,14 @@ impl<'a> Task<'a> {
 
     pub fn start(&self) -> Angle {
         Angle::from(self.scene.motion.angle).reduced()
+    }
+
+    /// The state of the crank at the start.
+    pub fn first_state(&self) -> Start {
+        Start {
+            t: 0.0,
+            angle: self.start(),
+            speed: self.scene.motion.speed,
+        }
     }
 }

@@ -1,8 +1,9 @@
 //! What a run in time gives beside its end: rows, events, extreme speeds, the dense trajectory.
 
 use std::f64::consts::TAU;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
+use super::log::Log;
 use super::row::{RowMaker, RowSink};
 use super::schedule::{Schedule, passed};
 use super::summary::Event;
@@ -10,6 +11,7 @@ use crate::engine::events::{self, Crossing};
 use crate::engine::step::Step;
 use crate::engine::{Counted, time::Start};
 use crate::error::Error;
+use crate::numeric::angle::Angle;
 
 /// Follows the steps of a run.
 pub(super) struct Watch<'a> {
@@ -25,43 +27,23 @@ pub(super) struct Watch<'a> {
     pub dead_centres: usize,
     /// The run ends when the crank has turned by this, rad.
     pub turn_limit: Option<f64>,
-    pub events_kept: usize,
+    pub log: Log,
     pub seen: Seen,
     /// Refined steps, if they are recorded.
     pub recorded: Option<Vec<Step>>,
 }
 
-/// What was seen so far.
-#[derive(Debug)]
+/// What was seen so far that ends the run.
+#[derive(Debug, Default)]
 pub(super) struct Seen {
-    pub events: Vec<Event>,
-    pub events_total: u64,
-    pub speed: (f64, f64),
     /// When the turn limit or a limit of the motion was reached.
     pub ends_at: Option<f64>,
     /// Whether it was a limit of the motion.
     pub at_limit: bool,
-    /// Time spent on rows.
-    pub row_time: Duration,
     pub error: Option<Error>,
-    next_row: u64,
+    /// Angle and speed (rad/s) of a start at a dead centre that was noted before.
+    pub passed: Option<(Angle, f64)>,
     crossings: Vec<(f64, Crossing)>,
-}
-
-impl Seen {
-    pub fn new(speed: f64) -> Seen {
-        Seen {
-            events: Vec::new(),
-            events_total: 0,
-            speed: (speed, speed),
-            ends_at: None,
-            at_limit: false,
-            row_time: Duration::ZERO,
-            error: None,
-            next_row: 0,
-            crossings: Vec::new(),
-        }
-    }
 }
 
 impl Watch<'_> {
@@ -77,7 +59,7 @@ impl Watch<'_> {
         if self.rows.wants_rows() {
             let begun = Instant::now();
             let result = self.write_rows(&mut step, until);
-            self.seen.row_time += begun.elapsed();
+            self.log.row_time += begun.elapsed();
             if let Err(error) = result {
                 self.seen.error = Some(error);
                 return true;
@@ -94,9 +76,9 @@ impl Watch<'_> {
     pub fn follow_speed(&mut self, step: &mut Step) {
         for direction in [-1.0, 1.0] {
             let known = if direction < 0.0 {
-                &mut self.seen.speed.0
+                &mut self.log.speed.0
             } else {
-                &mut self.seen.speed.1
+                &mut self.log.speed.1
             };
             let beyond = |speed: f64, margin: f64| direction * (speed - *known) > -margin;
             let rough = events::speed_extreme(step, direction);
@@ -140,7 +122,7 @@ impl Watch<'_> {
         let mut crossings = std::mem::take(&mut self.seen.crossings);
         events::crossings(step, &self.watched, &mut crossings);
         let rough = !step.is_refined();
-        if rough && !crossings.is_empty() && self.seen.events.len() < self.events_kept {
+        if rough && !crossings.is_empty() && self.log.keeps_more() {
             step.refine(self.motion);
             events::crossings(step, &self.watched, &mut crossings);
         }
@@ -156,23 +138,26 @@ impl Watch<'_> {
                 self.seen.ends_at = Some(t);
                 self.seen.at_limit = true;
             }
-            self.seen.events_total += 1;
-            if self.seen.events.len() < self.events_kept {
-                let (theta, omega) = step.at(t);
-                self.seen.events.push(Event {
-                    kind: match what {
-                        Crossing::Angle(_) if at_limit => "limit",
-                        Crossing::Angle(_) => "dead-centre",
-                        Crossing::Turning => "turning-point",
-                    },
-                    t_s: t,
-                    theta_rad: step.angle(theta).radians(),
-                    omega_rad_per_s: match what {
-                        Crossing::Angle(_) => omega,
-                        Crossing::Turning => 0.0,
-                    },
-                });
+            let (theta, omega) = step.at(t);
+            if let Some((angle, speed)) = self.seen.passed.take()
+                && step.angle(theta).minus(angle).abs() < 1e-9
+                && omega * speed > 0.0
+            {
+                continue;
             }
+            self.log.event(|| Event {
+                kind: match what {
+                    Crossing::Angle(_) if at_limit => "limit",
+                    Crossing::Angle(_) => "dead-centre",
+                    Crossing::Turning => "turning-point",
+                },
+                t_s: t,
+                theta_rad: step.angle(theta).radians(),
+                omega_rad_per_s: match what {
+                    Crossing::Angle(_) => omega,
+                    Crossing::Turning => 0.0,
+                },
+            });
         }
         self.seen.crossings = crossings;
     }
@@ -181,7 +166,7 @@ impl Watch<'_> {
         if let Some(spacing) = self.schedule.angle_step() {
             return self.write_rows_at_angles(step, until, spacing);
         }
-        while let Some(t) = self.schedule.time(self.seen.next_row) {
+        while let Some(t) = self.schedule.time(self.log.next_row) {
             if t > until {
                 break;
             }
@@ -189,7 +174,7 @@ impl Watch<'_> {
                 step.refine(self.motion);
             }
             self.write_row(step, t)?;
-            self.seen.next_row += 1;
+            self.log.next_row += 1;
         }
         Ok(())
     }
@@ -200,9 +185,9 @@ impl Watch<'_> {
         until: f64,
         spacing: f64,
     ) -> Result<(), Error> {
-        if self.seen.next_row == 0 {
+        if self.log.next_row == 0 {
             self.write_row(step, step.start.t)?;
-            self.seen.next_row = 1;
+            self.log.next_row = 1;
         }
         let turning = self.seen.crossings.iter();
         let turning = turning.filter(|(_, what)| *what == Crossing::Turning);
@@ -230,17 +215,19 @@ impl Watch<'_> {
 
     fn write_row(&mut self, step: &Step, t: f64) -> Result<(), Error> {
         let (theta, omega) = step.at(t);
-        let row = self.maker.row(t, step.angle(theta), omega, None);
+        self.write(t, step.angle(theta), omega)
+    }
+
+    /// Writes the row of a state.
+    pub fn write(&mut self, t: f64, angle: Angle, omega: f64) -> Result<(), Error> {
+        let row = self.maker.row(t, angle, omega, None);
         self.rows.row(&row)
     }
 
     /// The last state is a row always.
     pub fn write_last_row(&mut self, last: &Step) -> Result<(), Error> {
         if self.rows.wants_rows() {
-            let row = self
-                .maker
-                .row(last.end.t, last.angle(last.end.theta), last.end.omega, None);
-            self.rows.row(&row)?;
+            self.write(last.end.t, last.angle(last.end.theta), last.end.omega)?;
         }
         Ok(())
     }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::march::March;
-use super::{Done, Driven, Driving, Goal, Resolution, work_until};
+use super::{Done, Driven, Driving, Goal, Resolution, Short, work_until};
 use crate::engine::energy::leg::Leg;
 use crate::engine::energy::turns::{Cell, Mark, Turn, Turns};
 use crate::engine::energy::{Orbit, Unserved};
@@ -21,7 +21,10 @@ const BETWEEN_MARKS: f64 = 64.0;
 /// Most turns that are iterated.
 const MOST_TURNS: f64 = 2e9;
 
-/// Goes on from the start of a turn until the goal.
+/// Turns that are run through one by one where the map ends, before another run takes over.
+const MOST_SINGLE_TURNS: f64 = 64.0;
+
+/// Goes on from the start of a turn until the goal, or as far as the angle can be the independent variable.
 pub(super) fn run<D: Driven>(
     march: March<'_, D>,
     leg: Leg,
@@ -40,6 +43,7 @@ pub(super) fn run<D: Driven>(
         tail: resolution.tail,
         width: WIDEST,
         rises: march.rises(),
+        lost: (march.gain / march.turns).abs(),
         march,
         turns: Turns {
             cells: Vec::new(),
@@ -48,23 +52,49 @@ pub(super) fn run<D: Driven>(
             steady: false,
         },
     };
-    let last = way.turn_of(goal)?;
-    let done = way.last_turn(&last, goal, start)?;
-    let before = last.work + way.march.work - done.work;
+    let (last, why) = way.turn_of(goal);
+    let ended = way.last_turns(&last, goal, start, why)?;
     let evaluations = way.march.evaluations;
-    let turns = way.turns;
-    let orbit = Orbit::of_turns(start, speed, leg, turns);
+    let kinetic = way.march.kinetic;
+    let before = last.work + way.march.work;
+    let short = match &ended {
+        Ended::AtGoal(_) => None,
+        Ended::Short(why) => {
+            let turns = start.turns + speed.signum() * last.turns;
+            let angle = way.turns.last.last_angle(turns);
+            angle.map(|angle| Short {
+                why: *why,
+                angle,
+                kinetic,
+            })
+        }
+    };
+    let orbit = Orbit::of_turns(start, speed, leg, way.turns);
     let end = match goal {
+        _ if short.is_some() => orbit.length(),
         Goal::Time(until) => until,
         Goal::Turned(way) => orbit.time_of_turn(way).unwrap_or(last.t.0),
     };
-    let work = before + work_until(orbit.last_leg(), end - last.t.0 - last.t.1, &done.spent);
+    let work = match ended {
+        Ended::Short(_) => before,
+        Ended::AtGoal(done) => {
+            let after = end - last.t.0 - last.t.1;
+            before - done.work + work_until(orbit.last_leg(), after, &done.spent)
+        }
+    };
     Ok(Driving {
         orbit,
         end,
         work,
         evaluations,
+        short,
     })
+}
+
+/// How the last turns end.
+enum Ended {
+    AtGoal(Box<Done>),
+    Short(Unserved),
 }
 
 struct Way<'a, D: Driven> {
@@ -74,18 +104,30 @@ struct Way<'a, D: Driven> {
     width: f64,
     /// Whether the energy rises from turn to turn.
     rises: bool,
+    /// By how much it changed in the last turn, J.
+    lost: f64,
 }
 
 impl<D: Driven> Way<'_, D> {
-    /// The start of the turn in which the goal lies.
-    fn turn_of(&mut self, goal: Goal) -> Result<Mark, Unserved> {
+    /// The start of the turn in which the goal lies, or of a turn before which the map ends, and why it does.
+    fn turn_of(&mut self, goal: Goal) -> (Mark, Option<Unserved>) {
         let mut mark = self.turns.marks[0];
         let first = mark.turns;
-        let mut known = mark.turns;
+        let mut known = mark;
+        let mut before = mark;
         loop {
             let turn = match self.turns.turn(mark.kinetic) {
                 Some(turn) => turn,
-                None => self.extend(mark.kinetic)?,
+                None => match self.extend(mark.kinetic) {
+                    Ok(turn) => turn,
+                    Err(why) => {
+                        // The turn before is one that is completed.
+                        if before.turns > known.turns {
+                            self.turns.marks.push(before);
+                        }
+                        return (before, Some(why));
+                    }
+                },
             };
             let left = match goal {
                 Goal::Time(until) => ((until - mark.t.0) - mark.t.1) / turn.duration,
@@ -93,7 +135,7 @@ impl<D: Driven> Way<'_, D> {
             };
             let is_steady = turn.gain.abs() <= 2.0 * f64::EPSILON * mark.kinetic;
             if left < 1.0 || is_steady {
-                if mark.turns > known {
+                if mark.turns > known.turns {
                     self.turns.marks.push(mark);
                 }
                 if left >= 1.0 {
@@ -102,21 +144,24 @@ impl<D: Driven> Way<'_, D> {
                     mark = mark.after(&same, left.floor());
                     self.turns.marks.push(mark);
                 }
-                return Ok(mark);
+                return (mark, None);
             }
-            if mark.turns - known >= BETWEEN_MARKS {
+            if mark.turns - known.turns >= BETWEEN_MARKS {
                 self.turns.marks.push(mark);
-                known = mark.turns;
+                known = mark;
             }
             if mark.turns - first > MOST_TURNS {
-                return Err(Unserved::TooLong);
+                return (known, Some(Unserved::TooLong));
             }
             self.rises = turn.gain > 0.0;
+            self.lost = turn.gain.abs();
+            before = mark;
             mark = mark.after(&turn, 1.0);
         }
     }
 
-    /// A cell that begins at this energy, J, and what its turn does.
+    /// A cell that begins at this energy, J, and what its turn does; none where it would serve fewer turns than it
+    /// takes.
     fn extend(&mut self, kinetic: f64) -> Result<Turn, Unserved> {
         loop {
             let (ahead, behind) = (self.width * kinetic, 0.01 * self.width * kinetic);
@@ -125,21 +170,22 @@ impl<D: Driven> Way<'_, D> {
             } else {
                 (kinetic - ahead, kinetic + behind)
             };
-            match self.cell(0.5 * (low + high), 0.5 * (high - low)) {
+            let why = match self.cell(0.5 * (low + high), 0.5 * (high - low)) {
                 Ok(Some(cell)) => {
                     let turn = cell.turn(kinetic);
                     self.turns.cells.push(cell);
                     self.width = (2.0 * self.width).min(WIDEST);
                     return Ok(turn);
                 }
-                Ok(None) | Err(Unserved::TooSlow | Unserved::NotSmooth)
-                    if self.width > NARROWEST =>
-                {
-                    self.width *= 0.5;
-                }
-                Ok(None) => return Err(Unserved::NotSmooth),
-                Err(unserved) => return Err(unserved),
+                Ok(None) => Unserved::NotSmooth,
+                Err(why) => why,
+            };
+            let narrows = matches!(why, Unserved::TooSlow | Unserved::NotSmooth);
+            let pays = 0.5 * ahead > (DEGREE + 1) as f64 * self.lost;
+            if !narrows || !pays || self.width <= NARROWEST {
+                return Err(why);
             }
+            self.width *= 0.5;
         }
     }
 
@@ -178,21 +224,44 @@ impl<D: Driven> Way<'_, D> {
         }
     }
 
-    /// The turn in which the goal lies, as far as the goal, and its last panel.
-    fn last_turn(&mut self, mark: &Mark, goal: Goal, start: Angle) -> Result<Done, Unserved> {
+    /// The turn in which the goal lies, as far as the goal; where the map ends before, single turns.
+    fn last_turns(
+        &mut self,
+        mark: &Mark,
+        goal: Goal,
+        start: Angle,
+        map_ended: Option<Unserved>,
+    ) -> Result<Ended, Unserved> {
         self.march.restart(mark.kinetic);
+        let most = match map_ended {
+            None | Some(Unserved::WorkLimit) => 1.0,
+            Some(_) => MOST_SINGLE_TURNS,
+        };
+        if map_ended == Some(Unserved::WorkLimit) {
+            self.march.most_evaluations = u64::MAX;
+        }
         loop {
-            let done = self.march.panel()?;
+            let done = match self.march.panel() {
+                Ok(done) => done,
+                Err(why) if self.turns.last.len() == 0 => return Err(why),
+                Err(why) => return Ok(Ended::Short(why)),
+            };
+            let piece = &done.panel.piece;
+            let turned = (piece.to - start.rest).abs() + done.panel.turns.abs() * TAU;
             self.turns.last.push(done.panel.clone());
             let passed = match goal {
                 Goal::Time(until) => self.march.t.0 > (until - mark.t.0) - mark.t.1,
-                Goal::Turned(way) => {
-                    let turned = (done.panel.piece.to - start.rest).abs() + mark.turns * TAU;
-                    turned >= way - 1e-12
-                }
+                Goal::Turned(way) => turned + mark.turns * TAU >= way - 1e-12,
             };
-            if passed || self.march.at_turn() {
-                return Ok(done);
+            let all = self.march.at_turn() && self.march.turns.abs() >= most;
+            match map_ended {
+                _ if passed => return Ok(Ended::AtGoal(done.into())),
+                None if all => return Ok(Ended::AtGoal(done.into())),
+                Some(Unserved::WorkLimit) if all => {
+                    return Ok(Ended::Short(Unserved::WorkLimit));
+                }
+                Some(_) if all => return Ok(Ended::Short(Unserved::TooLong)),
+                _ => {}
             }
         }
     }

@@ -6,6 +6,7 @@ use super::switch::{Side, side};
 use super::{Driven, Resolution};
 use crate::engine::energy::Unserved;
 use crate::engine::energy::panel::Panel;
+use crate::engine::energy::piece::Piece;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
 use crate::numeric::exact::two_sum;
@@ -25,7 +26,9 @@ pub(super) struct March<'a, D: Driven> {
     /// Parts of a panel that was too long this time, the next one last.
     parts: Vec<Station<D::Place>>,
     next: usize,
-    /// s, rounded value and rest
+    /// When the run begins, s.
+    pub begin: f64,
+    /// Time since then, s; rounded value and rest.
     pub t: (f64, f64),
     /// J
     pub kinetic: f64,
@@ -38,7 +41,7 @@ pub(super) struct March<'a, D: Driven> {
     pub evaluations: u64,
     fastest: f64,
     start: Angle,
-    most_evaluations: u64,
+    pub most_evaluations: u64,
     /// Whether a panel was cut or its degree raised since this was last cleared.
     pub refined: bool,
 }
@@ -85,6 +88,7 @@ impl<'a, D: Driven> March<'a, D> {
             stations,
             parts: Vec::new(),
             next: 0,
+            begin: 0.0,
             t: (0.0, 0.0),
             kinetic,
             turns: 0.0,
@@ -111,6 +115,11 @@ impl<'a, D: Driven> March<'a, D> {
         self.refined = false;
     }
 
+    /// Whether the forces have two forms.
+    pub fn has_switch(&self) -> bool {
+        self.stations[0].table.switch.is_some()
+    }
+
     /// Whether the kinetic energy has risen over the run.
     pub fn rises(&self) -> bool {
         self.gain > 0.0
@@ -134,7 +143,7 @@ impl<'a, D: Driven> March<'a, D> {
                 return Err(Unserved::WorkLimit);
             }
             let start = Start {
-                t: self.t.0,
+                t: self.begin + self.t.0,
                 kinetic: self.kinetic,
                 turns: self.start.turns + self.turns,
                 direction: self.direction,
@@ -150,39 +159,35 @@ impl<'a, D: Driven> March<'a, D> {
             match side(self.driven, station, start, &swept) {
                 Side::Stays => {
                     station.remember(&swept.kinetic);
-                    return Ok(self.pass(swept));
+                    let piece = station.piece;
+                    return Ok(self.pass(swept, piece, None));
                 }
                 // Once more the other way round: then it has no sign.
-                Side::Other if turned_over == 2 => return Ok(self.pass(swept)),
+                Side::Other if turned_over == 2 => {
+                    let piece = station.piece;
+                    return Ok(self.pass(swept, piece, None));
+                }
                 Side::Other => {
                     turned_over += 1;
                     station.turn_over(self.driven)?;
                 }
                 Side::Leaves(share) => {
                     station.remember(&swept.kinetic);
-                    self.cut_at_switch(share)?;
+                    let [first, rest] = station.piece.cut(share);
+                    let swept = swept.until(station.rule, start, share);
+                    let ends = [rest.from, rest.to];
+                    let rest = Station::new(self.driven, ends, -station.side, self.tail)?;
+                    return Ok(self.pass(swept, first, Some(rest)));
                 }
             }
             self.evaluations += swept.evaluations;
         }
     }
 
-    /// Cuts the next panel for this turn where the switch changes its sign.
-    fn cut_at_switch(&mut self, share: f64) -> Result<(), Unserved> {
-        let station = self.parts.last().unwrap_or(&self.stations[self.next]);
-        let Some([first, mut second]) = station.parts(self.driven, share, self.tail)? else {
-            return Err(Unserved::NotSmooth);
-        };
-        second.turn_over(self.driven)?;
-        self.parts.pop();
-        self.parts.extend([second, first]);
-        Ok(())
-    }
-
-    fn pass(&mut self, swept: Swept) -> Done {
-        let station = self.parts.last().unwrap_or(&self.stations[self.next]);
-        let (piece, rule) = (station.piece, station.rule);
-        let work = station.half() * rule.rounded_integral(&swept.spent);
+    /// Takes a panel over a piece of the next station, and what is left of it for this turn.
+    fn pass(&mut self, swept: Swept, piece: Piece, rest: Option<Station<D::Place>>) -> Done {
+        let rule = self.parts.last().unwrap_or(&self.stations[self.next]).rule;
+        let work = 0.5 * (piece.to - piece.from) * rule.rounded_integral(&swept.spent);
         self.kinetic = swept.end;
         self.gain += swept.gain;
         self.fastest = self.fastest.max(self.kinetic);
@@ -193,7 +198,9 @@ impl<'a, D: Driven> March<'a, D> {
         panel.turns = self.turns;
         let (sum, lost) = two_sum(self.t.0, panel.duration.0);
         self.t = two_sum(sum, lost + self.t.1 + panel.duration.1);
-        if self.parts.pop().is_none() || self.parts.is_empty() {
+        self.parts.pop();
+        self.parts.extend(rest);
+        if self.parts.is_empty() {
             self.next += 1;
             if self.next == self.stations.len() {
                 self.next = 0;

@@ -20,6 +20,7 @@ use std::f64::consts::TAU;
 
 use super::energy::leg::Leg;
 use super::energy::{Orbit, Unserved};
+use super::time::Start;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MOST, Values};
 use march::{Done, March};
@@ -108,15 +109,15 @@ impl<P> Default for Table<P> {
 /// Where a run ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Goal {
-    /// At this time, s.
+    /// This long after its start, s.
     Time(f64),
     /// When the crank has turned by this, rad, in its direction.
     Turned(f64),
 }
 
-/// A finished run.
+/// A run, to its goal or to where the angle cannot be the independent variable any more.
 pub struct Driving {
-    /// Its motion.
+    /// Its motion; its own time begins at 0.
     pub orbit: Orbit,
     /// Its last time, s.
     pub end: f64,
@@ -124,6 +125,19 @@ pub struct Driving {
     pub work: f64,
     /// How often the loads were evaluated.
     pub evaluations: u64,
+    /// What kept it from its goal.
+    pub short: Option<Short>,
+}
+
+/// Where a run ended before its goal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Short {
+    /// Why it did.
+    pub why: Unserved,
+    /// The angle there.
+    pub angle: Angle,
+    /// Kinetic energy there, J.
+    pub kinetic: f64,
 }
 
 /// How fine the panels are.
@@ -142,29 +156,47 @@ const MOST_PANELS: usize = 200_000;
 /// Turns after which the map of a turn takes over, where there is one.
 const TURNS_BEFORE_MAP: f64 = 48.0;
 
-/// Runs from `angle` with `speed` (rad/s) until the goal is reached.
+/// Runs from a start until the goal is reached, or until the angle cannot be the independent variable any more.
 ///
 /// # Errors
-/// [`Unserved`] where the angle cannot be the independent variable.
+/// [`Unserved`] where it cannot be that from the start.
 pub fn run<D: Driven>(
     driven: &D,
-    angle: Angle,
-    speed: f64,
+    from: Start,
     goal: Goal,
     resolution: Resolution,
 ) -> Result<Driving, Unserved> {
-    let start = angle.reduced();
+    let (start, speed) = (from.angle.reduced(), from.speed);
     let mut march = March::new(driven, start, speed, resolution)?;
-    let repeats = !(driven.is_driven() && driven.reads_time());
+    march.begin = from.t;
+    let repeats = !(driven.is_driven() && driven.reads_time()) && !march.has_switch();
     let mut leg = Leg::open();
     loop {
-        if leg.len() >= MOST_PANELS {
-            return Err(Unserved::TooLong);
-        }
         if repeats && march.at_turn() && march.turns.abs() >= TURNS_BEFORE_MAP {
             return map::run(march, leg, start, speed, goal, resolution);
         }
-        let Done { panel, spent, work } = march.panel()?;
+        let next = if leg.len() < MOST_PANELS {
+            march.panel()
+        } else {
+            Err(Unserved::TooLong)
+        };
+        let Done { panel, spent, work } = match next {
+            Ok(done) => done,
+            Err(why) if leg.len() == 0 => return Err(why),
+            Err(why) => {
+                return Ok(Driving {
+                    short: leg.last_angle(start.turns).map(|angle| Short {
+                        why,
+                        angle,
+                        kinetic: march.kinetic,
+                    }),
+                    end: leg.duration.0,
+                    orbit: Orbit::one_way(start, speed, leg),
+                    work: march.work,
+                    evaluations: march.evaluations,
+                });
+            }
+        };
         let turned = (panel.piece.to - start.rest).abs() + panel.turns.abs() * TAU;
         leg.push(panel);
         let passed = match goal {
@@ -183,6 +215,7 @@ pub fn run<D: Driven>(
                 end,
                 work,
                 evaluations: march.evaluations,
+                short: None,
             });
         }
     }

@@ -4,7 +4,7 @@ use super::station::Station;
 use super::sweep::{Start, Swept};
 use super::{Driven, Switch};
 use crate::numeric::angle::Angle;
-use crate::numeric::chebyshev::{MOST, Series, Values};
+use crate::numeric::chebyshev::{MOST, Rule, Series, Values};
 use crate::numeric::root;
 
 /// The switch within this part of what it is the sum of has no sign.
@@ -49,6 +49,26 @@ pub(super) fn side<D: Driven>(
         Side::Stays
     } else {
         Side::Leaves(share)
+    }
+}
+
+impl Swept {
+    /// The same until a part of the panel.
+    pub fn until(&self, rule: &Rule, start: Start, share: f64) -> Swept {
+        let inside = |x: f64| share * (1.0 + x) - 1.0;
+        let slopes = rule.values(|x| share * self.slope.value(inside(x)));
+        let spent = rule.series(&self.spent);
+        let spent = rule.values(|x| spent.value(inside(x)));
+        let kinetic = rule.series(&self.kinetic);
+        let end = kinetic.value(inside(1.0));
+        Swept {
+            slope: rule.series(&slopes),
+            slopes,
+            spent,
+            gain: end - start.kinetic,
+            end,
+            ..*self
+        }
     }
 }
 

@@ -189,6 +189,15 @@ impl Leg {
         })
     }
 
+    /// The angle at its end, for a start with these whole turns; none without panels.
+    pub fn last_angle(&self, turns: f64) -> Option<Angle> {
+        let panel = self.panels.last()?;
+        Some(Angle {
+            turns: turns + panel.turns,
+            rest: panel.piece.to,
+        })
+    }
+
     /// Time at which an angle is reached; none if it is not on the leg.
     pub fn time_of(&self, angle: Angle) -> Option<f64> {
         let local = |panel: &Panel| Angle {

@@ -108,6 +108,16 @@ impl Orbit {
         }
     }
 
+    /// Where it starts.
+    pub fn start(&self) -> Angle {
+        self.start
+    }
+
+    /// Sign of its first speed: +1 or −1.
+    pub fn direction(&self) -> f64 {
+        self.direction
+    }
+
     /// Whether it turns fully, again and again.
     pub fn rotates(&self) -> bool {
         self.forward.after == After::Repeats

@@ -11,7 +11,7 @@ mod words;
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use arrived::{Arrived, End, Follow};
 use estimate::estimate;
@@ -20,6 +20,7 @@ use watch::CurveWatch;
 use words::{warnings, why};
 
 use super::in_time::settings;
+use super::log::Log;
 use super::row::RowSink;
 use super::schedule::Schedule;
 use super::simulate::Simulation;
@@ -66,14 +67,9 @@ pub(super) fn run(
         rows,
         schedule: Schedule::new(task.scene.run.output_every, task.extent),
         start: task.start(),
-        events_kept: task.options.events_kept,
-        events: Vec::new(),
-        events_total: 0,
-        speed: (speed, speed),
+        log: Log::new(task, false),
         recorded: record.then(Vec::new),
-        row_time: Duration::ZERO,
         error: None,
-        next_row: 0,
         phase: Phase::Sticking,
     };
     let arrived = follow.run(&mut watch);
@@ -89,7 +85,7 @@ pub(super) fn run(
         return Err(stopped::no_start(equation, crank, &task.limits));
     }
     watch.write_last_row(&arrived.last)?;
-    let wall_s = (begun.elapsed() - watch.row_time).as_secs_f64();
+    let wall_s = (begun.elapsed() - watch.log.row_time).as_secs_f64();
     let stopped = why(task, &arrived, &constrained);
     let estimate = if task.options.estimate && stopped.is_none() {
         estimate(&follow, &arrived)
@@ -103,7 +99,7 @@ pub(super) fn run(
     }
     let end = &arrived.last.end;
     let last = crank_state(curve, &arrived.last);
-    let peak = watch.speed.0.abs().max(watch.speed.1.abs());
+    let peak = watch.log.speed.0.abs().max(watch.log.speed.1.abs());
     let solved = Solved {
         clearance: None,
         last: Final {
@@ -118,10 +114,10 @@ pub(super) fn run(
         steps: arrived.steps,
         wall_s,
         estimate_cost: estimate.map(|(_, cost)| cost),
-        speed: watch.speed,
+        speed: watch.log.speed,
         driving_torque: None,
-        events: watch.events,
-        events_total: watch.events_total,
+        events: watch.log.events,
+        events_total: watch.log.events_total,
         warnings,
         stopped,
     };

@@ -1,6 +1,6 @@
 //! What a run on the curve gives beside its end: rows, events, extreme speeds, the dense trajectory.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use super::arrived::Observer;
 use super::phase::{InPhase, Phase};
@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::mechanism::{Constrained, Reactor};
 use crate::numeric::angle::Angle;
 use crate::numeric::root;
+use crate::study::log::Log;
 use crate::study::row::{Row, RowSink};
 use crate::study::schedule::{Schedule, passed};
 use crate::study::summary::Event;
@@ -21,14 +22,9 @@ pub(super) struct CurveWatch<'a> {
     pub schedule: Schedule,
     /// Crank angle of the start.
     pub start: Angle,
-    pub events_kept: usize,
-    pub events: Vec<Event>,
-    pub events_total: u64,
-    pub speed: (f64, f64),
+    pub log: Log,
     pub recorded: Option<Vec<Step>>,
-    pub row_time: Duration,
     pub error: Option<Error>,
-    pub next_row: u64,
     /// How the last piece touched the guide.
     pub phase: Phase,
 }
@@ -48,7 +44,7 @@ impl Observer for CurveWatch<'_> {
         if self.rows.wants_rows() {
             let begun = Instant::now();
             let result = self.write_rows(&mut step, &motion);
-            self.row_time += begun.elapsed();
+            self.log.row_time += begun.elapsed();
             if let Err(error) = result {
                 self.error = Some(error);
                 return true;
@@ -62,16 +58,13 @@ impl Observer for CurveWatch<'_> {
     }
 
     fn event(&mut self, kind: &'static str, t: f64, angle: Angle, speed: f64) {
-        self.events_total += 1;
-        if self.events.len() < self.events_kept {
-            let curve = self.equation.curve();
-            self.events.push(Event {
-                kind,
-                t_s: t,
-                theta_rad: curve.crank_angle(angle).radians(),
-                omega_rad_per_s: curve.place(angle.rest).dtheta * speed,
-            });
-        }
+        let curve = self.equation.curve();
+        self.log.event(|| Event {
+            kind,
+            t_s: t,
+            theta_rad: curve.crank_angle(angle).radians(),
+            omega_rad_per_s: curve.place(angle.rest).dtheta * speed,
+        });
     }
 }
 
@@ -90,9 +83,9 @@ impl CurveWatch<'_> {
     fn follow_speed(&mut self, step: &mut Step, motion: &InPhase<'_>) {
         for direction in [-1.0, 1.0] {
             let known = if direction < 0.0 {
-                self.speed.0
+                self.log.speed.0
             } else {
-                self.speed.1
+                self.log.speed.1
             };
             let value = |step: &Step, t: f64| direction * self.crank_speed(step, t);
             let best = (0..=PIECES)
@@ -112,9 +105,9 @@ impl CurveWatch<'_> {
             };
             if found > direction * known {
                 let known = if direction < 0.0 {
-                    &mut self.speed.0
+                    &mut self.log.speed.0
                 } else {
-                    &mut self.speed.1
+                    &mut self.log.speed.1
                 };
                 *known = direction * found;
             }
@@ -125,7 +118,7 @@ impl CurveWatch<'_> {
         if let Some(spacing) = self.schedule.angle_step() {
             return self.write_rows_at_angles(step, motion, spacing);
         }
-        while let Some(t) = self.schedule.time(self.next_row) {
+        while let Some(t) = self.schedule.time(self.log.next_row) {
             if t > step.end.t {
                 break;
             }
@@ -133,7 +126,7 @@ impl CurveWatch<'_> {
                 step.refine(motion);
             }
             self.write_row(step, motion, t)?;
-            self.next_row += 1;
+            self.log.next_row += 1;
         }
         Ok(())
     }
@@ -144,9 +137,9 @@ impl CurveWatch<'_> {
         motion: &InPhase<'_>,
         spacing: f64,
     ) -> Result<(), Error> {
-        if self.next_row == 0 {
+        if self.log.next_row == 0 {
             self.write_row(step, motion, step.start.t)?;
-            self.next_row = 1;
+            self.log.next_row = 1;
         }
         // Between the times at which the crank turns back its angle is monotone.
         let mut cuts = vec![step.start.t];

@@ -1,0 +1,222 @@
+//! One pass over a run: over the crank angle while the crank turns, in time where it comes near to rest.
+
+use std::f64::consts::TAU;
+
+use super::arrived::{Arrived, End, Observer};
+use super::clear::Clear;
+use crate::engine::Counted;
+use crate::engine::angle::{self, Driving, Goal, Resolution};
+use crate::engine::energy::Unserved;
+use crate::engine::time::{self, Finish, Settings, Start};
+use crate::error::Error;
+use crate::mechanism::Equation;
+use crate::scene::Extent;
+use crate::study::forward::Forward;
+use crate::study::profile::Position;
+
+/// What is run, and how finely.
+pub(super) struct Course<'a> {
+    pub equation: &'a Equation,
+    pub position: &'a Position<'a>,
+    pub start: Start,
+    pub extent: Extent,
+    pub resolution: Resolution,
+    pub settings: Settings,
+    /// How far (rad) the crank turns in one direction before the angle takes over again.
+    pub wait: f64,
+    pub max_evaluations: u64,
+}
+
+/// A pass under way.
+struct Pass<'a, 'o> {
+    course: &'a Course<'a>,
+    motion: &'a Counted<'a>,
+    observer: &'o mut dyn Observer,
+    arrived: Arrived,
+    /// Positions tabulated before it.
+    places: u64,
+    /// Evaluations of loads over the angle.
+    over_angle: u64,
+    wait: f64,
+}
+
+impl Course<'_> {
+    /// Runs to the end; `first` is the first piece over the angle, if it is known.
+    pub fn run(
+        &self,
+        first: Option<Driving>,
+        observer: &mut dyn Observer,
+    ) -> Result<Arrived, Error> {
+        let forward = Forward(self.equation);
+        let motion = Counted::new(&forward);
+        let mut pass = Pass {
+            course: self,
+            motion: &motion,
+            observer,
+            arrived: Arrived::at(self.start),
+            places: self.position.evaluations(),
+            over_angle: 0,
+            wait: self.wait,
+        };
+        pass.pieces(first)?;
+        let spent = pass.spent();
+        let mut arrived = pass.arrived;
+        arrived.evaluations = spent;
+        arrived.impossible = motion.impossible();
+        Ok(arrived)
+    }
+}
+
+impl Pass<'_, '_> {
+    fn spent(&self) -> u64 {
+        let places = self.course.position.evaluations() - self.places;
+        places + self.over_angle + self.motion.evaluations()
+    }
+
+    fn pieces(&mut self, mut first: Option<Driving>) -> Result<(), Error> {
+        let mut turns = true;
+        loop {
+            if turns {
+                let driven = first.take().map_or_else(|| self.drive(), Ok);
+                let why = match driven {
+                    Ok(driving) => self.drove(driving)?,
+                    Err(why) => {
+                        self.wait *= 2.0;
+                        Some(why)
+                    }
+                };
+                match why {
+                    None => return Ok(()),
+                    Some(Unserved::TooLong) => continue,
+                    Some(Unserved::WorkLimit) => {
+                        self.arrived.end = End::Integrator(Finish::WorkLimit);
+                        return Ok(());
+                    }
+                    Some(Unserved::TooSlow) => {}
+                    // What kept the angle from going on is not left behind with the speed.
+                    Some(_) => turns = false,
+                }
+            }
+            let wait = if turns { self.wait } else { f64::INFINITY };
+            if self.in_time(wait) {
+                self.arrived.to_angle += 1;
+            } else {
+                return Ok(());
+            }
+        }
+    }
+
+    /// A piece over the angle from here.
+    fn drive(&self) -> Result<Driving, Unserved> {
+        let course = self.course;
+        let now = self.arrived.now;
+        let goal = match course.extent {
+            Extent::Duration(duration) => Goal::Time(duration - now.t),
+            Extent::Revolutions(turns) => {
+                let turned = now.angle.minus(course.start.angle);
+                Goal::Turned(turns * TAU - now.speed.signum() * turned)
+            }
+        };
+        let resolution = Resolution {
+            most_evaluations: course.max_evaluations.saturating_sub(self.spent()),
+            ..course.resolution
+        };
+        angle::run(course.position, now, goal, resolution)
+    }
+
+    /// Takes a piece over the angle; why it ended before the goal.
+    fn drove(&mut self, driving: Driving) -> Result<Option<Unserved>, Error> {
+        let begin = self.arrived.now;
+        let short = driving.short;
+        let end = match (self.course.extent, short) {
+            (Extent::Duration(duration), None) => duration,
+            _ => begin.t + driving.end,
+        };
+        let (angle, speed) = match short {
+            None => driving.orbit.state(driving.end),
+            Some(short) => {
+                let inertia = self.course.equation.terms(short.angle.rest).inertia.m;
+                let speed = (2.0 * short.kinetic / inertia).sqrt();
+                (short.angle.reduced(), begin.speed.signum() * speed)
+            }
+        };
+        self.over_angle += driving.evaluations;
+        let arrived = &mut self.arrived;
+        arrived.work += driving.work;
+        arrived.steps += driving.orbit.panels() as u64;
+        arrived.over_angle += 1;
+        let largest = driving.orbit.largest_kinetic();
+        arrived.largest_kinetic = arrived.largest_kinetic.max(largest);
+        arrived.last = None;
+        arrived.now = Start {
+            t: end,
+            angle,
+            speed,
+        };
+        if let Some(short) = short {
+            let way = angle.minus(begin.angle).abs();
+            let soon = way < 2.0 * self.wait;
+            self.wait = if soon {
+                2.0 * self.wait
+            } else {
+                self.course.wait
+            };
+            arrived.to_time += u64::from(short.why != Unserved::TooLong);
+        }
+        self.observer.over_angle(begin, end, driving)?;
+        Ok(short.map(|short| short.why))
+    }
+
+    /// A piece in time, until the crank has turned by `wait` (rad) in one direction; whether it has.
+    fn in_time(&mut self, wait: f64) -> bool {
+        let course = self.course;
+        let from = self.arrived.now;
+        let evaluations = course.max_evaluations.saturating_sub(self.spent());
+        let settings = Settings {
+            max_evaluations: self.motion.evaluations() + evaluations,
+            ..course.settings
+        };
+        let mut clear = Clear::new(course, from, wait);
+        self.observer.begin_in_time(from);
+        let observer = &mut *self.observer;
+        let mut back = false;
+        let (mut finish, last, steps) = time::run(self.motion, from, &settings, &mut |step| {
+            let ends = observer.step(step);
+            back = !ends && clear.is_reached(step);
+            ends || back
+        });
+        let last = match self.observer.end_in_time(self.motion, &last, &settings) {
+            Some(shortened) => {
+                finish = Finish::AtEnd;
+                shortened
+            }
+            None => last,
+        };
+        let arrived = &mut self.arrived;
+        arrived.steps += steps;
+        arrived.in_time += 1;
+        arrived.work += last.end.work;
+        arrived.largest_kinetic = arrived.largest_kinetic.max(clear.largest_kinetic);
+        arrived.now = Start {
+            t: last.end.t,
+            angle: last.angle(last.end.theta).reduced(),
+            speed: last.end.omega,
+        };
+        arrived.last = Some(last);
+        back &= finish == Finish::Stopped;
+        if !back {
+            arrived.end = match finish {
+                Finish::AtEnd if course.is_over(last.end.t) => End::AtGoal,
+                finish => End::Integrator(finish),
+            };
+        }
+        back
+    }
+}
+
+impl Course<'_> {
+    /// Whether a run of turns did not take for ever.
+    fn is_over(&self, t: f64) -> bool {
+        matches!(self.extent, Extent::Duration(_)) || t < self.settings.t_end
+    }
+}

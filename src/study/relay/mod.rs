@@ -1,0 +1,158 @@
+//! Runs that the engines hand to one another: over the crank angle while the crank turns, in time where it comes
+//! near to rest, and back.
+
+mod arrived;
+mod clear;
+mod course;
+mod estimate;
+mod notes;
+
+use std::f64::consts::TAU;
+use std::time::Instant;
+
+use arrived::{Arrived, End};
+use course::Course;
+use estimate::estimate;
+use notes::Notes;
+
+use super::by_angle::{self, First};
+use super::forward::Forward;
+use super::in_time::settings;
+use super::over_angle::{balance, speeds};
+use super::profile::Position;
+use super::row::RowSink;
+use super::simulate::Simulation;
+use super::stopped;
+use super::summary::{Final, Solved, Summary};
+use super::task::Task;
+use crate::engine::Counted;
+use crate::engine::step::{Node, Step};
+use crate::error::Error;
+use crate::plan::{Method, Plan};
+use crate::trajectory::Trajectory;
+
+/// How far the crank turns in one direction before the angle takes over again, rad.
+const WAIT: f64 = TAU;
+
+/// Runs a task; `first` is its first piece over the angle, if it begins with one.
+pub(super) fn run(
+    task: &mut Task<'_>,
+    position: &Position<'_>,
+    first: Option<Box<First>>,
+    rows: &mut dyn RowSink,
+    record: bool,
+) -> Result<Simulation, Error> {
+    let begun = Instant::now();
+    let equation = task.equation();
+    let course = Course {
+        equation,
+        position,
+        start: task.first_state(),
+        extent: task.extent,
+        resolution: by_angle::plain(task),
+        settings: settings(task, equation),
+        wait: WAIT,
+        max_evaluations: task.options.max_evaluations,
+    };
+    let (wall_s, places) = first.as_ref().map_or((0.0, 0), |f| (f.wall_s, f.places));
+    let forward = Forward(equation);
+    let looked_at = Counted::new(&forward);
+    let mut notes = Notes::new(task, &looked_at, rows, record);
+    let mut arrived = course.run(first.map(|first| first.driving), &mut notes)?;
+    arrived.evaluations += places;
+    let log = notes.finish(&arrived)?;
+    let wall_s = wall_s + (begun.elapsed() - log.row_time).as_secs_f64();
+    let stopped = stopped(task, &arrived);
+    let mut warnings = Vec::new();
+    let mut estimated = None;
+    if task.options.estimate && stopped.is_none() {
+        estimated = estimate(task, &course, &arrived);
+        if estimated.is_none() {
+            let why = "the error could not be estimated: the second, tighter run did not finish";
+            warnings.push(why.to_owned());
+        }
+    }
+    name_pieces(task, &arrived)?;
+    let now = arrived.now;
+    let (speed, unbounded) = speeds(task, log.speed, now.speed);
+    warnings.extend(unbounded);
+    let solved = Solved {
+        last: Final {
+            t_s: now.t,
+            theta_rad: now.angle.radians(),
+            omega_rad_per_s: now.speed,
+        },
+        turned: now.angle.minus(task.start()),
+        error_estimate: estimated.map(|(error, _)| error),
+        estimate_cost: estimated.map(|(_, cost)| cost),
+        energy: balance(
+            task,
+            (now.angle, now.speed),
+            arrived.work,
+            arrived.largest_kinetic,
+        ),
+        evaluations: arrived.evaluations,
+        steps: arrived.steps,
+        wall_s,
+        speed,
+        warnings,
+        events: log.events,
+        events_total: log.events_total,
+        stopped,
+        ..Solved::default()
+    };
+    Ok(Simulation {
+        summary: Summary::new(task, solved),
+        trajectory: log.pieces.map(Trajectory::joined),
+    })
+}
+
+/// Why the run ended before its time, if it did.
+fn stopped(task: &Task<'_>, arrived: &Arrived) -> Option<String> {
+    let End::Integrator(finish) = arrived.end else {
+        return None;
+    };
+    let now = &arrived.now;
+    let node = Node {
+        t: now.t,
+        theta: now.angle.rest,
+        omega: now.speed,
+        ..Node::default()
+    };
+    let last = Step::new(now.angle.turns, node, node);
+    stopped::reason(
+        finish,
+        task.equation(),
+        arrived.impossible,
+        &last,
+        &task.extent,
+    )
+}
+
+/// Says in the plan which engines computed the run.
+fn name_pieces(task: &mut Task<'_>, arrived: &Arrived) -> Result<(), Error> {
+    if arrived.over_angle == 0 {
+        task.plan = Plan::new(task.scene, Method::Time)?;
+        task.plan.reason = "integration in time, for the crank comes too near to rest".to_owned();
+        return Ok(());
+    }
+    let times = |count: u64| match count {
+        1 => "once".to_owned(),
+        2 => "twice".to_owned(),
+        _ => format!("{count} times"),
+    };
+    let (there, back) = (times(arrived.to_time), times(arrived.to_angle));
+    task.plan.reason = match (arrived.to_time, arrived.to_angle) {
+        (0, 0) => return Ok(()),
+        (0, _) => format!(
+            "over the crank angle; near to rest in time, from which it was handed back {back}"
+        ),
+        (_, 0) => format!(
+            "over the crank angle; near to rest in time, to which it was handed over {there}"
+        ),
+        _ => format!(
+            "over the crank angle; near to rest in time, to which it was handed over {there}, and back {back}"
+        ),
+    };
+    Ok(())
+}

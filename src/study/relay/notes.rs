@@ -1,0 +1,102 @@
+//! What is noted of a run while its pieces are computed.
+
+use super::arrived::{Arrived, Observer};
+use crate::engine::Counted;
+use crate::engine::angle::Driving;
+use crate::engine::step::Step;
+use crate::engine::time::{Settings, Start};
+use crate::error::Error;
+use crate::study::in_time;
+use crate::study::log::Log;
+use crate::study::passages::{Stretch, is_dead_centre};
+use crate::study::row::RowSink;
+use crate::study::task::Task;
+use crate::study::watch::Watch;
+use crate::trajectory::Trajectory;
+
+/// Notes of a run.
+pub(super) struct Notes<'a> {
+    task: &'a Task<'a>,
+    watch: Watch<'a>,
+    record: bool,
+}
+
+impl<'a> Notes<'a> {
+    pub fn new(
+        task: &'a Task<'a>,
+        looked_at: &'a Counted<'a>,
+        rows: &'a mut dyn RowSink,
+        record: bool,
+    ) -> Notes<'a> {
+        Notes {
+            task,
+            watch: Watch {
+                log: Log::new(task, record),
+                ..in_time::watch(task, looked_at, rows, record)
+            },
+            record,
+        }
+    }
+
+    /// The log, with the row of the end.
+    pub fn finish(mut self, arrived: &Arrived) -> Result<Log, Error> {
+        if let Some(error) = self.watch.seen.error.take() {
+            return Err(error);
+        }
+        if self.watch.rows.wants_rows() {
+            let Start { t, angle, speed } = arrived.now;
+            self.watch.write(t, angle, speed)?;
+        }
+        Ok(self.watch.log)
+    }
+}
+
+impl Observer for Notes<'_> {
+    fn over_angle(&mut self, from: Start, until: f64, driving: Driving) -> Result<(), Error> {
+        let Watch {
+            rows, maker, log, ..
+        } = &mut self.watch;
+        let stretch = Stretch {
+            orbit: &driving.orbit,
+            begin: from.t,
+            end: driving.end,
+            is_last: driving.short.is_none(),
+        };
+        if rows.wants_rows() {
+            let mut write = |t: f64, angle, omega| rows.row(&maker.row(t, angle, omega, None));
+            log.stretch(self.task, &stretch, Some(&mut write))?;
+        } else {
+            log.stretch(self.task, &stretch, None)?;
+        }
+        log.keep(|| Trajectory::orbit(driving.orbit, from.t, until));
+        Ok(())
+    }
+
+    fn begin_in_time(&mut self, from: Start) {
+        self.watch.seen.passed = (from.t > 0.0 && is_dead_centre(self.task, from.angle.rest))
+            .then_some((from.angle, from.speed));
+        self.watch.recorded = self.record.then(Vec::new);
+    }
+
+    fn step(&mut self, step: &Step) -> bool {
+        self.watch.step(step)
+    }
+
+    fn end_in_time(
+        &mut self,
+        motion: &Counted<'_>,
+        last: &Step,
+        settings: &Settings,
+    ) -> Option<Step> {
+        let watch = &mut self.watch;
+        let shortened = watch
+            .seen
+            .ends_at
+            .map(|t| in_time::shortened(motion, last, t, settings, watch));
+        let end = shortened.as_ref().unwrap_or(last).end.t;
+        if let Some(steps) = watch.recorded.take().filter(|steps| !steps.is_empty()) {
+            watch.log.keep(|| Trajectory::from_steps(steps, end));
+        }
+        shortened
+    }
+}
