@@ -10,9 +10,10 @@ use super::row::RowSink;
 use super::simulate::Simulation;
 use super::summary::{Cost, ErrorEstimate, Final, Solved, Summary};
 use super::task::Task;
-use super::{by_angle, by_energy, curve, in_time, relay};
+use super::{by_angle, by_energy, in_time, relay};
 use crate::engine::energy::{Orbit, Profile, Unserved};
 use crate::error::Error;
+use crate::mechanism::Class;
 use crate::numeric::angle::Angle;
 use crate::plan::{Engine, Method, Plan};
 use crate::scene::Extent;
@@ -43,9 +44,7 @@ pub(super) fn run(
     let solved = match task.plan.engine {
         Engine::Angle => match by_angle::solve(task, &position) {
             Ok(motion) => Ok(motion),
-            Err(Unsolved { why, first })
-                if task.maker.sliding.is_none() && (first.is_some() || hands_over(task, why)) =>
-            {
+            Err(Unsolved { why, first }) if first.is_some() || hands_over(task, why) => {
                 return relay::run(task, &position, first, rows, record);
             }
             Err(Unsolved { why, .. }) => Err(why),
@@ -77,7 +76,9 @@ pub(super) fn run(
 
 /// Whether a run that cannot begin over the angle may be served by it later.
 fn hands_over(task: &Task<'_>, why: Unserved) -> bool {
-    why == Unserved::TooSlow && task.options.method == Method::Auto && !curve::serves(task)
+    why == Unserved::TooSlow
+        && task.options.method == Method::Auto
+        && task.limits.class == Class::RotatingCrank
 }
 
 /// Whether the start speed makes for a run of very many turns.

@@ -58,6 +58,11 @@ impl Sliding {
         })
     }
 
+    /// The equation with the force of the guide.
+    pub fn equation(&self) -> &Constrained {
+        &self.equation
+    }
+
     /// Whether a position was met at which rigid bodies jam.
     pub fn jams(&self) -> bool {
         self.jams.get()
@@ -108,8 +113,11 @@ impl Sliding {
         table.switch = Some(switch);
     }
 
-    /// θ̈ (rad/s²) and the forces of the guide at a speed that is not zero, rad/s.
+    /// θ̈ (rad/s²) and the forces of the guide; none at rest.
     pub fn state(&self, t: f64, angle: Angle, omega: f64) -> (f64, Touch) {
+        if omega == 0.0 {
+            return (0.0, Touch::default());
+        }
         let free = self.equation.free(t, angle, omega);
         let crank = self.equation.curve().linkage().r;
         let mut dx = free.velocity(1.0);

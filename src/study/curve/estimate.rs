@@ -19,6 +19,11 @@ const MARGIN: f64 = 1.5;
 const TIGHTEST: f64 = 1e-13;
 const A_LITTLE: f64 = 5.0;
 
+/// The tolerance of a second run.
+pub(in crate::study) fn tighter(tolerance: f64) -> f64 {
+    (tolerance / TIGHTER).max(TIGHTEST.min(tolerance / A_LITTLE))
+}
+
 /// Adds up what rounding does to a run.
 struct Shaken {
     unevenness: f64,
@@ -45,23 +50,23 @@ impl Observer for Shaken {
 pub(super) fn estimate(follow: &Follow<'_>, arrived: &Arrived) -> Option<(ErrorEstimate, Cost)> {
     let begun = Instant::now();
     let end = arrived.last.end;
-    let tolerance = follow.settings.tolerance;
-    let tighter = Follow {
+    let second = Follow {
         equation: follow.equation,
         settings: Settings {
-            tolerance: (tolerance / TIGHTER).max(TIGHTEST.min(tolerance / A_LITTLE)),
+            tolerance: tighter(follow.settings.tolerance),
             t_end: end.t,
             max_evaluations: follow.settings.max_evaluations.saturating_mul(4),
             ..follow.settings
         },
         start: follow.start,
         turn_limit: None,
+        turned_from: follow.turned_from,
     };
     let mut shaken = Shaken {
         unevenness: 0.0,
         largest_speed: 0.0,
     };
-    let best = tighter.run(&mut shaken);
+    let best = second.run(&mut shaken);
     if best.end != End::Done {
         return None;
     }

@@ -10,7 +10,11 @@ use crate::study::stopped;
 use crate::study::task::Task;
 
 /// Why a run ended before its time.
-pub(super) fn why(task: &Task<'_>, arrived: &Arrived, equation: &Constrained) -> Option<String> {
+pub(in crate::study) fn why(
+    task: &Task<'_>,
+    arrived: &Arrived,
+    equation: &Constrained,
+) -> Option<String> {
     let (angle, speed) = crank_state(equation.curve(), &arrived.last);
     let t = arrived.last.end.t;
     let place = format!(
