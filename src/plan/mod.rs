@@ -143,7 +143,7 @@ impl Plan {
             state[0] = "coordinate q";
             state[1] = "its speed";
         }
-        if engine == Engine::Time && reduced.friction.is_some() {
+        if engine != Engine::ClosedForm && reduced.friction.is_some() {
             events.extend(["stick", "slip", "rest"]);
         }
         Ok(Plan {
