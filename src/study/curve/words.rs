@@ -27,6 +27,7 @@ pub(super) fn why(task: &Task<'_>, arrived: &Arrived, equation: &Constrained) ->
         (End::Done | End::AtRest | End::Stopped, _) => None,
         (End::Jam(why), _) => Some(format!("{why}: stopped {place}")),
         (End::Integrator(Finish::WorkLimit), _) => Some(stopped::work_limit(&place)),
+        (End::Integrator(Finish::WorkLimitAhead), _) => Some(stopped::work_limit_ahead(&place)),
         (End::Integrator(_), _) => Some(singular(task, arrived, equation, &place)),
     }
 }
