@@ -3,6 +3,7 @@
 mod arrived;
 mod estimate;
 mod follow;
+mod noise;
 mod phase;
 mod release;
 mod rest;

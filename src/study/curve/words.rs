@@ -31,6 +31,7 @@ pub(in crate::study) fn why(
         (End::Done | End::AtRest | End::Stopped, _) => None,
         (End::Jam(why), _) => Some(format!("{why}: stopped {place}")),
         (End::Integrator(Finish::WorkLimit), _) => Some(stopped::work_limit(&place)),
+        (End::Integrator(Finish::WorkLimitAhead), _) => Some(stopped::work_limit_ahead(&place)),
         (End::Integrator(_), _) => Some(singular(task, arrived, equation, &place)),
     }
 }
