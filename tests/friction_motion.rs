@@ -441,7 +441,7 @@ fn friction_of_no_strength_is_left_out() {
     assert_eq!(plain.summary.last, none.summary.last);
     assert_eq!(plain.summary.engine, none.summary.engine);
     let little = run(&friction(scene, 1e-13, 1e-13));
-    assert_eq!(little.summary.engine, "time");
+    assert_eq!(little.summary.engine, "angle");
     close(
         "theta",
         little.summary.last.theta_rad,

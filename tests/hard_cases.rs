@@ -123,6 +123,54 @@ fn every_case_ends_at_its_reference() {
     }
 }
 
+/// Loose joints: crank angle and speed, slider position and velocity at the end, and the errors of the reference in
+/// angle and position. Speeds may be off by more, as the contact is stiff.
+#[test]
+fn loose_joints_end_at_their_references() {
+    for (name, [theta, omega, x, v], [doubt_theta, doubt_x]) in [
+        (
+            "11-clearance-5000rpm",
+            [
+                2.0943951023931953,
+                523.5987755982989,
+                0.08650183344178476,
+                -18.727437857728965,
+            ],
+            [0.0, 2e-12],
+        ),
+        (
+            "11-clearance-free-crank",
+            [
+                1.6404299747019266,
+                482.6645035095712,
+                0.10034658633078153,
+                -23.350791887834358,
+            ],
+            [6e-13, 2e-13],
+        ),
+    ] {
+        let summary = run(name, Method::Auto).summary;
+        assert_eq!(summary.stopped, None);
+        let joint = summary.clearance.expect("a loose joint");
+        assert!(joint.horizon.expect("a horizon").whole_run && joint.impacts >= 8);
+        let stated = summary.error_estimate.expect("an estimate");
+        let near = |found: f64, want: f64, allowed: f64| {
+            let apart = (found - want).abs();
+            assert!(apart <= allowed, "{name}: {found} for {want}: {allowed:e}");
+        };
+        near(
+            summary.last.theta_rad,
+            theta,
+            2.0 * stated.theta_rad + doubt_theta,
+        );
+        near(summary.last.omega_rad_per_s, omega, 1e-7);
+        let own = joint.last.error_x_m.expect("inside the horizon");
+        near(joint.last.x_m, x, 2.0 * own + doubt_x);
+        near(joint.last.v_m_per_s, v, 1e-6);
+        assert!(summary.energy_residual.abs() < 1e-9);
+    }
+}
+
 /// A pendulum of 1e-3 rad: the speed follows from a difference of energies that cancels to 1e-7 of them.
 #[test]
 fn a_small_libration_ends_at_its_reference() {

@@ -41,6 +41,8 @@ pub enum Finish {
     Stopped,
     /// The work limit is reached.
     WorkLimit,
+    /// At the pace of the last steps it would be reached long before the end.
+    WorkLimitAhead,
     /// The step size became too small for the time to move on: a singularity.
     StepTooSmall,
     /// There is no acceleration at the start.
@@ -61,6 +63,9 @@ pub struct Start {
 /// Result vectors of the library grow with each step of a call.
 const STEPS_IN_A_CALL: usize = 256;
 
+/// A last time (s) from which on a run has none of its own.
+pub const FAR: f64 = 1e9;
+
 /// Integrates and hands every accepted step to `sink`, which ends the run by returning true.
 /// Returns how the run ended, the last state reached (its angle beside the turns) and the number of steps.
 pub fn run(
@@ -69,9 +74,65 @@ pub fn run(
     settings: &Settings,
     sink: &mut dyn FnMut(&Step) -> bool,
 ) -> (Finish, Step, u64) {
-    match settings.method {
-        Method::Picard => picard::run(motion, start, settings, sink),
-        Method::Library(method) => in_calls(motion, start, settings, method, sink),
+    let mut pace = Pace::new(motion, start, settings);
+    let mut hopeless = false;
+    let watched = &mut |step: &Step| {
+        if sink(step) {
+            return true;
+        }
+        hopeless = pace.is_hopeless(motion.evaluations(), step.end.t);
+        hopeless
+    };
+    let (finish, last, steps) = match settings.method {
+        Method::Picard => picard::run(motion, start, settings, watched),
+        Method::Library(method) => in_calls(motion, start, settings, method, watched),
+    };
+    let finish = match finish {
+        Finish::Stopped if hopeless => Finish::WorkLimitAhead,
+        other => other,
+    };
+    (finish, last, steps)
+}
+
+/// Evaluations over which a pace is taken.
+const WINDOW: u64 = 5_000_000;
+/// A run is given up if at its pace it needs more than the work limit by this factor, in two windows in a row.
+const BEYOND: f64 = 5.0;
+
+/// How fast a run proceeds.
+struct Pace {
+    t: f64,
+    evaluations: u64,
+    settings: Settings,
+    slow: bool,
+}
+
+impl Pace {
+    fn new(motion: &Counted<'_>, start: Start, settings: &Settings) -> Pace {
+        Pace {
+            t: start.t,
+            evaluations: motion.evaluations(),
+            settings: *settings,
+            slow: false,
+        }
+    }
+
+    /// Whether the work limit will be reached long before the last time.
+    fn is_hopeless(&mut self, evaluations: u64, t: f64) -> bool {
+        let Settings {
+            t_end,
+            max_evaluations,
+            ..
+        } = self.settings;
+        let spent = evaluations - self.evaluations;
+        if spent < WINDOW || t_end >= FAR {
+            return false;
+        }
+        let needed = (t_end - t) / (t - self.t) * spent as f64;
+        let left = max_evaluations.saturating_sub(evaluations) as f64;
+        let was_slow = std::mem::replace(&mut self.slow, needed > BEYOND * left);
+        (self.t, self.evaluations) = (t, evaluations);
+        self.slow && was_slow
     }
 }
 

@@ -34,15 +34,15 @@ pub struct Across {
     /// V', N m
     pub dv: f64,
     /// A, kg m
-    a: f64,
+    pub(super) a: f64,
     /// B, kg m
-    b: f64,
+    pub(super) b: f64,
     /// V_n, N
-    dv_n: f64,
+    pub(super) dv_n: f64,
     /// θ_n, 1/m
-    theta_n: f64,
+    pub(super) theta_n: f64,
     /// x_n
-    x_n: f64,
+    pub(super) x_n: f64,
 }
 
 /// First and second derivative along the curve, first derivative across it, of a path and a turn angle.

@@ -181,6 +181,11 @@ impl Loads {
         self.rotary_damping + self.linear_damping * dx * dx
     }
 
+    /// −d torque/dω (N m s/rad) and −d force/dv (N s/m) of the same.
+    pub fn dampings(&self) -> [f64; 2] {
+        [self.rotary_damping, self.linear_damping]
+    }
+
     /// Torque and force of the loads of speed and time that are no damping, at slider position x (m) and x'
     /// (m/rad).
     pub fn of_state(

@@ -143,7 +143,7 @@ impl Plan {
             state[0] = "coordinate q";
             state[1] = "its speed";
         }
-        if engine == Engine::Time && reduced.friction.is_some() {
+        if engine != Engine::ClosedForm && reduced.friction.is_some() {
             events.extend(["stick", "slip", "rest"]);
         }
         Ok(Plan {
@@ -193,7 +193,8 @@ fn engine(
     scene: &Scene,
 ) -> Result<(Engine, Option<Stepper>, String), Error> {
     let reason = |text: &str| text.to_owned();
-    let crosses = Limits::new(&Linkage::new(&scene.geometry), 0.0).class == Class::ChangePoint;
+    let class = Limits::new(&Linkage::new(&scene.geometry), 0.0).class;
+    let crosses = class == Class::ChangePoint;
     if scene.clearance.is_some() {
         return contact(method);
     }
@@ -224,12 +225,21 @@ fn engine(
             Some(Stepper::Picard),
             reason("a change point: integration in time along the configuration curve"),
         )),
-        (Method::Energy | Method::Angle, false) if scene.friction.is_some() => Err(Error::refused(
-            format!(
-                "method {method} cannot serve Coulomb friction, which changes where slider or normal force turn"
-            ),
-            "use --method auto, time, dop853 or dopri5",
+        (Method::Energy, false) if scene.friction.is_some() => Err(Error::refused(
+            "method energy cannot serve Coulomb friction, whose work depends on the speed",
+            "use --method auto, angle, time, dop853 or dopri5",
         )),
+        (Method::Auto | Method::Angle, false)
+            if scene.friction.is_some() && class == Class::RotatingCrank && angle_serves(scene) =>
+        {
+            Ok((
+                Engine::Angle,
+                None,
+                reason(
+                    "the crank turns: its energy and the time over the crank angle, with Coulomb friction piece by piece between its changes",
+                ),
+            ))
+        }
         (Method::Auto, false) if scene.friction.is_some() => Ok((
             Engine::Time,
             Some(Stepper::Picard),
@@ -249,13 +259,17 @@ fn engine(
             ),
             "use --method auto; energy needs loads of theta and x alone, tables over theta only, and formulas without step, sign, floor and mod",
         )),
-        (Method::Auto | Method::Angle, false) if angle_serves(scene) => Ok((
-            Engine::Angle,
-            None,
-            reason(
-                "the crank turns: its energy and the time over the crank angle; where it comes near to rest, integration in time takes over",
-            ),
-        )),
+        (Method::Auto | Method::Angle, false)
+            if scene.friction.is_none() && angle_serves(scene) =>
+        {
+            Ok((
+                Engine::Angle,
+                None,
+                reason(
+                    "the crank turns: its energy and the time over the crank angle; where it comes near to rest, integration in time takes over",
+                ),
+            ))
+        }
         (Method::Angle, false) => Err(Error::refused(
             "method angle needs a crank that turns from the start, tables over theta only, formulas without step, sign, floor and mod, and loads over theta that repeat with each turn",
             "use --method auto, time, dop853 or dopri5",

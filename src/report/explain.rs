@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::study::Explanation;
+use crate::study::{Explanation, FrictionAt};
 
 /// The explanation as text.
 pub fn explanation(result: &Explanation) -> String {
@@ -78,16 +78,28 @@ pub fn explanation(result: &Explanation) -> String {
         match at.alpha_rad_per_s2 {
             Some(alpha) => line(format!("  {:<22} {alpha} rad/s2", "theta..")),
             None => line(format!(
-                "  {:<22} not determined: no inertia here",
+                "  {:<22} not determined: no inertia here, or the guide jams",
                 "theta.."
             )),
         }
+        let without = at.friction.map_or("", |_| ", without friction");
         line(format!(
-            "  {:<22} {} N m (torque that keeps this speed)",
+            "  {:<22} {} N m (torque that keeps this speed{without})",
             "holding torque", at.holding_torque_nm
         ));
+        if let Some(friction) = &at.friction {
+            line(format!("  {:<22} {}", "with friction", holding(friction)));
+        }
     }
     text
+}
+
+fn holding(friction: &FrictionAt) -> String {
+    match (friction.holding_min_nm, friction.holding_max_nm) {
+        (Some(min), Some(max)) if min == max => format!("{min} N m"),
+        (Some(min), Some(max)) => format!("any torque from {min} to {max} N m"),
+        _ => "the guide locks itself".to_owned(),
+    }
 }
 
 /// Degrees to 12 digits, so that an angle that was given in degrees is shown as it was given.

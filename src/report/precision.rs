@@ -97,7 +97,7 @@ pub fn precision(scene: &Precision) -> String {
 
 fn line(row: &PrecisionRow) -> String {
     let name = format!("{:<12} {:>9}", row.method, format!("{:.0e}", row.tolerance));
-    if row.failure.is_some() {
+    if row.failure.is_some() && row.error_theta_rad.is_none() {
         return format!("{name} {:>12}", "failed");
     }
     let bound = if row.error_is_bound { "<= " } else { "" };
@@ -135,10 +135,14 @@ fn notes(scene: &Precision) -> Vec<String> {
     for row in &scene.rows {
         // Where a run stopped differs from row to row; the JSON object has it.
         let reason = |why: &String| why.split(": stopped at").next().unwrap_or(why).to_owned();
+        let word = match row.error_theta_rad {
+            None => "failed",
+            Some(_) => "measured where the motion ends",
+        };
         let failure = row
             .failure
             .iter()
-            .map(|why| format!("failed: {}", reason(why)));
+            .map(|why| format!("{word}: {}", reason(why)));
         let against = row.measured_against.iter();
         let against = against.map(|what| format!("measured against {what}"));
         for what in failure.chain(against) {
@@ -148,6 +152,18 @@ fn notes(scene: &Precision) -> Vec<String> {
                 Some((_, tolerances)) => tolerances.push(tolerance),
                 None => said.push((text, vec![tolerance])),
             }
+        }
+    }
+    for row in &scene.rows {
+        if let Some(error) = row.error_slider_x_m {
+            let stated = row.estimate_slider_x_m.map_or(
+                "none stated: beyond the horizon of what is reproducible".to_owned(),
+                |stated| format!("{stated:.1e} m stated"),
+            );
+            notes.push(format!(
+                "tolerance {:.0e}: error of the slider's position {error:.1e} m, {stated}",
+                row.tolerance
+            ));
         }
     }
     let say = |(text, tolerances): (String, Vec<String>)| {

@@ -13,6 +13,8 @@ use crate::scene::Extent;
 
 /// Series end where their coefficients have decayed to this part of the tolerance.
 const SHARE: f64 = 1e-2;
+/// Inside a panel, where friction may cut it, a series is not as good as at the ends.
+const CUT: f64 = 0.03;
 /// Where rounding takes over.
 const LEAST_TAIL: f64 = 4e-15;
 
@@ -89,8 +91,12 @@ pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, 
 
 /// As fine as the tolerance asks for.
 pub(super) fn plain(task: &Task<'_>) -> Resolution {
+    let share = match task.maker.sliding {
+        Some(_) => SHARE * CUT,
+        None => SHARE,
+    };
     Resolution {
-        tail: (SHARE * task.scene.run.tolerance).max(LEAST_TAIL),
+        tail: (share * task.scene.run.tolerance).max(LEAST_TAIL),
         other: false,
         most_evaluations: task.options.max_evaluations,
     }

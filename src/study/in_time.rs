@@ -145,7 +145,7 @@ pub(super) fn watch<'a>(
 }
 
 /// A run that ends after a number of turns has no last time of its own.
-pub(super) const FAR: f64 = 1e9;
+pub(super) const FAR: f64 = time::FAR;
 
 pub(super) fn settings(task: &Task<'_>, equation: &Equation) -> Settings {
     let motion = &task.scene.motion;

@@ -25,6 +25,7 @@ mod reproduce;
 mod row;
 mod schedule;
 mod simulate;
+mod sliding;
 mod statics;
 mod steady;
 mod stopped;
@@ -35,7 +36,7 @@ mod watch;
 pub use crate::mechanism::{Length, Reactions, drum_torque, friction_from_tilt, size_from_stroke};
 pub use calibration::{Calibration, Measured, calibrate};
 pub use clearance::{Beyond, ClearanceSummary, ContactStatistics, Horizon, LooseFinal};
-pub use explain::{Explanation, LoadAt, TermsAt, explain};
+pub use explain::{Explanation, FrictionAt, LoadAt, TermsAt, explain};
 pub use forces::{ForceAnalysis, ForceRow, StrokeTorque, forces};
 pub use inverse::{
     AsPrinted, BandRule, DataSummary, DeadCentreBand, FitKind, FitSize, FitSummary, ForceRange,

@@ -10,9 +10,10 @@ use super::row::RowSink;
 use super::simulate::Simulation;
 use super::summary::{Cost, ErrorEstimate, Final, Solved, Summary};
 use super::task::Task;
-use super::{by_angle, by_energy, curve, in_time, relay};
+use super::{by_angle, by_energy, in_time, relay};
 use crate::engine::energy::{Orbit, Profile, Unserved};
 use crate::error::Error;
+use crate::mechanism::Class;
 use crate::numeric::angle::Angle;
 use crate::plan::{Engine, Method, Plan};
 use crate::scene::Extent;
@@ -39,7 +40,7 @@ pub(super) fn run(
     rows: &mut dyn RowSink,
     record: bool,
 ) -> Result<Simulation, Error> {
-    let position = Position::new(task.equation(), &task.limits);
+    let position = Position::new(task.equation(), &task.limits).with_friction(task.maker.sliding);
     let solved = match task.plan.engine {
         Engine::Angle => match by_angle::solve(task, &position) {
             Ok(motion) => Ok(motion),
@@ -60,12 +61,12 @@ pub(super) fn run(
             format!(
                 "method {} cannot serve this scene: {}",
                 task.options.method,
-                reason(unserved)
+                why(task, unserved)
             ),
             "use --method auto or time",
         )),
         Err(unserved) => {
-            let why = format!("integration in time, for {}", reason(unserved));
+            let why = format!("integration in time, for {}", why(task, unserved));
             task.plan = Plan::new(task.scene, Method::Time)?;
             task.plan.reason = why;
             in_time::run(task, rows, record)
@@ -75,7 +76,9 @@ pub(super) fn run(
 
 /// Whether a run that cannot begin over the angle may be served by it later.
 fn hands_over(task: &Task<'_>, why: Unserved) -> bool {
-    why == Unserved::TooSlow && task.options.method == Method::Auto && !curve::serves(task)
+    why == Unserved::TooSlow
+        && task.options.method == Method::Auto
+        && task.limits.class == Class::RotatingCrank
 }
 
 /// Whether the start speed makes for a run of very many turns.
@@ -85,6 +88,14 @@ fn is_long(task: &Task<'_>) -> bool {
     match task.extent {
         Extent::Duration(duration) => speed * duration > MANY * TAU,
         Extent::Revolutions(turns) => turns > MANY,
+    }
+}
+
+/// Why these engines cannot serve a task.
+fn why(task: &Task<'_>, unserved: Unserved) -> &'static str {
+    match task.maker.sliding {
+        Some(sliding) if sliding.jams() => "the slider jams in its guide at an angle of the turn",
+        _ => reason(unserved),
     }
 }
 
@@ -165,7 +176,7 @@ pub(super) fn late_by(
     end: f64,
     late: f64,
 ) -> ErrorEstimate {
-    let alpha = task.equation().acceleration(end, angle, omega);
+    let (alpha, _) = task.maker.forward(end, angle, omega);
     let rounding = f64::EPSILON * (1.0 + angle.radians().abs());
     ErrorEstimate {
         theta_rad: omega.abs() * late + rounding,

@@ -3,6 +3,7 @@
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
+use super::sliding::{Grip, Sliding};
 use crate::engine::angle::{Driven, Table};
 use crate::engine::energy::Profile;
 use crate::mechanism::{Equation, Limits};
@@ -14,6 +15,7 @@ use crate::scene::Variable;
 /// Inertia, potential and force of an equation whose loads depend on the position alone.
 pub(super) struct Position<'a> {
     equation: &'a Equation,
+    sliding: Option<&'a Sliding>,
     corners: Vec<f64>,
     repeats: bool,
     evaluations: Cell<u64>,
@@ -35,10 +37,17 @@ impl<'a> Position<'a> {
         corners.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
         Position {
             equation,
+            sliding: None,
             corners,
             repeats: loads.have_potential() && !loads.turn_the_crank(),
             evaluations: Cell::new(0),
         }
+    }
+
+    /// With friction at the guide.
+    pub fn with_friction(mut self, sliding: Option<&'a Sliding>) -> Position<'a> {
+        self.sliding = sliding;
+        self
     }
 
     /// Positions at which inertia and force were computed so far.
@@ -78,11 +87,19 @@ impl<'a> Position<'a> {
     }
 }
 
-impl Driven for Position<'_> {
+/// A position as the loads see it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spot {
     /// x (m) and x' (m/rad).
-    type Place = [f64; 2];
+    at: [f64; 2],
+    /// Zero without friction.
+    pub grip: Grip,
+}
 
-    fn tabulate(&self, angles: &Values, count: usize, table: &mut Table<[f64; 2]>) {
+impl Driven for Position<'_> {
+    type Place = Spot;
+
+    fn tabulate(&self, angles: &Values, count: usize, side: f64, table: &mut Table<Spot>) {
         self.count(count);
         let loads = self.equation.loads();
         let driven = self.is_driven();
@@ -95,8 +112,14 @@ impl Driven for Position<'_> {
             table.push[i] = loads.of_place(*angle, x).over(dx);
             table.damping[i] = loads.damping(dx);
             if driven {
-                table.places.push([x, dx]);
+                let grip = Grip::default();
+                table.places.push(Spot { at: [x, dx], grip });
             }
+        }
+        if let Some(sliding) = self.sliding {
+            // Panels run in the direction of the motion.
+            let direction = (angles[count - 1] - angles[0]).signum();
+            sliding.tabulate(angles, count, direction * side, loads, table);
         }
     }
 
@@ -108,9 +131,14 @@ impl Driven for Position<'_> {
         self.equation.loads().reads().has(Variable::T)
     }
 
-    fn drive(&self, place: &[f64; 2], t: f64, angle: Angle, speed: f64) -> f64 {
-        let load = self.equation.loads().of_state(t, angle, speed, *place);
-        load.over(place[1])
+    fn drive(&self, place: &Spot, t: f64, angle: Angle, speed: f64) -> f64 {
+        let load = self.equation.loads().of_state(t, angle, speed, place.at);
+        load.over(place.at[1]) + place.grip.rubbed(load)
+    }
+
+    fn drive_switch(&self, place: &Spot, t: f64, angle: Angle, speed: f64) -> f64 {
+        let load = self.equation.loads().of_state(t, angle, speed, place.at);
+        place.grip.pressed(load)
     }
 
     fn corners(&self) -> &[f64] {

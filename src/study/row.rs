@@ -1,5 +1,6 @@
 //! Output rows: the state of the mechanism at one time.
 
+use super::sliding::Sliding;
 use crate::error::Error;
 use crate::mechanism::{Constrained, Equation, Reactions, Reactor};
 use crate::numeric::angle::Angle;
@@ -86,6 +87,8 @@ pub(super) struct RowMaker<'a> {
     pub driving_torque: bool,
     /// The guide of a prescribed motion, if it has friction.
     pub guide: Option<Constrained>,
+    /// The guide of a crank that turns freely, if it has friction.
+    pub sliding: Option<&'a Sliding>,
 }
 
 impl RowMaker<'_> {
@@ -97,11 +100,24 @@ impl RowMaker<'_> {
         })
     }
 
+    /// θ̈ of a free motion, rad/s², and the friction on the slider, N.
+    pub fn forward(&self, t: f64, angle: Angle, omega: f64) -> (f64, f64) {
+        match self.sliding {
+            Some(sliding) => {
+                let (alpha, touch) = sliding.state(t, angle, omega);
+                (alpha, touch.friction)
+            }
+            None => (self.equation.acceleration(t, angle, omega), 0.0),
+        }
+    }
+
     /// The row of a free motion, or with `alpha` of a prescribed one.
     pub fn row(&self, t: f64, angle: Angle, omega: f64, alpha: Option<f64>) -> Row {
-        let alpha = alpha.unwrap_or_else(|| self.equation.acceleration(t, angle, omega));
         let pose = self.equation.linkage().pose(angle.rest);
-        let friction = self.friction(t, angle, omega, alpha);
+        let (alpha, friction) = match alpha {
+            Some(alpha) => (alpha, self.friction(t, angle, omega, alpha)),
+            None => self.forward(t, angle, omega),
+        };
         let reactions = self.reactor.as_ref().map(|reactor| {
             let mut load = self.equation.loads().value(t, angle, omega, &pose);
             load.force += friction;

@@ -1,6 +1,7 @@
 //! Forward motion: scene -> mechanism -> plan -> engine -> trajectory.
 
 use super::row::{NoRows, RowMaker, RowSink};
+use super::sliding::Sliding;
 use super::summary::Summary;
 use super::task::Task;
 use super::{clearance, closed_form, in_time, over_angle};
@@ -100,6 +101,8 @@ fn run(
     })?;
     let reactor = options.reactions.then(|| Reactor::new(scene)).transpose()?;
     let equation = Equation::new(scene);
+    let free = scene.motion.kind == MotionKind::Free;
+    let sliding = Sliding::new(scene, &equation).filter(|_| free);
     let mut task = Task {
         scene,
         options,
@@ -111,6 +114,7 @@ fn run(
             reactor,
             driving_torque: options.driving_torque,
             guide: guide(scene, &equation),
+            sliding: sliding.as_ref(),
         },
     };
     match task.plan.engine {

@@ -30,6 +30,12 @@ pub(super) fn work_limit(place: &str) -> String {
     )
 }
 
+pub(super) fn work_limit_ahead(place: &str) -> String {
+    format!(
+        "the steps have become so short that the work limit of evaluations would be reached long before the end: stopped {place}; the equation is too stiff for a method in time, or a load jumps back and forth with the speed: give dry friction at the guide as [friction] and steep losses less steep, or raise --max-evaluations"
+    )
+}
+
 /// Why a run ended before its time.
 pub(super) fn reason(
     finish: Finish,
@@ -51,6 +57,7 @@ pub(super) fn reason(
         )),
         (Finish::AtEnd | Finish::Stopped | Finish::NoStart, _) => None,
         (Finish::WorkLimit, _) => Some(work_limit(&place)),
+        (Finish::WorkLimitAhead, _) => Some(work_limit_ahead(&place)),
         (Finish::StepTooSmall, _) => {
             let (t, angle, speed) = impossible.unwrap_or((end.t, last.angle(end.theta), end.omega));
             Some(match equation.obstacle(t, angle, speed) {

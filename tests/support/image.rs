@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 
 use slider_crank::scene::{
-    Branch, Crank, Expression, Gravity, Interpolation, Load, Rod, Scene, Slider, Table, Variable,
+    Branch, Crank, Expression, Friction, Gravity, Interpolation, Load, Rod, Scene, Slider, Table,
+    Variable,
 };
 
 /// What is done to a mechanism; its motion must change in the same way.
@@ -151,6 +152,7 @@ pub struct Setting {
     pub duration: f64,
     pub torques: Vec<Act>,
     pub forces: Vec<Act>,
+    pub friction: Option<Friction>,
 }
 
 impl Setting {
@@ -167,6 +169,7 @@ impl Setting {
             duration: 0.0,
             torques: Vec::new(),
             forces: Vec::new(),
+            friction: None,
         }
     }
 
@@ -201,6 +204,7 @@ impl Setting {
             })
             .start(theta, omega)
             .duration(self.duration * image.time);
+        scene.friction = self.friction;
         for act in &self.torques {
             scene = scene.torque(act.load(image, false));
         }

@@ -9,6 +9,7 @@ pub mod exact;
 pub mod image;
 pub mod newton;
 pub mod random;
+pub mod rubbing;
 pub mod run;
 
 use exact::{Dd, Jet};

@@ -2,9 +2,11 @@
 
 use super::station::{Station, stations};
 use super::sweep::{Start, Swept, sweep};
+use super::switch::{Side, side};
 use super::{Driven, Resolution};
 use crate::engine::energy::Unserved;
 use crate::engine::energy::panel::Panel;
+use crate::engine::energy::piece::Piece;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
 use crate::numeric::exact::two_sum;
@@ -113,6 +115,11 @@ impl<'a, D: Driven> March<'a, D> {
         self.refined = false;
     }
 
+    /// Whether the forces have two forms.
+    pub fn has_switch(&self) -> bool {
+        self.stations[0].table.switch.is_some()
+    }
+
     /// Whether the kinetic energy has risen over the run.
     pub fn rises(&self) -> bool {
         self.gain > 0.0
@@ -130,6 +137,7 @@ impl<'a, D: Driven> March<'a, D> {
 
     /// The next panel.
     pub fn panel(&mut self) -> Result<Done, Unserved> {
+        let mut turned_over = 0;
         loop {
             if self.evaluations > self.most_evaluations {
                 return Err(Unserved::WorkLimit);
@@ -144,18 +152,42 @@ impl<'a, D: Driven> March<'a, D> {
                 .parts
                 .last_mut()
                 .unwrap_or(&mut self.stations[self.next]);
-            if let Some(swept) = sweep(self.driven, station, start, self.tail) {
-                station.remember(&swept.kinetic);
-                return Ok(self.pass(swept));
+            let Some(swept) = sweep(self.driven, station, start, self.tail) else {
+                self.refine()?;
+                continue;
+            };
+            match side(self.driven, station, start, &swept) {
+                Side::Stays => {
+                    station.remember(&swept.kinetic);
+                    let piece = station.piece;
+                    return Ok(self.pass(swept, piece, None));
+                }
+                // Once more the other way round: then it has no sign.
+                Side::Other if turned_over == 2 => {
+                    let piece = station.piece;
+                    return Ok(self.pass(swept, piece, None));
+                }
+                Side::Other => {
+                    turned_over += 1;
+                    station.turn_over(self.driven)?;
+                }
+                Side::Leaves(share) => {
+                    station.remember(&swept.kinetic);
+                    let [first, rest] = station.piece.cut(share);
+                    let swept = swept.until(station.rule, start, share);
+                    let ends = [rest.from, rest.to];
+                    let rest = Station::new(self.driven, ends, -station.side, self.tail)?;
+                    return Ok(self.pass(swept, first, Some(rest)));
+                }
             }
-            self.refine()?;
+            self.evaluations += swept.evaluations;
         }
     }
 
-    fn pass(&mut self, swept: Swept) -> Done {
-        let station = self.parts.last().unwrap_or(&self.stations[self.next]);
-        let (piece, rule) = (station.piece, station.rule);
-        let work = station.half() * rule.rounded_integral(&swept.spent);
+    /// Takes a panel over a piece of the next station, and what is left of it for this turn.
+    fn pass(&mut self, swept: Swept, piece: Piece, rest: Option<Station<D::Place>>) -> Done {
+        let rule = self.parts.last().unwrap_or(&self.stations[self.next]).rule;
+        let work = 0.5 * (piece.to - piece.from) * rule.rounded_integral(&swept.spent);
         self.kinetic = swept.end;
         self.gain += swept.gain;
         self.fastest = self.fastest.max(self.kinetic);
@@ -166,7 +198,9 @@ impl<'a, D: Driven> March<'a, D> {
         panel.turns = self.turns;
         let (sum, lost) = two_sum(self.t.0, panel.duration.0);
         self.t = two_sum(sum, lost + self.t.1 + panel.duration.1);
-        if self.parts.pop().is_none() || self.parts.is_empty() {
+        self.parts.pop();
+        self.parts.extend(rest);
+        if self.parts.is_empty() {
             self.next += 1;
             if self.next == self.stations.len() {
                 self.next = 0;

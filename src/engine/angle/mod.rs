@@ -14,6 +14,7 @@ mod one_turn;
 mod station;
 mod steady;
 mod sweep;
+mod switch;
 
 use std::f64::consts::TAU;
 
@@ -31,8 +32,8 @@ pub trait Driven {
     /// What the loads need to know of a position.
     type Place: Copy;
 
-    /// Fills a table at the first `count` of some angles, rad.
-    fn tabulate(&self, angles: &Values, count: usize, table: &mut Table<Self::Place>);
+    /// Fills a table at the first `count` of some angles, rad, where the switch has the sign `side`, ±1.
+    fn tabulate(&self, angles: &Values, count: usize, side: f64, table: &mut Table<Self::Place>);
 
     /// Whether there are loads beside those of the table.
     fn is_driven(&self) -> bool;
@@ -42,6 +43,9 @@ pub trait Driven {
 
     /// Their generalized force, N m, at time t (s), angle and speed (rad/s).
     fn drive(&self, place: &Self::Place, t: f64, angle: Angle, speed: f64) -> f64;
+
+    /// Their part of the switch.
+    fn drive_switch(&self, place: &Self::Place, t: f64, angle: Angle, speed: f64) -> f64;
 
     /// Angles in [0, 2π), in rising order, at which panels end.
     fn corners(&self) -> &[f64];
@@ -60,6 +64,33 @@ pub struct Table<P> {
     pub damping: Values,
     /// What [`Driven::drive`] needs; empty if there is nothing to be driven.
     pub places: Vec<P>,
+    /// What there is if the forces have two forms.
+    pub switch: Option<Box<Switch>>,
+}
+
+/// The forces may have two forms, one on each side of a zero of the switch, a function of the state. They are
+/// continuous there.
+#[derive(Clone, Debug)]
+pub struct Switch {
+    /// Force of this side by the square of the speed, N m s²/rad².
+    pub force: Values,
+    /// The switch without speed.
+    pub place: Values,
+    /// By the speed, s/rad.
+    pub rate: Values,
+    /// By its square, s²/rad².
+    pub square: Values,
+}
+
+impl Default for Switch {
+    fn default() -> Switch {
+        Switch {
+            force: [0.0; MOST + 1],
+            place: [0.0; MOST + 1],
+            rate: [0.0; MOST + 1],
+            square: [0.0; MOST + 1],
+        }
+    }
 }
 
 impl<P> Default for Table<P> {
@@ -70,6 +101,7 @@ impl<P> Default for Table<P> {
             push: [0.0; MOST + 1],
             damping: [0.0; MOST + 1],
             places: Vec::new(),
+            switch: None,
         }
     }
 }
@@ -137,7 +169,7 @@ pub fn run<D: Driven>(
     let (start, speed) = (from.angle.reduced(), from.speed);
     let mut march = March::new(driven, start, speed, resolution)?;
     march.begin = from.t;
-    let repeats = !(driven.is_driven() && driven.reads_time());
+    let repeats = !(driven.is_driven() && driven.reads_time()) && !march.has_switch();
     let mut leg = Leg::open();
     loop {
         if repeats && march.at_turn() && march.turns.abs() >= TURNS_BEFORE_MAP {

@@ -13,6 +13,8 @@ pub(super) struct Station<P> {
     pub piece: Piece,
     pub rule: &'static Rule,
     pub table: Table<P>,
+    /// Side of the switch for which the table is, ±1.
+    pub side: f64,
     /// Kinetic energy at the points in the last turn and in the one before.
     past: [Option<Values>; 2],
     /// Whether it was too long for a turn before.
@@ -28,8 +30,8 @@ impl<P: Copy> Station<P> {
     /// The panel from one angle to another; its degree is the least that resolves inertia and force to `tail`.
     pub fn new<D: Driven<Place = P>>(
         driven: &D,
-        from: f64,
-        to: f64,
+        [from, to]: [f64; 2],
+        side: f64,
         tail: f64,
     ) -> Result<Station<P>, Unserved> {
         let mut station = Station {
@@ -40,6 +42,7 @@ impl<P: Copy> Station<P> {
             },
             rule: Rule::of(FIRST_DEGREE),
             table: Table::default(),
+            side,
             past: [None; 2],
             failed: false,
         };
@@ -56,7 +59,7 @@ impl<P: Copy> Station<P> {
         let piece = self.piece;
         let angles = self.rule.values(|x| piece.angle(x));
         let count = self.rule.degree() + 1;
-        driven.tabulate(&angles, count, &mut self.table);
+        driven.tabulate(&angles, count, self.side, &mut self.table);
         let known = |values: &Values| values[..count].iter().all(|value| value.is_finite());
         if known(&self.table.inertia) && known(&self.table.force) && known(&self.table.push) {
             Ok(())
@@ -100,8 +103,16 @@ impl<P: Copy> Station<P> {
             return Ok(None);
         }
         let middle = from + share * (to - from);
-        let first = Station::new(driven, from, middle, tail)?;
-        Ok(Some([first, Station::new(driven, middle, to, tail)?]))
+        let first = Station::new(driven, [from, middle], self.side, tail)?;
+        let second = Station::new(driven, [middle, to], self.side, tail)?;
+        Ok(Some([first, second]))
+    }
+
+    /// Goes over to the other side of the switch.
+    pub fn turn_over<D: Driven<Place = P>>(&mut self, driven: &D) -> Result<(), Unserved> {
+        self.side = -self.side;
+        self.past = [None; 2];
+        self.tabulate(driven)
     }
 
     /// Half its length with sign, rad.
@@ -155,7 +166,7 @@ pub(super) fn stations<D: Driven>(
     let mut list = Vec::with_capacity(8);
     for to in ends {
         let (begin, end) = (start + direction * from, start + direction * to);
-        list.push(Station::new(driven, begin, end, tail)?);
+        list.push(Station::new(driven, [begin, end], 1.0, tail)?);
         from = to;
     }
     Ok(list)

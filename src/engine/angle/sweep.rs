@@ -181,6 +181,11 @@ impl Forces {
         for (j, slope) in slopes.iter().enumerate().take(station.rule.degree() + 1) {
             forces.spent[j] = table.push[j] - table.damping[j] * (length / slope);
         }
+        if let Some(switch) = &table.switch {
+            for (j, slope) in slopes.iter().enumerate().take(station.rule.degree() + 1) {
+                forces.spent[j] += switch.force[j] * (length / slope).powi(2);
+            }
+        }
         if driven.is_driven() {
             if driven.reads_time() {
                 forces.times = station.rule.integrals(slopes);
@@ -238,6 +243,9 @@ impl Forces {
                 let at = |speed: f64| self.drive(driven, station, start, j, *x, speed);
                 let (less, more) = (speed * (1.0 - STEP), speed * (1.0 + STEP));
                 rate += (at(more) - at(less)) / (more - less);
+            }
+            if let Some(switch) = &table.switch {
+                rate += 2.0 * switch.force[j] * speed;
             }
             rates[j] = rate / (table.inertia[j] * speed);
         }

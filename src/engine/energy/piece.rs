@@ -23,6 +23,20 @@ impl Piece {
         self.to - self.from
     }
 
+    /// The pieces before and after a part of one that turns nowhere.
+    pub fn cut(&self, share: f64) -> [Piece; 2] {
+        let middle = self.from + share * self.span();
+        let first = Piece {
+            to: middle,
+            ..*self
+        };
+        let second = Piece {
+            from: middle,
+            ..*self
+        };
+        [first, second]
+    }
+
     pub fn angle(&self, x: f64) -> f64 {
         match self.turning {
             Turning::Nowhere => self.from + 0.5 * (1.0 + x) * self.span(),

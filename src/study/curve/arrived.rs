@@ -7,7 +7,7 @@ use crate::mechanism::Constrained;
 use crate::numeric::angle::Angle;
 
 /// Takes what is computed.
-pub(super) trait Observer {
+pub(in crate::study) trait Observer {
     /// A part of the motion; true ends the run.
     fn step(&mut self, step: &Step, phase: Phase) -> bool;
 
@@ -16,18 +16,20 @@ pub(super) trait Observer {
 }
 
 /// A run.
-pub(super) struct Follow<'a> {
+pub(in crate::study) struct Follow<'a> {
     pub equation: &'a Constrained,
     pub settings: Settings,
     /// Of the coordinate.
     pub start: Start,
-    /// How far the crank may turn, rad.
+    /// How far the crank may turn from `turned_from`, rad.
     pub turn_limit: Option<f64>,
+    /// Crank angle.
+    pub turned_from: Angle,
 }
 
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum End {
+pub(in crate::study) enum End {
     /// At its time, or after its turns.
     Done,
     /// The integrator could not go on.
@@ -41,7 +43,7 @@ pub(super) enum End {
 }
 
 /// Where a run arrived.
-pub(super) struct Arrived {
+pub(in crate::study) struct Arrived {
     /// Last piece.
     pub last: Step,
     /// Work of all that has no potential, J.

@@ -2,99 +2,108 @@
 
 use std::time::Instant;
 
-use super::arrived::Follow;
-use super::arrived::{Arrived, End, Observer};
+use super::arrived::{Arrived, End, Follow};
 use super::crank_state;
-use super::phase::Phase;
-use crate::engine::step::Step;
-use crate::engine::time::Settings;
-use crate::numeric::angle::Angle;
+use super::noise::Noise;
+use crate::engine::time::{Method, Settings};
 use crate::study::summary::{Cost, ErrorEstimate};
 
-/// The second run of the estimate is this much tighter.
+/// The second run of the estimate, by collocation, is so much tighter that its own error does not count.
+const MUCH_TIGHTER: f64 = 1e4;
+const TIGHTEST: f64 = 1e-15;
+/// Evaluations of the collocation for one of the run that it judges, and beside them.
+const MOST_EVALUATIONS: (u64, u64) = (20, 20_000);
+/// Where collocation does not get to the end, the same method again, this much tighter; tighter than the tightest
+/// only by so much, for rounding inside the steps takes over, and they would collapse.
 const TIGHTER: f64 = 50.0;
-/// What is stated is larger than the distance of the two runs by this.
-const MARGIN: f64 = 1.5;
-/// Tighter than this only by so much: rounding inside the steps takes over, and they would collapse.
-const TIGHTEST: f64 = 1e-13;
+const TIGHTEST_AGAIN: f64 = 1e-13;
 const A_LITTLE: f64 = 5.0;
+/// What is stated is larger than the distance of the two runs by this, for the error of the second.
+const MARGIN: f64 = 1.5;
+/// Standard deviations of rounding that are stated.
+const DEVIATIONS: f64 = 2.0;
 
-/// Adds up what rounding does to a run.
-struct Shaken {
-    unevenness: f64,
-    largest_speed: f64,
+/// The tolerance of the same method again.
+pub(in crate::study) fn tighter(tolerance: f64) -> f64 {
+    (tolerance / TIGHTER).max(TIGHTEST_AGAIN.min(tolerance / A_LITTLE))
 }
 
-impl Observer for Shaken {
-    fn step(&mut self, step: &Step, _: Phase) -> bool {
-        let travel = step.end.theta - step.start.theta;
-        self.largest_speed = self.largest_speed.max(step.end.omega.abs());
-        if travel != 0.0 && step.end.alpha.is_finite() {
-            let slope = (step.end.alpha - step.start.alpha) / travel;
-            let angle = 4.0 * step.end.theta.abs() * slope;
-            let evaluation = 64.0 * step.end.alpha;
-            self.unevenness += (angle * angle + evaluation * evaluation) * step.length().powi(2);
-        }
-        false
-    }
-
-    fn event(&mut self, _: &'static str, _: f64, _: Angle, _: f64) {}
-}
-
-/// Global error of the last state: its distance from a much tighter run, and what rounding may have added.
+/// Global error of the last state: its distance from a much better run, and what rounding may have added to both.
 pub(super) fn estimate(follow: &Follow<'_>, arrived: &Arrived) -> Option<(ErrorEstimate, Cost)> {
     let begun = Instant::now();
-    let end = arrived.last.end;
     let tolerance = follow.settings.tolerance;
-    let tighter = Follow {
-        equation: follow.equation,
-        settings: Settings {
-            tolerance: (tolerance / TIGHTER).max(TIGHTEST.min(tolerance / A_LITTLE)),
-            t_end: end.t,
-            max_evaluations: follow.settings.max_evaluations.saturating_mul(4),
-            ..follow.settings
-        },
-        start: follow.start,
-        turn_limit: None,
+    let (factor, beside) = MOST_EVALUATIONS;
+    let collocation = Settings {
+        method: Method::Picard,
+        tolerance: (tolerance / MUCH_TIGHTER).max(TIGHTEST),
+        max_evaluations: arrived
+            .evaluations
+            .saturating_mul(factor)
+            .saturating_add(beside),
+        ..follow.settings
     };
-    let mut shaken = Shaken {
-        unevenness: 0.0,
-        largest_speed: 0.0,
+    let again = Settings {
+        tolerance: tighter(tolerance),
+        max_evaluations: follow.settings.max_evaluations.saturating_mul(4),
+        ..follow.settings
     };
-    let best = tighter.run(&mut shaken);
-    if best.end != End::Done {
-        return None;
-    }
+    let mut evaluations = 0;
+    let mut better = |settings: &Settings| {
+        let better = Follow {
+            equation: follow.equation,
+            settings: Settings {
+                t_end: arrived.last.end.t,
+                ..*settings
+            },
+            start: follow.start,
+            turn_limit: None,
+            turned_from: follow.turned_from,
+        };
+        let mut noise = Noise::new(follow.equation);
+        let best = better.run(&mut noise);
+        evaluations += best.evaluations + noise.evaluations.get();
+        (best.end == End::Done).then_some((best, noise))
+    };
+    let (best, noise) = better(&collocation).or_else(|| better(&again))?;
+    let error = distance(follow, arrived, &best, &noise);
+    let cost = Cost {
+        evaluations,
+        wall_s: begun.elapsed().as_secs_f64(),
+    };
+    Some((error, cost))
+}
+
+fn distance(
+    follow: &Follow<'_>,
+    arrived: &Arrived,
+    best: &Arrived,
+    noise: &Noise<'_>,
+) -> ErrorEstimate {
     let curve = follow.equation.curve();
     let (a, b) = (
         crank_state(curve, &arrived.last),
         crank_state(curve, &best.last),
     );
-    let roundings = ((arrived.steps + best.steps) as f64).sqrt();
-    let noise = f64::EPSILON * (0.5 * shaken.largest_speed * roundings + shaken.unevenness.sqrt());
-    let duration = end.t - follow.start.t;
-    let angle_noise = 0.5 * f64::EPSILON * (1.0 + end.theta.abs()) * roundings
-        + noise * duration
-        + f64::EPSILON * a.0.radians().abs();
-    // The same time in the motion, at another angle.
-    let bend = if end.omega == 0.0 {
-        0.0
-    } else {
-        (end.alpha / end.omega * angle_noise).abs()
-    };
+    let end = &arrived.last.end;
     let place = curve.place(end.theta);
-    let dtheta = place.dtheta.abs().max(f64::EPSILON);
-    let still = arrived.last.end.omega == 0.0 && best.last.end.omega == 0.0;
-    let rounded = if still { 0.0 } else { 1.0 };
-    let estimate = ErrorEstimate {
-        theta_rad: MARGIN * a.0.minus(b.0).abs() + dtheta * angle_noise,
+    // Both runs round; many short steps more often.
+    let often = 1.0 + arrived.steps as f64 / best.steps.max(1) as f64;
+    let unit = DEVIATIONS * f64::EPSILON * often.sqrt();
+    let angle = unit * noise.spread.angle.sqrt();
+    let speed = unit * noise.spread.speed.sqrt();
+    let dtheta = place.dtheta.abs();
+    let bend = if place.d2theta.is_finite() {
+        (place.d2theta * end.omega).abs()
+    } else {
+        0.0
+    };
+    ErrorEstimate {
+        theta_rad: MARGIN * a.0.minus(b.0).abs()
+            + dtheta * angle
+            + f64::EPSILON * a.0.radians().abs(),
         omega_rad_per_s: MARGIN * (a.1 - b.1).abs()
-            + rounded
-                * (dtheta * (noise + bend) + place.d2theta.abs() * end.omega.abs() * angle_noise),
-    };
-    let cost = Cost {
-        evaluations: best.evaluations,
-        wall_s: begun.elapsed().as_secs_f64(),
-    };
-    Some((estimate, cost))
+            + dtheta * speed
+            + bend * angle
+            + f64::EPSILON * a.1.abs(),
+    }
 }

@@ -37,7 +37,6 @@ impl Follow<'_> {
     /// Follows the motion to its end.
     pub fn run(&self, observer: &mut dyn Observer) -> Arrived {
         let Start { t, angle, speed } = self.start;
-        let crank = self.equation.curve().crank_angle(angle);
         let node = Node {
             t,
             theta: angle.rest,
@@ -48,7 +47,7 @@ impl Follow<'_> {
             follow: self,
             quantities: Quantities {
                 equation: self.equation,
-                turning: self.turn_limit.map(|limit| (crank, limit)),
+                turning: self.turn_limit.map(|limit| (self.turned_from, limit)),
                 evaluations: Cell::new(0),
             },
             observer,

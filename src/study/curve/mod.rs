@@ -3,6 +3,7 @@
 mod arrived;
 mod estimate;
 mod follow;
+mod noise;
 mod phase;
 mod release;
 mod rest;
@@ -13,11 +14,13 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::time::Instant;
 
-use arrived::{Arrived, End, Follow};
+pub(super) use arrived::{Arrived, End, Follow, Observer};
 use estimate::estimate;
-use phase::Phase;
-use watch::CurveWatch;
-use words::{warnings, why};
+pub(super) use estimate::tighter;
+pub(super) use phase::Phase;
+pub(super) use watch::CurveWatch;
+use words::warnings;
+pub(super) use words::why;
 
 use super::in_time::settings;
 use super::log::Log;
@@ -60,6 +63,7 @@ pub(super) fn run(
             Extent::Revolutions(turns) => Some(super::watch::radians(turns)),
             Extent::Duration(_) => None,
         },
+        turned_from: task.start(),
     };
     let mut watch = CurveWatch {
         equation: &constrained,

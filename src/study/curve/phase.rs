@@ -23,7 +23,7 @@ pub(super) type Signs = [f64; QUANTITIES];
 
 /// How the slider touches its guide.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Phase {
+pub(in crate::study) enum Phase {
     /// It slides; c = −μ sgn(v) sgn(N), zero without friction.
     Sliding { c: f64 },
     /// It sticks.

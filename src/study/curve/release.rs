@@ -10,6 +10,17 @@ const PLACES: [f64; 5] = [0.0, 0.29, 0.53, 0.83, 1.0];
 const FIRST: f64 = 1.0 / 317.0;
 const SHORTEST: f64 = 1e-9;
 
+/// What a search found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Release {
+    /// The static band does not hold after this time, s.
+    At(f64),
+    /// It holds all the time.
+    Never,
+    /// The search was not allowed to go further than this time, s.
+    Unknown(f64),
+}
+
 /// The first time between `from` and `to` (s) after which the static band does not hold, and how often it was
 /// evaluated.
 pub(super) fn time(
@@ -19,7 +30,7 @@ pub(super) fn time(
     from: f64,
     to: f64,
     allowed: u64,
-) -> (Option<f64>, u64) {
+) -> (Release, u64) {
     let mut count = 0;
     let band = |t: f64| equation.free(t, angle, 0.0).band(mu_static);
     let longest = FIRST * (to - from);
@@ -42,10 +53,11 @@ pub(super) fn time(
             .map(|i| (values[i] - line(PLACES[i])).abs())
             .fold(0.0, f64::max);
         let least = values.iter().fold(f64::INFINITY, |a, b| a.min(*b));
-        let calm = least > 2.0 * bend;
+        // A band that is zero throughout, as at a dead centre without weight, holds.
+        let calm = least > 2.0 * bend || least >= 0.0 && bend == 0.0;
         if calm || end - t <= shortest {
             if let Some(i) = (1..5).find(|i| values[*i] < 0.0) {
-                return (Some(crossing(band, times[i - 1], times[i])), count);
+                return (Release::At(crossing(band, times[i - 1], times[i])), count);
             }
             t = end;
             length = (2.0 * length).min(longest);
@@ -53,12 +65,17 @@ pub(super) fn time(
             && values[..i].windows(2).all(|w| w[1] <= w[0])
         {
             // It falls all the way to where it is exceeded.
-            return (Some(crossing(band, times[i - 1], times[i])), count);
+            return (Release::At(crossing(band, times[i - 1], times[i])), count);
         } else {
             length = 0.5 * (end - t);
         }
     }
-    (None, count)
+    let end = if t < to {
+        Release::Unknown(t)
+    } else {
+        Release::Never
+    };
+    (end, count)
 }
 
 fn crossing(band: impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {

@@ -3,7 +3,7 @@
 use super::arrived::End;
 use super::follow::Run;
 use super::phase::{DEAD_CENTRE, Phase, SPEED};
-use super::release;
+use super::release::{self, Release};
 use crate::engine::step::{Node, Step};
 use crate::engine::time::{Finish, Start};
 use crate::mechanism::{FromRest, Jam};
@@ -27,9 +27,8 @@ impl Run<'_, '_> {
                 direction
             }
             FromRest::Hold(_) => match self.rest(mu_static) {
-                Some(direction) => direction,
-                None if self.follow.turn_limit.is_some() => return Some(End::AtRest),
-                None => return Some(End::Done),
+                Ok(direction) => direction,
+                Err(end) => return Some(end),
             },
             FromRest::Jam(_) => return Some(self.jam()),
         };
@@ -37,8 +36,9 @@ impl Run<'_, '_> {
         self.check_jam()
     }
 
-    /// Stays at rest until the static band does not hold any more: the direction in which it then slips.
-    fn rest(&mut self, mu_static: f64) -> Option<f64> {
+    /// Stays at rest until the static band does not hold any more: the direction in which it then slips, or how
+    /// the run ends.
+    fn rest(&mut self, mu_static: f64) -> Result<f64, End> {
         let Start { t, angle, .. } = self.now;
         let equation = self.follow.equation;
         let end = match self.follow.turn_limit {
@@ -46,30 +46,40 @@ impl Run<'_, '_> {
             None => self.follow.settings.t_end,
         };
         let changes = equation.loads().reads().has(Variable::T);
-        let (until, looked) = if changes {
-            let allowed = self.follow.settings.max_evaluations;
+        let (release, looked) = if changes {
+            let spent = self.arrived.evaluations + self.quantities.evaluations.get();
+            let allowed = self.follow.settings.max_evaluations.saturating_sub(spent);
             release::time(equation, angle, mu_static, t, end, allowed)
         } else {
-            (None, 0)
+            (Release::Never, 0)
         };
         self.arrived.evaluations += looked;
-        let kind = if until.is_some() { "stick" } else { "rest" };
+        let kind = match release {
+            Release::Never => "rest",
+            _ => "stick",
+        };
         self.observer.event(kind, t, angle, 0.0);
-        if until.is_none() && self.follow.turn_limit.is_some() {
-            return None;
-        }
+        let until = match release {
+            Release::Never if self.follow.turn_limit.is_some() => return Err(End::AtRest),
+            Release::Never => end,
+            Release::At(t) | Release::Unknown(t) => t,
+        };
         let node = |t: f64| Node {
             t,
             theta: angle.rest,
             ..Node::default()
         };
-        let still = Step::new(angle.turns, node(t), node(until.unwrap_or(end)));
+        let still = Step::new(angle.turns, node(t), node(until));
         self.observer.step(&still, Phase::Sticking);
         self.arrive(still);
-        let t = until?;
-        self.observer.event("slip", t, angle, 0.0);
-        let pull = equation.free(t, angle, 0.0);
-        Some(if pull.pulls_forward() { 1.0 } else { -1.0 })
+        match release {
+            Release::Never => return Err(End::Done),
+            Release::Unknown(_) => return Err(End::Integrator(Finish::WorkLimit)),
+            Release::At(_) => {}
+        }
+        self.observer.event("slip", until, angle, 0.0);
+        let pull = equation.free(until, angle, 0.0);
+        Ok(if pull.pulls_forward() { 1.0 } else { -1.0 })
     }
 
     pub fn check_jam(&mut self) -> Option<End> {

@@ -15,7 +15,7 @@ use crate::study::schedule::{Schedule, passed};
 use crate::study::summary::Event;
 
 /// Follows a run.
-pub(super) struct CurveWatch<'a> {
+pub(in crate::study) struct CurveWatch<'a> {
     pub equation: &'a Constrained,
     pub reactor: Option<&'a Reactor>,
     pub rows: &'a mut dyn RowSink,

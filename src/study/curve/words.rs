@@ -10,7 +10,11 @@ use crate::study::stopped;
 use crate::study::task::Task;
 
 /// Why a run ended before its time.
-pub(super) fn why(task: &Task<'_>, arrived: &Arrived, equation: &Constrained) -> Option<String> {
+pub(in crate::study) fn why(
+    task: &Task<'_>,
+    arrived: &Arrived,
+    equation: &Constrained,
+) -> Option<String> {
     let (angle, speed) = crank_state(equation.curve(), &arrived.last);
     let t = arrived.last.end.t;
     let place = format!(
@@ -27,6 +31,7 @@ pub(super) fn why(task: &Task<'_>, arrived: &Arrived, equation: &Constrained) ->
         (End::Done | End::AtRest | End::Stopped, _) => None,
         (End::Jam(why), _) => Some(format!("{why}: stopped {place}")),
         (End::Integrator(Finish::WorkLimit), _) => Some(stopped::work_limit(&place)),
+        (End::Integrator(Finish::WorkLimitAhead), _) => Some(stopped::work_limit_ahead(&place)),
         (End::Integrator(_), _) => Some(singular(task, arrived, equation, &place)),
     }
 }

@@ -52,6 +52,8 @@ pub(super) fn other_methods(
             omega: DoubleDouble::from(run.last.omega_rad_per_s),
             theta_error: error.theta_rad,
             omega_error: error.omega_rad_per_s,
+            ends_at: None,
+            slider: None,
         };
         Some(((run.plan.engine, run.plan.stepper), reference))
     });
@@ -81,9 +83,6 @@ impl Cell {
         scene.run.tolerance = tolerance;
         scene.check()?;
         let result = match run(&scene, method, true, options) {
-            Ok(Summary {
-                stopped: Some(why), ..
-            }) => Err(why),
             Ok(summary) => Ok(summary),
             Err(refused) => Err(first_line(&refused)),
         };
@@ -94,6 +93,12 @@ impl Cell {
             result,
             walls: Vec::new(),
         })
+    }
+
+    /// Whether it arrived, at the end of the run or where the equations end (`ends`).
+    fn arrived(&self, ends: bool) -> bool {
+        let summary = self.result.as_ref().ok();
+        summary.is_some_and(|summary| ends || summary.stopped.is_none())
     }
 
     fn run_again(&mut self) {
@@ -126,6 +131,11 @@ impl Cell {
                 return row;
             }
         };
+        row.failure = unlike(summary, reference);
+        if row.failure.is_some() {
+            return row;
+        }
+        row.failure = summary.stopped.clone();
         let estimate = summary.error_estimate;
         row.estimate_theta_rad = estimate.map(|error| error.theta_rad);
         row.estimate_omega_rad_per_s = estimate.map(|error| error.omega_rad_per_s);
@@ -156,7 +166,28 @@ impl Cell {
         row.error_theta_rad = Some(theta);
         row.error_omega_rad_per_s = Some(omega);
         row.error_is_bound = theta_bound || omega_bound;
+        if let (Some((x, own)), Some(joint)) = (reference.slider, &summary.clearance) {
+            let (distance, bound) = error(joint.last.x_m, x, own);
+            row.error_slider_x_m = Some(distance);
+            row.estimate_slider_x_m = joint.last.error_x_m;
+            row.error_is_bound |= bound;
+        }
         row
+    }
+}
+
+/// Two ends at times this near, as part of the time, are the same.
+const SAME_END: f64 = 1e-3;
+
+/// Why a run does not end where the reference does.
+fn unlike(summary: &Summary, reference: Option<&Reference>) -> Option<String> {
+    match (&summary.stopped, reference.and_then(|found| found.ends_at)) {
+        (None, None) => None,
+        (None, Some(t)) => Some(format!(
+            "goes on beyond t = {t} s, where the equations of the reference end"
+        )),
+        (Some(_), Some(t)) if (summary.last.t_s - t).abs() <= SAME_END * t => None,
+        (Some(why), _) => Some(why.clone()),
     }
 }
 
@@ -170,18 +201,16 @@ fn error(value: f64, reference: DoubleDouble, reference_error: f64) -> (f64, boo
     }
 }
 
-/// Times all cells in turns, so that a disturbance of the machine meets all of them.
-pub(super) fn time(cells: &mut [Cell], options: &PrecisionOptions) {
+/// Times all cells in turns, so that a disturbance of the machine meets all of them. `ends`: the equations end before
+/// the run.
+pub(super) fn time(cells: &mut [Cell], ends: bool, options: &PrecisionOptions) {
     let begun = Instant::now();
     let most = Duration::from_secs_f64(options.most_s.clamp(0.0, 1e6));
     for round in 0..options.repeats.max(1) {
         if round > 0 && begun.elapsed() > most {
             break;
         }
-        let mut served: Vec<_> = cells
-            .iter_mut()
-            .filter(|cell| cell.result.is_ok())
-            .collect();
+        let mut served: Vec<_> = cells.iter_mut().filter(|cell| cell.arrived(ends)).collect();
         if round % 2 == 1 {
             served.reverse();
         }

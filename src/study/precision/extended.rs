@@ -15,21 +15,22 @@ type Vector = [DoubleDouble; 2];
 /// The mechanism with its loads.
 pub(super) struct Extended {
     scene: Scene,
-    crank_inertia: DoubleDouble,
+    pub crank_inertia: DoubleDouble,
     /// Mass and place along the crank and to its left, of what has weight there.
-    on_crank: Vec<(DoubleDouble, DoubleDouble, DoubleDouble)>,
-    rod: Option<Rod>,
-    slider_mass: DoubleDouble,
-    gravity: [f64; 2],
+    pub on_crank: Vec<(DoubleDouble, DoubleDouble, DoubleDouble)>,
+    pub rod: Option<Rod>,
+    pub slider_mass: DoubleDouble,
+    /// m/s²
+    pub gravity: [f64; 2],
     exact: bool,
 }
 
 /// Mass, centre of gravity and central moment of inertia of a rod that moves as a body.
-struct Rod {
-    mass: DoubleDouble,
-    along: f64,
-    left: f64,
-    inertia: DoubleDouble,
+pub(super) struct Rod {
+    pub mass: DoubleDouble,
+    pub along: f64,
+    pub left: f64,
+    pub inertia: DoubleDouble,
 }
 
 /// Position and velocity, for loads.
@@ -122,6 +123,22 @@ impl Extended {
         self.scene.torques.is_empty() && self.scene.forces.iter().all(conserves)
     }
 
+    /// r, l and e, m.
+    pub(super) fn lengths(&self) -> (f64, f64, f64) {
+        let geometry = &self.scene.geometry;
+        (geometry.crank, geometry.rod, geometry.offset)
+    }
+
+    /// Torques on the crank.
+    pub(super) fn torques(&self) -> &[Load] {
+        &self.scene.torques
+    }
+
+    /// Forces on the slider.
+    pub(super) fn forces(&self) -> &[Load] {
+        &self.scene.forces
+    }
+
     /// The loads.
     pub(super) fn loads(&self) -> impl Iterator<Item = &Load> {
         self.scene.torques.iter().chain(&self.scene.forces)
@@ -198,7 +215,7 @@ fn is_exact(load: &Load) -> bool {
 }
 
 /// Value of a load at a speed of its own body.
-fn value(
+pub(super) fn value(
     load: &Load,
     on_slider: bool,
     speed: DoubleDouble,

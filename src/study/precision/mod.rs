@@ -4,6 +4,9 @@
 mod cell;
 mod collocation;
 mod extended;
+mod extrapolation;
+mod guided;
+mod loose;
 mod reference;
 
 use serde::Serialize;
@@ -40,7 +43,7 @@ impl Default for PrecisionOptions {
 /// One method at one tolerance. What does not exist is empty.
 #[derive(Clone, Debug, Serialize)]
 pub struct PrecisionRow {
-    /// The method, as `--method` names it.
+    /// The method, as `--method` names it; `contact` for scenes with a loose joint.
     pub method: String,
     /// Its tolerance.
     pub tolerance: f64,
@@ -58,6 +61,12 @@ pub struct PrecisionRow {
     pub wall_median_s: Option<f64>,
     /// Timed runs.
     pub runs: usize,
+    /// Error of the slider's position at the end, m, where a joint is loose.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error_slider_x_m: Option<f64>,
+    /// What the run states as that error, m; none beyond the horizon of what is reproducible.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub estimate_slider_x_m: Option<f64>,
     /// Evaluations of the equation.
     pub evaluations: Option<u64>,
     /// Steps.
@@ -82,6 +91,8 @@ impl PrecisionRow {
             error_omega_rad_per_s: None,
             estimate_theta_rad: None,
             estimate_omega_rad_per_s: None,
+            error_slider_x_m: None,
+            estimate_slider_x_m: None,
             wall_s: None,
             wall_median_s: None,
             runs: 0,
@@ -99,7 +110,7 @@ impl PrecisionRow {
 pub struct Precision {
     /// Title of the scene.
     pub scene: String,
-    /// Time of the state that is compared, s.
+    /// Time of the state that is compared, s: the end of the run or, if the equations end before, of the motion.
     pub t_s: f64,
     /// What the runs were measured against.
     pub reference: String,
@@ -114,9 +125,11 @@ pub struct Precision {
 }
 
 impl Precision {
-    /// Whether any method reached the end.
+    /// Whether any method reached the end of the run, or of the motion.
     pub fn has_results(&self) -> bool {
-        self.rows.iter().any(|row| row.failure.is_none())
+        self.rows
+            .iter()
+            .any(|row| row.error_theta_rad.is_some() || row.failure.is_none())
     }
 
     /// A scene that cannot be computed: one row that says why.
@@ -139,8 +152,10 @@ impl Precision {
 /// which the planned method completes them.
 ///
 /// The reference is a Gauss collocation in double-double arithmetic of equations written apart from those of
-/// the engines; its own error is the distance of two resolutions. Where it cannot serve (too long a run, a
-/// singularity), each method is measured against the best of the other methods, and its row says so.
+/// the engines; with friction, past limits and in a loose joint an extrapolation, event by event. Its own error is
+/// the distance of two resolutions. Where it cannot serve (too long a run, a singularity), each method is measured
+/// against the best of the other methods, and its row says so. Where a slider jams and the equations end, a method
+/// that stops there is measured there.
 ///
 /// # Errors
 /// [`Error::Scene`] for impossible values or tolerances, [`Error::Refused`] for a scene that cannot be
@@ -162,18 +177,14 @@ impl Precision {
 /// ```
 pub fn precision(scene: &Scene, options: &PrecisionOptions) -> Result<Precision, Error> {
     let plan = Plan::new(scene, Method::Auto)?;
-    if plan.engine == Engine::Contact {
-        return Err(Error::refused(
-            "one engine alone serves a scene with clearance in a joint, and there is no reference for it",
-            "use simulate, which states how far its motion is reproducible",
-        ));
-    }
     let t_end = last_time(scene, options)?;
     let mut scene = scene.clone();
     scene.run.extent = Some(Extent::Duration(t_end));
     let mut left_out = Vec::new();
     let mut cells = Vec::new();
-    for method in Method::each().filter(|method| *method != Method::Auto) {
+    // A loose joint has one engine, which no method names.
+    let loose = plan.engine == Engine::Contact;
+    for method in Method::each().filter(|method| (*method == Method::Auto) == loose) {
         if let Err(refused) = Plan::new(&scene, method) {
             if (method == Method::ClosedForm) == (plan.engine == Engine::ClosedForm) {
                 left_out.push(first_line(&refused));
@@ -189,15 +200,22 @@ pub fn precision(scene: &Scene, options: &PrecisionOptions) -> Result<Precision,
         Some(_) => Vec::new(),
         None => other_methods(&scene, options),
     };
-    time(&mut cells, options);
-    let rows = cells.iter().map(|cell| match &common {
-        Some(reference) => cell.row(Some(reference), false),
-        None => cell.row(cell.independent(&others), true),
+    let ends_at = common.as_ref().and_then(|reference| reference.ends_at);
+    time(&mut cells, ends_at.is_some(), options);
+    let rows = cells.iter().map(|cell| {
+        let mut row = match &common {
+            Some(reference) => cell.row(Some(reference), false),
+            None => cell.row(cell.independent(&others), true),
+        };
+        if loose {
+            row.method = plan.engine.name().to_owned();
+        }
+        row
     });
     let failed = "none in double-double arithmetic; each method against the best of the others";
     Ok(Precision {
         scene: scene.title.clone().unwrap_or_default(),
-        t_s: t_end,
+        t_s: ends_at.unwrap_or(t_end),
         rows: rows.collect(),
         reference: common
             .as_ref()

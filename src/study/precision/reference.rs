@@ -6,7 +6,10 @@ use std::f64::consts::TAU;
 
 use super::collocation::{self, Acceleration, CORNER, Place, Resolution};
 use super::extended::{Extended, State};
-use crate::mechanism::Equation;
+use super::extrapolation::Fineness;
+use super::guided::Guided;
+use super::loose::Loose;
+use crate::mechanism::{Class, Equation, Limits, Linkage};
 use crate::scene::{Load, MotionKind, Scene, Variable};
 
 /// The state at the end of a run, and how far it may be off.
@@ -17,6 +20,10 @@ pub(super) struct Reference {
     pub omega: DoubleDouble,
     pub theta_error: f64,
     pub omega_error: f64,
+    /// The time (s) at which the equations end, if they do before the run.
+    pub ends_at: Option<f64>,
+    /// Slider position (m) and how far it may be off, where a joint is loose.
+    pub slider: Option<(DoubleDouble, f64)>,
 }
 
 /// Two runs of the reference must agree; what is stated is larger than their distance by this.
@@ -33,6 +40,9 @@ const ROUNDED: [([f64; 2], f64); 1] = [([1e-9, 1e-11], 1e-15)];
 /// The reference in double-double arithmetic; none if it would take more evaluations than this, or the
 /// motion does not get to the end.
 pub(super) fn extended(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
+    if scene.reduced().clearance.is_some() {
+        return loose(scene, t_end, evaluations);
+    }
     let motion = &scene.motion;
     let start = Place {
         t: DoubleDouble::ZERO,
@@ -47,7 +57,17 @@ pub(super) fn extended(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Re
             omega: start.omega,
             theta_error: theta.value().abs() * ROUNDING,
             omega_error: 0.0,
+            ends_at: None,
+            slider: None,
         });
+    }
+    let reduced = scene.reduced();
+    let class = Limits::new(&Linkage::new(&reduced.geometry), 0.0).class;
+    if class == Class::ChangePoint {
+        return None;
+    }
+    if reduced.friction.is_some() || class != Class::RotatingCrank {
+        return in_pieces(scene, t_end, evaluations);
     }
     let motion = Motion {
         extended: Extended::new(scene),
@@ -71,22 +91,96 @@ pub(super) fn extended(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Re
     };
     let resolutions: &[_] = if exact { &EXACT } else { &ROUNDED };
     let (coarse, fine) = resolutions.iter().find_map(both_ends)?;
-    let distance = |a: DoubleDouble, b: DoubleDouble| {
-        let rounding = b.value().abs() * ROUNDING;
-        MARGIN * (a - b).value().abs() + rounding
-    };
-    let loads = if exact {
-        ""
-    } else {
-        ", loads in double precision"
-    };
     Some(Reference {
-        what: format!("Gauss collocation of order 32 in double-double arithmetic{loads}"),
+        what: format!(
+            "Gauss collocation of order 32 in double-double arithmetic{}",
+            loads(exact)
+        ),
         theta: fine.theta,
         omega: fine.omega,
         theta_error: distance(coarse.theta, fine.theta),
         omega_error: distance(coarse.omega, fine.omega),
+        ends_at: None,
+        slider: None,
     })
+}
+
+/// How far two runs are apart, and what rounding adds.
+fn distance(a: DoubleDouble, b: DoubleDouble) -> f64 {
+    MARGIN * (a - b).value().abs() + b.value().abs() * ROUNDING
+}
+
+fn loads(exact: bool) -> &'static str {
+    if exact {
+        ""
+    } else {
+        ", loads in double precision"
+    }
+}
+
+/// Errors of a step in the two runs; loads in floats have their rounding in them.
+const STEPS_EXACT: [f64; 2] = [1e-20, 1e-22];
+const STEPS_ROUNDED: [f64; 2] = [1e-15, 1e-16];
+
+/// The same for motions with friction or past limits, which are made of pieces.
+fn in_pieces(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
+    let extended = Extended::new(scene);
+    let guided = Guided::new(scene, &extended, t_end);
+    let [(coarse, _), (fine, ends)] = twice(&extended, evaluations, |fineness| {
+        guided.end(scene, fineness)
+    })?;
+    Some(Reference {
+        what: by_pieces(&extended),
+        theta: fine[1],
+        omega: fine[2],
+        theta_error: distance(coarse[1], fine[1]),
+        omega_error: distance(coarse[2], fine[2]),
+        ends_at: ends.then(|| fine[0].value()),
+        slider: None,
+    })
+}
+
+/// The same for motions with a loose joint.
+fn loose(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
+    let extended = Extended::new(scene);
+    let loose = Loose::new(scene, &extended)?;
+    let [coarse, fine] = twice(&extended, evaluations, |fineness| {
+        loose.end(t_end, fineness)
+    })?;
+    Some(Reference {
+        what: by_pieces(&extended),
+        theta: fine[1],
+        omega: fine[4],
+        theta_error: distance(coarse[1], fine[1]),
+        omega_error: distance(coarse[4], fine[4]),
+        ends_at: None,
+        slider: Some((fine[3], distance(coarse[3], fine[3]))),
+    })
+}
+
+/// Two runs, the second the finer.
+fn twice<T>(
+    extended: &Extended,
+    evaluations: u64,
+    run: impl Fn(Fineness) -> Option<T>,
+) -> Option<[T; 2]> {
+    let steps = if extended.is_exact() {
+        STEPS_EXACT
+    } else {
+        STEPS_ROUNDED
+    };
+    let [coarse, fine] = steps.map(|tolerance| Fineness {
+        tolerance,
+        evaluations,
+    });
+    Some([run(coarse)?, run(fine)?])
+}
+
+fn by_pieces(extended: &Extended) -> String {
+    format!(
+        "extrapolation of order 20 in double-double arithmetic, event by event{}",
+        loads(extended.is_exact())
+    )
 }
 
 /// Runs of more turns are made of one turn, if all are the same.

@@ -6,6 +6,7 @@ use crate::engine::step::Step;
 use crate::engine::time::{Finish, Settings, Start};
 use crate::error::Error;
 use crate::numeric::angle::Angle;
+use crate::study::curve;
 
 /// Takes what is computed.
 pub(super) trait Observer {
@@ -17,6 +18,9 @@ pub(super) trait Observer {
 
     /// A step of it; true ends the run.
     fn step(&mut self, step: &Step) -> bool;
+
+    /// A piece in time with friction: calls `run` with what takes it.
+    fn with_friction(&mut self, run: &mut dyn FnMut(&mut dyn curve::Observer));
 
     /// It has ended; its last step, if the run ends inside it.
     fn end_in_time(
@@ -54,6 +58,8 @@ pub(super) struct Arrived {
     pub to_time: u64,
     pub to_angle: u64,
     pub end: End,
+    /// Where its last piece in time with friction arrived.
+    pub rubbed: Option<curve::Arrived>,
     /// Time, angle and speed of the last evaluation without a finite result.
     pub impossible: Option<(f64, Angle, f64)>,
 }
@@ -73,6 +79,7 @@ impl Arrived {
             to_time: 0,
             to_angle: 0,
             end: End::AtGoal,
+            rubbed: None,
             impossible: None,
         }
     }

@@ -7,12 +7,16 @@ use super::clear::Clear;
 use crate::engine::Counted;
 use crate::engine::angle::{self, Driving, Goal, Resolution};
 use crate::engine::energy::Unserved;
+use crate::engine::step::Step;
 use crate::engine::time::{self, Finish, Settings, Start};
 use crate::error::Error;
 use crate::mechanism::Equation;
+use crate::numeric::angle::Angle;
 use crate::scene::Extent;
+use crate::study::curve::{self, Follow};
 use crate::study::forward::Forward;
 use crate::study::profile::Position;
+use crate::study::sliding::Sliding;
 
 /// What is run, and how finely.
 pub(super) struct Course<'a> {
@@ -22,6 +26,8 @@ pub(super) struct Course<'a> {
     pub extent: Extent,
     pub resolution: Resolution,
     pub settings: Settings,
+    /// Friction at the guide.
+    pub sliding: Option<&'a Sliding>,
     /// How far (rad) the crank turns in one direction before the angle takes over again.
     pub wait: f64,
     pub max_evaluations: u64,
@@ -37,6 +43,8 @@ struct Pass<'a, 'o> {
     places: u64,
     /// Evaluations of loads over the angle.
     over_angle: u64,
+    /// Evaluations with friction in time.
+    rubbing: u64,
     wait: f64,
 }
 
@@ -56,6 +64,7 @@ impl Course<'_> {
             arrived: Arrived::at(self.start),
             places: self.position.evaluations(),
             over_angle: 0,
+            rubbing: 0,
             wait: self.wait,
         };
         pass.pieces(first)?;
@@ -70,7 +79,7 @@ impl Course<'_> {
 impl Pass<'_, '_> {
     fn spent(&self) -> u64 {
         let places = self.course.position.evaluations() - self.places;
-        places + self.over_angle + self.motion.evaluations()
+        places + self.over_angle + self.rubbing + self.motion.evaluations()
     }
 
     fn pieces(&mut self, mut first: Option<Driving>) -> Result<(), Error> {
@@ -98,7 +107,11 @@ impl Pass<'_, '_> {
                 }
             }
             let wait = if turns { self.wait } else { f64::INFINITY };
-            if self.in_time(wait) {
+            let back = match self.course.sliding {
+                Some(sliding) => self.with_friction(sliding, wait),
+                None => self.in_time(wait),
+            };
+            if back {
                 self.arrived.to_angle += 1;
             } else {
                 return Ok(());
@@ -148,6 +161,7 @@ impl Pass<'_, '_> {
         let largest = driving.orbit.largest_kinetic();
         arrived.largest_kinetic = arrived.largest_kinetic.max(largest);
         arrived.last = None;
+        arrived.rubbed = None;
         arrived.now = Start {
             t: end,
             angle,
@@ -211,6 +225,83 @@ impl Pass<'_, '_> {
             };
         }
         back
+    }
+}
+
+impl Pass<'_, '_> {
+    /// The same with friction, where the crank may stick and come to rest.
+    fn with_friction(&mut self, sliding: &Sliding, wait: f64) -> bool {
+        let course = self.course;
+        let from = self.arrived.now;
+        let follow = Follow {
+            equation: sliding.equation(),
+            settings: Settings {
+                max_evaluations: course.max_evaluations.saturating_sub(self.spent()),
+                ..course.settings
+            },
+            start: from,
+            turn_limit: match course.extent {
+                Extent::Revolutions(turns) => Some(turns * TAU),
+                Extent::Duration(_) => None,
+            },
+            turned_from: course.start.angle,
+        };
+        let mut rubbed = None;
+        let mut clear = Clear::new(course, from, wait);
+        let mut back = false;
+        self.observer.with_friction(&mut |observer| {
+            let mut until = Until {
+                observer,
+                clear: &mut clear,
+                back: &mut back,
+            };
+            rubbed = Some(follow.run(&mut until));
+        });
+        let Some(rubbed) = rubbed else {
+            return false;
+        };
+        self.rubbing += rubbed.evaluations;
+        let last = rubbed.last;
+        let arrived = &mut self.arrived;
+        arrived.steps += rubbed.steps;
+        arrived.in_time += 1;
+        arrived.work += rubbed.work;
+        arrived.largest_kinetic = arrived.largest_kinetic.max(clear.largest_kinetic);
+        arrived.now = Start {
+            t: last.end.t,
+            angle: last.angle(last.end.theta).reduced(),
+            speed: last.end.omega,
+        };
+        back &= rubbed.end == curve::End::Stopped;
+        if !back {
+            arrived.end = match &rubbed.end {
+                curve::End::Done | curve::End::AtRest if course.is_over(last.end.t) => End::AtGoal,
+                curve::End::Integrator(finish) => End::Integrator(*finish),
+                _ => End::Integrator(Finish::Stopped),
+            };
+        }
+        arrived.last = Some(last);
+        arrived.rubbed = Some(rubbed);
+        back
+    }
+}
+
+/// Ends a piece in time with friction when the crank turns again.
+struct Until<'a, 'o, 'c> {
+    observer: &'o mut dyn curve::Observer,
+    clear: &'a mut Clear<'c>,
+    back: &'a mut bool,
+}
+
+impl curve::Observer for Until<'_, '_, '_> {
+    fn step(&mut self, step: &Step, phase: curve::Phase) -> bool {
+        let ends = self.observer.step(step, phase);
+        *self.back = !ends && self.clear.is_reached(step);
+        ends || *self.back
+    }
+
+    fn event(&mut self, kind: &'static str, t: f64, angle: Angle, speed: f64) {
+        self.observer.event(kind, t, angle, speed);
     }
 }
 

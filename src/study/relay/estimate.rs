@@ -10,8 +10,10 @@ use crate::engine::angle::Driving;
 use crate::engine::step::Step;
 use crate::engine::time::{Settings, Start};
 use crate::error::Error;
+use crate::numeric::angle::Angle;
 use crate::scene::Extent;
 use crate::study::by_angle::{MARGIN, ROUNDING, finer};
+use crate::study::curve;
 use crate::study::forward::{tighter, unevenness};
 use crate::study::over_angle::late_by;
 use crate::study::summary::{Cost, ErrorEstimate};
@@ -48,9 +50,22 @@ impl Observer for Shaken {
         false
     }
 
+    fn with_friction(&mut self, run: &mut dyn FnMut(&mut dyn curve::Observer)) {
+        run(self);
+    }
+
     fn end_in_time(&mut self, _: &Counted<'_>, _: &Step, _: &Settings) -> Option<Step> {
         None
     }
+}
+
+impl curve::Observer for Shaken {
+    fn step(&mut self, step: &Step, _: curve::Phase) -> bool {
+        self.since.get_or_insert(step.start.t);
+        Observer::step(self, step)
+    }
+
+    fn event(&mut self, _: &'static str, _: f64, _: Angle, _: f64) {}
 }
 
 /// Global error of the last state: its distance from that of a much finer run with other pieces, and what rounding
@@ -67,7 +82,10 @@ pub(super) fn estimate(
         extent: Extent::Duration(end.t),
         resolution: finer(),
         settings: Settings {
-            tolerance: tighter(course.settings.tolerance),
+            tolerance: match course.sliding {
+                Some(_) => curve::tighter(course.settings.tolerance),
+                None => tighter(course.settings.tolerance),
+            },
             t_end: end.t,
             ..course.settings
         },

@@ -16,6 +16,7 @@ use estimate::estimate;
 use notes::Notes;
 
 use super::by_angle::{self, First};
+use super::curve;
 use super::forward::Forward;
 use super::in_time::settings;
 use super::over_angle::{balance, speeds};
@@ -51,6 +52,7 @@ pub(super) fn run(
         extent: task.extent,
         resolution: by_angle::plain(task),
         settings: settings(task, equation),
+        sliding: task.maker.sliding,
         wait: WAIT,
         max_evaluations: task.options.max_evaluations,
     };
@@ -109,6 +111,9 @@ pub(super) fn run(
 
 /// Why the run ended before its time, if it did.
 fn stopped(task: &Task<'_>, arrived: &Arrived) -> Option<String> {
+    if let (Some(rubbed), Some(sliding)) = (&arrived.rubbed, task.maker.sliding) {
+        return curve::why(task, rubbed, sliding.equation());
+    }
     let End::Integrator(finish) = arrived.end else {
         return None;
     };

@@ -6,10 +6,12 @@ use crate::engine::angle::Driving;
 use crate::engine::step::Step;
 use crate::engine::time::{Settings, Start};
 use crate::error::Error;
+use crate::study::curve::{self, CurveWatch, Phase};
 use crate::study::in_time;
 use crate::study::log::Log;
 use crate::study::passages::{Stretch, is_dead_centre};
 use crate::study::row::RowSink;
+use crate::study::schedule::Schedule;
 use crate::study::task::Task;
 use crate::study::watch::Watch;
 use crate::trajectory::Trajectory;
@@ -19,6 +21,8 @@ pub(super) struct Notes<'a> {
     task: &'a Task<'a>,
     watch: Watch<'a>,
     record: bool,
+    /// How the slider touched its guide at the end of a piece in time with friction.
+    touched: Phase,
 }
 
 impl<'a> Notes<'a> {
@@ -35,6 +39,7 @@ impl<'a> Notes<'a> {
                 ..in_time::watch(task, looked_at, rows, record)
             },
             record,
+            touched: Phase::Sticking,
         }
     }
 
@@ -43,11 +48,43 @@ impl<'a> Notes<'a> {
         if let Some(error) = self.watch.seen.error.take() {
             return Err(error);
         }
-        if self.watch.rows.wants_rows() {
+        if let Some(rubbed) = &arrived.rubbed {
+            let mut result = Ok(());
+            let phase = self.touched;
+            self.rubbing(&mut |watch| {
+                watch.phase = phase;
+                result = watch.write_last_row(&rubbed.last);
+            });
+            result?;
+        } else if self.watch.rows.wants_rows() {
             let Start { t, angle, speed } = arrived.now;
             self.watch.write(t, angle, speed)?;
         }
         Ok(self.watch.log)
+    }
+}
+
+impl Notes<'_> {
+    /// Lends rows and log to what watches a motion with friction.
+    fn rubbing(&mut self, work: &mut dyn FnMut(&mut CurveWatch<'_>)) {
+        let task = self.task;
+        let Some(sliding) = task.maker.sliding else {
+            return;
+        };
+        let log = std::mem::replace(&mut self.watch.log, Log::new(task, false));
+        let mut watch = CurveWatch {
+            equation: sliding.equation(),
+            reactor: task.maker.reactor.as_ref(),
+            rows: &mut *self.watch.rows,
+            schedule: Schedule::new(task.scene.run.output_every, task.extent),
+            start: task.start(),
+            log,
+            recorded: None,
+            error: None,
+            phase: Phase::Sticking,
+        };
+        work(&mut watch);
+        self.watch.log = watch.log;
     }
 }
 
@@ -80,6 +117,25 @@ impl Observer for Notes<'_> {
 
     fn step(&mut self, step: &Step) -> bool {
         self.watch.step(step)
+    }
+
+    fn with_friction(&mut self, run: &mut dyn FnMut(&mut dyn curve::Observer)) {
+        let record = self.record;
+        let mut seen = None;
+        self.rubbing(&mut |watch| {
+            watch.recorded = record.then(Vec::new);
+            run(watch);
+            seen = Some((watch.phase, watch.error.take(), watch.recorded.take()));
+        });
+        let Some((phase, error, recorded)) = seen else {
+            return;
+        };
+        self.touched = phase;
+        self.watch.seen.error = error;
+        if let Some(steps) = recorded.filter(|steps| !steps.is_empty()) {
+            let end = steps[steps.len() - 1].end.t;
+            self.watch.log.keep(|| Trajectory::from_steps(steps, end));
+        }
     }
 
     fn end_in_time(

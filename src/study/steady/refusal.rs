@@ -27,6 +27,12 @@ pub(super) fn refuse_what_has_none(scene: &Scene) -> Result<(), Error> {
             "use loads of theta, omega, x and v",
         );
     }
+    if reduced.friction.is_some() {
+        return refuse(
+            "a steady state cannot be found directly with Coulomb friction at the guide",
+            "simulate until the motion repeats, or take [friction] out of the scene",
+        );
+    }
     if reduced.clearance.is_some() {
         return refuse(
             "a steady state cannot be found directly with clearance in a joint",

@@ -1,8 +1,13 @@
 //! The plan, the equation with the scene's numbers, and its terms at one crank angle.
 
+mod friction;
+
 use std::time::Instant;
 
 use serde::Serialize;
+
+pub use friction::FrictionAt;
+use friction::friction_at;
 
 use crate::error::Error;
 use crate::mechanism::{Equation, single};
@@ -47,10 +52,13 @@ pub struct TermsAt {
     pub loads: Vec<LoadAt>,
     /// Q, N m
     pub q_nm: f64,
-    /// θ̈ that follows, rad/s²; none where the inertia vanishes
+    /// θ̈ that follows, with friction, rad/s²; none where the inertia vanishes or the guide jams
     pub alpha_rad_per_s2: Option<f64>,
-    /// Torque that would keep the crank at this speed, beside the loads, N m
+    /// Torque that would keep the crank at this speed, beside the loads and without friction, N m
     pub holding_torque_nm: f64,
+    /// What friction at the guide makes of it; none without friction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction: Option<FrictionAt>,
 }
 
 /// One load.
@@ -123,7 +131,10 @@ fn terms_at(scene: &Scene, equation: &Equation, theta: f64) -> Result<TermsAt, E
             });
         }
     }
-    let alpha = equation.acceleration(0.0, theta, omega);
+    let (alpha, friction) = match friction_at(scene, equation, theta)? {
+        Some((alpha, friction)) => (alpha, Some(friction)),
+        None => (Some(equation.acceleration(0.0, theta, omega)), None),
+    };
     Ok(TermsAt {
         theta_rad: theta,
         omega_rad_per_s: omega,
@@ -134,8 +145,9 @@ fn terms_at(scene: &Scene, equation: &Equation, theta: f64) -> Result<TermsAt, E
         dv_nm: terms.dv,
         q_nm: loads.iter().fold(0.0, |sum, load| sum + load.q_nm),
         loads,
-        alpha_rad_per_s2: alpha.is_finite().then_some(alpha),
+        alpha_rad_per_s2: alpha.filter(|alpha| alpha.is_finite()),
         holding_torque_nm: equation.driving_torque(0.0, theta, omega, 0.0),
+        friction,
     })
 }
 

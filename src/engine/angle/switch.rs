@@ -1,0 +1,176 @@
+//! Where the switch changes its sign on a panel, and with it the form of the forces.
+
+use super::station::Station;
+use super::sweep::{Start, Swept};
+use super::{Driven, Switch};
+use crate::numeric::angle::Angle;
+use crate::numeric::chebyshev::{MOST, Rule, Series, Values};
+use crate::numeric::root;
+
+/// The switch within this part of what it is the sum of has no sign.
+const NOISE: f64 = 32.0 * f64::EPSILON;
+/// A change as near to an end of a panel as this is at the end, rad: as the forces are continuous, it is felt by the
+/// square of that.
+pub(super) const AT_END: f64 = 1e-9;
+
+/// At the start of a panel that begins where the switch changes, it is zero within this part of its largest value.
+const AT_CUT: f64 = 1e-9;
+
+/// What the switch does on a panel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Side {
+    /// It stays on the panel's side.
+    Stays,
+    /// It is on the other side from the start.
+    Other,
+    /// It changes to the other side at this part of the panel.
+    Leaves(f64),
+}
+
+/// Looks at the switch on a panel that was solved for one side of it.
+pub(super) fn side<D: Driven>(
+    driven: &D,
+    station: &Station<D::Place>,
+    start: Start,
+    swept: &Swept,
+) -> Side {
+    let Some(switch) = &station.table.switch else {
+        return Side::Stays;
+    };
+    let (values, noise) = values(driven, switch, station, start, swept);
+    let Some(x) = first_below(station, &values, noise) else {
+        return Side::Stays;
+    };
+    let length = 2.0 * station.half().abs();
+    let share = 0.5 * (x + 1.0);
+    if share * length < AT_END {
+        Side::Other
+    } else if (1.0 - share) * length < AT_END {
+        Side::Stays
+    } else {
+        Side::Leaves(share)
+    }
+}
+
+impl Swept {
+    /// The same until a part of the panel.
+    pub fn until(&self, rule: &Rule, start: Start, share: f64) -> Swept {
+        let inside = |x: f64| share * (1.0 + x) - 1.0;
+        let slopes = rule.values(|x| share * self.slope.value(inside(x)));
+        let spent = rule.series(&self.spent);
+        let spent = rule.values(|x| spent.value(inside(x)));
+        let kinetic = rule.series(&self.kinetic);
+        let end = kinetic.value(inside(1.0));
+        Swept {
+            slope: rule.series(&slopes),
+            slopes,
+            spent,
+            gain: end - start.kinetic,
+            end,
+            ..*self
+        }
+    }
+}
+
+/// The switch at the points, positive on the side of the panel, and what rounding may make of it.
+fn values<D: Driven>(
+    driven: &D,
+    switch: &Switch,
+    station: &Station<D::Place>,
+    start: Start,
+    swept: &Swept,
+) -> (Values, f64) {
+    let length = start.direction * station.half().abs();
+    let times = if driven.is_driven() && driven.reads_time() {
+        station.rule.integrals(&swept.slopes)
+    } else {
+        [0.0; MOST + 1]
+    };
+    let mut largest: f64 = 0.0;
+    let mut values = [0.0; MOST + 1];
+    for (j, x) in station.rule.points().iter().enumerate() {
+        let speed = length / swept.slopes[j];
+        let mut parts = [
+            switch.place[j],
+            switch.rate[j] * speed,
+            switch.square[j] * speed * speed,
+            0.0,
+        ];
+        if driven.is_driven() {
+            let angle = Angle {
+                turns: start.turns,
+                rest: station.piece.angle(*x),
+            };
+            let place = &station.table.places[j];
+            parts[3] = driven.drive_switch(place, start.t + times[j], angle, speed);
+        }
+        values[j] = station.side * parts.iter().sum::<f64>();
+        largest = parts.iter().fold(largest, |m, part| m.max(part.abs()));
+    }
+    (values, NOISE * largest)
+}
+
+/// The first place at which values fall below zero, by more than `noise`; −1 if they begin there.
+fn first_below<P: Copy>(station: &Station<P>, values: &Values, noise: f64) -> Option<f64> {
+    let points = station.rule.points();
+    if values[0] < -noise.max(AT_CUT * values.iter().fold(0.0f64, |m, value| m.max(value.abs()))) {
+        return Some(-1.0);
+    }
+    let series = || station.rule.series(values);
+    for j in 1..points.len() {
+        if values[j] < -noise {
+            let root =
+                |series: &Series| root::bracketed(|x| series.value(x), points[j - 1], points[j]);
+            let above = values[j - 1] > 0.0;
+            return Some(if above {
+                root(&series()).unwrap_or(points[j - 1])
+            } else {
+                points[j - 1]
+            });
+        }
+        if j + 1 < points.len()
+            && may_dip(
+                [points[j - 1], points[j], points[j + 1]],
+                [values[j - 1], values[j], values[j + 1]],
+            )
+        {
+            let series = series();
+            let value = |x: f64| series.value(x);
+            let least = least(value, points[j - 1], points[j + 1]);
+            if value(least) < -noise && values[j - 1] > 0.0 {
+                return root::bracketed(value, points[j - 1], least);
+            }
+        }
+    }
+    None
+}
+
+/// Whether a function with these values may have gone far below them between the points.
+fn may_dip(x: [f64; 3], y: [f64; 3]) -> bool {
+    let slopes = [(y[1] - y[0]) / (x[1] - x[0]), (y[2] - y[1]) / (x[2] - x[1])];
+    let bend = (slopes[1] - slopes[0]) / (x[2] - x[0]);
+    if bend <= 0.0 {
+        return false;
+    }
+    // The parabola through the three: y0 + s0 (x − x0) + bend (x − x0)(x − x1).
+    let lowest = 0.5 * (x[0] + x[1]) - 0.5 * slopes[0] / bend;
+    if lowest <= x[0] || lowest >= x[2] {
+        return false;
+    }
+    let (from, on) = (lowest - x[0], lowest - x[1]);
+    let value = y[0] + from * (slopes[0] + bend * on);
+    value < 0.5 * y[0].min(y[1]).min(y[2])
+}
+
+/// Place of the least value between `a` and `b`, by golden section.
+fn least(value: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
+    for _ in 0..50 {
+        let part = 0.618_033_988_75 * (b - a);
+        if value(b - part) < value(a + part) {
+            b = a + part;
+        } else {
+            a = b - part;
+        }
+    }
+    0.5 * (a + b)
+}
