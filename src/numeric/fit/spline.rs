@@ -5,7 +5,7 @@
 
 use super::penalized::{Normal, ORDER, roughness};
 use super::pieces::{DEGREE, Grid, basis};
-use super::{Quality, Samples, Size, State};
+use super::{Quality, Samples, Size, State, add_products};
 use crate::numeric::banded::{Banded, DIAGONALS};
 
 /// Pieces for each one that the samples ask for, so that the penalty and not the pieces decide how smooth it is.
@@ -21,6 +21,8 @@ pub struct Spline {
     coefficients: Vec<f64>,
     /// Band of the inverse of the penalized normal matrix.
     inverse: Banded,
+    /// Coefficients of what the penalty has bent away.
+    bias: Vec<f64>,
     quality: Quality,
     condition: f64,
 }
@@ -36,7 +38,7 @@ impl Spline {
         let pieces = match size {
             Size::Fixed(pieces) => pieces,
             Size::Auto => {
-                let most = (rows / 2).saturating_sub(DEGREE).max(1);
+                let most = rows.saturating_sub(DEGREE + 1).max(1);
                 let (mut pieces, mut worse) = (FEWEST.min(most), 0);
                 let mut best: Option<(f64, usize, bool)> = None;
                 while pieces <= most && (worse < 2 || best.is_some_and(|best| !best.2)) {
@@ -72,6 +74,7 @@ impl Spline {
                 floor: samples.floor,
             },
             condition: factor.diagonal_ratio(),
+            bias: normal.bent_away(choice.strength, &factor, &choice.coefficients),
             coefficients: choice.coefficients,
             inverse,
         })
@@ -117,6 +120,8 @@ impl Spline {
                 state.rounding[k] += 2.0 * f64::EPSILON * (b * c).abs();
             }
         }
+        let bias = bases.map(|basis| basis.iter().zip(&self.bias[piece..]).map(|(b, c)| b * c).sum());
+        add_products(&mut state.bias, &bias, 1.0);
         let mut entry = 0;
         for k in 0..3 {
             for l in 0..=k {
