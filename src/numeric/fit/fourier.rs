@@ -70,6 +70,23 @@ impl Fourier {
             parameters.resize(2 + 2 * count, 0.0);
             settle(samples, middle, &mut parameters)?;
         }
+        Fourier::new(samples, middle, parameters, tail)
+    }
+
+    /// A fit with as many harmonics, one step of Gauss and Newton's method from this one.
+    pub fn again(&self, samples: &Samples<'_>) -> Result<Fourier, String> {
+        let mut parameters = self.parameters.clone();
+        let (_, step) = solve(samples, self.middle, &parameters, self.harmonics())?;
+        parameters.iter_mut().zip(&step).for_each(|(p, s)| *p += s);
+        Fourier::new(samples, self.middle, parameters, self.tail.clone())
+    }
+
+    fn new(
+        samples: &Samples<'_>,
+        middle: f64,
+        parameters: Vec<f64>,
+        tail: Vec<f64>,
+    ) -> Result<Fourier, String> {
         let (triangle, _) = solve(samples, middle, &parameters, parameters.len() / 2 - 1)?;
         let squares = squares(samples, middle, &parameters);
         let free = (samples.t.len() - parameters.len()).max(1) as f64;

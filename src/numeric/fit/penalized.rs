@@ -93,6 +93,19 @@ impl<'a> Normal<'a> {
         factor.solve(&pull.iter().map(|p| strength * p).collect::<Vec<f64>>())
     }
 
+    /// The solution for one strength of the penalty, from one that is near.
+    pub fn improved(&self, strength: f64, from: Vec<f64>) -> Option<Vec<f64>> {
+        Some(self.solve(strength, &self.factor(strength)?, from))
+    }
+
+    pub fn rows(&self) -> usize {
+        self.samples.t.len()
+    }
+
+    pub fn floor(&self) -> f64 {
+        self.samples.floor
+    }
+
     /// Improves a solution for one strength of the penalty until rounding.
     fn solve(&self, strength: f64, factor: &Banded, from: Vec<f64>) -> Vec<f64> {
         let mut coefficients = from;

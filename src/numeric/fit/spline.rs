@@ -14,10 +14,14 @@ const FINER: usize = 4;
 /// Fewest pieces that are tried.
 const FEWEST: usize = 4;
 
+const FAILED: &str = "the samples do not determine a spline";
+
 /// A fitted smoothing spline.
 #[derive(Clone, Debug)]
 pub struct Spline {
     grid: Grid,
+    /// Strength of the penalty.
+    strength: f64,
     coefficients: Vec<f64>,
     /// Band of the inverse of the penalized normal matrix.
     inverse: Banded,
@@ -33,7 +37,7 @@ impl Spline {
     /// # Errors
     /// A text that says why the samples do not serve.
     pub fn fit(samples: &Samples<'_>, size: Size) -> Result<Spline, String> {
-        let failed = || "the samples do not determine a spline".to_owned();
+        let failed = || FAILED.to_owned();
         let rows = samples.t.len();
         let pieces = match size {
             Size::Fixed(pieces) => pieces,
@@ -59,23 +63,40 @@ impl Spline {
         };
         let normal = Normal::new(samples, pieces);
         let choice = normal.choose().ok_or_else(failed)?;
-        let factor = normal.factor(choice.strength).ok_or_else(failed)?;
+        Spline::new(normal, choice.strength, choice.coefficients).ok_or_else(failed)
+    }
+
+    /// A spline with as many pieces under the same penalty.
+    ///
+    /// # Errors
+    /// A text that says why the samples do not serve.
+    pub fn again(&self, samples: &Samples<'_>) -> Result<Spline, String> {
+        let normal = Normal::new(samples, self.grid.pieces);
+        let solved = normal.improved(self.strength, self.coefficients.clone());
+        let spline = solved.and_then(|solved| Spline::new(normal, self.strength, solved));
+        spline.ok_or_else(|| FAILED.to_owned())
+    }
+
+    fn new(normal: Normal<'_>, strength: f64, coefficients: Vec<f64>) -> Option<Spline> {
+        let factor = normal.factor(strength)?;
         let inverse = factor.inverse_band();
-        let (squares, _) = normal.residuals(&choice.coefficients);
-        let bent = roughness(&choice.coefficients);
-        let free = (rows - ORDER) as f64;
-        let sigma = ((squares + choice.strength * bent) / free).sqrt();
-        Ok(Spline {
-            grid: normal.grid,
+        let (squares, _) = normal.residuals(&coefficients);
+        let bent = roughness(&coefficients);
+        let free = (normal.rows() - ORDER) as f64;
+        let sigma = ((squares + strength * bent) / free).sqrt();
+        let floor = normal.floor();
+        Some(Spline {
             quality: Quality {
                 squares,
                 parameters: inverse.trace_of_product(&normal.matrix),
-                sigma: sigma.max(samples.floor),
-                floor: samples.floor,
+                sigma: sigma.max(floor),
+                floor,
             },
             condition: factor.diagonal_ratio(),
-            bias: normal.bent_away(choice.strength, &factor, &choice.coefficients),
-            coefficients: choice.coefficients,
+            bias: normal.bent_away(strength, &factor, &coefficients),
+            grid: normal.grid,
+            strength,
+            coefficients,
             inverse,
         })
     }
