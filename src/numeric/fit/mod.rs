@@ -2,6 +2,7 @@
 
 mod choice;
 mod curve;
+mod decay;
 mod fourier;
 mod penalized;
 mod pieces;

@@ -21,6 +21,10 @@ pub(super) struct Fitted {
 /// Corrections after which a fit counts as not settling.
 const MOST: usize = 30;
 
+/// Corrections before which the terms are chosen: at first, and when the motion is about right.
+const CHOICES: [usize; 2] = [0, LAST_CHOICE];
+const LAST_CHOICE: usize = 3;
+
 /// A correction below this part of a standard error settles a fit.
 const SETTLED: f64 = 1e-3;
 
@@ -59,7 +63,7 @@ impl Fitted {
         }
         let mut now = theta;
         let (mut weight, mut target) = (vec![0.0; times.len()], vec![0.0; times.len()]);
-        let mut size = size;
+        let mut chosen: Option<Curve> = None;
         let mut round = 0;
         loop {
             for (i, (value, theta)) in values.iter().zip(&now).enumerate() {
@@ -73,7 +77,11 @@ impl Fitted {
                 weight: Some(&weight),
                 floor,
             };
-            let curve = Curve::fit(&samples, kind, size)?;
+            // Once the motion is about right the choice of terms stays, so that it cannot go on alternating.
+            let curve = match chosen {
+                Some(curve) if !CHOICES.contains(&round) => curve.again(&samples)?,
+                _ => Curve::fit(&samples, kind, size)?,
+            };
             let sigma = curve.quality().sigma;
             let mut change = 0.0f64;
             for (t, theta) in times.iter().zip(&mut now) {
@@ -89,15 +97,12 @@ impl Fitted {
                 return Err("the fit leaves the angles that the crank can take".to_owned());
             }
             round += 1;
-            // Once the motion is about right the choice of terms is made, so that it cannot go on alternating.
-            if round == 4 {
-                size = Size::Fixed(curve.size());
-            }
-            if change < SETTLED || round == MOST {
+            if change < SETTLED && round > LAST_CHOICE || round == MOST {
                 let residual = |(value, theta): (&f64, &f64)| sensor.residual(*value, *theta).0;
                 let residuals = values.iter().zip(&now).map(residual).collect();
                 return Ok(Fitted::of(curve, residuals, change < 1.0, None));
             }
+            chosen = Some(curve);
         }
     }
 
