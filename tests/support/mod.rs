@@ -10,6 +10,7 @@ pub mod image;
 pub mod newton;
 pub mod random;
 pub mod run;
+pub mod scenes;
 
 use exact::{Dd, Jet};
 use slider_crank::scene::{Branch, Geometry, InertiaAbout, Rod};
