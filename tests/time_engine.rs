@@ -429,6 +429,23 @@ fn a_jump_that_nobody_told_of_is_passed_by_small_steps() {
     }
 }
 
+/// The nodes of the last step lie before a bend that is near enough to its end.
+#[test]
+fn a_bend_just_before_the_end_is_seen() {
+    for tolerance in [1e-6, 1e-9, 1e-12] {
+        for before in [1e-5, 1e-4, 1e-3, 3e-3, 1e-2] {
+            let bend = 1.0 - before;
+            let motion = made(|t, _, _| 1e3 * (t - bend).max(0.0));
+            let (steps, _, _) = steps(&motion, (0.0, 0.0, 0.0), &settings(tolerance, 1.0));
+            let error = (end(&steps).1 - 500.0 * before * before).abs();
+            assert!(
+                error < 10.0 * tolerance,
+                "{tolerance:e} {before:e}: {error:e}"
+            );
+        }
+    }
+}
+
 #[test]
 fn a_run_ends_where_the_acceleration_does() {
     let motion = made(|t, _, _| (0.5 - t).sqrt());

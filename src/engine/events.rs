@@ -2,7 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use super::Motion;
 use super::step::Step;
+use crate::numeric::root;
 
 /// What happened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -120,20 +122,107 @@ fn passages(step: &Step, watched: &[f64], from: f64, to: f64, found: &mut Vec<(f
     }
 }
 
-/// Largest speed in `direction` (+1 or −1) inside a step: at an end, or where the acceleration vanishes.
-pub fn speed_extreme(step: &Step, direction: f64) -> f64 {
-    let ends = (direction * step.start.omega).max(direction * step.end.omega);
-    if direction * step.start.alpha <= 0.0 || direction * step.end.alpha >= 0.0 {
-        return direction * ends;
+/// Pieces of a step in which an extreme is looked for: a polynomial of its own may go up and down several times.
+const PIECES_OF_POLYNOMIAL: usize = 12;
+const PIECES_BETWEEN_ENDS: usize = 2;
+
+/// How the acceleration of a step goes at equally spaced times.
+fn accelerations(step: &Step) -> ([f64; PIECES_OF_POLYNOMIAL + 1], usize) {
+    let mut all = [0.0; PIECES_OF_POLYNOMIAL + 1];
+    if step.has_polynomial() {
+        return (step.accelerations(), PIECES_OF_POLYNOMIAL);
     }
-    let speed = |s: f64| direction * step.at(step.start.t + s * step.length()).1;
-    let (mut a, mut b) = (0.0, 1.0);
-    for _ in 0..30 {
-        let (c, d) = (
-            b - 0.618_033_988_75 * (b - a),
-            a + 0.618_033_988_75 * (b - a),
-        );
-        if speed(c) > speed(d) { b = d } else { a = c }
+    let few: [f64; PIECES_BETWEEN_ENDS + 1] = step.accelerations();
+    all[..few.len()].copy_from_slice(&few);
+    (all, PIECES_BETWEEN_ENDS)
+}
+
+/// Widens a range of speeds by those of a step.
+pub fn speed_range(step: &Step, known: (f64, f64)) -> (f64, f64) {
+    let (rates, pieces) = accelerations(step);
+    let value = |t: f64| step.at(t).1;
+    let rate = |t: f64| step.acceleration_at(t);
+    widened(step, known, &rates[..=pieces], value, rate)
+}
+
+/// The same. Where a new extreme may lie inside, the step is refined first.
+pub fn follow_speed(step: &mut Step, motion: &dyn Motion, known: (f64, f64)) -> (f64, f64) {
+    refine_for(step, motion, known, |step, t| step.at(t).1, speed_range);
+    speed_range(step, known)
+}
+
+/// The same for any value with its rate of change, at a time in the step.
+pub fn follow(
+    step: &mut Step,
+    motion: &dyn Motion,
+    known: (f64, f64),
+    at: impl Fn(&Step, f64) -> (f64, f64),
+) -> (f64, f64) {
+    let look = |step: &Step, range| {
+        let rates: [f64; PIECES_OF_POLYNOMIAL + 1] =
+            std::array::from_fn(|i| at(step, part(step, i, PIECES_OF_POLYNOMIAL)).1);
+        widened(step, range, &rates, |t| at(step, t).0, |t| at(step, t).1)
+    };
+    refine_for(step, motion, known, |step, t| at(step, t).0, look);
+    look(step, known)
+}
+
+/// Refines a step that may hold more inside than at its ends.
+fn refine_for(
+    step: &mut Step,
+    motion: &dyn Motion,
+    known: (f64, f64),
+    value: impl Fn(&Step, f64) -> f64,
+    look: impl Fn(&Step, (f64, f64)) -> (f64, f64),
+) {
+    if step.is_refined() {
+        return;
     }
-    direction * ends.max(speed(0.5 * (a + b)))
+    // What the ends alone tell of the inside may be off by this much.
+    let margin = 1e-3 * known.0.abs().max(known.1.abs());
+    let (a, b) = (value(step, step.start.t), value(step, step.end.t));
+    let near = (
+        a.min(b).min(known.0 + margin),
+        a.max(b).max(known.1 - margin),
+    );
+    if look(step, near) != near {
+        step.refine(motion);
+    }
+}
+
+/// The time at which the piece of this index begins.
+fn part(step: &Step, index: usize, pieces: usize) -> f64 {
+    if index == pieces {
+        step.end.t
+    } else {
+        step.start.t + step.length() * index as f64 / pieces as f64
+    }
+}
+
+/// Widens a range by the values at the ends and where `rate`, given at equally spaced times, changes its sign.
+fn widened(
+    step: &Step,
+    mut range: (f64, f64),
+    rates: &[f64],
+    value: impl Fn(f64) -> f64,
+    rate: impl Fn(f64) -> f64,
+) -> (f64, f64) {
+    let mut widen = |value: f64| range = (range.0.min(value), range.1.max(value));
+    widen(value(step.start.t));
+    widen(value(step.end.t));
+    let pieces = rates.len() - 1;
+    for (i, pair) in rates.windows(2).enumerate() {
+        if pair[0] * pair[1] >= 0.0 {
+            // An extreme at one of the times itself.
+            if pair[1] == 0.0 {
+                widen(value(part(step, i + 1, pieces)));
+            }
+            continue;
+        }
+        let (from, to) = (part(step, i, pieces), part(step, i + 1, pieces));
+        if let Some(t) = root::bracketed(&rate, from, to) {
+            widen(value(t));
+        }
+    }
+    range
 }

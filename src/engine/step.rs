@@ -78,6 +78,11 @@ impl Step {
         self.inside != Inside::Ends
     }
 
+    /// Whether it came with a polynomial of its own.
+    pub fn has_polynomial(&self) -> bool {
+        matches!(self.inside, Inside::Powers(_))
+    }
+
     /// Its length, s.
     pub fn length(&self) -> f64 {
         self.end.t - self.start.t
@@ -126,6 +131,24 @@ impl Step {
             return 4.0 / (h * h) * sum;
         }
         (self.quintic(s)[2] + self.bump(s)[2]) / (h * h)
+    }
+
+    /// The same at N equally spaced times from the start to the end.
+    pub fn accelerations<const N: usize>(&self) -> [f64; N] {
+        let h = self.length();
+        let part = |i: usize| i as f64 / (N - 1) as f64;
+        let Inside::Powers(powers) = &self.inside else {
+            return std::array::from_fn(|i| self.acceleration_at(self.start.t + part(i) * h));
+        };
+        let x: [f64; N] = std::array::from_fn(|i| 2.0 * part(i) - 1.0);
+        let mut sums = [0.0; N];
+        for (k, power) in powers.iter().enumerate().skip(2).rev() {
+            let term = (k * (k - 1)) as f64 * power;
+            for i in 0..N {
+                sums[i] = sums[i] * x[i] + term;
+            }
+        }
+        sums.map(|sum| 4.0 / (h * h) * sum)
     }
 
     /// Makes the motion inside the step as exact as a method of order eight: six evaluations, once.

@@ -40,7 +40,8 @@ pub(super) fn run(
     rows: &mut dyn RowSink,
     record: bool,
 ) -> Result<Simulation, Error> {
-    let position = Position::new(task.equation(), &task.limits).with_friction(task.maker.sliding);
+    let position = Position::new(task.equation(), &task.limits, task.start())
+        .with_friction(task.maker.sliding);
     let solved = match task.plan.engine {
         Engine::Angle => match by_angle::solve(task, &position) {
             Ok(motion) => Ok(motion),
@@ -49,8 +50,8 @@ pub(super) fn run(
             }
             Err(Unsolved { why, .. }) => Err(why),
         },
-        // Turns that differ are many panels; the map from turn to turn is for them.
-        _ if !position.repeats() && is_long(task) => {
+        // Turns of other speed are many panels; the map from turn to turn is for them.
+        _ if !position.repeats() && is_long(task) && angle_serves(task) => {
             by_angle::solve(task, &position).or_else(|_| by_energy::solve(task, &position))
         }
         _ => by_energy::solve(task, &position),
@@ -89,6 +90,11 @@ fn is_long(task: &Task<'_>) -> bool {
         Extent::Duration(duration) => speed * duration > MANY * TAU,
         Extent::Revolutions(turns) => turns > MANY,
     }
+}
+
+/// Whether the loads are the same in each turn, which the energy engine does without.
+fn angle_serves(task: &Task<'_>) -> bool {
+    Plan::new(task.scene, Method::Angle).is_ok()
 }
 
 /// Why these engines cannot serve a task.

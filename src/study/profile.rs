@@ -16,15 +16,17 @@ use crate::scene::Variable;
 pub(super) struct Position<'a> {
     equation: &'a Equation,
     sliding: Option<&'a Sliding>,
+    /// Whole turns of the start, beside all angles: loads over theta need not be the same in each turn.
+    turns: f64,
     corners: Vec<f64>,
     repeats: bool,
     evaluations: Cell<u64>,
 }
 
 impl<'a> Position<'a> {
-    /// Panels end at the dead centres, where the inertia of a mechanism without crank inertia has a corner, and
-    /// at the rows of tables over the crank angle.
-    pub fn new(equation: &'a Equation, limits: &Limits) -> Position<'a> {
+    /// Angles are those beside the whole turns of `start`. Panels end at the dead centres, where the inertia of a
+    /// mechanism without crank inertia has a corner, and at the rows of tables over the crank angle.
+    pub fn new(equation: &'a Equation, limits: &Limits, start: Angle) -> Position<'a> {
         let loads = equation.loads();
         let dead_centres = limits.dead_centres.iter().map(|dc| dc.theta);
         let tables = loads
@@ -38,6 +40,7 @@ impl<'a> Position<'a> {
         Position {
             equation,
             sliding: None,
+            turns: start.turns,
             corners,
             repeats: loads.have_potential() && !loads.turn_the_crank(),
             evaluations: Cell::new(0),
@@ -55,6 +58,14 @@ impl<'a> Position<'a> {
         self.evaluations.get()
     }
 
+    /// The whole angle.
+    fn angle(&self, theta: f64) -> Angle {
+        Angle {
+            turns: self.turns,
+            rest: theta,
+        }
+    }
+
     fn count(&self, positions: usize) {
         self.evaluations
             .set(self.evaluations.get() + positions as u64);
@@ -69,7 +80,7 @@ impl<'a> Position<'a> {
         let force = |theta: f64| {
             let pose = self.equation.linkage().pose(theta);
             loads
-                .without_potential(0.0, theta, 0.0, &pose)
+                .without_potential(0.0, self.angle(theta), 0.0, &pose)
                 .generalized(&pose)
         };
         let (low, high) = (from.min(to), from.max(to));
@@ -109,7 +120,7 @@ impl Driven for Position<'_> {
             let (x, dx) = (at.x[i], at.dx[i]);
             table.inertia[i] = at.m[i];
             table.force[i] = loads.with_potential_at(x).over(dx) - at.dv[i];
-            table.push[i] = loads.of_place(*angle, x).over(dx);
+            table.push[i] = loads.of_place(self.angle(*angle), x).over(dx);
             table.damping[i] = loads.damping(dx);
             if driven {
                 let grip = Grip::default();
@@ -150,7 +161,8 @@ impl Profile for Position<'_> {
     fn inertia_and_force(&self, theta: f64) -> (f64, f64) {
         self.count(1);
         let terms = self.equation.terms(theta);
-        let load = self.equation.loads().value(0.0, theta, 0.0, &terms.pose);
+        let angle = self.angle(theta);
+        let load = self.equation.loads().value(0.0, angle, 0.0, &terms.pose);
         (terms.inertia.m, load.generalized(&terms.pose) - terms.dv)
     }
 
@@ -161,7 +173,7 @@ impl Profile for Position<'_> {
         for (i, angle) in angles.iter().enumerate().take(count) {
             let load = loads
                 .with_potential_at(at.x[i])
-                .plus(loads.of_place(*angle, at.x[i]));
+                .plus(loads.of_place(self.angle(*angle), at.x[i]));
             inertia[i] = at.m[i];
             force[i] = load.over(at.dx[i]) - at.dv[i];
         }

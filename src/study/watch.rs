@@ -72,32 +72,9 @@ impl Watch<'_> {
         self.seen.ends_at.is_some()
     }
 
-    /// Least and largest speed; a step that may hold a new extreme inside is refined first.
+    /// Least and largest speed.
     pub fn follow_speed(&mut self, step: &mut Step) {
-        for direction in [-1.0, 1.0] {
-            let known = if direction < 0.0 {
-                &mut self.log.speed.0
-            } else {
-                &mut self.log.speed.1
-            };
-            let beyond = |speed: f64, margin: f64| direction * (speed - *known) > -margin;
-            let rough = events::speed_extreme(step, direction);
-            if !beyond(rough, 1e-4 * known.abs()) {
-                continue;
-            }
-            let inside = rough != step.start.omega && rough != step.end.omega;
-            if inside {
-                step.refine(self.motion);
-            }
-            let speed = if inside {
-                events::speed_extreme(step, direction)
-            } else {
-                rough
-            };
-            if direction * (speed - *known) > 0.0 {
-                *known = speed;
-            }
-        }
+        self.log.speed = events::follow_speed(step, self.motion, self.log.speed);
     }
 
     pub fn turned(&self, step: &Step, theta: f64) -> f64 {

@@ -11,6 +11,7 @@ pub mod newton;
 pub mod random;
 pub mod rubbing;
 pub mod run;
+pub mod scenes;
 
 use exact::{Dd, Jet};
 use slider_crank::scene::{Branch, Geometry, InertiaAbout, Rod};

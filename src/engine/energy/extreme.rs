@@ -1,7 +1,7 @@
 //! Smallest and largest speeds.
 
 use super::Orbit;
-use super::leg::{After, Leg};
+use super::leg::After;
 use super::panel::Panel;
 use super::piece::{Piece, Turning};
 use crate::numeric::chebyshev::{Rule, Values};
@@ -49,10 +49,11 @@ impl Panel {
             .map_or(at_point, |x| at_point.max(sign * self.speed(x).abs()))
     }
 
-    /// Largest sign·|speed| until a time after the start.
-    pub fn extreme_until(&self, until: f64, sign: f64) -> f64 {
-        let share = 0.5 * (1.0 + self.position(until));
-        let points = self.rule.values(|x| share * (1.0 + x) - 1.0);
+    /// Largest sign·|speed| between two times after the start.
+    pub fn extreme_between(&self, from: f64, until: f64, sign: f64) -> f64 {
+        let ends = [from, until].map(|t| self.position(t));
+        let half = 0.5 * (ends[1] - ends[0]);
+        let points = self.rule.values(|x| ends[0] + half * (1.0 + x));
         let value = |index: &usize| sign * self.speed(points[*index]).abs();
         let best = (0..=self.rule.degree()).max_by(|a, b| value(a).total_cmp(&value(b)));
         self.extreme_near(&points, best.unwrap_or(0), sign)
@@ -65,39 +66,35 @@ impl Orbit {
         if until == 0.0 {
             return (self.speed, self.speed);
         }
-        let signed = |leg: &Leg, direction: f64, until: f64| {
-            let (low, high) = leg.speed_range(until);
+        let with_sign = |(low, high): (f64, f64), direction: f64| {
             if direction > 0.0 {
                 (low, high)
             } else {
                 (-high, -low)
             }
         };
-        let mut range = signed(&self.forward, self.direction, until);
-        if let Some(later) = self
-            .later
-            .as_ref()
-            .filter(|_| until > self.forward.duration.0)
-        {
-            let (low, high) = later.speed_range(until);
-            let (low, high) = if self.direction > 0.0 {
-                (low, high)
-            } else {
-                (-high, -low)
-            };
+        let mut range = with_sign(self.forward.speed_range(0.0, until), self.direction);
+        let mut widen = |part: (f64, f64), direction: f64| {
+            let (low, high) = with_sign(part, direction);
             range = (range.0.min(low), range.1.max(high));
-        }
+        };
         let there = self.forward.duration.0;
-        if self.forward.after == After::TurnsBack && until > there {
-            let back = signed(&self.forward, -self.direction, 2.0 * there);
-            range = (range.0.min(back.0), range.1.max(back.1));
-            if let Some(leg) = self.backward.as_ref().filter(|_| until > 2.0 * there) {
-                let there = signed(leg, -self.direction, until - 2.0 * there);
-                range = (range.0.min(there.0), range.1.max(there.1));
-                if leg.after == After::TurnsBack {
-                    let again = signed(leg, self.direction, f64::INFINITY);
-                    range = (range.0.min(again.0), range.1.max(again.1));
-                }
+        if let Some(later) = self.later.as_ref().filter(|_| until > there) {
+            widen(later.speed_range(until), self.direction);
+        }
+        if self.forward.after != After::TurnsBack || until <= there {
+            return range;
+        }
+        // The way back is the way there, from its end.
+        let back = (2.0 * there - until).max(0.0);
+        widen(self.forward.speed_range(back, there), -self.direction);
+        if let Some(leg) = self.backward.as_ref().filter(|_| until > 2.0 * there) {
+            let since = until - 2.0 * there;
+            widen(leg.speed_range(0.0, since), -self.direction);
+            let end = leg.duration.0;
+            if leg.after == After::TurnsBack && since > end {
+                let back = (2.0 * end - since).max(0.0);
+                widen(leg.speed_range(back, end), self.direction);
             }
         }
         range

@@ -213,15 +213,23 @@ impl Leg {
         Some(begin + panel.time_of(local(panel).radians()))
     }
 
-    /// Smallest and largest |speed| until a time.
-    pub fn speed_range(&self, until: f64) -> (f64, f64) {
-        let ended = |(panel, begin): &(&Panel, &f64)| **begin + panel.duration.0 <= until;
-        let pairs = || self.panels.iter().zip(&self.begins);
-        let whole: Vec<&Panel> = pairs().filter(ended).map(|(panel, _)| panel).collect();
-        let part = pairs().find(|pair| !ended(pair) && *pair.1 <= until);
+    /// Smallest and largest |speed| between two times.
+    pub fn speed_range(&self, from: f64, until: f64) -> (f64, f64) {
+        let mut whole = Vec::with_capacity(self.panels.len());
+        let mut parts = Vec::new();
+        for (panel, begin) in self.panels.iter().zip(&self.begins) {
+            let end = begin + panel.duration.0;
+            if from <= *begin && end <= until {
+                whole.push(panel);
+            } else if from < end && *begin <= until {
+                parts.push((panel, (from - begin).max(0.0), until.min(end) - begin));
+            }
+        }
         let largest = |sign: f64| {
-            let of_part = part.map(|(panel, begin)| panel.extreme_until(until - begin, sign));
-            extreme(&whole, sign).max(of_part.unwrap_or(f64::NEG_INFINITY))
+            let of_parts = parts
+                .iter()
+                .map(|(panel, from, until)| panel.extreme_between(*from, *until, sign));
+            of_parts.fold(extreme(&whole, sign), f64::max)
         };
         (-largest(-1.0), largest(1.0))
     }

@@ -82,7 +82,7 @@ impl Orbit {
             });
         };
         let there = self.forward.duration.0;
-        let mut run = |leg: &Leg, since: f64| {
+        let run = |leg: &Leg, since: f64, pass: &mut dyn FnMut(f64, Angle, bool)| {
             let turns_back = leg.after == After::TurnsBack;
             let last = leg.len().saturating_sub(1);
             for (i, (t, angle)) in leg.ends().enumerate() {
@@ -94,13 +94,16 @@ impl Orbit {
                 }
             }
         };
-        run(&self.forward, 0.0);
+        run(&self.forward, 0.0, &mut pass);
         if self.forward.after == After::TurnsBack {
-            match &self.backward {
-                Some(back) => {
-                    run(back, 2.0 * there);
+            // The start is passed on the way back, and again at the end of the period.
+            let start = Angle::from(self.start.rest);
+            pass(2.0 * there, start, self.from_rest);
+            if let Some(back) = &self.backward {
+                run(back, 2.0 * there, &mut pass);
+                if back.after == After::TurnsBack {
+                    pass(2.0 * (there + back.duration.0), start, false);
                 }
-                None => pass(2.0 * there, self.start.rest.into(), self.from_rest),
             }
         }
         found

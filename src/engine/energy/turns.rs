@@ -197,11 +197,21 @@ impl Turns {
         let last = self.last_mark();
         let by_energy = |a: &&Mark, b: &&Mark| a.kinetic.total_cmp(&b.kinetic);
         let whole = || self.marks.iter().filter(|mark| mark.turns < last.turns);
-        let mut range = self.last.speed_range(last.until(until));
-        let first = self.marks.first();
-        let marks = [whole().min_by(by_energy), whole().max_by(by_energy), first];
+        let mut range = self.last.speed_range(0.0, last.until(until));
+        let first = self.marks.first().copied();
+        // The energies of the turns rise or fall, but not all turns have marks.
+        let before_last = (last.turns >= 1.0).then(|| {
+            let turn = last.turns - 1.0;
+            self.find(|mark| mark.turns <= turn, |mark, _| turn - mark.turns)
+        });
+        let marks = [
+            whole().min_by(by_energy).copied(),
+            whole().max_by(by_energy).copied(),
+            first,
+            before_last,
+        ];
         for mark in marks.into_iter().flatten() {
-            let (low, high) = self.leg(mark).speed_range(f64::INFINITY);
+            let (low, high) = self.leg(&mark).speed_range(0.0, f64::INFINITY);
             range = (range.0.min(low), range.1.max(high));
         }
         range

@@ -40,8 +40,9 @@ pub fn run(
     let mut wanted = first_length(&node);
     let (mut steps, mut at_corner) = (0, false);
     while state.t < settings.t_end {
-        let corner = motion.next_corner(state.t).min(settings.t_end);
-        let left = corner - state.t;
+        let corner = motion.next_corner(state.t);
+        let until = corner.min(settings.t_end);
+        let left = until - state.t;
         let way = wanted.min(TAU / state.omega.abs());
         let length = fitted(way, left);
         // The length that the rounded times have.
@@ -52,7 +53,9 @@ pub fn run(
         if motion.evaluations() >= settings.max_evaluations {
             return (Finish::WorkLimit, last, steps);
         }
-        let ends_at_corner = state.t + h >= corner;
+        let is_last = state.t + h >= until;
+        // The end of the run is no corner: the acceleration there must be that of the step.
+        let ends_at_corner = is_last && corner <= settings.t_end;
         let attempt = Try {
             h,
             corners: [at_corner, ends_at_corner],
@@ -73,9 +76,11 @@ pub fn run(
                 };
                 state = next;
                 last = step;
+                if is_last {
+                    state.t = until;
+                    last.end.t = until;
+                }
                 if ends_at_corner {
-                    state.t = corner;
-                    last.end.t = corner;
                     collocation.begin_anew(last.end.alpha);
                 }
                 at_corner = ends_at_corner;

@@ -171,14 +171,7 @@ impl<const N: usize> Follow<'_, N> {
             node(from, stretch.before.rates[4]),
             node(to, stretch.after.rates[4]),
         );
-        for direction in [-1.0, 1.0] {
-            let speed = events::speed_extreme(&step, direction);
-            if direction < 0.0 {
-                self.seen.speed.0 = self.seen.speed.0.min(speed);
-            } else {
-                self.seen.speed.1 = self.seen.speed.1.max(speed);
-            }
-        }
+        self.seen.speed = events::speed_range(&step, self.seen.speed);
         let turned = |theta: f64| theta - self.asked.start;
         if let Some(limit) = self.asked.turn_limit
             && turned(to.theta).abs() >= limit

@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use super::arrived::Observer;
 use super::phase::{InPhase, Phase};
+use crate::engine::events;
 use crate::engine::step::Step;
 use crate::error::Error;
 use crate::mechanism::{Constrained, Reactor};
@@ -81,37 +82,13 @@ impl CurveWatch<'_> {
 
     /// Least and largest crank speed.
     fn follow_speed(&mut self, step: &mut Step, motion: &InPhase<'_>) {
-        for direction in [-1.0, 1.0] {
-            let known = if direction < 0.0 {
-                self.log.speed.0
-            } else {
-                self.log.speed.1
-            };
-            let value = |step: &Step, t: f64| direction * self.crank_speed(step, t);
-            let best = (0..=PIECES)
-                .max_by(|i, j| value(step, time(step, *i)).total_cmp(&value(step, time(step, *j))))
-                .unwrap_or(0);
-            let rough = value(step, time(step, best));
-            if rough < direction * known - 1e-3 * known.abs() {
-                continue;
-            }
-            let inside = best != 0 && best != PIECES;
-            let found = if inside {
-                step.refine(motion);
-                let (a, b) = (time(step, best - 1), time(step, best + 1));
-                largest(|t| value(step, t), a, b)
-            } else {
-                rough
-            };
-            if found > direction * known {
-                let known = if direction < 0.0 {
-                    &mut self.log.speed.0
-                } else {
-                    &mut self.log.speed.1
-                };
-                *known = direction * found;
-            }
-        }
+        let curve = self.equation.curve();
+        self.log.speed = events::follow(step, motion, self.log.speed, |step, t| {
+            let (q, speed) = step.at(t);
+            let place = curve.place(q);
+            let rate = place.dtheta * step.acceleration_at(t) + place.d2theta * speed * speed;
+            (place.dtheta * speed, rate)
+        });
     }
 
     fn write_rows(&mut self, step: &mut Step, motion: &InPhase<'_>) -> Result<(), Error> {
@@ -212,17 +189,4 @@ fn time(step: &Step, piece: usize) -> f64 {
     } else {
         step.start.t + step.length() * piece as f64 / PIECES as f64
     }
-}
-
-/// Largest value between `a` and `b`, by golden section.
-fn largest(value: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
-    for _ in 0..40 {
-        let part = 0.618_033_988_75 * (b - a);
-        if value(b - part) > value(a + part) {
-            b = a + part;
-        } else {
-            a = b - part;
-        }
-    }
-    value(0.5 * (a + b))
 }

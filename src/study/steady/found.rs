@@ -103,7 +103,7 @@ impl Seeker {
         if limits.dead_centres.iter().any(|dc| vanishes(dc.theta)) {
             return Err(unbounded());
         }
-        let position = Position::new(&self.equation, &limits);
+        let position = Position::new(&self.equation, &limits, self.start);
         let resolution = Resolution {
             tail: TAIL,
             other,
