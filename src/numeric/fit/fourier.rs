@@ -1,6 +1,7 @@
 //! Steady rotation plus harmonics: θ = c + Ω τ + Σ a_k cos kΩτ + b_k sin kΩτ, τ counted from the middle of the record.
 
 use super::choice::{best, undecided};
+use super::condensed::Rows;
 use super::triangle::Triangle;
 use super::{Quality, Samples, Size, State, add_products};
 
@@ -32,7 +33,8 @@ impl Fourier {
     /// # Errors
     /// A text that says why the samples do not serve.
     pub fn fit(samples: &Samples<'_>, size: Size) -> Result<Fourier, String> {
-        let (first, last) = (samples.t[0], samples.t[samples.t.len() - 1]);
+        let samples = &Rows::new(samples, 1);
+        let [first, last] = samples.span;
         let middle = 0.5 * first + 0.5 * last;
         let line = solve(samples, middle, &[0.0, 0.0], 0)?.1;
         let mut parameters = vec![line[0], line[1]];
@@ -53,7 +55,7 @@ impl Fourier {
         }
         let (triangle, _) = solve(samples, middle, &parameters, parameters.len() / 2 - 1)?;
         let squares = squares(samples, middle, &parameters);
-        let free = (samples.t.len() - parameters.len()).max(1) as f64;
+        let free = (samples.count - parameters.len()).max(1) as f64;
         Ok(Fourier {
             middle,
             quality: Quality {
@@ -82,6 +84,19 @@ impl Fourier {
     pub fn coefficients(&self) -> (Vec<f64>, Vec<f64>, f64) {
         let (errors, condition) = self.triangle.errors();
         (self.parameters.clone(), errors, condition)
+    }
+
+    /// The curve at `t`.
+    pub fn value(&self, t: f64) -> f64 {
+        let (tau, omega) = (t - self.middle, self.parameters[1]);
+        let mut value = self.parameters[0] + omega * tau;
+        let mut rate = 0.0;
+        for pair in self.parameters[2..].chunks_exact(2) {
+            rate += omega;
+            let (sin, cos) = (rate * tau).sin_cos();
+            value += pair[0] * cos + pair[1] * sin;
+        }
+        value
     }
 
     /// The curve and its derivatives at `t`.
@@ -139,29 +154,27 @@ fn columns(tau: f64, parameters: &[f64]) -> ([f64; 4], Vec<Jet>) {
     (value, columns)
 }
 
-fn squares(samples: &Samples<'_>, middle: f64, parameters: &[f64]) -> f64 {
-    residuals(samples, middle, parameters)
-        .map(|(_, _, r)| r * r)
-        .sum()
+fn squares(samples: &Rows<'_>, middle: f64, parameters: &[f64]) -> f64 {
+    let rest = residuals(samples, middle, parameters).map(|(_, _, r)| r * r);
+    samples.left + rest.sum::<f64>()
 }
 
 /// Weight, columns and residual of each sample.
 fn residuals<'a>(
-    samples: &'a Samples<'a>,
+    samples: &'a Rows<'a>,
     middle: f64,
     parameters: &'a [f64],
 ) -> impl Iterator<Item = (f64, Vec<Jet>, f64)> + 'a {
-    samples.t.iter().enumerate().map(move |(i, t)| {
-        let weight = samples.weight.map_or(1.0, |w| w[i]);
+    samples.iter().map(move |(t, weight, target)| {
         let (value, columns) = columns(t - middle, parameters);
-        (weight, columns, samples.target[i] - weight * value[0])
+        (weight, columns, target - weight * value[0])
     })
 }
 
 /// The triangle of the design matrix at these parameters, extended by zeros to `count` harmonics, and the correction
 /// of the parameters.
 fn solve(
-    samples: &Samples<'_>,
+    samples: &Rows<'_>,
     middle: f64,
     parameters: &[f64],
     count: usize,
@@ -180,15 +193,20 @@ fn solve(
 }
 
 /// The number of harmonics that the samples support at about this rotation.
-fn harmonics(samples: &Samples<'_>, middle: f64, parameters: &[f64]) -> Result<usize, String> {
-    let rows = samples.t.len();
+fn harmonics(samples: &Rows<'_>, middle: f64, parameters: &[f64]) -> Result<usize, String> {
+    let rows = samples.count;
     let least = rows as f64 * samples.floor * samples.floor;
     let most = MOST.min((rows / 2).saturating_sub(2) / 2);
     let mut tried = 4.min(most);
     loop {
         let line = &parameters[..2];
         let (triangle, _) = solve(samples, middle, line, tried)?;
-        let squares: Vec<f64> = triangle.squares().into_iter().skip(2).collect();
+        let squares = triangle
+            .squares()
+            .into_iter()
+            .skip(2)
+            .map(|s| samples.left + s);
+        let squares: Vec<f64> = squares.collect();
         // Both parameters of a harmonic come together.
         let pairs: Vec<f64> = squares.iter().step_by(2).copied().collect();
         let found = best(rows, 2, 2, &pairs, least);
@@ -200,7 +218,7 @@ fn harmonics(samples: &Samples<'_>, middle: f64, parameters: &[f64]) -> Result<u
 }
 
 /// Gauss and Newton's method for all parameters.
-fn settle(samples: &Samples<'_>, middle: f64, parameters: &mut [f64]) -> Result<(), String> {
+fn settle(samples: &Rows<'_>, middle: f64, parameters: &mut [f64]) -> Result<(), String> {
     let count = parameters.len() / 2 - 1;
     let mut before = f64::INFINITY;
     for _ in 0..ROUNDS {

@@ -3,6 +3,7 @@
 //! covariance is that of the Bayesian view, which has the error of smoothing in it (Wahba, J. R. Statist. Soc. B 45
 //! (1983) 133).
 
+use super::condensed::Rows;
 use super::penalized::{Normal, ORDER, roughness};
 use super::pieces::{DEGREE, Grid, basis};
 use super::{Quality, Samples, Size, State};
@@ -33,6 +34,16 @@ impl Spline {
     pub fn fit(samples: &Samples<'_>, size: Size) -> Result<Spline, String> {
         let failed = || "the samples do not determine a spline".to_owned();
         let rows = samples.t.len();
+        let all = Rows::from(samples);
+        let few = match size {
+            Size::Fixed(pieces) => Rows::new(samples, pieces.max(1)),
+            Size::Auto => Rows::new(samples, FEWEST),
+        };
+        // Knots inside a block would be lost.
+        let rows_for = |pieces: usize| match few.blocks() {
+            Some(blocks) if blocks.is_multiple_of(pieces) => &few,
+            _ => &all,
+        };
         let pieces = match size {
             Size::Fixed(pieces) => pieces,
             Size::Auto => {
@@ -40,7 +51,7 @@ impl Spline {
                 let (mut pieces, mut worse) = (FEWEST.min(most), 0);
                 let mut best: Option<(f64, usize, bool)> = None;
                 while pieces <= most && (worse < 2 || best.is_some_and(|best| !best.2)) {
-                    let normal = Normal::new(samples, pieces);
+                    let normal = Normal::new(rows_for(pieces), pieces);
                     let choice = normal.choose().ok_or_else(failed)?;
                     if best.is_none_or(|best| choice.cost < best.0) {
                         let follows = normal.follows(&choice.coefficients);
@@ -55,7 +66,7 @@ impl Spline {
                 (FINER * enough).min(most).max(enough)
             }
         };
-        let normal = Normal::new(samples, pieces);
+        let normal = Normal::new(rows_for(pieces), pieces);
         let choice = normal.choose().ok_or_else(failed)?;
         let factor = normal.factor(choice.strength).ok_or_else(failed)?;
         let inverse = factor.inverse_band();
@@ -93,6 +104,14 @@ impl Spline {
         let error = |i| self.inverse.get(i, i).sqrt();
         let errors = (0..self.coefficients.len()).map(error).collect();
         (self.coefficients.clone(), errors, self.condition)
+    }
+
+    /// The spline at `t`.
+    pub fn value(&self, t: f64) -> f64 {
+        let (piece, u) = self.grid.place(t);
+        let basis = basis(DEGREE, u);
+        let terms = basis.iter().zip(&self.coefficients[piece..]);
+        terms.fold(0.0, |sum, (b, c)| sum + b * c)
     }
 
     /// The spline and its derivatives at `t`.

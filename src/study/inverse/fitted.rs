@@ -2,7 +2,8 @@
 
 use super::pattern::Pattern;
 use super::sensor::Sensor;
-use crate::numeric::fit::{Curve, Kind, Samples, Size, State};
+use crate::numeric::fit::{Curve, Kind, Samples, Size};
+use crate::numeric::parallel;
 use crate::scene::{Measured, Measurement};
 
 /// A fitted motion.
@@ -20,6 +21,9 @@ pub(super) struct Fitted {
 
 /// Corrections after which a fit counts as not settling.
 const MOST: usize = 30;
+
+/// Samples that show how far a motion is from settled, and from which very many are begun.
+const PART: usize = 20_000;
 
 /// A correction below this part of a standard error settles a fit.
 const SETTLED: f64 = 1e-3;
@@ -49,56 +53,19 @@ impl Fitted {
                 floor: floor.max(f64::EPSILON * largest(&theta) / 12f64.sqrt()),
             };
             let curve = Curve::fit(&samples, kind, size)?;
-            let states = states(&curve, times);
-            let residuals: Vec<f64> = theta
-                .iter()
-                .zip(&states)
-                .map(|(y, s)| y - s.value[0])
-                .collect();
+            let residuals = parallel::list(theta.len(), |i| theta[i] - curve.value(times[i]));
             return Ok(Fitted::of(curve, residuals, true, Some(theta)));
         }
-        let mut now = theta;
-        let (mut weight, mut target) = (vec![0.0; times.len()], vec![0.0; times.len()]);
-        let mut size = size;
-        let mut round = 0;
-        loop {
-            for (i, (value, theta)) in values.iter().zip(&now).enumerate() {
-                let (residual, slope) = sensor.residual(*value, *theta);
-                weight[i] = slope;
-                target[i] = residual + slope * theta;
-            }
-            let samples = Samples {
-                t: times,
-                target: &target,
-                weight: Some(&weight),
-                floor,
-            };
-            let curve = Curve::fit(&samples, kind, size)?;
-            let sigma = curve.quality().sigma;
-            let mut change = 0.0f64;
-            for (t, theta) in times.iter().zip(&mut now) {
-                let state = curve.state(*t);
-                let error = sigma * state.covariance[0].sqrt() + state.rounding[0];
-                change = change.max((state.value[0] - *theta).abs() / error.max(f64::MIN_POSITIVE));
-                *theta = state.value[0];
-            }
-            if now
-                .iter()
-                .any(|theta| !theta.is_finite() || !sensor.linkage.pose(*theta).exists())
-            {
-                return Err("the fit leaves the angles that the crank can take".to_owned());
-            }
-            round += 1;
-            // Once the motion is about right the choice of terms is made, so that it cannot go on alternating.
-            if round == 4 {
-                size = Size::Fixed(curve.size());
-            }
-            if change < SETTLED || round == MOST {
-                let residual = |(value, theta): (&f64, &f64)| sensor.residual(*value, *theta).0;
-                let residuals = values.iter().zip(&now).map(residual).collect();
-                return Ok(Fitted::of(curve, residuals, change < 1.0, None));
-            }
-        }
+        let seen = Seen {
+            sensor,
+            times,
+            values,
+            floor,
+        };
+        let theta = seen.start(theta, kind, size);
+        let (curve, theta, settled) = seen.settle(theta, kind, size)?;
+        let residuals = parallel::list(times.len(), |i| sensor.residual(values[i], theta[i]).0);
+        Ok(Fitted::of(curve, residuals, settled, None))
     }
 
     fn of(curve: Curve, residuals: Vec<f64>, settled: bool, continued: Option<Vec<f64>>) -> Fitted {
@@ -127,7 +94,82 @@ impl Fitted {
     }
 }
 
-/// The curve at each time.
-pub(super) fn states(curve: &Curve, times: &[f64]) -> Vec<State> {
-    times.iter().map(|t| curve.state(*t)).collect()
+/// Samples of something that the crank angle is read from.
+#[derive(Clone, Copy, Debug)]
+struct Seen<'a> {
+    sensor: &'a Sensor<'a>,
+    times: &'a [f64],
+    values: &'a [f64],
+    /// Standard deviation of a value that is due to its digits alone.
+    floor: f64,
+}
+
+impl Seen<'_> {
+    /// A first motion for very many samples, fitted to a part of them; the given one where that fails.
+    fn start(&self, theta: Vec<f64>, kind: Kind, size: Size) -> Vec<f64> {
+        let stride = theta.len() / PART;
+        if stride < 2 {
+            return theta;
+        }
+        let part = |list: &[f64]| -> Vec<f64> { list.iter().step_by(stride).copied().collect() };
+        let (times, values) = (part(self.times), part(self.values));
+        let few = Seen {
+            times: &times,
+            values: &values,
+            ..*self
+        };
+        match few.settle(part(&theta), kind, size) {
+            Ok((curve, _, true)) => parallel::list(theta.len(), |i| curve.value(self.times[i])),
+            _ => theta,
+        }
+    }
+
+    /// Corrects a motion until it fits: the curve, its angles, and whether it came to rest.
+    fn settle(
+        &self,
+        mut theta: Vec<f64>,
+        kind: Kind,
+        mut size: Size,
+    ) -> Result<(Curve, Vec<f64>, bool), String> {
+        let rows = theta.len();
+        let mut round = 0;
+        loop {
+            round += 1;
+            let lines = parallel::list(rows, |i| {
+                let (residual, slope) = self.sensor.residual(self.values[i], theta[i]);
+                (slope, residual + slope * theta[i])
+            });
+            let (weight, target): (Vec<f64>, Vec<f64>) = lines.into_iter().unzip();
+            let samples = Samples {
+                t: self.times,
+                target: &target,
+                weight: Some(&weight),
+                floor: self.floor,
+            };
+            let curve = Curve::fit(&samples, kind, size)?;
+            let sigma = curve.quality().sigma;
+            let change = (0..rows).step_by(1 + rows / PART).map(|i| {
+                let state = curve.state(self.times[i]);
+                let error = sigma * state.covariance[0].sqrt() + state.rounding[0];
+                (state.value[0] - theta[i]).abs() / error.max(f64::MIN_POSITIVE)
+            });
+            let change = change.fold(0.0, f64::max);
+            let next = parallel::list(rows, |i| {
+                let theta = curve.value(self.times[i]);
+                (theta, self.sensor.linkage.pose(theta).exists())
+            });
+            let (next, exists): (Vec<f64>, Vec<bool>) = next.into_iter().unzip();
+            theta = next;
+            if exists.contains(&false) {
+                return Err("the fit leaves the angles that the crank can take".to_owned());
+            }
+            // Once the motion is about right the choice of terms is made, so that it cannot go on alternating.
+            if round == 4 {
+                size = Size::Fixed(curve.size());
+            }
+            if change < SETTLED || round == MOST {
+                return Ok((curve, theta, change < 1.0));
+            }
+        }
+    }
 }

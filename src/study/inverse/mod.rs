@@ -17,13 +17,12 @@ pub use printed::AsPrinted;
 pub use row::{InverseRow, Residual};
 pub use summary::{DataSummary, FitSummary, ForceRange, InverseSummary};
 
-use self::fitted::{Fitted, states};
+use self::fitted::Fitted;
 use self::force::Backwards;
 use self::row::Rows;
 use self::sensor::Sensor;
 use crate::error::Error;
 use crate::mechanism::{Equation, Reactions, Reactor};
-use crate::numeric::fit::State;
 pub use crate::numeric::fit::{Kind as FitKind, Size as FitSize};
 use crate::numeric::student;
 use crate::plan::{Method, Plan};
@@ -112,8 +111,6 @@ pub fn inverse(
     );
     let fitted =
         fitted.map_err(|what| Error::refused(what, "give more samples, or a lower --degree"))?;
-    let states = states(&fitted.curve, measurement.times());
-    reachable(sensor.linkage, measurement, &states)?;
     let backwards = Backwards {
         equation: &equation,
         beside_forces: options.beside_forces,
@@ -121,7 +118,8 @@ pub fn inverse(
     };
     let free = measurement.len() as f64 - fitted.curve.quality().parameters;
     let factor = student::half_band(free.max(1.0));
-    let found = Rows::new(&backwards, measurement.times(), &states, factor);
+    let found = Rows::new(&backwards, &fitted.curve, measurement.times(), factor);
+    reachable(measurement, &found)?;
     finite(measurement, &found.rows)?;
     let mut warnings = measurement.notes().to_vec();
     warnings.extend(unfolded.warnings);
@@ -184,20 +182,15 @@ fn plan(scene: &Scene) -> Result<Plan, Error> {
 }
 
 /// Refuses a fit that leaves the angles that the crank can take.
-fn reachable(
-    linkage: &crate::mechanism::Linkage,
-    measurement: &Measurement,
-    states: &[State],
-) -> Result<(), Error> {
-    let blocked = |state: &State| !linkage.pose(state.value[0]).exists();
-    let Some(sample) = states.iter().position(blocked) else {
+fn reachable(measurement: &Measurement, found: &Rows) -> Result<(), Error> {
+    let Some(sample) = found.unreachable else {
         return Ok(());
     };
     Err(Error::refused(
         format!(
             "the fitted crank angle at {}, {} rad, is one at which the rod does not reach the guide",
             measurement.place(sample),
-            states[sample].value[0]
+            found.rows[sample].theta
         ),
         "try another --fit or --degree, or check the lengths of the scene",
     ))
