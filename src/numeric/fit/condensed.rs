@@ -10,10 +10,11 @@ use std::borrow::Cow;
 use nalgebra::{SMatrix, SymmetricEigen};
 
 use super::Samples;
+use super::pieces::DEGREE;
 use crate::numeric::orthogonal;
 
 /// Nodes of a block.
-const NODES: usize = 6;
+const NODES: usize = DEGREE + 1;
 
 /// Fewest samples that are condensed.
 const MANY: usize = 50_000;
@@ -232,12 +233,12 @@ mod tests {
             };
             let all = Rows::from(&samples);
             let few = all.condensed(&[100, 170, 310, 600]);
-            let few = few.condensed(&[12, 24]);
+            let few = few.condensed(&[2 * NODES, 4 * NODES]);
             assert_eq!((few.t.len(), few.count), (2 * NODES, 600));
-            for degree in 0..12 {
+            for degree in 0..2 * NODES as i32 {
                 let ([a, b], [c, d]) = (moments(&all, degree), moments(&few, degree));
                 assert!((a - c).abs() < 1e-12 * a.abs(), "{degree}: {a} {c}");
-                if degree < 6 {
+                if degree < NODES as i32 {
                     assert!((b - d).abs() < 1e-11, "{degree}: {b} {d}");
                 }
             }

@@ -33,7 +33,24 @@ impl Fourier {
     /// # Errors
     /// A text that says why the samples do not serve.
     pub fn fit(samples: &Samples<'_>, size: Size) -> Result<Fourier, String> {
-        let samples = &Rows::new(samples, 1);
+        let rows = Rows::new(samples, 1);
+        let fit = Fourier::to(&rows, size)?;
+        let periods = fit.harmonics() as f64 * fit.turns(rows.span);
+        match rows.blocks() {
+            // Half a period of the last harmonic in a block is what its nodes can tell.
+            Some(blocks) if 2.0 * periods > blocks as f64 => {
+                Fourier::to(&Rows::from(samples), size)
+            }
+            _ => Ok(fit),
+        }
+    }
+
+    /// Turns in a span.
+    fn turns(&self, [first, last]: [f64; 2]) -> f64 {
+        self.parameters[1].abs() * (last - first) / std::f64::consts::TAU
+    }
+
+    fn to(samples: &Rows<'_>, size: Size) -> Result<Fourier, String> {
         let [first, last] = samples.span;
         let middle = 0.5 * first + 0.5 * last;
         let line = solve(samples, middle, &[0.0, 0.0], 0)?.1;

@@ -1,4 +1,4 @@
-//! Where the motion does not determine the slider force: near the dead centres.
+//! Where the motion does not determine the slider force: near the dead centres, and at rest with friction.
 
 use serde::Serialize;
 
@@ -32,11 +32,13 @@ pub struct BandRule {
     pub rule: &'static str,
 }
 
-const RULE: &str = "within |x'| < r/2 the slider force is left empty where half of its 95 % band is wider than the largest crank torque of the motion (or ten times the median half-width of that torque's band, if larger) over the crank length, or where x' is less than five standard errors from zero; so it is at the limit of a rocker";
+const RULE: &str = "within |x'| < r/2 the slider force is left empty where half of its 95 % band is wider than the largest crank torque of the motion (or ten times the median half-width of that torque's band, if larger) over the crank length, or where x' is less than five standard errors from zero; so it is at the limit of a rocker, and with friction where the crank speed is less than five standard errors from zero";
 
 const NO_SIGN: &str = "the sign of the lever arm x' is not certain";
 const AT_LIMIT: &str =
     "the rod stands normal to the guide: the position has no certain derivatives";
+const AT_REST: &str =
+    "the crank speed is within five standard errors of zero: friction may act either way";
 const TOO_WIDE: &str =
     "the uncertainty of the motion over the lever arm x' is wider than the force";
 
@@ -69,6 +71,8 @@ impl BandRule {
         let narrow = factor * error <= self.half_width_max_n;
         if !force.is_finite() || !error.is_finite() {
             Some(AT_LIMIT)
+        } else if !draft.friction_known {
+            Some(AT_REST)
         } else if draft.arm.abs() >= self.arm_m {
             None
         } else if !certain {

@@ -72,6 +72,8 @@ pub(super) struct Draft {
     pub row: InverseRow,
     pub arm: f64,
     pub arm_se: f64,
+    /// Whether the friction of the guide is known.
+    pub friction_known: bool,
 }
 
 impl Draft {
@@ -91,6 +93,7 @@ impl Draft {
             },
             arm: demand.arm,
             arm_se: demand.arm_se,
+            friction_known: demand.friction_known,
         }
     }
 }
