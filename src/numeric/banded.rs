@@ -1,7 +1,7 @@
 //! Symmetric positive definite matrices with few diagonals.
 
-/// Diagonals of the lower triangle that are stored: the main one and five below it.
-pub const DIAGONALS: usize = 6;
+/// Diagonals of the lower triangle that are stored: the main one and seven below it.
+pub const DIAGONALS: usize = 8;
 
 /// The lower triangle of a symmetric matrix, or a lower triangular one: row i holds (i, i), (i, i−1), ...
 #[derive(Clone, Debug)]

@@ -85,6 +85,20 @@ impl Curve {
         }
     }
 
+    /// Fits a curve of the same terms, under the same penalty, to samples of almost the same motion: it is near.
+    ///
+    /// # Errors
+    /// A text that says why the samples do not serve.
+    pub fn again(&self, samples: &Samples<'_>) -> Result<Curve, String> {
+        match self {
+            Curve::Polynomial(polynomial) => {
+                Curve::fit(samples, Kind::Polynomial, Size::Fixed(polynomial.degree()))
+            }
+            Curve::Spline(spline) => spline.again(samples).map(Curve::Spline),
+            Curve::Fourier(fourier) => fourier.again(samples).map(Curve::Fourier),
+        }
+    }
+
     /// The curve and its derivatives.
     pub fn state(&self, t: f64) -> State {
         match self {

@@ -2,17 +2,29 @@
 
 use super::choice::{best, undecided};
 use super::condensed::Rows;
+use super::decay::Decay;
 use super::triangle::Triangle;
 use super::{Quality, Samples, Size, State, add_products};
 
 /// Most harmonics that are chosen from the samples.
 const MOST: usize = 64;
 
-/// Harmonics that are added to the best number, so that what is left out stays below what is uncertain.
-const MARGIN: usize = 1;
+/// Harmonics with which the rotation is found first.
+const FEW: usize = 3;
+
+/// Harmonics beyond the last one whose part in the error is estimated.
+const TAIL: usize = 6;
+
+/// The second derivative of a harmonic grows with this power of its number, squared.
+const GROWTH: i32 = 4;
 
 /// Corrections of the rotation after which a fit is given up.
 const ROUNDS: usize = 40;
+
+/// A step that gains less than this part of what noise gives a parameter settles a fit.
+const SETTLED: f64 = 1e-8;
+
+const UNSETTLED: &str = "the fit by rotation and harmonics does not settle";
 
 /// A fitted steady rotation with harmonics.
 #[derive(Clone, Debug)]
@@ -21,6 +33,8 @@ pub struct Fourier {
     /// c, Ω, a_1, b_1, a_2, b_2, ...
     parameters: Vec<f64>,
     triangle: Triangle,
+    /// Variances of the coefficients of the harmonics that follow.
+    tail: Vec<f64>,
     quality: Quality,
 }
 
@@ -55,7 +69,14 @@ impl Fourier {
         let middle = 0.5 * first + 0.5 * last;
         let line = solve(samples, middle, &[0.0, 0.0], 0)?.1;
         let mut parameters = vec![line[0], line[1]];
-        let rounds = if size == Size::Auto { 3 } else { 1 };
+        // The line through an incomplete turn is off: few harmonics settle with it what many would blur.
+        let mut few = parameters.clone();
+        few.resize(2 + 2 * FEW.min(most_harmonics(samples)), 0.0);
+        if settle(samples, middle, &mut few).is_ok() {
+            parameters = few;
+        }
+        let mut tail = Vec::new();
+        let rounds = if size == Size::Auto { 3 } else { 2 };
         for _ in 0..rounds {
             let turns = parameters[1].abs() * (last - first) / std::f64::consts::TAU;
             if turns < 1.2 {
@@ -63,13 +84,29 @@ impl Fourier {
                     "a fit by rotation and harmonics needs more than one turn in one sense, here are {turns:.2}"
                 ));
             }
-            let count = match size {
-                Size::Fixed(count) => count,
-                Size::Auto => harmonics(samples, middle, &parameters)?,
-            };
+            let (count, beyond) = harmonics(samples, middle, &parameters, size)?;
+            tail = beyond;
             parameters.resize(2 + 2 * count, 0.0);
             settle(samples, middle, &mut parameters)?;
         }
+        Fourier::new(samples, middle, parameters, tail)
+    }
+
+    /// A fit with as many harmonics, one step of Gauss and Newton's method from this one.
+    pub fn again(&self, samples: &Samples<'_>) -> Result<Fourier, String> {
+        let samples = &Rows::new(samples, 1);
+        let mut parameters = self.parameters.clone();
+        let (_, step) = solve(samples, self.middle, &parameters, self.harmonics())?;
+        parameters.iter_mut().zip(&step).for_each(|(p, s)| *p += s);
+        Fourier::new(samples, self.middle, parameters, self.tail.clone())
+    }
+
+    fn new(
+        samples: &Rows<'_>,
+        middle: f64,
+        parameters: Vec<f64>,
+        tail: Vec<f64>,
+    ) -> Result<Fourier, String> {
         let (triangle, _) = solve(samples, middle, &parameters, parameters.len() / 2 - 1)?;
         let squares = squares(samples, middle, &parameters);
         let free = (samples.count - parameters.len()).max(1) as f64;
@@ -83,6 +120,7 @@ impl Fourier {
             },
             parameters,
             triangle,
+            tail,
         })
     }
 
@@ -131,6 +169,22 @@ impl Fourier {
         self.triangle.transposed_solve(&mut columns);
         for column in &columns {
             add_products(&mut state.covariance, column, 1.0);
+        }
+        let (omega, tau) = (self.parameters[1], t - self.middle);
+        for (variance, k) in self.tail.iter().zip(self.harmonics() + 1..) {
+            let rate = omega * k as f64;
+            let (sin, cos) = (rate * tau).sin_cos();
+            let squared = rate * rate;
+            add_products(
+                &mut state.bias,
+                &[cos, -rate * sin, -squared * cos],
+                *variance,
+            );
+            add_products(
+                &mut state.bias,
+                &[sin, rate * cos, -squared * sin],
+                *variance,
+            );
         }
         state
     }
@@ -209,12 +263,25 @@ fn solve(
     }
 }
 
-/// The number of harmonics that the samples support at about this rotation.
-fn harmonics(samples: &Rows<'_>, middle: f64, parameters: &[f64]) -> Result<usize, String> {
+fn most_harmonics(samples: &Rows<'_>) -> usize {
+    MOST.min((samples.count / 2).saturating_sub(2) / 2)
+}
+
+/// The number of harmonics that the samples support at about this rotation, if it is not given, and the variances of
+/// the coefficients of those that follow.
+fn harmonics(
+    samples: &Rows<'_>,
+    middle: f64,
+    parameters: &[f64],
+    size: Size,
+) -> Result<(usize, Vec<f64>), String> {
     let rows = samples.count;
     let least = rows as f64 * samples.floor * samples.floor;
-    let most = MOST.min((rows / 2).saturating_sub(2) / 2);
-    let mut tried = 4.min(most);
+    let most = most_harmonics(samples);
+    let mut tried = match size {
+        Size::Fixed(count) => (count + 2).min(most.max(count)),
+        Size::Auto => 4.min(most),
+    };
     loop {
         let line = &parameters[..2];
         let (triangle, _) = solve(samples, middle, line, tried)?;
@@ -227,34 +294,71 @@ fn harmonics(samples: &Rows<'_>, middle: f64, parameters: &[f64]) -> Result<usiz
         // Both parameters of a harmonic come together.
         let pairs: Vec<f64> = squares.iter().step_by(2).copied().collect();
         let found = best(rows, 2, 2, &pairs, least);
-        if tried == most || !undecided(rows, 2, 2, &pairs, least) {
-            return Ok((found + MARGIN).min(most));
+        if tried < most && size == Size::Auto && undecided(rows, 2, 2, &pairs, least) {
+            tried = (2 * tried).min(most);
+            continue;
         }
-        tried = (2 * tried).min(most);
+        let free = rows.saturating_sub(2 + 2 * tried).max(1) as f64;
+        let noise = (pairs[tried] / free).max(least / rows as f64);
+        let mut terms = vec![0.0];
+        terms.extend(pairs.windows(2).map(|pair| (pair[0] - pair[1]).max(0.0)));
+        let decay = Decay::of(&terms, 2.0, noise, found.max(1));
+        let count = match size {
+            Size::Fixed(count) => count,
+            Size::Auto => decay.enough(found, most, GROWTH),
+        };
+        let weights: f64 = samples.iter().map(|(_, weight, _)| weight * weight).sum();
+        let beyond = count + 1..count + 1 + TAIL;
+        let tail = beyond.map(|k| 2.0 * decay.variance(k) / weights);
+        return Ok((count, tail.collect()));
     }
 }
 
-/// Gauss and Newton's method for all parameters.
-fn settle(samples: &Rows<'_>, middle: f64, parameters: &mut [f64]) -> Result<(), String> {
+/// Gauss and Newton's method for all parameters; a step that does not lessen the squares is halved.
+fn settle(samples: &Rows<'_>, middle: f64, parameters: &mut Vec<f64>) -> Result<(), String> {
     let count = parameters.len() / 2 - 1;
-    let mut before = f64::INFINITY;
+    let free = (samples.count - parameters.len()).max(1) as f64;
+    let mut before = squares(samples, middle, parameters);
     for _ in 0..ROUNDS {
-        let (_, step) = solve(samples, middle, parameters, count)?;
-        for (parameter, step) in parameters.iter_mut().zip(&step) {
-            *parameter += step;
-        }
-        let size: f64 = step
-            .iter()
-            .zip(parameters.iter())
-            .map(|(s, p)| (s / (1.0 + p.abs())).abs())
-            .fold(0.0, f64::max);
-        if size <= 1e-15 || size < 1e-9 && size >= 0.5 * before {
+        let (triangle, step) = solve(samples, middle, parameters, count)?;
+        let sums = triangle.squares();
+        let noise = (before / free).max(samples.floor * samples.floor);
+        // What the step should gain, in units of what one parameter gains from noise.
+        if sums[0] - sums[sums.len() - 1] <= SETTLED * noise {
             return Ok(());
         }
-        before = size;
+        let mut part = 1.0;
+        let (next, after) = loop {
+            let moved = parameters.iter().zip(&step).map(|(p, s)| p + part * s);
+            let moved: Vec<f64> = moved.collect();
+            let after = squares(samples, middle, &moved);
+            if after < before || part < 1e-3 {
+                break (moved, after);
+            }
+            part *= 0.5;
+        };
+        if after >= before {
+            // At rounding there is nothing left to gain.
+            let gain = sums[0] - sums[sums.len() - 1];
+            let none = gain < 1e-6 * before || gain < rounding(samples, middle, parameters);
+            return if none {
+                Ok(())
+            } else {
+                Err(UNSETTLED.to_owned())
+            };
+        }
+        *parameters = next;
+        before = after;
     }
-    if before < 1e-6 {
-        return Ok(());
-    }
-    Err("the fit by rotation and harmonics does not settle".to_owned())
+    Err(UNSETTLED.to_owned())
+}
+
+/// What rounding may add to the sum of squares.
+fn rounding(samples: &Rows<'_>, middle: f64, parameters: &[f64]) -> f64 {
+    let one = |(t, weight, _): (f64, f64, f64)| {
+        let size = (parameters[1] * (t - middle)).abs() + parameters[0].abs() + 1.0;
+        let error = 8.0 * f64::EPSILON * size * weight;
+        error * error
+    };
+    samples.iter().map(one).sum()
 }

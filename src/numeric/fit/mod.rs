@@ -3,6 +3,7 @@
 mod choice;
 mod condensed;
 mod curve;
+mod decay;
 mod fourier;
 mod penalized;
 mod pieces;

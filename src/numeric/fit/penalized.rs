@@ -5,7 +5,14 @@ use super::pieces::{DEGREE, Grid, basis};
 use crate::numeric::banded::{Banded, DIAGONALS};
 
 /// Order of the differences that are kept small.
-pub(super) const ORDER: usize = 4;
+pub(super) const ORDER: usize = 6;
+
+/// Logarithm of the weakest penalty, relative to the mean pivot.
+const WEAKEST: f64 = -15.0;
+
+/// Rise of minus twice the logarithm of the likelihood at an end of its 90 % interval: the 90 % point of chi-square with
+/// one degree of freedom.
+const UNLIKELY: f64 = 2.706;
 
 /// Sums over the samples for one grid.
 pub(super) struct Normal<'a> {
@@ -77,6 +84,25 @@ impl<'a> Normal<'a> {
     /// Cholesky's factor of the normal matrix with a penalty of this strength.
     pub fn factor(&self, strength: f64) -> Option<Banded> {
         self.matrix.plus(strength, &self.penalty).cholesky()
+    }
+
+    /// What the penalty has bent away of a solution, estimated by smoothing the solution's own pull once more.
+    pub fn bent_away(&self, strength: f64, factor: &Banded, coefficients: &[f64]) -> Vec<f64> {
+        let pull = self.penalty.times(coefficients);
+        factor.solve(&pull.iter().map(|p| strength * p).collect::<Vec<f64>>())
+    }
+
+    /// The solution for one strength of the penalty, from one that is near.
+    pub fn improved(&self, strength: f64, from: Vec<f64>) -> Option<Vec<f64>> {
+        Some(self.solve(strength, &self.factor(strength)?, from))
+    }
+
+    pub fn rows(&self) -> usize {
+        self.samples.count
+    }
+
+    pub fn floor(&self) -> f64 {
+        self.samples.floor
     }
 
     /// Improves a solution for one strength of the penalty until rounding.
@@ -183,14 +209,36 @@ impl Normal<'_> {
                 - (size - ORDER) as f64 * strength.ln()
                 - self.log_penalty
         };
-        let log_strength = minimum(&cost, -15.0, 24.0);
-        let strength = trace * log_strength.exp();
+        let best = minimum(&cost, WEAKEST, 26.0);
+        let least = cost(best);
+        let strength = trace * weaker(&cost, best, least + UNLIKELY).exp();
         Some(Choice {
-            cost: cost(log_strength),
+            cost: least,
             strength,
             coefficients: self.solve(strength, &self.factor(strength)?, near),
         })
     }
+}
+
+/// The argument below `best` at which a function has risen to `limit`.
+fn weaker(f: &dyn Fn(f64) -> f64, best: f64, limit: f64) -> f64 {
+    let (mut below, mut above) = (best, best);
+    while f(below) < limit {
+        if below <= WEAKEST {
+            return WEAKEST;
+        }
+        above = below;
+        below = (below - 1.0).max(WEAKEST);
+    }
+    for _ in 0..10 {
+        let middle = 0.5 * (below + above);
+        if f(middle) < limit {
+            above = middle
+        } else {
+            below = middle
+        }
+    }
+    above
 }
 
 /// Place of the least value: a grid of 2, then golden section.

@@ -1,10 +1,10 @@
-//! B-splines of degree 5 over evenly spaced knots.
+//! B-splines of degree 7 over evenly spaced knots.
 
 use super::condensed::Rows;
 use crate::numeric::banded::DIAGONALS;
 
 /// Degree of the pieces.
-pub(super) const DEGREE: usize = 5;
+pub(super) const DEGREE: usize = 7;
 
 /// Evenly spaced knots.
 #[derive(Clone, Copy, Debug)]

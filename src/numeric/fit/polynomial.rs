@@ -1,21 +1,20 @@
 //! Polynomials of any degree.
 
 use super::choice::{best, undecided};
+use super::decay::Decay;
 use super::{MOST_IN_DOUBLE, Powers, Quality, Samples, Size, State, add_products};
 use crate::numeric::double_double::DoubleDouble;
 use crate::numeric::orthogonal::{self, Expansion};
 use crate::numeric::real::Real;
 
-/// The highest degree that is chosen from the samples.
-const MOST: usize = 40;
+/// The highest degree that is chosen from the samples; of so many that arithmetic is double, the lower one.
+const MOST: [usize; 2] = [80, 40];
 
-/// Degrees that are added to the best one, so that what is left out stays below what is uncertain.
-const MARGIN: usize = 2;
+/// Terms beyond the last one whose part in the error is estimated.
+const TAIL: usize = 4;
 
-/// What is left out of a polynomial is taken to be as large as its last terms: two, or a tenth of all.
-fn last(terms: usize) -> usize {
-    (terms / 10).max(2)
-}
+/// Near the ends of the samples the second derivative of an orthonormal term grows with this power of its degree, squared.
+const GROWTH: i32 = 8;
 
 /// A fitted polynomial, as an expansion in polynomials that are orthonormal over its samples.
 #[derive(Clone, Debug)]
@@ -25,6 +24,8 @@ pub struct Polynomial {
     centres: Vec<f64>,
     norms: Vec<f64>,
     coefficients: Vec<f64>,
+    /// Variances of the coefficients of the terms that follow.
+    tail: Vec<f64>,
     quality: Quality,
     powers: Powers,
     extended: bool,
@@ -48,19 +49,36 @@ impl Polynomial {
     ) -> Polynomial {
         let rows = samples.t.len();
         let least = rows as f64 * samples.floor * samples.floor;
+        let automatic = size == Size::Auto;
         let most = match size {
-            Size::Auto => MOST.min((rows.saturating_sub(2)) / 2),
+            Size::Auto => {
+                MOST[usize::from(rows > MOST_IN_DOUBLE)].min((rows.saturating_sub(2)) / 2)
+            }
             Size::Fixed(degree) => degree,
         };
-        let automatic = size == Size::Auto;
+        let enough = |squares: &[T]| {
+            let supported = best(rows, 1, 1, squares, least);
+            let decay = decay(rows, squares, supported, least);
+            let degree = match size {
+                Size::Auto => decay.enough(supported, most, GROWTH),
+                Size::Fixed(degree) => degree,
+            };
+            (degree, decay)
+        };
         let mut found: Expansion<T> =
             orthogonal::fit(samples.t, samples.target, samples.weight, |squares| {
-                squares.len() <= most && (!automatic || undecided(rows, 1, 1, squares, least))
+                squares.len() <= most
+                    && (!automatic
+                        || undecided(rows, 1, 1, squares, least)
+                        || squares.len() <= enough(squares).0)
+                    || squares.len() > most && squares.len() <= most + TAIL
             });
-        if automatic {
-            let degree = best(rows, 1, 1, &found.squares, least) + MARGIN;
-            found.truncate(degree.min(most));
-        }
+        let (degree, decay) = enough(&found.squares);
+        let degree = degree.min(found.coefficients.len() - 1);
+        let beyond = degree + 1..found.coefficients.len().min(degree + 1 + TAIL);
+        let tail: Vec<f64> = beyond.map(|k| decay.variance(k)).collect();
+        let (centres, norms) = (found.centres.clone(), found.norms.clone());
+        found.truncate(degree);
         let parameters = found.coefficients.len();
         let supported = best(rows, 1, 1, &found.squares, least);
         let squares = found.squares[parameters - 1].value();
@@ -83,8 +101,9 @@ impl Polynomial {
         Polynomial {
             middle: found.middle,
             half: found.half,
-            centres: numbers(&found.centres),
-            norms: numbers(&found.norms),
+            centres: numbers(&centres),
+            norms: numbers(&norms),
+            tail,
             coefficients: numbers(&found.coefficients),
             quality: Quality {
                 squares,
@@ -143,14 +162,16 @@ impl Polynomial {
         let mut state = State::default();
         let mut before = [0.0; 3];
         let mut now = [1.0 / self.norms[0], 0.0, 0.0];
-        for (j, c) in self.coefficients.iter().enumerate() {
-            for (k, q) in now.iter().enumerate() {
-                state.value[k] += c * q;
-                state.rounding[k] += (c * q).abs();
-            }
-            add_products(&mut state.covariance, &now, 1.0);
-            if j + last(self.coefficients.len()) >= self.coefficients.len() {
-                add_products(&mut state.bias, &now, c * c);
+        let terms = self.coefficients.len();
+        for j in 0..terms + self.tail.len() {
+            if let Some(c) = self.coefficients.get(j) {
+                for (k, q) in now.iter().enumerate() {
+                    state.value[k] += c * q;
+                    state.rounding[k] += (c * q).abs();
+                }
+                add_products(&mut state.covariance, &now, 1.0);
+            } else {
+                add_products(&mut state.bias, &now, self.tail[j - terms]);
             }
             let Some(norm) = self.norms.get(j + 1) else {
                 break;
@@ -170,4 +191,19 @@ impl Polynomial {
         }
         state
     }
+}
+
+/// How the coefficients of an expansion fall off, from its sums of squared residuals.
+fn decay<T: Real>(rows: usize, squares: &[T], supported: usize, least: f64) -> Decay {
+    let last = squares.len() - 1;
+    let free = rows.saturating_sub(squares.len()).max(1) as f64;
+    let noise = (squares[last].value() / free).max(least / rows as f64);
+    // The constant term tells nothing.
+    let mut terms = vec![0.0];
+    terms.extend(
+        squares
+            .windows(2)
+            .map(|pair| (pair[0] - pair[1]).value().max(0.0)),
+    );
+    Decay::of(&terms, 1.0, noise, supported.max(1))
 }

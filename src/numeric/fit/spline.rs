@@ -6,7 +6,7 @@
 use super::condensed::Rows;
 use super::penalized::{Normal, ORDER, roughness};
 use super::pieces::{DEGREE, Grid, basis};
-use super::{Quality, Samples, Size, State};
+use super::{Quality, Samples, Size, State, add_products};
 use crate::numeric::banded::{Banded, DIAGONALS};
 
 /// Pieces for each one that the samples ask for, so that the penalty and not the pieces decide how smooth it is.
@@ -15,13 +15,19 @@ const FINER: usize = 4;
 /// Fewest pieces that are tried.
 const FEWEST: usize = 4;
 
+const FAILED: &str = "the samples do not determine a spline";
+
 /// A fitted smoothing spline.
 #[derive(Clone, Debug)]
 pub struct Spline {
     grid: Grid,
+    /// Strength of the penalty.
+    strength: f64,
     coefficients: Vec<f64>,
     /// Band of the inverse of the penalized normal matrix.
     inverse: Banded,
+    /// Coefficients of what the penalty has bent away.
+    bias: Vec<f64>,
     quality: Quality,
     condition: f64,
 }
@@ -32,7 +38,7 @@ impl Spline {
     /// # Errors
     /// A text that says why the samples do not serve.
     pub fn fit(samples: &Samples<'_>, size: Size) -> Result<Spline, String> {
-        let failed = || "the samples do not determine a spline".to_owned();
+        let failed = || FAILED.to_owned();
         let rows = samples.t.len();
         let all = Rows::from(samples);
         let few = match size {
@@ -47,7 +53,7 @@ impl Spline {
         let pieces = match size {
             Size::Fixed(pieces) => pieces,
             Size::Auto => {
-                let most = (rows / 2).saturating_sub(DEGREE).max(1);
+                let most = rows.saturating_sub(DEGREE + 1).max(1);
                 let (mut pieces, mut worse) = (FEWEST.min(most), 0);
                 let mut best: Option<(f64, usize, bool)> = None;
                 while pieces <= most && (worse < 2 || best.is_some_and(|best| !best.2)) {
@@ -68,22 +74,41 @@ impl Spline {
         };
         let normal = Normal::new(rows_for(pieces), pieces);
         let choice = normal.choose().ok_or_else(failed)?;
-        let factor = normal.factor(choice.strength).ok_or_else(failed)?;
+        Spline::new(normal, choice.strength, choice.coefficients).ok_or_else(failed)
+    }
+
+    /// A spline with as many pieces under the same penalty.
+    ///
+    /// # Errors
+    /// A text that says why the samples do not serve.
+    pub fn again(&self, samples: &Samples<'_>) -> Result<Spline, String> {
+        let rows = Rows::new(samples, self.grid.pieces);
+        let normal = Normal::new(&rows, self.grid.pieces);
+        let solved = normal.improved(self.strength, self.coefficients.clone());
+        let spline = solved.and_then(|solved| Spline::new(normal, self.strength, solved));
+        spline.ok_or_else(|| FAILED.to_owned())
+    }
+
+    fn new(normal: Normal<'_>, strength: f64, coefficients: Vec<f64>) -> Option<Spline> {
+        let factor = normal.factor(strength)?;
         let inverse = factor.inverse_band();
-        let (squares, _) = normal.residuals(&choice.coefficients);
-        let bent = roughness(&choice.coefficients);
-        let free = (rows - ORDER) as f64;
-        let sigma = ((squares + choice.strength * bent) / free).sqrt();
-        Ok(Spline {
-            grid: normal.grid,
+        let (squares, _) = normal.residuals(&coefficients);
+        let bent = roughness(&coefficients);
+        let free = (normal.rows() - ORDER) as f64;
+        let sigma = ((squares + strength * bent) / free).sqrt();
+        let floor = normal.floor();
+        Some(Spline {
             quality: Quality {
                 squares,
                 parameters: inverse.trace_of_product(&normal.matrix),
-                sigma: sigma.max(samples.floor),
-                floor: samples.floor,
+                sigma: sigma.max(floor),
+                floor,
             },
             condition: factor.diagonal_ratio(),
-            coefficients: choice.coefficients,
+            bias: normal.bent_away(strength, &factor, &coefficients),
+            grid: normal.grid,
+            strength,
+            coefficients,
             inverse,
         })
     }
@@ -136,6 +161,14 @@ impl Spline {
                 state.rounding[k] += 2.0 * f64::EPSILON * (b * c).abs();
             }
         }
+        let bias = bases.map(|basis| {
+            basis
+                .iter()
+                .zip(&self.bias[piece..])
+                .map(|(b, c)| b * c)
+                .sum()
+        });
+        add_products(&mut state.bias, &bias, 1.0);
         let mut entry = 0;
         for k in 0..3 {
             for l in 0..=k {

@@ -24,6 +24,8 @@ const MOST: usize = 30;
 
 /// Samples that show how far a motion is from settled, and from which very many are begun.
 const PART: usize = 20_000;
+/// The correction before which the terms are chosen again, when the motion is about right.
+const LAST_CHOICE: usize = 3;
 
 /// A correction below this part of a standard error settles a fit.
 const SETTLED: f64 = 1e-3;
@@ -62,8 +64,8 @@ impl Fitted {
             values,
             floor,
         };
-        let theta = seen.start(theta, kind, size);
-        let (curve, theta, settled) = seen.settle(theta, kind, size)?;
+        let (theta, last_choice) = seen.start(theta, kind, size);
+        let (curve, theta, settled) = seen.settle(theta, kind, size, last_choice)?;
         let residuals = parallel::list(times.len(), |i| sensor.residual(values[i], theta[i]).0);
         Ok(Fitted::of(curve, residuals, settled, None))
     }
@@ -105,11 +107,12 @@ struct Seen<'a> {
 }
 
 impl Seen<'_> {
-    /// A first motion for very many samples, fitted to a part of them; the given one where that fails.
-    fn start(&self, theta: Vec<f64>, kind: Kind, size: Size) -> Vec<f64> {
+    /// A first motion and the correction before which its terms are chosen for the last time. For very many samples it
+    /// is fitted to a part of them; it is the given one where that fails.
+    fn start(&self, theta: Vec<f64>, kind: Kind, size: Size) -> (Vec<f64>, usize) {
         let stride = theta.len() / PART;
         if stride < 2 {
-            return theta;
+            return (theta, LAST_CHOICE);
         }
         let part = |list: &[f64]| -> Vec<f64> { list.iter().step_by(stride).copied().collect() };
         let (times, values) = (part(self.times), part(self.values));
@@ -118,9 +121,12 @@ impl Seen<'_> {
             values: &values,
             ..*self
         };
-        match few.settle(part(&theta), kind, size) {
-            Ok((curve, _, true)) => parallel::list(theta.len(), |i| curve.value(self.times[i])),
-            _ => theta,
+        match few.settle(part(&theta), kind, size, LAST_CHOICE) {
+            Ok((curve, _, true)) => {
+                let near = parallel::list(theta.len(), |i| curve.value(self.times[i]));
+                (near, 0)
+            }
+            _ => (theta, LAST_CHOICE),
         }
     }
 
@@ -129,12 +135,13 @@ impl Seen<'_> {
         &self,
         mut theta: Vec<f64>,
         kind: Kind,
-        mut size: Size,
+        size: Size,
+        last_choice: usize,
     ) -> Result<(Curve, Vec<f64>, bool), String> {
         let rows = theta.len();
+        let mut chosen: Option<Curve> = None;
         let mut round = 0;
         loop {
-            round += 1;
             let lines = parallel::list(rows, |i| {
                 let (residual, slope) = self.sensor.residual(self.values[i], theta[i]);
                 (slope, residual + slope * theta[i])
@@ -146,7 +153,11 @@ impl Seen<'_> {
                 weight: Some(&weight),
                 floor: self.floor,
             };
-            let curve = Curve::fit(&samples, kind, size)?;
+            // Once the motion is about right the choice of terms stays, so that it cannot go on alternating.
+            let curve = match chosen {
+                Some(curve) if round != last_choice => curve.again(&samples)?,
+                _ => Curve::fit(&samples, kind, size)?,
+            };
             let sigma = curve.quality().sigma;
             let change = (0..rows).step_by(1 + rows / PART).map(|i| {
                 let state = curve.state(self.times[i]);
@@ -163,13 +174,11 @@ impl Seen<'_> {
             if exists.contains(&false) {
                 return Err("the fit leaves the angles that the crank can take".to_owned());
             }
-            // Once the motion is about right the choice of terms is made, so that it cannot go on alternating.
-            if round == 4 {
-                size = Size::Fixed(curve.size());
-            }
-            if change < SETTLED || round == MOST {
+            round += 1;
+            if change < SETTLED && round > last_choice || round == MOST {
                 return Ok((curve, theta, change < 1.0));
             }
+            chosen = Some(curve);
         }
     }
 }
