@@ -20,6 +20,16 @@ fn digits(found: f64, exact: f64) -> f64 {
     }
 }
 
+/// Square roots of the diagonal of (XᵀX)⁻¹ for the powers 0 to 5 of 0, 1, ..., 20, inverted in fractions.
+const UNIT_ERRORS: [f64; 6] = [
+    0.911_946_607_129_666_3,
+    1.001_443_432_869_499_8,
+    0.330_210_015_263_894,
+    0.042_995_454_316_312_22,
+    0.002_392_083_988_396_236_4,
+    4.759_235_282_025_574e-5,
+];
+
 /// The five problems of Wampler (J. Am. Statist. Assoc. 65 (1970) 549): polynomials of degree 5 over 0, 1, ..., 20, three of
 /// them with deviations of growing size that are orthogonal to all polynomials of degree 5.
 #[test]
@@ -54,6 +64,9 @@ fn wampler() {
         assert!(worst(&found, &|_| 1.0) > 14.0, "{factor}");
         let sigma = factor * (squares / 15.0).sqrt();
         assert!(digits(found.quality().sigma, sigma) > 14.5, "{factor}");
+        for (error, exact) in found.powers().errors.iter().zip(UNIT_ERRORS) {
+            assert!(digits(*error, exact) > 15.0, "{error} for {exact}");
+        }
     }
 }
 
@@ -120,6 +133,32 @@ fn ten_binomial_coefficients_and_derivatives() {
             );
         }
         assert!((state.value[2] - 90.0 * u.powi(8)).abs() <= state.rounding[2] + 1e-12 * size);
+    }
+}
+
+/// (3 (t − t₀))^10/2^30 over ±1 s about 1.7e9 s of the Unix clock, at times that are exact: both derivatives are right to
+/// 1e-11 of their largest values, and at each time to what is stated beside them.
+#[test]
+fn derivatives_on_the_unix_clock() {
+    let middle = 1_700_000_000.0;
+    let t: Vec<f64> = (-64..=64).map(|i| middle + f64::from(i) / 64.0).collect();
+    let scale = 2f64.powi(-30);
+    let y: Vec<f64> = t
+        .iter()
+        .map(|t| (3.0 * (t - middle)).powi(10) * scale)
+        .collect();
+    let fit = Polynomial::fit(&samples(&t, &y), Size::Fixed(10));
+    for t in t {
+        let u = 3.0 * (t - middle);
+        let exact = [u.powi(10), 30.0 * u.powi(9), 810.0 * u.powi(8)].map(|v| v * scale);
+        let largest = [3f64.powi(10), 30.0 * 3f64.powi(9), 810.0 * 3f64.powi(8)];
+        let state = fit.state(t);
+        for k in 0..3 {
+            let apart = (state.value[k] - exact[k]).abs();
+            assert!(apart < 1e-11 * largest[k] * scale, "{k}, {u}: {apart:e}");
+            let stated = 4.0 * state.rounding[k] + 1e-25 * largest[k] * scale;
+            assert!(apart <= stated, "{k}, {u}: {apart:e} {stated:e}");
+        }
     }
 }
 

@@ -11,6 +11,7 @@ pub mod gauss;
 pub mod interpolate;
 pub mod line_fit;
 pub mod orthogonal;
+pub mod parallel;
 pub mod real;
 pub mod root;
 pub mod student;

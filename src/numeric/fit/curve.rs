@@ -76,6 +76,15 @@ impl Curve {
         }
     }
 
+    /// The curve alone.
+    pub fn value(&self, t: f64) -> f64 {
+        match self {
+            Curve::Polynomial(polynomial) => polynomial.value(t),
+            Curve::Spline(spline) => spline.value(t),
+            Curve::Fourier(fourier) => fourier.value(t),
+        }
+    }
+
     /// Fits a curve of the same terms, under the same penalty, to samples of almost the same motion: it is near.
     ///
     /// # Errors

@@ -1,6 +1,7 @@
 //! Steady rotation plus harmonics: θ = c + Ω τ + Σ a_k cos kΩτ + b_k sin kΩτ, τ counted from the middle of the record.
 
 use super::choice::{best, undecided};
+use super::condensed::Rows;
 use super::decay::Decay;
 use super::triangle::Triangle;
 use super::{Quality, Samples, Size, State, add_products};
@@ -46,7 +47,25 @@ impl Fourier {
     /// # Errors
     /// A text that says why the samples do not serve.
     pub fn fit(samples: &Samples<'_>, size: Size) -> Result<Fourier, String> {
-        let (first, last) = (samples.t[0], samples.t[samples.t.len() - 1]);
+        let rows = Rows::new(samples, 1);
+        let fit = Fourier::to(&rows, size)?;
+        let periods = fit.harmonics() as f64 * fit.turns(rows.span);
+        match rows.blocks() {
+            // Half a period of the last harmonic in a block is what its nodes can tell.
+            Some(blocks) if 2.0 * periods > blocks as f64 => {
+                Fourier::to(&Rows::from(samples), size)
+            }
+            _ => Ok(fit),
+        }
+    }
+
+    /// Turns in a span.
+    fn turns(&self, [first, last]: [f64; 2]) -> f64 {
+        self.parameters[1].abs() * (last - first) / std::f64::consts::TAU
+    }
+
+    fn to(samples: &Rows<'_>, size: Size) -> Result<Fourier, String> {
+        let [first, last] = samples.span;
         let middle = 0.5 * first + 0.5 * last;
         let line = solve(samples, middle, &[0.0, 0.0], 0)?.1;
         let mut parameters = vec![line[0], line[1]];
@@ -75,6 +94,7 @@ impl Fourier {
 
     /// A fit with as many harmonics, one step of Gauss and Newton's method from this one.
     pub fn again(&self, samples: &Samples<'_>) -> Result<Fourier, String> {
+        let samples = &Rows::new(samples, 1);
         let mut parameters = self.parameters.clone();
         let (_, step) = solve(samples, self.middle, &parameters, self.harmonics())?;
         parameters.iter_mut().zip(&step).for_each(|(p, s)| *p += s);
@@ -82,14 +102,14 @@ impl Fourier {
     }
 
     fn new(
-        samples: &Samples<'_>,
+        samples: &Rows<'_>,
         middle: f64,
         parameters: Vec<f64>,
         tail: Vec<f64>,
     ) -> Result<Fourier, String> {
         let (triangle, _) = solve(samples, middle, &parameters, parameters.len() / 2 - 1)?;
         let squares = squares(samples, middle, &parameters);
-        let free = (samples.t.len() - parameters.len()).max(1) as f64;
+        let free = (samples.count - parameters.len()).max(1) as f64;
         Ok(Fourier {
             middle,
             quality: Quality {
@@ -119,6 +139,19 @@ impl Fourier {
     pub fn coefficients(&self) -> (Vec<f64>, Vec<f64>, f64) {
         let (errors, condition) = self.triangle.errors();
         (self.parameters.clone(), errors, condition)
+    }
+
+    /// The curve at `t`.
+    pub fn value(&self, t: f64) -> f64 {
+        let (tau, omega) = (t - self.middle, self.parameters[1]);
+        let mut value = self.parameters[0] + omega * tau;
+        let mut rate = 0.0;
+        for pair in self.parameters[2..].chunks_exact(2) {
+            rate += omega;
+            let (sin, cos) = (rate * tau).sin_cos();
+            value += pair[0] * cos + pair[1] * sin;
+        }
+        value
     }
 
     /// The curve and its derivatives at `t`.
@@ -192,29 +225,27 @@ fn columns(tau: f64, parameters: &[f64]) -> ([f64; 4], Vec<Jet>) {
     (value, columns)
 }
 
-fn squares(samples: &Samples<'_>, middle: f64, parameters: &[f64]) -> f64 {
-    residuals(samples, middle, parameters)
-        .map(|(_, _, r)| r * r)
-        .sum()
+fn squares(samples: &Rows<'_>, middle: f64, parameters: &[f64]) -> f64 {
+    let rest = residuals(samples, middle, parameters).map(|(_, _, r)| r * r);
+    samples.left + rest.sum::<f64>()
 }
 
 /// Weight, columns and residual of each sample.
 fn residuals<'a>(
-    samples: &'a Samples<'a>,
+    samples: &'a Rows<'a>,
     middle: f64,
     parameters: &'a [f64],
 ) -> impl Iterator<Item = (f64, Vec<Jet>, f64)> + 'a {
-    samples.t.iter().enumerate().map(move |(i, t)| {
-        let weight = samples.weight.map_or(1.0, |w| w[i]);
+    samples.iter().map(move |(t, weight, target)| {
         let (value, columns) = columns(t - middle, parameters);
-        (weight, columns, samples.target[i] - weight * value[0])
+        (weight, columns, target - weight * value[0])
     })
 }
 
 /// The triangle of the design matrix at these parameters, extended by zeros to `count` harmonics, and the correction
 /// of the parameters.
 fn solve(
-    samples: &Samples<'_>,
+    samples: &Rows<'_>,
     middle: f64,
     parameters: &[f64],
     count: usize,
@@ -232,19 +263,19 @@ fn solve(
     }
 }
 
-fn most_harmonics(samples: &Samples<'_>) -> usize {
-    MOST.min((samples.t.len() / 2).saturating_sub(2) / 2)
+fn most_harmonics(samples: &Rows<'_>) -> usize {
+    MOST.min((samples.count / 2).saturating_sub(2) / 2)
 }
 
 /// The number of harmonics that the samples support at about this rotation, if it is not given, and the variances of
 /// the coefficients of those that follow.
 fn harmonics(
-    samples: &Samples<'_>,
+    samples: &Rows<'_>,
     middle: f64,
     parameters: &[f64],
     size: Size,
 ) -> Result<(usize, Vec<f64>), String> {
-    let rows = samples.t.len();
+    let rows = samples.count;
     let least = rows as f64 * samples.floor * samples.floor;
     let most = most_harmonics(samples);
     let mut tried = match size {
@@ -254,7 +285,12 @@ fn harmonics(
     loop {
         let line = &parameters[..2];
         let (triangle, _) = solve(samples, middle, line, tried)?;
-        let squares: Vec<f64> = triangle.squares().into_iter().skip(2).collect();
+        let squares = triangle
+            .squares()
+            .into_iter()
+            .skip(2)
+            .map(|s| samples.left + s);
+        let squares: Vec<f64> = squares.collect();
         // Both parameters of a harmonic come together.
         let pairs: Vec<f64> = squares.iter().step_by(2).copied().collect();
         let found = best(rows, 2, 2, &pairs, least);
@@ -271,9 +307,7 @@ fn harmonics(
             Size::Fixed(count) => count,
             Size::Auto => decay.enough(found, most, GROWTH),
         };
-        let weights = samples
-            .weight
-            .map_or(rows as f64, |w| w.iter().map(|w| w * w).sum());
+        let weights: f64 = samples.iter().map(|(_, weight, _)| weight * weight).sum();
         let beyond = count + 1..count + 1 + TAIL;
         let tail = beyond.map(|k| 2.0 * decay.variance(k) / weights);
         return Ok((count, tail.collect()));
@@ -281,9 +315,9 @@ fn harmonics(
 }
 
 /// Gauss and Newton's method for all parameters; a step that does not lessen the squares is halved.
-fn settle(samples: &Samples<'_>, middle: f64, parameters: &mut Vec<f64>) -> Result<(), String> {
+fn settle(samples: &Rows<'_>, middle: f64, parameters: &mut Vec<f64>) -> Result<(), String> {
     let count = parameters.len() / 2 - 1;
-    let free = (samples.t.len() - parameters.len()).max(1) as f64;
+    let free = (samples.count - parameters.len()).max(1) as f64;
     let mut before = squares(samples, middle, parameters);
     for _ in 0..ROUNDS {
         let (triangle, step) = solve(samples, middle, parameters, count)?;
@@ -320,11 +354,11 @@ fn settle(samples: &Samples<'_>, middle: f64, parameters: &mut Vec<f64>) -> Resu
 }
 
 /// What rounding may add to the sum of squares.
-fn rounding(samples: &Samples<'_>, middle: f64, parameters: &[f64]) -> f64 {
-    let one = |(i, t): (usize, &f64)| {
+fn rounding(samples: &Rows<'_>, middle: f64, parameters: &[f64]) -> f64 {
+    let one = |(t, weight, _): (f64, f64, f64)| {
         let size = (parameters[1] * (t - middle)).abs() + parameters[0].abs() + 1.0;
-        let error = 8.0 * f64::EPSILON * size * samples.weight.map_or(1.0, |w| w[i]);
+        let error = 8.0 * f64::EPSILON * size * weight;
         error * error
     };
-    samples.t.iter().enumerate().map(one).sum()
+    samples.iter().map(one).sum()
 }

@@ -1,6 +1,7 @@
 //! Curves fitted to samples by least squares, with their derivatives and what is known of their errors.
 
 mod choice;
+mod condensed;
 mod curve;
 mod decay;
 mod fourier;

@@ -1,6 +1,6 @@
 //! Penalized least squares with B-splines, and the penalty of the largest restricted likelihood.
 
-use super::Samples;
+use super::condensed::Rows;
 use super::pieces::{DEGREE, Grid, basis};
 use crate::numeric::banded::{Banded, DIAGONALS};
 
@@ -17,7 +17,7 @@ const UNLIKELY: f64 = 2.706;
 /// Sums over the samples for one grid.
 pub(super) struct Normal<'a> {
     pub grid: Grid,
-    samples: &'a Samples<'a>,
+    samples: &'a Rows<'a>,
     pub matrix: Banded,
     penalty: Banded,
     /// Logarithm of the product of the penalty's nonzero eigenvalues.
@@ -25,13 +25,13 @@ pub(super) struct Normal<'a> {
 }
 
 impl<'a> Normal<'a> {
-    pub fn new(samples: &'a Samples<'a>, pieces: usize) -> Normal<'a> {
+    pub fn new(samples: &'a Rows<'a>, pieces: usize) -> Normal<'a> {
         let grid = Grid::new(samples, pieces);
         let mut matrix = Banded::new(grid.size());
-        for (i, t) in samples.t.iter().enumerate() {
-            let (piece, u) = grid.place(*t);
+        for (t, weight, _) in samples.iter() {
+            let (piece, u) = grid.place(t);
             let b = basis(DEGREE, u);
-            let weight = samples.weight.map_or(1.0, |w| w[i] * w[i]);
+            let weight = weight * weight;
             for row in 0..DIAGONALS {
                 for column in 0..=row {
                     matrix.add(piece + row, piece + column, weight * b[row] * b[column]);
@@ -51,11 +51,10 @@ impl<'a> Normal<'a> {
     /// Residuals of the samples, their sum of squares, and Bᵀ times them.
     pub fn residuals(&self, coefficients: &[f64]) -> (f64, Vec<f64>) {
         let mut right = vec![0.0; self.grid.size()];
-        let mut squares = 0.0;
-        for (i, (t, target)) in self.samples.t.iter().zip(self.samples.target).enumerate() {
-            let (piece, u) = self.grid.place(*t);
+        let mut squares = self.samples.left;
+        for (t, weight, target) in self.samples.iter() {
+            let (piece, u) = self.grid.place(t);
             let b = basis(DEGREE, u);
-            let weight = self.samples.weight.map_or(1.0, |w| w[i]);
             let part = &coefficients[piece..piece + DIAGONALS];
             let value: f64 = b.iter().zip(part).map(|(b, c)| b * c).sum();
             let residual = target - weight * value;
@@ -70,16 +69,16 @@ impl<'a> Normal<'a> {
     /// Whether the residuals look like noise: hardly correlated, each with the next.
     pub fn follows(&self, coefficients: &[f64]) -> bool {
         let (mut squares, mut products, mut before) = (0.0, 0.0, 0.0);
-        for (i, (t, target)) in self.samples.t.iter().zip(self.samples.target).enumerate() {
-            let (piece, u) = self.grid.place(*t);
+        for (t, weight, target) in self.samples.iter() {
+            let (piece, u) = self.grid.place(t);
             let part = &coefficients[piece..piece + DIAGONALS];
             let value: f64 = basis(DEGREE, u).iter().zip(part).map(|(b, c)| b * c).sum();
-            let residual = target - self.samples.weight.map_or(1.0, |w| w[i]) * value;
+            let residual = target - weight * value;
             squares += residual * residual;
             products += residual * before;
             before = residual;
         }
-        products <= 3.0 * squares / (self.samples.t.len() as f64).sqrt()
+        products <= 3.0 * squares / (self.samples.len() as f64).sqrt()
     }
 
     /// Cholesky's factor of the normal matrix with a penalty of this strength.
@@ -99,7 +98,7 @@ impl<'a> Normal<'a> {
     }
 
     pub fn rows(&self) -> usize {
-        self.samples.t.len()
+        self.samples.count
     }
 
     pub fn floor(&self) -> f64 {
@@ -176,7 +175,7 @@ pub(super) struct Choice {
 impl Normal<'_> {
     /// The strength of the penalty with the largest restricted likelihood.
     pub fn choose(&self) -> Option<Choice> {
-        let rows = self.samples.t.len() as f64;
+        let rows = self.samples.count as f64;
         let size = self.grid.size();
         let trace = (0..size).map(|i| self.matrix.get(i, i)).sum::<f64>() / size as f64;
         let weak = 1e-7 * trace;

@@ -1,6 +1,6 @@
 //! B-splines of degree 7 over evenly spaced knots.
 
-use super::Samples;
+use super::condensed::Rows;
 use crate::numeric::banded::DIAGONALS;
 
 /// Degree of the pieces.
@@ -16,8 +16,8 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    pub fn new(samples: &Samples<'_>, pieces: usize) -> Grid {
-        let (first, last) = (samples.t[0], samples.t[samples.t.len() - 1]);
+    pub fn new(samples: &Rows<'_>, pieces: usize) -> Grid {
+        let [first, last] = samples.span;
         Grid {
             start: first,
             width: (last - first) / pieces as f64,

@@ -142,6 +142,19 @@ impl Polynomial {
         self.extended
     }
 
+    /// The polynomial at `t`.
+    pub fn value(&self, t: f64) -> f64 {
+        let s = (t - self.middle) / self.half;
+        let (mut before, mut now) = (0.0, 1.0 / self.norms[0]);
+        let mut sum = self.coefficients[0] * now;
+        for j in 1..self.coefficients.len() {
+            let next = (s - self.centres[j - 1]) * now - self.norms[j - 1] * before;
+            (before, now) = (now, next * (1.0 / self.norms[j]));
+            sum += self.coefficients[j] * now;
+        }
+        sum
+    }
+
     /// The polynomial and its derivatives at `t`.
     pub fn state(&self, t: f64) -> State {
         let s = (t - self.middle) / self.half;

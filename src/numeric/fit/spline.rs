@@ -3,6 +3,7 @@
 //! covariance is that of the Bayesian view, which has the error of smoothing in it (Wahba, J. R. Statist. Soc. B 45
 //! (1983) 133).
 
+use super::condensed::Rows;
 use super::penalized::{Normal, ORDER, roughness};
 use super::pieces::{DEGREE, Grid, basis};
 use super::{Quality, Samples, Size, State, add_products};
@@ -39,6 +40,16 @@ impl Spline {
     pub fn fit(samples: &Samples<'_>, size: Size) -> Result<Spline, String> {
         let failed = || FAILED.to_owned();
         let rows = samples.t.len();
+        let all = Rows::from(samples);
+        let few = match size {
+            Size::Fixed(pieces) => Rows::new(samples, pieces.max(1)),
+            Size::Auto => Rows::new(samples, FEWEST),
+        };
+        // Knots inside a block would be lost.
+        let rows_for = |pieces: usize| match few.blocks() {
+            Some(blocks) if blocks.is_multiple_of(pieces) => &few,
+            _ => &all,
+        };
         let pieces = match size {
             Size::Fixed(pieces) => pieces,
             Size::Auto => {
@@ -46,7 +57,7 @@ impl Spline {
                 let (mut pieces, mut worse) = (FEWEST.min(most), 0);
                 let mut best: Option<(f64, usize, bool)> = None;
                 while pieces <= most && (worse < 2 || best.is_some_and(|best| !best.2)) {
-                    let normal = Normal::new(samples, pieces);
+                    let normal = Normal::new(rows_for(pieces), pieces);
                     let choice = normal.choose().ok_or_else(failed)?;
                     if best.is_none_or(|best| choice.cost < best.0) {
                         let follows = normal.follows(&choice.coefficients);
@@ -61,7 +72,7 @@ impl Spline {
                 (FINER * enough).min(most).max(enough)
             }
         };
-        let normal = Normal::new(samples, pieces);
+        let normal = Normal::new(rows_for(pieces), pieces);
         let choice = normal.choose().ok_or_else(failed)?;
         Spline::new(normal, choice.strength, choice.coefficients).ok_or_else(failed)
     }
@@ -71,7 +82,8 @@ impl Spline {
     /// # Errors
     /// A text that says why the samples do not serve.
     pub fn again(&self, samples: &Samples<'_>) -> Result<Spline, String> {
-        let normal = Normal::new(samples, self.grid.pieces);
+        let rows = Rows::new(samples, self.grid.pieces);
+        let normal = Normal::new(&rows, self.grid.pieces);
         let solved = normal.improved(self.strength, self.coefficients.clone());
         let spline = solved.and_then(|solved| Spline::new(normal, self.strength, solved));
         spline.ok_or_else(|| FAILED.to_owned())
@@ -117,6 +129,14 @@ impl Spline {
         let error = |i| self.inverse.get(i, i).sqrt();
         let errors = (0..self.coefficients.len()).map(error).collect();
         (self.coefficients.clone(), errors, self.condition)
+    }
+
+    /// The spline at `t`.
+    pub fn value(&self, t: f64) -> f64 {
+        let (piece, u) = self.grid.place(t);
+        let basis = basis(DEGREE, u);
+        let terms = basis.iter().zip(&self.coefficients[piece..]);
+        terms.fold(0.0, |sum, (b, c)| sum + b * c)
     }
 
     /// The spline and its derivatives at `t`.

@@ -46,10 +46,8 @@ pub(super) fn check_rows(measurement: &mut Measurement) -> Result<(), Problems> 
         let what = format!("{rows} where at least {LEAST_ROWS} are needed");
         let help = "give more of the motion";
         let mut problem = Problem::new("samples", what, help);
-        problem.span = measurement
-            .source
-            .as_ref()
-            .map(|s| s.text.len()..s.text.len());
+        let end = |text: &str| text.trim_end().len()..text.trim_end().len();
+        problem.span = measurement.source.as_ref().map(|s| end(&s.text));
         problems.push(problem);
     }
     if problems.is_empty() {

@@ -1,8 +1,8 @@
-//! Where the motion does not determine the slider force: near the dead centres.
+//! Where the motion does not determine the slider force: near the dead centres, and at rest with friction.
 
 use serde::Serialize;
 
-use super::force::Demand;
+use super::row::Draft;
 
 /// A stretch of the motion in which the slider force is left empty.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -32,22 +32,27 @@ pub struct BandRule {
     pub rule: &'static str,
 }
 
-const RULE: &str = "within |x'| < r/2 the slider force is left empty where half of its 95 % band is wider than the largest crank torque of the motion (or ten times the median half-width of that torque's band, if larger) over the crank length, or where x' is less than five standard errors from zero; so it is at the limit of a rocker";
+const RULE: &str = "within |x'| < r/2 the slider force is left empty where half of its 95 % band is wider than the largest crank torque of the motion (or ten times the median half-width of that torque's band, if larger) over the crank length, or where x' is less than five standard errors from zero; so it is at the limit of a rocker, and with friction where the crank speed is less than five standard errors from zero";
 
 const NO_SIGN: &str = "the sign of the lever arm x' is not certain";
 const AT_LIMIT: &str =
     "the rod stands normal to the guide: the position has no certain derivatives";
+const AT_REST: &str =
+    "the crank speed is within five standard errors of zero: friction may act either way";
 const TOO_WIDE: &str =
     "the uncertainty of the motion over the lever arm x' is wider than the force";
 
 impl BandRule {
     /// The rule for a motion: crank length in m, torque and its standard error in N m at each sample, half of a 95 % band
     /// in standard errors.
-    pub(super) fn new(r: f64, torques: &[(f64, f64)], factor: f64) -> BandRule {
-        let largest = torques
-            .iter()
-            .fold(0.0f64, |m, (torque, _)| m.max(torque.abs()));
-        let mut errors: Vec<f64> = torques.iter().map(|(_, se)| *se).collect();
+    pub(super) fn new(
+        r: f64,
+        torques: impl Iterator<Item = (f64, f64)> + Clone,
+        factor: f64,
+    ) -> BandRule {
+        let sizes = torques.clone().map(|(torque, _)| torque.abs());
+        let largest = sizes.fold(0.0, f64::max);
+        let mut errors: Vec<f64> = torques.map(|(_, se)| se).collect();
         let middle = errors.len() / 2;
         let median = *errors.select_nth_unstable_by(middle, f64::total_cmp).1;
         BandRule {
@@ -58,13 +63,17 @@ impl BandRule {
     }
 
     /// Why the force of a sample is left empty, if it is.
-    pub(super) fn reason(&self, demand: &Demand, factor: f64) -> Option<&'static str> {
+    pub(super) fn reason(&self, draft: &Draft, factor: f64) -> Option<&'static str> {
+        let [force, error] = [draft.row.slider_force, draft.row.slider_force_se]
+            .map(|value| value.unwrap_or(f64::NAN));
         // Not-a-number counts as uncertain.
-        let certain = demand.arm.abs() > 5.0 * demand.arm_se;
-        let narrow = factor * demand.force_se <= self.half_width_max_n;
-        if !demand.force.is_finite() || !demand.force_se.is_finite() {
+        let certain = draft.arm.abs() > 5.0 * draft.arm_se;
+        let narrow = factor * error <= self.half_width_max_n;
+        if !force.is_finite() || !error.is_finite() {
             Some(AT_LIMIT)
-        } else if demand.arm.abs() >= self.arm_m {
+        } else if !draft.friction_known {
+            Some(AT_REST)
+        } else if draft.arm.abs() >= self.arm_m {
             None
         } else if !certain {
             Some(NO_SIGN)

@@ -2,7 +2,8 @@
 
 use super::pattern::Pattern;
 use super::sensor::Sensor;
-use crate::numeric::fit::{Curve, Kind, Samples, Size, State};
+use crate::numeric::fit::{Curve, Kind, Samples, Size};
+use crate::numeric::parallel;
 use crate::scene::{Measured, Measurement};
 
 /// A fitted motion.
@@ -21,8 +22,9 @@ pub(super) struct Fitted {
 /// Corrections after which a fit counts as not settling.
 const MOST: usize = 30;
 
-/// Corrections before which the terms are chosen: at first, and when the motion is about right.
-const CHOICES: [usize; 2] = [0, LAST_CHOICE];
+/// Samples that show how far a motion is from settled, and from which very many are begun.
+const PART: usize = 20_000;
+/// The correction before which the terms are chosen again, when the motion is about right.
 const LAST_CHOICE: usize = 3;
 
 /// A correction below this part of a standard error settles a fit.
@@ -53,57 +55,19 @@ impl Fitted {
                 floor: floor.max(f64::EPSILON * largest(&theta) / 12f64.sqrt()),
             };
             let curve = Curve::fit(&samples, kind, size)?;
-            let states = states(&curve, times);
-            let residuals: Vec<f64> = theta
-                .iter()
-                .zip(&states)
-                .map(|(y, s)| y - s.value[0])
-                .collect();
+            let residuals = parallel::list(theta.len(), |i| theta[i] - curve.value(times[i]));
             return Ok(Fitted::of(curve, residuals, true, Some(theta)));
         }
-        let mut now = theta;
-        let (mut weight, mut target) = (vec![0.0; times.len()], vec![0.0; times.len()]);
-        let mut chosen: Option<Curve> = None;
-        let mut round = 0;
-        loop {
-            for (i, (value, theta)) in values.iter().zip(&now).enumerate() {
-                let (residual, slope) = sensor.residual(*value, *theta);
-                weight[i] = slope;
-                target[i] = residual + slope * theta;
-            }
-            let samples = Samples {
-                t: times,
-                target: &target,
-                weight: Some(&weight),
-                floor,
-            };
-            // Once the motion is about right the choice of terms stays, so that it cannot go on alternating.
-            let curve = match chosen {
-                Some(curve) if !CHOICES.contains(&round) => curve.again(&samples)?,
-                _ => Curve::fit(&samples, kind, size)?,
-            };
-            let sigma = curve.quality().sigma;
-            let mut change = 0.0f64;
-            for (t, theta) in times.iter().zip(&mut now) {
-                let state = curve.state(*t);
-                let error = sigma * state.covariance[0].sqrt() + state.rounding[0];
-                change = change.max((state.value[0] - *theta).abs() / error.max(f64::MIN_POSITIVE));
-                *theta = state.value[0];
-            }
-            if now
-                .iter()
-                .any(|theta| !theta.is_finite() || !sensor.linkage.pose(*theta).exists())
-            {
-                return Err("the fit leaves the angles that the crank can take".to_owned());
-            }
-            round += 1;
-            if change < SETTLED && round > LAST_CHOICE || round == MOST {
-                let residual = |(value, theta): (&f64, &f64)| sensor.residual(*value, *theta).0;
-                let residuals = values.iter().zip(&now).map(residual).collect();
-                return Ok(Fitted::of(curve, residuals, change < 1.0, None));
-            }
-            chosen = Some(curve);
-        }
+        let seen = Seen {
+            sensor,
+            times,
+            values,
+            floor,
+        };
+        let (theta, last_choice) = seen.start(theta, kind, size);
+        let (curve, theta, settled) = seen.settle(theta, kind, size, last_choice)?;
+        let residuals = parallel::list(times.len(), |i| sensor.residual(values[i], theta[i]).0);
+        Ok(Fitted::of(curve, residuals, settled, None))
     }
 
     fn of(curve: Curve, residuals: Vec<f64>, settled: bool, continued: Option<Vec<f64>>) -> Fitted {
@@ -132,7 +96,89 @@ impl Fitted {
     }
 }
 
-/// The curve at each time.
-pub(super) fn states(curve: &Curve, times: &[f64]) -> Vec<State> {
-    times.iter().map(|t| curve.state(*t)).collect()
+/// Samples of something that the crank angle is read from.
+#[derive(Clone, Copy, Debug)]
+struct Seen<'a> {
+    sensor: &'a Sensor<'a>,
+    times: &'a [f64],
+    values: &'a [f64],
+    /// Standard deviation of a value that is due to its digits alone.
+    floor: f64,
+}
+
+impl Seen<'_> {
+    /// A first motion and the correction before which its terms are chosen for the last time. For very many samples it
+    /// is fitted to a part of them; it is the given one where that fails.
+    fn start(&self, theta: Vec<f64>, kind: Kind, size: Size) -> (Vec<f64>, usize) {
+        let stride = theta.len() / PART;
+        if stride < 2 {
+            return (theta, LAST_CHOICE);
+        }
+        let part = |list: &[f64]| -> Vec<f64> { list.iter().step_by(stride).copied().collect() };
+        let (times, values) = (part(self.times), part(self.values));
+        let few = Seen {
+            times: &times,
+            values: &values,
+            ..*self
+        };
+        match few.settle(part(&theta), kind, size, LAST_CHOICE) {
+            Ok((curve, _, true)) => {
+                let near = parallel::list(theta.len(), |i| curve.value(self.times[i]));
+                (near, 0)
+            }
+            _ => (theta, LAST_CHOICE),
+        }
+    }
+
+    /// Corrects a motion until it fits: the curve, its angles, and whether it came to rest.
+    fn settle(
+        &self,
+        mut theta: Vec<f64>,
+        kind: Kind,
+        size: Size,
+        last_choice: usize,
+    ) -> Result<(Curve, Vec<f64>, bool), String> {
+        let rows = theta.len();
+        let mut chosen: Option<Curve> = None;
+        let mut round = 0;
+        loop {
+            let lines = parallel::list(rows, |i| {
+                let (residual, slope) = self.sensor.residual(self.values[i], theta[i]);
+                (slope, residual + slope * theta[i])
+            });
+            let (weight, target): (Vec<f64>, Vec<f64>) = lines.into_iter().unzip();
+            let samples = Samples {
+                t: self.times,
+                target: &target,
+                weight: Some(&weight),
+                floor: self.floor,
+            };
+            // Once the motion is about right the choice of terms stays, so that it cannot go on alternating.
+            let curve = match chosen {
+                Some(curve) if round != last_choice => curve.again(&samples)?,
+                _ => Curve::fit(&samples, kind, size)?,
+            };
+            let sigma = curve.quality().sigma;
+            let change = (0..rows).step_by(1 + rows / PART).map(|i| {
+                let state = curve.state(self.times[i]);
+                let error = sigma * state.covariance[0].sqrt() + state.rounding[0];
+                (state.value[0] - theta[i]).abs() / error.max(f64::MIN_POSITIVE)
+            });
+            let change = change.fold(0.0, f64::max);
+            let next = parallel::list(rows, |i| {
+                let theta = curve.value(self.times[i]);
+                (theta, self.sensor.linkage.pose(theta).exists())
+            });
+            let (next, exists): (Vec<f64>, Vec<bool>) = next.into_iter().unzip();
+            theta = next;
+            if exists.contains(&false) {
+                return Err("the fit leaves the angles that the crank can take".to_owned());
+            }
+            round += 1;
+            if change < SETTLED && round > last_choice || round == MOST {
+                return Ok((curve, theta, change < 1.0));
+            }
+            chosen = Some(curve);
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! The equation read backwards along a fitted motion, with the uncertainty that follows from the fit's.
 
+use super::guide::Guide;
 use crate::mechanism::{Equation, Terms};
 use crate::numeric::fit::State;
 
@@ -18,6 +19,8 @@ pub(super) struct Demand {
     pub force: f64,
     /// Its standard error.
     pub force_se: f64,
+    /// Whether the friction of the guide is known: without friction, or where the slider certainly slides.
+    pub friction_known: bool,
 }
 
 /// Reads the equation of a scene backwards.
@@ -28,6 +31,8 @@ pub(super) struct Backwards<'a> {
     pub beside_forces: bool,
     /// Standard deviation of the samples.
     pub sigma: f64,
+    /// The guide, if it has friction.
+    pub guide: Option<&'a Guide>,
 }
 
 /// Step in the crank angle (rad) for derivatives of the terms: they are right to about 1e-9.
@@ -76,11 +81,7 @@ impl Backwards<'_> {
             + terms.dv.abs()
             + known.abs();
         let rounding = 8.0 * f64::EPSILON * size;
-        let error = |gradient: &[f64; 3], more: f64| {
-            let noise = self.sigma * self.sigma * state.variance(gradient);
-            let variance = noise + state.bias_of(gradient);
-            variance.sqrt().hypot(state.rounding_of(gradient) + more)
-        };
+        let error = |gradient: &[f64; 3], more: f64| self.error(state, gradient, more);
         let (arm, bend) = (terms.pose.dx, terms.pose.d2x);
         let force = torque / arm;
         let of_force = [
@@ -89,7 +90,7 @@ impl Backwards<'_> {
             terms.inertia.m / arm,
         ];
         let r = self.equation.linkage().r;
-        Demand {
+        let demand = Demand {
             torque,
             torque_se: error(&gradient, rounding),
             arm,
@@ -99,6 +100,80 @@ impl Backwards<'_> {
                 &of_force,
                 (rounding + 4.0 * f64::EPSILON * r * force.abs()) / arm.abs(),
             ),
+            friction_known: true,
+        };
+        match self.guide {
+            Some(guide) => self.beside_friction(guide, t, state, demand),
+            None => demand,
         }
+    }
+
+    /// Standard error of a combination of angle, speed and acceleration, with what else rounding adds.
+    fn error(&self, state: &State, gradient: &[f64; 3], more: f64) -> f64 {
+        let noise = self.sigma * self.sigma * state.variance(gradient);
+        let variance = noise + state.bias_of(gradient);
+        variance.sqrt().hypot(state.rounding_of(gradient) + more)
+    }
+
+    /// What is needed beside the friction of the guide. At rest that may be anything up to its limit: the torque is then
+    /// the middle of what is possible, and its error has the rest in it.
+    fn beside_friction(&self, guide: &Guide, t: f64, state: &State, demand: Demand) -> Demand {
+        let omega = state.value[1];
+        let friction_known = omega.abs() > 5.0 * self.error(state, &[0.0, 1.0, 0.0], 0.0);
+        let forwards = (demand.arm * omega).signum();
+        let along = |direction: f64| move |at: [f64; 3]| self.friction(guide, t, at, direction);
+        let rows = [forwards, -forwards].map(|direction| along(direction)(state.value));
+        let steps = [
+            STEP,
+            STEP * omega.abs().max(1e-3),
+            STEP * state.value[2].abs().max(1e-3),
+        ];
+        let mut slopes = [[0.0; 3]; 2];
+        for (k, step) in steps.into_iter().enumerate() {
+            let beside = |sign: f64| {
+                let mut at = state.value;
+                at[k] += sign * step;
+                along(forwards)(at)
+            };
+            let (after, before) = (beside(1.0), beside(-1.0));
+            for i in 0..2 {
+                slopes[i][k] = (after[i] - before[i]) / (2.0 * step);
+            }
+        }
+        let [of_force, of_torque] = slopes.map(|slope| self.error(state, &slope, 0.0));
+        let [[force, torque], [_, other]] = rows;
+        Demand {
+            force: demand.force - force,
+            force_se: demand.force_se + of_force,
+            torque: demand.torque
+                - if friction_known {
+                    torque
+                } else {
+                    0.5 * (torque + other)
+                },
+            torque_se: demand.torque_se
+                + if friction_known {
+                    of_torque
+                } else {
+                    0.5 * (torque - other).abs()
+                },
+            friction_known,
+            ..demand
+        }
+    }
+
+    /// Friction of the guide, N, where the slider is driven by a force on it, and its moment about the crank, N m, where it
+    /// is driven by a torque on the crank, for angle, speed and acceleration.
+    fn friction(&self, guide: &Guide, t: f64, at: [f64; 3], direction: f64) -> [f64; 2] {
+        let [theta, omega, alpha] = at;
+        let terms = self.equation.terms(theta);
+        let load = self.equation.loads().value(t, theta, omega, &terms.pose);
+        let needed = self.equation.generalized_force(&terms, omega, alpha);
+        let along = (needed - load.torque) / terms.pose.dx;
+        let force = if self.beside_forces { load.force } else { 0.0 };
+        [
+            guide.friction(&terms.pose, [omega, alpha], direction, along),
+            guide.driven(&terms.pose, [omega, alpha], direction, force) * terms.pose.dx,
+        ]
     }
 }

@@ -4,6 +4,7 @@
 mod bands;
 mod fitted;
 mod force;
+mod guide;
 mod pattern;
 mod printed;
 mod row;
@@ -17,13 +18,13 @@ pub use printed::AsPrinted;
 pub use row::{InverseRow, Residual};
 pub use summary::{DataSummary, FitSummary, ForceRange, InverseSummary};
 
-use self::fitted::{Fitted, states};
+use self::fitted::Fitted;
 use self::force::Backwards;
+use self::guide::Guide;
 use self::row::Rows;
 use self::sensor::Sensor;
 use crate::error::Error;
 use crate::mechanism::{Equation, Reactions, Reactor};
-use crate::numeric::fit::State;
 pub use crate::numeric::fit::{Kind as FitKind, Size as FitSize};
 use crate::numeric::student;
 use crate::plan::{Method, Plan};
@@ -97,6 +98,7 @@ pub fn inverse(
 ) -> Result<Inverse, Error> {
     let plan = plan(scene)?;
     let reactor = options.reactions.then(|| Reactor::new(scene)).transpose()?;
+    let guide = Guide::new(scene)?;
     let equation = Equation::new(scene);
     let sensor = Sensor {
         linkage: equation.linkage(),
@@ -112,17 +114,17 @@ pub fn inverse(
     );
     let fitted =
         fitted.map_err(|what| Error::refused(what, "give more samples, or a lower --degree"))?;
-    let states = states(&fitted.curve, measurement.times());
-    reachable(sensor.linkage, measurement, &states)?;
     let backwards = Backwards {
         equation: &equation,
         beside_forces: options.beside_forces,
         sigma: fitted.sigma(),
+        guide: guide.as_ref(),
     };
     let free = measurement.len() as f64 - fitted.curve.quality().parameters;
     let factor = student::half_band(free.max(1.0));
-    let found = Rows::new(&backwards, measurement.times(), &states, factor);
-    finite(measurement, &found.rows)?;
+    let found = Rows::new(&backwards, &fitted.curve, measurement.times(), factor);
+    reachable(measurement, &found)?;
+    finite(&equation, measurement, &found.rows)?;
     let mut warnings = measurement.notes().to_vec();
     warnings.extend(unfolded.warnings);
     warnings.extend(warnings::of_scene(scene, options));
@@ -158,24 +160,19 @@ impl Inverse {
         let reactor = self.reactor.as_ref()?;
         let pose = self.equation.linkage().pose(row.theta);
         let mut load = self.equation.load(row.t, row.theta, row.omega);
-        let force = row.slider_force?;
-        load.force = if self.summary.beside_forces {
-            load.force + force
-        } else {
-            force
-        };
+        row.slider_force?;
+        // The whole force along the guide, friction included.
+        let terms = self.equation.terms(row.theta);
+        let needed = self
+            .equation
+            .generalized_force(&terms, row.omega, row.alpha);
+        load.force = (needed - load.torque) / terms.pose.dx;
         Some(reactor.reactions(&pose, row.omega, row.alpha, &load))
     }
 }
 
 /// The plan of a scene whose motion was measured.
 fn plan(scene: &Scene) -> Result<Plan, Error> {
-    if scene.reduced().friction.is_some() {
-        return Err(Error::refused(
-            "Coulomb friction at the slider is not taken into account when the slider force is computed from a motion",
-            "take [friction] out of the scene: the slider force is then what remains beside friction",
-        ));
-    }
     let mut prescribed = scene.clone();
     prescribed.motion.kind = MotionKind::ConstantSpeed;
     let mut plan = Plan::new(&prescribed, Method::Auto)?;
@@ -184,38 +181,47 @@ fn plan(scene: &Scene) -> Result<Plan, Error> {
 }
 
 /// Refuses a fit that leaves the angles that the crank can take.
-fn reachable(
-    linkage: &crate::mechanism::Linkage,
-    measurement: &Measurement,
-    states: &[State],
-) -> Result<(), Error> {
-    let blocked = |state: &State| !linkage.pose(state.value[0]).exists();
-    let Some(sample) = states.iter().position(blocked) else {
+fn reachable(measurement: &Measurement, found: &Rows) -> Result<(), Error> {
+    let Some(sample) = found.unreachable else {
         return Ok(());
     };
     Err(Error::refused(
         format!(
             "the fitted crank angle at {}, {} rad, is one at which the rod does not reach the guide",
             measurement.place(sample),
-            states[sample].value[0]
+            found.rows[sample].theta
         ),
         "try another --fit or --degree, or check the lengths of the scene",
     ))
 }
 
-/// Refuses loads without a value along the motion.
-fn finite(measurement: &Measurement, rows: &[InverseRow]) -> Result<(), Error> {
+/// Refuses loads without a value along the motion, and a guide that locks itself.
+fn finite(
+    equation: &Equation,
+    measurement: &Measurement,
+    rows: &[InverseRow],
+) -> Result<(), Error> {
     let bad = |row: &InverseRow| !row.crank_torque.is_finite();
     let Some(sample) = rows.iter().position(bad) else {
         return Ok(());
     };
+    let row = &rows[sample];
+    let place = format!(
+        "at {} (t = {} s, theta = {} rad)",
+        measurement.place(sample),
+        row.t,
+        row.theta
+    );
+    if equation.load(row.t, row.theta, row.omega).is_finite() {
+        return Err(Error::refused(
+            format!(
+                "the guide locks itself {place}: friction holds the slider against any torque on the crank"
+            ),
+            "a motion like this one needs less friction, or the longer rod of another mechanism: check [friction] and [geometry]",
+        ));
+    }
     Err(Error::refused(
-        format!(
-            "the loads of the scene have no finite value at {} (t = {} s, theta = {} rad)",
-            measurement.place(sample),
-            rows[sample].t,
-            rows[sample].theta
-        ),
+        format!("the loads of the scene have no finite value {place}"),
         "let the tables of the scene cover the measured motion, or take the load out",
     ))
 }

@@ -3,7 +3,8 @@
 use super::bands::{BandRule, DeadCentreBand};
 use super::fitted::Fitted;
 use super::force::{Backwards, Demand};
-use crate::numeric::fit::State;
+use crate::numeric::fit::{Curve, State};
+use crate::numeric::parallel;
 use crate::scene::Measurement;
 
 /// Motion, force and torque at one sample, SI and radians.
@@ -61,40 +62,73 @@ pub(super) struct Rows {
     pub rows: Vec<InverseRow>,
     pub bands: Vec<DeadCentreBand>,
     pub rule: BandRule,
+    /// The first sample whose crank angle the mechanism cannot take.
+    pub unreachable: Option<usize>,
+}
+
+/// A row before it is decided whether it has a force, with the lever arm x' of the force and its standard error.
+#[derive(Debug)]
+pub(super) struct Draft {
+    pub row: InverseRow,
+    pub arm: f64,
+    pub arm_se: f64,
+    /// Whether the friction of the guide is known.
+    pub friction_known: bool,
+}
+
+impl Draft {
+    fn new(t: f64, state: &State, demand: &Demand) -> Draft {
+        let [theta, omega, alpha] = state.value;
+        Draft {
+            row: InverseRow {
+                t,
+                theta,
+                omega,
+                alpha,
+                slider_force: Some(demand.force),
+                slider_force_se: Some(demand.force_se),
+                crank_torque: demand.torque,
+                crank_torque_se: demand.torque_se,
+                near_dead_centre: false,
+            },
+            arm: demand.arm,
+            arm_se: demand.arm_se,
+            friction_known: demand.friction_known,
+        }
+    }
 }
 
 impl Rows {
     /// The rows; half of a 95 % band is `factor` standard errors.
-    pub fn new(backwards: &Backwards<'_>, times: &[f64], states: &[State], factor: f64) -> Rows {
-        let demands = demands(backwards, times, states);
-        let torques: Vec<(f64, f64)> = demands.iter().map(|d| (d.torque, d.torque_se)).collect();
-        let rule = BandRule::new(backwards.equation.linkage().r, &torques, factor);
+    pub fn new(backwards: &Backwards<'_>, curve: &Curve, times: &[f64], factor: f64) -> Rows {
+        let drafts = parallel::list(times.len(), |i| {
+            let state = curve.state(times[i]);
+            Draft::new(times[i], &state, &backwards.demand(times[i], &state))
+        });
+        let torques = drafts
+            .iter()
+            .map(|d| (d.row.crank_torque, d.row.crank_torque_se));
+        let linkage = backwards.equation.linkage();
         let mut found = Rows {
-            rows: Vec::with_capacity(times.len()),
+            rows: Vec::new(),
             bands: Vec::new(),
-            rule,
+            rule: BandRule::new(linkage.r, torques, factor),
+            unreachable: drafts.iter().position(|draft| !draft.arm.is_finite()),
         };
-        let mut before = None;
-        for ((t, state), demand) in times.iter().zip(states).zip(&demands) {
-            let reason = rule.reason(demand, factor);
-            let [theta, omega, alpha] = state.value;
-            found.rows.push(InverseRow {
-                t: *t,
-                theta,
-                omega,
-                alpha,
-                slider_force: reason.is_none().then_some(demand.force),
-                slider_force_se: reason.is_none().then_some(demand.force_se),
-                crank_torque: demand.torque,
-                crank_torque_se: demand.torque_se,
-                near_dead_centre: reason.is_some(),
-            });
+        let mut before = false;
+        let rows = drafts.into_iter().map(|mut draft| {
+            let reason = found.rule.reason(&draft, factor);
             if let Some(reason) = reason {
-                found.extend_band(*t, theta, reason, before.is_some());
+                let row = &mut draft.row;
+                (row.slider_force, row.slider_force_se) = (None, None);
+                row.near_dead_centre = true;
+                found.extend_band(row.t, row.theta, reason, before);
             }
-            before = reason;
-        }
-        found
+            before = reason.is_some();
+            draft.row
+        });
+        let rows = rows.collect();
+        Rows { rows, ..found }
     }
 
     fn extend_band(&mut self, t: f64, theta: f64, reason: &'static str, goes_on: bool) {
@@ -114,11 +148,4 @@ impl Rows {
             }),
         }
     }
-}
-
-fn demands(backwards: &Backwards<'_>, times: &[f64], states: &[State]) -> Vec<Demand> {
-    let samples = times.iter().zip(states);
-    samples
-        .map(|(t, state)| backwards.demand(*t, state))
-        .collect()
 }

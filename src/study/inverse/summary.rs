@@ -103,11 +103,10 @@ pub struct ForceRange {
 }
 
 impl ForceRange {
-    fn of(values: impl Iterator<Item = (f64, f64, f64)>) -> Option<ForceRange> {
-        let values: Vec<(f64, f64, f64)> = values.collect();
-        let min = values.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
-        let max = values.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
-        let mut errors: Vec<f64> = values.iter().map(|v| v.2).collect();
+    fn of(values: impl Iterator<Item = (f64, f64, f64)> + Clone) -> Option<ForceRange> {
+        let min = values.clone().min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let max = values.clone().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let mut errors: Vec<f64> = values.map(|v| v.2).collect();
         let middle = errors.len() / 2;
         Some(ForceRange {
             min: min.1,

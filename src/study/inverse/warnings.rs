@@ -10,15 +10,20 @@ const OUTLIER: f64 = 6.0;
 
 /// What is to be known of the scene's loads.
 pub(super) fn of_scene(scene: &Scene, options: &InverseOptions) -> Vec<String> {
-    if scene.reduced().forces.is_empty() {
-        return Vec::new();
-    }
-    let text = if options.beside_forces {
+    let reduced = scene.reduced();
+    let forces = (!reduced.forces.is_empty()).then_some(if options.beside_forces {
         "the scene has forces on the slider: slider_force_n and crank_torque_nm are what acts beside them"
     } else {
         "the scene has forces on the slider: slider_force_n is the whole force on it, with those of the scene in it (--beside-forces takes them off)"
-    };
-    vec![text.to_owned()]
+    });
+    let friction = reduced.friction.map(|_| {
+        "the scene has friction at the guide: slider_force_n and crank_torque_nm are what acts beside it; where the slider is at rest or turns round the force is left empty"
+    });
+    forces
+        .into_iter()
+        .chain(friction)
+        .map(str::to_owned)
+        .collect()
 }
 
 /// What is to be known of the fit.

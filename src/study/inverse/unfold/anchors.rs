@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use super::noise;
 use crate::mechanism::Candidates;
+use crate::scene::Measurement;
 
 /// A part of the samples, evenly taken.
 #[derive(Debug)]
@@ -21,18 +22,49 @@ const ENOUGH: f64 = 0.2;
 /// The motion between anchors, rad, that is wanted however still the noise.
 const LEAST: f64 = 0.01;
 
+/// Part of their span by which samples are uneven about an anchor.
+const UNEVEN: f64 = 0.1;
+
+/// Samples on either side of an anchor that are taken together with it.
+fn window(stride: usize) -> usize {
+    stride / 3
+}
+
+/// The middle of the parabola through an odd number of evenly spaced values (Savitzky and Golay, Anal. Chem. 36 (1964)
+/// 1627).
+fn smoothed(values: &[f64]) -> f64 {
+    let k = (values.len() / 2) as f64;
+    let weight = |i: usize| 3.0 * k * (k + 1.0) - 1.0 - 5.0 * (i as f64 - k).powi(2);
+    let sum: f64 = values.iter().enumerate().map(|(i, v)| weight(i) * v).sum();
+    3.0 * sum / ((2.0 * k - 1.0) * (2.0 * k + 1.0) * (2.0 * k + 3.0))
+}
+
 /// Fewest anchors.
 const FEWEST: usize = 16;
 
 impl Anchors {
-    /// Chooses anchors between which the crank turns by at least `blur`, rad, or a little more.
-    pub fn choose(times: &[f64], candidates: &[Candidates], blur: f64) -> Anchors {
+    /// Chooses anchors between which the crank turns by at least `blur`, rad, or a little more; `angles` are those of a
+    /// measured value.
+    ///
+    /// The samples around an anchor are taken together, so that dense samples are not worse than few.
+    pub fn choose(
+        measurement: &Measurement,
+        candidates: &[Candidates],
+        blur: f64,
+        angles: impl Fn(f64) -> Candidates,
+    ) -> Anchors {
+        let times = measurement.times();
         // On either stroke the motion looks alike.
         let one: Vec<f64> = candidates
             .iter()
             .map(|c| c.angles().iter().fold(f64::NEG_INFINITY, |a, b| a.max(*b)))
             .collect();
-        let wanted = (8.0 * noise(&one)).max(blur).clamp(LEAST, ENOUGH);
+        let noise = 8.0 * noise(&one);
+        let wanted = |stride: usize| {
+            let together = (window(stride) as f64).max(1.0);
+            let blur = blur / together.powf(0.25);
+            (noise / together.sqrt()).max(blur).clamp(LEAST, ENOUGH)
+        };
         let motion = |stride: usize| {
             let picked: Vec<f64> = one.iter().step_by(stride).copied().collect();
             let mut steps: Vec<f64> = picked.windows(2).map(|w| (w[1] - w[0]).abs()).collect();
@@ -40,13 +72,27 @@ impl Anchors {
             *steps.select_nth_unstable_by(part, f64::total_cmp).1
         };
         let mut stride = 1;
-        while times.len() / (2 * stride) >= FEWEST && motion(stride) < wanted {
+        while times.len() / (2 * stride) >= FEWEST && motion(stride) < wanted(stride) {
             stride *= 2;
         }
-        let index: Vec<usize> = (0..times.len()).step_by(stride).collect();
+        let around = window(stride);
+        let index: Vec<usize> = (around..times.len() - around).step_by(stride).collect();
+        let at_anchor = |i: &usize| {
+            let (from, to) = (i - around, i + around);
+            let (before, after) = (times[*i] - times[from], times[to] - times[*i]);
+            if around == 0 || (after - before).abs() > UNEVEN * (after + before) {
+                return candidates[*i];
+            }
+            let found = angles(smoothed(&measurement.values()[from..=to]));
+            if found.angles().is_empty() {
+                candidates[*i]
+            } else {
+                found
+            }
+        };
         Anchors {
             t: index.iter().map(|i| times[*i]).collect(),
-            candidates: index.iter().map(|i| candidates[*i]).collect(),
+            candidates: index.iter().map(at_anchor).collect(),
             index,
         }
     }

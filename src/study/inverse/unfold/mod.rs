@@ -13,6 +13,7 @@ use std::f64::consts::{PI, TAU};
 
 use crate::error::Error;
 use crate::mechanism::{Candidates, Linkage};
+use crate::numeric::parallel;
 use crate::scene::{Measured, Measurement, Motion};
 use anchors::Anchors;
 
@@ -40,7 +41,8 @@ pub(super) fn unfold(
         Measured::X => 3.0 * (2.0 * noise(measurement.values()) / linkage.r).sqrt(),
         _ => 0.0,
     };
-    let anchors = Anchors::choose(measurement.times(), &candidates, blur);
+    let angles = |value: f64| angles(linkage, measurement.measured(), value);
+    let anchors = Anchors::choose(measurement, &candidates, blur, angles);
     let path = search::smoothest(&anchors, start);
     if path.scale > TOO_COARSE {
         return Err(Error::refused(
@@ -95,6 +97,14 @@ const TOO_COARSE: f64 = 0.3;
 /// Part of the stroke, or rad, by which noise may take a value beyond what is possible.
 const BEYOND: f64 = 0.06;
 
+/// The crank angles of a turn that belong to a measured value.
+fn angles(linkage: &Linkage, measured: Measured, value: f64) -> Candidates {
+    match measured {
+        Measured::X => linkage.angles_of_x(value),
+        _ => linkage.angles_of_gamma(value),
+    }
+}
+
 /// The crank angles of each sample.
 fn candidates(linkage: &Linkage, measurement: &Measurement) -> Result<Vec<Candidates>, Error> {
     let values = measurement.values();
@@ -105,10 +115,7 @@ fn candidates(linkage: &Linkage, measurement: &Measurement) -> Result<Vec<Candid
     };
     let rounding = measurement.resolution() + 1e-12 * size;
     let most = (8.0 * noise).min(BEYOND * size) + rounding;
-    let angles = |value: f64| match measurement.measured() {
-        Measured::X => linkage.angles_of_x(value),
-        _ => linkage.angles_of_gamma(value),
-    };
+    let angles = |value: f64| angles(linkage, measurement.measured(), value);
     let impossible = |(sample, value): (usize, &f64)| {
         let beyond = excess(*value);
         let nowhere = angles(*value).angles().is_empty();
@@ -139,7 +146,7 @@ fn candidates(linkage: &Linkage, measurement: &Measurement) -> Result<Vec<Candid
     if !list.is_empty() {
         return Err(measurement.problems(list).into());
     }
-    Ok(values.iter().map(|value| angles(*value)).collect())
+    Ok(parallel::list(values.len(), |i| angles(values[i])))
 }
 
 /// Standard deviation of the noise of evenly spaced samples, from the median of their third differences, which a

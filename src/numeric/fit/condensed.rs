@@ -1,0 +1,269 @@
+//! Many samples as few: each block of a record is replaced by the Gauss nodes of its samples.
+//!
+//! The nodes and weights that integrate all polynomials up to degree 2n − 1 over n nodes exactly are those of the
+//! Jacobi matrix of the polynomials that are orthogonal over the samples (Golub and Welsch, Math. Comp. 23 (1969) 221).
+//! For curves that are polynomials of degree n − 1 in each block the condensed problem is the same problem: same
+//! solution, same covariance, and the squares that no such curve can take away are known.
+
+use std::borrow::Cow;
+
+use nalgebra::{SMatrix, SymmetricEigen};
+
+use super::Samples;
+use super::pieces::DEGREE;
+use crate::numeric::orthogonal;
+
+/// Nodes of a block.
+const NODES: usize = DEGREE + 1;
+
+/// Fewest samples that are condensed.
+const MANY: usize = 50_000;
+
+/// Fewest samples of the smallest blocks, on average.
+const OF_BLOCK: usize = 64;
+
+/// Fewest blocks.
+const FEWEST: usize = 256;
+
+/// Standard deviations by which squares exceed those of noise if a block is too wide for the motion in it.
+const CLEAR: f64 = 5.0;
+
+/// Rows `weight`·y(t) = `target` as fits take them: the samples, or what stands for them.
+#[derive(Clone, Debug)]
+pub(super) struct Rows<'a> {
+    t: Cow<'a, [f64]>,
+    target: Cow<'a, [f64]>,
+    weight: Option<Cow<'a, [f64]>>,
+    /// Standard deviation of a target that is due to its digits alone.
+    pub floor: f64,
+    /// First and last argument of the samples.
+    pub span: [f64; 2],
+    /// Number of samples.
+    pub count: usize,
+    /// Squares that are in no row.
+    pub left: f64,
+    /// Where the rows of each block end; none for samples as they are.
+    ends: Vec<usize>,
+}
+
+impl<'a> From<&Samples<'a>> for Rows<'a> {
+    fn from(samples: &Samples<'a>) -> Rows<'a> {
+        Rows {
+            t: samples.t.into(),
+            target: samples.target.into(),
+            weight: samples.weight.map(Cow::from),
+            floor: samples.floor,
+            span: [samples.t[0], samples.t[samples.t.len() - 1]],
+            count: samples.t.len(),
+            left: 0.0,
+            ends: Vec::new(),
+        }
+    }
+}
+
+impl<'a> Rows<'a> {
+    /// The samples, condensed where they are many and noise outweighs what no polynomial follows. The number of
+    /// blocks is `unit` times a power of two.
+    pub fn new(samples: &Samples<'a>, unit: usize) -> Rows<'a> {
+        let all = Rows::from(samples);
+        let most = samples.t.len() / OF_BLOCK;
+        if samples.t.len() < MANY || unit > most {
+            return all;
+        }
+        let mut blocks = unit;
+        while 2 * blocks <= most {
+            blocks *= 2;
+        }
+        let [first, last] = all.span;
+        let width = (last - first) / blocks as f64;
+        let mut end = 0;
+        let ends = (1..=blocks).map(|block| {
+            let limit = first + width * block as f64;
+            end += samples.t[end..].partition_point(|t| *t < limit);
+            if block < blocks { end } else { samples.t.len() }
+        });
+        let ends: Vec<usize> = ends.collect();
+        let (mut fine, mut now) = (all.clone(), all.condensed(&ends));
+        // Blocks half as wide as those that pass leave of the motion 2^-NODES of what they do.
+        let mut passed = 0;
+        while now.ends.len() % 2 == 0 && now.ends.len() / 2 >= FEWEST.max(unit) {
+            let pairs: Vec<usize> = now.ends.chunks(2).map(|pair| pair[1]).collect();
+            let wide = now.condensed(&pairs);
+            if !wide.is_noise_beside(&now) {
+                break;
+            }
+            (fine, now, passed) = (now, wide, passed + 1);
+        }
+        if passed > 0 { fine } else { all }
+    }
+
+    /// Number of blocks; none for samples as they are.
+    pub fn blocks(&self) -> Option<usize> {
+        (!self.ends.is_empty()).then_some(self.ends.len())
+    }
+
+    /// Whether what these rows leave out beyond finer ones is noise like what those leave out.
+    fn is_noise_beside(&self, fine: &Rows<'_>) -> bool {
+        let free = (fine.count - fine.t.len()) as f64;
+        let variance = (fine.left / free).max(fine.floor * fine.floor);
+        let more = (fine.t.len() - self.t.len()) as f64;
+        self.left - fine.left <= variance * (more + CLEAR * (2.0 * more).sqrt())
+    }
+
+    /// Blocks of these rows condensed to the nodes of each.
+    fn condensed(&self, ends: &[usize]) -> Rows<'static> {
+        let nodes = || Vec::with_capacity(NODES * ends.len());
+        let mut rows = Rows {
+            t: nodes().into(),
+            target: nodes().into(),
+            weight: Some(nodes().into()),
+            floor: self.floor,
+            span: self.span,
+            count: self.count,
+            left: self.left,
+            ends: Vec::with_capacity(ends.len()),
+        };
+        let mut from = 0;
+        for end in ends {
+            let range = from..*end;
+            rows.take(&Samples {
+                t: &self.t[range.clone()],
+                target: &self.target[range.clone()],
+                weight: self.weight.as_ref().map(|weight| &weight[range]),
+                floor: self.floor,
+            });
+            rows.ends.push(rows.t.len());
+            from = *end;
+        }
+        rows
+    }
+
+    fn row(&self, i: usize) -> (f64, f64, f64) {
+        let weight = self.weight.as_ref().map_or(1.0, |weight| weight[i]);
+        (self.t[i], weight, self.target[i])
+    }
+
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        self.t.len()
+    }
+
+    /// Argument, weight and target of all rows.
+    pub fn iter(&self) -> impl Iterator<Item = (f64, f64, f64)> {
+        (0..self.t.len()).map(|i| self.row(i))
+    }
+
+    fn push(&mut self, t: f64, weight: f64, target: f64) {
+        self.t.to_mut().push(t);
+        self.target.to_mut().push(target);
+        if let Some(list) = &mut self.weight {
+            list.to_mut().push(weight);
+        }
+    }
+
+    /// Adds what stands for the samples of a block.
+    fn take(&mut self, block: &Samples<'_>) {
+        let weight = |i: usize| block.weight.map_or(1.0, |weight| weight[i]);
+        let counting: Vec<usize> = (0..block.t.len()).filter(|i| weight(*i) != 0.0).collect();
+        let found = (counting.len() > NODES).then(|| {
+            let enough = |squares: &[f64]| squares.len() < NODES;
+            orthogonal::fit::<f64>(block.t, block.target, block.weight, enough)
+        });
+        let Some(found) = found.filter(|found| found.coefficients.len() == NODES) else {
+            let nothing = (0..block.t.len()).filter(|i| weight(*i) == 0.0);
+            self.left += nothing.map(|i| block.target[i].powi(2)).sum::<f64>();
+            for i in counting {
+                self.push(block.t[i], weight(i), block.target[i]);
+            }
+            return;
+        };
+        self.left += found.squares[NODES - 1];
+        let jacobi = SMatrix::<f64, NODES, NODES>::from_fn(|i, j| match i.abs_diff(j) {
+            0 => found.centres[i],
+            1 => found.norms[i.max(j)],
+            _ => 0.0,
+        });
+        let SymmetricEigen {
+            eigenvalues,
+            eigenvectors,
+        } = jacobi.symmetric_eigen();
+        let mut order: [usize; NODES] = std::array::from_fn(|i| i);
+        order.sort_by(|a, b| eigenvalues[*a].total_cmp(&eigenvalues[*b]));
+        for node in order {
+            let vector = eigenvectors.column(node);
+            let values = found.coefficients.iter().zip(vector.iter());
+            self.push(
+                found.middle + found.half * eigenvalues[node],
+                found.norms[0] * vector[0],
+                values.map(|(c, v)| c * v).sum(),
+            );
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sums of weight² t^k and weight t^k target over rows.
+    fn moments(rows: &Rows<'_>, degree: i32) -> [f64; 2] {
+        let sum = |f: &dyn Fn(f64, f64, f64) -> f64| rows.iter().map(|(t, w, y)| f(t, w, y)).sum();
+        [
+            sum(&|t, w, _| w * w * t.powi(degree)),
+            sum(&|t, w, y| w * t.powi(degree) * y),
+        ]
+    }
+
+    #[test]
+    fn moments_and_squares_are_kept() {
+        let t: Vec<f64> = (0..600)
+            .map(|i| f64::from(i) / 600.0 + 0.4e-3 * f64::from(i % 7))
+            .collect();
+        let y: Vec<f64> = t
+            .iter()
+            .map(|t| (3.0 * t).sin() + (1e4 * t).cos())
+            .collect();
+        let weight: Vec<f64> = t.iter().map(|t| (3.0 * t).cos()).collect();
+        for weight in [None, Some(weight.as_slice())] {
+            let samples = Samples {
+                t: &t,
+                target: &y,
+                weight,
+                floor: 0.0,
+            };
+            let all = Rows::from(&samples);
+            let few = all.condensed(&[100, 170, 310, 600]);
+            let few = few.condensed(&[2 * NODES, 4 * NODES]);
+            assert_eq!((few.t.len(), few.count), (2 * NODES, 600));
+            for degree in 0..2 * NODES as i32 {
+                let ([a, b], [c, d]) = (moments(&all, degree), moments(&few, degree));
+                assert!((a - c).abs() < 1e-12 * a.abs(), "{degree}: {a} {c}");
+                if degree < NODES as i32 {
+                    assert!((b - d).abs() < 1e-11, "{degree}: {b} {d}");
+                }
+            }
+            let squares = |rows: &Rows<'_>| rows.iter().map(|(_, _, y)| y * y).sum::<f64>();
+            assert!((squares(&few) + few.left - squares(&all)).abs() < 1e-10);
+        }
+    }
+
+    #[test]
+    fn blocks_without_weight_or_with_few_samples_are_served() {
+        let t: Vec<f64> = (0..200).map(|i| f64::from(i).sqrt()).collect();
+        let y = vec![1.0; 200];
+        let weight: Vec<f64> = t
+            .iter()
+            .map(|t| if *t < 12.0 { 0.0 } else { 1.0 })
+            .collect();
+        let samples = Samples {
+            t: &t,
+            target: &y,
+            weight: Some(&weight),
+            floor: 0.0,
+        };
+        let rows = Rows::from(&samples).condensed(&[10, 20, 22, 140, 148, 200]);
+        let total: f64 = rows.iter().map(|(_, w, _)| w * w).sum();
+        assert!((total - weight.iter().sum::<f64>()).abs() < 1e-12);
+        assert!(rows.t.iter().all(|t| t.is_finite()));
+    }
+}
