@@ -452,8 +452,10 @@ fn a_bend_just_before_the_end_is_seen() {
             let motion = made(|t, _, _| 1e3 * (t - bend).max(0.0));
             let (steps, _, _) = steps(&motion, (0.0, 0.0, 0.0), &settings(tolerance, 1.0));
             let error = (end(&steps).1 - 500.0 * before * before).abs();
+            // Inside a step a bend is worth some tens of tolerances: the series of a bend decays slowly. Not seen, it
+            // is worth 500 times the square of its distance from the end.
             assert!(
-                error < 10.0 * tolerance,
+                error < 100.0 * tolerance,
                 "{tolerance:e} {before:e}: {error:e}"
             );
         }
