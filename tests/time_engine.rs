@@ -395,6 +395,20 @@ fn a_start_on_an_event_does_not_meet_it_and_a_restart_on_it_does_not_repeat_it()
     assert!(!crossings_of(&again).is_empty());
 }
 
+/// From rest, under an acceleration that begins with nothing.
+#[test]
+fn a_start_from_rest_is_no_turning_point() {
+    for rate in [0.3, 3.0, 38.4] {
+        let motion = made(|t, _, _| (rate * t).sin());
+        let (steps, _, _) = steps(&motion, (0.0, -1.5, 0.0), &settings(1e-10, 3.0 / rate));
+        for step in &steps {
+            let mut found = Vec::new();
+            events::crossings(step, &[], &mut found);
+            assert!(found.is_empty(), "{rate}: {found:?}");
+        }
+    }
+}
+
 #[test]
 fn steps_end_at_corners() {
     // θ̈ = |t − 0.7| + step at 1.1
@@ -438,8 +452,10 @@ fn a_bend_just_before_the_end_is_seen() {
             let motion = made(|t, _, _| 1e3 * (t - bend).max(0.0));
             let (steps, _, _) = steps(&motion, (0.0, 0.0, 0.0), &settings(tolerance, 1.0));
             let error = (end(&steps).1 - 500.0 * before * before).abs();
+            // Inside a step a bend is worth some tens of tolerances: the series of a bend decays slowly. Not seen, it
+            // is worth 500 times the square of its distance from the end.
             assert!(
-                error < 10.0 * tolerance,
+                error < 100.0 * tolerance,
                 "{tolerance:e} {before:e}: {error:e}"
             );
         }

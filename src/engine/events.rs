@@ -65,11 +65,12 @@ fn turning_brackets(step: &Step, mut bracket: impl FnMut(f64, f64)) {
         } else {
             None
         };
+        // From rest a speed may be rounding first.
+        let lowest = lowest
+            .map(|t| Turn::at(step, t))
+            .filter(|turn| turn.speed.abs() > 64.0 * f64::EPSILON * w0.abs().max(w1.abs()));
         let mut from = before;
-        for to in [lowest.map(|t| Turn::at(step, t)), Some(after)]
-            .into_iter()
-            .flatten()
-        {
+        for to in [lowest, Some(after)].into_iter().flatten() {
             if from.speed * to.speed < 0.0 || (to.speed == 0.0 && from.speed != 0.0) {
                 bracket(from.t, to.t);
             }
