@@ -117,9 +117,9 @@ fn jamming_and_loose_joints_are_served() {
         "error of the slider's position",
     ] {
         assert!(
-            outcome.stderr.contains(words),
+            outcome.stdout.contains(words),
             "{words}: {}",
-            outcome.stderr
+            outcome.stdout
         );
     }
     let rows = folder.read("p.csv");
