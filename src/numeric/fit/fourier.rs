@@ -142,8 +142,16 @@ impl Fourier {
             let rate = omega * k as f64;
             let (sin, cos) = (rate * tau).sin_cos();
             let squared = rate * rate;
-            add_products(&mut state.bias, &[cos, -rate * sin, -squared * cos], *variance);
-            add_products(&mut state.bias, &[sin, rate * cos, -squared * sin], *variance);
+            add_products(
+                &mut state.bias,
+                &[cos, -rate * sin, -squared * cos],
+                *variance,
+            );
+            add_products(
+                &mut state.bias,
+                &[sin, rate * cos, -squared * sin],
+                *variance,
+            );
         }
         state
     }
@@ -263,7 +271,9 @@ fn harmonics(
             Size::Fixed(count) => count,
             Size::Auto => decay.enough(found, most, GROWTH),
         };
-        let weights = samples.weight.map_or(rows as f64, |w| w.iter().map(|w| w * w).sum());
+        let weights = samples
+            .weight
+            .map_or(rows as f64, |w| w.iter().map(|w| w * w).sum());
         let beyond = count + 1..count + 1 + TAIL;
         let tail = beyond.map(|k| 2.0 * decay.variance(k) / weights);
         return Ok((count, tail.collect()));
@@ -297,7 +307,11 @@ fn settle(samples: &Samples<'_>, middle: f64, parameters: &mut Vec<f64>) -> Resu
             // At rounding there is nothing left to gain.
             let gain = sums[0] - sums[sums.len() - 1];
             let none = gain < 1e-6 * before || gain < rounding(samples, middle, parameters);
-            return if none { Ok(()) } else { Err(UNSETTLED.to_owned()) };
+            return if none {
+                Ok(())
+            } else {
+                Err(UNSETTLED.to_owned())
+            };
         }
         *parameters = next;
         before = after;

@@ -233,7 +233,11 @@ fn weaker(f: &dyn Fn(f64) -> f64, best: f64, limit: f64) -> f64 {
     }
     for _ in 0..10 {
         let middle = 0.5 * (below + above);
-        if f(middle) < limit { above = middle } else { below = middle }
+        if f(middle) < limit {
+            above = middle
+        } else {
+            below = middle
+        }
     }
     above
 }

@@ -187,6 +187,10 @@ fn decay<T: Real>(rows: usize, squares: &[T], supported: usize, least: f64) -> D
     let noise = (squares[last].value() / free).max(least / rows as f64);
     // The constant term tells nothing.
     let mut terms = vec![0.0];
-    terms.extend(squares.windows(2).map(|pair| (pair[0] - pair[1]).value().max(0.0)));
+    terms.extend(
+        squares
+            .windows(2)
+            .map(|pair| (pair[0] - pair[1]).value().max(0.0)),
+    );
     Decay::of(&terms, 1.0, noise, supported.max(1))
 }

@@ -141,7 +141,13 @@ impl Spline {
                 state.rounding[k] += 2.0 * f64::EPSILON * (b * c).abs();
             }
         }
-        let bias = bases.map(|basis| basis.iter().zip(&self.bias[piece..]).map(|(b, c)| b * c).sum());
+        let bias = bases.map(|basis| {
+            basis
+                .iter()
+                .zip(&self.bias[piece..])
+                .map(|(b, c)| b * c)
+                .sum()
+        });
         add_products(&mut state.bias, &bias, 1.0);
         let mut entry = 0;
         for k in 0..3 {

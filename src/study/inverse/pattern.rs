@@ -40,7 +40,8 @@ impl Pattern {
         // Residuals of noise are correlated by about −(parameters)/n through the fit itself.
         let deviations = (lag_one + parameters / n) * n.sqrt();
         let mut widening = 1.0;
-        if deviations > CLEAR || runs < -CLEAR {
+        // Rounding follows the value that is rounded: it is not taken for noise.
+        if deviations > CLEAR || runs < -CLEAR || !shown {
             // Integrated correlation, as long as pairs of lags add to it (Geyer, Statist. Sci. 7 (1992) 473).
             let mut time = 1.0 + 2.0 * lag_one.max(0.0);
             let mut k = 2;
