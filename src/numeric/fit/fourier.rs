@@ -233,13 +233,7 @@ fn harmonics(
             Size::Fixed(count) => count,
             Size::Auto => decay.enough(found, most, GROWTH),
         };
-<<<<<<< HEAD
         let weights: f64 = samples.iter().map(|(_, weight, _)| weight * weight).sum();
-=======
-        let weights = samples
-            .weight
-            .map_or(rows as f64, |w| w.iter().map(|w| w * w).sum());
->>>>>>> band
         let beyond = count + 1..count + 1 + TAIL;
         let tail = beyond.map(|k| 2.0 * decay.variance(k) / weights);
         return Ok((count, tail.collect()));
