@@ -183,7 +183,7 @@ fn all_finite(found: &Inverse) {
 }
 
 proptest! {
-    #![proptest_config(cases(48))]
+    #![proptest_config(cases(32))]
 
     #[test]
     fn random_motions_give_their_force_or_say_what_is_in_doubt(

@@ -4,6 +4,7 @@ mod choice;
 mod condensed;
 mod curve;
 mod decay;
+mod design;
 mod fourier;
 mod penalized;
 mod pieces;

@@ -22,10 +22,6 @@ impl Pattern {
     pub fn of(residuals: &[f64], parameters: f64, floor: f64) -> Pattern {
         let n = residuals.len() as f64;
         let square: f64 = residuals.iter().map(|r| r * r).sum();
-        let lag = |k: usize| {
-            let products = residuals.iter().zip(&residuals[k..]).map(|(a, b)| a * b);
-            products.sum::<f64>() / square
-        };
         if square == 0.0 || residuals.len() < 4 {
             return Pattern {
                 lag_one: 0.0,
@@ -35,12 +31,14 @@ impl Pattern {
             };
         }
         let shown = square > n * (1.5 * floor).powi(2);
-        let lag_one = lag(1);
+        let neighbours = residuals.iter().zip(&residuals[1..]);
+        let lag_one = neighbours.map(|(a, b)| a * b).sum::<f64>() / square;
         let runs = runs(residuals);
         // Residuals of noise are correlated by about −(parameters)/n through the fit itself.
         let deviations = (lag_one + parameters / n) * n.sqrt();
         let mut widening = 1.0;
-        if deviations > CLEAR || runs < -CLEAR {
+        // Rounding follows the value that is rounded: it is not taken for noise.
+        if deviations > CLEAR || runs < -CLEAR || !shown {
             let time = correlation_time(residuals);
             let free = (n - parameters).max(1.0);
             widening = (time * n / free).sqrt().max(1.0);

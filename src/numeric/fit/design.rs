@@ -1,0 +1,90 @@
+//! The least-squares problem of a rotation with harmonics, linear about given parameters c, Ω, a_1, b_1, a_2, b_2, ...
+
+use super::condensed::Rows;
+use super::triangle::Triangle;
+
+/// Value and two derivatives in time.
+pub(super) type Jet = [f64; 3];
+
+/// The curve with three derivatives, and the derivative of the curve by each parameter, with two in time.
+pub(super) fn columns(tau: f64, parameters: &[f64]) -> ([f64; 4], Vec<Jet>) {
+    let omega = parameters[1];
+    let mut value = [parameters[0] + omega * tau, omega, 0.0, 0.0];
+    let mut columns = vec![[1.0, 0.0, 0.0], [0.0; 3]];
+    let mut rate = 0.0;
+    for pair in parameters[2..].chunks_exact(2) {
+        rate += omega;
+        let (sin, cos) = (rate * tau).sin_cos();
+        let squared = rate * rate;
+        let (even, odd) = (pair[0] * cos + pair[1] * sin, pair[1] * cos - pair[0] * sin);
+        value[0] += even;
+        value[1] += rate * odd;
+        value[2] -= squared * even;
+        value[3] -= squared * rate * odd;
+        columns.push([cos, -rate * sin, -squared * cos]);
+        columns.push([sin, rate * cos, -squared * sin]);
+    }
+    let per = if omega == 0.0 { 0.0 } else { 1.0 / omega };
+    columns[1] = [
+        if omega == 0.0 {
+            tau
+        } else {
+            tau * value[1] * per
+        },
+        if omega == 0.0 {
+            1.0
+        } else {
+            (value[1] + tau * value[2]) * per
+        },
+        (2.0 * value[2] + tau * value[3]) * per,
+    ];
+    (value, columns)
+}
+
+pub(super) fn squares(samples: &Rows<'_>, middle: f64, parameters: &[f64]) -> f64 {
+    let rest = residuals(samples, middle, parameters).map(|(_, _, r)| r * r);
+    samples.left + rest.sum::<f64>()
+}
+
+/// Weight, columns and residual of each sample.
+fn residuals<'a>(
+    samples: &'a Rows<'a>,
+    middle: f64,
+    parameters: &'a [f64],
+) -> impl Iterator<Item = (f64, Vec<Jet>, f64)> + 'a {
+    samples.iter().map(move |(t, weight, target)| {
+        let (value, columns) = columns(t - middle, parameters);
+        (weight, columns, target - weight * value[0])
+    })
+}
+
+/// The triangle of the design matrix at these parameters, extended by zeros to `count` harmonics, and the correction
+/// of the parameters.
+pub(super) fn solve(
+    samples: &Rows<'_>,
+    middle: f64,
+    parameters: &[f64],
+    count: usize,
+) -> Result<(Triangle, Vec<f64>), String> {
+    let mut extended = parameters.to_vec();
+    extended.resize(2 + 2 * count, 0.0);
+    let mut triangle = Triangle::new(extended.len());
+    for (weight, columns, residual) in residuals(samples, middle, &extended) {
+        triangle.add(columns.iter().map(|column| weight * column[0]), residual);
+    }
+    let step = triangle.solve();
+    match step {
+        Some(step) if step.iter().all(|s| s.is_finite()) => Ok((triangle, step)),
+        _ => Err("the samples do not determine rotation and harmonics".to_owned()),
+    }
+}
+
+/// What rounding may add to the sum of squares.
+pub(super) fn rounding(samples: &Rows<'_>, middle: f64, parameters: &[f64]) -> f64 {
+    let one = |(t, weight, _): (f64, f64, f64)| {
+        let size = (parameters[1] * (t - middle)).abs() + parameters[0].abs() + 1.0;
+        let error = 8.0 * f64::EPSILON * size * weight;
+        error * error
+    };
+    samples.iter().map(one).sum()
+}
