@@ -11,7 +11,7 @@ use slider_crank::plan::Method;
 use slider_crank::scene::{
     Branch, Crank, Friction, Gravity, Instant, Load, Rod, Scene, Slider, Variables,
 };
-use slider_crank::study::{Options, Row, Simulation, simulate, simulate_rows};
+use slider_crank::study::{Options, Row, Simulation, explain, simulate, simulate_rows};
 use support::close;
 use support::random::{cases, magnitude};
 
@@ -495,6 +495,71 @@ fn rows_hold_the_friction_in_their_forces() {
                     size,
                     1e-9,
                 );
+            }
+        }
+    }
+}
+
+/// Without masses but the crank's the guide feels the rod alone: N = R tan φ for the force R that it passes on. So what
+/// `explain` says of a torque that holds the crank is checked by hand.
+#[test]
+fn torques_that_hold_the_crank_are_explained_with_friction() {
+    let (push, inertia, mu, mu_static) = (-100.0, 2e-3, 0.2, 0.3);
+    for branch in [Branch::Right, Branch::Left] {
+        for (theta, omega) in [
+            (0.7, 10.0),
+            (0.7, -10.0),
+            (2.9, 3.0),
+            (4.0, 0.0),
+            (0.3, 0.0),
+        ] {
+            let scene = friction(Scene::new(0.05, 0.15).offset(0.01), mu, mu_static)
+                .branch(branch)
+                .crank(Crank {
+                    inertia,
+                    ..Crank::default()
+                })
+                .force(Load::Constant(push))
+                .start(theta, omega)
+                .duration(1.0);
+            let at = explain(&scene, Method::Auto, Some(theta))
+                .unwrap()
+                .at
+                .unwrap();
+            let found = at.friction.expect("friction");
+            let lean = (0.01 + 0.05 * theta.sin()) / 0.15;
+            let tan = lean.abs() / (1.0 - lean * lean).sqrt();
+            let v = at.dx_m_per_rad * omega;
+            let friction_of = |torque: f64| -torque / at.dx_m_per_rad - push;
+            let coulomb = |force: f64, mu: f64| mu * (push + force).abs() * tan;
+            close(
+                "without",
+                at.holding_torque_nm,
+                -push * at.dx_m_per_rad,
+                1.0,
+                1e-14,
+            );
+            let (min, max) = (found.holding_min_nm.unwrap(), found.holding_max_nm.unwrap());
+            let force = found.force_n.unwrap();
+            let alpha = (push + force) * at.dx_m_per_rad / inertia;
+            close(
+                "alpha",
+                at.alpha_rad_per_s2.unwrap(),
+                alpha,
+                alpha.abs(),
+                1e-12,
+            );
+            if omega != 0.0 {
+                assert_eq!(min, max);
+                let held = friction_of(min);
+                assert!(held * v < 0.0 && force * v < 0.0);
+                close("held", held.abs(), coulomb(held, mu), 100.0, 1e-13);
+                close("free", force.abs(), coulomb(force, mu), 100.0, 1e-13);
+            } else {
+                assert!(min < at.holding_torque_nm && at.holding_torque_nm < max);
+                for edge in [min, max].map(friction_of) {
+                    close("edge", edge.abs(), coulomb(edge, mu_static), 100.0, 1e-13);
+                }
             }
         }
     }

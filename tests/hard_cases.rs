@@ -163,7 +163,11 @@ fn loose_joints_end_at_their_references() {
             theta,
             2.0 * stated.theta_rad + doubt_theta,
         );
-        near(summary.last.omega_rad_per_s, omega, 1e-7);
+        near(
+            summary.last.omega_rad_per_s,
+            omega,
+            2.0 * stated.omega_rad_per_s + 1e-8,
+        );
         let own = joint.last.error_x_m.expect("inside the horizon");
         near(joint.last.x_m, x, 2.0 * own + doubt_x);
         near(joint.last.v_m_per_s, v, 1e-6);

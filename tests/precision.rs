@@ -2,7 +2,8 @@
 
 use slider_crank::plan::Method;
 use slider_crank::scene::{
-    Branch, Crank, Gravity, Load, MotionKind, Rod, Scene, Slider, Variables,
+    Branch, Clearance, Crank, Friction, Gravity, Joint, Load, MotionKind, Rod, Scene, Slider,
+    Variables,
 };
 use slider_crank::study::{
     Options, Precision, PrecisionOptions, PrecisionRow, precision, simulate,
@@ -226,4 +227,130 @@ fn a_tolerance_that_no_run_takes_is_refused() {
         ..PrecisionOptions::default()
     };
     assert!(precision(&engine(), &options).is_err());
+}
+
+/// A slider alone with friction: v falls by μ g, whatever the massless crank and rod do.
+fn braked(duration: f64) -> Scene {
+    let mut scene = Scene::new(0.1, 0.3)
+        .offset(0.02)
+        .slider(Slider { mass: 2.0 })
+        .gravity(Gravity::standard())
+        .start(1.0, 5.0)
+        .duration(duration);
+    scene.friction = Some(Friction {
+        coefficient: 0.3,
+        static_coefficient: 0.4,
+    });
+    scene
+}
+
+#[test]
+fn friction_is_in_the_reference() {
+    let x = |theta: f64| {
+        let drop: f64 = 0.02 + 0.1 * theta.sin();
+        0.1 * theta.cos() + (0.09 - drop * drop).sqrt()
+    };
+    let slope = |theta: f64| {
+        let drop: f64 = 0.02 + 0.1 * theta.sin();
+        -0.1 * theta.sin() - drop * 0.1 * theta.cos() / (0.09 - drop * drop).sqrt()
+    };
+    let (v, brake) = (5.0 * slope(1.0), 0.3 * Gravity::standard().acceleration);
+    let stops = v.abs() / brake;
+    for duration in [0.4 * stops, 1.5 * stops] {
+        let t = duration.min(stops);
+        let place = x(1.0) + v * t + 0.5 * brake * t * t;
+        let theta = (0..60).fold(1.2, |theta, _| theta - (x(theta) - place) / slope(theta));
+        let omega = (v + brake * t) / slope(theta);
+        let result = compare(&braked(duration), &[1e-5, 1e-10]);
+        assert!(
+            result.reference_error_theta_rad.unwrap() < 1e-17,
+            "{result:?}"
+        );
+        for row in &result.rows {
+            let mut scene = braked(duration);
+            scene.run.tolerance = row.tolerance;
+            let options = Options {
+                method: row.method.parse().unwrap(),
+                ..Options::default()
+            };
+            let last = simulate(&scene, &options).unwrap().summary.last;
+            let found = row.error_theta_rad.unwrap();
+            let want = (last.theta_rad - theta).abs();
+            assert!((found - want).abs() < 2e-14, "{row:?} {want:e}");
+            let want = (last.omega_rad_per_s - omega).abs();
+            let found = row.error_omega_rad_per_s.unwrap();
+            assert!((found - want).abs() < 1e-12, "{row:?} {want:e}");
+        }
+    }
+}
+
+/// All runs jam at one place: they are measured there, and none has failed.
+#[test]
+fn where_the_motion_ends_its_methods_are_measured() {
+    let mut scene = Scene::new(0.1, 0.12)
+        .crank(Crank {
+            inertia: 0.05,
+            ..Crank::default()
+        })
+        .rod(Rod {
+            mass: 0.02,
+            cg: 0.06,
+            inertia: 2e-5,
+            ..Rod::default()
+        })
+        .slider(Slider { mass: 0.2 })
+        .gravity(Gravity::standard())
+        .start(0.3, 6.0)
+        .duration(1.0);
+    scene.friction = Some(Friction {
+        coefficient: 1.5,
+        static_coefficient: 1.5,
+    });
+    let result = compare(&scene, &[1e-5, 1e-10]);
+    assert!(result.has_results() && result.t_s > 0.05 && result.t_s < 0.1);
+    for row in &result.rows {
+        assert!(row.failure.as_ref().unwrap().contains("jams"));
+        let [coarse, found] = [1e-3, row.error_theta_rad.unwrap()];
+        assert!(found <= coarse * row.tolerance.sqrt() && row.wall_s.is_some());
+    }
+}
+
+/// A journal in its bearing: errors of crank and slider against equations in other unknowns.
+#[test]
+fn a_loose_joint_has_its_rows() {
+    for joint in [Joint::CrankPin, Joint::WristPin] {
+        let scene = Scene {
+            clearance: Some(Clearance {
+                bearing_radius: Some(0.01),
+                young_modulus: Some(207e9),
+                poisson_ratio: Some(0.3),
+                restitution: Some(0.8),
+                friction: Some(0.05),
+                ..Clearance::new(joint, 2e-4)
+            }),
+            ..engine().start(0.3, 50.0).duration(6e-3)
+        };
+        let result = compare(&scene, &[1e-6, 1e-9, 1e-12]);
+        let own = result.reference_error_theta_rad.unwrap();
+        assert!(own < 1e-16, "{own:e}");
+        assert_eq!(result.rows.len(), 3);
+        for row in &result.rows {
+            assert_eq!(row.method, "contact");
+            for (error, stated) in [
+                (row.error_theta_rad, row.estimate_theta_rad),
+                (row.error_omega_rad_per_s, row.estimate_omega_rad_per_s),
+                (row.error_slider_x_m, row.estimate_slider_x_m),
+            ] {
+                let (error, stated) = (error.unwrap(), stated.unwrap());
+                assert!(error <= 2.0 * stated, "{joint:?} {row:?}");
+            }
+        }
+        let errors: Vec<f64> = result
+            .rows
+            .iter()
+            .map(|r| r.error_slider_x_m.unwrap())
+            .collect();
+        assert!(errors[1] < errors[0] && errors[2] < errors[1], "{errors:?}");
+        assert!(errors[2] < 1e-12, "{errors:?}");
+    }
 }

@@ -74,13 +74,14 @@ pub fn run(
     settings: &Settings,
     sink: &mut dyn FnMut(&Step) -> bool,
 ) -> (Finish, Step, u64) {
-    let mut pace = Pace::new(motion, start, settings);
+    let mut pace = Pace::new(start.t, motion.evaluations(), settings);
     let mut hopeless = false;
     let watched = &mut |step: &Step| {
         if sink(step) {
             return true;
         }
-        hopeless = pace.is_hopeless(motion.evaluations(), step.end.t);
+        let travel = step.end.theta - step.start.theta;
+        hopeless = pace.is_hopeless(motion.evaluations(), step.end.t, travel);
         hopeless
     };
     let (finish, last, steps) = match settings.method {
@@ -95,44 +96,53 @@ pub fn run(
 }
 
 /// Evaluations over which a pace is taken.
-const WINDOW: u64 = 5_000_000;
-/// A run is given up if at its pace it needs more than the work limit by this factor, in two windows in a row.
+const WINDOW: u64 = 1_000_000;
+/// A run is given up if at its pace it needs more than the work limit by this factor, and moves by less than so much
+/// (rad) with each evaluation, in two windows in a row. A crank that spins fast and slows down later moves by more.
 const BEYOND: f64 = 5.0;
+const CRAWL: f64 = 1e-5;
 
 /// How fast a run proceeds.
-struct Pace {
+#[derive(Clone, Copy, Debug)]
+pub struct Pace {
     t: f64,
     evaluations: u64,
+    travel: f64,
     settings: Settings,
     slow: bool,
 }
 
 impl Pace {
-    fn new(motion: &Counted<'_>, start: Start, settings: &Settings) -> Pace {
+    /// Of a run that begins at this time (s), with so many evaluations before it.
+    pub fn new(t: f64, evaluations: u64, settings: &Settings) -> Pace {
         Pace {
-            t: start.t,
-            evaluations: motion.evaluations(),
+            t,
+            evaluations,
+            travel: 0.0,
             settings: *settings,
             slow: false,
         }
     }
 
-    /// Whether the work limit will be reached long before the last time.
-    fn is_hopeless(&mut self, evaluations: u64, t: f64) -> bool {
+    /// Whether the work limit will be reached long before the last time, as a run shows that has got to this time (s)
+    /// with so many evaluations in all, and moved by `travel` (rad) since it was last asked.
+    pub fn is_hopeless(&mut self, evaluations: u64, t: f64, travel: f64) -> bool {
         let Settings {
             t_end,
             max_evaluations,
             ..
         } = self.settings;
-        let spent = evaluations - self.evaluations;
-        if spent < WINDOW || t_end >= FAR {
+        self.travel += travel.abs();
+        let spent = (evaluations - self.evaluations) as f64;
+        if spent < WINDOW as f64 || t_end >= FAR {
             return false;
         }
-        let needed = (t_end - t) / (t - self.t) * spent as f64;
+        let needed = (t_end - t) / (t - self.t) * spent;
         let left = max_evaluations.saturating_sub(evaluations) as f64;
-        let was_slow = std::mem::replace(&mut self.slow, needed > BEYOND * left);
-        (self.t, self.evaluations) = (t, evaluations);
-        self.slow && was_slow
+        let slow = needed > BEYOND * left && self.travel < CRAWL * spent;
+        let was_slow = std::mem::replace(&mut self.slow, slow);
+        (self.t, self.evaluations, self.travel) = (t, evaluations, 0.0);
+        slow && was_slow
     }
 }
 

@@ -133,8 +133,14 @@ fn notes(scene: &Precision) -> Vec<String> {
     // Tolerances that share a note are named together.
     let mut said: Vec<(String, Vec<String>)> = Vec::new();
     for row in &scene.rows {
-        // Where a run stopped differs from row to row; the JSON object has it.
-        let reason = |why: &String| why.split(": stopped at").next().unwrap_or(why).to_owned();
+        // Where a run stopped, and with what numbers, differs from row to row; the JSON object has it.
+        let reason = |why: &String| {
+            let why = why.split(": stopped at").next().unwrap_or(why);
+            why.split(", as the coefficient")
+                .next()
+                .unwrap_or(why)
+                .to_owned()
+        };
         let word = match row.error_theta_rad {
             None => "failed",
             Some(_) => "measured where the motion ends",

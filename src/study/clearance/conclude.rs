@@ -48,8 +48,10 @@ impl<const N: usize> Run<'_, N> {
         let horizon = tighter.as_ref().map(|t| self.horizon(&seen, t, &last));
         let same = horizon.is_some_and(|h| h.whole_run);
         let against = tighter.as_ref().filter(|_| same).map(|t| &t.last);
+        // Each step rounds, independently of the others.
+        let rounding = 8.0 * f64::EPSILON * (1.0 + ended.steps as f64).sqrt();
         let error = |value: fn(&LooseState) -> f64, size: f64| {
-            against.map(|t| MARGIN * (value(t) - value(&last)).abs() + 8.0 * f64::EPSILON * size)
+            against.map(|t| MARGIN * (value(t) - value(&last)).abs() + rounding * size)
         };
         let reach = model.reach;
         let summary = self.summary(

@@ -9,7 +9,7 @@ use super::phase::{
 };
 use crate::engine::guard::{self, Change, Watched};
 use crate::engine::step::{Node, Step};
-use crate::engine::time::{self, Finish, Settings, Start};
+use crate::engine::time::{self, Finish, Pace, Settings, Start};
 use crate::engine::{Counted, Motion};
 use crate::scene::Friction;
 
@@ -113,8 +113,10 @@ impl Run<'_, '_> {
 
     /// Pieces of sliding until the end.
     fn pieces(&mut self) -> Option<End> {
+        let mut pace = Pace::new(self.now.t, 0, &self.follow.settings);
         loop {
             self.arrived.pieces += 1;
+            let from = self.now.angle;
             let end = match self.slide() {
                 Cut::Ended(Finish::AtEnd) => Some(End::Done),
                 Cut::Ended(finish) => Some(self.singular(finish)),
@@ -135,10 +137,12 @@ impl Run<'_, '_> {
             if end.is_some() || self.now.t >= self.follow.settings.t_end {
                 return end.or(Some(End::Done));
             }
-            if self.arrived.evaluations + self.quantities.evaluations.get()
-                >= self.follow.settings.max_evaluations
-            {
+            let spent = self.arrived.evaluations + self.quantities.evaluations.get();
+            if spent >= self.follow.settings.max_evaluations {
                 return Some(End::Integrator(Finish::WorkLimit));
+            }
+            if pace.is_hopeless(spent, self.now.t, self.now.angle.minus(from)) {
+                return Some(End::Integrator(Finish::WorkLimitAhead));
             }
         }
     }
