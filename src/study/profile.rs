@@ -116,21 +116,30 @@ impl Driven for Position<'_> {
         let driven = self.is_driven();
         let at = self.equation.positions(angles);
         table.places.clear();
+        let mut of_place = Vec::new();
         for (i, angle) in angles.iter().enumerate().take(count) {
             let (x, dx) = (at.x[i], at.dx[i]);
             table.inertia[i] = at.m[i];
-            table.force[i] = loads.with_potential_at(x).over(dx) - at.dv[i];
-            table.push[i] = loads.of_place(self.angle(*angle), x).over(dx);
+            let (stored, placed) = (
+                loads.with_potential_at(x),
+                loads.of_place(self.angle(*angle), x),
+            );
+            table.force[i] = stored.over(dx) - at.dv[i];
+            table.push[i] = placed.over(dx);
             table.damping[i] = loads.damping(dx);
+            if self.sliding.is_some() {
+                of_place.push(stored.plus(placed));
+            }
             if driven {
                 let grip = Grip::default();
                 table.places.push(Spot { at: [x, dx], grip });
             }
         }
         if let Some(sliding) = self.sliding {
+            let angles = &angles[..count];
             // Panels run in the direction of the motion.
             let direction = (angles[count - 1] - angles[0]).signum();
-            sliding.tabulate(angles, count, direction * side, loads, table);
+            sliding.tabulate(angles, direction * side, loads, &of_place, table);
         }
     }
 

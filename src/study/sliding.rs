@@ -6,7 +6,6 @@ use super::profile::Spot;
 use crate::engine::angle::Table;
 use crate::mechanism::{Across, Constrained, Curve, Equation, LoadValue, Loads, Touch};
 use crate::numeric::angle::Angle;
-use crate::numeric::chebyshev::Values;
 use crate::scene::Scene;
 
 /// Within this part of the crank length x' has no sign.
@@ -68,21 +67,20 @@ impl Sliding {
         self.jams.get()
     }
 
-    /// Adds friction to the table of a panel between two dead centres; `signs` is sgn(ω) sgn(N).
+    /// Adds friction to the table of a panel between two dead centres; `signs` is sgn(ω) sgn(N), `of_place` the
+    /// loads of the position alone.
     pub fn tabulate(
         &self,
-        angles: &Values,
-        count: usize,
+        angles: &[f64],
         signs: f64,
         loads: &Loads,
+        of_place: &[LoadValue],
         table: &mut Table<Spot>,
     ) {
-        let at: Vec<Across> = angles[..count]
-            .iter()
-            .map(|theta| self.equation.across(*theta))
-            .collect();
-        // At its ends x' is rounding.
-        let c = -self.mu * signs * at[count / 2].place.dx.signum();
+        let across = |theta: &f64| self.equation.across(*theta);
+        let at: Vec<Across> = angles.iter().map(across).collect();
+        // At the ends of a panel x' is rounding.
+        let c = -self.mu * signs * at[at.len() / 2].place.dx.signum();
         let mut switch = table.switch.take().unwrap_or_default();
         for (i, across) in at.iter().enumerate() {
             let normal = across.normal();
@@ -93,14 +91,10 @@ impl Sliding {
                 force: normal.force,
                 grip: grip.unwrap_or(f64::NAN),
             };
-            let (x, dx) = (across.place.x, across.place.dx);
-            let load = loads
-                .with_potential_at(x)
-                .plus(loads.of_place(angles[i], x));
             let [torque, force] = loads.dampings();
-            let force = force * dx;
+            let force = force * across.place.dx;
             let damping = LoadValue { torque, force };
-            switch.place[i] = normal.place + grip.pressed(load);
+            switch.place[i] = normal.place + grip.pressed(of_place[i]);
             switch.rate[i] = -grip.pressed(damping);
             switch.square[i] = normal.square;
             switch.force[i] = grip.grip * normal.square;

@@ -160,6 +160,7 @@ impl<'a, D: Driven> March<'a, D> {
                 Side::Stays => {
                     station.remember(&swept.kinetic);
                     let piece = station.piece;
+                    self.remember_rest();
                     return Ok(self.pass(swept, piece, None));
                 }
                 // Once more the other way round: then it has no sign.
@@ -175,12 +176,32 @@ impl<'a, D: Driven> March<'a, D> {
                     station.remember(&swept.kinetic);
                     let [first, rest] = station.piece.cut(share);
                     let swept = swept.until(station.rule, start, share);
-                    let ends = [rest.from, rest.to];
-                    let rest = Station::new(self.driven, ends, -station.side, self.tail)?;
+                    let rest = self.rest(rest.from)?;
+                    self.remember_rest();
                     return Ok(self.pass(swept, first, Some(rest)));
                 }
             }
             self.evaluations += swept.evaluations;
+        }
+    }
+
+    /// What is left of the next panel from an angle on.
+    fn rest(&self, from: f64) -> Result<Station<D::Place>, Unserved> {
+        let whole = &self.stations[self.next];
+        let station = self.parts.last().unwrap_or(whole);
+        let index = station.is_rest.map_or(0, |index| index + 1);
+        station.rest(self.driven, from, index, whole.rests.get(index), self.tail)
+    }
+
+    /// Keeps what was found on a rest for the next turn.
+    fn remember_rest(&mut self) {
+        if let Some((index, rest)) = self.parts.last().and_then(Station::as_rest) {
+            let rests = &mut self.stations[self.next].rests;
+            if index < rests.len() {
+                rests[index] = rest;
+            } else {
+                rests.push(rest);
+            }
         }
     }
 

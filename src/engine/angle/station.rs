@@ -19,6 +19,18 @@ pub(super) struct Station<P> {
     past: [Option<Values>; 2],
     /// Whether it was too long for a turn before.
     pub failed: bool,
+    /// What was left of it after each change of the switch in the last turn.
+    pub rests: Vec<Rest>,
+    /// Which of the rests of another station it is.
+    pub is_rest: Option<usize>,
+}
+
+/// What is left of a panel after a change of the switch.
+#[derive(Clone)]
+pub(super) struct Rest {
+    rule: &'static Rule,
+    /// Kinetic energy at its points, J.
+    kinetic: Values,
 }
 
 /// Panels are not cut below this, rad.
@@ -45,6 +57,8 @@ impl<P: Copy> Station<P> {
             side,
             past: [None; 2],
             failed: false,
+            rests: Vec::new(),
+            is_rest: None,
         };
         station.tabulate(driven)?;
         let enough = station.degree_for(tail);
@@ -53,6 +67,44 @@ impl<P: Copy> Station<P> {
             station.tabulate(driven)?;
         }
         Ok(station)
+    }
+
+    /// What is left of the panel from an angle on, beyond the change number `index` of the switch, for the other
+    /// side; `known`: the same in the last turn.
+    pub fn rest<D: Driven<Place = P>>(
+        &self,
+        driven: &D,
+        from: f64,
+        index: usize,
+        known: Option<&Rest>,
+        tail: f64,
+    ) -> Result<Station<P>, Unserved> {
+        let piece = Piece { from, ..self.piece };
+        let Some(known) = known else {
+            let ends = [from, piece.to];
+            let mut station = Station::new(driven, ends, -self.side, tail)?;
+            station.is_rest = Some(index);
+            return Ok(station);
+        };
+        let mut station = Station {
+            piece,
+            rule: known.rule,
+            table: Table::default(),
+            side: -self.side,
+            past: [Some(known.kinetic), None],
+            failed: false,
+            rests: Vec::new(),
+            is_rest: Some(index),
+        };
+        station.tabulate(driven)?;
+        Ok(station)
+    }
+
+    /// It as the rest of another station.
+    pub fn as_rest(&self) -> Option<(usize, Rest)> {
+        let kinetic = self.past[0]?;
+        let rule = self.rule;
+        Some((self.is_rest?, Rest { rule, kinetic }))
     }
 
     fn tabulate<D: Driven<Place = P>>(&mut self, driven: &D) -> Result<(), Unserved> {

@@ -55,12 +55,11 @@ pub(super) fn side<D: Driven>(
 impl Swept {
     /// The same until a part of the panel.
     pub fn until(&self, rule: &Rule, start: Start, share: f64) -> Swept {
-        let inside = |x: f64| share * (1.0 + x) - 1.0;
-        let slopes = rule.values(|x| share * self.slope.value(inside(x)));
-        let spent = rule.series(&self.spent);
-        let spent = rule.values(|x| spent.value(inside(x)));
-        let kinetic = rule.series(&self.kinetic);
-        let end = kinetic.value(inside(1.0));
+        let inside = rule.values(|x| share * (1.0 + x) - 1.0);
+        let only = |values: Values| rule.known(values);
+        let slopes = only(self.slope.values(&inside).map(|slope| share * slope));
+        let spent = only(rule.series(&self.spent).values(&inside));
+        let end = rule.series(&self.kinetic).value(2.0 * share - 1.0);
         Swept {
             slope: rule.series(&slopes),
             slopes,

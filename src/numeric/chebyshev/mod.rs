@@ -46,6 +46,18 @@ impl Series {
         (self.coefficients[0] - b2) + x * b1
     }
 
+    /// Its values at many places at once.
+    pub fn values(&self, x: &Values) -> Values {
+        let (mut b1, mut b2) = ([0.0; MOST + 1], [0.0; MOST + 1]);
+        for c in self.terms()[1..].iter().rev() {
+            for j in 0..=MOST {
+                let next = (c - b2[j]) + 2.0 * x[j] * b1[j];
+                (b1[j], b2[j]) = (next, b1[j]);
+            }
+        }
+        std::array::from_fn(|j| (self.coefficients[0] - b2[j]) + x[j] * b1[j])
+    }
+
     /// Its integral from −1; the term beyond the degree is left out, for it is as small as the tail.
     pub fn integral(&self) -> Series {
         let c = |k: usize| self.terms().get(k).copied().unwrap_or(0.0);
@@ -116,6 +128,10 @@ mod tests {
             let values = rule.values(|x| (3.0 * x + 0.2).exp());
             let series = rule.series(&values);
             let primitive = series.integral();
+            let at_points = series.values(&rule.values(|x| x));
+            for (here, value) in at_points.iter().zip(&values).take(degree + 1) {
+                assert!((here - value).abs() < 4e-15 * 3.2f64.exp());
+            }
             let slope = series.derivative();
             for x in [-0.9f64, 0.1, 0.8] {
                 let exact = 3.0 * (3.0 * x + 0.2).exp();

@@ -7,13 +7,10 @@ use super::clear::Clear;
 use crate::engine::Counted;
 use crate::engine::angle::{self, Driving, Goal, Resolution};
 use crate::engine::energy::Unserved;
-use crate::engine::step::Step;
 use crate::engine::time::{self, Finish, Settings, Start};
 use crate::error::Error;
 use crate::mechanism::Equation;
-use crate::numeric::angle::Angle;
 use crate::scene::Extent;
-use crate::study::curve::{self, Follow};
 use crate::study::forward::Forward;
 use crate::study::profile::Position;
 use crate::study::sliding::Sliding;
@@ -34,17 +31,17 @@ pub(super) struct Course<'a> {
 }
 
 /// A pass under way.
-struct Pass<'a, 'o> {
-    course: &'a Course<'a>,
+pub(super) struct Pass<'a, 'o> {
+    pub course: &'a Course<'a>,
     motion: &'a Counted<'a>,
-    observer: &'o mut dyn Observer,
-    arrived: Arrived,
+    pub observer: &'o mut dyn Observer,
+    pub arrived: Arrived,
     /// Positions tabulated before it.
     places: u64,
     /// Evaluations of loads over the angle.
     over_angle: u64,
     /// Evaluations with friction in time.
-    rubbing: u64,
+    pub rubbing: u64,
     wait: f64,
 }
 
@@ -77,7 +74,7 @@ impl Course<'_> {
 }
 
 impl Pass<'_, '_> {
-    fn spent(&self) -> u64 {
+    pub fn spent(&self) -> u64 {
         let places = self.course.position.evaluations() - self.places;
         places + self.over_angle + self.rubbing + self.motion.evaluations()
     }
@@ -228,86 +225,9 @@ impl Pass<'_, '_> {
     }
 }
 
-impl Pass<'_, '_> {
-    /// The same with friction, where the crank may stick and come to rest.
-    fn with_friction(&mut self, sliding: &Sliding, wait: f64) -> bool {
-        let course = self.course;
-        let from = self.arrived.now;
-        let follow = Follow {
-            equation: sliding.equation(),
-            settings: Settings {
-                max_evaluations: course.max_evaluations.saturating_sub(self.spent()),
-                ..course.settings
-            },
-            start: from,
-            turn_limit: match course.extent {
-                Extent::Revolutions(turns) => Some(turns * TAU),
-                Extent::Duration(_) => None,
-            },
-            turned_from: course.start.angle,
-        };
-        let mut rubbed = None;
-        let mut clear = Clear::new(course, from, wait);
-        let mut back = false;
-        self.observer.with_friction(&mut |observer| {
-            let mut until = Until {
-                observer,
-                clear: &mut clear,
-                back: &mut back,
-            };
-            rubbed = Some(follow.run(&mut until));
-        });
-        let Some(rubbed) = rubbed else {
-            return false;
-        };
-        self.rubbing += rubbed.evaluations;
-        let last = rubbed.last;
-        let arrived = &mut self.arrived;
-        arrived.steps += rubbed.steps;
-        arrived.in_time += 1;
-        arrived.work += rubbed.work;
-        arrived.largest_kinetic = arrived.largest_kinetic.max(clear.largest_kinetic);
-        arrived.now = Start {
-            t: last.end.t,
-            angle: last.angle(last.end.theta).reduced(),
-            speed: last.end.omega,
-        };
-        back &= rubbed.end == curve::End::Stopped;
-        if !back {
-            arrived.end = match &rubbed.end {
-                curve::End::Done | curve::End::AtRest if course.is_over(last.end.t) => End::AtGoal,
-                curve::End::Integrator(finish) => End::Integrator(*finish),
-                _ => End::Integrator(Finish::Stopped),
-            };
-        }
-        arrived.last = Some(last);
-        arrived.rubbed = Some(rubbed);
-        back
-    }
-}
-
-/// Ends a piece in time with friction when the crank turns again.
-struct Until<'a, 'o, 'c> {
-    observer: &'o mut dyn curve::Observer,
-    clear: &'a mut Clear<'c>,
-    back: &'a mut bool,
-}
-
-impl curve::Observer for Until<'_, '_, '_> {
-    fn step(&mut self, step: &Step, phase: curve::Phase) -> bool {
-        let ends = self.observer.step(step, phase);
-        *self.back = !ends && self.clear.is_reached(step);
-        ends || *self.back
-    }
-
-    fn event(&mut self, kind: &'static str, t: f64, angle: Angle, speed: f64) {
-        self.observer.event(kind, t, angle, speed);
-    }
-}
-
 impl Course<'_> {
     /// Whether a run of turns did not take for ever.
-    fn is_over(&self, t: f64) -> bool {
+    pub fn is_over(&self, t: f64) -> bool {
         matches!(self.extent, Extent::Duration(_)) || t < self.settings.t_end
     }
 }

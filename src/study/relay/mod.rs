@@ -6,6 +6,7 @@ mod clear;
 mod course;
 mod estimate;
 mod notes;
+mod rubbing;
 
 use std::f64::consts::TAU;
 use std::time::Instant;
