@@ -1,7 +1,10 @@
-//! Smoothing splines: pieces of degree 5 with a penalty on the differences of their coefficients (Eilers and Marx,
-//! Statist. Sci. 11 (1996) 89). Penalty and number of pieces are those of the largest restricted likelihood, and the
-//! covariance is that of the Bayesian view, which has the error of smoothing in it (Wahba, J. R. Statist. Soc. B 45
-//! (1983) 133).
+//! Smoothing splines: pieces of degree 7 with a penalty on the sixth differences of their coefficients (Eilers and
+//! Marx, Statist. Sci. 11 (1996) 89).
+//!
+//! The number of pieces is that of the largest restricted likelihood, and the penalty the weakest inside the
+//! 90 % interval of the likelihood: a band must not rest on smoothness that the samples leave open. The covariance is that of the Bayesian
+//! view, which has the error of smoothing in it (Wahba, J. R. Statist. Soc. B 45 (1983) 133), of motions as rough
+//! everywhere; what the penalty bends away of this one is added.
 
 use super::condensed::Rows;
 use super::penalized::{Normal, ORDER, roughness};
