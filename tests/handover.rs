@@ -229,11 +229,11 @@ fn a_gain_that_is_the_same_in_millions_of_turns_loses_nothing() {
 
 /// Same kinds in the same order, at the same times.
 #[track_caller]
-fn same_events(a: &Summary, b: &Summary) {
+fn same_events(a: &Summary, b: &Summary, within: f64) {
     assert_eq!(a.events_total, b.events_total);
     for (a, b) in a.events.iter().zip(&b.events) {
         assert_eq!(a.kind, b.kind, "{a:?} {b:?}");
-        let near = |a: f64, b: f64| (a - b).abs() <= 1e-6 * (1.0 + a.abs());
+        let near = |a: f64, b: f64| (a - b).abs() <= within * (1.0 + a.abs());
         assert!(
             near(a.t_s, b.t_s) && near(a.theta_rad, b.theta_rad),
             "{a:?} {b:?}"
@@ -253,7 +253,7 @@ fn what_is_stated_is_near_the_distance_from_a_tight_run_in_time() {
             if !is_handed(&summary) {
                 continue;
             }
-            same_events(&summary, &truth);
+            same_events(&summary, &truth, 1e3 * tolerance);
             several += usize::from(!summary.plan.reason.contains("handed over once"));
             assert!(
                 summary.energy_residual.abs() < tolerance,
@@ -341,7 +341,7 @@ fn a_thousand_turns_and_a_slow_end_take_a_part_of_what_time_alone_takes() {
     assert!(is_handed(&handed), "{}", handed.plan.reason);
     assert!(handed.revolutions > 900.0 && handed.last.omega_rad_per_s.abs() < 1.0);
     let alone = run(&coasting().tolerance(1e-13), Method::Time).summary;
-    same_events(&handed, &alone);
+    same_events(&handed, &alone, 1e-7);
     let stated = handed.error_estimate.unwrap().theta_rad;
     let apart = (handed.last.theta_rad - alone.last.theta_rad).abs();
     assert!(apart <= 2.0 * stated + alone.error_estimate.unwrap().theta_rad);
@@ -426,7 +426,7 @@ fn a_start_too_slow_for_the_angle_is_handed_over_later() {
     let result = run(&scene, Method::Auto);
     assert!(is_handed(&result.summary), "{}", result.summary.plan.reason);
     let tight = run(&scene.tolerance(1e-13), Method::Time);
-    same_events(&result.summary, &tight.summary);
+    same_events(&result.summary, &tight.summary, 1e-7);
     let (stated, unsure) = (
         result.summary.error_estimate.unwrap(),
         tight.summary.error_estimate.unwrap(),
