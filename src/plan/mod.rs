@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use contact::{contact, contact_state};
 pub use method::Method;
-use periodic::repeats_with_each_turn;
+pub(crate) use periodic::repeats_with_each_turn;
 use refusal::{refuse_what_cannot_move, refuse_what_is_not_modelled, refuse_what_jams};
 use terms::terms;
 

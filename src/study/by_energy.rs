@@ -30,7 +30,7 @@ pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, 
     })?;
     let wall_s = begun.elapsed().as_secs_f64();
     let last = orbit.state(end);
-    let work = position.work(task.start().rest, last.0.rest);
+    let work = position.work(task.start(), last.0);
     let estimate = task.options.estimate.then(|| {
         let mut error = late_by(task, last, end, (orbit.time_error() + ROUNDING) * end);
         error.omega_rad_per_s += off_the_energy(task, &orbit, last, work);

@@ -1,7 +1,5 @@
 //! Motion over the crank angle: what the energy and the angle engine have in common.
 
-use std::f64::consts::TAU;
-
 use super::passages;
 use super::profile::Position;
 use super::row::RowSink;
@@ -9,11 +7,10 @@ use super::simulate::Simulation;
 use super::summary::{Cost, ErrorEstimate, Final, Solved, Summary};
 use super::task::Task;
 use super::{by_angle, by_energy, in_time};
-use crate::engine::energy::{Orbit, Profile, Unserved};
+use crate::engine::energy::{Orbit, Unserved};
 use crate::error::Error;
 use crate::numeric::angle::Angle;
-use crate::plan::{Engine, Method, Plan};
-use crate::scene::Extent;
+use crate::plan::{Engine, Method, Plan, repeats_with_each_turn};
 use crate::trajectory::Trajectory;
 
 /// A motion over the crank angle.
@@ -37,14 +34,20 @@ pub(super) fn run(
     rows: &mut dyn RowSink,
     record: bool,
 ) -> Result<Simulation, Error> {
-    let position = Position::new(task.equation(), &task.limits);
+    let mut position = Position::new(task.equation(), &task.limits);
+    if task.plan.engine == Engine::Energy && repeats_with_each_turn(task.scene) {
+        position = position.with_turns_alike();
+    }
     let solved = match task.plan.engine {
         Engine::Angle => by_angle::solve(task, &position),
-        // Turns that differ are many panels; the map from turn to turn is for them.
-        _ if !position.repeats() && is_long(task) => {
-            by_angle::solve(task, &position).or_else(|_| by_energy::solve(task, &position))
-        }
-        _ => by_energy::solve(task, &position),
+        // Turns that differ and end at rest are many panels; the map from turn to turn is for them.
+        _ => by_energy::solve(task, &position).or_else(|why| {
+            if why == Unserved::TooLong && position.turns_are_alike() {
+                by_angle::solve(task, &position)
+            } else {
+                Err(why)
+            }
+        }),
     };
     match solved {
         Ok(motion) => finish(task, motion, rows),
@@ -62,16 +65,6 @@ pub(super) fn run(
             task.plan.reason = why;
             in_time::run(task, rows, record)
         }
-    }
-}
-
-/// Whether the start speed makes for a run of very many turns.
-fn is_long(task: &Task<'_>) -> bool {
-    const MANY: f64 = 256.0;
-    let speed = task.scene.motion.speed.abs();
-    match task.extent {
-        Extent::Duration(duration) => speed * duration > MANY * TAU,
-        Extent::Revolutions(turns) => turns > MANY,
     }
 }
 

@@ -6,7 +6,7 @@ use super::home::Return;
 use super::panel::{Panel, Tried};
 use super::piece::{Piece, Turning};
 use super::{Profile, Unserved};
-use crate::numeric::angle::Angle;
+use crate::numeric::angle::{Angle, TAU_REST};
 use crate::numeric::exact::two_sum;
 
 /// How a leg goes on after its panels.
@@ -14,6 +14,8 @@ use crate::numeric::exact::two_sum;
 pub(in crate::engine) enum After {
     /// The same turn again.
     Repeats,
+    /// Another turn, under the same forces.
+    GoesOn,
     /// It turns back.
     TurnsBack,
     /// Not needed: the run ends before.
@@ -60,7 +62,7 @@ impl Leg {
     }
 
     /// Panels from `start` in `direction` (+1 or −1) with kinetic energy `kinetic` (J), until the time
-    /// `until` is passed; their series end where they have decayed to `tolerance`. Without kinetic energy the
+    /// `until` is passed or `most_turns` are complete, if the forces are the same in each; their series end where they have decayed to `tolerance`. Without kinetic energy the
     /// start is a turning point.
     pub fn build(
         profile: &dyn Profile,
@@ -69,9 +71,13 @@ impl Leg {
         kinetic: f64,
         until: f64,
         tolerance: f64,
+        most_turns: f64,
     ) -> Result<Leg, Unserved> {
         let mut leg = Leg::open();
         let whole_turn = start + direction * TAU;
+        let gain = profile.work_of_turn().map(|(work, _)| direction * work);
+        let at_first = kinetic;
+        let mut turns = 0.0;
         let home = Return::new(profile, whole_turn, kinetic);
         let mut at = start;
         let mut kinetic = kinetic;
@@ -85,7 +91,7 @@ impl Leg {
                 return Err(Unserved::TooLong);
             }
             let mut to = next_end(profile.corners(), at, direction, length);
-            if profile.repeats() && direction * (to - whole_turn) > -1e-12 {
+            if gain.is_some() && direction * (to - whole_turn) > -1e-12 {
                 to = whole_turn;
             }
             let mut turning = if kinetic == 0.0 {
@@ -120,8 +126,9 @@ impl Leg {
                 turning,
             };
             match Panel::attempt(profile, piece, kinetic, accepted, rounding)? {
-                Tried::Done(panel) => {
+                Tried::Done(mut panel) => {
                     at = to;
+                    panel.turns = direction * turns;
                     kinetic = panel.kinetic_at_end;
                     largest = largest.max(kinetic);
                     length = 2.0 * (to - piece.from).abs();
@@ -130,9 +137,19 @@ impl Leg {
                         leg.after = After::TurnsBack;
                         return Ok(leg);
                     }
-                    if profile.repeats() && at == whole_turn {
-                        leg.after = After::Repeats;
-                        return Ok(leg);
+                    if let Some(gain) = gain.filter(|_| at == whole_turn) {
+                        leg.complete(missing(start, direction));
+                        if profile.repeats() {
+                            leg.after = After::Repeats;
+                            return Ok(leg);
+                        }
+                        turns += 1.0;
+                        if turns >= most_turns && leg.duration.0 <= until {
+                            leg.after = After::GoesOn;
+                            return Ok(leg);
+                        }
+                        at = start;
+                        kinetic = gain.mul_add(turns, at_first);
                     }
                 }
                 Tried::TurnsAt(end) if end != at => {
@@ -144,6 +161,22 @@ impl Leg {
             }
         }
         Ok(leg)
+    }
+
+    /// Adds the time of the last bit of a turn, rad.
+    fn complete(&mut self, missing: f64) {
+        let Some(panel) = self.panels.last() else {
+            return;
+        };
+        let late = missing / panel.speed(1.0).abs();
+        if late.is_finite() {
+            self.duration = two_sum(self.duration.0, self.duration.1 + late);
+        }
+    }
+
+    /// The pieces of its panels.
+    pub fn pieces(&self) -> impl Iterator<Item = Piece> + '_ {
+        self.panels.iter().map(|panel| panel.piece)
     }
 
     /// Legs with the same panels, blended by shares whose sum is one.
@@ -251,6 +284,11 @@ fn extreme(panels: &[&Panel], sign: f64) -> f64 {
         }
     }
     best
+}
+
+/// What the floats for the ends of a turn lack of it, rad.
+pub(super) fn missing(start: f64, direction: f64) -> f64 {
+    direction * two_sum(start, direction * TAU).1 + TAU_REST
 }
 
 /// The end of a panel that begins at `at`: its length, or the next corner before.

@@ -7,7 +7,7 @@ use super::{Profile, Unserved};
 use crate::numeric::chebyshev::{self, Rule, Series, Values};
 
 /// Degree of the series: half a turn of a usual engine is right to rounding.
-const DEGREE: usize = chebyshev::MOST;
+pub(super) const DEGREE: usize = chebyshev::MOST;
 
 /// A piece with its series.
 #[derive(Clone, Debug)]

@@ -45,7 +45,7 @@ impl Orbit {
     /// How far (rad) the crank has turned in the first turns, if others follow that are not among
     /// [`Self::passages`].
     pub fn later_from(&self) -> Option<f64> {
-        Some(self.later.as_ref()?.marks[0].turns * TAU)
+        Some(self.later.as_ref()?.first() * TAU)
     }
 
     /// When it turns back, until a time.
