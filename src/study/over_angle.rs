@@ -62,7 +62,7 @@ pub(super) fn run(
         Err(unserved) => {
             let why = format!("integration in time, for {}", reason(unserved));
             task.plan = Plan::new(task.scene, Method::Time)?;
-            task.plan.reason = why;
+            task.plan.reason = why.into();
             in_time::run(task, rows, record)
         }
     }
@@ -114,8 +114,8 @@ fn finish(task: &Task<'_>, motion: Motion, rows: &mut dyn RowSink) -> Result<Sim
     })
 }
 
-/// Error of a state if its time may be off by `late` (s): it moves the state along the motion. The angle
-/// itself is rounded once more.
+/// Error of a state if its time may be off by `late` (s): it moves the state along the motion. The angle in its
+/// turn is right to two units of one radian, and rounded once more with its turns.
 pub(super) fn late_by(
     task: &Task<'_>,
     (angle, omega): (Angle, f64),
@@ -123,7 +123,7 @@ pub(super) fn late_by(
     late: f64,
 ) -> ErrorEstimate {
     let alpha = task.equation().acceleration(end, angle, omega);
-    let rounding = f64::EPSILON * (1.0 + angle.radians().abs());
+    let rounding = f64::EPSILON * (2.0 + 0.5 * angle.radians().abs());
     ErrorEstimate {
         theta_rad: omega.abs() * late + rounding,
         omega_rad_per_s: alpha.abs() * late + 2.0 * f64::EPSILON * omega.abs(),

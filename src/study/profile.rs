@@ -47,9 +47,12 @@ impl<'a> Position<'a> {
     /// For loads that depend on the position alone and are the same in each turn.
     pub fn with_turns_alike(mut self) -> Position<'a> {
         let torque = TAU * self.equation.loads().constant_torque();
-        let placed = self.work_between(0.0, TAU);
-        let size = torque.abs() + gauss::composite(|theta| self.push(theta).abs(), 0.0, TAU, 64);
-        self.work_of_turn = Some((torque + placed, f64::EPSILON * size));
+        let (mut work, mut size) = (torque, torque.abs());
+        if !self.equation.loads().have_potential() {
+            work += self.work_between(0.0, TAU);
+            size += gauss::composite(|theta| self.push(theta).abs(), 0.0, TAU, 64);
+        }
+        self.work_of_turn = Some((work, f64::EPSILON * size));
         self
     }
 
@@ -91,9 +94,6 @@ impl<'a> Position<'a> {
     }
 
     fn work_between(&self, from: f64, to: f64) -> f64 {
-        if self.equation.loads().have_potential() {
-            return 0.0;
-        }
         let force = |theta: f64| self.push(theta);
         let (low, high) = (from.min(to), from.max(to));
         let turns = (low / TAU).floor() as i64..=(high / TAU).floor() as i64;

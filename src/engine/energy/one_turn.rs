@@ -1,10 +1,11 @@
 //! One turn at any kinetic energy: what depends on the position alone is tabulated once.
 
 use super::Profile;
-use super::leg::{After, Leg, missing};
+use super::leg::{After, Begin, Leg};
 use super::panel::{DEGREE, Panel};
-use super::piece::Piece;
+use super::piece::{Piece, missing};
 use crate::numeric::chebyshev::{Rule, Values};
+use crate::numeric::exact::two_sum;
 
 /// A panel with inertia (kg m²) and work since the start of the turn (J) at its points.
 #[derive(Clone, Debug)]
@@ -20,20 +21,25 @@ pub(super) struct OneTurn {
     stations: Vec<Station>,
     /// What the floats for its ends lack of a whole turn, rad.
     missing: f64,
+    /// Bound of the relative error of its duration.
+    pub error: f64,
 }
+
+/// Series of a turn go to rounding: what they leave out adds up over the turns.
+const TAIL: f64 = 4e-15;
 
 impl OneTurn {
     /// None if the crank does not complete the turn with the kinetic energy `kinetic` (J) at its start, or only
     /// just.
-    pub fn new(
-        profile: &dyn Profile,
-        start: f64,
-        direction: f64,
-        kinetic: f64,
-        tolerance: f64,
-    ) -> Option<OneTurn> {
+    pub fn new(profile: &dyn Profile, start: f64, direction: f64, kinetic: f64) -> Option<OneTurn> {
         let until = f64::INFINITY;
-        let leg = Leg::build(profile, start, direction, kinetic, until, tolerance, 1.0).ok()?;
+        let begin = Begin {
+            start,
+            direction,
+            kinetic,
+            off: 0.0,
+        };
+        let leg = Leg::build(profile, begin, until, TAIL, 1.0).ok()?;
         if leg.after != After::GoesOn {
             return None;
         }
@@ -55,6 +61,7 @@ impl OneTurn {
         Some(OneTurn {
             stations: stations.collect(),
             missing: missing(start, direction),
+            error: leg.error / leg.duration.0,
         })
     }
 
@@ -73,12 +80,16 @@ impl OneTurn {
     /// How long it takes, s.
     pub fn duration(&self, kinetic: f64) -> f64 {
         let rule = Rule::of(DEGREE);
-        let durations = self
-            .stations
-            .iter()
-            .map(|station| rule.rounded_integral(&station.slopes(kinetic)));
         let first = &self.stations[0];
-        durations.sum::<f64>() + self.missing * (0.5 * first.inertia[0] / kinetic).sqrt()
+        let mut rest = self.missing * (0.5 * first.inertia[0] / kinetic).sqrt();
+        let mut sum = 0.0;
+        for station in &self.stations {
+            let (duration, lost) = rule.integral(&station.slopes(kinetic));
+            let (next, lost_here) = two_sum(sum, duration);
+            sum = next;
+            rest += lost + lost_here;
+        }
+        sum + rest
     }
 
     /// Its motion.

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::gains::{Course, Gains};
 use super::later::Later;
-use super::leg::{After, Leg};
+use super::leg::{After, Begin, Leg};
 use super::turns::Turns;
 use super::{Profile, Unserved};
 use crate::numeric::angle::Angle;
@@ -57,9 +57,13 @@ impl Orbit {
             speed.signum()
         };
         let leg = |direction: f64, until: f64, most_turns: f64| {
-            Leg::build(
-                profile, theta, direction, kinetic, until, tolerance, most_turns,
-            )
+            let begin = Begin {
+                start: theta,
+                direction,
+                kinetic,
+                off: 0.0,
+            };
+            Leg::build(profile, begin, until, tolerance, most_turns)
         };
         let mut forward = leg(direction, until, FIRST_TURNS)?;
         let mut later = None;
@@ -227,16 +231,16 @@ impl Orbit {
         })
     }
 
-    /// Bound of the relative error of times: the tails of the series and their rounding.
-    pub fn time_error(&self) -> f64 {
-        let back = self.backward.as_ref();
-        let later = self.later.as_ref();
+    /// How far a time may be off, s: by the tails of the series and the rounding of energies.
+    pub fn time_error(&self, until: f64) -> f64 {
+        let (back, later) = (self.backward.as_ref(), self.later.as_ref());
         let error = self.forward.error
             + back.map_or(0.0, |leg| leg.error)
             + later.map_or(0.0, |later| later.error());
         let duration = later.map_or(self.forward.duration.0, |later| later.end())
             + back.map_or(0.0, |leg| leg.duration.0);
-        error / duration + 2.0 * f64::EPSILON
+        let left_out = back.map_or(0.0, |leg| leg.left_out);
+        error / duration * until + self.forward.left_out.max(left_out)
     }
 
     /// What the series leave out of the speed, relative to it.

@@ -27,7 +27,7 @@ impl Orbit {
             return;
         };
         later.each_turn(|mark, leg| {
-            leg.ends().all(|(after, angle)| {
+            leg.ends().all(|(after, angle, speed)| {
                 let turns = self.direction * mark.turns + angle.turns;
                 visit(Passage {
                     t: mark.t.0 + (mark.t.1 + after),
@@ -35,7 +35,7 @@ impl Orbit {
                         turns: self.start.turns + turns,
                         rest: angle.rest,
                     },
-                    speed: leg.state(after).1,
+                    speed,
                     turning: false,
                 })
             })
@@ -69,8 +69,8 @@ impl Orbit {
     /// repeat), in the order of time.
     pub fn passages(&self) -> Vec<Passage> {
         let mut found = Vec::new();
-        let mut pass = |t: f64, angle: Angle, turning: bool| {
-            let speed = if turning { 0.0 } else { self.within(t).1 };
+        let mut pass = |t: f64, angle: Angle, speed: f64, turning: bool| {
+            let speed = if turning { 0.0 } else { speed };
             found.push(Passage {
                 t,
                 angle: Angle {
@@ -85,12 +85,12 @@ impl Orbit {
         let mut run = |leg: &Leg, since: f64| {
             let turns_back = leg.after == After::TurnsBack;
             let last = leg.len().saturating_sub(1);
-            for (i, (t, angle)) in leg.ends().enumerate() {
-                pass(since + t, angle, turns_back && i == last);
+            for (i, (t, angle, speed)) in leg.ends().enumerate() {
+                pass(since + t, angle, speed, turns_back && i == last);
             }
             if turns_back {
-                for (t, angle) in leg.ends().rev().skip(1) {
-                    pass(since + 2.0 * leg.duration.0 - t, angle, false);
+                for (t, angle, speed) in leg.ends().rev().skip(1) {
+                    pass(since + 2.0 * leg.duration.0 - t, angle, -speed, false);
                 }
             }
         };
@@ -100,7 +100,12 @@ impl Orbit {
                 Some(back) => {
                     run(back, 2.0 * there);
                 }
-                None => pass(2.0 * there, self.start.rest.into(), self.from_rest),
+                None => pass(
+                    2.0 * there,
+                    self.start.rest.into(),
+                    -self.speed,
+                    self.from_rest,
+                ),
             }
         }
         found
