@@ -41,7 +41,7 @@ struct EveryTurn {
 
 impl EveryTurn {
     fn new(scene: &Scene, torque: Torque) -> EveryTurn {
-        const PANELS: u32 = 16;
+        const PANELS: u32 = 24;
         let integral = EnergyIntegral::new(scene);
         let start = scene.motion.angle;
         let step = TAU.copysign(scene.motion.speed) / f64::from(PANELS);
@@ -63,13 +63,13 @@ impl EveryTurn {
         }
     }
 
-    /// Time of the turn after so many, s; none if the crank does not complete it.
+    /// Time of the turn after so many, s; none if the crank comes so near to rest that the panels are too coarse.
     fn time(&self, turns: u32) -> Option<f64> {
         let kinetic = self.kinetic + f64::from(turns) * self.gain;
         let mut sum = 0.0;
         for (m, work, weight) in &self.nodes {
             let here = kinetic + work;
-            if here <= 0.0 {
+            if here <= 0.02 * self.kinetic {
                 return None;
             }
             sum += weight * (0.5 * m / here).sqrt();
@@ -173,8 +173,8 @@ proptest! {
         prop_assert!(error <= 2.0 * stated.theta_rad + rounding, "{error:e} {stated:?}");
         let m0 = EnergyIntegral::new(&scene).m_and_v(scene.motion.angle).0;
         let kinetic = every.kinetic + f64::from(turns) * every.gain;
-        // Where the crank has not come near to rest, all that is stated is rounding.
-        if kinetic > 0.3 * every.kinetic {
+        // Where the crank does not slow down, which amplifies what its energy is off, all that is stated is rounding.
+        if kinetic > 0.7 * every.kinetic {
             prop_assert!(stated.theta_rad <= 10.0 * rounding, "{stated:?} {rounding:e}");
         }
         let speed = direction * (2.0 * kinetic / m0).sqrt();
@@ -200,11 +200,11 @@ proptest! {
 fn a_constant_torque_over_millions_of_turns_is_right_to_rounding() {
     // Every turn summed in 19 digits (x87), 24 Gauss nodes on each quarter; torque, duration, angle and speed.
     let references = [
-        (2.0, 10.0, 4334.207178463391613, 755.2638870700546183),
-        (-0.02, 100.0, 6486.554075103778926, 31.30441631516967),
-        (0.01, 1000.0, 265896.257830674989, 429.9175135642075871),
-        (-1e-4, 5000.0, 449973.559495887224, 82.96696218711343828),
-        (2.0, 1000.0, 33603416.108045058983, 65933.02815536687681),
+        (2.0, 10.0, 4334.207178463392, 755.2638870700546),
+        (-0.02, 100.0, 6486.554075103779, 31.30441631516967),
+        (0.01, 1000.0, 265896.257830675, 429.9175135642076),
+        (-1e-4, 5000.0, 449973.5594958872, 82.96696218711344),
+        (2.0, 1000.0, 33603416.10804506, 65933.02815536688),
     ];
     for (torque, duration, theta, omega) in references {
         let scene = Scene::duarte()

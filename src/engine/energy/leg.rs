@@ -145,14 +145,7 @@ impl Leg {
                     panel.turns = direction * turns;
                     kinetic = panel.kinetic_at_end;
                     largest = largest.max(kinetic);
-                    let span = piece.span().abs();
-                    let next = span * panel.could_be_longer(tolerance);
-                    // A panel that ends at a corner says only that longer ones may do.
-                    length = if span < 0.99 * length {
-                        next.max(length)
-                    } else {
-                        next
-                    };
+                    length = 2.0 * piece.span().abs();
                     leg.push(*panel);
                     if turning == Turning::AtEnd {
                         leg.after = After::TurnsBack;

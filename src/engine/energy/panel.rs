@@ -98,7 +98,8 @@ impl Panel {
             Turning::AtStart => f64::INFINITY,
             Turning::AtEnd => energy.kinetic,
         };
-        let shaken = shaken(rounding / least) + misplaced(&piece, &force);
+        let left_out = energy.left_out() / least;
+        let shaken = shaken(rounding / least) + left_out + misplaced(&piece, &force);
         let kinetic_at_end = match piece.turning {
             Turning::Nowhere => kinetic[DEGREE],
             Turning::AtStart => 2.0 * piece.span().abs() * energy.mean_force(1.0),
@@ -127,8 +128,8 @@ impl Panel {
         let duration = rule.integral(slopes);
         let tail = slope.tail();
         // What the series leaves out alternates: over the whole panel its integral is smaller by the square of the
-        // degree (that of the polynomial T_k is 2/(k² − 1)).
-        let uncertain = 2.0 * tail / (rule.degree() as f64).powi(2) + shaken;
+        // degree (that of the polynomial T_k is 2/(k² − 1)), for all terms that follow.
+        let uncertain = 8.0 * tail / (rule.degree() as f64).powi(2) + shaken;
         Panel {
             piece,
             turns: 0.0,
@@ -163,14 +164,6 @@ impl Panel {
     /// What the series leaves out of the time inside the panel, s.
     pub fn left_out(&self) -> f64 {
         self.tail / self.rule.degree() as f64 * self.duration.0
-    }
-
-    /// By what factor a panel may be longer for its series to decay to `tolerance` at the last degree only, if the
-    /// degree that is needed grows with the length; from 1 to 2.
-    pub fn could_be_longer(&self, tolerance: f64) -> f64 {
-        const RESERVE: f64 = 0.9;
-        let needed = self.slope.needed(tolerance) + 1;
-        (RESERVE * self.rule.degree() as f64 / needed as f64).clamp(1.0, 2.0)
     }
 
     /// Angle and speed a time `after` its start, rad and rad/s; the sign of the speed is that of the panel.

@@ -95,14 +95,7 @@ impl Series {
         self.tail_at(self.degree)
     }
 
-    /// The least degree beyond which no coefficient is larger than a part `tolerance` of the largest.
-    pub fn needed(&self, tolerance: f64) -> usize {
-        let limit = tolerance * self.largest();
-        let beyond = |degree: &usize| self.coefficients[*degree].abs() > limit;
-        (1..=self.degree).rev().find(beyond).unwrap_or(1)
-    }
-
-    /// The tail if the series ended at a smaller degree.
+    /// The same if the series ended at a smaller degree.
     pub fn tail_at(&self, degree: usize) -> f64 {
         let largest = self.largest();
         if largest == 0.0 {
