@@ -43,12 +43,17 @@ pub fn rule_18() -> &'static [(f64, f64); 18] {
 }
 
 /// ∫ f over [from, to], halved again and again where the halves together differ from the whole by more than
-/// `tolerance` and by more than rounding; at most a thousand times, where rounding of the argument is all
-/// that is left.
+/// `tolerance` and by more than the rounding of values of the size of f; at most a thousand times, where rounding of
+/// the argument is all that is left.
 pub fn adaptive(f: &dyn Fn(f64) -> f64, from: f64, to: f64, tolerance: f64) -> f64 {
     let rule = |a: f64, b: f64| {
-        let terms = rule_14().iter().map(|(x, w)| w * f(a + x * (b - a)));
-        (b - a) * terms.sum::<f64>()
+        let (mut sum, mut size) = (0.0, 0.0);
+        for (x, weight) in rule_14() {
+            let term = weight * f(a + x * (b - a));
+            sum += term;
+            size += term.abs();
+        }
+        ((b - a) * sum, (b - a).abs() * size)
     };
     let mut sum = 0.0;
     let mut halvings = 0;
@@ -56,10 +61,10 @@ pub fn adaptive(f: &dyn Fn(f64) -> f64, from: f64, to: f64, tolerance: f64) -> f
     while let Some((a, b, whole)) = open.pop() {
         let middle = 0.5 * (a + b);
         let (left, right) = (rule(a, middle), rule(middle, b));
-        let apart = (left + right - whole).abs();
-        let rounding = 8.0 * f64::EPSILON * (left.abs() + right.abs());
+        let apart = (left.0 + right.0 - whole.0).abs();
+        let rounding = 8.0 * f64::EPSILON * (left.1 + right.1);
         if apart <= tolerance.max(rounding) || halvings >= 1000 || !apart.is_finite() {
-            sum += left + right;
+            sum += left.0 + right.0;
         } else {
             halvings += 1;
             open.push((a, middle, left));
