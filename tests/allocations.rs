@@ -119,3 +119,25 @@ fn turns_take_no_memory_but_their_place_in_the_list() {
     let (many, most) = (allocations(1e4), allocations(1e6));
     assert!(most <= many + 16, "{many} {most}");
 }
+
+/// Turns that gain the same work each are summed: a few cells of the energy more for a hundred times the turns.
+#[test]
+fn turns_under_a_constant_torque_take_no_memory_each() {
+    let allocations = |turns: f64| {
+        let scene = Scene::duarte()
+            .torque(Load::Constant(1.0))
+            .revolutions(turns);
+        let options = Options {
+            estimate: false,
+            events_kept: 0,
+            ..Options::default()
+        };
+        let run = || slider_crank::study::simulate(&scene, &options).unwrap();
+        assert_eq!(run().summary.engine, "energy");
+        measure(|| assert!(run().summary.evaluations > 0)).count_total
+    };
+    let (many, most) = (allocations(1e4), allocations(1e6));
+    assert!(most <= 4 * many, "{many} {most}");
+    let (few, half) = (allocations(4e5), allocations(8e5));
+    assert!(half <= few + 100, "{few} {half}");
+}

@@ -83,7 +83,7 @@ impl Curve {
     /// coordinate of that position. None where there is no position, and at the crossing of a change point,
     /// where it does not say on which of the two curves it lies.
     pub fn through(linkage: &Linkage, theta: Angle) -> Option<(Curve, Angle)> {
-        let class = Limits::new(linkage, 0.0).class;
+        let class = Class::of(linkage);
         let pose = linkage.pose(theta.rest);
         if !pose.cos_phi.is_finite() {
             return None;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::{Class, Limits, Linkage, Pose};
+use super::{Class, Linkage, Pose};
 use crate::numeric::root;
 
 /// An extreme value and where it is.
@@ -30,7 +30,7 @@ pub struct Extremes {
 impl Extremes {
     /// The extremes, or none where the crank cannot turn fully: there x' and x'' grow without bound.
     pub fn new(linkage: &Linkage) -> Option<Extremes> {
-        if Limits::new(linkage, 0.0).class != Class::RotatingCrank {
+        if Class::of(linkage) != Class::RotatingCrank {
             return None;
         }
         let grid = grid(linkage);

@@ -20,6 +20,24 @@ pub enum Class {
 }
 
 impl Class {
+    /// The class of a linkage.
+    pub fn of(linkage: &Linkage) -> Class {
+        let Linkage { r, l, e, .. } = *linkage;
+        let same = SAME * (l + r);
+        let crank_turns = linkage.margin();
+        let rod_turns = sum3(r, -l, -e.abs());
+        let assembles = sum3(l, r, -e.abs());
+        if crank_turns.abs() <= same || rod_turns.abs() <= same || assembles.abs() <= same {
+            Class::ChangePoint
+        } else if crank_turns > 0.0 {
+            Class::RotatingCrank
+        } else if rod_turns > 0.0 {
+            Class::RotatingRod
+        } else {
+            Class::DoubleRocker
+        }
+    }
+
     /// Its name in outputs.
     pub fn name(self) -> &'static str {
         match self {
@@ -77,7 +95,7 @@ impl Limits {
     /// The limits of a linkage, for a crank that turns in the direction of `speed` (its sign alone
     /// counts; zero means counter-clockwise).
     pub fn new(linkage: &Linkage, speed: f64) -> Limits {
-        let class = class(linkage);
+        let class = Class::of(linkage);
         let outer = dead_centre(linkage, true);
         let inner = dead_centre(linkage, false);
         let mut dead_centres: Vec<DeadCentre> = [outer, inner].into_iter().flatten().collect();
@@ -118,7 +136,7 @@ impl Limits {
     /// (by 0.001 rad of the rod's angle); empty: all.
     pub fn clear_reach(linkage: &Linkage) -> Vec<[f64; 2]> {
         let shorter = linkage.with_rod(linkage.l * (1.0 - 0.5 * NORMAL * NORMAL));
-        let class = class(linkage);
+        let class = Class::of(linkage);
         if class == Class::RotatingCrank {
             return Vec::new();
         }
@@ -128,23 +146,6 @@ impl Limits {
     /// Advance angle over return angle (Obaseki & Alfred (51)); none if the crank cannot turn fully.
     pub fn time_ratio(&self) -> Option<f64> {
         Some(self.advance? / self.retreat?)
-    }
-}
-
-fn class(linkage: &Linkage) -> Class {
-    let Linkage { r, l, e, .. } = *linkage;
-    let same = SAME * (l + r);
-    let crank_turns = linkage.margin();
-    let rod_turns = sum3(r, -l, -e.abs());
-    let assembles = sum3(l, r, -e.abs());
-    if crank_turns.abs() <= same || rod_turns.abs() <= same || assembles.abs() <= same {
-        Class::ChangePoint
-    } else if crank_turns > 0.0 {
-        Class::RotatingCrank
-    } else if rod_turns > 0.0 {
-        Class::RotatingRod
-    } else {
-        Class::DoubleRocker
     }
 }
 

@@ -111,6 +111,11 @@ impl Loads {
         self.called().flat_map(Load::angle_corners).collect()
     }
 
+    /// The constant torque on the crank, N m.
+    pub fn constant_torque(&self) -> f64 {
+        self.torque
+    }
+
     /// Whether a constant torque does work in every turn.
     pub fn turn_the_crank(&self) -> bool {
         self.torque != 0.0

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 /// 2 pi − TAU: what the nearest double leaves out.
-const TAU_REST: f64 = 2.4492935982947064e-16;
+pub const TAU_REST: f64 = 2.4492935982947064e-16;
 
 /// turns·2π + rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -5,7 +5,12 @@
 /// neighbouring numbers or f is exactly zero.
 ///
 /// Returns `None` if the signs do not differ or a value is not a number.
-pub fn bracketed(mut f: impl FnMut(f64) -> f64, a: f64, b: f64) -> Option<f64> {
+pub fn bracketed(f: impl FnMut(f64) -> f64, a: f64, b: f64) -> Option<f64> {
+    within(f, a, b, 0.0)
+}
+
+/// The same to `width`, where the last bits of the root are not needed.
+pub fn within(mut f: impl FnMut(f64) -> f64, a: f64, b: f64, width: f64) -> Option<f64> {
     let (mut a, mut b) = (a, b);
     let (mut fa, mut fb) = (f(a), f(b));
     if fa == 0.0 {
@@ -25,7 +30,7 @@ pub fn bracketed(mut f: impl FnMut(f64) -> f64, a: f64, b: f64) -> Option<f64> {
             (a, b, c) = (b, c, b);
             (fa, fb, fc) = (fb, fc, fb);
         }
-        let tolerance = f64::EPSILON * b.abs();
+        let tolerance = f64::EPSILON * b.abs() + width;
         let half = 0.5 * (c - b);
         if half.abs() <= tolerance || fb == 0.0 {
             return Some(b);

@@ -1,5 +1,7 @@
 //! The plan of a scene with clearance in a joint.
 
+use std::borrow::Cow;
+
 use super::{Engine, Method, Stepper};
 use crate::error::Error;
 
@@ -21,7 +23,9 @@ pub(super) fn contact_state(prescribed: bool) -> Vec<&'static str> {
 }
 
 /// The engine of a scene with clearance.
-pub(super) fn contact(method: Method) -> Result<(Engine, Option<Stepper>, String), Error> {
+pub(super) fn contact(
+    method: Method,
+) -> Result<(Engine, Option<Stepper>, Cow<'static, str>), Error> {
     if method != Method::Auto {
         return Err(Error::refused(
             format!("method {method} cannot serve a scene with clearance in a joint"),
@@ -29,5 +33,5 @@ pub(super) fn contact(method: Method) -> Result<(Engine, Option<Stepper>, String
         ));
     }
     let reason = "a joint has clearance: rod and slider move freely of it but for the contact force; flight and contact are integrated apart";
-    Ok((Engine::Contact, None, reason.to_owned()))
+    Ok((Engine::Contact, None, reason.into()))
 }

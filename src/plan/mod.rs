@@ -7,16 +7,18 @@ mod periodic;
 mod refusal;
 mod terms;
 
+use std::borrow::Cow;
+
 use serde::Serialize;
 
 use contact::{contact, contact_state};
 pub use method::Method;
-use periodic::repeats_with_each_turn;
+pub(crate) use periodic::repeats_with_each_turn;
 use refusal::{refuse_what_cannot_move, refuse_what_is_not_modelled, refuse_what_jams};
 use terms::terms;
 
 use crate::error::Error;
-use crate::mechanism::{Class, Curve, Limits, Linkage, Loads};
+use crate::mechanism::{Class, Curve, Linkage, Loads};
 use crate::numeric::angle::Angle;
 use crate::scene::{Load, MotionKind, Scene, Variable, Variables};
 
@@ -65,9 +67,9 @@ pub enum Stepper {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Term {
     /// What it is.
-    pub name: String,
+    pub name: Cow<'static, str>,
     /// Why it is kept or left out.
-    pub reason: String,
+    pub reason: Cow<'static, str>,
 }
 
 /// What will be computed, and how.
@@ -76,15 +78,15 @@ pub struct Plan {
     /// The engine.
     pub engine: Engine,
     /// Why this engine.
-    pub reason: String,
+    pub reason: Cow<'static, str>,
     /// The stepper, if the engine has one.
     pub stepper: Option<Stepper>,
     /// The coordinate of the motion.
-    pub coordinate: String,
+    pub coordinate: &'static str,
     /// What is integrated, in this order; empty: nothing.
-    pub state: Vec<String>,
+    pub state: Vec<&'static str>,
     /// What is looked for during the run.
-    pub events: Vec<String>,
+    pub events: Vec<&'static str>,
     /// Terms of the equation.
     pub kept: Vec<Term>,
     /// Terms that are not modelled.
@@ -138,7 +140,7 @@ impl Plan {
             .then(|| Curve::through(&linkage, Angle::from(scene.motion.angle).reduced()))
             .flatten();
         let coordinate = on_curve.map_or("crank angle theta", |(curve, _)| curve.coordinate());
-        if engine == Engine::Time && Limits::new(&linkage, 0.0).class != Class::RotatingCrank {
+        if engine == Engine::Time && Class::of(&linkage) != Class::RotatingCrank {
             events.push("limit");
             state[0] = "coordinate q";
             state[1] = "its speed";
@@ -153,10 +155,9 @@ impl Plan {
             coordinate: match engine {
                 Engine::Contact => "crank angle theta, direction psi of the rod, slider position x",
                 _ => coordinate,
-            }
-            .to_owned(),
-            state: state.into_iter().map(str::to_owned).collect(),
-            events: events.into_iter().map(str::to_owned).collect(),
+            },
+            state,
+            events,
             kept,
             left_out,
         })
@@ -191,9 +192,9 @@ fn engine(
     method: Method,
     loads: &Loads,
     scene: &Scene,
-) -> Result<(Engine, Option<Stepper>, String), Error> {
-    let reason = |text: &str| text.to_owned();
-    let class = Limits::new(&Linkage::new(&scene.geometry), 0.0).class;
+) -> Result<(Engine, Option<Stepper>, Cow<'static, str>), Error> {
+    let reason = |text: &'static str| Cow::Borrowed(text);
+    let class = Class::of(&Linkage::new(&scene.geometry));
     let crosses = class == Class::ChangePoint;
     if scene.clearance.is_some() {
         return contact(method);

@@ -10,7 +10,7 @@ const PLACES: u32 = 90;
 
 /// Whether every load that reads the crank angle has the same value one turn further, forwards and back: a table with
 /// the period of two turns has not.
-pub(super) fn repeats_with_each_turn(scene: &Scene) -> bool {
+pub(crate) fn repeats_with_each_turn(scene: &Scene) -> bool {
     let linkage = Linkage::new(&scene.geometry);
     let torques = scene.torques.iter().map(|load| (load, false));
     let forces = scene.forces.iter().map(|load| (load, true));

@@ -1,7 +1,7 @@
 //! Scenes that cannot be computed, with the reason.
 
 use crate::error::Error;
-use crate::mechanism::{Class, Curve, Limits, Linkage};
+use crate::mechanism::{Class, Curve, Linkage};
 use crate::numeric::angle::Angle;
 use crate::scene::{MotionKind, RodModel, Scene};
 
@@ -32,10 +32,11 @@ pub(super) fn refuse_what_cannot_move(scene: &Scene, linkage: &Linkage) -> Resul
             "give the crank an inertia, or the rod or the slider a mass, or use motion kind = \"constant-speed\"",
         ));
     }
-    let limits = Limits::new(linkage, 0.0);
-    let at_crossing = linkage.reaches(scene.motion.angle)
-        && Curve::through(linkage, Angle::from(scene.motion.angle).reduced()).is_none();
-    if limits.class == Class::ChangePoint && at_crossing {
+    let at_crossing = || {
+        linkage.reaches(scene.motion.angle)
+            && Curve::through(linkage, Angle::from(scene.motion.angle).reduced()).is_none()
+    };
+    if Class::of(linkage) == Class::ChangePoint && at_crossing() {
         return Err(Error::refused(
             "motion.angle is the change point of these lengths, where the mechanism may go on in two ways, and the scene does not say which",
             "start away from it, or change a length a little to say which mechanism is meant",
@@ -47,7 +48,7 @@ pub(super) fn refuse_what_cannot_move(scene: &Scene, linkage: &Linkage) -> Resul
 /// With clearance: a crank whose prescribed motion the rod cannot follow.
 pub(super) fn refuse_what_jams(scene: &Scene, linkage: &Linkage) -> Result<(), Error> {
     let slack = scene.clearance.map_or(0.0, |clearance| clearance.radial);
-    if Limits::new(linkage, 0.0).class == Class::ChangePoint {
+    if Class::of(linkage) == Class::ChangePoint {
         return Err(Error::refused(
             "the lengths make a change point, where joints with clearance may go on in two ways",
             "change a length a little to say which mechanism is meant",

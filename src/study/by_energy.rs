@@ -12,13 +12,15 @@ use crate::numeric::root;
 use crate::scene::Extent;
 
 /// Series end where their coefficients have decayed to this part of the tolerance,
-const SHARE: f64 = 1e-3;
+const SHARE: f64 = 0.1;
 /// where rounding takes over at the latest, and early enough for all digits but the last ones at the first.
 const LEAST_TAIL: f64 = 4e-15;
 const MOST_TAIL: f64 = 1e-13;
 
-/// Relative error of times by rounding of the positions.
-const ROUNDING: f64 = 2.0 * f64::EPSILON;
+/// Relative error of times by rounding of the positions and of the kinetic energy at the start,
+const ROUNDING: f64 = f64::EPSILON;
+/// and where the crank comes to rest, next to which the time hangs on the force: a difference, which is rounded more.
+const ROUNDING_AT_REST: f64 = 4.0 * f64::EPSILON;
 
 /// Solves a task.
 pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, Unserved> {
@@ -30,9 +32,11 @@ pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, 
     })?;
     let wall_s = begun.elapsed().as_secs_f64();
     let last = orbit.state(end);
-    let work = position.work(task.start().rest, last.0.rest);
+    let work = position.work(task.start(), last.0);
     let estimate = task.options.estimate.then(|| {
-        let mut error = late_by(task, last, end, (orbit.time_error() + ROUNDING) * end);
+        let rests = speed == 0.0 || orbit.turns_back();
+        let rounding = if rests { ROUNDING_AT_REST } else { ROUNDING };
+        let mut error = late_by(task, last, end, orbit.time_error(end) + rounding * end);
         error.omega_rad_per_s += off_the_energy(task, &orbit, last, work);
         (error, None)
     });
@@ -55,7 +59,7 @@ fn off_the_energy(task: &Task<'_>, orbit: &Orbit, last: (Angle, f64), work: f64)
     let left_out = orbit.speed_error() * omega.abs();
     let (residual, scale) = energy_residual(task, orbit, last, work);
     let momentum = task.equation().terms(angle.rest).inertia.m * omega.abs();
-    let seen = 2.0 * (residual.abs() + f64::EPSILON * scale) / momentum;
+    let seen = (1.5 * residual.abs() + f64::EPSILON * scale) / momentum;
     // Not a number at rest.
     left_out.min(seen)
 }

@@ -62,8 +62,12 @@ const MUCH_TIGHTER: f64 = 1e4;
 const TIGHTER: f64 = 50.0;
 /// What is stated is larger than the distance of the two runs by this, for the error of the second.
 const MARGIN: f64 = 1.5;
-/// Rounding of one evaluation of the acceleration, in units of the last place.
-const EVALUATION: f64 = 8.0;
+/// Standard deviation of one rounding, in units of the last place.
+const ONE_ROUNDING: f64 = 0.3;
+/// The same of a step's mean acceleration: of a few units in each evaluation, averaged over the step.
+const EVALUATION: f64 = 1.0;
+/// What is stated of rounding, in standard deviations.
+const DEVIATIONS: f64 = 1.5;
 /// Where rounding inside a step takes over.
 const TIGHTEST: f64 = 1e-15;
 /// Evaluations of the collocation for one of the run that it judges, and beside them.
@@ -86,7 +90,7 @@ pub(super) struct Ended<'a> {
 ///
 /// Rounding: each step rounds θ and θ̇ to half a unit in the last place, independently of the others, and a
 /// rounded angle changes the acceleration; an error of the speed grows to one of the angle over the rest of
-/// the run.
+/// the run. Independent errors add up by their squares.
 pub(super) fn estimate(
     equation: &Equation,
     start: Start,
@@ -135,7 +139,7 @@ pub(super) fn unevenness(step: &Step) -> f64 {
         return 0.0;
     }
     let slope = (step.end.alpha - step.start.alpha) / travel;
-    let angle = 4.0 * step.end.theta.abs() * slope;
+    let angle = ONE_ROUNDING * step.end.theta.abs() * slope;
     let evaluation = EVALUATION * step.end.alpha;
     (angle * angle + evaluation * evaluation) * step.length().powi(2)
 }
@@ -171,11 +175,13 @@ impl Better {
         // The acceleration is evaluated at rounded angles; fewer, longer steps average less.
         let fewer = self.steps as f64 / run.steps.max(1) as f64;
         let shaken = (self.unevenness * fewer.max(1.0)).sqrt();
-        let speed_noise = f64::EPSILON * (0.5 * run.largest_speed * roundings + shaken);
+        let one = DEVIATIONS * f64::EPSILON;
+        let speed_noise = one * (ONE_ROUNDING * run.largest_speed * roundings).hypot(shaken);
         let duration = last.end.t - start.t;
-        let angle_noise = 0.5 * f64::EPSILON * (last.end.theta.abs() + 1.0) * roundings
-            + speed_noise * duration
-            + f64::EPSILON * whole.radians().abs();
+        let in_steps = one * ONE_ROUNDING * (last.end.theta.abs() + 1.0) * roundings;
+        // Errors of the speed that are made evenly over the run.
+        let grown = speed_noise * duration / 3f64.sqrt();
+        let angle_noise = in_steps.hypot(grown) + f64::EPSILON * whole.radians().abs();
         // An angle that is off while the crank is fast is a delay.
         let delayed = if run.largest_speed == 0.0 {
             0.0

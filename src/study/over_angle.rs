@@ -1,7 +1,5 @@
 //! Motion over the crank angle: what the energy and the angle engine have in common.
 
-use std::f64::consts::TAU;
-
 use super::by_angle::Unsolved;
 use super::log::Log;
 use super::passages::Stretch;
@@ -11,12 +9,11 @@ use super::simulate::Simulation;
 use super::summary::{Cost, ErrorEstimate, Final, Solved, Summary};
 use super::task::Task;
 use super::{by_angle, by_energy, in_time, relay};
-use crate::engine::energy::{Orbit, Profile, Unserved};
+use crate::engine::energy::{Orbit, Unserved};
 use crate::error::Error;
 use crate::mechanism::Class;
 use crate::numeric::angle::Angle;
-use crate::plan::{Engine, Method, Plan};
-use crate::scene::Extent;
+use crate::plan::{Engine, Method, Plan, repeats_with_each_turn};
 use crate::trajectory::Trajectory;
 
 /// A motion over the crank angle.
@@ -40,8 +37,11 @@ pub(super) fn run(
     rows: &mut dyn RowSink,
     record: bool,
 ) -> Result<Simulation, Error> {
-    let position = Position::new(task.equation(), &task.limits, task.start())
+    let mut position = Position::new(task.equation(), &task.limits, task.start())
         .with_friction(task.maker.sliding);
+    if task.plan.engine == Engine::Energy && repeats_with_each_turn(task.scene) {
+        position = position.with_turns_alike();
+    }
     let solved = match task.plan.engine {
         Engine::Angle => match by_angle::solve(task, &position) {
             Ok(motion) => Ok(motion),
@@ -50,11 +50,14 @@ pub(super) fn run(
             }
             Err(Unsolved { why, .. }) => Err(why),
         },
-        // Turns of other speed are many panels; the map from turn to turn is for them.
-        _ if !position.repeats() && is_long(task) && angle_serves(task) => {
-            by_angle::solve(task, &position).or_else(|_| by_energy::solve(task, &position))
-        }
-        _ => by_energy::solve(task, &position),
+        // Turns that differ and end at rest are many panels; the map from turn to turn is for them.
+        _ => by_energy::solve(task, &position).or_else(|why| {
+            if why == Unserved::TooLong && position.turns_are_alike() {
+                by_angle::solve(task, &position).map_err(|unsolved| unsolved.why)
+            } else {
+                Err(why)
+            }
+        }),
     };
     match solved {
         Ok(motion) => finish(task, motion, rows),
@@ -69,7 +72,7 @@ pub(super) fn run(
         Err(unserved) => {
             let why = format!("integration in time, for {}", why(task, unserved));
             task.plan = Plan::new(task.scene, Method::Time)?;
-            task.plan.reason = why;
+            task.plan.reason = why.into();
             in_time::run(task, rows, record)
         }
     }
@@ -80,21 +83,6 @@ fn hands_over(task: &Task<'_>, why: Unserved) -> bool {
     why == Unserved::TooSlow
         && task.options.method == Method::Auto
         && task.limits.class == Class::RotatingCrank
-}
-
-/// Whether the start speed makes for a run of very many turns.
-fn is_long(task: &Task<'_>) -> bool {
-    const MANY: f64 = 256.0;
-    let speed = task.scene.motion.speed.abs();
-    match task.extent {
-        Extent::Duration(duration) => speed * duration > MANY * TAU,
-        Extent::Revolutions(turns) => turns > MANY,
-    }
-}
-
-/// Whether the loads are the same in each turn, which the energy engine does without.
-fn angle_serves(task: &Task<'_>) -> bool {
-    Plan::new(task.scene, Method::Angle).is_ok()
 }
 
 /// Why these engines cannot serve a task.
@@ -174,8 +162,8 @@ fn write_rows(
     write(stretch.begin + stretch.end, angle, omega)
 }
 
-/// Error of a state if its time may be off by `late` (s): it moves the state along the motion. The angle
-/// itself is rounded once more.
+/// Error of a state if its time may be off by `late` (s): it moves the state along the motion. The angle in its
+/// turn is right to two units of one radian, and rounded once more with its turns.
 pub(super) fn late_by(
     task: &Task<'_>,
     (angle, omega): (Angle, f64),
@@ -183,7 +171,7 @@ pub(super) fn late_by(
     late: f64,
 ) -> ErrorEstimate {
     let (alpha, _) = task.maker.forward(end, angle, omega);
-    let rounding = f64::EPSILON * (1.0 + angle.radians().abs());
+    let rounding = f64::EPSILON * (2.0 + 0.5 * angle.radians().abs());
     ErrorEstimate {
         theta_rad: omega.abs() * late + rounding,
         omega_rad_per_s: alpha.abs() * late + 2.0 * f64::EPSILON * omega.abs(),

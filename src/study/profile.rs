@@ -20,6 +20,8 @@ pub(super) struct Position<'a> {
     turns: f64,
     corners: Vec<f64>,
     repeats: bool,
+    /// Work of the loads in one turn, J, and its error, if they are the same in each.
+    work_of_turn: Option<(f64, f64)>,
     evaluations: Cell<u64>,
 }
 
@@ -43,6 +45,7 @@ impl<'a> Position<'a> {
             turns: start.turns,
             corners,
             repeats: loads.have_potential() && !loads.turn_the_crank(),
+            work_of_turn: None,
             evaluations: Cell::new(0),
         }
     }
@@ -51,6 +54,23 @@ impl<'a> Position<'a> {
     pub fn with_friction(mut self, sliding: Option<&'a Sliding>) -> Position<'a> {
         self.sliding = sliding;
         self
+    }
+
+    /// For loads that depend on the position alone and are the same in each turn.
+    pub fn with_turns_alike(mut self) -> Position<'a> {
+        let torque = TAU * self.equation.loads().constant_torque();
+        let (mut work, mut size) = (torque, torque.abs());
+        if !self.equation.loads().have_potential() {
+            work += self.work_between(0.0, TAU);
+            size += gauss::composite(|theta| self.push(theta).abs(), 0.0, TAU, 64);
+        }
+        self.work_of_turn = Some((work, f64::EPSILON * size));
+        self
+    }
+
+    /// Whether the loads depend on the position alone and are the same in each turn.
+    pub fn turns_are_alike(&self) -> bool {
+        self.work_of_turn.is_some()
     }
 
     /// Positions at which inertia and force were computed so far.
@@ -72,17 +92,32 @@ impl<'a> Position<'a> {
     }
 
     /// Work (J) of the loads without potential between two angles, by a quadrature of its own.
-    pub fn work(&self, from: f64, to: f64) -> f64 {
-        let loads = self.equation.loads();
-        if loads.have_potential() {
+    pub fn work(&self, from: Angle, to: Angle) -> f64 {
+        if self.equation.loads().have_potential() {
             return 0.0;
         }
-        let force = |theta: f64| {
-            let pose = self.equation.linkage().pose(theta);
-            loads
-                .without_potential(0.0, self.angle(theta), 0.0, &pose)
-                .generalized(&pose)
+        let turns = to.turns - from.turns;
+        if !self.turns_are_alike() {
+            return self.work_between(from.rest, to.rest + turns * TAU);
+        }
+        let whole = if turns == 0.0 {
+            0.0
+        } else {
+            turns * self.work_between(0.0, TAU)
         };
+        whole + self.work_between(from.rest, to.rest)
+    }
+
+    /// Generalized force (N m) of the loads without potential at an angle.
+    fn push(&self, theta: f64) -> f64 {
+        let pose = self.equation.linkage().pose(theta);
+        let loads = self.equation.loads();
+        let load = loads.without_potential(0.0, self.angle(theta), 0.0, &pose);
+        load.generalized(&pose)
+    }
+
+    fn work_between(&self, from: f64, to: f64) -> f64 {
+        let force = |theta: f64| self.push(theta);
         let (low, high) = (from.min(to), from.max(to));
         let turns = (low / TAU).floor() as i64..=(high / TAU).floor() as i64;
         let corners = turns.flat_map(|turn| {
@@ -194,5 +229,9 @@ impl Profile for Position<'_> {
 
     fn repeats(&self) -> bool {
         self.repeats
+    }
+
+    fn work_of_turn(&self) -> Option<(f64, f64)> {
+        self.work_of_turn
     }
 }

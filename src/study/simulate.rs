@@ -127,7 +127,9 @@ fn run(
 
 /// The guide of a prescribed motion, if it has friction.
 fn guide(scene: &Scene, equation: &Equation) -> Option<Constrained> {
-    let driven = scene.motion.kind == MotionKind::ConstantSpeed;
+    if scene.motion.kind != MotionKind::ConstantSpeed || scene.friction.is_none() {
+        return None;
+    }
     let guide = Constrained::new(scene, Curve::on_crank(equation.linkage()));
-    guide.friction().filter(|_| driven).map(|_| guide)
+    guide.friction().is_some().then_some(guide)
 }

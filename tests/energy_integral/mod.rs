@@ -133,7 +133,7 @@ impl EnergyIntegral {
 }
 
 /// Nodes and weights of the Gauss-Legendre rule on [−1, 1], by Newton on the Legendre polynomial.
-fn gauss_legendre(n: u32) -> Vec<(f64, f64)> {
+pub fn gauss_legendre(n: u32) -> Vec<(f64, f64)> {
     (1..=n)
         .map(|i| {
             let mut x = (std::f64::consts::PI * (f64::from(i) - 0.25) / (f64::from(n) + 0.5)).cos();

@@ -7,6 +7,9 @@ use super::piece::{Piece, Turning};
 use crate::numeric::chebyshev::{Rule, Values};
 use crate::numeric::root;
 
+/// Most panels whose extremes are looked for between their points.
+const MOST_LOOKED_AT: u32 = 64;
+
 /// An extreme |speed| among the points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extreme {
@@ -45,7 +48,8 @@ impl Panel {
         let rate =
             |x: f64| stretch_rate * self.slope.value(x) - self.piece.stretch(x) * bend.value(x);
         let at_point = sign * self.speed(points[index]).abs();
-        root::bracketed(rate, from, to)
+        // At an extreme the speed hardly depends on the place.
+        root::within(rate, from, to, 1e-9)
             .map_or(at_point, |x| at_point.max(sign * self.speed(x).abs()))
     }
 
@@ -133,4 +137,22 @@ pub(super) fn extremes(piece: &Piece, rule: &Rule, slopes: &Values) -> [Extreme;
             step: (speed - before).abs().max((speed - after).abs()),
         }
     })
+}
+
+/// Largest sign·|speed| on panels: those that may have it are looked at between their points.
+pub(super) fn extreme(panels: &[&Panel], sign: f64) -> f64 {
+    let at_points = panels.iter().map(|panel| panel.extreme_at_points(sign));
+    let mut best = at_points.fold(f64::NEG_INFINITY, f64::max);
+    let mut looked = 0;
+    let at_most = best;
+    for panel in panels
+        .iter()
+        .filter(|panel| panel.extreme_bound(sign) >= at_most)
+    {
+        if panel.extreme_bound(sign) > best && looked < MOST_LOOKED_AT {
+            looked += 1;
+            best = best.max(panel.extreme(sign));
+        }
+    }
+    best
 }

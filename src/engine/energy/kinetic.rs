@@ -23,10 +23,16 @@ impl Energy<'_> {
         match self.piece.turning {
             Turning::Nowhere => {
                 let share = self.force.largest() * self.piece.span().abs() / self.kinetic;
-                tail * share.min(1.0) <= 4.0 * tolerance || tail <= noise
+                tail * share.min(1.0) <= tolerance || tail <= noise
             }
             _ => tail <= 4.0 * tolerance.max(noise),
         }
+    }
+
+    /// What the series of the force leaves out of the energy, J.
+    pub fn left_out(&self) -> f64 {
+        let largest = self.force.largest() * self.piece.span().abs();
+        self.force.tail() * largest / self.rule.degree() as f64
     }
 
     /// K at the points of a piece that does not turn: K at its start plus the integral of the force.

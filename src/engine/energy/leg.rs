@@ -1,10 +1,11 @@
 //! A leg: panels in one direction, from the start until the motion turns back, repeats or ends.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::TAU;
 
+use super::extreme::extreme;
 use super::home::Return;
 use super::panel::{Panel, Tried};
-use super::piece::{Piece, Turning};
+use super::piece::{LONGEST, Piece, Turning, missing, next_end};
 use super::{Profile, Unserved};
 use crate::numeric::angle::Angle;
 use crate::numeric::exact::two_sum;
@@ -14,10 +15,25 @@ use crate::numeric::exact::two_sum;
 pub(in crate::engine) enum After {
     /// The same turn again.
     Repeats,
+    /// Another turn, under the same forces.
+    GoesOn,
     /// It turns back.
     TurnsBack,
     /// Not needed: the run ends before.
     Ends,
+}
+
+/// Where a leg begins.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::engine) struct Begin {
+    /// rad
+    pub start: f64,
+    /// +1 or −1
+    pub direction: f64,
+    /// J; without it the start is a turning point.
+    pub kinetic: f64,
+    /// How far it may be off beside its own rounding, J.
+    pub off: f64,
 }
 
 /// Panels one after the other.
@@ -31,6 +47,8 @@ pub(in crate::engine) struct Leg {
     pub after: After,
     /// Bound of the error of its duration, s.
     pub error: f64,
+    /// What the series of a panel leave out at most of the time inside it, s.
+    pub left_out: f64,
     /// What the series of its panels leave out at most, relative to their values.
     pub tail: f64,
 }
@@ -39,13 +57,8 @@ pub(in crate::engine) struct Leg {
 const MOST_ATTEMPTS: usize = 200_000;
 /// Panels no longer than this are taken as they are, rad: a corner that nobody announced.
 const SHORTEST: f64 = 1e-13;
-/// Most panels whose extremes are looked for between their points.
-const MOST_LOOKED_AT: u32 = 64;
 /// Below this part of the largest kinetic energy its sum over the panels has lost digits.
 const NEAR_REST: f64 = 1e-3;
-/// The first guess of a panel's length, rad.
-const LONGEST: f64 = 2.0 * FRAC_PI_2 + 1e-9;
-
 impl Leg {
     /// A leg without panels, that ends where the last one will.
     pub fn open() -> Leg {
@@ -55,26 +68,33 @@ impl Leg {
             duration: (0.0, 0.0),
             after: After::Ends,
             error: 0.0,
+            left_out: 0.0,
             tail: 0.0,
         }
     }
 
-    /// Panels from `start` in `direction` (+1 or −1) with kinetic energy `kinetic` (J), until the time
-    /// `until` is passed; their series end where they have decayed to `tolerance`. Without kinetic energy the
-    /// start is a turning point.
+    /// Panels until the time `until` is passed or `most_turns` are complete, if the forces are the same in each;
+    /// their series end where they have decayed to `tolerance`.
     pub fn build(
         profile: &dyn Profile,
-        start: f64,
-        direction: f64,
-        kinetic: f64,
+        begin: Begin,
         until: f64,
         tolerance: f64,
+        most_turns: f64,
     ) -> Result<Leg, Unserved> {
+        let Begin {
+            start,
+            direction,
+            mut kinetic,
+            off,
+        } = begin;
         let mut leg = Leg::open();
         let whole_turn = start + direction * TAU;
+        let gain = profile.work_of_turn().map(|(work, _)| direction * work);
+        let at_first = kinetic;
+        let mut turns = 0.0;
         let home = Return::new(profile, whole_turn, kinetic);
         let mut at = start;
-        let mut kinetic = kinetic;
         let mut length = LONGEST;
         let mut turns_at: Option<f64> = None;
         let mut attempts = 0;
@@ -85,7 +105,7 @@ impl Leg {
                 return Err(Unserved::TooLong);
             }
             let mut to = next_end(profile.corners(), at, direction, length);
-            if profile.repeats() && direction * (to - whole_turn) > -1e-12 {
+            if gain.is_some() && direction * (to - whole_turn) > -1e-12 {
                 to = whole_turn;
             }
             let mut turning = if kinetic == 0.0 {
@@ -104,7 +124,7 @@ impl Leg {
                     turning = Turning::AtEnd;
                 }
             }
-            let mut rounding = f64::EPSILON * largest;
+            let mut rounding = off + f64::EPSILON * largest;
             if let Some(again) = &home
                 && kinetic < NEAR_REST * largest
                 && let Some(exact) = again.kinetic(at)
@@ -120,19 +140,30 @@ impl Leg {
                 turning,
             };
             match Panel::attempt(profile, piece, kinetic, accepted, rounding)? {
-                Tried::Done(panel) => {
+                Tried::Done(mut panel) => {
                     at = to;
+                    panel.turns = direction * turns;
                     kinetic = panel.kinetic_at_end;
                     largest = largest.max(kinetic);
-                    length = 2.0 * (to - piece.from).abs();
+                    length = 2.0 * piece.span().abs();
                     leg.push(*panel);
                     if turning == Turning::AtEnd {
                         leg.after = After::TurnsBack;
                         return Ok(leg);
                     }
-                    if profile.repeats() && at == whole_turn {
-                        leg.after = After::Repeats;
-                        return Ok(leg);
+                    if let Some(gain) = gain.filter(|_| at == whole_turn) {
+                        leg.complete(missing(start, direction));
+                        if profile.repeats() {
+                            leg.after = After::Repeats;
+                            return Ok(leg);
+                        }
+                        turns += 1.0;
+                        if turns >= most_turns && leg.duration.0 <= until {
+                            leg.after = After::GoesOn;
+                            return Ok(leg);
+                        }
+                        at = start;
+                        kinetic = gain.mul_add(turns, at_first);
                     }
                 }
                 Tried::TurnsAt(end) if end != at => {
@@ -144,6 +175,22 @@ impl Leg {
             }
         }
         Ok(leg)
+    }
+
+    /// Adds the time of the last bit of a turn, rad.
+    fn complete(&mut self, missing: f64) {
+        let Some(panel) = self.panels.last() else {
+            return;
+        };
+        let late = missing / panel.speed(1.0).abs();
+        if late.is_finite() {
+            self.duration = two_sum(self.duration.0, self.duration.1 + late);
+        }
+    }
+
+    /// The pieces of its panels.
+    pub fn pieces(&self) -> impl Iterator<Item = Piece> + '_ {
+        self.panels.iter().map(|panel| panel.piece)
     }
 
     /// Legs with the same panels, blended by shares whose sum is one.
@@ -164,6 +211,7 @@ impl Leg {
         let (sum, lost) = two_sum(self.duration.0, panel.duration.0);
         self.duration = two_sum(sum, lost + self.duration.1 + panel.duration.1);
         self.error += panel.error;
+        self.left_out = self.left_out.max(panel.left_out());
         self.tail = self.tail.max(panel.tail);
         self.panels.push(panel);
     }
@@ -177,15 +225,15 @@ impl Leg {
         (Angle { turns, rest }, speed)
     }
 
-    /// Times at which the ends of panels are reached, with their angles.
-    pub fn ends(&self) -> impl DoubleEndedIterator<Item = (f64, Angle)> + '_ {
+    /// Times at which the ends of panels are reached, with their angles and speeds.
+    pub fn ends(&self) -> impl DoubleEndedIterator<Item = (f64, Angle, f64)> + '_ {
         let pairs = self.panels.iter().zip(&self.begins);
         pairs.map(|(panel, begin)| {
             let angle = Angle {
                 turns: panel.turns,
                 rest: panel.piece.to,
             };
-            (begin + panel.duration.0, angle)
+            (begin + panel.duration.0, angle, panel.speed(1.0))
         })
     }
 
@@ -250,38 +298,4 @@ impl Leg {
     pub fn len(&self) -> usize {
         self.panels.len()
     }
-}
-
-/// Largest sign·|speed| on panels: those that may have it are looked at between their points.
-fn extreme(panels: &[&Panel], sign: f64) -> f64 {
-    let at_points = panels.iter().map(|panel| panel.extreme_at_points(sign));
-    let mut best = at_points.fold(f64::NEG_INFINITY, f64::max);
-    let mut looked = 0;
-    let at_most = best;
-    for panel in panels
-        .iter()
-        .filter(|panel| panel.extreme_bound(sign) >= at_most)
-    {
-        if panel.extreme_bound(sign) > best && looked < MOST_LOOKED_AT {
-            looked += 1;
-            best = best.max(panel.extreme(sign));
-        }
-    }
-    best
-}
-
-/// The end of a panel that begins at `at`: its length, or the next corner before.
-fn next_end(corners: &[f64], at: f64, direction: f64, length: f64) -> f64 {
-    let turn = (at / TAU).floor() * TAU;
-    let mut end = at + direction * length.min(LONGEST);
-    for shift in [-TAU, 0.0, TAU] {
-        for corner in corners {
-            let corner = corner + turn + shift;
-            let ahead = direction * (corner - at);
-            if ahead > 1e-12 * at.abs().max(1.0) && ahead < direction * (end - at) {
-                end = corner;
-            }
-        }
-    }
-    end
 }

@@ -4,12 +4,15 @@
 //! angle. It is expanded on panels in Chebyshev series, each to rounding; t(θ) is their integral and θ(t)
 //! a Newton step or three away. A motion that turns fully under forces that do no work per turn repeats;
 //! one that turns back at both ends does too. Ends of a libration are taken with θ = θ_end ∓ s², which
-//! makes dt/ds smooth.
+//! makes dt/ds smooth. Where each turn gains the same work, the time of many turns is a sum in closed form.
 
 mod extreme;
+mod gains;
 mod home;
 mod kinetic;
+mod later;
 pub(in crate::engine) mod leg;
+mod one_turn;
 mod orbit;
 pub(in crate::engine) mod panel;
 mod passages;
@@ -35,6 +38,10 @@ pub trait Profile {
 
     /// Whether everything repeats after a turn and no work is done in one.
     fn repeats(&self) -> bool;
+
+    /// Work of the forces in one turn counter-clockwise, J, and how far it may be off, if they are the same in each
+    /// turn.
+    fn work_of_turn(&self) -> Option<(f64, f64)>;
 }
 
 /// Why a motion cannot be computed from its energy.

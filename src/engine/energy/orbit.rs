@@ -2,10 +2,15 @@
 
 use std::f64::consts::TAU;
 
-use super::leg::{After, Leg};
+use super::gains::{Course, Gains};
+use super::later::Later;
+use super::leg::{After, Begin, Leg};
 use super::turns::Turns;
 use super::{Profile, Unserved};
 use crate::numeric::angle::Angle;
+
+/// Turns that are computed one by one before the others are summed.
+const FIRST_TURNS: f64 = 16.0;
 
 /// A motion known from its energy: angle and speed at any time.
 #[derive(Clone, Debug)]
@@ -20,7 +25,7 @@ pub struct Orbit {
     /// From the start the other way, for motions that turn back.
     pub(super) backward: Option<Leg>,
     /// What follows after the first turns, for long motions whose turns differ.
-    pub(super) later: Option<Box<Turns>>,
+    pub(super) later: Option<Box<Later>>,
 }
 
 impl Orbit {
@@ -51,14 +56,37 @@ impl Orbit {
         } else {
             speed.signum()
         };
-        let forward = Leg::build(profile, theta, direction, kinetic, until, tolerance)?;
+        let leg = |direction: f64, until: f64, most_turns: f64| {
+            let begin = Begin {
+                start: theta,
+                direction,
+                kinetic,
+                off: 0.0,
+            };
+            Leg::build(profile, begin, until, tolerance, most_turns)
+        };
+        let mut forward = leg(direction, until, FIRST_TURNS)?;
+        let mut later = None;
+        if let (After::GoesOn, Some((work, gain_error))) = (forward.after, profile.work_of_turn()) {
+            let course = Course {
+                profile,
+                start: theta,
+                direction,
+                kinetic,
+                gain: direction * work,
+                gain_error,
+                tolerance,
+            };
+            later = Gains::new(&course, FIRST_TURNS, forward.duration, until)?;
+            if later.is_none() {
+                forward = leg(direction, until, f64::INFINITY)?;
+            }
+        }
         let there = forward.duration.0;
         let turns_back = forward.after == After::TurnsBack;
         let backward = if turns_back && kinetic != 0.0 && 2.0 * there < until {
             let left = until - 2.0 * there;
-            Some(Leg::build(
-                profile, theta, -direction, kinetic, left, tolerance,
-            )?)
+            Some(leg(-direction, left, f64::INFINITY)?)
         } else {
             None
         };
@@ -69,7 +97,7 @@ impl Orbit {
             from_rest: kinetic == 0.0,
             forward,
             backward,
-            later: None,
+            later: later.map(|gains| Box::new(Later::Gaining(gains))),
         })
     }
 
@@ -89,7 +117,7 @@ impl Orbit {
     /// A motion in one direction of many turns, the first of them on a leg.
     pub(in crate::engine) fn of_turns(start: Angle, speed: f64, leg: Leg, later: Turns) -> Orbit {
         Orbit {
-            later: Some(Box::new(later)),
+            later: Some(Box::new(Later::Mapped(later))),
             ..Orbit::one_way(start, speed, leg)
         }
     }
@@ -213,12 +241,16 @@ impl Orbit {
         })
     }
 
-    /// Bound of the relative error of times: the tails of the series and their rounding.
-    pub fn time_error(&self) -> f64 {
-        let back = self.backward.as_ref();
-        let error = self.forward.error + back.map_or(0.0, |leg| leg.error);
-        let duration = self.forward.duration.0 + back.map_or(0.0, |leg| leg.duration.0);
-        error / duration + 2.0 * f64::EPSILON
+    /// How far a time may be off, s: by the tails of the series and the rounding of energies.
+    pub fn time_error(&self, until: f64) -> f64 {
+        let (back, later) = (self.backward.as_ref(), self.later.as_ref());
+        let error = self.forward.error
+            + back.map_or(0.0, |leg| leg.error)
+            + later.map_or(0.0, |later| later.error());
+        let duration = later.map_or(self.forward.duration.0, |later| later.end())
+            + back.map_or(0.0, |leg| leg.duration.0);
+        let left_out = back.map_or(0.0, |leg| leg.left_out);
+        error / duration * until + self.forward.left_out.max(left_out)
     }
 
     /// What the series leave out of the speed, relative to it.
@@ -229,9 +261,10 @@ impl Orbit {
 
     /// Its last leg.
     pub(in crate::engine) fn last_leg(&self) -> &Leg {
-        self.later
-            .as_ref()
-            .map_or(&self.forward, |later| &later.last)
+        match self.later.as_deref() {
+            Some(Later::Mapped(turns)) => &turns.last,
+            _ => &self.forward,
+        }
     }
 
     /// How long it is known, s: for ever if it repeats.
@@ -241,19 +274,17 @@ impl Orbit {
             None => self
                 .later
                 .as_ref()
-                .map_or(self.forward.duration.0, |later| {
-                    later.last_mark().t.0 + later.last.duration.0
-                }),
+                .map_or(self.forward.duration.0, |later| later.end()),
         }
     }
 
     /// Largest kinetic energy at the ends of panels, J.
     pub fn largest_kinetic(&self) -> f64 {
         let back = self.backward.as_ref().map_or(0.0, Leg::largest_kinetic);
-        let later = self.later.as_ref().map_or(0.0, |later| {
-            let marks = later.marks.iter().map(|mark| mark.kinetic);
-            marks.fold(later.last.largest_kinetic(), f64::max)
-        });
+        let later = self
+            .later
+            .as_ref()
+            .map_or(0.0, |later| later.largest_kinetic());
         self.forward.largest_kinetic().max(back).max(later)
     }
 

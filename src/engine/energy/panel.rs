@@ -7,7 +7,7 @@ use super::{Profile, Unserved};
 use crate::numeric::chebyshev::{self, Rule, Series, Values};
 
 /// Degree of the series: half a turn of a usual engine is right to rounding.
-const DEGREE: usize = chebyshev::MOST;
+pub(super) const DEGREE: usize = chebyshev::MOST;
 
 /// A piece with its series.
 #[derive(Clone, Debug)]
@@ -98,7 +98,8 @@ impl Panel {
             Turning::AtStart => f64::INFINITY,
             Turning::AtEnd => energy.kinetic,
         };
-        let shaken = shaken(rounding / least) + misplaced(&piece, &force);
+        let left_out = energy.left_out() / least;
+        let shaken = shaken(rounding / least) + left_out + misplaced(&piece, &force);
         let kinetic_at_end = match piece.turning {
             Turning::Nowhere => kinetic[DEGREE],
             Turning::AtStart => 2.0 * piece.span().abs() * energy.mean_force(1.0),
@@ -126,8 +127,9 @@ impl Panel {
     ) -> Panel {
         let duration = rule.integral(slopes);
         let tail = slope.tail();
-        // What the series leaves out alternates: its integral is smaller by the degree at least.
-        let uncertain = tail / rule.degree() as f64 + shaken;
+        // What the series leaves out alternates: over the whole panel its integral is smaller by the square of the
+        // degree (that of the polynomial T_k is 2/(k² − 1)), for all terms that follow.
+        let uncertain = 8.0 * tail / (rule.degree() as f64).powi(2) + shaken;
         Panel {
             piece,
             turns: 0.0,
@@ -157,6 +159,11 @@ impl Panel {
             extremes: extremes(&first.piece, first.rule, &slopes),
             ..first.clone()
         })
+    }
+
+    /// What the series leaves out of the time inside the panel, s.
+    pub fn left_out(&self) -> f64 {
+        self.tail / self.rule.degree() as f64 * self.duration.0
     }
 
     /// Angle and speed a time `after` its start, rad and rad/s; the sign of the speed is that of the panel.
@@ -192,7 +199,8 @@ impl Panel {
             };
             let change = (next - x).abs();
             x = next;
-            if change <= 2.0 * f64::EPSILON {
+            // A step of Newton squares what is left.
+            if change <= 1e-10 && next == newton {
                 break;
             }
         }

@@ -27,7 +27,7 @@ impl Orbit {
             return;
         };
         later.each_turn(|mark, leg| {
-            leg.ends().all(|(after, angle)| {
+            leg.ends().all(|(after, angle, speed)| {
                 let turns = self.direction * mark.turns + angle.turns;
                 visit(Passage {
                     t: mark.t.0 + (mark.t.1 + after),
@@ -35,7 +35,7 @@ impl Orbit {
                         turns: self.start.turns + turns,
                         rest: angle.rest,
                     },
-                    speed: leg.state(after).1,
+                    speed,
                     turning: false,
                 })
             })
@@ -45,7 +45,7 @@ impl Orbit {
     /// How far (rad) the crank has turned in the first turns, if others follow that are not among
     /// [`Self::passages`].
     pub fn later_from(&self) -> Option<f64> {
-        Some(self.later.as_ref()?.marks[0].turns * TAU)
+        Some(self.later.as_ref()?.first() * TAU)
     }
 
     /// When it turns back, until a time.
@@ -69,8 +69,8 @@ impl Orbit {
     /// repeat), in the order of time.
     pub fn passages(&self) -> Vec<Passage> {
         let mut found = Vec::new();
-        let mut pass = |t: f64, angle: Angle, turning: bool| {
-            let speed = if turning { 0.0 } else { self.within(t).1 };
+        let mut pass = |t: f64, angle: Angle, speed: f64, turning: bool| {
+            let speed = if turning { 0.0 } else { speed };
             found.push(Passage {
                 t,
                 angle: Angle {
@@ -82,15 +82,15 @@ impl Orbit {
             });
         };
         let there = self.forward.duration.0;
-        let run = |leg: &Leg, since: f64, pass: &mut dyn FnMut(f64, Angle, bool)| {
+        let run = |leg: &Leg, since: f64, pass: &mut dyn FnMut(f64, Angle, f64, bool)| {
             let turns_back = leg.after == After::TurnsBack;
             let last = leg.len().saturating_sub(1);
-            for (i, (t, angle)) in leg.ends().enumerate() {
-                pass(since + t, angle, turns_back && i == last);
+            for (i, (t, angle, speed)) in leg.ends().enumerate() {
+                pass(since + t, angle, speed, turns_back && i == last);
             }
             if turns_back {
-                for (t, angle) in leg.ends().rev().skip(1) {
-                    pass(since + 2.0 * leg.duration.0 - t, angle, false);
+                for (t, angle, speed) in leg.ends().rev().skip(1) {
+                    pass(since + 2.0 * leg.duration.0 - t, angle, -speed, false);
                 }
             }
         };
@@ -98,11 +98,11 @@ impl Orbit {
         if self.forward.after == After::TurnsBack {
             // The start is passed on the way back, and again at the end of the period.
             let start = Angle::from(self.start.rest);
-            pass(2.0 * there, start, self.from_rest);
+            pass(2.0 * there, start, -self.speed, self.from_rest);
             if let Some(back) = &self.backward {
                 run(back, 2.0 * there, &mut pass);
                 if back.after == After::TurnsBack {
-                    pass(2.0 * (there + back.duration.0), start, false);
+                    pass(2.0 * (there + back.duration.0), start, self.speed, false);
                 }
             }
         }

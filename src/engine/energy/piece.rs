@@ -1,5 +1,10 @@
 //! A piece of the crank angle and the variable x in [−1, 1] on it.
 
+use std::f64::consts::{PI, TAU};
+
+use crate::numeric::angle::TAU_REST;
+use crate::numeric::exact::two_sum;
+
 /// Which end of a panel is a turning point, where dt/dθ is infinite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::engine) enum Turning {
@@ -73,4 +78,28 @@ impl Piece {
             Turning::AtEnd => 1.0 - 2.0 * (1.0 - share).sqrt(),
         }
     }
+}
+
+/// The first guess of a panel's length, rad.
+pub(super) const LONGEST: f64 = PI + 1e-9;
+
+/// What the floats for the ends of a turn lack of it, rad.
+pub(super) fn missing(start: f64, direction: f64) -> f64 {
+    direction * two_sum(start, direction * TAU).1 + TAU_REST
+}
+
+/// The end of a panel that begins at `at`: its length, or the next corner before.
+pub(super) fn next_end(corners: &[f64], at: f64, direction: f64, length: f64) -> f64 {
+    let turn = (at / TAU).floor() * TAU;
+    let mut end = at + direction * length.min(LONGEST);
+    for shift in [-TAU, 0.0, TAU] {
+        for corner in corners {
+            let corner = corner + turn + shift;
+            let ahead = direction * (corner - at);
+            if ahead > 1e-12 * at.abs().max(1.0) && ahead < direction * (end - at) {
+                end = corner;
+            }
+        }
+    }
+    end
 }

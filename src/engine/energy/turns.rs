@@ -24,7 +24,7 @@ pub(in crate::engine) struct Mark {
 
 impl Mark {
     /// Seconds from here until a time.
-    fn until(&self, t: f64) -> f64 {
+    pub fn until(&self, t: f64) -> f64 {
         (t - self.t.0) - self.t.1
     }
 

@@ -176,7 +176,7 @@ fn plan(scene: &Scene) -> Result<Plan, Error> {
     let mut prescribed = scene.clone();
     prescribed.motion.kind = MotionKind::ConstantSpeed;
     let mut plan = Plan::new(&prescribed, Method::Auto)?;
-    plan.reason = "the crank motion is measured: nothing to integrate, the equation is read backwards along the fitted theta(t)".to_owned();
+    plan.reason = "the crank motion is measured: nothing to integrate, the equation is read backwards along the fitted theta(t)".into();
     Ok(plan)
 }
 

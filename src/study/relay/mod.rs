@@ -139,7 +139,7 @@ fn stopped(task: &Task<'_>, arrived: &Arrived) -> Option<String> {
 fn name_pieces(task: &mut Task<'_>, arrived: &Arrived) -> Result<(), Error> {
     if arrived.over_angle == 0 {
         task.plan = Plan::new(task.scene, Method::Time)?;
-        task.plan.reason = "integration in time, for the crank comes too near to rest".to_owned();
+        task.plan.reason = "integration in time, for the crank comes too near to rest".into();
         return Ok(());
     }
     let times = |count: u64| match count {
@@ -148,7 +148,7 @@ fn name_pieces(task: &mut Task<'_>, arrived: &Arrived) -> Result<(), Error> {
         _ => format!("{count} times"),
     };
     let (there, back) = (times(arrived.to_time), times(arrived.to_angle));
-    task.plan.reason = match (arrived.to_time, arrived.to_angle) {
+    let reason = match (arrived.to_time, arrived.to_angle) {
         (0, 0) => return Ok(()),
         (0, _) => format!(
             "over the crank angle; near to rest in time, from which it was handed back {back}"
@@ -160,5 +160,6 @@ fn name_pieces(task: &mut Task<'_>, arrived: &Arrived) -> Result<(), Error> {
             "over the crank angle; near to rest in time, to which it was handed over {there}, and back {back}"
         ),
     };
+    task.plan.reason = reason.into();
     Ok(())
 }
