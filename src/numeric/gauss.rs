@@ -43,8 +43,8 @@ pub fn rule_18() -> &'static [(f64, f64); 18] {
 }
 
 /// ∫ f over [from, to], halved again and again where the halves together differ from the whole by more than
-/// `tolerance` and by more than the rounding of values of the size of f; at most a thousand times, where rounding of
-/// the argument is all that is left.
+/// `tolerance` and by more than the rounding of values of the size of f; the worst part first and at most a thousand
+/// times, when rounding of the argument is all that is left.
 pub fn adaptive(f: &dyn Fn(f64) -> f64, from: f64, to: f64, tolerance: f64) -> f64 {
     let rule = |a: f64, b: f64| {
         let (mut sum, mut size) = (0.0, 0.0);
@@ -55,23 +55,30 @@ pub fn adaptive(f: &dyn Fn(f64) -> f64, from: f64, to: f64, tolerance: f64) -> f
         }
         ((b - a) * sum, (b - a).abs() * size)
     };
-    let mut sum = 0.0;
-    let mut halvings = 0;
-    let mut open = vec![(from, to, rule(from, to))];
-    while let Some((a, b, whole)) = open.pop() {
+    // A part, its halves, and by how much they differ too much from the whole.
+    let part = |a: f64, b: f64, whole: f64| {
         let middle = 0.5 * (a + b);
         let (left, right) = (rule(a, middle), rule(middle, b));
-        let apart = (left.0 + right.0 - whole.0).abs();
+        let apart = (left.0 + right.0 - whole).abs();
         let rounding = 8.0 * f64::EPSILON * (left.1 + right.1);
-        if apart <= tolerance.max(rounding) || halvings >= 1000 || !apart.is_finite() {
-            sum += left.0 + right.0;
-        } else {
-            halvings += 1;
-            open.push((a, middle, left));
-            open.push((middle, b, right));
-        }
+        (
+            [a, middle, b],
+            [left.0, right.0],
+            apart - tolerance.max(rounding),
+        )
+    };
+    let mut parts = vec![part(from, to, rule(from, to).0)];
+    for _ in 0..1000 {
+        let open = parts.iter().enumerate();
+        let open = open.filter(|(_, part)| part.2 > 0.0 && part.2.is_finite());
+        let Some((worst, _)) = open.max_by(|a, b| a.1.2.total_cmp(&b.1.2)) else {
+            break;
+        };
+        let ([a, middle, b], [left, right], _) = parts[worst];
+        parts[worst] = part(a, middle, left);
+        parts.push(part(middle, b, right));
     }
-    sum
+    parts.iter().map(|(_, [left, right], _)| left + right).sum()
 }
 
 #[cfg(test)]
