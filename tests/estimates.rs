@@ -153,9 +153,9 @@ struct Judged {
 }
 
 impl Judged {
-    /// Whether the truth is a hundred times better than the error, or the error too small to be judged.
+    /// Whether the truth is a hundred times better than the error, or both are near the floor.
     fn is_sharp(&self) -> bool {
-        100.0 * self.unsure <= self.distance || self.distance + self.unsure <= self.floor
+        100.0 * self.unsure <= self.distance || self.distance + self.unsure <= 8.0 * self.floor
     }
 
     /// True error over stated error.

@@ -43,25 +43,44 @@ pub fn rule_18() -> &'static [(f64, f64); 18] {
 }
 
 /// ∫ f over [from, to], halved again and again where the halves together differ from the whole by more than
-/// `tolerance` and by more than rounding of f and of its argument; at most a thousand times.
+/// `tolerance` and by more than rounding of f and of its argument; the worst part first, at most a thousand times.
 pub fn adaptive(f: &dyn Fn(f64) -> f64, from: f64, to: f64, tolerance: f64) -> f64 {
-    let mut sum = 0.0;
-    let mut halvings = 0;
-    let mut open = vec![(from, to, Sum::over(f, from, to))];
-    while let Some((a, b, whole)) = open.pop() {
+    let part = |a: f64, b: f64, whole: f64| {
         let middle = 0.5 * (a + b);
-        let (left, right) = (Sum::over(f, a, middle), Sum::over(f, middle, b));
-        let apart = (left.value + right.value - whole.value).abs();
-        let rounding = left.rounding + right.rounding;
-        if apart <= tolerance.max(rounding) || halvings >= 1000 || !apart.is_finite() {
-            sum += left.value + right.value;
-        } else {
-            halvings += 1;
-            open.push((a, middle, left));
-            open.push((middle, b, right));
+        let halves = [Sum::over(f, a, middle), Sum::over(f, middle, b)];
+        let [left, right] = [halves[0].value, halves[1].value];
+        let rounding = halves[0].rounding + halves[1].rounding;
+        Part {
+            ends: [a, middle, b],
+            halves: [left, right],
+            excess: (left + right - whole).abs() - tolerance.max(rounding),
         }
+    };
+    let mut parts = vec![part(from, to, Sum::over(f, from, to).value)];
+    for _ in 0..1000 {
+        let open = parts.iter().enumerate();
+        let open = open.filter(|(_, part)| part.excess > 0.0 && part.excess.is_finite());
+        let Some((worst, _)) = open.max_by(|a, b| a.1.excess.total_cmp(&b.1.excess)) else {
+            break;
+        };
+        let ([a, middle, b], [left, right]) = (parts[worst].ends, parts[worst].halves);
+        parts[worst] = part(a, middle, left);
+        parts.push(part(middle, b, right));
     }
-    sum
+    parts
+        .iter()
+        .map(|part| part.halves[0] + part.halves[1])
+        .sum()
+}
+
+/// A part of an interval.
+struct Part {
+    /// Its ends and its middle.
+    ends: [f64; 3],
+    /// The integrals over its halves.
+    halves: [f64; 2],
+    /// By how much they differ from the whole more than they may.
+    excess: f64,
 }
 
 /// An integral by one application of the rule, and what rounding may do to it.
