@@ -137,6 +137,7 @@ pub fn run<D: Driven>(
     let (start, speed) = (from.angle.reduced(), from.speed);
     let mut march = March::new(driven, start, speed, resolution)?;
     march.begin = from.t;
+    march.gives_up = true;
     let repeats = !(driven.is_driven() && driven.reads_time());
     let mut leg = Leg::open();
     loop {
