@@ -171,6 +171,7 @@ pub fn run<D: Driven>(
     march.begin = from.t;
     let reads_time = driven.is_driven() && driven.reads_time();
     let repeats = !reads_time && !march.has_switch();
+    march.gives_up = true;
     let mut leg = Leg::open();
     loop {
         if repeats && march.at_turn() && march.turns.abs() >= TURNS_BEFORE_MAP {
