@@ -16,6 +16,8 @@ const DEGREE: usize = 16;
 const WIDEST: f64 = 0.5;
 /// The narrowest.
 const NARROWEST: f64 = 1e-7;
+/// The next cell is made as wide as leaves this part of the tail allowed.
+const SAFETY: f64 = 0.2;
 /// Turns between the marks that are kept.
 const BETWEEN_MARKS: f64 = 64.0;
 /// Most turns that are iterated.
@@ -38,6 +40,7 @@ pub(super) fn run<D: Driven>(
         t: march.t,
         kinetic: march.kinetic,
         work: march.work,
+        low: [0.0; 2],
     };
     let mut way = Way {
         tail: resolution.tail,
@@ -170,27 +173,34 @@ impl<D: Driven> Way<'_, D> {
             } else {
                 (kinetic - ahead, kinetic + behind)
             };
+            let tried = self.width;
             let why = match self.cell(0.5 * (low + high), 0.5 * (high - low)) {
-                Ok(Some(cell)) => {
-                    let turn = cell.turn(kinetic);
-                    self.turns.cells.push(cell);
-                    self.width = (2.0 * self.width).min(WIDEST);
-                    return Ok(turn);
+                Ok(cell) => {
+                    let share = SAFETY * self.tail / cell.tail();
+                    let factor = share.powf(1.0 / DEGREE as f64).clamp(0.5, 2.0);
+                    self.width = (factor * tried).min(WIDEST);
+                    if cell.tail() <= self.tail {
+                        let turn = cell.turn(kinetic);
+                        self.turns.cells.push(cell);
+                        return Ok(turn);
+                    }
+                    Unserved::NotSmooth
                 }
-                Ok(None) => Unserved::NotSmooth,
-                Err(why) => why,
+                Err(why) => {
+                    self.width = 0.5 * tried;
+                    why
+                }
             };
             let narrows = matches!(why, Unserved::TooSlow | Unserved::NotSmooth);
-            let pays = 0.5 * ahead > (DEGREE + 1) as f64 * self.lost;
-            if !narrows || !pays || self.width <= NARROWEST {
+            let pays = self.width * kinetic > (DEGREE + 1) as f64 * self.lost;
+            if !narrows || !pays || tried <= NARROWEST {
                 return Err(why);
             }
-            self.width *= 0.5;
         }
     }
 
-    /// A cell over a range of energies; none if it is too wide.
-    fn cell(&mut self, middle: f64, half: f64) -> Result<Option<Cell>, Unserved> {
+    /// A cell over a range of energies.
+    fn cell(&mut self, middle: f64, half: f64) -> Result<Cell, Unserved> {
         let rule = Rule::of(DEGREE);
         let mut turns = Vec::with_capacity(DEGREE + 1);
         while turns.len() <= DEGREE {
@@ -204,8 +214,7 @@ impl<D: Driven> Way<'_, D> {
                 turns.push(turn);
             }
         }
-        let cell = Cell::new(middle, half, rule, turns);
-        Ok((cell.tail() <= self.tail).then_some(cell))
+        Ok(Cell::new(middle, half, rule, turns))
     }
 
     fn whole_turn(&mut self, kinetic: f64) -> Result<(Leg, Turn), Unserved> {

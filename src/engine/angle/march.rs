@@ -1,7 +1,7 @@
 //! Panel after panel, turn after turn.
 
 use super::station::{Station, stations};
-use super::sweep::{Start, Swept, sweep};
+use super::sweep::{Start, Swept, Unsolved, sweep};
 use super::switch::{Side, side};
 use super::{Driven, Resolution};
 use crate::engine::energy::Unserved;
@@ -13,25 +13,31 @@ use crate::numeric::exact::two_sum;
 
 /// With less than this part of the largest kinetic energy the crank is near to rest.
 const SLOW: f64 = 1e-2;
-/// Panels of a crank near to rest are not cut below this, rad.
+/// Half of a panel of a crank near to rest is not cut below this, rad.
 const SHORT: f64 = 1e-3;
+/// With less than this part of it a crank that seems to stop on a panel, half of which is this long, rad, is not
+/// followed to where it does: towards there each panel is a fraction of the one before, and a step in time passes.
+const STOPS: f64 = 0.1;
+const SOON: f64 = 1.0;
 
 /// A run over the angle: the panels of a turn, and where it has come to.
 #[derive(Clone)]
 pub(super) struct March<'a, D: Driven> {
-    driven: &'a D,
-    tail: f64,
+    pub(super) driven: &'a D,
+    pub(super) tail: f64,
     direction: f64,
-    stations: Vec<Station<D::Place>>,
+    pub(super) stations: Vec<Station<D::Place>>,
     /// Parts of a panel that was too long this time, the next one last.
-    parts: Vec<Station<D::Place>>,
-    next: usize,
+    pub(super) parts: Vec<Station<D::Place>>,
+    pub(super) next: usize,
     /// When the run begins, s.
     pub begin: f64,
     /// Time since then, s; rounded value and rest.
     pub t: (f64, f64),
     /// J
     pub kinetic: f64,
+    /// What its rounding left out, J.
+    kinetic_low: f64,
     /// Whole turns since the start, with sign.
     pub turns: f64,
     /// Kinetic energy gained, J.
@@ -91,6 +97,7 @@ impl<'a, D: Driven> March<'a, D> {
             begin: 0.0,
             t: (0.0, 0.0),
             kinetic,
+            kinetic_low: 0.0,
             turns: 0.0,
             gain: 0.0,
             work: 0.0,
@@ -108,6 +115,7 @@ impl<'a, D: Driven> March<'a, D> {
         self.next = 0;
         self.t = (0.0, 0.0);
         self.kinetic = kinetic;
+        self.kinetic_low = 0.0;
         self.fastest = kinetic;
         self.turns = 0.0;
         self.gain = 0.0;
@@ -152,9 +160,12 @@ impl<'a, D: Driven> March<'a, D> {
                 .parts
                 .last_mut()
                 .unwrap_or(&mut self.stations[self.next]);
-            let Some(swept) = sweep(self.driven, station, start, self.tail) else {
-                self.refine()?;
-                continue;
+            let swept = match sweep(self.driven, station, start, self.tail) {
+                Ok(swept) => swept,
+                Err(why) => {
+                    self.refine(why)?;
+                    continue;
+                }
             };
             match side(self.driven, station, start, &swept) {
                 Side::Stays => {
@@ -185,31 +196,17 @@ impl<'a, D: Driven> March<'a, D> {
         }
     }
 
-    /// What is left of the next panel from an angle on.
-    fn rest(&self, from: f64) -> Result<Station<D::Place>, Unserved> {
-        let whole = &self.stations[self.next];
-        let station = self.parts.last().unwrap_or(whole);
-        let index = station.is_rest.map_or(0, |index| index + 1);
-        station.rest(self.driven, from, index, whole.rests.get(index), self.tail)
-    }
-
-    /// Keeps what was found on a rest for the next turn.
-    fn remember_rest(&mut self) {
-        if let Some((index, rest)) = self.parts.last().and_then(Station::as_rest) {
-            let rests = &mut self.stations[self.next].rests;
-            if index < rests.len() {
-                rests[index] = rest;
-            } else {
-                rests.push(rest);
-            }
-        }
-    }
-
     /// Takes a panel over a piece of the next station, and what is left of it for this turn.
     fn pass(&mut self, swept: Swept, piece: Piece, rest: Option<Station<D::Place>>) -> Done {
         let rule = self.parts.last().unwrap_or(&self.stations[self.next]).rule;
         let work = 0.5 * (piece.to - piece.from) * rule.rounded_integral(&swept.spent);
-        self.kinetic = swept.end;
+        // Under steep loads the end is not the start and the gain.
+        let summed = swept.end == self.kinetic + swept.gain;
+        (self.kinetic, self.kinetic_low) = if summed {
+            two_sum(self.kinetic, swept.gain + self.kinetic_low)
+        } else {
+            (swept.end, 0.0)
+        };
         self.gain += swept.gain;
         self.fastest = self.fastest.max(self.kinetic);
         self.work += work;
@@ -236,7 +233,7 @@ impl<'a, D: Driven> March<'a, D> {
     }
 
     /// Raises the degree of the next panel, or cuts it: for this turn, and for all if it happens again.
-    fn refine(&mut self) -> Result<(), Unserved> {
+    fn refine(&mut self, why: Unsolved) -> Result<(), Unserved> {
         self.refined = true;
         let for_now = !self.parts.is_empty();
         let station = self
@@ -246,8 +243,12 @@ impl<'a, D: Driven> March<'a, D> {
         if station.raise(self.driven)? {
             return Ok(());
         }
-        let slow = self.kinetic < SLOW * self.fastest;
-        if slow && station.half().abs() < SHORT {
+        let half = station.half().abs();
+        // So is one that its forces brought to this energy within a small part of a radian.
+        let force = station.table.force[0] + station.table.push[0];
+        let slow = self.kinetic < SLOW * self.fastest.max(force.abs());
+        let stops = why == Unsolved::Stops && self.kinetic < STOPS * self.fastest && half < SOON;
+        if stops || slow && half < SHORT {
             return Err(Unserved::TooSlow);
         }
         let Some([first, second]) = station.parts(self.driven, 0.5, self.tail)? else {

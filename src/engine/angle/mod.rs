@@ -14,6 +14,7 @@ mod map;
 mod march;
 mod newton;
 mod one_turn;
+mod rest;
 mod station;
 mod steady;
 mod sweep;

@@ -42,13 +42,22 @@ const MOST_SWEEPS: u32 = 40;
 /// Sweeps that gain less than this factor give way to Newton's method.
 const SLOW: f64 = 0.3;
 
-/// Solves a panel to a part `tail`; none if the panel is too long for that.
+/// Why a panel is not solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Unsolved {
+    /// It is too long for its degree.
+    TooLong,
+    /// The crank seems to stop on it.
+    Stops,
+}
+
+/// Solves a panel to a part `tail`.
 pub(super) fn sweep<D: Driven>(
     driven: &D,
     station: &Station<D::Place>,
     start: Start,
     tail: f64,
-) -> Option<Swept> {
+) -> Result<Swept, Unsolved> {
     let half = station.half();
     let count = station.rule.degree() + 1;
     let mut kinetic = station.guess(start.kinetic);
@@ -56,7 +65,7 @@ pub(super) fn sweep<D: Driven>(
     let mut before = f64::INFINITY;
     let mut evaluations = 0;
     for _ in 0..MOST_SWEEPS {
-        let slopes = slopes(station, &kinetic)?;
+        let slopes = slopes(station, &kinetic).ok_or(Unsolved::TooLong)?;
         let forces = Forces::new(driven, station, start, &slopes);
         evaluations += count as u64;
         let gained = station.rule.integrals(&forces.total);
@@ -64,15 +73,18 @@ pub(super) fn sweep<D: Driven>(
             std::array::from_fn(|j| start.kinetic + half * gained[j] - kinetic[j]);
         if newton {
             let rates = forces.rates(driven, station, start, &slopes);
-            correction(station.rule, half, &rates, &mut change)?;
+            correction(station.rule, half, &rates, &mut change).ok_or(Unsolved::TooLong)?;
             keep_positive(&kinetic, &mut change);
         }
         let mut largest: f64 = 0.0;
         for j in 0..count {
             kinetic[j] += change[j];
             largest = largest.max((change[j] / kinetic[j]).abs());
-            if kinetic[j].is_nan() || kinetic[j] <= 0.0 {
-                return None;
+            if kinetic[j].is_nan() {
+                return Err(Unsolved::TooLong);
+            }
+            if kinetic[j] <= 0.0 {
+                return Err(Unsolved::Stops);
             }
         }
         // What is left is smaller than the last change by the factor that was gained.
@@ -84,17 +96,18 @@ pub(super) fn sweep<D: Driven>(
         let left = largest * if newton { factor.min(SLOW) } else { factor };
         let at_rounding = largest < 1e-14 && largest >= 0.3 * before;
         if left <= tail || at_rounding {
-            let mut swept = finish(driven, station, start, kinetic, tail, evaluations)?;
+            let mut swept = finish(driven, station, start, kinetic, tail, evaluations)
+                .ok_or(Unsolved::TooLong)?;
             if !newton {
                 // One sweep better than the last point; under steep loads it would be worse.
                 swept.end = start.kinetic + swept.gain;
             }
-            return Some(swept);
+            return Ok(swept);
         }
         newton |= before.is_finite() && largest > SLOW * before;
         before = largest;
     }
-    None
+    Err(Unsolved::TooLong)
 }
 
 /// Shortens a change that would leave less than a tenth of the kinetic energy somewhere.

@@ -18,6 +18,8 @@ pub(in crate::engine) struct Mark {
     pub kinetic: f64,
     /// Work of the loads without a potential until here, J.
     pub work: f64,
+    /// What the rounded energy and work leave out, J: turns that gain the same round in the same direction.
+    pub low: [f64; 2],
 }
 
 impl Mark {
@@ -29,11 +31,14 @@ impl Mark {
     /// The start of the turn after `count` turns like this one.
     pub fn after(&self, step: &Turn, count: f64) -> Mark {
         let (sum, lost) = two_sum(self.t.0, count * step.duration);
+        let (kinetic, kinetic_low) = two_sum(self.kinetic, count * step.gain + self.low[0]);
+        let (work, work_low) = two_sum(self.work, count * step.work + self.low[1]);
         Mark {
             turns: self.turns + count,
             t: two_sum(sum, lost + self.t.1),
-            kinetic: self.kinetic + count * step.gain,
-            work: self.work + count * step.work,
+            kinetic,
+            work,
+            low: [kinetic_low, work_low],
         }
     }
 }

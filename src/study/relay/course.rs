@@ -104,6 +104,10 @@ impl Pass<'_, '_> {
                 }
             }
             let wait = if turns { self.wait } else { f64::INFINITY };
+            let before = &self.arrived;
+            if before.over_angle > 0 && before.last.is_none() {
+                self.arrived.to_time += 1;
+            }
             let back = match self.course.sliding {
                 Some(sliding) => self.with_friction(sliding, wait),
                 None => self.in_time(wait),
@@ -165,6 +169,8 @@ impl Pass<'_, '_> {
             speed,
         };
         if let Some(short) = short {
+            let shaken = 0.5 * f64::EPSILON * largest / short.kinetic * speed.abs();
+            arrived.speed_noise = arrived.speed_noise.max(shaken);
             let way = angle.minus(begin.angle).abs();
             let soon = way < 2.0 * self.wait;
             self.wait = if soon {
@@ -172,7 +178,6 @@ impl Pass<'_, '_> {
             } else {
                 self.course.wait
             };
-            arrived.to_time += u64::from(short.why != Unserved::TooLong);
         }
         self.observer.over_angle(begin, end, driving)?;
         Ok(short.map(|short| short.why))

@@ -32,10 +32,30 @@ struct Shaken {
     steps: u64,
     /// When the first piece in time begins, s.
     since: Option<f64>,
+    /// The way since then, rad, and the largest speed on it, rad/s.
+    way: f64,
+    fastest: f64,
+}
+
+impl Shaken {
+    fn pass(&mut self, way: f64, speed: f64) {
+        if self.since.is_some() {
+            self.way += way.abs();
+            self.fastest = self.fastest.max(speed.abs());
+        }
+    }
+
+    /// How long an error of the speed goes on to move the angle, s: a loss that brings the crank to rest ends it.
+    fn lasting(&self, end: f64) -> f64 {
+        let remaining = end - self.since.unwrap_or(end);
+        remaining.min(2.0 * self.way / self.fastest.max(f64::MIN_POSITIVE))
+    }
 }
 
 impl Observer for Shaken {
-    fn over_angle(&mut self, _: Start, _: f64, _: Driving) -> Result<(), Error> {
+    fn over_angle(&mut self, from: Start, _: f64, driving: Driving) -> Result<(), Error> {
+        let (angle, speed) = driving.orbit.state(driving.end);
+        self.pass(angle.minus(from.angle), speed.abs().max(from.speed.abs()));
         Ok(())
     }
 
@@ -46,6 +66,7 @@ impl Observer for Shaken {
     fn step(&mut self, step: &Step) -> bool {
         self.steps += 1;
         self.unevenness += unevenness(step);
+        self.pass(step.end.theta - step.start.theta, step.end.omega);
         self.largest_speed = self.largest_speed.max(step.end.omega.abs());
         false
     }
@@ -104,12 +125,12 @@ pub(super) fn estimate(
     let floor = late_by(task, (end.angle, end.speed), end.t, ROUNDING * end.t);
     let noise = f64::EPSILON
         * (0.5 * shaken.largest_speed * (2.0 * shaken.steps as f64).sqrt()
-            + shaken.unevenness.sqrt());
-    let remaining = end.t - shaken.since.unwrap_or(end.t);
+            + shaken.unevenness.sqrt())
+        + best.speed_noise;
     let estimate = ErrorEstimate {
         theta_rad: MARGIN * end.angle.minus(best.now.angle).abs()
             + floor.theta_rad
-            + noise * remaining,
+            + noise * shaken.lasting(end.t),
         omega_rad_per_s: MARGIN * (end.speed - best.now.speed).abs()
             + floor.omega_rad_per_s
             + noise,
