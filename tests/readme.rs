@@ -78,7 +78,8 @@ fn every_command_line_works() {
         shown.insert(arguments[0].clone());
         let mut file = None;
         for i in 1..arguments.len() {
-            if arguments[i - 1] == "--out" && arguments[i] != "-" {
+            let names_a_file = ["--out", "--plot"].contains(&arguments[i - 1].as_str());
+            if names_a_file && arguments[i] != "-" {
                 let path = folder.path().join(&arguments[i]);
                 arguments[i] = path.to_str().expect("a plain path").to_owned();
                 file = Some(path);

@@ -171,7 +171,10 @@ fn extremes_are_computed_or_refused() {
             }
             let summary = run_with(scene, &options);
             let Some(why) = summary.stopped else {
-                assert!(summary.energy_residual.abs() < 1e-6, "{number} {method}");
+                // Next to nothing moves: the potential rounds by more than that.
+                let kept =
+                    summary.energy_residual_j.abs() < 1e-14 || summary.energy_residual.abs() < 1e-6;
+                assert!(kept, "{number} {method}");
                 assert!(summary.error_estimate.is_some(), "{number} {method}");
                 continue;
             };

@@ -102,17 +102,19 @@ impl Observer for Noise<'_> {
 }
 
 impl Spread {
+    /// This one, or the one before where numbers have become too large.
+    fn or(self, before: &Spread) -> Spread {
+        let finite = self.angle.is_finite() && self.both.is_finite() && self.speed.is_finite();
+        if finite { self } else { *before }
+    }
+
     fn plus(&self, other: &Spread) -> Spread {
         let sum = Spread {
             angle: self.angle + other.angle,
             both: self.both + other.both,
             speed: self.speed + other.speed,
         };
-        if sum.angle.is_finite() && sum.both.is_finite() && sum.speed.is_finite() {
-            sum
-        } else {
-            *self
-        }
+        sum.or(self)
     }
 
     /// After a time h (s) of δq̈ = a δq + b δq̇.
@@ -124,7 +126,7 @@ impl Spread {
             both: c11 * c21 * angle + (c11 * c22 + c12 * c21) * both + c12 * c22 * speed,
             speed: c21 * c21 * angle + 2.0 * c21 * c22 * both + c22 * c22 * speed,
         };
-        Spread::default().plus(&next)
+        next.or(self)
     }
 }
 

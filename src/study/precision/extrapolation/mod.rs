@@ -103,6 +103,6 @@ pub(super) fn follow<const N: usize, const M: usize, P: Pieces<N, M>>(
         if stalled > STALLED {
             return None;
         }
-        h = 0.1 * h;
+        h *= 0.1;
     }
 }

@@ -168,12 +168,12 @@ impl<const N: usize, const M: usize, P: Pieces<N, M>> Run<'_, N, M, P> {
             let parts = 2 * (row + 1);
             let mut last = self.midpoint(mode, y, &first, h, parts);
             // Aitken and Neville in powers of the square of the small step.
-            for column in 0..row {
+            for (column, entry) in table.iter_mut().enumerate() {
                 let ratio = parts as f64 / (2 * (row - column)) as f64;
                 let weight = DoubleDouble::ONE / (DoubleDouble::from(ratio) * ratio - 1.0);
-                let before = table[column];
+                let before = *entry;
                 let better = std::array::from_fn(|i| last[i] + (last[i] - before[i]) * weight);
-                table[column] = last;
+                *entry = last;
                 error = (1..N).fold(0.0, |most: f64, i| {
                     let change = (better[i] - last[i]).value().abs();
                     let part = change / (self.fineness.tolerance * sizes[i]);

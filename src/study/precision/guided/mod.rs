@@ -54,7 +54,7 @@ impl<'a> Guided<'a> {
         let start = self.start(scene)?;
         let first = match self.friction {
             None => Change::Mode(None),
-            Some(_) if start[3].value() == 0.0 => self.from_rest(&start),
+            Some(_) if start[3].value() == 0.0 => self.onwards(&start),
             Some(_) => {
                 let equations = self.equations(&start);
                 self.sliding(&equations, equations.v.value().signum())
@@ -104,7 +104,8 @@ impl<'a> Guided<'a> {
         }
     }
 
-    fn from_rest(&self, y: &State<NUMBERS>) -> Change<Mode> {
+    /// How it goes on where the slider has stopped.
+    fn onwards(&self, y: &State<NUMBERS>) -> Change<Mode> {
         let Some(friction) = self.friction else {
             return Change::Mode(None);
         };
@@ -178,7 +179,7 @@ impl Pieces<NUMBERS, MARGINS> for Guided<'_> {
         match which {
             // The slider stops while the crank turns on: a dead centre.
             0 if fastest(y) > 1e-18 * self.pace => Change::Mode(Some((-velocity, normal))),
-            0 => self.from_rest(y),
+            0 => self.onwards(y),
             1 => Change::Mode(Some((velocity, -normal))),
             _ => Change::Ends,
         }

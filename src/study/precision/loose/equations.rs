@@ -168,12 +168,13 @@ fn product(a: Triple, b: Triple) -> DoubleDouble {
 /// The solution of three linear equations with a symmetric matrix, by elimination.
 pub(super) fn solved(mut m: [Triple; 3], mut q: Triple) -> Triple {
     for i in 0..3 {
+        let (pivot, right) = (m[i], q[i]);
         for j in i + 1..3 {
-            let factor = m[j][i] / m[i][i];
-            for k in i..3 {
-                m[j][k] = m[j][k] - factor * m[i][k];
+            let factor = m[j][i] / pivot[i];
+            for (entry, above) in m[j].iter_mut().zip(pivot).skip(i) {
+                *entry = *entry - factor * above;
             }
-            q[j] = q[j] - factor * q[i];
+            q[j] = q[j] - factor * right;
         }
     }
     for i in (0..3).rev() {
