@@ -5,6 +5,7 @@ mod contact;
 mod method;
 mod periodic;
 mod refusal;
+mod rubbing;
 mod terms;
 
 use std::borrow::Cow;
@@ -226,26 +227,9 @@ fn engine(
             Some(Stepper::Picard),
             reason("a change point: integration in time along the configuration curve"),
         )),
-        (Method::Energy, false) if scene.friction.is_some() => Err(Error::refused(
-            "method energy cannot serve Coulomb friction, whose work depends on the speed",
-            "use --method auto, angle, time, dop853 or dopri5",
-        )),
-        (Method::Auto | Method::Angle, false)
-            if scene.friction.is_some() && class == Class::RotatingCrank && angle_serves(scene) =>
-        {
-            Ok((
-                Engine::Angle,
-                None,
-                reason(
-                    "the crank turns: its energy and the time over the crank angle, with Coulomb friction piece by piece between its changes",
-                ),
-            ))
+        (Method::Auto | Method::Energy | Method::Angle, false) if scene.friction.is_some() => {
+            rubbing::engine(method, scene, class)
         }
-        (Method::Auto, false) if scene.friction.is_some() => Ok((
-            Engine::Time,
-            Some(Stepper::Picard),
-            reason("Coulomb friction: integration in time, piece by piece between its changes"),
-        )),
         (Method::Auto | Method::Energy, false) if energy_serves(loads, scene) => Ok((
             Engine::Energy,
             None,
@@ -260,17 +244,13 @@ fn engine(
             ),
             "use --method auto; energy needs loads of theta and x alone, tables over theta only, and formulas without step, sign, floor and mod",
         )),
-        (Method::Auto | Method::Angle, false)
-            if scene.friction.is_none() && angle_serves(scene) =>
-        {
-            Ok((
-                Engine::Angle,
-                None,
-                reason(
-                    "the crank turns: its energy and the time over the crank angle; where it comes near to rest, integration in time takes over",
-                ),
-            ))
-        }
+        (Method::Auto | Method::Angle, false) if angle_serves(scene) => Ok((
+            Engine::Angle,
+            None,
+            reason(
+                "the crank turns: its energy and the time over the crank angle; where it comes near to rest, integration in time takes over",
+            ),
+        )),
         (Method::Angle, false) => Err(Error::refused(
             "method angle needs a crank that turns from the start, tables over theta only, formulas without step, sign, floor and mod, and loads over theta that repeat with each turn",
             "use --method auto, time, dop853 or dopri5",

@@ -23,13 +23,13 @@ const SOON: f64 = 0.25;
 /// A run over the angle: the panels of a turn, and where it has come to.
 #[derive(Clone)]
 pub(super) struct March<'a, D: Driven> {
-    driven: &'a D,
-    tail: f64,
+    pub(super) driven: &'a D,
+    pub(super) tail: f64,
     direction: f64,
-    stations: Vec<Station<D::Place>>,
+    pub(super) stations: Vec<Station<D::Place>>,
     /// Parts of a panel that was too long this time, the next one last.
-    parts: Vec<Station<D::Place>>,
-    next: usize,
+    pub(super) parts: Vec<Station<D::Place>>,
+    pub(super) next: usize,
     /// When the run begins, s.
     pub begin: f64,
     /// Time since then, s; rounded value and rest.
@@ -196,26 +196,6 @@ impl<'a, D: Driven> March<'a, D> {
                 }
             }
             self.evaluations += swept.evaluations;
-        }
-    }
-
-    /// What is left of the next panel from an angle on.
-    fn rest(&self, from: f64) -> Result<Station<D::Place>, Unserved> {
-        let whole = &self.stations[self.next];
-        let station = self.parts.last().unwrap_or(whole);
-        let index = station.is_rest.map_or(0, |index| index + 1);
-        station.rest(self.driven, from, index, whole.rests.get(index), self.tail)
-    }
-
-    /// Keeps what was found on a rest for the next turn.
-    fn remember_rest(&mut self) {
-        if let Some((index, rest)) = self.parts.last().and_then(Station::as_rest) {
-            let rests = &mut self.stations[self.next].rests;
-            if index < rests.len() {
-                rests[index] = rest;
-            } else {
-                rests.push(rest);
-            }
         }
     }
 

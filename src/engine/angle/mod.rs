@@ -6,11 +6,15 @@
 //! Newton's method where the loads are steep in the speed. What depends on the position alone is tabulated
 //! once and used in every turn. Where time does not occur, a turn maps the kinetic energy at its start to
 //! that at its end: long runs iterate an interpolant of this map.
+//!
+//! The forces may have two forms, one on each side of a zero of a function of the state, the switch. A panel ends
+//! there, and what is left of it is solved with the other form.
 
 mod map;
 mod march;
 mod newton;
 mod one_turn;
+mod rest;
 mod station;
 mod steady;
 mod sweep;

@@ -56,9 +56,11 @@ impl Swept {
     /// The same until a part of the panel.
     pub fn until(&self, rule: &Rule, start: Start, share: f64) -> Swept {
         let inside = rule.values(|x| share * (1.0 + x) - 1.0);
-        let only = |values: Values| rule.known(values);
-        let slopes = only(self.slope.values(&inside).map(|slope| share * slope));
-        let spent = only(rule.series(&self.spent).values(&inside));
+        let mut slopes = self.slope.values(&inside).map(|slope| share * slope);
+        let mut spent = rule.series(&self.spent).values(&inside);
+        for values in [&mut slopes, &mut spent] {
+            values[rule.degree() + 1..].fill(0.0);
+        }
         let end = rule.series(&self.kinetic).value(2.0 * share - 1.0);
         Swept {
             slope: rule.series(&slopes),

@@ -133,12 +133,6 @@ impl Rule {
         &self.points[..=self.degree]
     }
 
-    /// Values of which those beyond the points are zero.
-    pub fn known(&self, mut values: Values) -> Values {
-        values[self.degree + 1..].fill(0.0);
-        values
-    }
-
     /// Values of a function at the points.
     pub fn values(&self, mut f: impl FnMut(f64) -> f64) -> Values {
         let mut values = [0.0; MOST + 1];

@@ -1,0 +1,69 @@
+//! Which engine computes a motion with Coulomb friction at the guide.
+
+use std::f64::consts::TAU;
+
+use super::{Engine, Method, Stepper, angle_serves};
+use crate::error::Error;
+use crate::mechanism::{Class, Constrained, Curve, Linkage};
+use crate::scene::Scene;
+
+/// Angles of a turn at which the guide is looked at.
+const PLACES: u32 = 64;
+
+/// The engine of a scene with friction.
+pub(super) fn engine(
+    method: Method,
+    scene: &Scene,
+    class: Class,
+) -> Result<(Engine, Option<Stepper>, String), Error> {
+    let help = "use --method auto, time, dop853 or dopri5";
+    if method == Method::Energy {
+        return Err(Error::refused(
+            "method energy cannot serve Coulomb friction, whose work depends on the speed",
+            "use --method auto, angle, time, dop853 or dopri5",
+        ));
+    }
+    match why_not_angle(scene, class) {
+        None => Ok((
+            Engine::Angle,
+            None,
+            "the crank turns: its energy and the time over the crank angle, with Coulomb friction piece by piece between its changes; where it comes near to rest, integration in time takes over".to_owned(),
+        )),
+        Some(why) if method == Method::Angle => Err(Error::refused(
+            format!("method angle cannot serve this motion with Coulomb friction: {why}"),
+            help,
+        )),
+        Some(why) => Ok((
+            Engine::Time,
+            Some(Stepper::Picard),
+            format!("Coulomb friction, and {why}: integration in time, piece by piece between its changes"),
+        )),
+    }
+}
+
+fn why_not_angle(scene: &Scene, class: Class) -> Option<&'static str> {
+    if class != Class::RotatingCrank {
+        Some("the crank cannot turn fully")
+    } else if scene.motion.speed == 0.0 {
+        Some("the crank starts at rest")
+    } else if !angle_serves(scene) {
+        Some(
+            "a load jumps, is a table over another variable than theta, or does not repeat with each turn",
+        )
+    } else if jams(scene) {
+        Some("the slider jams in its guide at an angle of the turn")
+    } else {
+        None
+    }
+}
+
+/// Whether rigid bodies jam at one of some angles of the turn.
+fn jams(scene: &Scene) -> bool {
+    let linkage = Linkage::new(&scene.geometry);
+    let guide = Constrained::new(scene, Curve::on_crank(&linkage));
+    let mu = guide
+        .friction()
+        .map_or(0.0, |friction| friction.coefficient);
+    let theta = |i: u32| TAU * f64::from(i) / f64::from(PLACES);
+    (0..PLACES).any(|i| guide.across(theta(i)).normal().grip(mu).is_none())
+}
