@@ -1,5 +1,6 @@
 //! Which engine computes a motion with Coulomb friction at the guide.
 
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 use super::{Engine, Method, Stepper, angle_serves};
@@ -15,7 +16,7 @@ pub(super) fn engine(
     method: Method,
     scene: &Scene,
     class: Class,
-) -> Result<(Engine, Option<Stepper>, String), Error> {
+) -> Result<(Engine, Option<Stepper>, Cow<'static, str>), Error> {
     let help = "use --method auto, time, dop853 or dopri5";
     if method == Method::Energy {
         return Err(Error::refused(
@@ -27,7 +28,7 @@ pub(super) fn engine(
         None => Ok((
             Engine::Angle,
             None,
-            "the crank turns: its energy and the time over the crank angle, with Coulomb friction piece by piece between its changes; where it comes near to rest, integration in time takes over".to_owned(),
+            "the crank turns: its energy and the time over the crank angle, with Coulomb friction piece by piece between its changes; where it comes near to rest, integration in time takes over".into(),
         )),
         Some(why) if method == Method::Angle => Err(Error::refused(
             format!("method angle cannot serve this motion with Coulomb friction: {why}"),
@@ -36,7 +37,7 @@ pub(super) fn engine(
         Some(why) => Ok((
             Engine::Time,
             Some(Stepper::Picard),
-            format!("Coulomb friction, and {why}: integration in time, piece by piece between its changes"),
+            format!("Coulomb friction, and {why}: integration in time, piece by piece between its changes").into(),
         )),
     }
 }
