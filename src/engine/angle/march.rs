@@ -1,6 +1,6 @@
 //! Panel after panel, turn after turn.
 
-use super::station::{Station, stations};
+use super::station::{Fineness, Station, stations};
 use super::sweep::{Start, Swept, sweep};
 use super::{Driven, Resolution};
 use crate::engine::energy::Unserved;
@@ -18,12 +18,14 @@ const SHORT: f64 = 1e-3;
 #[derive(Clone)]
 pub(super) struct March<'a, D: Driven> {
     driven: &'a D,
-    tail: f64,
+    fine: Fineness,
     direction: f64,
     stations: Vec<Station<D::Place>>,
     /// Parts of a panel that was too long this time, the next one last.
     parts: Vec<Station<D::Place>>,
     next: usize,
+    /// The motion on the last panel.
+    swept: Swept,
     /// s, rounded value and rest
     pub t: (f64, f64),
     /// J
@@ -58,12 +60,15 @@ impl<'a, D: Driven> March<'a, D> {
         speed: f64,
         resolution: Resolution,
     ) -> Result<March<'a, D>, Unserved> {
-        let (direction, tail) = (speed.signum(), resolution.tail);
-        let mut stations = stations(driven, start.rest, direction, tail)?;
+        let fine = Fineness {
+            tail: resolution.tail,
+            speed,
+        };
+        let mut stations = stations(driven, start.rest, fine)?;
         if resolution.other {
             let mut cut = Vec::with_capacity(2 * stations.len());
             for station in stations {
-                match station.parts(driven, 0.37, tail)? {
+                match station.parts(driven, 0.37, fine)? {
                     Some(parts) => cut.extend(parts),
                     None => cut.push(station),
                 }
@@ -79,11 +84,12 @@ impl<'a, D: Driven> March<'a, D> {
         }
         Ok(March {
             driven,
-            tail,
-            direction,
+            fine,
+            direction: speed.signum(),
             stations,
             parts: Vec::new(),
             next: 0,
+            swept: Swept::new(),
             t: (0.0, 0.0),
             kinetic,
             turns: 0.0,
@@ -141,18 +147,18 @@ impl<'a, D: Driven> March<'a, D> {
                 .parts
                 .last_mut()
                 .unwrap_or(&mut self.stations[self.next]);
-            if let Some(swept) = sweep(self.driven, station, start, self.tail) {
-                station.remember(&swept.kinetic);
-                return Ok(self.pass(swept));
+            if sweep(self.driven, station, start, self.fine.tail, &mut self.swept).is_some() {
+                station.remember(&self.swept.kinetic);
+                return Ok(self.pass());
             }
             self.refine()?;
         }
     }
 
-    fn pass(&mut self, swept: Swept) -> Done {
+    fn pass(&mut self) -> Done {
         let station = self.parts.last().unwrap_or(&self.stations[self.next]);
-        let (piece, rule) = (station.piece, station.rule);
-        let work = station.half() * rule.rounded_integral(&swept.spent);
+        let (piece, rule, swept) = (station.piece, station.rule, &self.swept);
+        let work = station.half() * rule.rounded_integral(swept.spent());
         self.kinetic = swept.end;
         self.gain += swept.gain;
         self.fastest = self.fastest.max(self.kinetic);
@@ -172,7 +178,7 @@ impl<'a, D: Driven> March<'a, D> {
         }
         Done {
             panel,
-            spent: swept.spent,
+            spent: *self.swept.spent(),
             work,
         }
     }
@@ -192,7 +198,7 @@ impl<'a, D: Driven> March<'a, D> {
         if slow && station.half().abs() < SHORT {
             return Err(Unserved::TooSlow);
         }
-        let Some([first, second]) = station.parts(self.driven, 0.5, self.tail)? else {
+        let Some([first, second]) = station.parts(self.driven, 0.5, self.fine)? else {
             return Err(if slow {
                 Unserved::TooSlow
             } else {
@@ -216,7 +222,7 @@ impl<'a, D: Driven> March<'a, D> {
         let stations = std::mem::take(&mut self.stations);
         for station in stations {
             let parts = if station.failed {
-                station.parts(self.driven, 0.5, self.tail)?
+                station.parts(self.driven, 0.5, self.fine)?
             } else {
                 None
             };

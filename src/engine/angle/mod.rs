@@ -7,10 +7,12 @@
 //! once and used in every turn. Where time does not occur, a turn maps the kinetic energy at its start to
 //! that at its end: long runs iterate an interpolant of this map.
 
+mod forces;
 mod map;
 mod march;
 mod newton;
 mod one_turn;
+mod past;
 mod station;
 mod steady;
 mod sweep;
