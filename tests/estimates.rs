@@ -325,12 +325,13 @@ fn stated_errors_are_near_the_true_ones() {
             }
             let above = |part| quantile(found.iter().map(|one| one.above()).collect(), part);
             assert!(above(0.99) <= 6.0, "{method} {what}: {}", above(0.99));
-            // What the test can see: the energy engine alone is at its rounding always.
+            // What the test can see: the energy engine is at its rounding always, the angle engine often, as it
+            // resolves the forces further than the tolerance asks.
             let over_floor = found.iter().filter(|one| one.distance > one.floor);
-            let usual = if method == "energy" {
-                0
-            } else {
-                found.len() / 2
+            let usual = match method {
+                "energy" => 0,
+                "angle" => found.len() / 3,
+                _ => found.len() / 2,
             };
             assert!(over_floor.count() >= usual, "{method} {what}");
         }

@@ -77,6 +77,30 @@ impl Equation {
         }
     }
 
+    /// The same at the first `count` of them; what is beyond is zero.
+    pub fn first_positions<const N: usize>(&self, theta: &[f64; N], count: usize) -> Positions<N> {
+        const LANES: usize = 4;
+        let mut all = Positions {
+            x: [0.0; N],
+            dx: [0.0; N],
+            m: [0.0; N],
+            half_dm: [0.0; N],
+            dv: [0.0; N],
+        };
+        for begin in (0..count).step_by(LANES) {
+            let some = std::array::from_fn(|i| theta[(begin + i).min(N - 1)]);
+            let at: Positions<LANES> = self.positions(&some);
+            for (i, j) in (begin..count).take(LANES).enumerate() {
+                all.x[j] = at.x[i];
+                all.dx[j] = at.dx[i];
+                all.m[j] = at.m[i];
+                all.half_dm[j] = at.half_dm[i];
+                all.dv[j] = at.dv[i];
+            }
+        }
+        all
+    }
+
     #[inline(always)]
     fn sides<const N: usize>(&self, pose: impl Fn(usize) -> Pose) -> Positions<N> {
         let mut sides = Positions {

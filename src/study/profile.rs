@@ -149,7 +149,7 @@ impl Driven for Position<'_> {
         self.count(count);
         let loads = self.equation.loads();
         let driven = self.is_driven();
-        let at = self.equation.positions(angles);
+        let at = self.equation.first_positions(angles, count);
         table.places.clear();
         let mut of_place = Vec::new();
         for (i, angle) in angles.iter().enumerate().take(count) {

@@ -1,6 +1,6 @@
 //! Panel after panel, turn after turn.
 
-use super::station::{Station, stations};
+use super::station::{Fineness, Station, stations};
 use super::sweep::{Start, Swept, Unsolved, sweep};
 use super::switch::{Side, side};
 use super::{Driven, Resolution};
@@ -24,12 +24,14 @@ const SOON: f64 = 0.25;
 #[derive(Clone)]
 pub(super) struct March<'a, D: Driven> {
     pub(super) driven: &'a D,
-    pub(super) tail: f64,
+    pub(super) fine: Fineness,
     direction: f64,
     pub(super) stations: Vec<Station<D::Place>>,
     /// Parts of a panel that was too long this time, the next one last.
     pub(super) parts: Vec<Station<D::Place>>,
     pub(super) next: usize,
+    /// The motion on the last panel.
+    swept: Swept,
     /// When the run begins, s.
     pub begin: f64,
     /// Time since then, s; rounded value and rest.
@@ -70,12 +72,15 @@ impl<'a, D: Driven> March<'a, D> {
         speed: f64,
         resolution: Resolution,
     ) -> Result<March<'a, D>, Unserved> {
-        let (direction, tail) = (speed.signum(), resolution.tail);
-        let mut stations = stations(driven, start.rest, direction, tail)?;
+        let fine = Fineness {
+            tail: resolution.tail,
+            speed,
+        };
+        let mut stations = stations(driven, start.rest, fine)?;
         if resolution.other {
             let mut cut = Vec::with_capacity(2 * stations.len());
             for station in stations {
-                match station.parts(driven, 0.37, tail)? {
+                match station.parts(driven, 0.37, fine)? {
                     Some(parts) => cut.extend(parts),
                     None => cut.push(station),
                 }
@@ -91,11 +96,12 @@ impl<'a, D: Driven> March<'a, D> {
         }
         Ok(March {
             driven,
-            tail,
-            direction,
+            fine,
+            direction: speed.signum(),
             stations,
             parts: Vec::new(),
             next: 0,
+            swept: Swept::new(),
             begin: 0.0,
             t: (0.0, 0.0),
             kinetic,
@@ -163,24 +169,22 @@ impl<'a, D: Driven> March<'a, D> {
                 .parts
                 .last_mut()
                 .unwrap_or(&mut self.stations[self.next]);
-            let swept = match sweep(self.driven, station, start, self.tail) {
-                Ok(swept) => swept,
-                Err(why) => {
-                    self.refine(why)?;
-                    continue;
-                }
-            };
-            match side(self.driven, station, start, &swept) {
+            let swept = &mut self.swept;
+            if let Err(why) = sweep(self.driven, station, start, self.fine.tail, swept) {
+                self.refine(why)?;
+                continue;
+            }
+            match side(self.driven, station, start, swept) {
                 Side::Stays => {
                     station.remember(&swept.kinetic);
                     let piece = station.piece;
                     self.remember_rest();
-                    return Ok(self.pass(swept, piece, None));
+                    return Ok(self.pass(piece, None));
                 }
                 // Once more the other way round: then it has no sign.
                 Side::Other if turned_over == 2 => {
                     let piece = station.piece;
-                    return Ok(self.pass(swept, piece, None));
+                    return Ok(self.pass(piece, None));
                 }
                 Side::Other => {
                     turned_over += 1;
@@ -189,20 +193,21 @@ impl<'a, D: Driven> March<'a, D> {
                 Side::Leaves(share) => {
                     station.remember(&swept.kinetic);
                     let [first, rest] = station.piece.cut(share);
-                    let swept = swept.until(station.rule, start, share);
+                    swept.end_at(station.rule, start, share);
                     let rest = self.rest(rest.from)?;
                     self.remember_rest();
-                    return Ok(self.pass(swept, first, Some(rest)));
+                    return Ok(self.pass(first, Some(rest)));
                 }
             }
-            self.evaluations += swept.evaluations;
+            self.evaluations += self.swept.evaluations;
         }
     }
 
     /// Takes a panel over a piece of the next station, and what is left of it for this turn.
-    fn pass(&mut self, swept: Swept, piece: Piece, rest: Option<Station<D::Place>>) -> Done {
+    fn pass(&mut self, piece: Piece, rest: Option<Station<D::Place>>) -> Done {
+        let swept = &self.swept;
         let rule = self.parts.last().unwrap_or(&self.stations[self.next]).rule;
-        let work = 0.5 * (piece.to - piece.from) * rule.rounded_integral(&swept.spent);
+        let work = 0.5 * (piece.to - piece.from) * rule.rounded_integral(swept.spent());
         // Under steep loads the end is not the start and the gain.
         let summed = swept.end == self.kinetic + swept.gain;
         (self.kinetic, self.kinetic_low) = if summed {
@@ -230,7 +235,7 @@ impl<'a, D: Driven> March<'a, D> {
         }
         Done {
             panel,
-            spent: swept.spent,
+            spent: *self.swept.spent(),
             work,
         }
     }
@@ -255,7 +260,7 @@ impl<'a, D: Driven> March<'a, D> {
         if stops || slow && half < SHORT {
             return Err(Unserved::TooSlow);
         }
-        let Some([first, second]) = station.parts(self.driven, 0.5, self.tail)? else {
+        let Some([first, second]) = station.parts(self.driven, 0.5, self.fine)? else {
             // Its forces may have brought it to this energy within a small part of a radian.
             let force = station.table.force[0] + station.table.push[0];
             return Err(if slow || self.kinetic < SLOW * force.abs() {
@@ -281,7 +286,7 @@ impl<'a, D: Driven> March<'a, D> {
         let stations = std::mem::take(&mut self.stations);
         for station in stations {
             let parts = if station.failed {
-                station.parts(self.driven, 0.5, self.tail)?
+                station.parts(self.driven, 0.5, self.fine)?
             } else {
                 None
             };

@@ -10,10 +10,12 @@
 //! The forces may have two forms, one on each side of a zero of a function of the state, the switch. A panel ends
 //! there, and what is left of it is solved with the other form.
 
+mod forces;
 mod map;
 mod march;
 mod newton;
 mod one_turn;
+mod past;
 mod rest;
 mod station;
 mod steady;

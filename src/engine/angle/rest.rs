@@ -11,7 +11,7 @@ impl<D: Driven> March<'_, D> {
         let whole = &self.stations[self.next];
         let station = self.parts.last().unwrap_or(whole);
         let index = station.is_rest.map_or(0, |index| index + 1);
-        station.rest(self.driven, from, index, whole.rests.get(index), self.tail)
+        station.rest(self.driven, from, index, whole.rests.get(index), self.fine)
     }
 
     /// Keeps what was found on a rest for the next turn.

@@ -1,11 +1,12 @@
 //! The panels of one turn and what is known on them.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
+use super::past::Past;
 use super::{Driven, Table};
 use crate::engine::energy::Unserved;
 use crate::engine::energy::piece::{Piece, Turning};
-use crate::numeric::chebyshev::{Rule, Values};
+use crate::numeric::chebyshev::{MOST, Rule, Values};
 
 /// A panel with what depends on the position alone: the same in each turn.
 #[derive(Clone)]
@@ -15,8 +16,14 @@ pub(super) struct Station<P> {
     pub table: Table<P>,
     /// Side of the switch for which the table is, ±1.
     pub side: f64,
-    /// Kinetic energy at the points in the last turn and in the one before.
-    past: [Option<Values>; 2],
+    /// 2/M at the points, 1/(kg m²).
+    pub mobility: Values,
+    /// The largest force that has a potential, N m: at balance the others are as large.
+    pub largest_force: f64,
+    /// Kinetic energy in the last turns.
+    past: Past,
+    /// What a sweep left of the error of the one before.
+    pub factor: f64,
     /// Whether it was too long for a turn before.
     pub failed: bool,
     /// What was left of it after each change of the switch in the last turn.
@@ -33,40 +40,76 @@ pub(super) struct Rest {
     kinetic: Values,
 }
 
+/// What panels are to resolve.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fineness {
+    /// Series end where their coefficients have decayed to this.
+    pub tail: f64,
+    /// A usual speed of the crank, rad/s.
+    pub speed: f64,
+}
+
 /// Panels are not cut below this, rad.
 const SHORTEST: f64 = 1e-9;
+/// Panels are not longer at first, rad.
+const LONGEST: f64 = PI + 1e-9;
+/// What a sweep is taken to leave before it is known.
+const UNKNOWN: f64 = 0.3;
+/// What the forces leave out adds up over the turns: it is to be less by this.
+const ADDED_UP: f64 = 0.1;
 /// Degree of the series that are tried first.
 const FIRST_DEGREE: usize = 24;
 
 impl<P: Copy> Station<P> {
-    /// The panel from one angle to another; its degree is the least that resolves inertia and force to `tail`.
+    /// The panel from one angle to another; its degree is the least that resolves inertia and forces, after one
+    /// that is tried first.
     pub fn new<D: Driven<Place = P>>(
         driven: &D,
         [from, to]: [f64; 2],
         side: f64,
-        tail: f64,
+        fine: Fineness,
+        first: usize,
     ) -> Result<Station<P>, Unserved> {
-        let mut station = Station {
-            piece: Piece {
-                from,
-                to,
-                turning: Turning::Nowhere,
-            },
-            rule: Rule::of(FIRST_DEGREE),
+        let piece = Piece {
+            from,
+            to,
+            turning: Turning::Nowhere,
+        };
+        let mut station = Station::empty(piece, Rule::of(first), side);
+        station.tabulate(driven)?;
+        loop {
+            let enough = station.degree_for(fine);
+            let tried = station.rule.degree();
+            let degree = enough.unwrap_or(if tried < FIRST_DEGREE {
+                FIRST_DEGREE
+            } else {
+                MOST
+            });
+            if degree != tried {
+                station.rule = Rule::of(degree);
+                station.tabulate(driven)?;
+            }
+            if enough.is_some() || degree == MOST {
+                break;
+            }
+        }
+        Ok(station)
+    }
+
+    fn empty(piece: Piece, rule: &'static Rule, side: f64) -> Station<P> {
+        Station {
+            piece,
+            rule,
             table: Table::default(),
             side,
-            past: [None; 2],
+            mobility: [0.0; MOST + 1],
+            largest_force: 0.0,
+            past: Past::new(),
+            factor: UNKNOWN,
             failed: false,
             rests: Vec::new(),
             is_rest: None,
-        };
-        station.tabulate(driven)?;
-        let enough = station.degree_for(tail);
-        if enough != FIRST_DEGREE {
-            station.rule = Rule::of(enough);
-            station.tabulate(driven)?;
         }
-        Ok(station)
     }
 
     /// What is left of the panel from an angle on, beyond the change number `index` of the switch, for the other
@@ -77,34 +120,33 @@ impl<P: Copy> Station<P> {
         from: f64,
         index: usize,
         known: Option<&Rest>,
-        tail: f64,
+        fine: Fineness,
     ) -> Result<Station<P>, Unserved> {
         let piece = Piece { from, ..self.piece };
-        let Some(known) = known else {
-            let ends = [from, piece.to];
-            let mut station = Station::new(driven, ends, -self.side, tail)?;
-            station.is_rest = Some(index);
-            return Ok(station);
+        let mut station = match known {
+            None => Station::new(driven, [from, piece.to], -self.side, fine, FIRST_DEGREE)?,
+            Some(known) => {
+                let mut station = Station::empty(piece, known.rule, -self.side);
+                station.past.remember(&known.kinetic);
+                station.tabulate(driven)?;
+                station
+            }
         };
-        let mut station = Station {
-            piece,
-            rule: known.rule,
-            table: Table::default(),
-            side: -self.side,
-            past: [Some(known.kinetic), None],
-            failed: false,
-            rests: Vec::new(),
-            is_rest: Some(index),
-        };
-        station.tabulate(driven)?;
+        station.is_rest = Some(index);
         Ok(station)
     }
 
     /// It as the rest of another station.
     pub fn as_rest(&self) -> Option<(usize, Rest)> {
-        let kinetic = self.past[0]?;
-        let rule = self.rule;
+        let (rule, kinetic) = (self.rule, *self.past.last()?);
         Some((self.is_rest?, Rest { rule, kinetic }))
+    }
+
+    /// Goes over to the other side of the switch.
+    pub fn turn_over<D: Driven<Place = P>>(&mut self, driven: &D) -> Result<(), Unserved> {
+        self.side = -self.side;
+        self.past.forget();
+        self.tabulate(driven)
     }
 
     fn tabulate<D: Driven<Place = P>>(&mut self, driven: &D) -> Result<(), Unserved> {
@@ -113,6 +155,16 @@ impl<P: Copy> Station<P> {
         let count = self.rule.degree() + 1;
         driven.tabulate(&angles, count, self.side, &mut self.table);
         let known = |values: &Values| values[..count].iter().all(|value| value.is_finite());
+        let forces = self.table.force[..count].iter();
+        self.largest_force = forces.fold(0.0, |largest, force| largest.max(force.abs()));
+        for (mobility, inertia) in self
+            .mobility
+            .iter_mut()
+            .zip(&self.table.inertia)
+            .take(count)
+        {
+            *mobility = 2.0 / inertia;
+        }
         if known(&self.table.inertia) && known(&self.table.force) && known(&self.table.push) {
             Ok(())
         } else {
@@ -120,16 +172,22 @@ impl<P: Copy> Station<P> {
         }
     }
 
-    /// The least degree at which the series of inertia and force end below a part `tail` of themselves.
-    fn degree_for(&self, tail: f64) -> usize {
-        let all = [&self.table.inertia, &self.table.force, &self.table.push];
-        let series = all.map(|values| self.rule.series(values));
-        let resolved = |degree: &&usize| {
-            let ends = |series: &crate::numeric::chebyshev::Series| series.tail_at(**degree);
-            series.iter().all(|series| ends(series) <= tail)
-        };
-        let mut smaller = Rule::DEGREES.iter().filter(|d| **d <= self.rule.degree());
-        *smaller.find(resolved).unwrap_or(&32)
+    /// The least degree at which the series of the inertia, and of what the forces do to the kinetic energy, have
+    /// decayed; none if this one is not enough.
+    fn degree_for(&self, fine: Fineness) -> Option<usize> {
+        let kinetic = 0.5 * self.table.inertia[0] * fine.speed * fine.speed;
+        let inertia = self.rule.series(&self.table.inertia);
+        let mut force = self.table.force;
+        for (force, push) in force.iter_mut().zip(&self.table.push) {
+            *force += push;
+        }
+        let force = self.rule.series(&force);
+        let share = (force.largest() * self.half().abs() / kinetic / ADDED_UP).min(1.0);
+        let degrees = Rule::DEGREES.into_iter();
+        let mut smaller = degrees.take_while(|degree| *degree <= self.rule.degree());
+        smaller.find(|degree| {
+            inertia.tail_at(*degree) <= fine.tail && force.tail_at(*degree) * share <= fine.tail
+        })
     }
 
     /// Takes the next degree; false if there is none.
@@ -138,7 +196,7 @@ impl<P: Copy> Station<P> {
             return Ok(false);
         };
         self.rule = Rule::of(*next);
-        self.past = [None; 2];
+        self.past.forget();
         self.tabulate(driven)?;
         Ok(true)
     }
@@ -148,23 +206,15 @@ impl<P: Copy> Station<P> {
         &self,
         driven: &D,
         share: f64,
-        tail: f64,
+        fine: Fineness,
     ) -> Result<Option<[Station<P>; 2]>, Unserved> {
         let Piece { from, to, .. } = self.piece;
         if (to - from).abs() < SHORTEST * from.abs().max(1.0) {
             return Ok(None);
         }
         let middle = from + share * (to - from);
-        let first = Station::new(driven, [from, middle], self.side, tail)?;
-        let second = Station::new(driven, [middle, to], self.side, tail)?;
-        Ok(Some([first, second]))
-    }
-
-    /// Goes over to the other side of the switch.
-    pub fn turn_over<D: Driven<Place = P>>(&mut self, driven: &D) -> Result<(), Unserved> {
-        self.side = -self.side;
-        self.past = [None; 2];
-        self.tabulate(driven)
+        let part = |ends: [f64; 2]| Station::new(driven, ends, self.side, fine, FIRST_DEGREE);
+        Ok(Some([part([from, middle])?, part([middle, to])?]))
     }
 
     /// Half its length with sign, rad.
@@ -172,30 +222,20 @@ impl<P: Copy> Station<P> {
         0.5 * (self.piece.to - self.piece.from)
     }
 
-    /// Kinetic energy at the points, from that at the start (J): the profile of the last turns carried on.
-    pub fn guess(&self, start: f64) -> Values {
-        match &self.past {
-            [Some(last), Some(before)] => {
-                let apart = last[0] - before[0];
-                let share = (start - last[0]) / apart;
-                if share.abs() <= 2.0 {
-                    std::array::from_fn(|j| last[j] + share * (last[j] - before[j]))
-                } else {
-                    last.map(|k| k + (start - last[0]))
-                }
-            }
-            [Some(last), None] => last.map(|k| k + (start - last[0])),
+    /// Kinetic energy at the points, from that at the start (J): the profiles of the last turns carried on.
+    /// Where time matters, turns of the same energy are not the same.
+    pub fn guess(&self, start: f64, reads_time: bool, kinetic: &mut Values) {
+        let most = if reads_time { 2 } else { usize::MAX };
+        if self.past.carry_on(start, most, kinetic).is_none() {
             // The same speed everywhere.
-            _ => {
-                let inertia = &self.table.inertia;
-                inertia.map(|here| start * (here / inertia[0]))
-            }
+            let inertia = &self.table.inertia;
+            *kinetic = inertia.map(|here| start * (here / inertia[0]));
         }
     }
 
     /// Keeps the kinetic energy of this turn for the next.
     pub fn remember(&mut self, kinetic: &Values) {
-        self.past = [Some(*kinetic), self.past[0]];
+        self.past.remember(kinetic);
     }
 }
 
@@ -203,9 +243,9 @@ impl<P: Copy> Station<P> {
 pub(super) fn stations<D: Driven>(
     driven: &D,
     start: f64,
-    direction: f64,
-    tail: f64,
+    fine: Fineness,
 ) -> Result<Vec<Station<D::Place>>, Unserved> {
+    let direction = fine.speed.signum();
     let mut ends: Vec<f64> = driven
         .corners()
         .iter()
@@ -215,11 +255,23 @@ pub(super) fn stations<D: Driven>(
     ends.sort_by(f64::total_cmp);
     ends.push(TAU);
     let mut from = 0.0;
-    let mut list = Vec::with_capacity(8);
+    let mut list: Vec<Station<D::Place>> = Vec::with_capacity(8);
     for to in ends {
-        let (begin, end) = (start + direction * from, start + direction * to);
-        list.push(Station::new(driven, [begin, end], 1.0, tail)?);
-        from = to;
+        let parts = ((to - from) / LONGEST).ceil();
+        let begin = from;
+        for part in 1..=parts as u32 {
+            let share = f64::from(part) / parts;
+            let until = if share < 1.0 {
+                begin + share * (to - begin)
+            } else {
+                to
+            };
+            let ends = [from, until].map(|ahead| start + direction * ahead);
+            // Neighbours are alike.
+            let degree = list.last().map_or(FIRST_DEGREE, |last| last.rule.degree());
+            list.push(Station::new(driven, ends, 1.0, fine, degree)?);
+            from = until;
+        }
     }
     Ok(list)
 }

@@ -1,10 +1,10 @@
 //! The collocation on one panel: K' = F(θ) + L(θ, ω, t), t' = 1/ω at the points of the panel.
 
 use super::Driven;
+use super::forces::{Forces, fill_slopes};
 use super::newton::correction;
 use super::station::Station;
-use crate::numeric::angle::Angle;
-use crate::numeric::chebyshev::{MOST, Series, Values};
+use crate::numeric::chebyshev::{MOST, Series, Values, largest};
 
 /// The state at the start of a panel.
 #[derive(Clone, Copy, Debug)]
@@ -20,15 +20,15 @@ pub(super) struct Start {
 }
 
 /// The motion on a panel.
+#[derive(Clone)]
 pub(super) struct Swept {
     /// J, at the points.
     pub kinetic: Values,
-    /// dt/dx at the points.
+    /// |dt/dx| at the points.
     pub slopes: Values,
     /// Its series.
     pub slope: Series,
-    /// Force without a potential at the points, N m.
-    pub spent: Values,
+    pub(super) forces: Forces,
     /// Kinetic energy that is gained, J.
     pub gain: f64,
     /// Kinetic energy at the end, J.
@@ -37,10 +37,39 @@ pub(super) struct Swept {
     pub evaluations: u64,
 }
 
+impl Swept {
+    /// Room for the motion on a panel.
+    pub fn new() -> Swept {
+        let zero = [0.0; MOST + 1];
+        Swept {
+            kinetic: zero,
+            slopes: zero,
+            slope: Series::new(0, zero),
+            forces: Forces::new(),
+            gain: 0.0,
+            end: 0.0,
+            evaluations: 0,
+        }
+    }
+
+    /// Force without a potential at the points, N m.
+    pub fn spent(&self) -> &Values {
+        &self.forces.spent
+    }
+}
+
 /// Most sweeps over a panel.
 const MOST_SWEEPS: u32 = 40;
 /// Sweeps that gain less than this factor give way to Newton's method.
 const SLOW: f64 = 0.3;
+/// Sweeps end where what they leave is this part of the tail: it adds up over the turns.
+const SETTLED: f64 = 1e-3;
+/// Least factor that a sweep is taken to leave.
+const LEAST_FACTOR: f64 = 1e-2;
+/// The last terms of a series of speeds by what it leaves out, where it decays slowly.
+const REMAINDER: f64 = 0.25;
+/// What is left of a relative change at rounding.
+const ROUNDING: f64 = 1e-14;
 
 /// Why a panel is not solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,60 +83,68 @@ pub(super) enum Unsolved {
 /// Solves a panel to a part `tail`.
 pub(super) fn sweep<D: Driven>(
     driven: &D,
-    station: &Station<D::Place>,
+    station: &mut Station<D::Place>,
     start: Start,
     tail: f64,
-) -> Result<Swept, Unsolved> {
-    let half = station.half();
-    let count = station.rule.degree() + 1;
-    let mut kinetic = station.guess(start.kinetic);
+    swept: &mut Swept,
+) -> Result<(), Unsolved> {
+    let reads_time = driven.is_driven() && driven.reads_time();
+    station.guess(start.kinetic, reads_time, &mut swept.kinetic);
+    swept.evaluations = 0;
     let mut newton = false;
     let mut before = f64::INFINITY;
-    let mut evaluations = 0;
     for _ in 0..MOST_SWEEPS {
-        let slopes = slopes(station, &kinetic).ok_or(Unsolved::TooLong)?;
-        let forces = Forces::new(driven, station, start, &slopes);
-        evaluations += count as u64;
-        let gained = station.rule.integrals(&forces.total);
-        let mut change: Values =
-            std::array::from_fn(|j| start.kinetic + half * gained[j] - kinetic[j]);
+        swept.evaluate(driven, station, start)?;
+        let mut change = swept.change(station, start);
         if newton {
-            let rates = forces.rates(driven, station, start, &slopes);
-            correction(station.rule, half, &rates, &mut change).ok_or(Unsolved::TooLong)?;
-            keep_positive(&kinetic, &mut change);
+            let rates = swept.forces.rates(driven, station, start);
+            correction(station.rule, station.half(), &rates, &mut change)
+                .ok_or(Unsolved::TooLong)?;
+            keep_positive(&swept.kinetic, &mut change);
         }
-        let mut largest: f64 = 0.0;
-        for j in 0..count {
-            kinetic[j] += change[j];
-            largest = largest.max((change[j] / kinetic[j]).abs());
-            if kinetic[j].is_nan() {
-                return Err(Unsolved::TooLong);
-            }
-            if kinetic[j] <= 0.0 {
-                return Err(Unsolved::Stops);
-            }
-        }
+        let largest = add(&mut swept.kinetic, &mut change, station.rule.degree() + 1)?;
         // What is left is smaller than the last change by the factor that was gained.
         let factor = if before.is_finite() {
             largest / before
         } else {
-            SLOW
+            station.factor
         };
-        let left = largest * if newton { factor.min(SLOW) } else { factor };
-        let at_rounding = largest < 1e-14 && largest >= 0.3 * before;
-        if left <= tail || at_rounding {
-            let mut swept = finish(driven, station, start, kinetic, tail, evaluations)
-                .ok_or(Unsolved::TooLong)?;
-            if !newton {
-                // One sweep better than the last point; under steep loads it would be worse.
-                swept.end = start.kinetic + swept.gain;
+        let at_rounding = largest < ROUNDING && largest >= SLOW * before;
+        if newton {
+            if largest * factor.min(SLOW) <= tail || at_rounding {
+                swept.evaluate(driven, station, start)?;
+                return swept.finish(station, start, tail);
             }
-            return Ok(swept);
+        } else if largest * factor.max(LEAST_FACTOR) <= SETTLED * tail || at_rounding {
+            swept.finish(station, start, tail)?;
+            // The last point is the same, rounded once more; under steep loads the gain would be worse.
+            swept.end = start.kinetic + swept.gain;
+            return Ok(());
+        } else if before.is_finite() {
+            station.factor = factor.max(LEAST_FACTOR);
+            newton = factor > SLOW;
         }
-        newton |= before.is_finite() && largest > SLOW * before;
         before = largest;
     }
     Err(Unsolved::TooLong)
+}
+
+/// Adds a change at the first `count` points; the largest of them by what it changes.
+fn add(kinetic: &mut Values, change: &mut Values, count: usize) -> Result<f64, Unsolved> {
+    let (kinetic, change) = (&mut kinetic[..count], &mut change[..count]);
+    let mut positive = true;
+    for j in 0..count {
+        kinetic[j] += change[j];
+        change[j] /= kinetic[j];
+        positive &= kinetic[j] > 0.0;
+    }
+    if positive {
+        Ok(largest(change))
+    } else if kinetic.iter().any(|kinetic| kinetic.is_nan()) {
+        Err(Unsolved::TooLong)
+    } else {
+        Err(Unsolved::Stops)
+    }
 }
 
 /// Shortens a change that would leave less than a tenth of the kinetic energy somewhere.
@@ -122,146 +159,57 @@ fn keep_positive(kinetic: &Values, change: &mut Values) {
     }
 }
 
-fn finish<D: Driven>(
-    driven: &D,
-    station: &Station<D::Place>,
-    start: Start,
-    kinetic: Values,
-    tail: f64,
-    evaluations: u64,
-) -> Option<Swept> {
-    let half = station.half();
-    let slopes = slopes(station, &kinetic)?;
-    let slope = station.rule.series(&slopes);
-    let noise = 8.0 * f64::EPSILON * (1.0 + station.piece.from.abs() / half.abs());
-    let accepted = tail.max(noise);
-    if slope.tail() > accepted {
-        return None;
-    }
-    let forces = Forces::new(driven, station, start, &slopes);
-    let series = station.rule.series(&forces.total);
-    let share = series.largest() * half.abs() / start.kinetic;
-    // Large forces that balance each other leave their rounding.
-    let noise = 64.0 * f64::EPSILON * forces.largest_part(station) * half.abs() / start.kinetic;
-    if series.tail() * share.min(1.0) > tail + noise && series.tail() > accepted {
-        return None;
-    }
-    Some(Swept {
-        end: kinetic[station.rule.degree()],
-        kinetic,
-        slope,
-        slopes,
-        spent: forces.spent,
-        gain: half * station.rule.rounded_integral(&forces.total),
-        evaluations: evaluations + station.rule.degree() as u64 + 1,
-    })
-}
-
-/// dt/dx at the points; none where the kinetic energy is not positive.
-fn slopes<P>(station: &Station<P>, kinetic: &Values) -> Option<Values> {
-    let half = 0.5 * (station.piece.to - station.piece.from).abs();
-    let mut slopes = [0.0; MOST + 1];
-    let mut sum = 0.0;
-    for j in 0..=station.rule.degree() {
-        slopes[j] = half * (0.5 * station.table.inertia[j] / kinetic[j]).sqrt();
-        sum += slopes[j];
-    }
-    // One value that is not finite makes the sum so.
-    sum.is_finite().then_some(slopes)
-}
-
-/// Forces at the points of a panel, N m.
-struct Forces {
-    total: Values,
-    spent: Values,
-    times: Values,
-}
-
-impl Forces {
-    fn new<D: Driven>(
+impl Swept {
+    /// The forces at the kinetic energy.
+    fn evaluate<D: Driven>(
+        &mut self,
         driven: &D,
         station: &Station<D::Place>,
         start: Start,
-        slopes: &Values,
-    ) -> Forces {
-        let table = &station.table;
-        let length = start.direction * station.half().abs();
-        let mut forces = Forces {
-            total: [0.0; MOST + 1],
-            spent: [0.0; MOST + 1],
-            times: [0.0; MOST + 1],
-        };
-        for (j, slope) in slopes.iter().enumerate().take(station.rule.degree() + 1) {
-            forces.spent[j] = table.push[j] - table.damping[j] * (length / slope);
-        }
-        if let Some(switch) = &table.switch {
-            for (j, slope) in slopes.iter().enumerate().take(station.rule.degree() + 1) {
-                forces.spent[j] += switch.force[j] * (length / slope).powi(2);
-            }
-        }
-        if driven.is_driven() {
-            if driven.reads_time() {
-                forces.times = station.rule.integrals(slopes);
-            }
-            for (j, x) in station.rule.points().iter().enumerate() {
-                let speed = length / slopes[j];
-                forces.spent[j] += forces.drive(driven, station, start, j, *x, speed);
-            }
-        }
-        for j in 0..=station.rule.degree() {
-            forces.total[j] = table.force[j] + forces.spent[j];
-        }
-        forces
+    ) -> Result<(), Unsolved> {
+        self.evaluations += station.rule.degree() as u64 + 1;
+        let known = self.forces.evaluate(driven, station, start, &self.kinetic);
+        known.ok_or(Unsolved::TooLong)
     }
 
-    fn drive<D: Driven>(
-        &self,
-        driven: &D,
-        station: &Station<D::Place>,
+    /// What a sweep changes.
+    fn change<P: Copy>(&self, station: &Station<P>, start: Start) -> Values {
+        let half = station.half();
+        let mut change = station.rule.integrals(&self.forces.total);
+        for (change, kinetic) in change.iter_mut().zip(&self.kinetic) {
+            *change = start.kinetic + half * *change - kinetic;
+        }
+        change
+    }
+
+    /// Checks that the series are resolved.
+    fn finish<P: Copy>(
+        &mut self,
+        station: &Station<P>,
         start: Start,
-        j: usize,
-        x: f64,
-        speed: f64,
-    ) -> f64 {
-        let angle = Angle {
-            turns: start.turns,
-            rest: station.piece.angle(x),
-        };
-        let place = &station.table.places[j];
-        driven.drive(place, start.t + self.times[j], angle, speed)
-    }
-
-    /// The largest force that has a potential, N m: at balance the others are as large.
-    fn largest_part<P>(&self, station: &Station<P>) -> f64 {
-        let force = station.table.force.iter().take(station.rule.degree() + 1);
-        force.fold(0.0f64, |largest, force| largest.max(force.abs()))
-    }
-
-    /// Derivatives of the forces with respect to the kinetic energy at the points, 1/rad.
-    fn rates<D: Driven>(
-        &self,
-        driven: &D,
-        station: &Station<D::Place>,
-        start: Start,
-        slopes: &Values,
-    ) -> Values {
-        const STEP: f64 = 1e-6;
-        let table = &station.table;
-        let length = start.direction * station.half().abs();
-        let mut rates = [0.0; MOST + 1];
-        for (j, x) in station.rule.points().iter().enumerate() {
-            let speed = length / slopes[j];
-            let mut rate = -table.damping[j];
-            if driven.is_driven() {
-                let at = |speed: f64| self.drive(driven, station, start, j, *x, speed);
-                let (less, more) = (speed * (1.0 - STEP), speed * (1.0 + STEP));
-                rate += (at(more) - at(less)) / (more - less);
-            }
-            if let Some(switch) = &table.switch {
-                rate += 2.0 * switch.force[j] * speed;
-            }
-            rates[j] = rate / (table.inertia[j] * speed);
+        tail: f64,
+    ) -> Result<(), Unsolved> {
+        let (rule, half) = (station.rule, station.half());
+        fill_slopes(station, &self.kinetic, &mut self.slopes).ok_or(Unsolved::TooLong)?;
+        self.slope = rule.series(&self.slopes);
+        let noise = 8.0 * f64::EPSILON * (1.0 + station.piece.from.abs() / half.abs());
+        let wanted = (REMAINDER * tail).max(tail.min(ROUNDING));
+        if self.slope.tail() > wanted.max(noise) {
+            return Err(Unsolved::TooLong);
         }
-        rates
+        let accepted = tail.max(noise);
+        let count = rule.degree() + 1;
+        let last = rule.last_terms(&self.forces.total);
+        let largest = largest(&self.forces.total[..count]);
+        let energy = half.abs() / start.kinetic;
+        // Large forces that balance each other leave their rounding.
+        let noise = 64.0 * f64::EPSILON * station.largest_force;
+        let unresolved = last * energy > tail + noise * energy;
+        if unresolved && last > accepted * largest && last / largest > tail + noise * energy {
+            return Err(Unsolved::TooLong);
+        }
+        self.end = self.kinetic[rule.degree()];
+        self.gain = half * rule.rounded_integral(&self.forces.total);
+        Ok(())
     }
 }

@@ -53,23 +53,17 @@ pub(super) fn side<D: Driven>(
 }
 
 impl Swept {
-    /// The same until a part of the panel.
-    pub fn until(&self, rule: &Rule, start: Start, share: f64) -> Swept {
+    /// Ends it at a part of the panel.
+    pub fn end_at(&mut self, rule: &Rule, start: Start, share: f64) {
         let inside = rule.values(|x| share * (1.0 + x) - 1.0);
-        let mut slopes = self.slope.values(&inside).map(|slope| share * slope);
-        let mut spent = rule.series(&self.spent).values(&inside);
-        for values in [&mut slopes, &mut spent] {
+        self.slopes = self.slope.values(&inside).map(|slope| share * slope);
+        self.forces.spent = rule.series(self.spent()).values(&inside);
+        for values in [&mut self.slopes, &mut self.forces.spent] {
             values[rule.degree() + 1..].fill(0.0);
         }
-        let end = rule.series(&self.kinetic).value(2.0 * share - 1.0);
-        Swept {
-            slope: rule.series(&slopes),
-            slopes,
-            spent,
-            gain: end - start.kinetic,
-            end,
-            ..*self
-        }
+        self.slope = rule.series(&self.slopes);
+        self.end = rule.series(&self.kinetic).value(2.0 * share - 1.0);
+        self.gain = self.end - start.kinetic;
     }
 }
 

@@ -107,29 +107,36 @@ impl Orbit {
 
 /// Slowest and fastest of the points, from dt/dx there.
 pub(super) fn extremes(piece: &Piece, rule: &Rule, slopes: &Values) -> [Extreme; 2] {
-    // |speed| is stretch over slope; its inverse needs no division where the stretch is the same everywhere.
-    let mut index = 0;
-    let slowness: Values = match piece.turning {
-        Turning::Nowhere => *slopes,
-        _ => rule.values(|x| {
-            index += 1;
-            slopes[index - 1] / (2.0 * piece.stretch(x) / piece.span()).abs()
-        }),
-    };
-    let last = rule.degree();
+    let half = 0.5 * piece.span().abs();
+    match piece.turning {
+        Turning::Nowhere => extremes_of(&slopes[..=rule.degree()], half),
+        // |speed| is stretch over slope.
+        _ => {
+            let mut index = 0;
+            let slowness = rule.values(|x| {
+                index += 1;
+                half * slopes[index - 1] / piece.stretch(x).abs()
+            });
+            extremes_of(&slowness[..=rule.degree()], half)
+        }
+    }
+}
+
+/// The same from the time that half the piece would take with the speed of each point, s.
+fn extremes_of(slowness: &[f64], half: f64) -> [Extreme; 2] {
     let (mut slow, mut fast) = (0, 0);
-    for j in 1..=last {
-        if slowness[j] > slowness[slow] {
+    for (j, here) in slowness.iter().enumerate() {
+        if *here > slowness[slow] {
             slow = j;
         }
-        if slowness[j] < slowness[fast] {
+        if *here < slowness[fast] {
             fast = j;
         }
     }
-    let speed_at = |j: usize| 0.5 * piece.span().abs() / slowness[j];
+    let speed_at = |j: usize| half / slowness[j];
     [slow, fast].map(|point| {
         let before = speed_at(point.saturating_sub(1));
-        let after = speed_at((point + 1).min(last));
+        let after = speed_at((point + 1).min(slowness.len() - 1));
         let speed = speed_at(point);
         Extreme {
             point,

@@ -2,6 +2,7 @@
 //! Approximation Theory and Approximation Practice, ch. 3 and 19).
 
 mod rule;
+mod transform;
 
 pub use rule::Rule;
 
@@ -10,6 +11,22 @@ pub const MOST: usize = 32;
 
 /// Values at the points of a rule, or coefficients; what is beyond its degree is zero.
 pub type Values = [f64; MOST + 1];
+
+/// The largest of some values, as a magnitude.
+pub fn largest(values: &[f64]) -> f64 {
+    // Apart from each other, for the processor to compare side by side.
+    let mut most = [0.0; 4];
+    let larger = |most: f64, value: f64| if value > most { value } else { most };
+    let chunks = values.chunks_exact(4);
+    let rest = chunks.remainder().iter();
+    let of_rest = rest.fold(0.0, |most, value| larger(most, value.abs()));
+    for chunk in chunks {
+        for k in 0..4 {
+            most[k] = larger(most[k], chunk[k].abs());
+        }
+    }
+    most.into_iter().fold(of_rest, larger)
+}
 
 /// A series Σ cₖ Tₖ(x).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,6 +47,11 @@ impl Series {
             degree,
             coefficients,
         }
+    }
+
+    /// The coefficient of a term.
+    pub fn coefficient(&self, index: usize) -> f64 {
+        self.coefficients[index]
     }
 
     fn terms(&self) -> &[f64] {
@@ -99,7 +121,7 @@ impl Series {
 
     /// The largest of its coefficients, as a magnitude.
     pub fn largest(&self) -> f64 {
-        self.terms().iter().fold(0.0f64, |m, c| m.max(c.abs()))
+        largest(self.terms())
     }
 
     /// How far the coefficients have not yet decayed, relative to the largest: the last two of them.

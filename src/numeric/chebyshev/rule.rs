@@ -1,20 +1,15 @@
 //! Points, weights and matrices of one degree.
-//!
-//! The points are symmetric, so even and odd parts of a function are transformed apart, with half the
-//! points each.
 
 use std::f64::consts::PI;
 use std::fmt;
 use std::sync::OnceLock;
 
+use super::transform::{HALF, Half, Matrices};
 use super::{MOST, Series, Values};
-use crate::numeric::exact;
+use crate::numeric::exact::two_sum;
 
-/// Half of the largest degree, and the middle point.
-const HALF: usize = MOST / 2 + 1;
-
-type Half = [f64; HALF];
-type Matrix = [Half; HALF];
+/// Sums that are kept apart; all degrees are multiples of it.
+const LANES: usize = 4;
 
 /// The Lobatto points x₀ = −1, …, x_n = 1 of a degree n and what belongs to them.
 pub struct Rule {
@@ -22,14 +17,12 @@ pub struct Rule {
     points: Values,
     /// Clenshaw-Curtis weights.
     weights: Values,
-    /// Coefficients 2k from the even part at the points, by columns.
-    even: Matrix,
-    /// Coefficients 2k + 1 from the odd part.
-    odd: Matrix,
-    /// Integrals from 0 of the even part to the points, by columns.
-    even_integrals: Matrix,
-    /// The same of the odd part.
-    odd_integrals: Matrix,
+    /// Coefficients 2k from the even part at the points, 2k + 1 from the odd part.
+    series: Matrices,
+    /// Integrals from 0 to the points.
+    integrals: Matrices,
+    /// Shares of the values in the last two coefficients.
+    last: [[f64; 2]; MOST + 1],
     /// The matrix of integration, once it is asked for.
     integration: OnceLock<Vec<Values>>,
 }
@@ -42,12 +35,14 @@ impl fmt::Debug for Rule {
 
 impl Rule {
     /// The degrees there are.
-    pub const DEGREES: [usize; 4] = [12, 16, 24, 32];
+    pub const DEGREES: [usize; 5] = [12, 16, 20, 24, 32];
 
     /// The rule of one of the degrees [`Self::DEGREES`]; of the largest for any other.
     pub fn of(degree: usize) -> &'static Rule {
-        static RULES: [OnceLock<Box<Rule>>; 4] = [const { OnceLock::new() }; 4];
-        let index = Rule::DEGREES.iter().position(|d| *d == degree).unwrap_or(3);
+        const COUNT: usize = Rule::DEGREES.len();
+        static RULES: [OnceLock<Box<Rule>>; COUNT] = [const { OnceLock::new() }; COUNT];
+        let index = Rule::DEGREES.iter().position(|d| *d == degree);
+        let index = index.unwrap_or(COUNT - 1);
         RULES[index].get_or_init(|| Box::new(Rule::new(Rule::DEGREES[index])))
     }
 
@@ -56,10 +51,9 @@ impl Rule {
             degree,
             points: [0.0; MOST + 1],
             weights: [0.0; MOST + 1],
-            even: [[0.0; HALF]; HALF],
-            odd: [[0.0; HALF]; HALF],
-            even_integrals: [[0.0; HALF]; HALF],
-            odd_integrals: [[0.0; HALF]; HALF],
+            series: Matrices::new(),
+            integrals: Matrices::new(),
+            last: [[0.0; 2]; MOST + 1],
             integration: OnceLock::new(),
         };
         let n = degree as f64;
@@ -74,13 +68,19 @@ impl Rule {
             let at_end = if j == 0 { 0.5 } else { 1.0 };
             for k in 0..=half {
                 let last = if k == 0 || k == half { 1.0 } else { 2.0 };
-                rule.even[j][k] = last / n * at_end * cosine(&cosines, 2 * k * j);
+                rule.series.even[j][k] = last / n * at_end * cosine(&cosines, 2 * k * j);
                 if k < half && j < half {
-                    rule.odd[j][k] = 2.0 / n * at_end * cosine(&cosines, (2 * k + 1) * j);
+                    rule.series.odd[j][k] = 2.0 / n * at_end * cosine(&cosines, (2 * k + 1) * j);
                 }
             }
         }
         rule.fill_integrals(&cosines);
+        for j in 0..=degree {
+            let mut unit = [0.0; MOST + 1];
+            unit[j] = 1.0;
+            let series = rule.series(&unit);
+            rule.last[j] = [series.coefficient(degree - 1), series.coefficient(degree)];
+        }
         rule
     }
 
@@ -93,9 +93,9 @@ impl Rule {
         for j in 0..=half {
             for (k, primitive) in primitives.iter().enumerate() {
                 let (factor, sums) = if k % 2 == 0 {
-                    (self.even[j][k / 2], &mut self.even_integrals[j])
+                    (self.series.even[j][k / 2], &mut self.integrals.even[j])
                 } else {
-                    (self.odd[j][k / 2], &mut self.odd_integrals[j])
+                    (self.series.odd[j][k / 2], &mut self.integrals.odd[j])
                 };
                 for (sum, value) in sums.iter_mut().zip(primitive) {
                     *sum += factor * value;
@@ -144,32 +144,37 @@ impl Rule {
 
     /// The series through values at the points.
     pub fn series(&self, values: &Values) -> Series {
-        let (even, odd) = self.parts(values);
-        let even = self.product(&self.even, &even);
-        let odd = self.product(&self.odd, &odd);
-        let mut coefficients = [0.0; MOST + 1];
-        for k in 0..HALF - 1 {
-            coefficients[2 * k] = even[k];
-            coefficients[2 * k + 1] = odd[k];
-        }
-        coefficients[MOST] = even[HALF - 1];
+        let matrices = &self.series;
+        let coefficients = match self.degree {
+            12 => matrices.coefficients::<12, 8>(values),
+            16 => matrices.coefficients::<16, 10>(values),
+            20 => matrices.coefficients::<20, 12>(values),
+            24 => matrices.coefficients::<24, 14>(values),
+            _ => matrices.coefficients::<32, 18>(values),
+        };
         Series::new(self.degree, coefficients)
     }
 
     /// Integrals from −1 to each point of the series through values at the points.
     pub fn integrals(&self, values: &Values) -> Values {
-        let (even, odd) = self.parts(values);
-        // The even part has an odd integral, and the other way round.
-        let odd_integral = self.product(&self.even_integrals, &even);
-        let even_integral = self.product(&self.odd_integrals, &odd);
-        let from_start = odd_integral[0] - even_integral[0];
-        let mut result = [0.0; MOST + 1];
-        for j in 0..=self.degree / 2 {
-            result[j] = from_start + even_integral[j] - odd_integral[j];
-            result[self.degree - j] = from_start + even_integral[j] + odd_integral[j];
+        let matrices = &self.integrals;
+        match self.degree {
+            12 => matrices.integrals::<12, 8>(values),
+            16 => matrices.integrals::<16, 10>(values),
+            20 => matrices.integrals::<20, 12>(values),
+            24 => matrices.integrals::<24, 14>(values),
+            _ => matrices.integrals::<32, 18>(values),
         }
-        result[0] = 0.0;
-        result
+    }
+
+    /// Magnitudes of the last two coefficients of the series through values at the points, added.
+    pub fn last_terms(&self, values: &Values) -> f64 {
+        let last = &self.last;
+        let products = last.iter().zip(values).take(self.degree + 1);
+        let [a, b] = products.fold([0.0; 2], |sum, (last, value)| {
+            [sum[0] + last[0] * value, sum[1] + last[1] * value]
+        });
+        a.abs() + b.abs()
     }
 
     /// The matrix of [`Self::integrals`], by rows.
@@ -191,14 +196,24 @@ impl Rule {
     /// Integral over [−1, 1] of the series through values at the points (Clenshaw and Curtis), as a rounded
     /// value and its rest.
     pub fn integral(&self, values: &Values) -> (f64, f64) {
-        let (mut sum, mut rest) = (0.0, 0.0);
-        let terms = self.weights.iter().zip(values).take(self.degree + 1);
-        for (weight, value) in terms {
-            let (next, lost) = exact::two_sum(sum, weight * value);
-            sum = next;
-            rest += lost;
+        // Sums apart from each other, for the processor to add side by side.
+        let (mut sums, mut rests) = ([0.0; LANES], [0.0; LANES]);
+        let weights = self.weights[..self.degree].chunks_exact(LANES);
+        for (weights, values) in weights.zip(values.chunks_exact(LANES)) {
+            for k in 0..LANES {
+                let (sum, lost) = two_sum(sums[k], weights[k] * values[k]);
+                sums[k] = sum;
+                rests[k] += lost;
+            }
         }
-        exact::two_sum(sum, rest)
+        let mut sum = self.weights[self.degree] * values[self.degree];
+        let mut rest = 0.0;
+        for k in 0..LANES {
+            let (next, lost) = two_sum(sum, sums[k]);
+            sum = next;
+            rest += lost + rests[k];
+        }
+        two_sum(sum, rest)
     }
 
     /// Shares of the values at the points in the value at `x` of the polynomial through them (barycentric
@@ -220,54 +235,18 @@ impl Rule {
         shares.map(|share| share / sum)
     }
 
-    /// The same, simply rounded.
+    /// The integral as by [`Self::integral`], simply rounded.
     pub fn rounded_integral(&self, values: &Values) -> f64 {
-        // Sums apart from each other, for the processor to add side by side.
-        let mut sums = [0.0; 4];
-        let weights = self.weights[..MOST].chunks_exact(4);
-        for (weights, values) in weights.zip(values.chunks_exact(4)) {
-            for k in 0..4 {
+        let mut sums = [0.0; LANES];
+        let weights = self.weights[..self.degree].chunks_exact(LANES);
+        for (weights, values) in weights.zip(values.chunks_exact(LANES)) {
+            for k in 0..LANES {
                 sums[k] += weights[k] * values[k];
             }
         }
-        let last = self.weights[MOST] * values[MOST];
+        let last = self.weights[self.degree] * values[self.degree];
         (sums[0] + sums[1]) + (sums[2] + sums[3]) + last
     }
-
-    /// Sum and difference of the values at the pairs of points, from the ends to the middle.
-    fn parts(&self, values: &Values) -> (Half, Half) {
-        let (mut even, mut odd) = ([0.0; HALF], [0.0; HALF]);
-        let half = self.degree / 2;
-        for j in 0..half {
-            let (minus, plus) = (values[j], values[self.degree - j]);
-            even[j] = plus + minus;
-            odd[j] = plus - minus;
-        }
-        even[half] = values[half];
-        (even, odd)
-    }
-
-    fn product(&self, matrix: &Matrix, vector: &Half) -> Half {
-        match self.degree {
-            12 => product::<7>(matrix, vector),
-            16 => product::<9>(matrix, vector),
-            24 => product::<13>(matrix, vector),
-            _ => product::<17>(matrix, vector),
-        }
-    }
-}
-
-/// Matrix times vector, of which the first `N` entries count: a constant, so that the loops unroll.
-fn product<const N: usize>(matrix: &Matrix, vector: &Half) -> Half {
-    let mut sums = [0.0; N];
-    for (column, factor) in matrix.iter().zip(vector).take(N) {
-        for k in 0..N {
-            sums[k] += column[k] * factor;
-        }
-    }
-    let mut result = [0.0; HALF];
-    result[..N].copy_from_slice(&sums);
-    result
 }
 
 /// cos(π m/degree) for m from 0 to 2·degree − 1, exactly symmetric.

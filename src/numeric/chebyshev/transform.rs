@@ -1,0 +1,76 @@
+//! Products of the matrices of a rule with values at its points.
+//!
+//! The points are symmetric, so even and odd parts of a function are transformed apart, with half the
+//! points each. Degrees are constants here, so that the compiler keeps the sums in registers, two in each.
+
+use super::{MOST, Values};
+
+/// Half of the largest degree, the middle point, and one for pairs of rows to be complete.
+pub(super) const HALF: usize = MOST / 2 + 2;
+
+/// What belongs to half of the points or coefficients.
+pub(super) type Half = [f64; HALF];
+
+/// A matrix for each part, by columns.
+pub(super) struct Matrices {
+    pub even: [Half; HALF],
+    pub odd: [Half; HALF],
+}
+
+impl Matrices {
+    pub fn new() -> Matrices {
+        Matrices {
+            even: [[0.0; HALF]; HALF],
+            odd: [[0.0; HALF]; HALF],
+        }
+    }
+
+    /// Products with the even and the odd part of values at the points of a degree; `ROWS` is even and more than
+    /// half the degree. Not inlined: where the results go on scattered, the sums would be kept one by one.
+    #[inline(never)]
+    fn products<const DEGREE: usize, const ROWS: usize>(&self, values: &Values) -> [Half; 2] {
+        let (mut of_even, mut of_odd) = ([0.0; ROWS], [0.0; ROWS]);
+        for j in 0..DEGREE / 2 {
+            let (minus, plus) = (values[j], values[DEGREE - j]);
+            let (even, odd) = (plus + minus, plus - minus);
+            for k in 0..ROWS {
+                of_even[k] += self.even[j][k] * even;
+                of_odd[k] += self.odd[j][k] * odd;
+            }
+        }
+        let middle = values[DEGREE / 2];
+        for (sum, entry) in of_even.iter_mut().zip(&self.even[DEGREE / 2]) {
+            *sum += entry * middle;
+        }
+        let mut results = [[0.0; HALF]; 2];
+        results[0][..ROWS].copy_from_slice(&of_even);
+        results[1][..ROWS].copy_from_slice(&of_odd);
+        results
+    }
+
+    /// Coefficients, where the matrices give the even and the odd ones.
+    pub fn coefficients<const DEGREE: usize, const ROWS: usize>(&self, values: &Values) -> Values {
+        let [even, odd] = self.products::<DEGREE, ROWS>(values);
+        let mut coefficients = [0.0; MOST + 1];
+        for k in 0..DEGREE / 2 {
+            coefficients[2 * k] = even[k];
+            coefficients[2 * k + 1] = odd[k];
+        }
+        coefficients[DEGREE] = even[DEGREE / 2];
+        coefficients
+    }
+
+    /// Integrals from −1 to each point, where the matrices give those from 0: the even part has an odd integral,
+    /// and the other way round.
+    pub fn integrals<const DEGREE: usize, const ROWS: usize>(&self, values: &Values) -> Values {
+        let [odd, even] = self.products::<DEGREE, ROWS>(values);
+        let from_start = odd[0] - even[0];
+        let mut integrals = [0.0; MOST + 1];
+        for j in 0..=DEGREE / 2 {
+            integrals[j] = from_start + even[j] - odd[j];
+            integrals[DEGREE - j] = from_start + even[j] + odd[j];
+        }
+        integrals[0] = 0.0;
+        integrals
+    }
+}
