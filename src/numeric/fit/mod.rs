@@ -8,6 +8,7 @@ mod penalized;
 mod pieces;
 mod polynomial;
 mod powers;
+mod rotation;
 mod spline;
 mod triangle;
 

@@ -9,8 +9,6 @@ pub(super) struct Pattern {
     pub runs: f64,
     /// Factor on standard errors for residuals that are not independent; 1 where they look so.
     pub widening: f64,
-    /// Whether the residuals are more than the digits of the samples.
-    pub shown: bool,
 }
 
 /// Standard deviations beyond which a pattern is one.
@@ -18,7 +16,7 @@ const CLEAR: f64 = 4.0;
 
 impl Pattern {
     /// Reads the residuals of a fit that is worth this many parameters; those within the digits of the samples, whose
-    /// standard deviation is `floor`, tell nothing about the fit, but may depend on each other as well.
+    /// standard deviation is `floor`, tell nothing.
     pub fn of(residuals: &[f64], parameters: f64, floor: f64) -> Pattern {
         let n = residuals.len() as f64;
         let square: f64 = residuals.iter().map(|r| r * r).sum();
@@ -26,22 +24,19 @@ impl Pattern {
             let products = residuals.iter().zip(&residuals[k..]).map(|(a, b)| a * b);
             products.sum::<f64>() / square
         };
-        if square == 0.0 || residuals.len() < 4 {
+        if square <= n * (1.5 * floor).powi(2) || residuals.len() < 4 {
             return Pattern {
                 lag_one: 0.0,
                 runs: 0.0,
                 widening: 1.0,
-                shown: false,
             };
         }
-        let shown = square > n * (1.5 * floor).powi(2);
         let lag_one = lag(1);
         let runs = runs(residuals);
         // Residuals of noise are correlated by about −(parameters)/n through the fit itself.
         let deviations = (lag_one + parameters / n) * n.sqrt();
         let mut widening = 1.0;
-        // Rounding follows the value that is rounded: it is not taken for noise.
-        if deviations > CLEAR || runs < -CLEAR || !shown {
+        if deviations > CLEAR || runs < -CLEAR {
             // Integrated correlation, as long as pairs of lags add to it (Geyer, Statist. Sci. 7 (1992) 473).
             let mut time = 1.0 + 2.0 * lag_one.max(0.0);
             let mut k = 2;
@@ -60,13 +55,12 @@ impl Pattern {
             lag_one,
             runs,
             widening,
-            shown,
         }
     }
 
     /// Whether the residuals have a pattern.
     pub fn is_clear(&self) -> bool {
-        self.shown && self.widening > 1.0
+        self.widening > 1.0
     }
 }
 
