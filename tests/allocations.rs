@@ -119,3 +119,27 @@ fn turns_take_no_memory_but_their_place_in_the_list() {
     let (many, most) = (allocations(1e4), allocations(1e6));
     assert!(most <= many + 16, "{many} {most}");
 }
+
+/// A run that is handed over and back takes the same for more turns between: pieces take memory, turns do not.
+#[test]
+fn a_hand_over_takes_no_memory_for_the_turns_before_and_after_it() {
+    let allocations = |brake: f64| {
+        let scene = Scene::duarte()
+            .torque(Load::function(Variables::T, move |_| -brake))
+            .start(0.3, 100.0)
+            .duration(12.0 / brake);
+        let options = Options {
+            estimate: false,
+            events_kept: 0,
+            ..Options::default()
+        };
+        let mut rows = Counter(0);
+        let mut run = || simulate_rows(&scene, &options, &mut rows).unwrap().summary;
+        let summary = run();
+        assert!(summary.plan.reason.contains("once, and back once"));
+        assert!(summary.omega_min < -50.0, "{}", summary.omega_min);
+        measure(|| assert!(run().evaluations > 0)).count_total
+    };
+    let (few, more) = (allocations(1.0), allocations(0.25));
+    assert!(more <= few + 40, "{few} {more}");
+}

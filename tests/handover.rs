@@ -253,7 +253,10 @@ fn what_is_stated_is_near_the_distance_from_a_tight_run_in_time() {
             if !is_handed(&summary) {
                 continue;
             }
-            same_events(&summary, &truth, 1e3 * tolerance);
+            // A larger error may turn the crank on the other side of a dead centre.
+            if tolerance < 1e-8 {
+                same_events(&summary, &truth, 1e3 * tolerance);
+            }
             several += usize::from(!summary.plan.reason.contains("handed over once"));
             assert!(
                 summary.energy_residual.abs() < tolerance,
@@ -436,6 +439,23 @@ fn a_start_too_slow_for_the_angle_is_handed_over_later() {
         apart <= 2.0 * stated.theta_rad + unsure.theta_rad,
         "{apart:e} {stated:?}"
     );
+}
+
+/// A crank that is slow at one place of each turn, and does not stop there, stays with the angle.
+#[test]
+fn a_crank_that_is_slow_in_each_turn_is_not_handed_over() {
+    for sense in [1.0, -1.0] {
+        let scene = wheel()
+            .torque(formula(format!("{sense} * 3 + 8*sin(theta)")))
+            .torque(Load::Viscous(0.1))
+            .start(0.0, sense * 30.0)
+            .duration(20.0);
+        let summary = run(&scene, Method::Auto).summary;
+        assert_eq!(summary.engine, "angle");
+        assert!(!is_handed(&summary), "{}", summary.plan.reason);
+        let (low, high) = (summary.omega_min.abs(), summary.omega_max.abs());
+        assert!(low.min(high) < 0.5 * low.max(high), "{low} {high}");
+    }
 }
 
 #[test]

@@ -219,6 +219,7 @@ impl<D: Driven> Way<'_, D> {
 
     fn whole_turn(&mut self, kinetic: f64) -> Result<(Leg, Turn), Unserved> {
         self.march.restart(kinetic);
+        self.march.gives_up = false;
         let mut leg = Leg::open();
         loop {
             leg.push(self.march.panel()?.panel);
@@ -242,6 +243,7 @@ impl<D: Driven> Way<'_, D> {
         map_ended: Option<Unserved>,
     ) -> Result<Ended, Unserved> {
         self.march.restart(mark.kinetic);
+        self.march.gives_up = true;
         let most = match map_ended {
             None | Some(Unserved::WorkLimit) => 1.0,
             Some(_) => MOST_SINGLE_TURNS,

@@ -18,7 +18,7 @@ const SHORT: f64 = 1e-3;
 /// With less than this part of it a crank that seems to stop on a panel, half of which is this long, rad, is not
 /// followed to where it does: towards there each panel is a fraction of the one before, and a step in time passes.
 const STOPS: f64 = 0.1;
-const SOON: f64 = 1.0;
+const SOON: f64 = 0.25;
 
 /// A run over the angle: the panels of a turn, and where it has come to.
 #[derive(Clone)]
@@ -50,6 +50,8 @@ pub(super) struct March<'a, D: Driven> {
     pub most_evaluations: u64,
     /// Whether a panel was cut or its degree raised since this was last cleared.
     pub refined: bool,
+    /// Whether a crank that seems to stop is given up before its panels become tiny.
+    pub gives_up: bool,
 }
 
 /// A panel with the work that was done on it.
@@ -106,6 +108,7 @@ impl<'a, D: Driven> March<'a, D> {
             start,
             most_evaluations: resolution.most_evaluations,
             refined: false,
+            gives_up: false,
         })
     }
 
@@ -244,15 +247,18 @@ impl<'a, D: Driven> March<'a, D> {
             return Ok(());
         }
         let half = station.half().abs();
-        // So is one that its forces brought to this energy within a small part of a radian.
-        let force = station.table.force[0] + station.table.push[0];
-        let slow = self.kinetic < SLOW * self.fastest.max(force.abs());
-        let stops = why == Unsolved::Stops && self.kinetic < STOPS * self.fastest && half < SOON;
+        let slow = self.kinetic < SLOW * self.fastest;
+        let stops = self.gives_up
+            && why == Unsolved::Stops
+            && self.kinetic < STOPS * self.fastest
+            && half < SOON;
         if stops || slow && half < SHORT {
             return Err(Unserved::TooSlow);
         }
         let Some([first, second]) = station.parts(self.driven, 0.5, self.tail)? else {
-            return Err(if slow {
+            // Its forces may have brought it to this energy within a small part of a radian.
+            let force = station.table.force[0] + station.table.push[0];
+            return Err(if slow || self.kinetic < SLOW * force.abs() {
                 Unserved::TooSlow
             } else {
                 Unserved::NotSmooth

@@ -173,6 +173,7 @@ pub fn run<D: Driven>(
     let (start, speed) = (from.angle.reduced(), from.speed);
     let mut march = March::new(driven, start, speed, resolution)?;
     march.begin = from.t;
+    march.gives_up = true;
     let reads_time = driven.is_driven() && driven.reads_time();
     let repeats = !reads_time && !march.has_switch();
     let mut leg = Leg::open();
