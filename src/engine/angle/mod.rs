@@ -175,9 +175,9 @@ pub fn run<D: Driven>(
     let (start, speed) = (from.angle.reduced(), from.speed);
     let mut march = March::new(driven, start, speed, resolution)?;
     march.begin = from.t;
+    march.gives_up = true;
     let reads_time = driven.is_driven() && driven.reads_time();
     let repeats = !reads_time && !march.has_switch();
-    march.gives_up = true;
     let mut leg = Leg::open();
     loop {
         if repeats && march.at_turn() && march.turns.abs() >= TURNS_BEFORE_MAP {
