@@ -42,7 +42,7 @@ impl Run {
 
     fn passes_limits(&self) -> bool {
         let events = &self.whole.summary.plan.events;
-        events.iter().any(|event| *event == "limit")
+        events.contains(&"limit")
     }
 
     /// Relative to the largest energy, which is small where all is slow; tolerances are absolute there.

@@ -171,6 +171,7 @@ impl<'a, D: Driven> March<'a, D> {
                 .unwrap_or(&mut self.stations[self.next]);
             let swept = &mut self.swept;
             if let Err(why) = sweep(self.driven, station, start, self.fine.tail, swept) {
+                self.evaluations += self.swept.evaluations;
                 self.refine(why)?;
                 continue;
             }

@@ -1,12 +1,8 @@
 //! A leg: panels in one direction, from the start until the motion turns back, repeats or ends.
 
-use std::f64::consts::TAU;
-
 use super::extreme::extreme;
-use super::home::Return;
-use super::panel::{Panel, Tried};
-use super::piece::{LONGEST, Piece, Turning, missing, next_end};
-use super::{Profile, Unserved};
+use super::panel::Panel;
+use super::piece::Piece;
 use crate::numeric::angle::Angle;
 use crate::numeric::exact::two_sum;
 
@@ -21,19 +17,6 @@ pub(in crate::engine) enum After {
     TurnsBack,
     /// Not needed: the run ends before.
     Ends,
-}
-
-/// Where a leg begins.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::engine) struct Begin {
-    /// rad
-    pub start: f64,
-    /// +1 or −1
-    pub direction: f64,
-    /// J; without it the start is a turning point.
-    pub kinetic: f64,
-    /// How far it may be off beside its own rounding, J.
-    pub off: f64,
 }
 
 /// Panels one after the other.
@@ -53,12 +36,6 @@ pub(in crate::engine) struct Leg {
     pub tail: f64,
 }
 
-/// Most panels that are tried for a leg.
-const MOST_ATTEMPTS: usize = 200_000;
-/// Panels no longer than this are taken as they are, rad: a corner that nobody announced.
-const SHORTEST: f64 = 1e-13;
-/// Below this part of the largest kinetic energy its sum over the panels has lost digits.
-const NEAR_REST: f64 = 1e-3;
 impl Leg {
     /// A leg without panels, that ends where the last one will.
     pub fn open() -> Leg {
@@ -73,112 +50,8 @@ impl Leg {
         }
     }
 
-    /// Panels until the time `until` is passed or `most_turns` are complete, if the forces are the same in each;
-    /// their series end where they have decayed to `tolerance`.
-    pub fn build(
-        profile: &dyn Profile,
-        begin: Begin,
-        until: f64,
-        tolerance: f64,
-        most_turns: f64,
-    ) -> Result<Leg, Unserved> {
-        let Begin {
-            start,
-            direction,
-            mut kinetic,
-            off,
-        } = begin;
-        let mut leg = Leg::open();
-        let whole_turn = start + direction * TAU;
-        let gain = profile.work_of_turn().map(|(work, _)| direction * work);
-        let at_first = kinetic;
-        let mut turns = 0.0;
-        let home = Return::new(profile, whole_turn, kinetic);
-        let mut at = start;
-        let mut length = LONGEST;
-        let mut turns_at: Option<f64> = None;
-        let mut attempts = 0;
-        let mut largest = kinetic;
-        while leg.panels.is_empty() || leg.duration.0 <= until {
-            attempts += 1;
-            if attempts > MOST_ATTEMPTS {
-                return Err(Unserved::TooLong);
-            }
-            let mut to = next_end(profile.corners(), at, direction, length);
-            if gain.is_some() && direction * (to - whole_turn) > -1e-12 {
-                to = whole_turn;
-            }
-            let mut turning = if kinetic == 0.0 {
-                Turning::AtStart
-            } else {
-                Turning::Nowhere
-            };
-            if let Some(end) = turns_at.filter(|end| direction * (to - end) >= 0.0) {
-                // A panel cannot turn at both ends: the first half ends in the middle.
-                to = if turning == Turning::AtStart {
-                    0.5 * (at + end)
-                } else {
-                    end
-                };
-                if turning == Turning::Nowhere {
-                    turning = Turning::AtEnd;
-                }
-            }
-            let mut rounding = off + f64::EPSILON * largest;
-            if let Some(again) = &home
-                && kinetic < NEAR_REST * largest
-                && let Some(exact) = again.kinetic(at)
-            {
-                kinetic = exact;
-                rounding = f64::EPSILON * kinetic * (1.0 + at.abs() / (whole_turn - at).abs());
-            }
-            let short = (to - at).abs() <= SHORTEST * at.abs().max(1.0);
-            let accepted = if short { f64::INFINITY } else { tolerance };
-            let piece = Piece {
-                from: at,
-                to,
-                turning,
-            };
-            match Panel::attempt(profile, piece, kinetic, accepted, rounding)? {
-                Tried::Done(mut panel) => {
-                    at = to;
-                    panel.turns = direction * turns;
-                    kinetic = panel.kinetic_at_end;
-                    largest = largest.max(kinetic);
-                    length = 2.0 * piece.span().abs();
-                    leg.push(*panel);
-                    if turning == Turning::AtEnd {
-                        leg.after = After::TurnsBack;
-                        return Ok(leg);
-                    }
-                    if let Some(gain) = gain.filter(|_| at == whole_turn) {
-                        leg.complete(missing(start, direction));
-                        if profile.repeats() {
-                            leg.after = After::Repeats;
-                            return Ok(leg);
-                        }
-                        turns += 1.0;
-                        if turns >= most_turns && leg.duration.0 <= until {
-                            leg.after = After::GoesOn;
-                            return Ok(leg);
-                        }
-                        at = start;
-                        kinetic = gain.mul_add(turns, at_first);
-                    }
-                }
-                Tried::TurnsAt(end) if end != at => {
-                    let exact = home.as_ref().and_then(|again| again.turning_point(at, end));
-                    turns_at = Some(exact.unwrap_or(end));
-                }
-                _ if short => return Err(Unserved::NotFinite),
-                _ => length = 0.5 * (to - at).abs(),
-            }
-        }
-        Ok(leg)
-    }
-
     /// Adds the time of the last bit of a turn, rad.
-    fn complete(&mut self, missing: f64) {
+    pub fn complete(&mut self, missing: f64) {
         let Some(panel) = self.panels.last() else {
             return;
         };

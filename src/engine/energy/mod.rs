@@ -6,6 +6,7 @@
 //! one that turns back at both ends does too. Ends of a libration are taken with θ = θ_end ∓ s², which
 //! makes dt/ds smooth. Where each turn gains the same work, the time of many turns is a sum in closed form.
 
+mod build;
 mod extreme;
 mod gains;
 mod home;

@@ -1,7 +1,8 @@
 //! One turn at any kinetic energy: what depends on the position alone is tabulated once.
 
 use super::Profile;
-use super::leg::{After, Begin, Leg};
+use super::build::Begin;
+use super::leg::{After, Leg};
 use super::panel::{DEGREE, Panel};
 use super::piece::{Piece, missing};
 use crate::numeric::chebyshev::{Rule, Values};

@@ -2,9 +2,10 @@
 
 use std::f64::consts::TAU;
 
+use super::build::Begin;
 use super::gains::{Course, Gains};
 use super::later::Later;
-use super::leg::{After, Begin, Leg};
+use super::leg::{After, Leg};
 use super::turns::Turns;
 use super::{Profile, Unserved};
 use crate::numeric::angle::Angle;

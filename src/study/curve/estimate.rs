@@ -24,7 +24,7 @@ const MARGIN: f64 = 1.5;
 const DEVIATIONS: f64 = 2.0;
 
 /// The tolerance of the same method again.
-pub(in crate::study) fn tighter(tolerance: f64) -> f64 {
+fn tighter(tolerance: f64) -> f64 {
     (tolerance / TIGHTER).max(TIGHTEST_AGAIN.min(tolerance / A_LITTLE))
 }
 

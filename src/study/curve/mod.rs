@@ -16,7 +16,6 @@ use std::time::Instant;
 
 pub(super) use arrived::{Arrived, End, Follow, Observer};
 use estimate::estimate;
-pub(super) use estimate::tighter;
 pub(super) use phase::Phase;
 pub(super) use watch::CurveWatch;
 use words::warnings;

@@ -66,8 +66,9 @@ impl Observer for Shaken {
     fn step(&mut self, step: &Step) -> bool {
         self.steps += 1;
         self.unevenness += unevenness(step);
-        self.pass(step.end.theta - step.start.theta, step.end.omega);
-        self.largest_speed = self.largest_speed.max(step.end.omega.abs());
+        let speed = step.start.omega.abs().max(step.end.omega.abs());
+        self.pass(step.end.theta - step.start.theta, speed);
+        self.largest_speed = self.largest_speed.max(speed);
         false
     }
 
@@ -103,10 +104,7 @@ pub(super) fn estimate(
         extent: Extent::Duration(end.t),
         resolution: finer(),
         settings: Settings {
-            tolerance: match course.sliding {
-                Some(_) => curve::tighter(course.settings.tolerance),
-                None => tighter(course.settings.tolerance),
-            },
+            tolerance: tighter(course.settings.tolerance),
             t_end: end.t,
             ..course.settings
         },

@@ -9,7 +9,8 @@ mod cell;
 use std::f64::consts::TAU;
 
 use super::Unserved;
-use super::leg::{After, Begin, Leg};
+use super::build::Begin;
+use super::leg::{After, Leg};
 use super::turns::Mark;
 use crate::numeric::angle::Angle;
 use crate::numeric::exact::two_sum;

@@ -1,0 +1,191 @@
+//! Panels, one after the other, until a motion turns back, repeats or is long enough.
+
+use std::f64::consts::TAU;
+
+use super::home::Return;
+use super::leg::{After, Leg};
+use super::panel::{Panel, Tried};
+use super::piece::{LONGEST, Piece, Turning, missing, next_end};
+use super::{Profile, Unserved};
+
+/// Where a leg begins.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::engine) struct Begin {
+    /// rad
+    pub start: f64,
+    /// +1 or −1
+    pub direction: f64,
+    /// J; without it the start is a turning point.
+    pub kinetic: f64,
+    /// How far it may be off beside its own rounding, J.
+    pub off: f64,
+}
+
+/// Most panels that are tried for a leg.
+const MOST_ATTEMPTS: usize = 200_000;
+/// Panels no longer than this are taken as they are, rad: a corner that nobody announced.
+const SHORTEST: f64 = 1e-13;
+/// Below this part of the largest kinetic energy its sum over the panels has lost digits.
+const NEAR_REST: f64 = 1e-3;
+
+/// A leg that is being built.
+struct Builder<'a> {
+    profile: &'a dyn Profile,
+    begin: Begin,
+    /// The start, a turn later, rad.
+    whole_turn: f64,
+    /// Kinetic energy that each turn gains, if it is the same in each, J.
+    gain: Option<f64>,
+    home: Option<Return<'a>>,
+    leg: Leg,
+    /// Where the next panel begins, rad.
+    at: f64,
+    /// Kinetic energy there, and the largest so far, J.
+    kinetic: f64,
+    largest: f64,
+    /// Length of the next panel at most, rad.
+    length: f64,
+    turns_at: Option<f64>,
+    turns: f64,
+}
+
+impl Leg {
+    /// Panels until the time `until` is passed or `most_turns` are complete, if the forces are the same in each;
+    /// their series end where they have decayed to `tolerance`.
+    pub fn build(
+        profile: &dyn Profile,
+        begin: Begin,
+        until: f64,
+        tolerance: f64,
+        most_turns: f64,
+    ) -> Result<Leg, Unserved> {
+        let whole_turn = begin.start + begin.direction * TAU;
+        let work = profile.work_of_turn();
+        let mut builder = Builder {
+            profile,
+            begin,
+            whole_turn,
+            gain: work.map(|(work, _)| begin.direction * work),
+            home: Return::new(profile, whole_turn, begin.kinetic),
+            leg: Leg::open(),
+            at: begin.start,
+            kinetic: begin.kinetic,
+            largest: begin.kinetic,
+            length: LONGEST,
+            turns_at: None,
+            turns: 0.0,
+        };
+        let mut attempts = 0;
+        while builder.leg.after == After::Ends
+            && (builder.leg.len() == 0 || builder.leg.duration.0 <= until)
+        {
+            attempts += 1;
+            if attempts > MOST_ATTEMPTS {
+                return Err(Unserved::TooLong);
+            }
+            builder.panel(tolerance)?;
+            if builder.is_home() {
+                builder.turn(until, most_turns);
+            }
+        }
+        Ok(builder.leg)
+    }
+}
+
+impl Builder<'_> {
+    /// Tries the next panel: takes it, or makes it shorter.
+    fn panel(&mut self, tolerance: f64) -> Result<(), Unserved> {
+        let piece = self.piece();
+        let rounding = self.rounding();
+        let (at, to) = (piece.from, piece.to);
+        let short = (to - at).abs() <= SHORTEST * at.abs().max(1.0);
+        let accepted = if short { f64::INFINITY } else { tolerance };
+        match Panel::attempt(self.profile, piece, self.kinetic, accepted, rounding)? {
+            Tried::Done(panel) => self.take(*panel),
+            Tried::TurnsAt(end) if end != at => {
+                let home = self.home.as_ref();
+                let exact = home.and_then(|again| again.turning_point(at, end));
+                self.turns_at = Some(exact.unwrap_or(end));
+            }
+            _ if short => return Err(Unserved::NotFinite),
+            _ => self.length = 0.5 * (to - at).abs(),
+        }
+        Ok(())
+    }
+
+    fn piece(&self) -> Piece {
+        let direction = self.begin.direction;
+        let mut to = next_end(self.profile.corners(), self.at, direction, self.length);
+        if self.gain.is_some() && direction * (to - self.whole_turn) > -1e-12 {
+            to = self.whole_turn;
+        }
+        let mut turning = if self.kinetic == 0.0 {
+            Turning::AtStart
+        } else {
+            Turning::Nowhere
+        };
+        if let Some(end) = self.turns_at.filter(|end| direction * (to - end) >= 0.0) {
+            if turning == Turning::AtStart {
+                // A panel cannot turn at both ends: the first half ends in the middle.
+                to = 0.5 * (self.at + end);
+            } else {
+                to = end;
+                turning = Turning::AtEnd;
+            }
+        }
+        Piece {
+            from: self.at,
+            to,
+            turning,
+        }
+    }
+
+    /// How far the kinetic energy at the start of the next panel may be off, J; near rest it is that of the way to the
+    /// end of the turn, which keeps its digits.
+    fn rounding(&mut self) -> f64 {
+        if let Some(home) = &self.home
+            && self.kinetic < NEAR_REST * self.largest
+            && let Some(exact) = home.kinetic(self.at)
+        {
+            self.kinetic = exact;
+            let to_go = (self.whole_turn - self.at).abs();
+            return f64::EPSILON * exact * (1.0 + self.at.abs() / to_go);
+        }
+        self.begin.off + f64::EPSILON * self.largest
+    }
+
+    fn take(&mut self, mut panel: Panel) {
+        let piece = panel.piece;
+        self.at = piece.to;
+        panel.turns = self.begin.direction * self.turns;
+        self.kinetic = panel.kinetic_at_end;
+        self.largest = self.largest.max(self.kinetic);
+        self.length = 2.0 * piece.span().abs();
+        self.leg.push(panel);
+        if piece.turning == Turning::AtEnd {
+            self.leg.after = After::TurnsBack;
+        }
+    }
+
+    /// Whether a turn is complete after which the same forces follow.
+    fn is_home(&self) -> bool {
+        self.gain.is_some() && self.at == self.whole_turn && self.leg.after == After::Ends
+    }
+
+    fn turn(&mut self, until: f64, most_turns: f64) {
+        let Begin {
+            start, direction, ..
+        } = self.begin;
+        self.leg.complete(missing(start, direction));
+        self.turns += 1.0;
+        if self.profile.repeats() {
+            self.leg.after = After::Repeats;
+        } else if self.turns >= most_turns && self.leg.duration.0 <= until {
+            self.leg.after = After::GoesOn;
+        } else {
+            self.at = start;
+            let gain = self.gain.unwrap_or_default();
+            self.kinetic = gain.mul_add(self.turns, self.begin.kinetic);
+        }
+    }
+}
