@@ -1,7 +1,7 @@
 //! Panel after panel, turn after turn.
 
 use super::station::{Fineness, Station, stations};
-use super::sweep::{Start, Swept, Unsolved, sweep};
+use super::sweep::{Start, Swept, sweep};
 use super::switch::{Side, side};
 use super::{Driven, Resolution};
 use crate::engine::energy::Unserved;
@@ -10,15 +10,6 @@ use crate::engine::energy::piece::Piece;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
 use crate::numeric::exact::two_sum;
-
-/// With less than this part of the largest kinetic energy the crank is near to rest.
-const SLOW: f64 = 1e-2;
-/// Half of a panel of a crank near to rest is not cut below this, rad.
-const SHORT: f64 = 1e-3;
-/// With less than this part of it a crank that seems to stop on a panel, half of which is this long, rad, is not
-/// followed to where it does: towards there each panel is a fraction of the one before, and a step in time passes.
-const STOPS: f64 = 0.1;
-const SOON: f64 = 0.25;
 
 /// A run over the angle: the panels of a turn, and where it has come to.
 #[derive(Clone)]
@@ -239,63 +230,5 @@ impl<'a, D: Driven> March<'a, D> {
             spent: *self.swept.spent(),
             work,
         }
-    }
-
-    /// Raises the degree of the next panel, or cuts it: for this turn, and for all if it happens again.
-    fn refine(&mut self, why: Unsolved) -> Result<(), Unserved> {
-        self.refined = true;
-        let for_now = !self.parts.is_empty();
-        let station = self
-            .parts
-            .last_mut()
-            .unwrap_or(&mut self.stations[self.next]);
-        if station.raise(self.driven)? {
-            return Ok(());
-        }
-        let half = station.half().abs();
-        let slow = self.kinetic < SLOW * self.fastest;
-        let stops = self.gives_up
-            && why == Unsolved::Stops
-            && self.kinetic < STOPS * self.fastest
-            && half < SOON;
-        if stops || slow && half < SHORT {
-            return Err(Unserved::TooSlow);
-        }
-        let Some([first, second]) = station.parts(self.driven, 0.5, self.fine)? else {
-            // Its forces may have brought it to this energy within a small part of a radian.
-            let force = station.table.force[0] + station.table.push[0];
-            return Err(if slow || self.kinetic < SLOW * force.abs() {
-                Unserved::TooSlow
-            } else {
-                Unserved::NotSmooth
-            });
-        };
-        if for_now {
-            self.parts.pop();
-            self.parts.extend([second, first]);
-        } else if station.failed {
-            self.stations.splice(self.next..=self.next, [first, second]);
-        } else {
-            station.failed = true;
-            self.parts.extend([second, first]);
-        }
-        Ok(())
-    }
-
-    /// Cuts every panel that failed for good.
-    pub fn settle(&mut self) -> Result<(), Unserved> {
-        let stations = std::mem::take(&mut self.stations);
-        for station in stations {
-            let parts = if station.failed {
-                station.parts(self.driven, 0.5, self.fine)?
-            } else {
-                None
-            };
-            match parts {
-                Some(parts) => self.stations.extend(parts),
-                None => self.stations.push(station),
-            }
-        }
-        Ok(())
     }
 }

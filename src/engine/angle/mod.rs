@@ -16,6 +16,7 @@ mod march;
 mod newton;
 mod one_turn;
 mod past;
+mod refine;
 mod rest;
 mod station;
 mod steady;
