@@ -7,7 +7,9 @@ use std::f64::consts::{PI, TAU};
 
 use proptest::prelude::*;
 use slider_crank::plan::{Engine, Method, Plan};
-use slider_crank::scene::{Branch, Crank, Friction, Gravity, Load, Rod, Scene, Slider, Variables};
+use slider_crank::scene::{
+    Branch, Crank, Every, Friction, Gravity, Load, Rod, Scene, Slider, Variables,
+};
 use slider_crank::study::{Options, Row, Simulation, simulate, simulate_rows};
 use support::close;
 use support::random::{cases, magnitude};
@@ -131,6 +133,44 @@ fn turning() -> impl Strategy<Value = Scene> {
         })
 }
 
+/// A run with the forces of the guide at crank angles so far apart, rad.
+fn guided(scene: &Scene, spacing: f64) -> (Simulation, Vec<f64>) {
+    let options = Options {
+        reactions: true,
+        ..Options::default()
+    };
+    let scene = scene.clone().output_every(Every::Angle(spacing));
+    let mut rows: Vec<Row> = Vec::new();
+    let run = simulate_rows(&scene, &options, &mut rows).expect("a run");
+    let forces = rows.iter().map(|row| row.reactions.unwrap().guide);
+    (run, forces.collect())
+}
+
+/// A turn under so much weight that the slider all but stays on its lower guide; `part` of the weight is missing.
+fn dipping(scene: Scene, part: f64) -> Option<Scene> {
+    let speed = scene.motion.speed.abs();
+    let unit = scene.geometry.crank * speed * speed;
+    let under = |weight: f64| {
+        scene
+            .clone()
+            .gravity(Gravity {
+                acceleration: weight,
+                ..Gravity::standard()
+            })
+            .duration(TAU / speed)
+    };
+    let pressed = |weight: f64| guided(&under(weight), 0.02).1.iter().all(|n| *n > 0.0);
+    let (mut low, mut high) = (0.0, unit);
+    if pressed(low) || !pressed(high) {
+        return None;
+    }
+    for _ in 0..16 {
+        let middle = 0.5 * (low + high);
+        *(if pressed(middle) { &mut high } else { &mut low }) = middle;
+    }
+    Some(under(high * (1.0 - part)))
+}
+
 proptest! {
     #![proptest_config(cases(200))]
 
@@ -162,6 +202,31 @@ proptest! {
         let run = run(&scene, Method::Auto);
         prop_assume!(!run.summary.plan.reason.contains("handed"));
         prop_assert!(run.summary.energy_residual.abs() < 1e-12, "{:e}", run.summary.energy_residual);
+    }
+}
+
+proptest! {
+    #![proptest_config(cases(40))]
+
+    /// They agree too where the normal force dips through zero within a small part of a step.
+    #[test]
+    fn angle_and_time_agree_where_the_normal_force_dips(scene in turning(), part in magnitude(1e-5, 1e-3)) {
+        let scene = dipping(scene, part);
+        prop_assume!(scene.is_some());
+        let scene = scene.unwrap();
+        let (over, forces) = guided(&scene, 1e-3);
+        let (lifted, all) = (forces.iter().filter(|n| **n < 0.0).count(), forces.len());
+        prop_assume!(over.summary.engine == "angle" && over.summary.stopped.is_none());
+        prop_assume!(lifted > 0 && lifted < all / 50);
+        for method in [Method::Time, Method::Dop853] {
+            let mut scene = scene.clone();
+            scene.run.tolerance = 1e-13;
+            let timed = run(&scene, method);
+            let (a, b) = (&over.summary, &timed.summary);
+            let stated = a.error_estimate.unwrap().theta_rad + b.error_estimate.unwrap().theta_rad;
+            let apart = (a.last.theta_rad - b.last.theta_rad).abs();
+            prop_assert!(apart <= stated, "{:?} {:e} {:e}", method, apart, stated);
+        }
     }
 }
 

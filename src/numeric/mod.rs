@@ -4,6 +4,7 @@ pub mod angle;
 pub mod banded;
 pub mod chebyshev;
 pub mod difference;
+pub mod dip;
 pub mod double_double;
 pub mod exact;
 pub mod fit;

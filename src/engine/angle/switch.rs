@@ -5,6 +5,7 @@ use super::sweep::{Start, Swept};
 use super::{Driven, Switch};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MOST, Rule, Series, Values};
+use crate::numeric::dip::{least, may_dip};
 use crate::numeric::root;
 
 /// The switch within this part of what it is the sum of has no sign.
@@ -138,34 +139,4 @@ fn first_below<P: Copy>(station: &Station<P>, values: &Values, noise: f64) -> Op
         }
     }
     None
-}
-
-/// Whether a function with these values may have gone far below them between the points.
-fn may_dip(x: [f64; 3], y: [f64; 3]) -> bool {
-    let slopes = [(y[1] - y[0]) / (x[1] - x[0]), (y[2] - y[1]) / (x[2] - x[1])];
-    let bend = (slopes[1] - slopes[0]) / (x[2] - x[0]);
-    if bend <= 0.0 {
-        return false;
-    }
-    // The parabola through the three: y0 + s0 (x − x0) + bend (x − x0)(x − x1).
-    let lowest = 0.5 * (x[0] + x[1]) - 0.5 * slopes[0] / bend;
-    if lowest <= x[0] || lowest >= x[2] {
-        return false;
-    }
-    let (from, on) = (lowest - x[0], lowest - x[1]);
-    let value = y[0] + from * (slopes[0] + bend * on);
-    value < 0.5 * y[0].min(y[1]).min(y[2])
-}
-
-/// Place of the least value between `a` and `b`, by golden section.
-fn least(value: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
-    for _ in 0..50 {
-        let part = 0.618_033_988_75 * (b - a);
-        if value(b - part) < value(a + part) {
-            b = a + part;
-        } else {
-            a = b - part;
-        }
-    }
-    0.5 * (a + b)
 }

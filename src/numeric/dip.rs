@@ -1,0 +1,40 @@
+//! Dips of a function between places where its values are known.
+
+/// A dip may go unseen where the parabola comes as near to zero as this part of its sag over the wider of the two
+/// gaps.
+const NEAR: f64 = 0.25;
+
+/// Whether a function with these values at three places in order may fall below zero between them where the values
+/// do not.
+///
+/// The parabola through the three has its lowest point between the outer ones, and comes near to zero there. As it
+/// lies above that point by no more than a quarter of its sag at the nearest place, a lowest value of less than half
+/// of the least of the three is always near.
+pub fn may_dip(x: [f64; 3], y: [f64; 3]) -> bool {
+    let slopes = [(y[1] - y[0]) / (x[1] - x[0]), (y[2] - y[1]) / (x[2] - x[1])];
+    let bend = (slopes[1] - slopes[0]) / (x[2] - x[0]);
+    if bend <= 0.0 {
+        return false;
+    }
+    // The parabola: y0 + s0 (x − x0) + bend (x − x0)(x − x1).
+    let lowest = 0.5 * (x[0] + x[1]) - 0.5 * slopes[0] / bend;
+    if lowest <= x[0] || lowest >= x[2] {
+        return false;
+    }
+    let (from, on) = (lowest - x[0], lowest - x[1]);
+    let gap = (x[1] - x[0]).max(x[2] - x[1]);
+    y[0] + from * (slopes[0] + bend * on) < NEAR * bend * gap * gap
+}
+
+/// Place of the least value between `a` and `b`, by golden section.
+pub fn least(value: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
+    for _ in 0..50 {
+        let part = 0.618_033_988_75 * (b - a);
+        if value(b - part) < value(a + part) {
+            b = a + part;
+        } else {
+            a = b - part;
+        }
+    }
+    0.5 * (a + b)
+}
