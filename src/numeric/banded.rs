@@ -51,6 +51,19 @@ impl Banded {
         y
     }
 
+    /// The block of this symmetric matrix that begins at row and column `from`, as wide as the band, times a vector.
+    pub fn times_part(&self, from: usize, x: &[f64; DIAGONALS]) -> [f64; DIAGONALS] {
+        let mut y = [0.0; DIAGONALS];
+        for (i, row) in self.0[from..from + DIAGONALS].iter().enumerate() {
+            y[i] += row[0] * x[i];
+            for k in 1..=i {
+                y[i] += row[k] * x[i - k];
+                y[i - k] += row[k] * x[i];
+            }
+        }
+        y
+    }
+
     /// The factor L of this matrix = L Lᵀ (Cholesky); none if it is not positive definite.
     pub fn cholesky(&self) -> Option<Banded> {
         let mut l = self.clone();
@@ -171,6 +184,11 @@ mod tests {
                 assert!((found.get(i, i - k) - inverse[(i, i - k)]).abs() < 1e-14);
             }
         }
+        let part = full.fixed_view::<DIAGONALS, DIAGONALS>(3, 3);
+        let vector: [f64; DIAGONALS] = std::array::from_fn(|i| i as f64 - 2.5);
+        let expected = part * nalgebra::SVector::from(vector);
+        let found = banded.times_part(3, &vector);
+        assert!((0..DIAGONALS).all(|i| (found[i] - expected[i]).abs() < 1e-13));
         assert!((factor.log_determinant() - full.determinant().ln()).abs() < 1e-12);
         let b: Vec<f64> = (0..size).map(|i| i as f64).collect();
         let back = banded.times(&factor.solve(&b));

@@ -88,7 +88,7 @@ impl<'a> Normal<'a> {
 
     /// What the penalty has bent away of a solution, estimated by smoothing the solution's own pull once more.
     pub fn bent_away(&self, strength: f64, factor: &Banded, coefficients: &[f64]) -> Vec<f64> {
-        let pull = self.penalty.times(coefficients);
+        let pull = pull(coefficients);
         factor.solve(&pull.iter().map(|p| strength * p).collect::<Vec<f64>>())
     }
 
@@ -110,7 +110,7 @@ impl<'a> Normal<'a> {
         let mut coefficients = from;
         for _ in 0..3 {
             let (_, mut right) = self.residuals(&coefficients);
-            let pull = self.penalty.times(&coefficients);
+            let pull = pull(&coefficients);
             right
                 .iter_mut()
                 .zip(pull)
@@ -134,14 +134,29 @@ fn difference() -> [f64; ORDER + 1] {
     difference
 }
 
+/// Differences of coefficients.
+fn differences(coefficients: &[f64]) -> impl Iterator<Item = f64> {
+    let difference = difference();
+    let windows = coefficients.windows(ORDER + 1);
+    windows.map(move |w| w.iter().zip(difference).map(|(c, d)| c * d).sum())
+}
+
 /// Sum of squares of the differences of coefficients.
 pub(super) fn roughness(coefficients: &[f64]) -> f64 {
-    let difference = difference();
-    let one = |w: &[f64]| w.iter().zip(difference).map(|(c, d)| c * d).sum::<f64>();
-    coefficients
-        .windows(ORDER + 1)
-        .map(|w| one(w) * one(w))
-        .sum()
+    differences(coefficients).map(|d| d * d).sum()
+}
+
+/// DᵀD times coefficients, from the differences themselves: rounding then stays in the range of Dᵀ, where a strong
+/// penalty damps it.
+fn pull(coefficients: &[f64]) -> Vec<f64> {
+    let weights = difference();
+    let mut pull = vec![0.0; coefficients.len()];
+    for (i, value) in differences(coefficients).enumerate() {
+        for (pull, weight) in pull[i..].iter_mut().zip(weights) {
+            *pull += weight * value;
+        }
+    }
+    pull
 }
 
 /// DᵀD for differences of `ORDER`, and the logarithm of the determinant of DDᵀ.
@@ -181,7 +196,7 @@ impl Normal<'_> {
         let weak = 1e-7 * trace;
         let near = self.solve(weak, &self.factor(weak)?, vec![0.0; size]);
         let (squares, data) = self.residuals(&near);
-        let pull = self.penalty.times(&near);
+        let pull = pull(&near);
         let least = rows * self.samples.floor * self.samples.floor;
         let free = rows - ORDER as f64;
         // All sums are taken about the weakly smoothed solution, so that nothing cancels where the noise is small.
@@ -249,9 +264,18 @@ fn minimum(f: &dyn Fn(f64) -> f64, from: f64, to: f64) -> f64 {
     let best = (0..=steps).fold(0, |best, i| if values[i] < values[best] { i } else { best });
     let (mut a, mut b) = (place(best.saturating_sub(1)), place((best + 1).min(steps)));
     const GOLDEN: f64 = 0.618_033_988_749_895;
+    let (mut c, mut d) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
+    let (mut at_c, mut at_d) = (f(c), f(d));
     for _ in 0..14 {
-        let (c, d) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
-        if f(c) < f(d) { b = d } else { a = c }
+        if at_c < at_d {
+            (b, d, at_d) = (d, c, at_c);
+            c = b - GOLDEN * (b - a);
+            at_c = f(c);
+        } else {
+            (a, c, at_c) = (c, d, at_d);
+            d = a + GOLDEN * (b - a);
+            at_d = f(d);
+        }
     }
     0.5 * (a + b)
 }

@@ -44,14 +44,17 @@ impl Spline {
         let failed = || FAILED.to_owned();
         let rows = samples.t.len();
         let all = Rows::from(samples);
-        let few = match size {
-            Size::Fixed(pieces) => Rows::new(samples, pieces.max(1)),
-            Size::Auto => Rows::new(samples, FEWEST),
+        let condensed = match size {
+            Size::Fixed(pieces) => Rows::condense(samples, pieces.max(1)),
+            Size::Auto => Rows::condense(samples, FEWEST),
         };
         // Knots inside a block would be lost.
-        let rows_for = |pieces: usize| match few.blocks() {
-            Some(blocks) if blocks.is_multiple_of(pieces) => &few,
-            _ => &all,
+        let rows_for = |pieces: usize| {
+            let serves = |rows: &&Rows<'_>| {
+                rows.blocks()
+                    .is_some_and(|blocks| blocks.is_multiple_of(pieces))
+            };
+            condensed.iter().rev().find(serves).unwrap_or(&all)
         };
         let pieces = match size {
             Size::Fixed(pieces) => pieces,
@@ -172,14 +175,12 @@ impl Spline {
                 .sum()
         });
         add_products(&mut state.bias, &bias, 1.0);
+        let spread = bases.map(|basis| self.inverse.times_part(piece, &basis));
         let mut entry = 0;
-        for k in 0..3 {
-            for l in 0..=k {
-                for (i, a) in bases[k].iter().enumerate() {
-                    for (j, b) in bases[l].iter().enumerate() {
-                        state.covariance[entry] += a * b * self.inverse.get(piece + i, piece + j);
-                    }
-                }
+        for basis in 0..3 {
+            for spread in &spread[..=basis] {
+                let products = bases[basis].iter().zip(spread);
+                state.covariance[entry] = products.map(|(b, s)| b * s).sum();
                 entry += 1;
             }
         }

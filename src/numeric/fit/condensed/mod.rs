@@ -62,18 +62,24 @@ impl<'a> From<&Samples<'a>> for Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    /// The samples, condensed where they are many and noise outweighs what no polynomial follows. The number of
-    /// blocks is `unit` times a power of two.
+    /// The samples, condensed to as few blocks as serve; as they are if none do.
     pub fn new(samples: &Samples<'a>, unit: usize) -> Rows<'a> {
-        let all = Rows::from(samples);
+        let condensed = Rows::condense(samples, unit).pop();
+        condensed.unwrap_or_else(|| Rows::from(samples))
+    }
+
+    /// The samples condensed to ever fewer blocks, if they are many and as long as noise outweighs what no polynomial
+    /// follows. The number of blocks is `unit` times a power of two.
+    pub fn condense(samples: &Samples<'a>, unit: usize) -> Vec<Rows<'a>> {
         let most = samples.t.len() / OF_BLOCK;
         if samples.t.len() < MANY || unit > most {
-            return all;
+            return Vec::new();
         }
         let mut blocks = unit;
         while 2 * blocks <= most {
             blocks *= 2;
         }
+        let all = Rows::from(samples);
         let [first, last] = all.span;
         let width = (last - first) / blocks as f64;
         let mut end = 0;
@@ -82,19 +88,18 @@ impl<'a> Rows<'a> {
             end += samples.t[end..].partition_point(|t| *t < limit);
             if block < blocks { end } else { samples.t.len() }
         });
-        let ends: Vec<usize> = ends.collect();
-        let (mut fine, mut now) = (all.clone(), all.condensed(&ends));
+        let mut now: Rows<'a> = all.condensed(&ends.collect::<Vec<usize>>());
         // Blocks half as wide as those that pass leave of the motion 2^-NODES of what they do.
-        let mut passed = 0;
+        let mut list = Vec::new();
         while now.ends.len() % 2 == 0 && now.ends.len() / 2 >= FEWEST.max(unit) {
             let pairs: Vec<usize> = now.ends.chunks(2).map(|pair| pair[1]).collect();
             let wide = now.condensed(&pairs);
             if !wide.is_noise_beside(&now) {
                 break;
             }
-            (fine, now, passed) = (now, wide, passed + 1);
+            list.push(std::mem::replace(&mut now, wide));
         }
-        if passed > 0 { fine } else { all }
+        list
     }
 
     /// Number of blocks; none for samples as they are.
