@@ -91,7 +91,7 @@ impl<'a> Rows<'a> {
         let mut now: Rows<'a> = all.condensed(&ends.collect::<Vec<usize>>());
         // Blocks half as wide as those that pass leave of the motion 2^-NODES of what they do.
         let mut list = Vec::new();
-        while now.ends.len() % 2 == 0 && now.ends.len() / 2 >= FEWEST.max(unit) {
+        while now.ends.len().is_multiple_of(2) && now.ends.len() / 2 >= FEWEST.max(unit) {
             let pairs: Vec<usize> = now.ends.chunks(2).map(|pair| pair[1]).collect();
             let wide = now.condensed(&pairs);
             if !wide.is_noise_beside(&now) {
