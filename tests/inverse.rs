@@ -267,6 +267,66 @@ fn check_unfolding(scene: &Scene, angle: fn(f64) -> f64, end: f64) {
     }
 }
 
+/// A motion that starts slowly from a place near a dead centre, or far from it, and reverses at once: the scene's angle
+/// says which stroke it is, whatever the sense of its small speed.
+#[test]
+fn the_angle_of_the_scene_decides_where_the_motion_reverses_at_once() {
+    let offsets = [
+        (0.0, Branch::Right),
+        (0.02, Branch::Right),
+        (-0.02, Branch::Left),
+    ];
+    for (offset, branch) in offsets {
+        for start in [0.4, 1.3, 2.5, -0.5, -1.4, -2.2] {
+            for sense in [1.0, -1.0] {
+                // θ = start + sense (0.3 t − 40 t²): the first 4 ms run against all that follows.
+                let angle = move |t: f64| start + sense * (0.3 * t - 40.0 * t * t);
+                let scene = Scene::new(0.05, 0.15)
+                    .offset(offset)
+                    .branch(branch)
+                    .slider(Slider { mass: 1.0 })
+                    .start(start, 0.3 * sense);
+                let times: Vec<f64> = (0..=300).map(|i| 0.001 * f64::from(i)).collect();
+                let theta: Vec<f64> = times.iter().map(|t| angle(*t)).collect();
+                for measured in [Measured::X, Measured::Gamma] {
+                    let values = shown(&scene, measured, &theta);
+                    let motion =
+                        Measurement::new(measured, times.clone(), values).expect("samples");
+                    let found = inverse(&scene, &motion, &fitted(FitKind::Spline));
+                    let found = found.expect("an inversion");
+                    for (row, theta) in found.rows.iter().zip(&theta) {
+                        let off = row.theta - theta;
+                        assert!(
+                            off.abs() < 2e-2,
+                            "{measured:?}, {offset}, {start}, {sense}: {off} at {}",
+                            row.t
+                        );
+                    }
+                    let said = |w: &String| w.contains("angle and speed of the scene belong");
+                    assert!(found.summary.warnings.iter().any(said));
+                }
+            }
+        }
+    }
+}
+
+/// Far from either start, or not said, the scene's angle gives way to its speed.
+#[test]
+fn the_speed_of_the_scene_decides_where_its_angle_says_nothing() {
+    let times: Vec<f64> = (0..=300).map(|i| 0.001 * f64::from(i)).collect();
+    let theta: Vec<f64> = times.iter().map(|t| 0.9 + 12.0 * t).collect();
+    for angle in [0.0, 2.3] {
+        for sense in [1.0, -1.0] {
+            let scene = Scene::new(0.05, 0.15).slider(Slider { mass: 1.0 });
+            let scene = scene.start(angle, 5.0 * sense);
+            let values = shown(&scene, Measured::X, &theta);
+            let motion = Measurement::new(Measured::X, times.clone(), values).expect("samples");
+            let found = inverse(&scene, &motion, &fitted(FitKind::Spline)).expect("an inversion");
+            assert!((found.rows[0].theta - 0.9 * sense).abs() < 1e-3);
+        }
+    }
+}
+
 #[test]
 fn angles_reduced_to_one_turn_are_continued() {
     let times: Vec<f64> = (0..200).map(|i| 0.01 * f64::from(i)).collect();

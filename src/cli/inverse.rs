@@ -121,7 +121,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         .map(Output::create)
         .transpose()?;
     let plot = arguments.plot.as_deref().map(Output::create).transpose()?;
-    let result = study::inverse(&scene, &measurement, &options)?;
+    let mut result = study::inverse(&scene, &measurement, &options)?;
+    let of_printed = printed.as_ref().and_then(AsPrinted::warning);
+    result.summary.warnings.extend(of_printed);
     if let Some(output) = out {
         report::inverse_rows(&result, printed.as_ref(), output)?;
     }

@@ -25,6 +25,16 @@ impl Candidates {
         &self.list[..self.count]
     }
 
+    /// These angles and others that are not among them.
+    pub fn with(mut self, others: &Candidates) -> Candidates {
+        for theta in others.angles() {
+            if !self.angles().contains(theta) {
+                self.push(*theta);
+            }
+        }
+        self
+    }
+
     fn push(&mut self, theta: f64) {
         if self.count < self.list.len() {
             self.list[self.count] = theta;

@@ -149,6 +149,24 @@ impl Limits {
     }
 }
 
+impl Linkage {
+    /// Crank angles, in [−π/2, 3π/2], at which the rod stands normal to the guide, where the branches meet: the limits of a
+    /// crank that cannot turn fully, and what a change point has in their place; empty for a crank that turns fully.
+    pub fn limit_angles(&self) -> Vec<f64> {
+        let Linkage { r, l, e, .. } = *self;
+        let same = SAME * (l + r);
+        let limit = |lift: f64, below: f64| {
+            let exists = below >= -same && r + lift >= -same;
+            let cos_squared = (below * (r + lift)).max(0.0) / (r * r);
+            exists.then(|| (lift / r).atan2(cos_squared.sqrt()))
+        };
+        let up = limit(l - e, -sum3(l, -e, -r));
+        let down = limit(l + e, -sum3(l, e, -r)).map(|down| -down);
+        let both = up.into_iter().chain(down);
+        both.flat_map(|angle| [angle, PI - angle]).collect()
+    }
+}
+
 /// Outer: |OP| = l + r with A between. Inner: |OP| = |l − r|. On branch s the outer one has x of the sign
 /// of s; the inner one too if l > r, the other sign if not.
 fn dead_centre(linkage: &Linkage, outer: bool) -> Option<DeadCentre> {

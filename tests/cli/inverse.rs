@@ -437,6 +437,38 @@ fn options_that_go_wrong() {
 }
 
 #[test]
+fn clearance_is_refused() {
+    let scene = format!(
+        "{PUMP}\n[clearance]\njoint = \"wrist-pin\"\nradial = \"0.1 mm\"\nbearing_radius = \"10 mm\"\nyoung_modulus = \"207 GPa\"\npoisson_ratio = 0.3\nrestitution = 0.9\n"
+    );
+    let folder = Folder::with(&scene);
+    folder.write("data.csv", &data("t [s],theta [rad]", &rows(",")));
+    folder
+        .run(&["inverse", "scene.toml", "data.csv", "--out", "rows.csv"])
+        .fails(2, &["clearance in a joint", "tight joints", "help:"]);
+    assert_eq!(folder.names(), ["data.csv", "scene.toml"]);
+}
+
+#[test]
+fn printed_forces_say_that_they_ignore_friction() {
+    let in_line = "[geometry]\ncrank = \"50 mm\"\nrod = \"150 mm\"\n[crank]\nmass = \"1 kg\"\ncg = \"10 mm\"\ninertia = \"2e-3 kg m^2\"\n[rod]\nmass = \"0.3 kg\"\ncg = \"60 mm\"\ninertia = \"800 kg mm^2\"\n[slider]\nmass = \"0.4 kg\"\n";
+    let words = "have no friction";
+    for (friction, said) in [("", false), ("[friction]\ncoefficient = 0.1\n", true)] {
+        let folder = Folder::with(&format!("{in_line}{friction}"));
+        folder.write("data.csv", &data("t [s],theta [rad]", &rows(",")));
+        let run = folder.run(&[
+            "inverse",
+            "scene.toml",
+            "data.csv",
+            "--as-printed",
+            "--json",
+        ]);
+        let warnings = run.done().json()["warnings"].to_string();
+        assert_eq!(warnings.contains(words), said, "{warnings}");
+    }
+}
+
+#[test]
 fn rows_with_joint_forces_residuals_and_figure() {
     let folder = folder(&data("t [s],theta [rad]", &rows(",")));
     let arguments = [

@@ -32,7 +32,7 @@ pub struct BandRule {
     pub rule: &'static str,
 }
 
-const RULE: &str = "within |x'| < r/2 the slider force is left empty where half of its 95 % band is wider than the largest crank torque of the motion (or ten times the median half-width of that torque's band, if larger) over the crank length, or where x' is less than five standard errors from zero; so it is at the limit of a rocker, and with friction where the crank speed is less than five standard errors from zero";
+const RULE: &str = "within |x'| < r/2 the slider force is left empty where half of its 95 % band is wider than the largest crank torque of the motion (or ten times the median half-width of that torque's band, if larger) over the crank length, or where x' is less than five standard errors from zero; near the limit of a rocker (cos phi < 0.3) the width alone counts, and each torque of a rocker is divided by |x'| where that is longer than the crank; it is left empty too with friction where the crank speed is less than five standard errors from zero";
 
 const NO_SIGN: &str = "the sign of the lever arm x' is not certain";
 const AT_LIMIT: &str =
@@ -41,6 +41,8 @@ const AT_REST: &str =
     "the crank speed is within five standard errors of zero: friction may act either way";
 const TOO_WIDE: &str =
     "the uncertainty of the motion over the lever arm x' is wider than the force";
+
+const TOO_WIDE_AT_LIMIT: &str = "the rod is nearly normal to the guide: the uncertainty of the motion makes that of the force wider than the force";
 
 impl BandRule {
     /// The rule for a motion: crank length in m, torque and its standard error in N m at each sample, half of a 95 % band
@@ -73,6 +75,8 @@ impl BandRule {
             Some(AT_LIMIT)
         } else if !draft.friction_known {
             Some(AT_REST)
+        } else if draft.near_limit && !narrow {
+            Some(TOO_WIDE_AT_LIMIT)
         } else if draft.arm.abs() >= self.arm_m {
             None
         } else if !certain {

@@ -19,6 +19,8 @@ pub(super) struct Demand {
     pub force: f64,
     /// Its standard error.
     pub force_se: f64,
+    /// Whether the rod is so near to normal to the guide that the terms of the equation grow without bound.
+    pub near_limit: bool,
     /// Whether the friction of the guide is known: without friction, or where the slider certainly slides.
     pub friction_known: bool,
 }
@@ -37,6 +39,10 @@ pub(super) struct Backwards<'a> {
 
 /// Step in the crank angle (rad) for derivatives of the terms: they are right to about 1e-9.
 const STEP: f64 = 1e-5;
+
+/// cos φ below which force and torque are curved enough over the uncertainty of the crank angle to ask for their second
+/// differences.
+pub(super) const NEAR_LIMIT: f64 = 0.3;
 
 impl Backwards<'_> {
     /// Torque that the scene's loads exert at a state.
@@ -90,22 +96,40 @@ impl Backwards<'_> {
             terms.inertia.m / arm,
         ];
         let r = self.equation.linkage().r;
+        let near_limit = terms.pose.cos_phi < NEAR_LIMIT;
+        let bent = if near_limit {
+            let spread = self.angle_error(state);
+            let [before, after] = [theta - spread, theta + spread].map(|theta| {
+                let terms = self.equation.terms(theta);
+                let torque = needed(&terms) - self.known(t, theta, omega, &terms);
+                [torque, torque / terms.pose.dx]
+            });
+            [0, 1].map(|i| (0.5 * (before[i] + after[i]) - [torque, force][i]).abs())
+        } else {
+            [0.0; 2]
+        };
         let demand = Demand {
             torque,
-            torque_se: error(&gradient, rounding),
+            torque_se: error(&gradient, rounding) + bent[0],
             arm,
             arm_se: error(&[bend, 0.0, 0.0], 4.0 * f64::EPSILON * r),
             force,
             force_se: error(
                 &of_force,
                 (rounding + 4.0 * f64::EPSILON * r * force.abs()) / arm.abs(),
-            ),
+            ) + bent[1],
+            near_limit,
             friction_known: true,
         };
         match self.guide {
             Some(guide) => self.beside_friction(guide, t, state, demand),
             None => demand,
         }
+    }
+
+    /// Standard error of the crank angle, rad.
+    pub fn angle_error(&self, state: &State) -> f64 {
+        self.error(state, &[1.0, 0.0, 0.0], 0.0)
     }
 
     /// Standard error of a combination of angle, speed and acceleration, with what else rounding adds.

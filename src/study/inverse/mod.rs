@@ -5,6 +5,7 @@ mod bands;
 mod fitted;
 mod force;
 mod guide;
+mod limit;
 mod pattern;
 mod printed;
 mod row;
@@ -104,7 +105,7 @@ pub fn inverse(
         linkage: equation.linkage(),
         measured: measurement.measured(),
     };
-    let unfolded = unfold::unfold(sensor.linkage, measurement, &scene.motion)?;
+    let unfolded = unfold::unfold(&sensor, measurement, &scene.motion)?;
     let fitted = Fitted::new(
         &sensor,
         measurement,
@@ -124,6 +125,7 @@ pub fn inverse(
     let factor = student::half_band(free.max(1.0));
     let found = Rows::new(&backwards, &fitted.curve, measurement.times(), factor);
     reachable(measurement, &found)?;
+    limit::keeps_clear(&backwards, &sensor, &fitted, measurement)?;
     finite(&equation, measurement, &found.rows)?;
     let mut warnings = measurement.notes().to_vec();
     warnings.extend(unfolded.warnings);
@@ -173,6 +175,12 @@ impl Inverse {
 
 /// The plan of a scene whose motion was measured.
 fn plan(scene: &Scene) -> Result<Plan, Error> {
+    if scene.reduced().clearance.is_some() {
+        return Err(Error::refused(
+            "with clearance in a joint the motion of the crank does not say where the slider is: inverse reads the equation of tight joints",
+            "take [clearance] out of the scene, or set its radial to 0",
+        ));
+    }
     let mut prescribed = scene.clone();
     prescribed.motion.kind = MotionKind::ConstantSpeed;
     let mut plan = Plan::new(&prescribed, Method::Auto)?;

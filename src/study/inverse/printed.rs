@@ -19,6 +19,7 @@ pub struct AsPrinted {
     rod: Rod,
     slider: Slider,
     gravity: f64,
+    friction: bool,
 }
 
 impl AsPrinted {
@@ -50,6 +51,14 @@ impl AsPrinted {
             rod,
             slider,
             gravity: scene.gravity.map_or(0.0, |gravity| gravity.acceleration),
+            friction: scene.reduced().friction.is_some(),
+        })
+    }
+
+    /// What is to be known of the printed forces of this scene; a warning for the summary.
+    pub fn warning(&self) -> Option<String> {
+        self.friction.then(|| {
+            "the equations of Duarte et al. have no friction: the printed forces are the whole force on the slider, the friction of the guide included".to_owned()
         })
     }
 

@@ -72,6 +72,8 @@ pub(super) struct Draft {
     pub row: InverseRow,
     pub arm: f64,
     pub arm_se: f64,
+    /// Whether the rod is nearly normal to the guide.
+    pub near_limit: bool,
     /// Whether the friction of the guide is known.
     pub friction_known: bool,
 }
@@ -93,6 +95,7 @@ impl Draft {
             },
             arm: demand.arm,
             arm_se: demand.arm_se,
+            near_limit: demand.near_limit,
             friction_known: demand.friction_known,
         }
     }
@@ -105,10 +108,17 @@ impl Rows {
             let state = curve.state(times[i]);
             Draft::new(times[i], &state, &backwards.demand(times[i], &state))
         });
-        let torques = drafts
-            .iter()
-            .map(|d| (d.row.crank_torque, d.row.crank_torque_se));
         let linkage = backwards.equation.linkage();
+        let rocks = !linkage.limit_angles().is_empty();
+        let torques = drafts.iter().map(|d| {
+            // The lever arm grows without bound towards a limit, and the torque with it.
+            let longer = if rocks {
+                (d.arm.abs() / linkage.r).max(1.0)
+            } else {
+                1.0
+            };
+            (d.row.crank_torque / longer, d.row.crank_torque_se / longer)
+        });
         let mut found = Rows {
             rows: Vec::new(),
             bands: Vec::new(),

@@ -6,16 +6,20 @@
 //! between each angle and the parabola through the three before it.
 
 mod anchors;
+mod branches;
 mod doubt;
 mod search;
+mod start;
 
 use std::f64::consts::{PI, TAU};
 
+use super::sensor::Sensor;
 use crate::error::Error;
 use crate::mechanism::{Candidates, Linkage};
 use crate::numeric::parallel;
 use crate::scene::{Measured, Measurement, Motion};
 use anchors::Anchors;
+use start::Start;
 
 /// Continuous crank angles, one for each sample, and what was decided on the way.
 #[derive(Debug)]
@@ -28,43 +32,51 @@ pub(super) struct Unfolded {
 /// The continuous crank angle of a measurement. The scene's `start` decides between motions that the samples do not
 /// tell apart.
 pub(super) fn unfold(
-    linkage: &Linkage,
+    sensor: &Sensor<'_>,
     measurement: &Measurement,
     start: &Motion,
 ) -> Result<Unfolded, Error> {
-    if measurement.measured() == Measured::Theta {
+    let (linkage, name) = (sensor.linkage, sensor.measured.name());
+    if sensor.measured == Measured::Theta {
         return unwrap(linkage, measurement);
     }
     let candidates = candidates(linkage, measurement)?;
-    let blur = match measurement.measured() {
-        // At a dead centre the crank angle is known to about √(2 noise/x'').
-        Measured::X => 3.0 * (2.0 * noise(measurement.values()) / linkage.r).sqrt(),
-        _ => 0.0,
+    let noise = noise(measurement.values());
+    // At a dead centre the crank angle is known to about √(2 noise/x'').
+    let of_x = 3.0 * (2.0 * noise / linkage.r).sqrt();
+    let (blur, start_blur) = match sensor.measured {
+        Measured::X => (of_x, of_x),
+        _ => (0.0, 8.0 * noise),
     };
-    let angles = |value: f64| angles(linkage, measurement.measured(), value);
-    let anchors = Anchors::choose(measurement, &candidates, blur, angles);
-    let path = search::smoothest(&anchors, start);
-    if path.scale > TOO_COARSE {
+    let angles = |value: f64| branches::angles(linkage, sensor.measured, value);
+    let mut anchors = Anchors::choose(measurement, &candidates, blur, angles);
+    branches::begin_on_branch(sensor, measurement, &mut anchors);
+    let taken = start::choose(search::paths(&anchors), start, start_blur);
+    let taken = taken.filter(|taken| taken.path.scale <= TOO_COARSE);
+    let Some(Start {
+        path,
+        reason,
+        contradicted,
+    }) = taken
+    else {
         return Err(Error::refused(
             format!(
-                "the samples are too far apart: from one to the next the crank turns so far that the {} does not say which way",
-                measurement.measured().name()
+                "the samples are too far apart: from one to the next the crank turns so far that the {name} does not say which way"
             ),
             "give at least 20 samples for each turn of the crank",
         ));
-    }
-    let mut warnings = Vec::new();
-    let from = if start.speed != 0.0 {
-        "the one that begins with the sense of the scene's speed is taken"
-    } else if start.angle != 0.0 {
-        "the one that begins nearer to the scene's angle is taken"
-    } else {
-        "the one that begins counter-clockwise is taken, as the scene has neither speed nor angle"
     };
-    warnings.push(format!(
-        "{} does not tell a motion from the one on the other strokes: {from}",
-        measurement.measured().name()
-    ));
+    let theta = anchors.spread(measurement.times(), &candidates, &path.theta);
+    branches::stays(sensor, measurement, &theta)?;
+    let mut warnings = vec![format!(
+        "{name} does not tell a motion from the one on the other strokes: {reason}"
+    )];
+    if contradicted {
+        warnings.push(format!(
+            "angle and speed of the scene belong to different motions: the one that begins at {} rad moves off against the scene's speed of {} rad/s, its mirror image with it; let the scene have angle and speed of the first sample",
+            start.angle, start.speed
+        ));
+    }
     let doubts = doubt::doubts(&anchors, &path);
     if !doubts.is_empty() {
         let first = anchors.index[doubts[0]];
@@ -85,10 +97,7 @@ pub(super) fn unfold(
             "{text}: the smoother motion is taken, and all after it depends on that"
         ));
     }
-    Ok(Unfolded {
-        theta: anchors.spread(measurement.times(), &candidates, &path.theta),
-        warnings,
-    })
+    Ok(Unfolded { theta, warnings })
 }
 
 /// Prediction errors beyond this, rad, are not those of a motion that was followed.
@@ -96,14 +105,6 @@ const TOO_COARSE: f64 = 0.3;
 
 /// Part of the stroke, or rad, by which noise may take a value beyond what is possible.
 const BEYOND: f64 = 0.06;
-
-/// The crank angles of a turn that belong to a measured value.
-fn angles(linkage: &Linkage, measured: Measured, value: f64) -> Candidates {
-    match measured {
-        Measured::X => linkage.angles_of_x(value),
-        _ => linkage.angles_of_gamma(value),
-    }
-}
 
 /// The crank angles of each sample.
 fn candidates(linkage: &Linkage, measurement: &Measurement) -> Result<Vec<Candidates>, Error> {
@@ -115,10 +116,11 @@ fn candidates(linkage: &Linkage, measurement: &Measurement) -> Result<Vec<Candid
     };
     let rounding = measurement.resolution() + 1e-12 * size;
     let most = (8.0 * noise).min(BEYOND * size) + rounding;
-    let angles = |value: f64| angles(linkage, measurement.measured(), value);
+    let angles = |value: f64| branches::angles(linkage, measurement.measured(), value);
+    let on_branch = |value: f64| branches::of_one(linkage, measurement.measured(), value);
     let impossible = |(sample, value): (usize, &f64)| {
         let beyond = excess(*value);
-        let nowhere = angles(*value).angles().is_empty();
+        let nowhere = on_branch(*value).angles().is_empty();
         (nowhere || beyond > most).then(|| {
             let what = format!(
                 "{} = {} is impossible for this mechanism{}",

@@ -1,7 +1,6 @@
 //! The smoothest continuous motion through the anchors, by dynamic programming.
 
 use super::anchors::{Anchors, in_turn};
-use crate::scene::Motion;
 
 /// A motion through the anchors.
 #[derive(Debug)]
@@ -36,43 +35,10 @@ struct Way {
     key: u8,
 }
 
-/// The smoothest path; of several that are about as smooth the one that begins like the scene.
-pub(super) fn smoothest(anchors: &Anchors, start: &Motion) -> Path {
-    let sign = if start.speed < 0.0 { -1.0 } else { 1.0 };
+/// The smoothest path from each angle of the first anchor, with its sum of squares.
+pub(super) fn paths(anchors: &Anchors) -> Vec<(f64, Path)> {
     let starts = anchors.candidates[0].angles().len();
-    let paths: Vec<(f64, Path)> = (0..starts).map(|start| from(anchors, start)).collect();
-    let least = paths
-        .iter()
-        .fold(f64::INFINITY, |least, path| least.min(path.0));
-    let worth = |(cost, path): &(f64, Path)| {
-        let alike = *cost <= 4.0 * least + 1e-6;
-        let like_the_scene = if start.speed == 0.0 && start.angle != 0.0 {
-            (in_turn(path.theta[0], start.angle) - start.angle).abs()
-        } else {
-            f64::from(sign * first_motion(&path.theta) < 0.0)
-        };
-        (if alike { like_the_scene } else { f64::INFINITY }, *cost)
-    };
-    let best = paths.into_iter().min_by(|a, b| {
-        let (a, b) = (worth(a), worth(b));
-        a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
-    });
-    best.map(|(_, path)| path).unwrap_or_else(|| Path {
-        theta: vec![0.0; anchors.t.len()],
-        choice: vec![0; anchors.t.len()],
-        scale: f64::INFINITY,
-        passages: 0,
-    })
-}
-
-/// The first step that is not small against the largest.
-fn first_motion(theta: &[f64]) -> f64 {
-    let steps: Vec<f64> = theta.windows(2).map(|w| w[1] - w[0]).collect();
-    let largest = steps.iter().fold(0.0f64, |m, s| m.max(s.abs()));
-    steps
-        .into_iter()
-        .find(|s| s.abs() > 0.2 * largest)
-        .unwrap_or(0.0)
+    (0..starts).map(|start| from(anchors, start)).collect()
 }
 
 /// What the parabola (or line, or point) through the angles before, newest first, predicts, and the standard
