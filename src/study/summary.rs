@@ -162,7 +162,7 @@ pub struct TorqueRange {
 /// Something that happened.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Event {
-    /// `dead-centre`, `turning-point`, `impact` or `separation`.
+    /// `dead-centre`, `turning-point`, `limit`, `stick`, `slip`, `rest`, `impact` or `separation`.
     pub kind: &'static str,
     /// s
     pub t_s: f64,

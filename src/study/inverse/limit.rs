@@ -32,6 +32,19 @@ pub(super) fn apart(linkage: &Linkage) -> String {
     )
 }
 
+/// Why samples cannot be fitted; next to a limit those of a slider or a rod tell nothing of the crank angle's motion.
+pub(super) fn unfit(linkage: &Linkage, what: String) -> Error {
+    let help = "give more samples, or a lower --degree";
+    if linkage.limit_angles().is_empty() {
+        return Error::refused(what, help);
+    }
+    let apart = apart(linkage);
+    Error::refused(
+        format!("{what}, or the motion comes to a limit of the crank"),
+        format!("{help}; past a limit {apart}"),
+    )
+}
+
 /// Refuses a motion that comes to a limit within its uncertainty, at the samples or where it turns between them.
 pub(super) fn keeps_clear(
     backwards: &Backwards<'_>,

@@ -113,8 +113,7 @@ pub fn inverse(
         options.fit,
         options.size,
     );
-    let fitted =
-        fitted.map_err(|what| Error::refused(what, "give more samples, or a lower --degree"))?;
+    let fitted = fitted.map_err(|what| limit::unfit(sensor.linkage, what))?;
     let backwards = Backwards {
         equation: &equation,
         beside_forces: options.beside_forces,

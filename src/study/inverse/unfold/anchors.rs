@@ -22,6 +22,9 @@ const ENOUGH: f64 = 0.2;
 /// The motion between anchors, rad, that is wanted however still the noise.
 const LEAST: f64 = 0.01;
 
+/// Dense samples are taken together until the crank turns by so many times what blurs their mean.
+const FARTHER: f64 = 4.0;
+
 /// Part of their span by which samples are uneven about an anchor.
 const UNEVEN: f64 = 0.1;
 
@@ -62,7 +65,10 @@ impl Anchors {
         let noise = 8.0 * noise(&one);
         let wanted = |stride: usize| {
             let together = (window(stride) as f64).max(1.0);
-            let blur = blur / together.powf(0.25);
+            let blur = match window(stride) {
+                0 => blur,
+                _ => FARTHER * blur / together.powf(0.25),
+            };
             (noise / together.sqrt()).max(blur).clamp(LEAST, ENOUGH)
         };
         let motion = |stride: usize| {
