@@ -327,6 +327,35 @@ fn the_speed_of_the_scene_decides_where_its_angle_says_nothing() {
     }
 }
 
+/// A million positions of the slider over sixteen turns, each noisy by much more than the way between two of them.
+#[test]
+fn dense_positions_are_unfolded_like_few() {
+    let scene = Scene::new(0.05, 0.15);
+    let mut random = Random(88_172_645_463_325_252);
+    let count = 1_000_000;
+    let times: Vec<f64> = (0..count).map(|i| 1.6e-6 * f64::from(i)).collect();
+    let rate = TAU * 10.0;
+    let angle = |t: f64| 0.3 + rate * t + 0.05 * (rate * t + 0.4).sin();
+    let theta: Vec<f64> = times.iter().map(|t| angle(*t)).collect();
+    let mut x = shown(&scene, Measured::X, &theta);
+    for x in &mut x {
+        *x += 1e-5 * random.normal();
+    }
+    let data = Measurement::new(Measured::X, times, x).unwrap();
+    let options = InverseOptions {
+        size: FitSize::Fixed(3),
+        ..fitted(FitKind::Fourier)
+    };
+    let found = inverse(&scene.start(0.3, 60.0), &data, &options).unwrap();
+    let off = found
+        .rows
+        .iter()
+        .zip(&theta)
+        .map(|(row, theta)| (row.theta - theta).abs());
+    let most = off.fold(0.0, f64::max);
+    assert!(most < 1e-4, "{most:e}");
+}
+
 #[test]
 fn angles_reduced_to_one_turn_are_continued() {
     let times: Vec<f64> = (0..200).map(|i| 0.01 * f64::from(i)).collect();
