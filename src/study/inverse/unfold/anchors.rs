@@ -22,7 +22,9 @@ const ENOUGH: f64 = 0.2;
 /// The motion between anchors, rad, that is wanted however still the noise.
 const LEAST: f64 = 0.01;
 
-/// Dense samples are taken together until the crank turns by so many times what blurs their mean.
+/// So many samples on either side that are taken together, and more, are dense: the crank is to turn between their means
+/// by so many times what blurs these. Of few samples the means would be those over a fold.
+const DENSE: usize = 16;
 const FARTHER: f64 = 4.0;
 
 /// Part of their span by which samples are uneven about an anchor.
@@ -65,10 +67,8 @@ impl Anchors {
         let noise = 8.0 * noise(&one);
         let wanted = |stride: usize| {
             let together = (window(stride) as f64).max(1.0);
-            let blur = match window(stride) {
-                0 => blur,
-                _ => FARTHER * blur / together.powf(0.25),
-            };
+            let farther = if window(stride) < DENSE { 1.0 } else { FARTHER };
+            let blur = farther * blur / together.powf(0.25);
             (noise / together.sqrt()).max(blur).clamp(LEAST, ENOUGH)
         };
         let motion = |stride: usize| {

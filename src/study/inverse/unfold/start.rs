@@ -17,7 +17,7 @@ pub(super) struct Start {
 /// The scene's angle belongs to a motion that begins this near to it, rad...
 const NEAR: f64 = 0.1;
 
-/// ... if each other one begins this many times as far from it.
+/// ... if each other one begins beyond this many times as far from it.
 const FARTHER: f64 = 4.0;
 
 /// Sums of squares within this factor do not decide: the mirror image of a smooth motion is smooth as well, if less so
@@ -43,7 +43,7 @@ pub(super) fn choose(mut paths: Vec<(f64, Path)>, start: &Motion, blur: f64) -> 
     by_angle.sort_by(|a, b| off(*a).total_cmp(&off(*b)));
     let nearest = by_angle[0];
     let next = by_angle.get(1).map_or(f64::INFINITY, |i| off(*i));
-    let plain = off(nearest) <= NEAR && next > FARTHER * off(nearest) + blur;
+    let plain = off(nearest) <= NEAR && next > FARTHER * NEAR + blur;
     let sign = if start.speed < 0.0 { -1.0 } else { 1.0 };
     let agrees = |(_, path): &(f64, Path)| sign * first_motion(&path.theta) >= 0.0;
     let by_speed = paths.iter().position(agrees).unwrap_or(0);
