@@ -40,11 +40,6 @@ impl Run {
         matches!(self.method, Method::Dop853 | Method::Dopri5)
     }
 
-    fn passes_limits(&self) -> bool {
-        let events = &self.whole.summary.plan.events;
-        events.contains(&"limit")
-    }
-
     /// Relative to the largest energy, which is small where all is slow; tolerances are absolute there.
     fn residual_allowed(&self, tolerance: f64) -> f64 {
         let summary = &self.whole.summary;
@@ -160,19 +155,12 @@ impl Scenery<'_> {
             [last.theta_rad, last.omega_rad_per_s]
         };
         let (x, y) = (last(&a.whole), last(&b.whole));
-        // Of a method of the library on the configuration curve the second run may begin with the same step.
         let at_end = both(&a.whole, &b.whole);
-        let slack = self.tolerance
-            * if of_library && a.passes_limits() {
-                200.0
-            } else {
-                0.0
-            };
-        self.states(&format!("{who} at the end"), x, y, with(at_end, slack, x));
+        self.states(&format!("{who} at the end"), x, y, with(at_end, 0.0, x));
         let (x, y) = (last(&a.part), last(&b.part));
         let in_run = both(&a.part, &b.part);
         let what = format!("{who} where shorter runs end");
-        self.states(&what, x, y, with(in_run, slack, x));
+        self.states(&what, x, y, with(in_run, 0.0, x));
         // Inside a step the error is of the size of the tolerance; what the library leaves out between the ends of
         // steps is interpolated, and nothing controls that.
         let slack = self.tolerance * if of_library { 1e4 } else { 2.0 };

@@ -1,7 +1,10 @@
 //! Forward runs, sampled and inverted, give back the applied force, within the stated band.
 
+mod noise;
+
 use std::f64::consts::{PI, TAU};
 
+use noise::Random;
 use slider_crank::mechanism::Linkage;
 use slider_crank::scene::{
     Branch, Crank, Gravity, Load, Measured, Measurement, Scene, Slider, Variables,
@@ -9,22 +12,6 @@ use slider_crank::scene::{
 use slider_crank::study::{
     AsPrinted, FitKind, FitSize, Inverse, InverseOptions, Options, Simulation, inverse, simulate,
 };
-
-/// Evenly spread and normal numbers, the same in every run.
-struct Random(u64);
-
-impl Random {
-    fn even(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        (-2.0 * (1.0 - self.even()).ln()).sqrt() * (TAU * self.even()).cos()
-    }
-}
 
 fn pump() -> Scene {
     Scene::new(0.05, 0.15)

@@ -1,29 +1,16 @@
 //! Measured motions of cranks that cannot turn fully, near their limits and past them: the force is inside its band, left
 //! empty, or the motion is refused.
 
+mod noise;
+
 use std::f64::consts::{PI, TAU};
 
+use noise::Random;
 use slider_crank::mechanism::Linkage;
 use slider_crank::scene::{
     Branch, Crank, Gravity, Load, Measured, Measurement, Scene, Slider, Variables,
 };
 use slider_crank::study::{FitKind, InverseOptions, Options, inverse, simulate};
-
-/// Evenly spread and normal numbers, the same in every run.
-struct Random(u64);
-
-impl Random {
-    fn even(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        (-2.0 * (1.0 - self.even()).ln()).sqrt() * (TAU * self.even()).cos()
-    }
-}
 
 const CRANK: f64 = 0.05;
 const INERTIA: f64 = 2e-3;
