@@ -58,74 +58,96 @@ impl Linkage {
     pub fn excess_of_gamma(&self, gamma: f64) -> f64 {
         let (r, l) = (self.r, self.l);
         let outside = (-gamma).max(gamma - PI).max(0.0);
-        let reach = self.pin_distance(gamma.clamp(0.0, PI));
+        let [along, across] = self.pin(gamma);
+        let reach = length(along, across);
         let short = (self.e.abs() - reach).max(0.0);
-        let slope = r * l * gamma.clamp(0.0, PI).sin() / reach.max(f64::MIN_POSITIVE);
         if short > 1e-12 * (r + l) {
+            let slope = r * across / reach.max(f64::MIN_POSITIVE);
             outside + short / slope.max(1e-3 * (r + l))
         } else {
             outside
         }
     }
 
-    /// |OP| for an angle at the crank pin.
-    fn pin_distance(&self, gamma: f64) -> f64 {
-        let (r, l) = (self.r, self.l);
-        (r - l * gamma.cos()).hypot(l * gamma.sin())
+    /// The way from P to O along the crank and across it, m, for an angle at the crank pin.
+    fn pin(&self, gamma: f64) -> [f64; 2] {
+        let (sin, cos) = gamma.clamp(0.0, PI).sin_cos();
+        [self.r - self.l * cos, self.l * sin]
     }
 
     /// The crank angles, in [−π, π), at which the angle at the crank pin has this size; a size just outside what is
     /// possible is taken for the border.
     pub fn angles_of_gamma(&self, gamma: f64) -> Candidates {
-        let gamma = gamma.clamp(0.0, PI);
-        let reach = self.pin_distance(gamma);
+        let [along, across] = self.pin(gamma);
+        let reach = length(along, across);
         let x = ((reach - self.e) * (reach + self.e)).max(0.0).sqrt();
         // The direction of P as seen from O, against the crank's.
-        let lean = (self.l * gamma.sin()).atan2(self.r - self.l * gamma.cos());
         let mut found = Candidates::default();
         for x in [x, -x] {
-            let to_pin = (-self.e).atan2(x);
-            for theta in [to_pin - lean, to_pin + lean] {
-                self.keep(&mut found, theta, x);
-            }
+            self.keep(&mut found, [x, reach], [along, across, reach]);
         }
         found
     }
 
-    /// How far a slider position, m, is from those that the mechanism can have.
+    /// How far a slider position, m, is from those that a crank and a rod of these lengths reach.
     pub fn excess_of_x(&self, x: f64) -> f64 {
         let (r, l) = (self.r, self.l);
-        let reach = x.hypot(self.e);
-        let outside = (reach - (r + l)).max((r - l).abs() - reach).max(0.0);
-        if outside == 0.0 && self.angles_of_x(x).count == 0 {
-            return x.abs().max(r);
-        }
-        outside
+        let reach = length(x, self.e);
+        (reach - (r + l)).max((r - l).abs() - reach).max(0.0)
     }
 
     /// The crank angles, in [−π, π), at which the slider is at x, m; a position just outside what is possible is
     /// taken for the border.
     pub fn angles_of_x(&self, x: f64) -> Candidates {
         let (r, l) = (self.r, self.l);
-        let reach = x.hypot(self.e);
+        let reach = length(x, self.e);
         // tan² of half the angle between OP and the crank (law of cosines, without cancellation).
         let above = ((l + r) - reach).max(0.0) * (reach + (l - r)).max(0.0);
         let below = (reach - (l - r)).max(0.0) * (reach + (l + r));
-        let lean = 2.0 * above.sqrt().atan2(below.sqrt());
-        let to_pin = (-self.e).atan2(x);
+        let lean = [below - above, 2.0 * (above * below).sqrt(), below + above];
         let mut found = Candidates::default();
-        for theta in [to_pin - lean, to_pin + lean] {
-            self.keep(&mut found, theta, x);
-        }
+        self.keep(&mut found, [x, reach], lean);
         found
     }
 
-    /// Keeps an angle that belongs to the branch and is not there yet.
-    fn keep(&self, found: &mut Candidates, theta: f64, x: f64) {
-        let along = self.s * (x - self.r * theta.cos());
-        let theta = (theta + PI).rem_euclid(TAU) - PI;
-        if along >= -1e-9 * self.l && !found.angles().contains(&theta) {
-            found.push(theta);
+    /// Keeps the angles that belong to the branch and are not there yet: those of the direction from O to P, which is at
+    /// [x, |OP|], m, less and plus the lean of the crank against it, given by a cosine, a sine and what both are parts
+    /// of.
+    fn keep(&self, found: &mut Candidates, [x, reach]: [f64; 2], [cos, sin, whole]: [f64; 3]) {
+        let both = reach * whole;
+        let fits = |sine: f64| {
+            // r times the cosine of the crank angle, by the theorem of addition.
+            let crank = self.r * (x * cos - self.e * sine);
+            self.s * (x * both - crank) >= -1e-9 * self.l * both
+        };
+        let fits = [fits(sin), fits(-sin)];
+        if fits == [false; 2] {
+            return;
+        }
+        let (to_pin, lean) = ((-self.e).atan2(x), sin.atan2(cos));
+        for (fits, theta) in fits.into_iter().zip([to_pin - lean, to_pin + lean]) {
+            let theta = in_one_turn(theta);
+            if fits && !found.angles().contains(&theta) {
+                found.push(theta);
+            }
         }
     }
+}
+
+/// Length of a way with these two parts.
+fn length(along: f64, across: f64) -> f64 {
+    (along * along + across * across).sqrt()
+}
+
+/// The same crank angle in [−π, π), of one between −2π and 2π.
+fn in_one_turn(theta: f64) -> f64 {
+    let theta = theta + PI;
+    let turn = if theta < 0.0 {
+        TAU
+    } else if theta >= TAU {
+        -TAU
+    } else {
+        0.0
+    };
+    theta + turn - PI
 }

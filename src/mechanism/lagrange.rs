@@ -126,7 +126,7 @@ impl Equation {
     }
 
     /// The same at a position.
-    fn terms_at(&self, pose: Pose) -> Terms {
+    pub fn terms_at(&self, pose: Pose) -> Terms {
         self.terms_of(pose, self.rod.as_ref(), self.weight.as_ref())
     }
 

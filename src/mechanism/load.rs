@@ -79,6 +79,11 @@ impl Loads {
         self.on_slider
     }
 
+    /// Whether there is no load at all.
+    pub fn are_none(&self) -> bool {
+        self.torque == 0.0 && self.force == 0.0 && self.stiffness == 0.0 && self.have_potential()
+    }
+
     /// Whether all work of the loads follows from a potential.
     pub fn have_potential(&self) -> bool {
         self.rotary_damping == 0.0 && self.linear_damping == 0.0 && self.called().next().is_none()

@@ -3,6 +3,8 @@
 //! The three-term recurrence of Forsythe (J. SIAM 5 (1957) 74) makes the columns of Q in the QR
 //! factorization of the matrix of powers, one after the other, in time and memory linear in the points.
 
+use std::array::{from_mut, from_ref};
+
 use super::real::Real;
 
 /// Coefficients over orthonormal polynomials q_j of s = (t − middle)/half:
@@ -51,23 +53,44 @@ pub fn fit<T: Real>(
         coefficients: Vec::new(),
         squares: Vec::new(),
     };
-    let mut norm = sum(&now, |q| *q * *q).root();
+    let mut norm = now.iter().fold(zero, |sum, q| sum + *q * *q).root();
     for degree in 0..t.len() {
         if norm.value() == 0.0 {
             break;
         }
         let inverse = T::from(1.0) / norm;
-        let (mut centre, mut coefficient) = (zero, zero);
-        for ((q, s), y) in now.iter_mut().zip(&s).zip(&rest) {
-            *q = *q * inverse;
-            centre = centre + *s * (*q * *q);
-            coefficient = coefficient + *q * *y;
+        let mut sums = [[zero; LANES]; 2];
+        let ((qs, last_qs), (ss, last_ss), (ys, last_ys)) =
+            (now.as_chunks_mut(), s.as_chunks(), rest.as_chunks());
+        for ((q, s), y) in qs.iter_mut().zip(ss).zip(ys) {
+            project::<T, LANES>(q, s, y, inverse, &mut sums);
         }
-        let mut square = zero;
-        for (q, y) in now.iter().zip(&mut rest) {
-            *y = *y - coefficient * *q;
-            square = square + *y * *y;
+        for ((q, s), y) in last_qs.iter_mut().zip(last_ss).zip(last_ys) {
+            project(from_mut(q), from_ref(s), from_ref(y), inverse, &mut sums);
         }
+        let [centre, coefficient] = sums.map(total);
+        let by = [centre, coefficient, norm];
+        let mut sums = [[zero; LANES]; 2];
+        let ((qs, last_qs), (ps, last_ps), (ss, last_ss), (ys, last_ys)) = (
+            now.as_chunks_mut(),
+            before.as_chunks_mut(),
+            s.as_chunks(),
+            rest.as_chunks_mut(),
+        );
+        for (((q, p), s), y) in qs.iter_mut().zip(ps).zip(ss).zip(ys) {
+            advance::<T, LANES>(q, p, s, y, by, &mut sums);
+        }
+        for (((q, p), s), y) in last_qs.iter_mut().zip(last_ps).zip(last_ss).zip(last_ys) {
+            advance(
+                from_mut(q),
+                from_mut(p),
+                from_ref(s),
+                from_mut(y),
+                by,
+                &mut sums,
+            );
+        }
+        let [square, next] = sums.map(total);
         fit.norms.push(norm);
         fit.centres.push(centre);
         fit.coefficients.push(coefficient);
@@ -75,20 +98,52 @@ pub fn fit<T: Real>(
         if degree + 1 == t.len() || !go_on(&fit.squares) {
             break;
         }
-        let mut square = zero;
-        for ((q, p), s) in now.iter_mut().zip(&mut before).zip(&s) {
-            let next = (*s - centre) * *q - norm * *p;
-            *p = *q;
-            *q = next;
-            square = square + next * next;
-        }
-        norm = square.root();
+        norm = next.root();
     }
     fit
 }
 
-fn sum<T: Real>(values: &[T], f: impl Fn(&T) -> T) -> T {
-    values.iter().fold(T::from(0.0), |sum, v| sum + f(v))
+/// Sums that are formed side by side.
+const LANES: usize = 4;
+
+fn total<T: Real>([a, b, c, d]: [T; LANES]) -> T {
+    (a + b) + (c + d)
+}
+
+/// Norms a polynomial, and adds to the sums of its centre and of its coefficient for what is left of the targets.
+#[inline(always)]
+fn project<T: Real, const N: usize>(
+    q: &mut [T; N],
+    s: &[T; N],
+    rest: &[T; N],
+    inverse: T,
+    [centre, coefficient]: &mut [[T; LANES]; 2],
+) {
+    for k in 0..N {
+        q[k] = q[k] * inverse;
+        centre[k] = centre[k] + s[k] * (q[k] * q[k]);
+        coefficient[k] = coefficient[k] + q[k] * rest[k];
+    }
+}
+
+/// Takes a polynomial out of the targets, makes the next one, and adds to the sums of squares of both.
+#[inline(always)]
+fn advance<T: Real, const N: usize>(
+    q: &mut [T; N],
+    before: &mut [T; N],
+    s: &[T; N],
+    rest: &mut [T; N],
+    [centre, coefficient, norm]: [T; 3],
+    [left, next]: &mut [[T; LANES]; 2],
+) {
+    for k in 0..N {
+        rest[k] = rest[k] - coefficient * q[k];
+        left[k] = left[k] + rest[k] * rest[k];
+        let following = (s[k] - centre) * q[k] - norm * before[k];
+        before[k] = q[k];
+        q[k] = following;
+        next[k] = next[k] + following * following;
+    }
 }
 
 impl<T> Expansion<T> {

@@ -1,36 +1,76 @@
-//! Long lists on all cores.
+//! Long lists on all cores, the same to the last bit whatever their number.
 
-use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 /// Entries that a thread makes at a time.
-const PIECE: usize = 1 << 13;
+const PIECE: usize = 1 << 12;
+
+/// Does each job on whichever core is free.
+pub fn each<J>(jobs: impl ExactSizeIterator<Item = J> + Send, work: impl Fn(J) + Sync) {
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    let others = cores.min(jobs.len()).saturating_sub(1);
+    let jobs = Mutex::new(jobs);
+    let next = || jobs.lock().unwrap_or_else(PoisonError::into_inner).next();
+    let worker = || {
+        while let Some(job) = next() {
+            work(job);
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 0..others {
+            scope.spawn(worker);
+        }
+        worker();
+    });
+}
+
+/// What each job gives, in their order.
+pub fn map<J, R: Default + Send>(
+    jobs: impl ExactSizeIterator<Item = J> + Send,
+    work: impl Fn(J) -> R + Sync,
+) -> Vec<R> {
+    let mut results: Vec<R> = Vec::new();
+    results.resize_with(jobs.len(), R::default);
+    each(jobs.zip(&mut results), |(job, result)| *result = work(job));
+    results
+}
 
 /// The list of `f(0)`, `f(1)`, ... of this length.
-pub fn list<T: Send>(length: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    let cores = thread::available_parallelism().map_or(1, usize::from);
-    let piece = |number: usize| {
-        let from = (number * PIECE).min(length);
-        from..(from + PIECE).min(length)
-    };
-    let entries = |range: Range<usize>| range.map(&f).collect::<Vec<T>>();
-    let entries = &entries;
-    let mut list = Vec::with_capacity(length);
-    for first in (0..length.div_ceil(PIECE)).step_by(cores) {
-        thread::scope(|scope| {
-            let others = (first + 1..first + cores).map(piece);
-            let others: Vec<_> = others
-                .filter(|range| !range.is_empty())
-                .map(|range| scope.spawn(move || entries(range)))
-                .collect();
-            list.extend(piece(first).map(&f));
-            for thread in others {
-                match thread.join() {
-                    Ok(found) => list.extend(found),
-                    Err(panic) => std::panic::resume_unwind(panic),
-                }
-            }
-        });
-    }
+pub fn list<T: Copy + Default + Send>(length: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let mut list = vec![T::default(); length];
+    each(list.chunks_mut(PIECE).enumerate(), |(piece, entries)| {
+        for (i, entry) in entries.iter_mut().enumerate() {
+            *entry = f(piece * PIECE + i);
+        }
+    });
     list
+}
+
+/// The lists of what stands first and second in `f(0)`, `f(1)`, ...
+pub fn pairs<A, B>(length: usize, f: impl Fn(usize) -> (A, B) + Sync) -> (Vec<A>, Vec<B>)
+where
+    A: Copy + Default + Send,
+    B: Copy + Default + Send,
+{
+    let mut lists = (vec![A::default(); length], vec![B::default(); length]);
+    let pieces = lists.0.chunks_mut(PIECE).zip(lists.1.chunks_mut(PIECE));
+    each(pieces.enumerate(), |(piece, (a, b))| {
+        for (i, (a, b)) in a.iter_mut().zip(b).enumerate() {
+            (*a, *b) = f(piece * PIECE + i);
+        }
+    });
+    lists
+}
+
+/// The lists of the first, second and third entries of `f(0)`, `f(1)`, ...
+pub fn columns(length: usize, f: impl Fn(usize) -> [f64; 3] + Sync) -> [Vec<f64>; 3] {
+    let mut columns = [(); 3].map(|()| vec![0.0; length]);
+    let [a, b, c] = columns.each_mut().map(|list| list.chunks_mut(PIECE));
+    each(a.zip(b).zip(c).enumerate(), |(piece, ((a, b), c))| {
+        for i in 0..a.len() {
+            [a[i], b[i], c[i]] = f(piece * PIECE + i);
+        }
+    });
+    columns
 }

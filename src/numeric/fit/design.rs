@@ -6,15 +6,31 @@ use super::triangle::Triangle;
 /// Value and two derivatives in time.
 pub(super) type Jet = [f64; 3];
 
-/// The curve with three derivatives, and the derivative of the curve by each parameter, with two in time.
-pub(super) fn columns(tau: f64, parameters: &[f64]) -> ([f64; 4], Vec<Jet>) {
+/// Sine and cosine of an angle, of twice the angle and so on, by the theorem of addition: each is as near as its argument.
+pub(super) fn harmonics(angle: f64) -> impl Iterator<Item = (f64, f64)> {
+    let (sin, cos) = angle.sin_cos();
+    let turned = move |(s, c): &(f64, f64)| Some((s * cos + c * sin, c * cos - s * sin));
+    std::iter::successors(Some((sin, cos)), turned)
+}
+
+/// The curve alone.
+pub(super) fn value(tau: f64, parameters: &[f64]) -> f64 {
+    let angle = parameters[1] * tau;
+    let pairs = parameters[2..].chunks_exact(2).zip(harmonics(angle));
+    let terms = pairs.map(|(pair, (sin, cos))| pair[0] * cos + pair[1] * sin);
+    terms.fold(parameters[0] + angle, |sum, term| sum + term)
+}
+
+/// The curve with three derivatives, and the derivative of the curve by each parameter, with two in time, which take the
+/// place of what the list holds.
+pub(super) fn columns(tau: f64, parameters: &[f64], columns: &mut Vec<Jet>) -> [f64; 4] {
     let omega = parameters[1];
     let mut value = [parameters[0] + omega * tau, omega, 0.0, 0.0];
-    let mut columns = vec![[1.0, 0.0, 0.0], [0.0; 3]];
+    columns.clear();
+    columns.extend([[1.0, 0.0, 0.0], [0.0; 3]]);
     let mut rate = 0.0;
-    for pair in parameters[2..].chunks_exact(2) {
+    for (pair, (sin, cos)) in parameters[2..].chunks_exact(2).zip(harmonics(omega * tau)) {
         rate += omega;
-        let (sin, cos) = (rate * tau).sin_cos();
         let squared = rate * rate;
         let (even, odd) = (pair[0] * cos + pair[1] * sin, pair[1] * cos - pair[0] * sin);
         value[0] += even;
@@ -38,24 +54,15 @@ pub(super) fn columns(tau: f64, parameters: &[f64]) -> ([f64; 4], Vec<Jet>) {
         },
         (2.0 * value[2] + tau * value[3]) * per,
     ];
-    (value, columns)
+    value
 }
 
 pub(super) fn squares(samples: &Rows<'_>, middle: f64, parameters: &[f64]) -> f64 {
-    let rest = residuals(samples, middle, parameters).map(|(_, _, r)| r * r);
+    let rest = samples.iter().map(|(t, weight, target)| {
+        let residual = target - weight * value(t - middle, parameters);
+        residual * residual
+    });
     samples.left + rest.sum::<f64>()
-}
-
-/// Weight, columns and residual of each sample.
-fn residuals<'a>(
-    samples: &'a Rows<'a>,
-    middle: f64,
-    parameters: &'a [f64],
-) -> impl Iterator<Item = (f64, Vec<Jet>, f64)> + 'a {
-    samples.iter().map(move |(t, weight, target)| {
-        let (value, columns) = columns(t - middle, parameters);
-        (weight, columns, target - weight * value[0])
-    })
 }
 
 /// The triangle of the design matrix at these parameters, extended by zeros to `count` harmonics, and the correction
@@ -69,8 +76,11 @@ pub(super) fn solve(
     let mut extended = parameters.to_vec();
     extended.resize(2 + 2 * count, 0.0);
     let mut triangle = Triangle::new(extended.len());
-    for (weight, columns, residual) in residuals(samples, middle, &extended) {
-        triangle.add(columns.iter().map(|column| weight * column[0]), residual);
+    let mut list = Vec::new();
+    for (t, weight, target) in samples.iter() {
+        let value = columns(t - middle, &extended, &mut list);
+        let residual = target - weight * value[0];
+        triangle.add(list.iter().map(|column| weight * column[0]), residual);
     }
     let step = triangle.solve();
     match step {

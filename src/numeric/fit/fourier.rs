@@ -3,7 +3,7 @@
 use super::choice::{best, undecided};
 use super::condensed::Rows;
 use super::decay::Decay;
-use super::design::{columns, rounding, solve, squares};
+use super::design::{columns, harmonics, rounding, solve, squares, value};
 use super::triangle::Triangle;
 use super::{Quality, Samples, Size, State, add_products};
 
@@ -83,7 +83,7 @@ impl Fourier {
                     "a fit by rotation and harmonics needs more than one turn in one sense, here are {turns:.2}"
                 ));
             }
-            let (count, beyond) = harmonics(samples, middle, &parameters, size)?;
+            let (count, beyond) = supported(samples, middle, &parameters, size)?;
             tail = beyond;
             parameters.resize(2 + 2 * count, 0.0);
             settle(samples, middle, &mut parameters)?;
@@ -142,37 +142,30 @@ impl Fourier {
 
     /// The curve at `t`.
     pub fn value(&self, t: f64) -> f64 {
-        let (tau, omega) = (t - self.middle, self.parameters[1]);
-        let mut value = self.parameters[0] + omega * tau;
-        let mut rate = 0.0;
-        for pair in self.parameters[2..].chunks_exact(2) {
-            rate += omega;
-            let (sin, cos) = (rate * tau).sin_cos();
-            value += pair[0] * cos + pair[1] * sin;
-        }
-        value
+        value(t - self.middle, &self.parameters)
     }
 
     /// The curve and its derivatives at `t`.
     pub fn state(&self, t: f64) -> State {
-        let (value, mut columns) = columns(t - self.middle, &self.parameters);
+        let mut list = Vec::with_capacity(self.parameters.len());
+        let value = columns(t - self.middle, &self.parameters, &mut list);
         let mut state = State {
             value: [value[0], value[1], value[2]],
             ..State::default()
         };
-        for (column, parameter) in columns.iter().zip(&self.parameters) {
+        for (column, parameter) in list.iter().zip(&self.parameters) {
             for (rounding, value) in state.rounding.iter_mut().zip(column) {
                 *rounding += 4.0 * f64::EPSILON * (value * parameter).abs();
             }
         }
-        self.triangle.transposed_solve(&mut columns);
-        for column in &columns {
+        self.triangle.transposed_solve(&mut list);
+        for column in &list {
             add_products(&mut state.covariance, column, 1.0);
         }
         let (omega, tau) = (self.parameters[1], t - self.middle);
-        for (variance, k) in self.tail.iter().zip(self.harmonics() + 1..) {
-            let rate = omega * k as f64;
-            let (sin, cos) = (rate * tau).sin_cos();
+        let beyond = harmonics(omega * tau).zip(1..).skip(self.harmonics());
+        for (variance, ((sin, cos), k)) in self.tail.iter().zip(beyond) {
+            let rate = omega * f64::from(k);
             let squared = rate * rate;
             add_products(
                 &mut state.bias,
@@ -195,7 +188,7 @@ fn most_harmonics(samples: &Rows<'_>) -> usize {
 
 /// The number of harmonics that the samples support at about this rotation, if it is not given, and the variances of
 /// the coefficients of those that follow.
-fn harmonics(
+fn supported(
     samples: &Rows<'_>,
     middle: f64,
     parameters: &[f64],

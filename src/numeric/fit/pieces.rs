@@ -40,17 +40,28 @@ impl Grid {
 
 /// The cardinal B-splines of a degree at place u of a piece (de Boor's recurrence on even knots).
 pub(super) fn basis(degree: usize, u: f64) -> [f64; DIAGONALS] {
-    let mut b = [0.0; DIAGONALS];
-    b[0] = 1.0;
-    for d in 1..=degree {
-        let per = 1.0 / d as f64;
-        let mut saved = 0.0;
-        for (r, value) in b.iter_mut().enumerate().take(d) {
-            let part = *value * per;
-            *value = saved + ((r + 1) as f64 - u) * part;
-            saved = (u + (d - 1 - r) as f64) * part;
-        }
-        b[d] = saved;
+    let mut constant = [0.0; DIAGONALS];
+    constant[0] = 1.0;
+    (1..=degree).fold(constant, |b, d| raised(b, d, u))
+}
+
+/// The same of the last three degrees up to [`DEGREE`].
+pub(super) fn last_bases(u: f64) -> [[f64; DIAGONALS]; 3] {
+    let lowest = basis(DEGREE - 2, u);
+    let lower = raised(lowest, DEGREE - 1, u);
+    [lowest, lower, raised(lower, DEGREE, u)]
+}
+
+/// The B-splines of degree d from those of the degree below.
+#[inline(always)]
+fn raised(mut b: [f64; DIAGONALS], d: usize, u: f64) -> [f64; DIAGONALS] {
+    let per = 1.0 / d as f64;
+    let mut saved = 0.0;
+    for (r, value) in b.iter_mut().enumerate().take(d) {
+        let part = *value * per;
+        *value = saved + ((r + 1) as f64 - u) * part;
+        saved = (u + (d - 1 - r) as f64) * part;
     }
+    b[d] = saved;
     b
 }

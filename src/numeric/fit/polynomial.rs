@@ -23,6 +23,8 @@ pub struct Polynomial {
     half: f64,
     centres: Vec<f64>,
     norms: Vec<f64>,
+    /// One over each norm.
+    inverses: Vec<f64>,
     coefficients: Vec<f64>,
     /// Variances of the coefficients of the terms that follow.
     tail: Vec<f64>,
@@ -102,6 +104,7 @@ impl Polynomial {
             middle: found.middle,
             half: found.half,
             centres: numbers(&centres),
+            inverses: norms.iter().map(|norm| 1.0 / norm.value()).collect(),
             norms: numbers(&norms),
             tail,
             coefficients: numbers(&found.coefficients),
@@ -145,11 +148,11 @@ impl Polynomial {
     /// The polynomial at `t`.
     pub fn value(&self, t: f64) -> f64 {
         let s = (t - self.middle) / self.half;
-        let (mut before, mut now) = (0.0, 1.0 / self.norms[0]);
+        let (mut before, mut now) = (0.0, self.inverses[0]);
         let mut sum = self.coefficients[0] * now;
         for j in 1..self.coefficients.len() {
             let next = (s - self.centres[j - 1]) * now - self.norms[j - 1] * before;
-            (before, now) = (now, next * (1.0 / self.norms[j]));
+            (before, now) = (now, next * self.inverses[j]);
             sum += self.coefficients[j] * now;
         }
         sum
@@ -161,7 +164,7 @@ impl Polynomial {
         let per = 1.0 / self.half;
         let mut state = State::default();
         let mut before = [0.0; 3];
-        let mut now = [1.0 / self.norms[0], 0.0, 0.0];
+        let mut now = [self.inverses[0], 0.0, 0.0];
         let terms = self.coefficients.len();
         for j in 0..terms + self.tail.len() {
             if let Some(c) = self.coefficients.get(j) {
@@ -173,10 +176,10 @@ impl Polynomial {
             } else {
                 add_products(&mut state.bias, &now, self.tail[j - terms]);
             }
-            let Some(norm) = self.norms.get(j + 1) else {
+            let Some(inverse) = self.inverses.get(j + 1) else {
                 break;
             };
-            let (x, back, inverse) = (s - self.centres[j], self.norms[j], 1.0 / norm);
+            let (x, back) = (s - self.centres[j], self.norms[j]);
             // q_{-1} is zero, whatever the first norm.
             let next = [
                 (x * now[0] - back * before[0]) * inverse,

@@ -8,7 +8,7 @@
 
 use super::condensed::Rows;
 use super::penalized::{Normal, ORDER, roughness};
-use super::pieces::{DEGREE, Grid, basis};
+use super::pieces::{DEGREE, Grid, basis, last_bases};
 use super::{Quality, Samples, Size, State, add_products};
 use crate::numeric::banded::{Banded, DIAGONALS};
 
@@ -149,7 +149,7 @@ impl Spline {
     pub fn state(&self, t: f64) -> State {
         let (piece, u) = self.grid.place(t);
         let per = 1.0 / self.grid.width;
-        let (value, lower, lowest) = (basis(DEGREE, u), basis(DEGREE - 1, u), basis(DEGREE - 2, u));
+        let [lowest, lower, value] = last_bases(u);
         let at = |list: &[f64; DIAGONALS], i: usize, back: usize| {
             if i >= back { list[i - back] } else { 0.0 }
         };

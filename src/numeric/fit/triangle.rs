@@ -66,16 +66,21 @@ impl Triangle {
 
     /// Solves Rᵀ x = b in place for three right-hand sides.
     pub fn transposed_solve(&self, b: &mut [[f64; 3]]) {
-        for i in 0..self.size {
+        let columns = self.rows.as_slice().chunks_exact(self.rows.nrows());
+        for (i, column) in columns.enumerate().take(self.size) {
             let (done, rest) = b.split_at_mut(i);
-            for (j, known) in done.iter().enumerate() {
-                for (value, known) in rest[0].iter_mut().zip(known) {
-                    *value -= self.rows[(j, i)] * known;
+            // Sums side by side.
+            let mut sums = [rest[0], [0.0; 3], [0.0; 3], [0.0; 3]];
+            for (known, r) in done.chunks(sums.len()).zip(column[..i].chunks(sums.len())) {
+                for ((sum, known), r) in sums.iter_mut().zip(known).zip(r) {
+                    for (sum, known) in sum.iter_mut().zip(known) {
+                        *sum -= r * known;
+                    }
                 }
             }
-            for value in &mut rest[0] {
-                *value /= self.rows[(i, i)];
-            }
+            let inverse = 1.0 / column[i];
+            let [p, q, s, t] = sums;
+            rest[0] = std::array::from_fn(|k| ((p[k] + q[k]) + (s[k] + t[k])) * inverse);
         }
     }
 

@@ -1,5 +1,8 @@
 //! Rows of `inverse` as CSV, made for millions of them.
 
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread;
+
 use crate::error::Error;
 use crate::report::Output;
 use crate::study::{AsPrinted, Inverse, InverseRow};
@@ -9,7 +12,7 @@ const COLUMNS: &str = "t_s,theta_rad,omega_rad_per_s,alpha_rad_per_s2,slider_for
 const PRINTED: &str = "spin_only_force_n,duarte_9_force_n";
 
 /// Rows that one piece of text holds.
-const PIECE: usize = 1 << 14;
+const PIECE: usize = 1 << 12;
 
 /// Writes the rows, with joint forces if they were asked for, and with the forces as Duarte et al. print them.
 ///
@@ -68,40 +71,57 @@ pub fn residuals(result: &Inverse, mut output: Output) -> Result<(), Error> {
     output.finish()
 }
 
+/// Where the texts of the pieces go, one after the other.
+struct Turn<'a> {
+    output: &'a mut Output,
+    /// The piece that is written next.
+    piece: usize,
+    result: Result<(), Error>,
+}
+
 /// Writes rows, their texts made on all cores.
 fn in_pieces<Row: Sync>(
     rows: &[Row],
     output: &mut Output,
     write: impl Fn(&Row, &mut Vec<u8>) + Sync,
 ) -> Result<(), Error> {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let text = |piece: &[Row]| {
-        let mut text = Vec::with_capacity(160 * piece.len());
-        for row in piece {
-            write(row, &mut text);
-            text.push(b'\n');
+    let turn = Mutex::new(Turn {
+        output,
+        piece: 0,
+        result: Ok(()),
+    });
+    let written = Condvar::new();
+    let pieces = Mutex::new(rows.chunks(PIECE).enumerate());
+    let worker = || {
+        while let Some((piece, rows)) = { lock(&pieces).next() } {
+            let mut text = Vec::with_capacity(160 * rows.len());
+            for row in rows {
+                write(row, &mut text);
+                text.push(b'\n');
+            }
+            let mine = written.wait_while(lock(&turn), |turn| turn.piece != piece);
+            let mut turn = mine.unwrap_or_else(PoisonError::into_inner);
+            if turn.result.is_ok() {
+                turn.result = turn.output.write(&text);
+            }
+            turn.piece += 1;
+            written.notify_all();
         }
-        text
     };
-    for pieces in rows.chunks(PIECE * cores) {
-        let texts: Vec<Vec<u8>> = std::thread::scope(|scope| {
-            let (first, others) = pieces.split_at(PIECE.min(pieces.len()));
-            let text = &text;
-            let others: Vec<_> = others
-                .chunks(PIECE)
-                .map(|piece| scope.spawn(move || text(piece)))
-                .collect();
-            let first = text(first);
-            let others = others
-                .into_iter()
-                .map(|thread| thread.join().unwrap_or_default());
-            std::iter::once(first).chain(others).collect()
-        });
-        for text in texts {
-            output.write(&text)?;
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    let others = cores.min(rows.len().div_ceil(PIECE)).saturating_sub(1);
+    thread::scope(|scope| {
+        for _ in 0..others {
+            scope.spawn(worker);
         }
-    }
-    Ok(())
+        worker();
+    });
+    let turn = turn.into_inner();
+    turn.unwrap_or_else(PoisonError::into_inner).result
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn line(row: &InverseRow, text: &mut Vec<u8>) {

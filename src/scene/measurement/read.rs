@@ -5,6 +5,7 @@ use std::path::Path;
 use csv::ByteRecord;
 
 use super::columns::{Columns, columns};
+use super::plain;
 use super::source::{Source, cell, line_at, reader};
 use super::{Measurement, Reading};
 use crate::scene::number::{self, counted};
@@ -24,7 +25,8 @@ pub(super) fn text(file: &Path, bytes: Vec<u8>) -> Result<String, Problems> {
         return Err(wrong("the file is UTF-16 text".to_owned()));
     }
     let line = |at: usize| bytes[..at].iter().filter(|b| **b == b'\n').count() + 1;
-    if let Some(at) = bytes.iter().position(|byte| *byte == 0) {
+    if bytes.contains(&0) {
+        let at = bytes.iter().take_while(|byte| **byte != 0).count();
         return Err(wrong(format!(
             "line {}: the file is not text, it has a zero byte",
             line(at)
@@ -56,7 +58,7 @@ pub(super) fn measurement(
     reading: &Reading,
 ) -> Result<Measurement, Problems> {
     let (has_header, delimiter) = (reading.columns.is_none(), delimiter(&text));
-    let columns = {
+    let (columns, body) = {
         let mut records = reader(&text, delimiter, has_header);
         let (header, end) = match &reading.columns {
             Some(given) => (split(given), 0),
@@ -76,7 +78,7 @@ pub(super) fn measurement(
             );
             return Err(Problems::in_file(file, &text, vec![problem]));
         }
-        columns(&header, reading).map_err(|found| {
+        let columns = columns(&header, reading).map_err(|found| {
             let mut problem = Problem::new("header", found.what, found.help);
             match &reading.columns {
                 Some(_) => problem.what = format!("--columns: {}", problem.what),
@@ -87,9 +89,15 @@ pub(super) fn measurement(
                 }
             }
             Problems::in_file(file, &text, vec![problem])
-        })?
+        })?;
+        (columns, end)
     };
-    let (times, values, decimals) = samples(file, &text, delimiter, has_header, &columns)?;
+    let rows = text.get(body..);
+    let plain = rows.and_then(|rows| plain::samples(rows, delimiter, &columns));
+    let (times, values, decimals) = match plain {
+        Some(samples) => samples,
+        None => samples(file, &text, delimiter, has_header, &columns)?,
+    };
     let resolution = columns.value.factor * 10f64.powi(-decimals.unwrap_or(0));
     Ok(Measurement {
         measured: columns.measured,
@@ -119,9 +127,10 @@ fn split(header: &str) -> ByteRecord {
         .into()
 }
 
-type Samples = (Vec<f64>, Vec<f64>, Option<i32>);
-
 /// Times, values, and the most decimals that a value has.
+pub(super) type Samples = (Vec<f64>, Vec<f64>, Option<i32>);
+
+/// The samples of a file, or all that is wrong with it.
 fn samples(
     file: &Path,
     text: &str,
@@ -233,7 +242,7 @@ fn not_a_number(text: &str) -> (String, String) {
 }
 
 /// The power of ten of the last digit of a number, changed in sign.
-fn decimals_of(cell: &[u8]) -> Option<i32> {
+pub(super) fn decimals_of(cell: &[u8]) -> Option<i32> {
     let end = cell.iter().position(|b| matches!(b, b'e' | b'E'));
     let mantissa = &cell[..end.unwrap_or(cell.len())];
     let exponent = end.and_then(|at| std::str::from_utf8(&cell[at + 1..]).ok()?.parse().ok());

@@ -81,6 +81,11 @@ fn place(
 fn gaps(measurement: &Measurement) -> Option<String> {
     let times = &measurement.times;
     let mut steps: Vec<f64> = times.windows(2).map(|w| w[1] - w[0]).collect();
+    let ends = (f64::INFINITY, 0.0f64);
+    let (least, most) = (steps.iter()).fold(ends, |(a, b), step| (a.min(*step), b.max(*step)));
+    if most <= GAP * least {
+        return None;
+    }
     let middle = steps.len() / 2;
     let usual = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
     let wide = |w: &[f64]| w[1] - w[0] > GAP * usual;

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::row::Draft;
+use super::row::{Doubt, InverseRow};
 
 /// A stretch of the motion in which the slider force is left empty.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -32,6 +32,9 @@ pub struct BandRule {
     pub rule: &'static str,
 }
 
+/// The lever arm, in cranks, below which the rule applies.
+pub(super) const LONG_ARM: f64 = 0.5;
+
 const RULE: &str = "within |x'| < r/2 the slider force is left empty where half of its 95 % band is wider than the largest crank torque of the motion (or ten times the median half-width of that torque's band, if larger) over the crank length, or where x' is less than five standard errors from zero; near the limit of a rocker (cos phi < 0.3) the width alone counts, and each torque of a rocker is divided by |x'| where that is longer than the crank; it is left empty too with friction where the crank speed is less than five standard errors from zero";
 
 const NO_SIGN: &str = "the sign of the lever arm x' is not certain";
@@ -59,27 +62,30 @@ impl BandRule {
         let median = *errors.select_nth_unstable_by(middle, f64::total_cmp).1;
         BandRule {
             half_width_max_n: largest.max(10.0 * factor * median) / r,
-            arm_m: 0.5 * r,
+            arm_m: LONG_ARM * r,
             rule: RULE,
         }
     }
 
     /// Why the force of a sample is left empty, if it is.
-    pub(super) fn reason(&self, draft: &Draft, factor: f64) -> Option<&'static str> {
-        let [force, error] = [draft.row.slider_force, draft.row.slider_force_se]
-            .map(|value| value.unwrap_or(f64::NAN));
-        // Not-a-number counts as uncertain.
-        let certain = draft.arm.abs() > 5.0 * draft.arm_se;
+    pub(super) fn reason(
+        &self,
+        row: &InverseRow,
+        doubt: &Doubt,
+        factor: f64,
+    ) -> Option<&'static str> {
+        let [force, error] =
+            [row.slider_force, row.slider_force_se].map(|value| value.unwrap_or(f64::NAN));
         let narrow = factor * error <= self.half_width_max_n;
         if !force.is_finite() || !error.is_finite() {
             Some(AT_LIMIT)
-        } else if !draft.friction_known {
+        } else if !doubt.friction_known {
             Some(AT_REST)
-        } else if draft.near_limit && !narrow {
+        } else if doubt.near_limit && !narrow {
             Some(TOO_WIDE_AT_LIMIT)
-        } else if draft.arm.abs() >= self.arm_m {
+        } else if doubt.long_arm {
             None
-        } else if !certain {
+        } else if !doubt.certain {
             Some(NO_SIGN)
         } else if !narrow {
             Some(TOO_WIDE)

@@ -27,8 +27,11 @@ const PART: usize = 20_000;
 /// The correction before which the terms are chosen again, when the motion is about right.
 const LAST_CHOICE: usize = 3;
 
-/// A correction below this part of a standard error settles a fit.
+/// A fit is settled where further corrections would change it by less than this part of a standard error.
 const SETTLED: f64 = 1e-3;
+
+/// A correction below this part of the one before it tells that the next one will be as much smaller again.
+const FAST: f64 = 0.01;
 
 impl Fitted {
     /// Fits the motion. `theta`, rad, are the unfolded samples.
@@ -64,9 +67,10 @@ impl Fitted {
             values,
             floor,
         };
-        let (theta, last_choice) = seen.start(theta, kind, size);
-        let (curve, theta, settled) = seen.settle(theta, kind, size, last_choice)?;
-        let residuals = parallel::list(times.len(), |i| sensor.residual(values[i], theta[i]).0);
+        let (curve, [_, _, residuals], settled) = match seen.start(&theta, kind, size) {
+            Some(near) => seen.settle(|i| near.value(times[i]), kind, size, 0)?,
+            None => seen.settle(|i| theta[i], kind, size, LAST_CHOICE)?,
+        };
         Ok(Fitted::of(curve, residuals, settled, None))
     }
 
@@ -107,12 +111,11 @@ struct Seen<'a> {
 }
 
 impl Seen<'_> {
-    /// A first motion and the correction before which its terms are chosen for the last time. For very many samples it
-    /// is fitted to a part of them; it is the given one where that fails.
-    fn start(&self, theta: Vec<f64>, kind: Kind, size: Size) -> (Vec<f64>, usize) {
+    /// A motion near the one of very many samples, fitted to a part of them; none where that fails.
+    fn start(&self, theta: &[f64], kind: Kind, size: Size) -> Option<Curve> {
         let stride = theta.len() / PART;
         if stride < 2 {
-            return (theta, LAST_CHOICE);
+            return None;
         }
         let part = |list: &[f64]| -> Vec<f64> { list.iter().step_by(stride).copied().collect() };
         let (times, values) = (part(self.times), part(self.values));
@@ -121,32 +124,31 @@ impl Seen<'_> {
             values: &values,
             ..*self
         };
-        match few.settle(part(&theta), kind, size, LAST_CHOICE) {
-            Ok((curve, _, true)) => {
-                let near = parallel::list(theta.len(), |i| curve.value(self.times[i]));
-                (near, 0)
-            }
-            _ => (theta, LAST_CHOICE),
+        let theta = part(theta);
+        match few.settle(|i| theta[i], kind, size, 0) {
+            Ok((curve, _, true)) => Some(curve),
+            _ => None,
         }
     }
 
-    /// Corrects a motion until it fits: the curve, its angles, and whether it came to rest.
+    /// Corrects a motion until it fits: the curve, the samples about it, and whether it came to rest. The terms are chosen
+    /// for the last time before correction `last_choice`.
     fn settle(
         &self,
-        mut theta: Vec<f64>,
+        theta: impl Fn(usize) -> f64 + Sync,
         kind: Kind,
         size: Size,
         last_choice: usize,
-    ) -> Result<(Curve, Vec<f64>, bool), String> {
-        let rows = theta.len();
+    ) -> Result<(Curve, [Vec<f64>; 3], bool), String> {
+        let rows = self.times.len();
+        let stride = 1 + rows / PART;
+        let few = rows.div_ceil(stride);
+        let mut before = parallel::list(few, |i| theta(i * stride));
+        let mut lines = self.lines(theta);
         let mut chosen: Option<Curve> = None;
-        let mut round = 0;
+        let (mut round, mut change_before) = (0, 0.0);
         loop {
-            let lines = parallel::list(rows, |i| {
-                let (residual, slope) = self.sensor.residual(self.values[i], theta[i]);
-                (slope, residual + slope * theta[i])
-            });
-            let (weight, target): (Vec<f64>, Vec<f64>) = lines.into_iter().unzip();
+            let [weight, target, _] = lines;
             let samples = Samples {
                 t: self.times,
                 target: &target,
@@ -158,27 +160,40 @@ impl Seen<'_> {
                 Some(curve) if round != last_choice => curve.again(&samples)?,
                 _ => Curve::fit(&samples, kind, size)?,
             };
+            // Two motions are not held at a time.
+            drop((weight, target));
             let sigma = curve.quality().sigma;
-            let change = (0..rows).step_by(1 + rows / PART).map(|i| {
-                let state = curve.state(self.times[i]);
+            let moved = parallel::list(few, |i| {
+                let state = curve.state(self.times[i * stride]);
                 let error = sigma * state.covariance[0].sqrt() + state.rounding[0];
-                (state.value[0] - theta[i]).abs() / error.max(f64::MIN_POSITIVE)
+                let change = (state.value[0] - before[i]).abs() / error.max(f64::MIN_POSITIVE);
+                (state.value[0], change)
             });
-            let change = change.fold(0.0, f64::max);
-            let next = parallel::list(rows, |i| {
-                let theta = curve.value(self.times[i]);
-                (theta, self.sensor.linkage.pose(theta).exists())
-            });
-            let (next, exists): (Vec<f64>, Vec<bool>) = next.into_iter().unzip();
-            theta = next;
-            if exists.contains(&false) {
+            let change = moved.iter().fold(0.0, |most, moved| moved.1.max(most));
+            lines = self.lines(|i| curve.value(self.times[i]));
+            if lines[0].iter().any(|slope| !slope.is_finite()) {
                 return Err("the fit leaves the angles that the crank can take".to_owned());
             }
             round += 1;
-            if change < SETTLED && round > last_choice || round == MOST {
-                return Ok((curve, theta, change < 1.0));
+            // Corrections shrink by about the same factor, or ever faster.
+            let factor = change / change_before;
+            let more = change * if factor < FAST { factor } else { 1.0 };
+            if more < SETTLED && round > last_choice || round == MOST {
+                return Ok((curve, lines, change < 1.0));
             }
+            change_before = change;
+            before = moved.into_iter().map(|moved| moved.0).collect();
             chosen = Some(curve);
         }
+    }
+
+    /// The samples about a motion, each a line in the crank angle: slope and value at zero, with what they leave of the
+    /// samples.
+    fn lines(&self, theta: impl Fn(usize) -> f64 + Sync) -> [Vec<f64>; 3] {
+        parallel::columns(self.times.len(), |i| {
+            let theta = theta(i);
+            let (residual, slope) = self.sensor.residual(self.values[i], theta);
+            [slope, residual + slope * theta, residual]
+        })
     }
 }

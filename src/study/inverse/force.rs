@@ -1,7 +1,7 @@
 //! The equation read backwards along a fitted motion, with the uncertainty that follows from the fit's.
 
 use super::guide::Guide;
-use crate::mechanism::{Equation, Terms};
+use crate::mechanism::{Equation, Pose, Terms};
 use crate::numeric::fit::State;
 
 /// Torque and lever arm at one sample.
@@ -40,6 +40,10 @@ pub(super) struct Backwards<'a> {
 /// Step in the crank angle (rad) for derivatives of the terms: they are right to about 1e-9.
 const STEP: f64 = 1e-5;
 
+/// Its sine and cosine.
+const STEP_SIN: f64 = STEP - STEP * STEP * STEP / 6.0;
+const STEP_COS: f64 = 1.0 - 0.5 * STEP * STEP;
+
 /// cos φ below which force and torque are curved enough over the uncertainty of the crank angle to ask for their second
 /// differences.
 pub(super) const NEAR_LIMIT: f64 = 0.3;
@@ -47,6 +51,9 @@ pub(super) const NEAR_LIMIT: f64 = 0.3;
 impl Backwards<'_> {
     /// Torque that the scene's loads exert at a state.
     fn known(&self, t: f64, theta: f64, omega: f64, terms: &Terms) -> f64 {
+        if self.equation.loads().are_none() {
+            return 0.0;
+        }
         let load = self.equation.loads().value(t, theta, omega, &terms.pose);
         if self.beside_forces {
             load.generalized(&terms.pose)
@@ -60,15 +67,20 @@ impl Backwards<'_> {
         let [theta, omega, alpha] = state.value;
         let terms = self.equation.terms(theta);
         // One-sided at the limit of a rocker.
-        let beside = |step: f64| {
-            let there = self.equation.terms(theta + step);
-            if there.pose.exists() {
-                (step, there)
+        let beside = |sense: f64| {
+            let Pose { sin, cos, .. } = terms.pose;
+            let turned = [
+                sin * STEP_COS + sense * cos * STEP_SIN,
+                cos * STEP_COS - sense * sin * STEP_SIN,
+            ];
+            let there = self.equation.linkage().pose_at(turned[0], turned[1]);
+            if there.exists() {
+                (sense * STEP, self.equation.terms_at(there))
             } else {
                 (0.0, terms)
             }
         };
-        let ((up, after), (down, before)) = (beside(STEP), beside(-STEP));
+        let ((up, after), (down, before)) = (beside(1.0), beside(-1.0));
         let needed = |terms: &Terms| self.equation.generalized_force(terms, omega, alpha);
         let known = self.known(t, theta, omega, &terms);
         let torque = needed(&terms) - known;
@@ -135,8 +147,8 @@ impl Backwards<'_> {
     /// Standard error of a combination of angle, speed and acceleration, with what else rounding adds.
     fn error(&self, state: &State, gradient: &[f64; 3], more: f64) -> f64 {
         let noise = self.sigma * self.sigma * state.variance(gradient);
-        let variance = noise + state.bias_of(gradient);
-        variance.sqrt().hypot(state.rounding_of(gradient) + more)
+        let rounding = state.rounding_of(gradient) + more;
+        (noise + state.bias_of(gradient) + rounding * rounding).sqrt()
     }
 
     /// What is needed beside the friction of the guide. At rest that may be anything up to its limit: the torque is then

@@ -1,6 +1,6 @@
 //! One output row for each sample.
 
-use super::bands::{BandRule, DeadCentreBand};
+use super::bands::{BandRule, DeadCentreBand, LONG_ARM};
 use super::fitted::Fitted;
 use super::force::{Backwards, Demand};
 use crate::numeric::fit::{Curve, State};
@@ -8,7 +8,7 @@ use crate::numeric::parallel;
 use crate::scene::Measurement;
 
 /// Motion, force and torque at one sample, SI and radians.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct InverseRow {
     /// s
     pub t: f64,
@@ -66,37 +66,49 @@ pub(super) struct Rows {
     pub unreachable: Option<usize>,
 }
 
-/// A row before it is decided whether it has a force, with the lever arm x' of the force and its standard error.
-#[derive(Debug)]
-pub(super) struct Draft {
-    pub row: InverseRow,
-    pub arm: f64,
-    pub arm_se: f64,
+/// What decides whether a row has a force.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Doubt {
+    /// Whether the mechanism can take the crank angle.
+    pub exists: bool,
+    /// Whether the lever arm x' of the force is at least half a crank.
+    pub long_arm: bool,
+    /// Whether the sign of the lever arm is certain.
+    pub certain: bool,
     /// Whether the rod is nearly normal to the guide.
     pub near_limit: bool,
     /// Whether the friction of the guide is known.
     pub friction_known: bool,
 }
 
-impl Draft {
-    fn new(t: f64, state: &State, demand: &Demand) -> Draft {
-        let [theta, omega, alpha] = state.value;
-        Draft {
-            row: InverseRow {
-                t,
-                theta,
-                omega,
-                alpha,
-                slider_force: Some(demand.force),
-                slider_force_se: Some(demand.force_se),
-                crank_torque: demand.torque,
-                crank_torque_se: demand.torque_se,
-                near_dead_centre: false,
-            },
-            arm: demand.arm,
-            arm_se: demand.arm_se,
+impl Doubt {
+    fn new(demand: &Demand, r: f64) -> Doubt {
+        let arm = demand.arm.abs();
+        Doubt {
+            exists: arm.is_finite(),
+            long_arm: arm >= LONG_ARM * r,
+            // Not-a-number counts as uncertain.
+            certain: arm > 5.0 * demand.arm_se,
             near_limit: demand.near_limit,
             friction_known: demand.friction_known,
+        }
+    }
+}
+
+impl InverseRow {
+    /// A row before it is decided whether it has a force.
+    fn new(t: f64, state: &State, demand: &Demand) -> InverseRow {
+        let [theta, omega, alpha] = state.value;
+        InverseRow {
+            t,
+            theta,
+            omega,
+            alpha,
+            slider_force: Some(demand.force),
+            slider_force_se: Some(demand.force_se),
+            crank_torque: demand.torque,
+            crank_torque_se: demand.torque_se,
+            near_dead_centre: false,
         }
     }
 }
@@ -104,41 +116,43 @@ impl Draft {
 impl Rows {
     /// The rows; half of a 95 % band is `factor` standard errors.
     pub fn new(backwards: &Backwards<'_>, curve: &Curve, times: &[f64], factor: f64) -> Rows {
-        let drafts = parallel::list(times.len(), |i| {
-            let state = curve.state(times[i]);
-            Draft::new(times[i], &state, &backwards.demand(times[i], &state))
-        });
         let linkage = backwards.equation.linkage();
+        let (rows, doubts) = parallel::pairs(times.len(), |i| {
+            let state = curve.state(times[i]);
+            let demand = backwards.demand(times[i], &state);
+            let row = InverseRow::new(times[i], &state, &demand);
+            (row, Doubt::new(&demand, linkage.r))
+        });
         let rocks = !linkage.limit_angles().is_empty();
-        let torques = drafts.iter().map(|d| {
+        let torques = rows.iter().map(|row| {
             // The lever arm grows without bound towards a limit, and the torque with it.
             let longer = if rocks {
-                (d.arm.abs() / linkage.r).max(1.0)
+                (linkage.pose(row.theta).dx.abs() / linkage.r).max(1.0)
             } else {
                 1.0
             };
-            (d.row.crank_torque / longer, d.row.crank_torque_se / longer)
+            (row.crank_torque / longer, row.crank_torque_se / longer)
         });
+        let rule = BandRule::new(linkage.r, torques, factor);
         let mut found = Rows {
-            rows: Vec::new(),
+            rows,
             bands: Vec::new(),
-            rule: BandRule::new(linkage.r, torques, factor),
-            unreachable: drafts.iter().position(|draft| !draft.arm.is_finite()),
+            rule,
+            unreachable: doubts.iter().position(|doubt| !doubt.exists),
         };
         let mut before = false;
-        let rows = drafts.into_iter().map(|mut draft| {
-            let reason = found.rule.reason(&draft, factor);
+        for (i, doubt) in doubts.iter().enumerate() {
+            let row = &mut found.rows[i];
+            let reason = rule.reason(row, doubt, factor);
             if let Some(reason) = reason {
-                let row = &mut draft.row;
                 (row.slider_force, row.slider_force_se) = (None, None);
                 row.near_dead_centre = true;
-                found.extend_band(row.t, row.theta, reason, before);
+                let (t, theta) = (row.t, row.theta);
+                found.extend_band(t, theta, reason, before);
             }
             before = reason.is_some();
-            draft.row
-        });
-        let rows = rows.collect();
-        Rows { rows, ..found }
+        }
+        found
     }
 
     fn extend_band(&mut self, t: f64, theta: f64, reason: &'static str, goes_on: bool) {

@@ -11,7 +11,7 @@ use nalgebra::{SMatrix, SymmetricEigen};
 
 use super::Samples;
 use super::pieces::DEGREE;
-use crate::numeric::orthogonal;
+use crate::numeric::{orthogonal, parallel};
 
 /// Nodes of a block.
 const NODES: usize = DEGREE + 1;
@@ -21,6 +21,9 @@ const MANY: usize = 50_000;
 
 /// Fewest samples of the smallest blocks, on average.
 const OF_BLOCK: usize = 64;
+
+/// Blocks that a thread takes at a time.
+const TOGETHER: usize = 64;
 
 /// Fewest blocks.
 const FEWEST: usize = 256;
@@ -128,17 +131,33 @@ impl<'a> Rows<'a> {
             left: self.left,
             ends: Vec::with_capacity(ends.len()),
         };
-        let mut from = 0;
-        for end in ends {
-            let range = from..*end;
-            rows.take(&Samples {
-                t: &self.t[range.clone()],
-                target: &self.target[range.clone()],
-                weight: self.weight.as_ref().map(|weight| &weight[range]),
-                floor: self.floor,
-            });
-            rows.ends.push(rows.t.len());
-            from = *end;
+        let few = ends.chunks(TOGETHER).enumerate();
+        let parts = parallel::map(few, |(number, few)| {
+            let mut part = Part::default();
+            let mut from = match number {
+                0 => 0,
+                _ => ends[TOGETHER * number - 1],
+            };
+            for end in few {
+                let range = from..*end;
+                part.take(&Samples {
+                    t: &self.t[range.clone()],
+                    target: &self.target[range.clone()],
+                    weight: self.weight.as_ref().map(|weight| &weight[range]),
+                    floor: self.floor,
+                });
+                part.ends.push(part.rows.len());
+                from = *end;
+            }
+            part
+        });
+        for part in parts {
+            rows.left += part.left;
+            let before = rows.t.len();
+            rows.ends.extend(part.ends.iter().map(|end| before + end));
+            for [t, weight, target] in part.rows {
+                rows.push(t, weight, target);
+            }
         }
         rows
     }
@@ -165,20 +184,33 @@ impl<'a> Rows<'a> {
             list.to_mut().push(weight);
         }
     }
+}
 
+/// What stands for some blocks.
+#[derive(Debug, Default)]
+struct Part {
+    /// Argument, weight and target.
+    rows: Vec<[f64; 3]>,
+    /// Where the rows of each block end.
+    ends: Vec<usize>,
+    /// Squares that are in no row.
+    left: f64,
+}
+
+impl Part {
     /// Adds what stands for the samples of a block.
     fn take(&mut self, block: &Samples<'_>) {
         let weight = |i: usize| block.weight.map_or(1.0, |weight| weight[i]);
-        let counting: Vec<usize> = (0..block.t.len()).filter(|i| weight(*i) != 0.0).collect();
-        let found = (counting.len() > NODES).then(|| {
+        let counting = || (0..block.t.len()).filter(|i| weight(*i) != 0.0);
+        let found = (counting().count() > NODES).then(|| {
             let enough = |squares: &[f64]| squares.len() < NODES;
             orthogonal::fit::<f64>(block.t, block.target, block.weight, enough)
         });
         let Some(found) = found.filter(|found| found.coefficients.len() == NODES) else {
             let nothing = (0..block.t.len()).filter(|i| weight(*i) == 0.0);
             self.left += nothing.map(|i| block.target[i].powi(2)).sum::<f64>();
-            for i in counting {
-                self.push(block.t[i], weight(i), block.target[i]);
+            for i in counting() {
+                self.rows.push([block.t[i], weight(i), block.target[i]]);
             }
             return;
         };
@@ -197,11 +229,11 @@ impl<'a> Rows<'a> {
         for node in order {
             let vector = eigenvectors.column(node);
             let values = found.coefficients.iter().zip(vector.iter());
-            self.push(
+            self.rows.push([
                 found.middle + found.half * eigenvalues[node],
                 found.norms[0] * vector[0],
                 values.map(|(c, v)| c * v).sum(),
-            );
+            ]);
         }
     }
 }

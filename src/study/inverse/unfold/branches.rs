@@ -7,21 +7,47 @@ use crate::error::Error;
 use crate::mechanism::{Candidates, Linkage};
 use crate::scene::{Branch, Measured, Measurement};
 
-/// The crank angles of a turn that belong to a measured value on the linkage's branch.
-pub(super) fn of_one(linkage: &Linkage, measured: Measured, value: f64) -> Candidates {
-    match measured {
-        Measured::X => linkage.angles_of_x(value),
-        _ => linkage.angles_of_gamma(value),
-    }
+/// Reads crank angles from a measured value.
+#[derive(Debug)]
+pub(super) struct Branches<'a> {
+    sensor: &'a Sensor<'a>,
+    /// The linkage on the other branch, if the motion can reach it.
+    other: Option<Linkage>,
 }
 
-/// The same, and those of the other branch if the motion can reach it.
-pub(super) fn angles(linkage: &Linkage, measured: Measured, value: f64) -> Candidates {
-    let one = of_one(linkage, measured, value);
-    if linkage.limit_angles().is_empty() {
-        return one;
+impl Branches<'_> {
+    pub fn new<'a>(sensor: &'a Sensor<'a>) -> Branches<'a> {
+        let reaches = !sensor.linkage.limit_angles().is_empty();
+        Branches {
+            sensor,
+            other: reaches.then(|| other(sensor.linkage)),
+        }
     }
-    one.with(&of_one(&other(linkage), measured, value))
+
+    fn of(&self, linkage: &Linkage, value: f64) -> Candidates {
+        match self.sensor.measured {
+            Measured::X => linkage.angles_of_x(value),
+            _ => linkage.angles_of_gamma(value),
+        }
+    }
+
+    /// The crank angles of a turn that belong to a measured value on the linkage's branch.
+    pub fn of_one(&self, value: f64) -> Candidates {
+        self.of(self.sensor.linkage, value)
+    }
+
+    /// The same, and those of the other branch if the motion can reach it.
+    pub fn angles(&self, value: f64) -> Candidates {
+        self.beside(self.of_one(value), value)
+    }
+
+    /// These angles and those of the other branch if the motion can reach it.
+    pub fn beside(&self, one: Candidates, value: f64) -> Candidates {
+        match &self.other {
+            Some(other) => one.with(&self.of(other, value)),
+            None => one,
+        }
+    }
 }
 
 fn other(linkage: &Linkage) -> Linkage {

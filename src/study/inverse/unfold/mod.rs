@@ -19,6 +19,7 @@ use crate::mechanism::{Candidates, Linkage};
 use crate::numeric::parallel;
 use crate::scene::{Measured, Measurement, Motion};
 use anchors::Anchors;
+use branches::Branches;
 use start::Start;
 
 /// Continuous crank angles, one for each sample, and what was decided on the way.
@@ -40,7 +41,8 @@ pub(super) fn unfold(
     if sensor.measured == Measured::Theta {
         return unwrap(linkage, measurement);
     }
-    let candidates = candidates(linkage, measurement)?;
+    let branches = Branches::new(sensor);
+    let candidates = candidates(sensor, &branches, measurement)?;
     let noise = noise(measurement.values());
     // At a dead centre the crank angle is known to about √(2 noise/x'').
     let of_x = 3.0 * (2.0 * noise / linkage.r).sqrt();
@@ -48,7 +50,7 @@ pub(super) fn unfold(
         Measured::X => (of_x, of_x),
         _ => (0.0, 8.0 * noise),
     };
-    let angles = |value: f64| branches::angles(linkage, sensor.measured, value);
+    let angles = |value: f64| branches.angles(value);
     let mut anchors = Anchors::choose(measurement, &candidates, blur, angles);
     branches::begin_on_branch(sensor, measurement, &mut anchors);
     let taken = start::choose(search::paths(&anchors), start, start_blur);
@@ -107,48 +109,57 @@ const TOO_COARSE: f64 = 0.3;
 const BEYOND: f64 = 0.06;
 
 /// The crank angles of each sample.
-fn candidates(linkage: &Linkage, measurement: &Measurement) -> Result<Vec<Candidates>, Error> {
+fn candidates(
+    &Sensor { linkage, measured }: &Sensor<'_>,
+    branches: &Branches<'_>,
+    measurement: &Measurement,
+) -> Result<Vec<Candidates>, Error> {
     let values = measurement.values();
     let noise = noise(values);
-    let (size, excess): (f64, &dyn Fn(f64) -> f64) = match measurement.measured() {
-        Measured::X => (linkage.r, &|x| linkage.excess_of_x(x)),
-        _ => (1.0, &|gamma| linkage.excess_of_gamma(gamma)),
+    let excess = |value: f64| match measured {
+        Measured::X => linkage.excess_of_x(value),
+        _ => linkage.excess_of_gamma(value),
+    };
+    let size = match measured {
+        Measured::X => linkage.r,
+        _ => 1.0,
     };
     let rounding = measurement.resolution() + 1e-12 * size;
     let most = (8.0 * noise).min(BEYOND * size) + rounding;
-    let angles = |value: f64| branches::angles(linkage, measurement.measured(), value);
-    let on_branch = |value: f64| branches::of_one(linkage, measurement.measured(), value);
-    let impossible = |(sample, value): (usize, &f64)| {
-        let beyond = excess(*value);
-        let nowhere = on_branch(*value).angles().is_empty();
-        (nowhere || beyond > most).then(|| {
-            let what = format!(
-                "{} = {} is impossible for this mechanism{}",
-                measurement.measured().name(),
-                measurement.shown(*value),
-                if nowhere {
-                    " on its branch".to_owned()
-                } else {
-                    format!(", by {}", measurement.shown(beyond))
-                }
-            );
-            let help = match measurement.measured() {
-                Measured::X => "the slider position x counts from the crank pivot, along the guide; `kinematics` shows its range",
-                _ => "gamma is the angle at the crank pin between crank and rod, from 0 to 180 deg",
-            };
-            (sample, what, help.to_owned())
-        })
+    let nowhere = |value: f64| branches.of_one(value).angles().is_empty();
+    let candidates = parallel::list(values.len(), |i| {
+        let one = branches.of_one(values[i]);
+        if one.angles().is_empty() || excess(values[i]) > most {
+            return Candidates::default();
+        }
+        branches.beside(one, values[i])
+    });
+    let impossible = |sample: usize| {
+        let value = values[sample];
+        let what = format!(
+            "{} = {} is impossible for this mechanism{}",
+            measured.name(),
+            measurement.shown(value),
+            if nowhere(value) {
+                " on its branch".to_owned()
+            } else {
+                format!(", by {}", measurement.shown(excess(value)))
+            }
+        );
+        let help = match measured {
+            Measured::X => {
+                "the slider position x counts from the crank pivot, along the guide; `kinematics` shows its range"
+            }
+            _ => "gamma is the angle at the crank pin between crank and rod, from 0 to 180 deg",
+        };
+        (sample, what, help.to_owned())
     };
-    let list: Vec<_> = values
-        .iter()
-        .enumerate()
-        .filter_map(impossible)
-        .take(20)
-        .collect();
+    let empty = (0..values.len()).filter(|sample| candidates[*sample].angles().is_empty());
+    let list: Vec<_> = empty.take(20).map(impossible).collect();
     if !list.is_empty() {
         return Err(measurement.problems(list).into());
     }
-    Ok(parallel::list(values.len(), |i| angles(values[i])))
+    Ok(candidates)
 }
 
 /// Standard deviation of the noise of evenly spaced samples, from the median of their third differences, which a
