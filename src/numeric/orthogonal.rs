@@ -3,8 +3,7 @@
 //! The three-term recurrence of Forsythe (J. SIAM 5 (1957) 74) makes the columns of Q in the QR
 //! factorization of the matrix of powers, one after the other, in time and memory linear in the points.
 
-use std::array::{from_mut, from_ref};
-
+use super::parallel;
 use super::real::Real;
 
 /// Coefficients over orthonormal polynomials q_j of s = (t − middle)/half:
@@ -59,38 +58,13 @@ pub fn fit<T: Real>(
             break;
         }
         let inverse = T::from(1.0) / norm;
-        let mut sums = [[zero; LANES]; 2];
-        let ((qs, last_qs), (ss, last_ss), (ys, last_ys)) =
-            (now.as_chunks_mut(), s.as_chunks(), rest.as_chunks());
-        for ((q, s), y) in qs.iter_mut().zip(ss).zip(ys) {
-            project::<T, LANES>(q, s, y, inverse, &mut sums);
-        }
-        for ((q, s), y) in last_qs.iter_mut().zip(last_ss).zip(last_ys) {
-            project(from_mut(q), from_ref(s), from_ref(y), inverse, &mut sums);
-        }
-        let [centre, coefficient] = sums.map(total);
+        let pieces = now.chunks_mut(PIECE).zip(s.chunks(PIECE));
+        let pieces = pieces.zip(rest.chunks(PIECE));
+        let [centre, coefficient] = summed(pieces, |((q, s), rest)| project(q, s, rest, inverse));
         let by = [centre, coefficient, norm];
-        let mut sums = [[zero; LANES]; 2];
-        let ((qs, last_qs), (ps, last_ps), (ss, last_ss), (ys, last_ys)) = (
-            now.as_chunks_mut(),
-            before.as_chunks_mut(),
-            s.as_chunks(),
-            rest.as_chunks_mut(),
-        );
-        for (((q, p), s), y) in qs.iter_mut().zip(ps).zip(ss).zip(ys) {
-            advance::<T, LANES>(q, p, s, y, by, &mut sums);
-        }
-        for (((q, p), s), y) in last_qs.iter_mut().zip(last_ps).zip(last_ss).zip(last_ys) {
-            advance(
-                from_mut(q),
-                from_mut(p),
-                from_ref(s),
-                from_mut(y),
-                by,
-                &mut sums,
-            );
-        }
-        let [square, next] = sums.map(total);
+        let pieces = now.chunks_mut(PIECE).zip(before.chunks_mut(PIECE));
+        let pieces = pieces.zip(s.chunks(PIECE)).zip(rest.chunks_mut(PIECE));
+        let [square, next] = summed(pieces, |(((q, p), s), rest)| advance(q, p, s, rest, by));
         fit.norms.push(norm);
         fit.centres.push(centre);
         fit.coefficients.push(coefficient);
@@ -103,6 +77,24 @@ pub fn fit<T: Real>(
     fit
 }
 
+/// Points that a thread takes at a time.
+const PIECE: usize = 1 << 14;
+
+/// Two sums over pieces.
+fn summed<T: Real, P>(
+    mut pieces: impl ExactSizeIterator<Item = P> + Send,
+    sums: impl Fn(P) -> [T; 2] + Sync,
+) -> [T; 2] {
+    if pieces.len() == 1
+        && let Some(piece) = pieces.next()
+    {
+        return sums(piece);
+    }
+    let parts = parallel::map(pieces, |piece| Some(sums(piece)));
+    let add = |[a, b]: [T; 2], [c, d]: [T; 2]| [a + c, b + d];
+    parts.into_iter().flatten().fold([T::from(0.0); 2], add)
+}
+
 /// Sums that are formed side by side.
 const LANES: usize = 4;
 
@@ -110,40 +102,59 @@ fn total<T: Real>([a, b, c, d]: [T; LANES]) -> T {
     (a + b) + (c + d)
 }
 
-/// Norms a polynomial, and adds to the sums of its centre and of its coefficient for what is left of the targets.
-#[inline(always)]
-fn project<T: Real, const N: usize>(
-    q: &mut [T; N],
-    s: &[T; N],
-    rest: &[T; N],
-    inverse: T,
-    [centre, coefficient]: &mut [[T; LANES]; 2],
-) {
-    for k in 0..N {
-        q[k] = q[k] * inverse;
-        centre[k] = centre[k] + s[k] * (q[k] * q[k]);
-        coefficient[k] = coefficient[k] + q[k] * rest[k];
+/// Norms a polynomial: its centre, and its coefficient for what is left of the targets.
+fn project<T: Real>(q: &mut [T], s: &[T], rest: &[T], inverse: T) -> [T; 2] {
+    let mut sums = [[T::from(0.0); LANES]; 2];
+    let [centre, coefficient] = &mut sums;
+    let mut one = |k: usize, q: &mut T, s: T, y: T| {
+        *q = *q * inverse;
+        centre[k] = centre[k] + s * (*q * *q);
+        coefficient[k] = coefficient[k] + *q * y;
+    };
+    let ((qs, last_q), (ss, last_s)) = (q.as_chunks_mut::<LANES>(), s.as_chunks::<LANES>());
+    let (ys, last_y) = rest.as_chunks::<LANES>();
+    for ((q, s), y) in qs.iter_mut().zip(ss).zip(ys) {
+        for k in 0..LANES {
+            one(k, &mut q[k], s[k], y[k]);
+        }
     }
+    for ((q, s), y) in last_q.iter_mut().zip(last_s).zip(last_y) {
+        one(0, q, *s, *y);
+    }
+    sums.map(total)
 }
 
-/// Takes a polynomial out of the targets, makes the next one, and adds to the sums of squares of both.
-#[inline(always)]
-fn advance<T: Real, const N: usize>(
-    q: &mut [T; N],
-    before: &mut [T; N],
-    s: &[T; N],
-    rest: &mut [T; N],
+/// Takes a polynomial out of the targets and makes the next one: the sums of squares of both.
+fn advance<T: Real>(
+    q: &mut [T],
+    before: &mut [T],
+    s: &[T],
+    rest: &mut [T],
     [centre, coefficient, norm]: [T; 3],
-    [left, next]: &mut [[T; LANES]; 2],
-) {
-    for k in 0..N {
-        rest[k] = rest[k] - coefficient * q[k];
-        left[k] = left[k] + rest[k] * rest[k];
-        let following = (s[k] - centre) * q[k] - norm * before[k];
-        before[k] = q[k];
-        q[k] = following;
+) -> [T; 2] {
+    let mut sums = [[T::from(0.0); LANES]; 2];
+    let [left, next] = &mut sums;
+    let mut one = |k: usize, q: &mut T, before: &mut T, s: T, y: &mut T| {
+        *y = *y - coefficient * *q;
+        left[k] = left[k] + *y * *y;
+        let following = (s - centre) * *q - norm * *before;
+        *before = *q;
+        *q = following;
         next[k] = next[k] + following * following;
+    };
+    let (qs, last_q) = q.as_chunks_mut::<LANES>();
+    let (ps, last_p) = before.as_chunks_mut::<LANES>();
+    let (ss, last_s) = s.as_chunks::<LANES>();
+    let (ys, last_y) = rest.as_chunks_mut::<LANES>();
+    for (((q, p), s), y) in qs.iter_mut().zip(ps).zip(ss).zip(ys) {
+        for k in 0..LANES {
+            one(k, &mut q[k], &mut p[k], s[k], &mut y[k]);
+        }
     }
+    for (((q, p), s), y) in last_q.iter_mut().zip(last_p).zip(last_s).zip(last_y) {
+        one(0, q, p, *s, y);
+    }
+    sums.map(total)
 }
 
 impl<T> Expansion<T> {

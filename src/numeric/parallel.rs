@@ -1,6 +1,6 @@
 //! Long lists on all cores, the same to the last bit whatever their number.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 use std::thread;
 
 /// Entries that a thread makes at a time.
@@ -8,8 +8,13 @@ const PIECE: usize = 1 << 12;
 
 /// Does each job on whichever core is free.
 pub fn each<J>(jobs: impl ExactSizeIterator<Item = J> + Send, work: impl Fn(J) + Sync) {
-    let cores = thread::available_parallelism().map_or(1, usize::from);
+    // The system takes its time to tell.
+    static CORES: OnceLock<usize> = OnceLock::new();
+    let cores = *CORES.get_or_init(|| thread::available_parallelism().map_or(1, usize::from));
     let others = cores.min(jobs.len()).saturating_sub(1);
+    if others == 0 {
+        return jobs.for_each(work);
+    }
     let jobs = Mutex::new(jobs);
     let next = || jobs.lock().unwrap_or_else(PoisonError::into_inner).next();
     let worker = || {
@@ -73,4 +78,23 @@ pub fn columns(length: usize, f: impl Fn(usize) -> [f64; 3] + Sync) -> [Vec<f64>
         }
     });
     columns
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_have_the_entries_of_their_places() {
+        for length in [0, 1, PIECE, 3 * PIECE + 5] {
+            let wanted: Vec<f64> = (0..length).map(|i| i as f64).collect();
+            let more = |by: f64| wanted.iter().map(|i| i + by).collect::<Vec<f64>>();
+            assert_eq!(list(length, |i| i as f64), wanted);
+            assert_eq!(map(wanted.iter(), |i| i + 1.0), more(1.0));
+            let (first, second) = pairs(length, |i| (i as f64, i as f64 + 1.0));
+            assert_eq!((first, second), (wanted.clone(), more(1.0)));
+            let columns = columns(length, |i| [0.0, 1.0, 2.0].map(|k| i as f64 + k));
+            assert_eq!(columns, [wanted.clone(), more(1.0), more(2.0)]);
+        }
+    }
 }

@@ -7,6 +7,8 @@ use super::double_double::DoubleDouble;
 /// What a number must do for least squares, so that one algorithm serves both precisions.
 pub trait Real:
     Copy
+    + Send
+    + Sync
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>

@@ -34,6 +34,8 @@ pub struct Fourier {
     /// c, Ω, a_1, b_1, a_2, b_2, ...
     parameters: Vec<f64>,
     triangle: Triangle,
+    /// What makes variances of its columns.
+    whitening: Vec<f64>,
     /// Variances of the coefficients of the harmonics that follow.
     tail: Vec<f64>,
     quality: Quality,
@@ -118,6 +120,7 @@ impl Fourier {
                 floor: samples.floor,
             },
             parameters,
+            whitening: triangle.whitening(),
             triangle,
             tail,
         })
@@ -158,9 +161,17 @@ impl Fourier {
                 *rounding += 4.0 * f64::EPSILON * (value * parameter).abs();
             }
         }
-        self.triangle.transposed_solve(&mut list);
-        for column in &list {
-            add_products(&mut state.covariance, column, 1.0);
+        let mut weights = self.whitening.as_slice();
+        for last in 0..list.len() {
+            let (row, rest) = weights.split_at(last + 1);
+            let mut sum = [0.0; 3];
+            for (weight, column) in row.iter().zip(&list) {
+                for (sum, value) in sum.iter_mut().zip(column) {
+                    *sum += weight * value;
+                }
+            }
+            add_products(&mut state.covariance, &sum, 1.0);
+            weights = rest;
         }
         let (omega, tau) = (self.parameters[1], t - self.middle);
         let beyond = harmonics(omega * tau).zip(1..).skip(self.harmonics());

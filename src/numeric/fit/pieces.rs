@@ -39,10 +39,14 @@ impl Grid {
 }
 
 /// The cardinal B-splines of a degree at place u of a piece (de Boor's recurrence on even knots).
+#[inline(always)]
 pub(super) fn basis(degree: usize, u: f64) -> [f64; DIAGONALS] {
-    let mut constant = [0.0; DIAGONALS];
-    constant[0] = 1.0;
-    (1..=degree).fold(constant, |b, d| raised(b, d, u))
+    let mut b = [0.0; DIAGONALS];
+    b[0] = 1.0;
+    for d in 1..=degree {
+        b = raised(b, d, u);
+    }
+    b
 }
 
 /// The same of the last three degrees up to [`DEGREE`].

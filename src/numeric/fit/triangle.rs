@@ -64,24 +64,15 @@ impl Triangle {
         sums
     }
 
-    /// Solves Rᵀ x = b in place for three right-hand sides.
-    pub fn transposed_solve(&self, b: &mut [[f64; 3]]) {
-        let columns = self.rows.as_slice().chunks_exact(self.rows.nrows());
-        for (i, column) in columns.enumerate().take(self.size) {
-            let (done, rest) = b.split_at_mut(i);
-            // Sums side by side.
-            let mut sums = [rest[0], [0.0; 3], [0.0; 3], [0.0; 3]];
-            for (known, r) in done.chunks(sums.len()).zip(column[..i].chunks(sums.len())) {
-                for ((sum, known), r) in sums.iter_mut().zip(known).zip(r) {
-                    for (sum, known) in sum.iter_mut().zip(known) {
-                        *sum -= r * known;
-                    }
-                }
-            }
-            let inverse = 1.0 / column[i];
-            let [p, q, s, t] = sums;
-            rest[0] = std::array::from_fn(|k| ((p[k] + q[k]) + (s[k] + t[k])) * inverse);
-        }
+    /// The rows of (Rᵀ)⁻¹ up to their diagonals, one after the other; not numbers for a singular matrix. They turn a row of
+    /// the matrix into one whose square is the variance of what it gives with the solution.
+    pub fn whitening(&self) -> Vec<f64> {
+        let n = self.size;
+        let triangle = self.rows.view((0, 0), (n, n)).upper_triangle();
+        let inverse = triangle.solve_upper_triangular(&DMatrix::identity(n, n));
+        let inverse = inverse.unwrap_or_else(|| DMatrix::from_element(n, n, f64::NAN));
+        let rows = (0..n).flat_map(|i| (0..=i).map(move |j| (j, i)));
+        rows.map(|place| inverse[place]).collect()
     }
 
     /// Standard errors of the solution for a right-hand side of unit variance, and the condition number in the

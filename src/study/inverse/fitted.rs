@@ -68,7 +68,10 @@ impl Fitted {
             floor,
         };
         let (curve, [_, _, residuals], settled) = match seen.start(&theta, kind, size) {
-            Some(near) => seen.settle(|i| near.value(times[i]), kind, size, 0)?,
+            Some(near) => {
+                drop(theta);
+                seen.settle(|i| near.value(times[i]), kind, size, 0)?
+            }
             None => seen.settle(|i| theta[i], kind, size, LAST_CHOICE)?,
         };
         Ok(Fitted::of(curve, residuals, settled, None))
@@ -87,10 +90,10 @@ impl Fitted {
     }
 
     /// What was measured; a crank angle continued over the turns.
-    pub fn measured(&self, measurement: &Measurement) -> Vec<f64> {
+    pub fn measured<'a>(&'a self, measurement: &'a Measurement) -> &'a [f64] {
         match &self.continued {
-            Some(theta) => theta.clone(),
-            None => measurement.values().to_vec(),
+            Some(theta) => theta,
+            None => measurement.values(),
         }
     }
 
@@ -148,11 +151,11 @@ impl Seen<'_> {
         let mut chosen: Option<Curve> = None;
         let (mut round, mut change_before) = (0, 0.0);
         loop {
-            let [weight, target, _] = lines;
+            let [weight, target, _] = &lines;
             let samples = Samples {
                 t: self.times,
-                target: &target,
-                weight: Some(&weight),
+                target,
+                weight: Some(weight),
                 floor: self.floor,
             };
             // Once the motion is about right the choice of terms stays, so that it cannot go on alternating.
@@ -161,7 +164,7 @@ impl Seen<'_> {
                 _ => Curve::fit(&samples, kind, size)?,
             };
             // Two motions are not held at a time.
-            drop((weight, target));
+            drop(lines);
             let sigma = curve.quality().sigma;
             let moved = parallel::list(few, |i| {
                 let state = curve.state(self.times[i * stride]);

@@ -31,7 +31,7 @@ pub struct InverseRow {
 }
 
 /// What was measured at one sample and what the fit gives, rad or m.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Residual {
     /// s
     pub t: f64,
@@ -43,16 +43,12 @@ pub struct Residual {
 
 impl Residual {
     pub(super) fn list(fitted: &Fitted, measurement: &Measurement) -> Vec<Residual> {
-        let measured = fitted.measured(measurement);
-        let samples = measurement.times().iter().zip(measured);
-        samples
-            .zip(&fitted.residuals)
-            .map(|((t, measured), residual)| Residual {
-                t: *t,
-                measured,
-                residual: *residual,
-            })
-            .collect()
+        let (times, measured) = (measurement.times(), fitted.measured(measurement));
+        parallel::list(times.len(), |i| Residual {
+            t: times[i],
+            measured: measured[i],
+            residual: fitted.residuals[i],
+        })
     }
 }
 

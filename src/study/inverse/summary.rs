@@ -103,10 +103,18 @@ pub struct ForceRange {
 }
 
 impl ForceRange {
-    fn of(values: impl Iterator<Item = (f64, f64, f64)> + Clone) -> Option<ForceRange> {
-        let min = values.clone().min_by(|a, b| a.1.total_cmp(&b.1))?;
-        let max = values.clone().max_by(|a, b| a.1.total_cmp(&b.1))?;
-        let mut errors: Vec<f64> = values.map(|v| v.2).collect();
+    fn of(mut values: impl Iterator<Item = (f64, f64, f64)>) -> Option<ForceRange> {
+        let first = values.next()?;
+        let (mut min, mut max, mut errors) = (first, first, vec![first.2]);
+        for value in values {
+            if value.1.total_cmp(&min.1).is_lt() {
+                min = value;
+            }
+            if value.1.total_cmp(&max.1).is_ge() {
+                max = value;
+            }
+            errors.push(value.2);
+        }
         let middle = errors.len() / 2;
         Some(ForceRange {
             min: min.1,

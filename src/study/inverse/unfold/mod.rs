@@ -165,10 +165,9 @@ fn candidates(
 /// Standard deviation of the noise of evenly spaced samples, from the median of their third differences, which a
 /// smooth motion hardly adds to.
 fn noise(values: &[f64]) -> f64 {
-    let mut third: Vec<f64> = values
-        .windows(4)
-        .map(|w| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]).abs())
-        .collect();
+    let mut third = parallel::list(values.len().saturating_sub(3), |i| {
+        (values[i + 3] - 3.0 * values[i + 2] + 3.0 * values[i + 1] - values[i]).abs()
+    });
     let middle = third.len() / 2;
     if third.is_empty() {
         return 0.0;
