@@ -6,7 +6,8 @@ use super::triangle::Triangle;
 /// Value and two derivatives in time.
 pub(super) type Jet = [f64; 3];
 
-/// Sine and cosine of an angle, of twice the angle and so on, by the theorem of addition: each is as near as its argument.
+/// Sine and cosine of an angle, of twice the angle and so on, by the theorem of addition: each is as exact as the rounded angle lets
+/// it be.
 pub(super) fn harmonics(angle: f64) -> impl Iterator<Item = (f64, f64)> {
     let (sin, cos) = angle.sin_cos();
     let turned = move |(s, c): &(f64, f64)| Some((s * cos + c * sin, c * cos - s * sin));
