@@ -1,12 +1,12 @@
-//! Samples far enough apart that motion outweighs noise; the others follow from them.
+//! Samples so far apart that motion outweighs noise; the others follow from them.
 
 use std::f64::consts::TAU;
 
-use super::noise;
+use super::spacing::{Spacing, window};
 use crate::mechanism::Candidates;
 use crate::scene::Measurement;
 
-/// A part of the samples, evenly taken.
+/// A part of the samples.
 #[derive(Debug)]
 pub(super) struct Anchors {
     /// Their numbers.
@@ -16,24 +16,8 @@ pub(super) struct Anchors {
     pub candidates: Vec<Candidates>,
 }
 
-/// The motion between anchors, rad, that is enough however loud the noise.
-const ENOUGH: f64 = 0.2;
-
-/// The motion between anchors, rad, that is wanted however still the noise.
-const LEAST: f64 = 0.01;
-
-/// So many samples on either side that are taken together, and more, are dense: the crank is to turn between their means
-/// by so many times what blurs these. Of few samples the means would be those over a fold.
-const DENSE: usize = 16;
-const FARTHER: f64 = 4.0;
-
 /// Part of their span by which samples are uneven about an anchor.
 const UNEVEN: f64 = 0.1;
-
-/// Samples on either side of an anchor that are taken together with it.
-fn window(stride: usize) -> usize {
-    stride / 3
-}
 
 /// The middle of the parabola through an odd number of evenly spaced values (Savitzky and Golay, Anal. Chem. 36 (1964)
 /// 1627).
@@ -44,91 +28,100 @@ fn smoothed(values: &[f64]) -> f64 {
     3.0 * sum / ((2.0 * k - 1.0) * (2.0 * k + 1.0) * (2.0 * k + 3.0))
 }
 
-/// Fewest anchors.
-const FEWEST: usize = 16;
-
 impl Anchors {
-    /// Chooses anchors between which the crank turns by at least `blur`, rad, or a little more; `angles` are those of a
-    /// measured value.
+    /// Chooses the samples; `angles` are those of a measured value.
     ///
     /// The samples around an anchor are taken together, so that dense samples are not worse than few.
     pub fn choose(
         measurement: &Measurement,
         candidates: &[Candidates],
-        blur: f64,
+        spacing: &Spacing<'_>,
         angles: impl Fn(f64) -> Candidates,
     ) -> Anchors {
         let times = measurement.times();
-        // On either stroke the motion looks alike.
-        let one: Vec<f64> = candidates
-            .iter()
-            .map(|c| c.angles().iter().fold(f64::NEG_INFINITY, |a, b| a.max(*b)))
-            .collect();
-        let noise = 8.0 * noise(&one);
-        let wanted = |stride: usize| {
-            let together = (window(stride) as f64).max(1.0);
-            let farther = if window(stride) < DENSE { 1.0 } else { FARTHER };
-            let blur = farther * blur / together.powf(0.25);
-            (noise / together.sqrt()).max(blur).clamp(LEAST, ENOUGH)
-        };
-        let motion = |stride: usize| {
-            let picked: Vec<f64> = one.iter().step_by(stride).copied().collect();
-            let mut steps: Vec<f64> = picked.windows(2).map(|w| (w[1] - w[0]).abs()).collect();
-            let part = steps.len() / 3;
-            *steps.select_nth_unstable_by(part, f64::total_cmp).1
-        };
-        let mut stride = 1;
-        while times.len() / (2 * stride) >= FEWEST && motion(stride) < wanted(stride) {
-            stride *= 2;
-        }
-        let around = window(stride);
-        let index: Vec<usize> = (around..times.len() - around).step_by(stride).collect();
-        let at_anchor = |i: &usize| {
+        let index = spacing.walk();
+        let gap = |k: usize| index[k] - index[k - 1];
+        let at_anchor = |k: usize| {
+            let i = index[k];
+            let nearest = gap(k.max(1)).min(gap((k + 1).min(index.len() - 1)));
+            let around = window(nearest).min(i).min(times.len() - 1 - i);
             let (from, to) = (i - around, i + around);
-            let (before, after) = (times[*i] - times[from], times[to] - times[*i]);
+            let (before, after) = (times[i] - times[from], times[to] - times[i]);
             if around == 0 || (after - before).abs() > UNEVEN * (after + before) {
-                return candidates[*i];
+                return candidates[i];
             }
             let found = angles(smoothed(&measurement.values()[from..=to]));
             if found.angles().is_empty() {
-                candidates[*i]
+                candidates[i]
             } else {
                 found
             }
         };
         Anchors {
             t: index.iter().map(|i| times[*i]).collect(),
-            candidates: index.iter().map(at_anchor).collect(),
+            candidates: (0..index.len()).map(at_anchor).collect(),
             index,
         }
+    }
+
+    /// The angle of the first sample that is nearest to the motion through the anchors.
+    pub fn first(&self, times: &[f64], candidates: &[Candidates], theta: &[f64]) -> f64 {
+        self.spread(&times[..1], &candidates[..1], theta)[0]
     }
 
     /// The angle of each sample that is nearest to the motion through the anchors.
     pub fn spread(&self, times: &[f64], candidates: &[Candidates], theta: &[f64]) -> Vec<f64> {
         let last = self.t.len() - 1;
-        let slope = |i: usize| {
-            let (a, b) = (i.saturating_sub(1), (i + 1).min(last));
-            (theta[b] - theta[a]) / (self.t[b] - self.t[a])
-        };
-        let mut right = 1;
+        let mut right = 0;
+        let mut near = Near::of(&self.t[..3], &theta[..3]);
         let mut angles = Vec::with_capacity(times.len());
         for (sample, t) in times.iter().enumerate() {
-            while right < last && self.index[right] < sample {
+            while right <= last && self.index[right] <= sample {
                 right += 1;
+                let inside = 0 < right && right <= last;
+                // Before the first and after the last anchor, where noise would grow most, through fewer.
+                let from = right.saturating_sub(2).min(last - 2);
+                let to = if inside {
+                    (right + 2).min(last + 1)
+                } else {
+                    from + 3
+                };
+                near = Near::of(&self.t[from..to], &theta[from..to]);
             }
-            let left = right - 1;
-            let width = self.t[right] - self.t[left];
-            let u = (t - self.t[left]) / width;
-            let expected = if u > 1.0 {
-                theta[right] + slope(right) * (t - self.t[right])
-            } else {
-                let (a, b) = (theta[left], theta[right]);
-                let (va, vb) = (slope(left) * width, slope(right) * width);
-                a + u * (va + u * (3.0 * (b - a) - 2.0 * va - vb + u * (2.0 * (a - b) + va + vb)))
-            };
+            let expected = near.at(*t);
             angles.push(nearest(&candidates[sample], expected).unwrap_or(expected));
         }
         angles
+    }
+}
+
+/// The polynomial through up to four anchors, by divided differences.
+#[derive(Clone, Copy, Debug)]
+struct Near {
+    t: [f64; 4],
+    differences: [f64; 4],
+}
+
+impl Near {
+    fn of(t: &[f64], theta: &[f64]) -> Near {
+        let mut near = Near {
+            t: [0.0; 4],
+            differences: [0.0; 4],
+        };
+        near.t[..t.len()].copy_from_slice(t);
+        near.differences[..t.len()].copy_from_slice(theta);
+        for order in 1..t.len() {
+            for k in (order..t.len()).rev() {
+                let step = near.differences[k] - near.differences[k - 1];
+                near.differences[k] = step / (t[k] - t[k - order]);
+            }
+        }
+        near
+    }
+
+    fn at(&self, t: f64) -> f64 {
+        let [a, b, c, d] = self.differences;
+        a + (t - self.t[0]) * (b + (t - self.t[1]) * (c + (t - self.t[2]) * d))
     }
 }
 

@@ -9,6 +9,7 @@ mod anchors;
 mod branches;
 mod doubt;
 mod search;
+mod spacing;
 mod start;
 
 use std::f64::consts::{PI, TAU};
@@ -20,6 +21,7 @@ use crate::numeric::parallel;
 use crate::scene::{Measured, Measurement, Motion};
 use anchors::Anchors;
 use branches::Branches;
+use spacing::Spacing;
 use start::Start;
 
 /// Continuous crank angles, one for each sample, and what was decided on the way.
@@ -51,9 +53,12 @@ pub(super) fn unfold(
         _ => (0.0, 8.0 * noise),
     };
     let angles = |value: f64| branches.angles(value);
-    let mut anchors = Anchors::choose(measurement, &candidates, blur, angles);
+    let spacing = Spacing::new(&candidates, blur, linkage.limit_angles().is_empty());
+    let mut anchors = Anchors::choose(measurement, &candidates, &spacing, angles);
     branches::begin_on_branch(sensor, measurement, &mut anchors);
-    let taken = start::choose(search::paths(&anchors), start, start_blur);
+    let taken = start::choose(search::paths(&anchors), start, start_blur, |theta| {
+        anchors.first(measurement.times(), &candidates, theta)
+    });
     let taken = taken.filter(|taken| taken.path.scale <= TOO_COARSE);
     let Some(Start {
         path,

@@ -78,7 +78,12 @@ fn from(anchors: &Anchors, start: usize) -> (f64, Path) {
             let (expected, spread) = predict(&anchors.t, at, &motion.last);
             for (choice, angle) in anchors.candidates[at].angles().iter().enumerate() {
                 let theta = in_turn(*angle, expected);
-                let error = (theta - expected) / spread;
+                // Less than a parabola foretells nothing: the motion may begin fast.
+                let error = if at < 3 {
+                    0.0
+                } else {
+                    (theta - expected) / spread
+                };
                 let key = (motion.key << 2 | choice as u8) & 0x3f;
                 let cost = motion.cost + error * error;
                 let last = [theta, motion.last[0], motion.last[1]];

@@ -30,15 +30,20 @@ const BY_SPEED: &str = "the one that begins with the sense of the scene's speed 
 const BY_NOTHING: &str =
     "the one that begins counter-clockwise is taken, as the scene has neither speed nor angle";
 
-/// Chooses among motions with their sums of squares, whose first angles are right to `blur`, rad.
+/// Chooses among motions with their sums of squares, the `first` angle of each being right to `blur`, rad.
 ///
 /// A motion may begin slowly and reverse at once, so an angle of the scene that is plainly that of one motion counts
 /// before the speed. Angle 0 does not, because scenes that say nothing have it.
-pub(super) fn choose(mut paths: Vec<(f64, Path)>, start: &Motion, blur: f64) -> Option<Start> {
+pub(super) fn choose(
+    mut paths: Vec<(f64, Path)>,
+    start: &Motion,
+    blur: f64,
+    first: impl Fn(&[f64]) -> f64,
+) -> Option<Start> {
     paths.sort_by(|a, b| a.0.total_cmp(&b.0));
     let least = paths.first()?.0;
     paths.retain(|(cost, _)| *cost <= ALIKE * least + 1e-6);
-    let off = |i: usize| (in_turn(paths[i].1.theta[0], start.angle) - start.angle).abs();
+    let off = |i: usize| (in_turn(first(&paths[i].1.theta), start.angle) - start.angle).abs();
     let mut by_angle: Vec<usize> = (0..paths.len()).collect();
     by_angle.sort_by(|a, b| off(*a).total_cmp(&off(*b)));
     let nearest = by_angle[0];
