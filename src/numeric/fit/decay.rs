@@ -2,7 +2,8 @@
 //!
 //! Coefficients over orthonormal terms of an analytic function fall about geometrically. As measured, each is a normal
 //! number of variance τ² + noise, with ln τ² = level − fall·k for term k; levels and falls are weighed by their
-//! likelihood. They tell how many terms leave out little, and how much.
+//! likelihood, as is that there are no terms after the last supported one. They tell how many terms leave out little, and
+//! how much.
 
 /// Variances of the coefficients of a series, as a mixture of geometric series.
 #[derive(Clone, Debug)]
@@ -20,6 +21,10 @@ const FAR: usize = 40;
 
 /// Terms before the last supported one from which the decay is read.
 const BACK: usize = 4;
+
+/// How much likelier, as a logarithm, it must be that a series ends than that it falls off on: measured motions hardly
+/// are polynomials.
+const ENDS: f64 = 20.0;
 
 /// Falls that are weighed, from a quarter of the mean one to e^8 for each term.
 const FALLS: i32 = 12;
@@ -52,6 +57,15 @@ impl Decay {
                 mixture.push([cost, level + fall * from as f64, fall]);
             }
         }
+        let ends = |(k, square): &(f64, f64)| {
+            if *k <= supported as f64 {
+                square.max(1.0).ln() + 1.0
+            } else {
+                *square
+            }
+        };
+        let cost = 0.5 * each * window.iter().map(ends).sum::<f64>() + ENDS;
+        mixture.push([cost, f64::NEG_INFINITY, 0.0]);
         let least = mixture.iter().fold(f64::INFINITY, |m, part| m.min(part[0]));
         mixture.retain(|part| part[0] < least + 12.0);
         let weight = |cost: f64| (least - cost).exp();
