@@ -195,6 +195,35 @@ fn derivatives_are_consistent() {
 }
 
 /// The rotation and harmonics that a signal is made of are found.
+/// Of a polynomial without noise the degree is the one it has, and terms that are not there widen nothing.
+#[test]
+fn a_polynomial_that_ends() {
+    let t: Vec<f64> = (0..126).map(|i| 0.02 * f64::from(i)).collect();
+    let exact = [0.0649, 0.522, 2.166, -2.129, 0.472];
+    let target: Vec<f64> = t
+        .iter()
+        .map(|t| exact.iter().rev().fold(0.0, |sum, c| sum * t + c))
+        .collect();
+    for size in [Size::Auto, Size::Fixed(4), Size::Fixed(6)] {
+        let fit = Polynomial::fit(&samples(&t, &target), size);
+        if size != Size::Fixed(6) {
+            assert_eq!(fit.degree(), 4);
+        }
+        for t in [0.0, 1.0, 2.5] {
+            let state = fit.state(t);
+            let second = 2.0 * exact[2] + t * (6.0 * exact[3] + t * 12.0 * exact[4]);
+            assert!(
+                (state.value[2] - second).abs() < 1e-10,
+                "{}",
+                state.value[2] - second
+            );
+            // The samples are rounded to a unit of 2e-16 or less.
+            let deviation = (state.covariance[5].sqrt() * 1e-15, state.bias[5].sqrt());
+            assert!(deviation.0 < 1e-10 && deviation.1 < 1e-10, "{deviation:?}");
+        }
+    }
+}
+
 #[test]
 fn harmonics_that_are_there() {
     let t: Vec<f64> = (0..400).map(|i| 1.0 + 0.005 * f64::from(i)).collect();

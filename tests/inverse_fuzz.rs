@@ -14,40 +14,60 @@ use slider_crank::study::{FitKind, Inverse, InverseOptions, inverse};
 use support::newton::Parts;
 use support::random::{cases, rotating_crank};
 
-/// θ(t) = start + speed t + swing sin(rate t), sampled from 0 to `end`.
+/// θ(t) = start + speed (1 − exp(−slowing t))/slowing + swing sin(rate t), sampled from 0 to `end`.
 #[derive(Clone, Copy, Debug)]
 struct Formula {
     start: f64,
     speed: f64,
     swing: f64,
     rate: f64,
+    /// 1/s; negative where the crank gets faster.
+    slowing: f64,
     end: f64,
 }
 
 impl Formula {
     fn at(&self, t: f64) -> [f64; 3] {
         let (sin, cos) = (self.rate * t).sin_cos();
+        let speed = self.speed * (-self.slowing * t).exp();
+        let path = if self.slowing == 0.0 {
+            self.speed * t
+        } else {
+            -self.speed * (-self.slowing * t).exp_m1() / self.slowing
+        };
         [
-            self.start + self.speed * t + self.swing * sin,
-            self.speed + self.swing * self.rate * cos,
-            -self.swing * self.rate * self.rate * sin,
+            self.start + path + self.swing * sin,
+            speed + self.swing * self.rate * cos,
+            -self.slowing * speed - self.swing * self.rate * self.rate * sin,
         ]
     }
 }
 
 fn formula() -> impl Strategy<Value = Formula> {
     let signed = |from: f64, to: f64| prop_oneof![from..to, -to..-from];
+    let start = -3.0..3.0;
+    let steady = Just(0.0);
     prop_oneof![
         // Several turns either way, unevenly.
-        (-3.0..3.0, signed(8.0, 30.0), 0.0..0.3, 3.0..12.0),
+        (
+            start.clone(),
+            signed(8.0, 30.0),
+            0.0..0.3,
+            3.0..12.0,
+            steady
+        ),
         // Swings, with or without passing dead centres.
-        (-3.0..3.0, Just(0.0), signed(0.3, 3.0), 4.0..9.0),
+        (start.clone(), steady, signed(0.3, 3.0), 4.0..9.0, steady),
+        // Coming to rest, and running up, by a factor of up to a hundred.
+        (start.clone(), signed(20.0, 70.0), steady, steady, 1.5..4.5),
+        (start, signed(1.0, 3.0), steady, steady, -3.5..-1.0),
     ]
-    .prop_map(|(start, speed, swing, rate)| Formula {
+    .prop_map(|(start, speed, swing, rate, slowing)| Formula {
         start,
         speed,
         swing,
         rate,
+        slowing,
         end: 1.0,
     })
 }
@@ -247,7 +267,7 @@ proptest! {
         style in style(),
         measured in prop_oneof![Just(Measured::Theta), Just(Measured::Gamma), Just(Measured::X)],
     ) {
-        let motion = Formula { start: 0.4, speed: 9.0, swing: 0.2, rate: 5.0, end: 0.8 };
+        let motion = Formula { start: 0.4, speed: 9.0, swing: 0.2, rate: 5.0, slowing: 0.0, end: 0.8 };
         let scene = scene(support::geometry(0.05, 0.15, 0.01, slider_crank::scene::Branch::Right), &motion);
         let samples: Vec<(f64, f64)> = (0..60).map(|i| {
             let t = 0.013 * f64::from(i);
