@@ -1,19 +1,26 @@
 //! Smoothing splines: pieces of degree 7 with a penalty on the sixth differences of their coefficients (Eilers and
 //! Marx, Statist. Sci. 11 (1996) 89).
 //!
-//! The number of pieces is that of the largest restricted likelihood, and the penalty the weakest inside the
-//! 90 % interval of the likelihood: a band must not rest on smoothness that the samples leave open. The covariance is that of the Bayesian
-//! view, which has the error of smoothing in it (Wahba, J. R. Statist. Soc. B 45 (1983) 133), of motions as rough
-//! everywhere; what the penalty bends away of this one is added.
+//! Number of pieces and penalty are those of the largest restricted likelihood. That penalty is for the curve itself; for
+//! its second derivative it is too strong wherever the motion is less even than the random curves that it stands for.
+//! The fit therefore has a weaker one, that cuts off at a frequency √2 times as high. Its error is that of the Bayesian
+//! view (Wahba, J. R. Statist. Soc. B 45 (1983) 133; Nychka, J. Amer. Statist. Assoc. 83 (1988) 1134): noise, and what
+//! the penalty bends away of a curve that is as rough as is likely. What it bends away of this one is added.
 
 use super::condensed::Rows;
-use super::penalized::{Normal, ORDER, roughness};
+use super::penalized::Normal;
 use super::pieces::{DEGREE, Grid, basis};
 use super::{Quality, Samples, Size, State, add_products};
 use crate::numeric::banded::{Banded, DIAGONALS};
 
 /// Pieces for each one that the samples ask for, so that the penalty and not the pieces decide how smooth it is.
 const FINER: usize = 4;
+
+/// Cut-off frequency of the fit for one of the most likely penalty.
+const CUT_OFF: f64 = std::f64::consts::SQRT_2;
+
+/// Step in the logarithm of the penalty for derivatives by it.
+const STEP: f64 = 0.05;
 
 /// Fewest pieces that are tried.
 const FEWEST: usize = 4;
@@ -24,11 +31,13 @@ const FAILED: &str = "the samples do not determine a spline";
 #[derive(Clone, Debug)]
 pub struct Spline {
     grid: Grid,
-    /// Strength of the penalty.
+    /// Strength of the most likely penalty.
+    likely: f64,
+    /// Strength of the penalty of the fit.
     strength: f64,
     coefficients: Vec<f64>,
-    /// Band of the inverse of the penalized normal matrix.
-    inverse: Banded,
+    /// Band of the covariance of the coefficients, for samples of unit variance.
+    covariance: Banded,
     /// Coefficients of what the penalty has bent away.
     bias: Vec<f64>,
     quality: Quality,
@@ -80,7 +89,8 @@ impl Spline {
         };
         let normal = Normal::new(rows_for(pieces), pieces);
         let choice = normal.choose().ok_or_else(failed)?;
-        Spline::new(normal, choice.strength, choice.coefficients).ok_or_else(failed)
+        let strength = normal.weaker(choice.strength, CUT_OFF);
+        Spline::new(normal, [choice.strength, strength], choice.coefficients).ok_or_else(failed)
     }
 
     /// A spline with as many pieces under the same penalty.
@@ -90,32 +100,35 @@ impl Spline {
     pub fn again(&self, samples: &Samples<'_>) -> Result<Spline, String> {
         let rows = Rows::new(samples, self.grid.pieces);
         let normal = Normal::new(&rows, self.grid.pieces);
-        let solved = normal.improved(self.strength, self.coefficients.clone());
-        let spline = solved.and_then(|solved| Spline::new(normal, self.strength, solved));
+        let strengths = [self.likely, self.strength];
+        let spline = Spline::new(normal, strengths, self.coefficients.clone());
         spline.ok_or_else(|| FAILED.to_owned())
     }
 
-    fn new(normal: Normal<'_>, strength: f64, coefficients: Vec<f64>) -> Option<Spline> {
+    /// A spline under the last of two penalties, the first of which is the likely one, from coefficients that are near.
+    fn new(
+        normal: Normal<'_>,
+        [likely, strength]: [f64; 2],
+        near: Vec<f64>,
+    ) -> Option<Spline> {
         let factor = normal.factor(strength)?;
+        let coefficients = normal.solve(strength, &factor, near);
         let inverse = factor.inverse_band();
         let (squares, _) = normal.residuals(&coefficients);
-        let bent = roughness(&coefficients);
-        let free = (normal.rows() - ORDER) as f64;
-        let sigma = ((squares + strength * bent) / free).sqrt();
-        let floor = normal.floor();
         Some(Spline {
             quality: Quality {
                 squares,
                 parameters: inverse.trace_of_product(&normal.matrix),
-                sigma: sigma.max(floor),
-                floor,
+                sigma: normal.variance(likely, &coefficients)?.sqrt(),
+                floor: normal.floor(),
             },
             condition: factor.diagonal_ratio(),
             bias: normal.bent_away(strength, &factor, &coefficients),
+            covariance: covariance(&normal, [likely, strength], inverse)?,
             grid: normal.grid,
+            likely,
             strength,
             coefficients,
-            inverse,
         })
     }
 
@@ -132,7 +145,7 @@ impl Spline {
     /// Coefficients of the B-splines, their standard errors for samples of unit variance, and the ratio of the largest
     /// to the smallest pivot of their equations.
     pub fn coefficients(&self) -> (Vec<f64>, Vec<f64>, f64) {
-        let error = |i| self.inverse.get(i, i).sqrt();
+        let error = |i| self.covariance.get(i, i).sqrt();
         let errors = (0..self.coefficients.len()).map(error).collect();
         (self.coefficients.clone(), errors, self.condition)
     }
@@ -175,7 +188,7 @@ impl Spline {
                 .sum()
         });
         add_products(&mut state.bias, &bias, 1.0);
-        let spread = bases.map(|basis| self.inverse.times_part(piece, &basis));
+        let spread = bases.map(|basis| self.covariance.times_part(piece, &basis));
         let mut entry = 0;
         for basis in 0..3 {
             for spread in &spread[..=basis] {
@@ -186,4 +199,16 @@ impl Spline {
         }
         state
     }
+}
+
+/// Mean products of the errors of the coefficients, for samples of unit variance and curves as rough as the likely
+/// penalty has them.
+///
+/// With N the normal matrix and P the penalty of strength s, A = N + sP, noise gives A⁻¹ N A⁻¹, and the roughness
+/// s² A⁻¹ P A⁻¹ over the likely strength. The two matrices come from A⁻¹ and its derivative by ln s, −s A⁻¹ P A⁻¹.
+fn covariance(normal: &Normal<'_>, [likely, strength]: [f64; 2], inverse: Banded) -> Option<Banded> {
+    let beside = |step: f64| Some(normal.factor(strength * step.exp())?.inverse_band());
+    let (weaker, stronger) = (beside(-STEP)?, beside(STEP)?);
+    let part = (1.0 - strength / likely) * 0.5 / STEP;
+    Some(inverse.plus(part, &stronger).plus(-part, &weaker))
 }
