@@ -36,6 +36,8 @@ pub struct Fourier {
     triangle: Triangle,
     /// Variances of the coefficients of the harmonics that follow.
     tail: Vec<f64>,
+    /// Changes of the parameters that errors of the samples amount to.
+    errors: Vec<Vec<f64>>,
     quality: Quality,
 }
 
@@ -120,7 +122,28 @@ impl Fourier {
             parameters,
             triangle,
             tail,
+            errors: Vec::new(),
         })
+    }
+
+    /// Counts what errors of the samples make of the parameters as what may be wrong with them.
+    pub(super) fn admit(&mut self, samples: &Samples<'_>, errors: &[Vec<f64>]) {
+        let mut right = vec![vec![0.0; self.parameters.len()]; errors.len()];
+        for (i, t) in samples.t.iter().enumerate() {
+            let weight = samples.weight.map_or(1.0, |weight| weight[i]);
+            let (_, columns) = columns(t - self.middle, &self.parameters);
+            for (right, error) in right.iter_mut().zip(errors) {
+                let error = weight * error[i];
+                right
+                    .iter_mut()
+                    .zip(&columns)
+                    .for_each(|(r, c)| *r += c[0] * error);
+            }
+        }
+        self.errors = right
+            .iter()
+            .map(|right| self.triangle.normal_solve(right))
+            .collect();
     }
 
     /// Number of harmonics.
@@ -164,6 +187,15 @@ impl Fourier {
             for (rounding, value) in state.rounding.iter_mut().zip(column) {
                 *rounding += 4.0 * f64::EPSILON * (value * parameter).abs();
             }
+        }
+        for error in &self.errors {
+            let mut sum = [0.0; 3];
+            for (column, change) in columns.iter().zip(error) {
+                sum.iter_mut()
+                    .zip(column)
+                    .for_each(|(s, c)| *s += change * c);
+            }
+            add_products(&mut state.bias, &sum, 1.0);
         }
         self.triangle.transposed_solve(&mut columns);
         for column in &columns {

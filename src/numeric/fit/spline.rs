@@ -38,8 +38,8 @@ pub struct Spline {
     coefficients: Vec<f64>,
     /// Band of the covariance of the coefficients, for samples of unit variance.
     covariance: Banded,
-    /// Coefficients of what the penalty has bent away.
-    bias: Vec<f64>,
+    /// Coefficients of what may be wrong beside noise: of what the penalty has bent away, and of errors of the samples.
+    errors: Vec<Vec<f64>>,
     quality: Quality,
     condition: f64,
 }
@@ -106,11 +106,7 @@ impl Spline {
     }
 
     /// A spline under the last of two penalties, the first of which is the likely one, from coefficients that are near.
-    fn new(
-        normal: Normal<'_>,
-        [likely, strength]: [f64; 2],
-        near: Vec<f64>,
-    ) -> Option<Spline> {
+    fn new(normal: Normal<'_>, [likely, strength]: [f64; 2], near: Vec<f64>) -> Option<Spline> {
         let factor = normal.factor(strength)?;
         let coefficients = normal.solve(strength, &factor, near);
         let inverse = factor.inverse_band();
@@ -123,13 +119,40 @@ impl Spline {
                 floor: normal.floor(),
             },
             condition: factor.diagonal_ratio(),
-            bias: normal.bent_away(strength, &factor, &coefficients),
+            errors: vec![normal.bent_away(strength, &factor, &coefficients)],
             covariance: covariance(&normal, [likely, strength], inverse)?,
             grid: normal.grid,
             likely,
             strength,
             coefficients,
         })
+    }
+
+    /// Counts what errors of the samples make of the spline as what may be wrong with it.
+    pub(super) fn admit(
+        &mut self,
+        samples: &Samples<'_>,
+        errors: &[Vec<f64>],
+    ) -> Result<(), String> {
+        let rows = Rows::new(samples, self.grid.pieces);
+        let normal = Normal::new(&rows, self.grid.pieces);
+        let factor = normal.factor(self.strength).ok_or(FAILED)?;
+        let mut right = vec![vec![0.0; self.grid.size()]; errors.len()];
+        for (i, t) in samples.t.iter().enumerate() {
+            let (piece, u) = self.grid.place(*t);
+            let basis = basis(DEGREE, u);
+            let weight = samples.weight.map_or(1.0, |weight| weight[i]);
+            for (right, error) in right.iter_mut().zip(errors) {
+                let error = weight * error[i];
+                right[piece..]
+                    .iter_mut()
+                    .zip(basis)
+                    .for_each(|(r, b)| *r += b * error);
+            }
+        }
+        self.errors
+            .extend(right.iter().map(|right| factor.solve(right)));
+        Ok(())
     }
 
     /// Number of its pieces.
@@ -180,14 +203,11 @@ impl Spline {
                 state.rounding[k] += 2.0 * f64::EPSILON * (b * c).abs();
             }
         }
-        let bias = bases.map(|basis| {
-            basis
-                .iter()
-                .zip(&self.bias[piece..])
-                .map(|(b, c)| b * c)
-                .sum()
-        });
-        add_products(&mut state.bias, &bias, 1.0);
+        for error in &self.errors {
+            let part = &error[piece..piece + DIAGONALS];
+            let error = bases.map(|basis| basis.iter().zip(part).map(|(b, c)| b * c).sum());
+            add_products(&mut state.bias, &error, 1.0);
+        }
         let spread = bases.map(|basis| self.covariance.times_part(piece, &basis));
         let mut entry = 0;
         for basis in 0..3 {
@@ -206,7 +226,11 @@ impl Spline {
 ///
 /// With N the normal matrix and P the penalty of strength s, A = N + sP, noise gives A⁻¹ N A⁻¹, and the roughness
 /// s² A⁻¹ P A⁻¹ over the likely strength. The two matrices come from A⁻¹ and its derivative by ln s, −s A⁻¹ P A⁻¹.
-fn covariance(normal: &Normal<'_>, [likely, strength]: [f64; 2], inverse: Banded) -> Option<Banded> {
+fn covariance(
+    normal: &Normal<'_>,
+    [likely, strength]: [f64; 2],
+    inverse: Banded,
+) -> Option<Banded> {
     let beside = |step: f64| Some(normal.factor(strength * step.exp())?.inverse_band());
     let (weaker, stronger) = (beside(-STEP)?, beside(STEP)?);
     let part = (1.0 - strength / likely) * 0.5 / STEP;

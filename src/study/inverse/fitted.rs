@@ -1,6 +1,7 @@
 //! The fit of θ(t), in terms of what was measured.
 
 use super::pattern::Pattern;
+use super::rounding::Rounding;
 use super::sensor::Sensor;
 use crate::numeric::fit::{Curve, Kind, Samples, Size};
 use crate::numeric::parallel;
@@ -17,6 +18,10 @@ pub(super) struct Fitted {
     pub settled: bool,
     /// A measured crank angle, continued over the turns, rad.
     continued: Option<Vec<f64>>,
+    /// Standard deviation of a sample by noise alone: rounding that is not noise is in the curve's errors.
+    noise: f64,
+    /// Standard deviation of a sample that was computed.
+    computed: f64,
 }
 
 /// Corrections after which a fit counts as not settling.
@@ -26,6 +31,10 @@ const MOST: usize = 30;
 const PART: usize = 20_000;
 /// The correction before which the terms are chosen again, when the motion is about right.
 const LAST_CHOICE: usize = 3;
+
+/// Units of rounding to which samples without noise are right, that were computed: a computed motion goes on with its
+/// errors.
+const ROUNDED: f64 = 2.0;
 
 /// A correction below this part of a standard error settles a fit.
 const SETTLED: f64 = 1e-3;
@@ -56,7 +65,13 @@ impl Fitted {
             };
             let curve = Curve::fit(&samples, kind, size)?;
             let residuals = parallel::list(theta.len(), |i| theta[i] - curve.value(times[i]));
-            return Ok(Fitted::of(curve, residuals, true, Some(theta)));
+            let exact = |i: usize| (values[i] - residuals[i], 1.0);
+            let exact = parallel::list(theta.len(), exact);
+            let computed = ROUNDED * f64::EPSILON * largest(&theta);
+            let mut fitted = Fitted::of(curve, residuals, true, computed);
+            fitted.round(&samples, measurement, &exact)?;
+            fitted.continued = Some(theta);
+            return Ok(fitted);
         }
         let seen = Seen {
             sensor,
@@ -66,11 +81,27 @@ impl Fitted {
         };
         let (theta, last_choice) = seen.start(theta, kind, size);
         let (curve, theta, settled) = seen.settle(theta, kind, size, last_choice)?;
-        let residuals = parallel::list(times.len(), |i| sensor.residual(values[i], theta[i]).0);
-        Ok(Fitted::of(curve, residuals, settled, None))
+        let seen = parallel::list(times.len(), |i| sensor.residual(values[i], theta[i]));
+        let (residuals, slopes): (Vec<f64>, Vec<f64>) = seen.into_iter().unzip();
+        let exact = parallel::list(times.len(), |i| {
+            let sign = sensor.sign(values[i], theta[i]);
+            (values[i] - sign * residuals[i], sign)
+        });
+        let computed =
+            ROUNDED * f64::EPSILON * largest(values).max(largest(&theta) * largest(&slopes));
+        let target = parallel::list(times.len(), |i| residuals[i] + slopes[i] * theta[i]);
+        let samples = Samples {
+            t: times,
+            target: &target,
+            weight: Some(&slopes),
+            floor,
+        };
+        let mut fitted = Fitted::of(curve, residuals, settled, computed);
+        fitted.round(&samples, measurement, &exact)?;
+        Ok(fitted)
     }
 
-    fn of(curve: Curve, residuals: Vec<f64>, settled: bool, continued: Option<Vec<f64>>) -> Fitted {
+    fn of(curve: Curve, residuals: Vec<f64>, settled: bool, computed: f64) -> Fitted {
         let quality = curve.quality();
         let pattern = Pattern::of(&residuals, quality.parameters, quality.floor);
         Fitted {
@@ -78,8 +109,35 @@ impl Fitted {
             residuals,
             pattern,
             settled,
-            continued,
+            continued: None,
+            noise: quality.sigma,
+            computed,
         }
+    }
+
+    /// Counts rounding of the samples that is not noise as an error of the curve, and not as noise. `exact` has the values
+    /// before rounding, with the sign with which each counts.
+    fn round(
+        &mut self,
+        samples: &Samples<'_>,
+        measurement: &Measurement,
+        exact: &[(f64, f64)],
+    ) -> Result<(), String> {
+        let quality = self.curve.quality();
+        let Some(rounding) = Rounding::of(
+            measurement.values(),
+            measurement.resolution(),
+            quality.sigma,
+        ) else {
+            return Ok(());
+        };
+        self.curve.admit(samples, &rounding.errors(exact))?;
+        self.noise = rounding.noise(quality.sigma);
+        self.pattern = Pattern {
+            widening: 1.0,
+            ..Pattern::of(&self.residuals, quality.parameters, rounding.sigma())
+        };
+        Ok(())
     }
 
     /// What was measured; a crank angle continued over the turns.
@@ -90,9 +148,9 @@ impl Fitted {
         }
     }
 
-    /// Standard deviation of a measured value, widened where the residuals are not independent.
+    /// Standard deviation of a measured value by noise, widened where the residuals are not independent.
     pub fn sigma(&self) -> f64 {
-        self.curve.quality().sigma * self.pattern.widening
+        (self.noise * self.pattern.widening).hypot(self.computed)
     }
 }
 

@@ -24,13 +24,9 @@ impl Sensor<'_> {
                 (value - pose.x, pose.dx)
             }
             Measured::Gamma => {
+                let [plus, minus] = self.rests(value, theta);
                 let pose = self.linkage.pose(theta);
-                let (signed, slope) = self.linkage.crank_pin_angle(theta, &pose);
-                let rest = |value: f64| {
-                    let off = value - signed;
-                    off - (off / TAU).round() * TAU
-                };
-                let (plus, minus) = (rest(value), rest(-value));
+                let (_, slope) = self.linkage.crank_pin_angle(theta, &pose);
                 if plus.abs() <= minus.abs() {
                     (plus, slope)
                 } else {
@@ -38,5 +34,25 @@ impl Sensor<'_> {
                 }
             }
         }
+    }
+
+    /// Whether a value counts with its sign turned round, as −1, or as it is, as 1.
+    pub fn sign(&self, value: f64, theta: f64) -> f64 {
+        let [plus, minus] = match self.measured {
+            Measured::Gamma => self.rests(value, theta),
+            _ => return 1.0,
+        };
+        if plus.abs() <= minus.abs() { 1.0 } else { -1.0 }
+    }
+
+    /// What a crank-pin angle with either sign has beyond that of a crank angle.
+    fn rests(&self, value: f64, theta: f64) -> [f64; 2] {
+        let (signed, _) = self
+            .linkage
+            .crank_pin_angle(theta, &self.linkage.pose(theta));
+        [value, -value].map(|value| {
+            let off = value - signed;
+            off - (off / TAU).round() * TAU
+        })
     }
 }
