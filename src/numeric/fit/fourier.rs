@@ -3,7 +3,7 @@
 use super::choice::{best, undecided};
 use super::condensed::Rows;
 use super::decay::Decay;
-use super::design::{columns, rounding, solve, squares};
+use super::design::{columns, products, rounding, solve, squares};
 use super::triangle::Triangle;
 use super::{Quality, Samples, Size, State, add_products};
 
@@ -128,18 +128,7 @@ impl Fourier {
 
     /// Counts what errors of the samples make of the parameters as what may be wrong with them.
     pub(super) fn admit(&mut self, samples: &Samples<'_>, errors: &[Vec<f64>]) {
-        let mut right = vec![vec![0.0; self.parameters.len()]; errors.len()];
-        for (i, t) in samples.t.iter().enumerate() {
-            let weight = samples.weight.map_or(1.0, |weight| weight[i]);
-            let (_, columns) = columns(t - self.middle, &self.parameters);
-            for (right, error) in right.iter_mut().zip(errors) {
-                let error = weight * error[i];
-                right
-                    .iter_mut()
-                    .zip(&columns)
-                    .for_each(|(r, c)| *r += c[0] * error);
-            }
-        }
+        let right = products(samples, self.middle, &self.parameters, errors);
         self.errors = right
             .iter()
             .map(|right| self.triangle.normal_solve(right))
@@ -206,16 +195,13 @@ impl Fourier {
             let rate = omega * k as f64;
             let (sin, cos) = (rate * tau).sin_cos();
             let squared = rate * rate;
-            add_products(
-                &mut state.bias,
-                &[cos, -rate * sin, -squared * cos],
-                *variance,
-            );
-            add_products(
-                &mut state.bias,
-                &[sin, rate * cos, -squared * sin],
-                *variance,
-            );
+            let waves = [
+                [cos, -rate * sin, -squared * cos],
+                [sin, rate * cos, -squared * sin],
+            ];
+            for wave in &waves {
+                add_products(&mut state.bias, wave, *variance);
+            }
         }
         state
     }

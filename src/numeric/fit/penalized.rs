@@ -62,7 +62,7 @@ impl<'a> Normal<'a> {
         (squares, right)
     }
 
-    /// Whether the residuals look like noise: hardly correlated, each with the next.
+    /// Whether the residuals look like noise, hardly correlated, each with the next, or are those of the digits.
     pub fn follows(&self, coefficients: &[f64]) -> bool {
         let (mut squares, mut products, mut before) = (0.0, 0.0, 0.0);
         for (t, weight, target) in self.samples.iter() {
@@ -74,7 +74,9 @@ impl<'a> Normal<'a> {
             products += residual * before;
             before = residual;
         }
+        let of_digits = self.samples.count as f64 * (1.5 * self.samples.floor).powi(2);
         products <= 3.0 * squares / (self.samples.len() as f64).sqrt()
+            || squares + self.samples.left <= of_digits
     }
 
     /// Cholesky's factor of the normal matrix with a penalty of this strength.

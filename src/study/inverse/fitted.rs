@@ -1,7 +1,7 @@
 //! The fit of θ(t), in terms of what was measured.
 
 use super::pattern::Pattern;
-use super::rounding::Rounding;
+use super::rounding::{Rounding, common_step, of_step};
 use super::sensor::Sensor;
 use crate::numeric::fit::{Curve, Kind, Samples, Size};
 use crate::numeric::parallel;
@@ -51,17 +51,35 @@ impl Fitted {
         kind: Kind,
         size: Size,
     ) -> Result<Fitted, String> {
+        let digits = measurement.resolution();
+        if let Some(step) = common_step(measurement.values(), digits) {
+            let fitted = Fitted::to(sensor, measurement, theta.clone(), (kind, size), step)?;
+            // Values on an even motion may have a common step without being rounded to it.
+            if fitted.left() >= 0.5 * of_step(step) {
+                return Ok(fitted);
+            }
+        }
+        Fitted::to(sensor, measurement, theta, (kind, size), digits)
+    }
+
+    /// Fits the motion to values rounded to steps.
+    fn to(
+        sensor: &Sensor<'_>,
+        measurement: &Measurement,
+        theta: Vec<f64>,
+        (kind, size): (Kind, Size),
+        step: f64,
+    ) -> Result<Fitted, String> {
         let (times, values) = (measurement.times(), measurement.values());
         let largest = |list: &[f64]| list.iter().fold(0.0f64, |m, v| m.max(v.abs()));
-        let digits = measurement.resolution().max(f64::EPSILON * largest(values));
-        let floor = digits / 12f64.sqrt();
+        let floor = of_step(step.max(f64::EPSILON * largest(values)));
         if sensor.measured == Measured::Theta {
             let samples = Samples {
                 t: times,
                 target: &theta,
                 weight: None,
                 // Continued over the turns the angles have fewer digits.
-                floor: floor.max(f64::EPSILON * largest(&theta) / 12f64.sqrt()),
+                floor: floor.max(of_step(f64::EPSILON * largest(&theta))),
             };
             let curve = Curve::fit(&samples, kind, size)?;
             let residuals = parallel::list(theta.len(), |i| theta[i] - curve.value(times[i]));
@@ -69,7 +87,7 @@ impl Fitted {
             let exact = parallel::list(theta.len(), exact);
             let computed = ROUNDED * f64::EPSILON * largest(&theta);
             let mut fitted = Fitted::of(curve, residuals, true, computed);
-            fitted.round(&samples, measurement, &exact)?;
+            fitted.round(&samples, step, &exact)?;
             fitted.continued = Some(theta);
             return Ok(fitted);
         }
@@ -97,7 +115,7 @@ impl Fitted {
             floor,
         };
         let mut fitted = Fitted::of(curve, residuals, settled, computed);
-        fitted.round(&samples, measurement, &exact)?;
+        fitted.round(&samples, step, &exact)?;
         Ok(fitted)
     }
 
@@ -115,29 +133,27 @@ impl Fitted {
         }
     }
 
-    /// Counts rounding of the samples that is not noise as an error of the curve, and not as noise. `exact` has the values
-    /// before rounding, with the sign with which each counts.
+    /// Counts rounding of the samples to steps that is not noise as an error of the curve, and not as noise. `exact` has the
+    /// values before rounding, with the sign with which each counts.
     fn round(
         &mut self,
         samples: &Samples<'_>,
-        measurement: &Measurement,
+        step: f64,
         exact: &[(f64, f64)],
     ) -> Result<(), String> {
-        let quality = self.curve.quality();
-        let Some(rounding) = Rounding::of(
-            measurement.values(),
-            measurement.resolution(),
-            quality.sigma,
-        ) else {
-            return Ok(());
-        };
-        self.curve.admit(samples, &rounding.errors(exact))?;
-        self.noise = rounding.noise(quality.sigma);
-        self.pattern = Pattern {
-            widening: 1.0,
-            ..Pattern::of(&self.residuals, quality.parameters, rounding.sigma())
-        };
+        if let Some(rounding) = Rounding::of(step, exact.len(), self.left()) {
+            self.curve.admit(samples, &rounding.errors(exact))?;
+            self.noise = rounding.noise(self.noise);
+            self.pattern.widening = 1.0;
+        }
         Ok(())
+    }
+
+    /// Standard deviation of what the fit leaves of the samples.
+    fn left(&self) -> f64 {
+        let quality = self.curve.quality();
+        let free = self.residuals.len() as f64 - quality.parameters;
+        (quality.squares / free.max(1.0)).sqrt()
     }
 
     /// What was measured; a crank angle continued over the turns.

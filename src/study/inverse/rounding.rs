@@ -28,35 +28,29 @@ const SLIGHT: f64 = 0.01;
 const PLAIN: f64 = 32.0;
 
 impl Rounding {
-    /// The rounding of values whose residuals have this standard deviation, if it is not noise. `digits` is the unit of the
-    /// last digit they are written with.
-    pub fn of(values: &[f64], digits: f64, sigma: f64) -> Option<Rounding> {
-        let step = common_step(values, digits).unwrap_or(digits);
-        let own = step / 12f64.sqrt();
-        // Values on an even motion may have a common step without being rounded.
-        if step <= 0.0 || sigma < 0.5 * own {
+    /// The rounding of so many values to steps, if it is not noise: fits leave them with this standard deviation.
+    pub fn of(step: f64, values: usize, left: f64) -> Option<Rounding> {
+        // On an even motion exact values have a common step as well.
+        if step <= 0.0 || left < 0.5 * of_step(step) {
             return None;
         }
-        let noise = (sigma * sigma - own * own).max(0.0);
-        let most = if values.len() > MANY { FEWER } else { TERMS };
+        let noise = (left * left - of_step(step).powi(2)).max(0.0);
+        let most = if values > MANY { FEWER } else { TERMS };
         let term = |k: usize| {
             let k = k as f64;
             0.5 * (step / (PI * k)).powi(2) * (-noise * (TAU * k / step).powi(2)).exp()
         };
         let terms: Vec<f64> = (1..=most).map(term).collect();
-        (terms[0] > SLIGHT * sigma * sigma).then_some(Rounding { step, terms })
-    }
-
-    /// Standard deviation of a sample by rounding alone.
-    pub fn sigma(&self) -> f64 {
-        self.step / 12f64.sqrt()
+        (terms[0] > SLIGHT * left * left).then_some(Rounding { step, terms })
     }
 
     /// Standard deviation of what is noise, for samples with this one. Residuals may have less than what rounding adds,
     /// as a fit follows errors that depend on each other.
     pub fn noise(&self, sigma: f64) -> f64 {
         let terms: f64 = self.terms.iter().sum();
-        (sigma.max(self.sigma()).powi(2) - terms).max(0.0).sqrt()
+        (sigma.max(of_step(self.step)).powi(2) - terms)
+            .max(0.0)
+            .sqrt()
     }
 
     /// Independent errors whose products have the covariance of the terms, for the values before rounding, each with the
@@ -77,9 +71,14 @@ impl Rounding {
     }
 }
 
+/// Standard deviation of the errors of rounding to steps.
+pub(super) fn of_step(step: f64) -> f64 {
+    step / 12f64.sqrt()
+}
+
 /// The largest step of which all differences of neighbouring values are multiples, if it is plainly larger than what the
 /// values are known to: Euclid's algorithm.
-fn common_step(values: &[f64], digits: f64) -> Option<f64> {
+pub(super) fn common_step(values: &[f64], digits: f64) -> Option<f64> {
     let largest = values.iter().fold(0.0f64, |most, v| most.max(v.abs()));
     let known = digits + 4.0 * f64::EPSILON * largest;
     let (mut step, mut error) = (0.0, known);
