@@ -107,7 +107,11 @@ impl Spline {
 
     /// A spline under the last of two penalties, the first of which is the likely one, from coefficients that are near.
     fn new(normal: Normal<'_>, [likely, strength]: [f64; 2], near: Vec<f64>) -> Option<Spline> {
-        let factor = normal.factor(strength)?;
+        // Samples that hardly tell the angle may need the likely penalty.
+        let (strength, factor) = match normal.factor(strength) {
+            Some(factor) => (strength, factor),
+            None => (likely, normal.factor(likely)?),
+        };
         let coefficients = normal.solve(strength, &factor, near);
         let inverse = factor.inverse_band();
         let (squares, _) = normal.residuals(&coefficients);
@@ -120,7 +124,7 @@ impl Spline {
             },
             condition: factor.diagonal_ratio(),
             errors: vec![normal.bent_away(strength, &factor, &coefficients)],
-            covariance: covariance(&normal, [likely, strength], inverse)?,
+            covariance: covariance(&normal, [likely, strength], inverse),
             grid: normal.grid,
             likely,
             strength,
@@ -226,13 +230,12 @@ impl Spline {
 ///
 /// With N the normal matrix and P the penalty of strength s, A = N + sP, noise gives A⁻¹ N A⁻¹, and the roughness
 /// s² A⁻¹ P A⁻¹ over the likely strength. The two matrices come from A⁻¹ and its derivative by ln s, −s A⁻¹ P A⁻¹.
-fn covariance(
-    normal: &Normal<'_>,
-    [likely, strength]: [f64; 2],
-    inverse: Banded,
-) -> Option<Banded> {
+fn covariance(normal: &Normal<'_>, [likely, strength]: [f64; 2], inverse: Banded) -> Banded {
     let beside = |step: f64| Some(normal.factor(strength * step.exp())?.inverse_band());
-    let (weaker, stronger) = (beside(-STEP)?, beside(STEP)?);
+    let (Some(weaker), Some(stronger)) = (beside(-STEP), beside(STEP)) else {
+        // As if the fit had the likely penalty.
+        return inverse;
+    };
     let part = (1.0 - strength / likely) * 0.5 / STEP;
-    Some(inverse.plus(part, &stronger).plus(-part, &weaker))
+    inverse.plus(part, &stronger).plus(-part, &weaker)
 }

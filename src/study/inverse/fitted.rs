@@ -53,9 +53,13 @@ impl Fitted {
     ) -> Result<Fitted, String> {
         let digits = measurement.resolution();
         if let Some(step) = common_step(measurement.values(), digits) {
-            let fitted = Fitted::to(sensor, measurement, theta.clone(), (kind, size), step)?;
+            let fitted = Fitted::to(sensor, measurement, theta.clone(), (kind, size), step);
             // Values on an even motion may have a common step without being rounded to it.
-            if fitted.left() >= 0.5 * of_step(step) {
+            if let Ok(fitted) = fitted.and_then(|f| {
+                (f.left() >= 0.5 * of_step(step))
+                    .then_some(f)
+                    .ok_or_else(String::new)
+            }) {
                 return Ok(fitted);
             }
         }
