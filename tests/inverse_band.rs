@@ -1,7 +1,7 @@
 //! The 95 % band of the slider force covers the applied force: random mechanisms and loads, Monte Carlo over the noise.
 //!
 //! The bands were worked out on scenes of the first kind; those of the second have other loads, sizes, bodies, times and
-//! noise.
+//! noise. Single scenes show what made bands too narrow or too wide: harmonics hidden by loud noise, and rounding.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -253,11 +253,11 @@ impl Case {
     }
 
     /// Part of the forces inside their bands, and the mean number of parameters.
-    fn coverage(&self, fit: FitKind, noise: f64, draws: u32, random: &mut Random) -> (f64, f64) {
+    fn coverage(&self, fit: FitKind, noise: Noise, draws: u32, random: &mut Random) -> (f64, f64) {
         let (mut inside, mut all, mut parameters) = (0.0, 0.0, 0.0);
         for _ in 0..draws {
-            let values = self.shown.iter().map(|v| v + noise * random.normal());
-            let motion = Measurement::new(self.measured, self.times.clone(), values.collect());
+            let values = noise.on(&self.shown, random);
+            let motion = Measurement::new(self.measured, self.times.clone(), values);
             let options = InverseOptions {
                 fit,
                 ..InverseOptions::default()
@@ -277,12 +277,48 @@ impl Case {
         assert!(given > 0.7, "{given} of the rows have a force");
         (inside / all, parameters)
     }
+
+    /// The coverage of a scene is 90 to 99 %, but for what chance explains: the error of a fit of p parameters changes its
+    /// sign about p times, which makes p/2 independent forces a draw.
+    #[track_caller]
+    fn is_covered(&self, fit: FitKind, noise: Noise, draws: u32, random: &mut Random) -> f64 {
+        let (share, parameters) = self.coverage(fit, noise, draws, random);
+        let independent = f64::from(draws) * 0.5 * parameters;
+        let chance = |share: f64| 3.0 * (share * (1.0 - share) / independent).sqrt();
+        let (least, most) = (0.90 - chance(0.90), 0.99 + chance(0.99));
+        assert!(
+            share >= least && share <= most,
+            "{fit:?}, {:?}, {} rows, {noise:?}: {share:.3}, not {least:.3} to {most:.3}",
+            self.measured,
+            self.times.len()
+        );
+        share
+    }
+}
+
+/// What samples have beside the motion.
+#[derive(Clone, Copy, Debug)]
+enum Noise {
+    /// Normal noise of this standard deviation.
+    Normal(f64),
+    /// Rounding to steps of this width, the first of which is anywhere.
+    Steps(f64),
+}
+
+impl Noise {
+    fn on(self, values: &[f64], random: &mut Random) -> Vec<f64> {
+        let begin = random.even();
+        let one = |value: &f64| match self {
+            Noise::Normal(size) => value + size * random.normal(),
+            Noise::Steps(step) => ((value / step + begin).round() - begin) * step,
+        };
+        values.iter().map(one).collect()
+    }
 }
 
 const DRAWS: u32 = 8;
 
-/// The mean coverage of some random scenes is that of a 95 % band, and none is off it by more than chance explains:
-/// the error of a fit of p parameters changes its sign about p times, which makes p/2 independent forces a draw.
+/// Each of some random scenes is covered, and their mean is that of a 95 % band.
 #[track_caller]
 fn covers(fit: FitKind, seed: u64, jitter: f64, drafts: &[&dyn Fn(&mut Random) -> Draft]) {
     let mut shares = Vec::new();
@@ -295,20 +331,13 @@ fn covers(fit: FitKind, seed: u64, jitter: f64, drafts: &[&dyn Fn(&mut Random) -
             Measured::X => 0.1 * draft.scene.geometry.crank,
             _ => 1.0,
         };
-        let noise = unit * 1e-6 * 5e3f64.powf(random.even());
+        let noise = Noise::Normal(unit * 1e-6 * 5e3f64.powf(random.even()));
         let case = Case::new(&draft, measured, rows, jitter, random);
-        let (share, parameters) = case.coverage(fit, noise, DRAWS, random);
-        let independent = f64::from(DRAWS) * 0.5 * parameters;
-        let least = 0.9 - 3.0 * (0.9 * 0.1 / independent).sqrt();
-        assert!(
-            share >= least,
-            "{fit:?}, scene {number} ({measured:?}, {rows} rows, noise {noise:.1e}): {share:.3}, not {least:.3}"
-        );
-        shares.push(share);
+        shares.push(case.is_covered(fit, noise, DRAWS, random));
     }
     let mean = shares.iter().sum::<f64>() / shares.len() as f64;
     assert!(
-        (0.90..=0.99).contains(&mean),
+        (0.92..=0.985).contains(&mean),
         "{fit:?}: {mean}, {shares:.3?}"
     );
 }
@@ -329,4 +358,53 @@ fn splines() {
 fn rotation_with_harmonics() {
     covers(FitKind::Fourier, 500, 0.0, &[&steady]);
     covers(FitKind::Fourier, 600, 0.3, &[&stiffening]);
+}
+
+/// Loud noise over many turns: the harmonics that it almost hides are where the turns are alike, and bend the force away
+/// there.
+#[test]
+fn splines_through_loud_noise() {
+    for seed in [700, 701] {
+        let random = &mut Random::new(seed);
+        let draft = Draft {
+            path: 7.0 * TAU,
+            ..steady(random)
+        };
+        let case = Case::new(&draft, Measured::Theta, 1400, 0.0, random);
+        case.is_covered(FitKind::Spline, Noise::Normal(5e-3), 8, random);
+    }
+}
+
+/// Slow motion makes the errors of rounding cancel, a standstill makes them alike.
+#[test]
+fn rounded_samples() {
+    let fits = [FitKind::Polynomial, FitKind::Spline];
+    for (number, fit) in fits.into_iter().cycle().take(4).enumerate() {
+        let random = &mut Random::new(800 + number as u64);
+        let draft = swing(random);
+        let rows = [1200, 1200, 150, 150][number];
+        let case = Case::new(&draft, Measured::Theta, rows, 0.0, random);
+        case.is_covered(fit, Noise::Steps(2e-3), 10, random);
+    }
+    let random = &mut Random::new(900);
+    let case = Case::new(&steady(random), Measured::Theta, 800, 0.0, random);
+    case.is_covered(FitKind::Fourier, Noise::Steps(2e-3), 8, random);
+}
+
+/// Samples without noise have the rounding of the run that they come from.
+#[test]
+fn computed_samples() {
+    for (number, fit) in FitKind::ALL.into_iter().cycle().take(6).enumerate() {
+        let random = &mut Random::new(1000 + number as u64);
+        let draft = match fit {
+            FitKind::Polynomial => swing(random),
+            FitKind::Spline => turns(random, 3.0),
+            FitKind::Fourier => steady(random),
+        };
+        let measured = [Measured::Theta, Measured::X][number % 2];
+        let rows = (150.0 * 8f64.powf(random.even())).max(60.0 * draft.path / TAU) as usize;
+        let case = Case::new(&draft, measured, rows, 0.0, random);
+        let (share, _) = case.coverage(fit, Noise::Normal(0.0), 1, random);
+        assert!(share >= 0.9, "{fit:?}, {measured:?}, {rows} rows: {share}");
+    }
 }

@@ -15,7 +15,7 @@ fn criterion(rows: usize, parameters: usize, squares: f64) -> f64 {
 }
 
 /// The number of steps with the least criterion; `squares` has the sums of squared residuals for `first`,
-/// `first` + `step`, ... parameters, none taken to be below `least`.
+/// `first` + `step`, ... parameters, none taken to be below what is left of noise whose sum of squares is `least`.
 pub(super) fn best<T: Real>(
     rows: usize,
     first: usize,
@@ -23,7 +23,11 @@ pub(super) fn best<T: Real>(
     squares: &[T],
     least: f64,
 ) -> usize {
-    let value = |i: usize| criterion(rows, first + step * i, squares[i].value().max(least));
+    let value = |i: usize| {
+        let parameters = first + step * i;
+        let left = least * rows.saturating_sub(parameters) as f64 / rows as f64;
+        criterion(rows, parameters, squares[i].value().max(left))
+    };
     (0..squares.len()).fold(0, |best, i| if value(i) < value(best) { i } else { best })
 }
 

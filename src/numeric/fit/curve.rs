@@ -99,6 +99,20 @@ impl Curve {
         }
     }
 
+    /// Counts what errors of the targets make of the curve as what may be wrong with it: each list holds one error for
+    /// each sample, and they are independent of each other.
+    ///
+    /// # Errors
+    /// A text that says why the samples do not serve.
+    pub fn admit(&mut self, samples: &Samples<'_>, errors: &[Vec<f64>]) -> Result<(), String> {
+        match self {
+            Curve::Polynomial(polynomial) => polynomial.admit(samples, errors),
+            Curve::Spline(spline) => spline.admit(samples, errors)?,
+            Curve::Fourier(fourier) => fourier.admit(samples, errors),
+        }
+        Ok(())
+    }
+
     /// The curve and its derivatives.
     pub fn state(&self, t: f64) -> State {
         match self {

@@ -14,7 +14,7 @@ pub(super) struct Decay {
 }
 
 /// Terms left out may add this part to the variance of the second derivative.
-const SLIGHT: f64 = 0.1;
+const SLIGHT: f64 = 0.01;
 
 /// Terms after which a tail is not followed.
 const FAR: usize = 40;

@@ -1,5 +1,6 @@
 //! The least-squares problem of a rotation with harmonics, linear about given parameters c, Ω, a_1, b_1, a_2, b_2, ...
 
+use super::Samples;
 use super::condensed::Rows;
 use super::triangle::Triangle;
 
@@ -98,4 +99,25 @@ pub(super) fn rounding(samples: &Rows<'_>, middle: f64, parameters: &[f64]) -> f
         error * error
     };
     samples.iter().map(one).sum()
+}
+
+/// Products of the columns of the design matrix with lists of errors, one for each sample.
+pub(super) fn products(
+    samples: &Samples<'_>,
+    middle: f64,
+    parameters: &[f64],
+    errors: &[Vec<f64>],
+) -> Vec<Vec<f64>> {
+    let mut products = vec![vec![0.0; parameters.len()]; errors.len()];
+    let mut list = Vec::with_capacity(parameters.len());
+    for (i, t) in samples.t.iter().enumerate() {
+        let weight = samples.weight.map_or(1.0, |weight| weight[i]);
+        columns(t - middle, parameters, &mut list);
+        for (products, error) in products.iter_mut().zip(errors) {
+            let error = weight * error[i];
+            let rows = products.iter_mut().zip(&list);
+            rows.for_each(|(p, column)| *p += column[0] * error);
+        }
+    }
+    products
 }

@@ -3,7 +3,7 @@
 use super::choice::{best, undecided};
 use super::condensed::Rows;
 use super::decay::Decay;
-use super::design::{columns, harmonics, rounding, solve, squares, value};
+use super::design::{columns, harmonics, products, rounding, solve, squares, value};
 use super::triangle::Triangle;
 use super::{Quality, Samples, Size, State, add_products};
 
@@ -38,6 +38,8 @@ pub struct Fourier {
     whitening: Vec<f64>,
     /// Variances of the coefficients of the harmonics that follow.
     tail: Vec<f64>,
+    /// Changes of the parameters that errors of the samples amount to.
+    errors: Vec<Vec<f64>>,
     quality: Quality,
 }
 
@@ -123,7 +125,17 @@ impl Fourier {
             whitening: triangle.whitening(),
             triangle,
             tail,
+            errors: Vec::new(),
         })
+    }
+
+    /// Counts what errors of the samples make of the parameters as what may be wrong with them.
+    pub(super) fn admit(&mut self, samples: &Samples<'_>, errors: &[Vec<f64>]) {
+        let right = products(samples, self.middle, &self.parameters, errors);
+        self.errors = right
+            .iter()
+            .map(|right| self.triangle.normal_solve(right))
+            .collect();
     }
 
     /// Number of harmonics.
@@ -161,6 +173,15 @@ impl Fourier {
                 *rounding += 4.0 * f64::EPSILON * (value * parameter).abs();
             }
         }
+        for error in &self.errors {
+            let mut sum = [0.0; 3];
+            for (column, change) in list.iter().zip(error) {
+                sum.iter_mut()
+                    .zip(column)
+                    .for_each(|(s, c)| *s += change * c);
+            }
+            add_products(&mut state.bias, &sum, 1.0);
+        }
         let mut weights = self.whitening.as_slice();
         for last in 0..list.len() {
             let (row, rest) = weights.split_at(last + 1);
@@ -178,16 +199,13 @@ impl Fourier {
         for (variance, ((sin, cos), k)) in self.tail.iter().zip(beyond) {
             let rate = omega * f64::from(k);
             let squared = rate * rate;
-            add_products(
-                &mut state.bias,
-                &[cos, -rate * sin, -squared * cos],
-                *variance,
-            );
-            add_products(
-                &mut state.bias,
-                &[sin, rate * cos, -squared * sin],
-                *variance,
-            );
+            let waves = [
+                [cos, -rate * sin, -squared * cos],
+                [sin, rate * cos, -squared * sin],
+            ];
+            for wave in &waves {
+                add_products(&mut state.bias, wave, *variance);
+            }
         }
         state
     }

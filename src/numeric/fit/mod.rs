@@ -50,7 +50,8 @@ pub struct State {
     pub rounding: [f64; 3],
     /// Covariance of the three, for samples of unit variance: rows of the lower triangle.
     pub covariance: [f64; 6],
-    /// Mean products of what terms that are left out may add to the three, in the same order.
+    /// Mean products of what terms that are left out, and errors of samples that depend on each other, may add to the
+    /// three, in the same order.
     pub bias: [f64; 6],
 }
 
@@ -60,7 +61,8 @@ impl State {
         quadratic(&self.covariance, gradient)
     }
 
-    /// Square of what terms that are left out may add to a combination of the three.
+    /// Square of what terms that are left out, and errors that depend on each other, may add to a combination of the
+    /// three.
     pub fn bias_of(&self, gradient: &[f64; 3]) -> f64 {
         quadratic(&self.bias, gradient)
     }

@@ -10,10 +10,6 @@ pub(super) const ORDER: usize = 6;
 /// Logarithm of the weakest penalty, relative to the mean pivot.
 const WEAKEST: f64 = -15.0;
 
-/// Rise of minus twice the logarithm of the likelihood at an end of its 90 % interval: the 90 % point of chi-square with
-/// one degree of freedom.
-const UNLIKELY: f64 = 2.706;
-
 /// Sums over the samples for one grid.
 pub(super) struct Normal<'a> {
     pub grid: Grid,
@@ -66,7 +62,7 @@ impl<'a> Normal<'a> {
         (squares, right)
     }
 
-    /// Whether the residuals look like noise: hardly correlated, each with the next.
+    /// Whether the residuals look like noise, hardly correlated, each with the next, or are those of the digits.
     pub fn follows(&self, coefficients: &[f64]) -> bool {
         let (mut squares, mut products, mut before) = (0.0, 0.0, 0.0);
         for (t, weight, target) in self.samples.iter() {
@@ -78,7 +74,9 @@ impl<'a> Normal<'a> {
             products += residual * before;
             before = residual;
         }
+        let of_digits = self.samples.count as f64 * (1.5 * self.samples.floor).powi(2);
         products <= 3.0 * squares / (self.samples.len() as f64).sqrt()
+            || squares + self.samples.left <= of_digits
     }
 
     /// Cholesky's factor of the normal matrix with a penalty of this strength.
@@ -92,21 +90,12 @@ impl<'a> Normal<'a> {
         factor.solve(&pull.iter().map(|p| strength * p).collect::<Vec<f64>>())
     }
 
-    /// The solution for one strength of the penalty, from one that is near.
-    pub fn improved(&self, strength: f64, from: Vec<f64>) -> Option<Vec<f64>> {
-        Some(self.solve(strength, &self.factor(strength)?, from))
-    }
-
-    pub fn rows(&self) -> usize {
-        self.samples.count
-    }
-
     pub fn floor(&self) -> f64 {
         self.samples.floor
     }
 
     /// Improves a solution for one strength of the penalty until rounding.
-    fn solve(&self, strength: f64, factor: &Banded, from: Vec<f64>) -> Vec<f64> {
+    pub fn solve(&self, strength: f64, factor: &Banded, from: Vec<f64>) -> Vec<f64> {
         let mut coefficients = from;
         for _ in 0..3 {
             let (_, mut right) = self.residuals(&coefficients);
@@ -178,7 +167,7 @@ fn penalty(size: usize) -> (Banded, f64) {
     (penalty, log_determinant)
 }
 
-/// A grid with its best penalty.
+/// A grid with its most likely penalty.
 pub(super) struct Choice {
     /// Minus twice the logarithm of the restricted likelihood.
     pub cost: f64,
@@ -187,73 +176,94 @@ pub(super) struct Choice {
     pub coefficients: Vec<f64>,
 }
 
-impl Normal<'_> {
-    /// The strength of the penalty with the largest restricted likelihood.
-    pub fn choose(&self) -> Option<Choice> {
-        let rows = self.samples.count as f64;
-        let size = self.grid.size();
-        let trace = (0..size).map(|i| self.matrix.get(i, i)).sum::<f64>() / size as f64;
-        let weak = 1e-7 * trace;
-        let near = self.solve(weak, &self.factor(weak)?, vec![0.0; size]);
-        let (squares, data) = self.residuals(&near);
-        let pull = pull(&near);
-        let least = rows * self.samples.floor * self.samples.floor;
-        let free = rows - ORDER as f64;
-        // All sums are taken about the weakly smoothed solution, so that nothing cancels where the noise is small.
-        let cost = |log_strength: f64| {
-            let strength = trace * log_strength.exp();
-            let Some(factor) = self.factor(strength) else {
-                return f64::INFINITY;
-            };
-            let right: Vec<f64> = data
-                .iter()
-                .zip(&pull)
-                .map(|(r, p)| r - strength * p)
-                .collect();
-            let step = factor.solve(&right);
-            let fitted = self.matrix.times(&step);
-            // Squares of the residuals after the step, and the penalty from the differences themselves: sums of
-            // squares both, so that nothing cancels where the penalty is strong.
-            let change: f64 = (0..size)
-                .map(|i| step[i] * (fitted[i] - 2.0 * data[i]))
-                .sum();
-            let moved: Vec<f64> = near.iter().zip(&step).map(|(c, s)| c + s).collect();
-            let penalized = (squares + change).max(0.0) + strength * roughness(&moved);
-            let penalized = penalized.max(least);
-            free * (penalized / free).ln() + factor.log_determinant()
-                - (size - ORDER) as f64 * strength.ln()
-                - self.log_penalty
-        };
-        let best = minimum(&cost, WEAKEST, 26.0);
-        let least = cost(best);
-        let strength = trace * weaker(&cost, best, least + UNLIKELY).exp();
-        Some(Choice {
-            cost: least,
-            strength,
-            coefficients: self.solve(strength, &self.factor(strength)?, near),
-        })
+/// Sums about a solution that is near all those that are asked for, so that nothing cancels where the noise is small.
+struct About<'n> {
+    normal: &'n Normal<'n>,
+    near: Vec<f64>,
+    squares: f64,
+    data: Vec<f64>,
+    pull: Vec<f64>,
+}
+
+impl About<'_> {
+    /// Least sum of the squares of the residuals and of the penalty, whose strength belongs to the factor: sums of
+    /// squares both, so that nothing cancels where the penalty is strong.
+    fn penalized(&self, strength: f64, factor: &Banded) -> f64 {
+        let right = self.data.iter().zip(&self.pull);
+        let step = factor.solve(&right.map(|(r, p)| r - strength * p).collect::<Vec<f64>>());
+        let fitted = self.normal.matrix.times(&step);
+        let change: f64 = (0..step.len())
+            .map(|i| step[i] * (fitted[i] - 2.0 * self.data[i]))
+            .sum();
+        let moved: Vec<f64> = self.near.iter().zip(&step).map(|(c, s)| c + s).collect();
+        (self.squares + change).max(0.0) + strength * roughness(&moved)
     }
 }
 
-/// The argument below `best` at which a function has risen to `limit`.
-fn weaker(f: &dyn Fn(f64) -> f64, best: f64, limit: f64) -> f64 {
-    let (mut below, mut above) = (best, best);
-    while f(below) < limit {
-        if below <= WEAKEST {
-            return WEAKEST;
-        }
-        above = below;
-        below = (below - 1.0).max(WEAKEST);
-    }
-    for _ in 0..10 {
-        let middle = 0.5 * (below + above);
-        if f(middle) < limit {
-            above = middle
-        } else {
-            below = middle
+impl Normal<'_> {
+    fn about(&self, near: Vec<f64>) -> About<'_> {
+        let (squares, data) = self.residuals(&near);
+        About {
+            normal: self,
+            pull: pull(&near),
+            near,
+            squares,
+            data,
         }
     }
-    above
+
+    fn mean_pivot(&self) -> f64 {
+        let size = self.grid.size();
+        (0..size).map(|i| self.matrix.get(i, i)).sum::<f64>() / size as f64
+    }
+
+    fn free(&self) -> f64 {
+        self.samples.count as f64 - ORDER as f64
+    }
+
+    /// Variance of a sample if this strength of the penalty is the likely one, from a solution that is near.
+    pub fn variance(&self, strength: f64, near: &[f64]) -> Option<f64> {
+        let factor = self.factor(strength)?;
+        let squares = self.about(near.to_vec()).penalized(strength, &factor);
+        let floor = self.samples.floor;
+        Some((squares / self.free()).max(floor * floor))
+    }
+
+    /// A penalty that cuts off at a frequency this many times as high, but not below the weakest.
+    pub fn weaker(&self, strength: f64, cut_off: f64) -> f64 {
+        let weakest = self.mean_pivot() * WEAKEST.exp();
+        (strength / cut_off.powi(2 * ORDER as i32)).max(weakest.min(strength))
+    }
+
+    /// The strength of the penalty with the largest restricted likelihood.
+    pub fn choose(&self) -> Option<Choice> {
+        let size = self.grid.size();
+        let pivot = self.mean_pivot();
+        let weak = 1e-7 * pivot;
+        let near = self.solve(weak, &self.factor(weak)?, vec![0.0; size]);
+        let about = self.about(near);
+        let free = self.free();
+        let least = self.samples.count as f64 * self.samples.floor * self.samples.floor;
+        // What the penalty leaves free has a volume that goes with the number of coefficients.
+        let of_size = ORDER as f64 * (size as f64).ln() - self.log_penalty;
+        let cost = |log_strength: f64| {
+            let strength = pivot * log_strength.exp();
+            let Some(factor) = self.factor(strength) else {
+                return f64::INFINITY;
+            };
+            let penalized = about.penalized(strength, &factor).max(least);
+            free * (penalized / free).ln() + factor.log_determinant()
+                - (size - ORDER) as f64 * strength.ln()
+                + of_size
+        };
+        let best = minimum(&cost, WEAKEST, 26.0);
+        let strength = pivot * best.exp();
+        Some(Choice {
+            cost: cost(best),
+            strength,
+            coefficients: self.solve(strength, &self.factor(strength)?, about.near),
+        })
+    }
 }
 
 /// Place of the least value: a grid of 2, then golden section.

@@ -28,6 +28,8 @@ pub struct Polynomial {
     coefficients: Vec<f64>,
     /// Variances of the coefficients of the terms that follow.
     tail: Vec<f64>,
+    /// Coefficients that errors of the samples amount to.
+    errors: Vec<Vec<f64>>,
     quality: Quality,
     powers: Powers,
     extended: bool,
@@ -107,6 +109,7 @@ impl Polynomial {
             inverses: norms.iter().map(|norm| 1.0 / norm.value()).collect(),
             norms: numbers(&norms),
             tail,
+            errors: Vec::new(),
             coefficients: numbers(&found.coefficients),
             quality: Quality {
                 squares,
@@ -117,6 +120,32 @@ impl Polynomial {
             powers,
             extended: T::ROUNDING < f64::EPSILON,
             supported,
+        }
+    }
+
+    /// Counts what errors of the samples make of the polynomial as what may be wrong with it.
+    pub(super) fn admit(&mut self, samples: &Samples<'_>, errors: &[Vec<f64>]) {
+        let mut found = vec![vec![0.0; self.coefficients.len()]; errors.len()];
+        for (i, t) in samples.t.iter().enumerate() {
+            let weight = samples.weight.map_or(1.0, |weight| weight[i]);
+            self.terms(*t, |j, q| {
+                for (found, error) in found.iter_mut().zip(errors) {
+                    found[j] += weight * q * error[i];
+                }
+            });
+        }
+        self.errors = found;
+    }
+
+    /// The orthonormal terms at `t`, one after the other.
+    fn terms(&self, t: f64, mut take: impl FnMut(usize, f64)) {
+        let s = (t - self.middle) / self.half;
+        let (mut before, mut now) = (0.0, self.inverses[0]);
+        take(0, now);
+        for j in 1..self.coefficients.len() {
+            let next = (s - self.centres[j - 1]) * now - self.norms[j - 1] * before;
+            (before, now) = (now, next * self.inverses[j]);
+            take(j, now);
         }
     }
 
@@ -147,14 +176,8 @@ impl Polynomial {
 
     /// The polynomial at `t`.
     pub fn value(&self, t: f64) -> f64 {
-        let s = (t - self.middle) / self.half;
-        let (mut before, mut now) = (0.0, self.inverses[0]);
-        let mut sum = self.coefficients[0] * now;
-        for j in 1..self.coefficients.len() {
-            let next = (s - self.centres[j - 1]) * now - self.norms[j - 1] * before;
-            (before, now) = (now, next * self.inverses[j]);
-            sum += self.coefficients[j] * now;
-        }
+        let mut sum = 0.0;
+        self.terms(t, |j, q| sum += self.coefficients[j] * q);
         sum
     }
 
@@ -165,6 +188,7 @@ impl Polynomial {
         let mut state = State::default();
         let mut before = [0.0; 3];
         let mut now = [self.inverses[0], 0.0, 0.0];
+        let mut errors = vec![[0.0; 3]; self.errors.len()];
         let terms = self.coefficients.len();
         for j in 0..terms + self.tail.len() {
             if let Some(c) = self.coefficients.get(j) {
@@ -173,6 +197,12 @@ impl Polynomial {
                     state.rounding[k] += (c * q).abs();
                 }
                 add_products(&mut state.covariance, &now, 1.0);
+                for (error, coefficients) in errors.iter_mut().zip(&self.errors) {
+                    error
+                        .iter_mut()
+                        .zip(now)
+                        .for_each(|(e, q)| *e += coefficients[j] * q);
+                }
             } else {
                 add_products(&mut state.bias, &now, self.tail[j - terms]);
             }
@@ -188,6 +218,9 @@ impl Polynomial {
             ];
             before = now;
             now = next;
+        }
+        for error in &errors {
+            add_products(&mut state.bias, error, 1.0);
         }
         for rounding in &mut state.rounding {
             *rounding *= 2.0 * f64::EPSILON;

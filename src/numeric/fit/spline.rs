@@ -1,19 +1,26 @@
 //! Smoothing splines: pieces of degree 7 with a penalty on the sixth differences of their coefficients (Eilers and
 //! Marx, Statist. Sci. 11 (1996) 89).
 //!
-//! The number of pieces is that of the largest restricted likelihood, and the penalty the weakest inside the
-//! 90 % interval of the likelihood: a band must not rest on smoothness that the samples leave open. The covariance is that of the Bayesian
-//! view, which has the error of smoothing in it (Wahba, J. R. Statist. Soc. B 45 (1983) 133), of motions as rough
-//! everywhere; what the penalty bends away of this one is added.
+//! Number of pieces and penalty are those of the largest restricted likelihood. That penalty is for the curve itself; for
+//! its second derivative it is too strong wherever the motion is less even than the random curves that it stands for.
+//! The fit therefore has a weaker one, that cuts off at a frequency √2 times as high. Its error is that of the Bayesian
+//! view (Wahba, J. R. Statist. Soc. B 45 (1983) 133; Nychka, J. Amer. Statist. Assoc. 83 (1988) 1134): noise, and what
+//! the penalty bends away of a curve that is as rough as is likely. What it bends away of this one is added.
 
 use super::condensed::Rows;
-use super::penalized::{Normal, ORDER, roughness};
+use super::penalized::Normal;
 use super::pieces::{DEGREE, Grid, basis, last_bases};
 use super::{Quality, Samples, Size, State, add_products};
 use crate::numeric::banded::{Banded, DIAGONALS};
 
 /// Pieces for each one that the samples ask for, so that the penalty and not the pieces decide how smooth it is.
 const FINER: usize = 4;
+
+/// Cut-off frequency of the fit for one of the most likely penalty.
+const CUT_OFF: f64 = std::f64::consts::SQRT_2;
+
+/// Step in the logarithm of the penalty for derivatives by it.
+const STEP: f64 = 0.05;
 
 /// Fewest pieces that are tried.
 const FEWEST: usize = 4;
@@ -24,13 +31,15 @@ const FAILED: &str = "the samples do not determine a spline";
 #[derive(Clone, Debug)]
 pub struct Spline {
     grid: Grid,
-    /// Strength of the penalty.
+    /// Strength of the most likely penalty.
+    likely: f64,
+    /// Strength of the penalty of the fit.
     strength: f64,
     coefficients: Vec<f64>,
-    /// Band of the inverse of the penalized normal matrix.
-    inverse: Banded,
-    /// Coefficients of what the penalty has bent away.
-    bias: Vec<f64>,
+    /// Band of the covariance of the coefficients, for samples of unit variance.
+    covariance: Banded,
+    /// Coefficients of what may be wrong beside noise: of what the penalty has bent away, and of errors of the samples.
+    errors: Vec<Vec<f64>>,
     quality: Quality,
     condition: f64,
 }
@@ -80,7 +89,8 @@ impl Spline {
         };
         let normal = Normal::new(rows_for(pieces), pieces);
         let choice = normal.choose().ok_or_else(failed)?;
-        Spline::new(normal, choice.strength, choice.coefficients).ok_or_else(failed)
+        let strength = normal.weaker(choice.strength, CUT_OFF);
+        Spline::new(normal, [choice.strength, strength], choice.coefficients).ok_or_else(failed)
     }
 
     /// A spline with as many pieces under the same penalty.
@@ -90,33 +100,63 @@ impl Spline {
     pub fn again(&self, samples: &Samples<'_>) -> Result<Spline, String> {
         let rows = Rows::new(samples, self.grid.pieces);
         let normal = Normal::new(&rows, self.grid.pieces);
-        let solved = normal.improved(self.strength, self.coefficients.clone());
-        let spline = solved.and_then(|solved| Spline::new(normal, self.strength, solved));
+        let strengths = [self.likely, self.strength];
+        let spline = Spline::new(normal, strengths, self.coefficients.clone());
         spline.ok_or_else(|| FAILED.to_owned())
     }
 
-    fn new(normal: Normal<'_>, strength: f64, coefficients: Vec<f64>) -> Option<Spline> {
-        let factor = normal.factor(strength)?;
+    /// A spline under the last of two penalties, the first of which is the likely one, from coefficients that are near.
+    fn new(normal: Normal<'_>, [likely, strength]: [f64; 2], near: Vec<f64>) -> Option<Spline> {
+        // Samples that hardly tell the angle may need the likely penalty.
+        let (strength, factor) = match normal.factor(strength) {
+            Some(factor) => (strength, factor),
+            None => (likely, normal.factor(likely)?),
+        };
+        let coefficients = normal.solve(strength, &factor, near);
         let inverse = factor.inverse_band();
         let (squares, _) = normal.residuals(&coefficients);
-        let bent = roughness(&coefficients);
-        let free = (normal.rows() - ORDER) as f64;
-        let sigma = ((squares + strength * bent) / free).sqrt();
-        let floor = normal.floor();
         Some(Spline {
             quality: Quality {
                 squares,
                 parameters: inverse.trace_of_product(&normal.matrix),
-                sigma: sigma.max(floor),
-                floor,
+                sigma: normal.variance(likely, &coefficients)?.sqrt(),
+                floor: normal.floor(),
             },
             condition: factor.diagonal_ratio(),
-            bias: normal.bent_away(strength, &factor, &coefficients),
+            errors: vec![normal.bent_away(strength, &factor, &coefficients)],
+            covariance: covariance(&normal, [likely, strength], inverse),
             grid: normal.grid,
+            likely,
             strength,
             coefficients,
-            inverse,
         })
+    }
+
+    /// Counts what errors of the samples make of the spline as what may be wrong with it.
+    pub(super) fn admit(
+        &mut self,
+        samples: &Samples<'_>,
+        errors: &[Vec<f64>],
+    ) -> Result<(), String> {
+        let rows = Rows::new(samples, self.grid.pieces);
+        let normal = Normal::new(&rows, self.grid.pieces);
+        let factor = normal.factor(self.strength).ok_or(FAILED)?;
+        let mut right = vec![vec![0.0; self.grid.size()]; errors.len()];
+        for (i, t) in samples.t.iter().enumerate() {
+            let (piece, u) = self.grid.place(*t);
+            let basis = basis(DEGREE, u);
+            let weight = samples.weight.map_or(1.0, |weight| weight[i]);
+            for (right, error) in right.iter_mut().zip(errors) {
+                let error = weight * error[i];
+                right[piece..]
+                    .iter_mut()
+                    .zip(basis)
+                    .for_each(|(r, b)| *r += b * error);
+            }
+        }
+        self.errors
+            .extend(right.iter().map(|right| factor.solve(right)));
+        Ok(())
     }
 
     /// Number of its pieces.
@@ -132,7 +172,7 @@ impl Spline {
     /// Coefficients of the B-splines, their standard errors for samples of unit variance, and the ratio of the largest
     /// to the smallest pivot of their equations.
     pub fn coefficients(&self) -> (Vec<f64>, Vec<f64>, f64) {
-        let error = |i| self.inverse.get(i, i).sqrt();
+        let error = |i| self.covariance.get(i, i).sqrt();
         let errors = (0..self.coefficients.len()).map(error).collect();
         (self.coefficients.clone(), errors, self.condition)
     }
@@ -167,15 +207,12 @@ impl Spline {
                 state.rounding[k] += 2.0 * f64::EPSILON * (b * c).abs();
             }
         }
-        let bias = bases.map(|basis| {
-            basis
-                .iter()
-                .zip(&self.bias[piece..])
-                .map(|(b, c)| b * c)
-                .sum()
-        });
-        add_products(&mut state.bias, &bias, 1.0);
-        let spread = bases.map(|basis| self.inverse.times_part(piece, &basis));
+        for error in &self.errors {
+            let part = &error[piece..piece + DIAGONALS];
+            let error = bases.map(|basis| basis.iter().zip(part).map(|(b, c)| b * c).sum());
+            add_products(&mut state.bias, &error, 1.0);
+        }
+        let spread = bases.map(|basis| self.covariance.times_part(piece, &basis));
         let mut entry = 0;
         for basis in 0..3 {
             for spread in &spread[..=basis] {
@@ -186,4 +223,19 @@ impl Spline {
         }
         state
     }
+}
+
+/// Mean products of the errors of the coefficients, for samples of unit variance and curves as rough as the likely
+/// penalty has them.
+///
+/// With N the normal matrix and P the penalty of strength s, A = N + sP, noise gives A⁻¹ N A⁻¹, and the roughness
+/// s² A⁻¹ P A⁻¹ over the likely strength. The two matrices come from A⁻¹ and its derivative by ln s, −s A⁻¹ P A⁻¹.
+fn covariance(normal: &Normal<'_>, [likely, strength]: [f64; 2], inverse: Banded) -> Banded {
+    let beside = |step: f64| Some(normal.factor(strength * step.exp())?.inverse_band());
+    let (Some(weaker), Some(stronger)) = (beside(-STEP), beside(STEP)) else {
+        // As if the fit had the likely penalty.
+        return inverse;
+    };
+    let part = (1.0 - strength / likely) * 0.5 / STEP;
+    inverse.plus(part, &stronger).plus(-part, &weaker)
 }

@@ -1,6 +1,6 @@
 //! QR factorization of a tall matrix, some rows at a time: memory does not grow with the rows.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 /// The triangle R of A = QR, with Qᵀ times the right-hand side.
 #[derive(Clone, Debug)]
@@ -73,6 +73,18 @@ impl Triangle {
         let inverse = inverse.unwrap_or_else(|| DMatrix::from_element(n, n, f64::NAN));
         let rows = (0..n).flat_map(|i| (0..=i).map(move |j| (j, i)));
         rows.map(|place| inverse[place]).collect()
+    }
+
+    /// Solves RᵀR x = b.
+    pub fn normal_solve(&self, b: &[f64]) -> Vec<f64> {
+        let n = self.size;
+        let triangle = self.rows.view((0, 0), (n, n));
+        let mut x = DVector::from_column_slice(b);
+        // A singular triangle was refused when the parameters were found.
+        let regular = triangle.tr_solve_upper_triangular_mut(&mut x)
+            && triangle.solve_upper_triangular_mut(&mut x);
+        debug_assert!(regular, "a singular triangle");
+        x.iter().copied().collect()
     }
 
     /// Standard errors of the solution for a right-hand side of unit variance, and the condition number in the

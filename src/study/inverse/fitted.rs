@@ -1,6 +1,7 @@
 //! The fit of θ(t), in terms of what was measured.
 
 use super::pattern::Pattern;
+use super::rounding::{Rounding, common_step, of_step};
 use super::sensor::Sensor;
 use crate::numeric::fit::{Curve, Kind, Samples, Size};
 use crate::numeric::parallel;
@@ -17,6 +18,10 @@ pub(super) struct Fitted {
     pub settled: bool,
     /// A measured crank angle, continued over the turns, rad.
     continued: Option<Vec<f64>>,
+    /// Standard deviation of a sample by noise alone: rounding that is not noise is in the curve's errors.
+    noise: f64,
+    /// Standard deviation of a sample that was computed.
+    computed: f64,
 }
 
 /// Corrections after which a fit counts as not settling.
@@ -26,6 +31,10 @@ const MOST: usize = 30;
 const PART: usize = 20_000;
 /// The correction before which the terms are chosen again, when the motion is about right.
 const LAST_CHOICE: usize = 3;
+
+/// Units of rounding to which samples without noise are right, that were computed: a computed motion goes on with its
+/// errors.
+const ROUNDED: f64 = 2.0;
 
 /// A fit is settled where further corrections would change it by less than this part of a standard error.
 const SETTLED: f64 = 1e-3;
@@ -45,21 +54,45 @@ impl Fitted {
         kind: Kind,
         size: Size,
     ) -> Result<Fitted, String> {
+        let digits = measurement.resolution();
+        if let Some(step) = common_step(measurement.values(), digits) {
+            let fitted = Fitted::to(sensor, measurement, theta.clone(), (kind, size), step);
+            // Values on an even motion may have a common step without being rounded to it.
+            if let Ok(fitted) = fitted
+                && fitted.left() >= 0.5 * of_step(step)
+            {
+                return Ok(fitted);
+            }
+        }
+        Fitted::to(sensor, measurement, theta, (kind, size), digits)
+    }
+
+    /// Fits the motion to values rounded to steps.
+    fn to(
+        sensor: &Sensor<'_>,
+        measurement: &Measurement,
+        theta: Vec<f64>,
+        (kind, size): (Kind, Size),
+        step: f64,
+    ) -> Result<Fitted, String> {
         let (times, values) = (measurement.times(), measurement.values());
         let largest = |list: &[f64]| list.iter().fold(0.0f64, |m, v| m.max(v.abs()));
-        let digits = measurement.resolution().max(f64::EPSILON * largest(values));
-        let floor = digits / 12f64.sqrt();
+        let floor = of_step(step.max(f64::EPSILON * largest(values)));
         if sensor.measured == Measured::Theta {
             let samples = Samples {
                 t: times,
                 target: &theta,
                 weight: None,
                 // Continued over the turns the angles have fewer digits.
-                floor: floor.max(f64::EPSILON * largest(&theta) / 12f64.sqrt()),
+                floor: floor.max(of_step(f64::EPSILON * largest(&theta))),
             };
             let curve = Curve::fit(&samples, kind, size)?;
             let residuals = parallel::list(theta.len(), |i| theta[i] - curve.value(times[i]));
-            return Ok(Fitted::of(curve, residuals, true, Some(theta)));
+            let computed = ROUNDED * f64::EPSILON * largest(&theta);
+            let mut fitted = Fitted::of(curve, residuals, true, computed);
+            fitted.round(sensor, values, &samples, step)?;
+            fitted.continued = Some(theta);
+            return Ok(fitted);
         }
         let seen = Seen {
             sensor,
@@ -67,17 +100,28 @@ impl Fitted {
             values,
             floor,
         };
-        let (curve, [_, _, residuals], settled) = match seen.start(&theta, kind, size) {
+        let (curve, [slopes, target, residuals], settled) = match seen.start(&theta, kind, size) {
             Some(near) => {
                 drop(theta);
                 seen.settle(|i| near.value(times[i]), kind, size, 0)?
             }
             None => seen.settle(|i| theta[i], kind, size, LAST_CHOICE)?,
         };
-        Ok(Fitted::of(curve, residuals, settled, None))
+        let reached =
+            (0..times.len()).fold(0.0f64, |most, i| most.max((target[i] - residuals[i]).abs()));
+        let computed = ROUNDED * f64::EPSILON * largest(values).max(reached);
+        let samples = Samples {
+            t: times,
+            target: &target,
+            weight: Some(&slopes),
+            floor,
+        };
+        let mut fitted = Fitted::of(curve, residuals, settled, computed);
+        fitted.round(sensor, values, &samples, step)?;
+        Ok(fitted)
     }
 
-    fn of(curve: Curve, residuals: Vec<f64>, settled: bool, continued: Option<Vec<f64>>) -> Fitted {
+    fn of(curve: Curve, residuals: Vec<f64>, settled: bool, computed: f64) -> Fitted {
         let quality = curve.quality();
         let pattern = Pattern::of(&residuals, quality.parameters, quality.floor);
         Fitted {
@@ -85,8 +129,41 @@ impl Fitted {
             residuals,
             pattern,
             settled,
-            continued,
+            continued: None,
+            noise: quality.sigma,
+            computed,
         }
+    }
+
+    /// Counts rounding of the measured values to steps that is not noise as an error of the curve, and not as noise.
+    fn round(
+        &mut self,
+        sensor: &Sensor<'_>,
+        values: &[f64],
+        samples: &Samples<'_>,
+        step: f64,
+    ) -> Result<(), String> {
+        let Some(rounding) = Rounding::of(step, values.len(), self.left()) else {
+            return Ok(());
+        };
+        let (curve, residuals) = (&self.curve, &self.residuals);
+        // Values before rounding, with the sign with which each counts.
+        let exact = parallel::list(values.len(), |i| {
+            let sign = sensor.sign(values[i], || curve.value(samples.t[i]));
+            (values[i] - sign * residuals[i], sign)
+        });
+        let errors = rounding.errors(&exact);
+        self.curve.admit(samples, &errors)?;
+        self.noise = rounding.noise(self.noise);
+        self.pattern.widening = 1.0;
+        Ok(())
+    }
+
+    /// Standard deviation of what the fit leaves of the samples.
+    fn left(&self) -> f64 {
+        let quality = self.curve.quality();
+        let free = self.residuals.len() as f64 - quality.parameters;
+        (quality.squares / free.max(1.0)).sqrt()
     }
 
     /// What was measured; a crank angle continued over the turns.
@@ -97,9 +174,9 @@ impl Fitted {
         }
     }
 
-    /// Standard deviation of a measured value, widened where the residuals are not independent.
+    /// Standard deviation of a measured value by noise, widened where the residuals are not independent.
     pub fn sigma(&self) -> f64 {
-        self.curve.quality().sigma * self.pattern.widening
+        (self.noise * self.pattern.widening).hypot(self.computed)
     }
 }
 

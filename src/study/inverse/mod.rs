@@ -8,6 +8,7 @@ mod guide;
 mod limit;
 mod pattern;
 mod printed;
+mod rounding;
 mod row;
 mod sensor;
 mod summary;

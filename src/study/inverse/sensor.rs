@@ -26,11 +26,7 @@ impl Sensor<'_> {
             Measured::Gamma => {
                 let pose = self.linkage.pose(theta);
                 let (signed, slope) = self.linkage.crank_pin_angle(theta, &pose);
-                let rest = |value: f64| {
-                    let off = value - signed;
-                    off - (off / TAU).round() * TAU
-                };
-                let (plus, minus) = (rest(value), rest(-value));
+                let [plus, minus] = rests(value, signed);
                 if plus.abs() <= minus.abs() {
                     (plus, slope)
                 } else {
@@ -39,4 +35,24 @@ impl Sensor<'_> {
             }
         }
     }
+
+    /// Whether a value counts with its sign turned round, as −1, or as it is, as 1.
+    pub fn sign(&self, value: f64, theta: impl FnOnce() -> f64) -> f64 {
+        if self.measured != Measured::Gamma {
+            return 1.0;
+        }
+        let theta = theta();
+        let pose = self.linkage.pose(theta);
+        let (signed, _) = self.linkage.crank_pin_angle(theta, &pose);
+        let [plus, minus] = rests(value, signed);
+        if plus.abs() <= minus.abs() { 1.0 } else { -1.0 }
+    }
+}
+
+/// What a crank-pin angle with either sign has beyond that of a crank angle.
+fn rests(value: f64, signed: f64) -> [f64; 2] {
+    [value, -value].map(|value| {
+        let off = value - signed;
+        off - (off / TAU).round() * TAU
+    })
 }
