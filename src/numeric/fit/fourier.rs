@@ -3,7 +3,7 @@
 use super::choice::{best, undecided};
 use super::condensed::Rows;
 use super::decay::Decay;
-use super::design::{columns, harmonics, products, rounding, solve, squares, value};
+use super::design::{Jet, columns, harmonics, products, rounding, solve, squares, value};
 use super::triangle::Triangle;
 use super::{Quality, Samples, Size, State, add_products};
 
@@ -174,24 +174,12 @@ impl Fourier {
             }
         }
         for error in &self.errors {
-            let mut sum = [0.0; 3];
-            for (column, change) in list.iter().zip(error) {
-                sum.iter_mut()
-                    .zip(column)
-                    .for_each(|(s, c)| *s += change * c);
-            }
-            add_products(&mut state.bias, &sum, 1.0);
+            add_products(&mut state.bias, &combined(error, &list), 1.0);
         }
         let mut weights = self.whitening.as_slice();
         for last in 0..list.len() {
             let (row, rest) = weights.split_at(last + 1);
-            let mut sum = [0.0; 3];
-            for (weight, column) in row.iter().zip(&list) {
-                for (sum, value) in sum.iter_mut().zip(column) {
-                    *sum += weight * value;
-                }
-            }
-            add_products(&mut state.covariance, &sum, 1.0);
+            add_products(&mut state.covariance, &combined(row, &list), 1.0);
             weights = rest;
         }
         let (omega, tau) = (self.parameters[1], t - self.middle);
@@ -209,6 +197,17 @@ impl Fourier {
         }
         state
     }
+}
+
+/// The columns, each times its weight, together.
+fn combined(weights: &[f64], columns: &[Jet]) -> Jet {
+    let mut sum = [0.0; 3];
+    for (weight, column) in weights.iter().zip(columns) {
+        for (sum, value) in sum.iter_mut().zip(column) {
+            *sum += weight * value;
+        }
+    }
+    sum
 }
 
 fn most_harmonics(samples: &Rows<'_>) -> usize {

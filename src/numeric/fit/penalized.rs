@@ -23,17 +23,25 @@ pub(super) struct Normal<'a> {
 impl<'a> Normal<'a> {
     pub fn new(samples: &'a Rows<'a>, pieces: usize) -> Normal<'a> {
         let grid = Grid::new(samples, pieces);
-        let mut matrix = Banded::new(grid.size());
-        for (t, weight, _) in samples.iter() {
-            let (piece, u) = grid.place(t);
-            let b = basis(DEGREE, u);
-            let weight = weight * weight;
-            for row in 0..DIAGONALS {
-                for column in 0..=row {
-                    matrix.add(piece + row, piece + column, weight * b[row] * b[column]);
+        let parts = samples.parts(|range| {
+            let mut matrix = Banded::new(grid.size());
+            for (t, weight, _) in samples.some(range) {
+                let (piece, u) = grid.place(t);
+                let b = basis(DEGREE, u);
+                let weight = weight * weight;
+                for row in 0..DIAGONALS {
+                    for column in 0..=row {
+                        matrix.add(piece + row, piece + column, weight * b[row] * b[column]);
+                    }
                 }
             }
-        }
+            Some(matrix)
+        });
+        let sum = parts
+            .into_iter()
+            .flatten()
+            .reduce(|sum, part| sum.plus(1.0, &part));
+        let matrix = sum.unwrap_or_else(|| Banded::new(grid.size()));
         let (penalty, log_penalty) = penalty(grid.size());
         Normal {
             grid,
@@ -46,18 +54,27 @@ impl<'a> Normal<'a> {
 
     /// Residuals of the samples, their sum of squares, and Bᵀ times them.
     pub fn residuals(&self, coefficients: &[f64]) -> (f64, Vec<f64>) {
+        let parts = self.samples.parts(|range| {
+            let mut right = vec![0.0; self.grid.size()];
+            let mut squares = 0.0;
+            for (t, weight, target) in self.samples.some(range) {
+                let (piece, u) = self.grid.place(t);
+                let b = basis(DEGREE, u);
+                let part = &coefficients[piece..piece + DIAGONALS];
+                let value: f64 = b.iter().zip(part).map(|(b, c)| b * c).sum();
+                let residual = target - weight * value;
+                squares += residual * residual;
+                for (right, b) in right[piece..].iter_mut().zip(b) {
+                    *right += weight * b * residual;
+                }
+            }
+            (squares, right)
+        });
         let mut right = vec![0.0; self.grid.size()];
         let mut squares = self.samples.left;
-        for (t, weight, target) in self.samples.iter() {
-            let (piece, u) = self.grid.place(t);
-            let b = basis(DEGREE, u);
-            let part = &coefficients[piece..piece + DIAGONALS];
-            let value: f64 = b.iter().zip(part).map(|(b, c)| b * c).sum();
-            let residual = target - weight * value;
-            squares += residual * residual;
-            for (right, b) in right[piece..].iter_mut().zip(b) {
-                *right += weight * b * residual;
-            }
+        for (of_part, part) in parts {
+            squares += of_part;
+            right.iter_mut().zip(part).for_each(|(sum, r)| *sum += r);
         }
         (squares, right)
     }

@@ -39,6 +39,9 @@ const ROUNDED: f64 = 2.0;
 /// A fit is settled where further corrections would change it by less than this part of a standard error.
 const SETTLED: f64 = 1e-3;
 
+/// Units of rounding below which corrections do not shrink any more.
+const NOTHING: f64 = 4.0;
+
 /// A correction below this part of the one before it tells that the next one will be as much smaller again.
 const FAST: f64 = 0.01;
 
@@ -76,7 +79,6 @@ impl Fitted {
         step: f64,
     ) -> Result<Fitted, String> {
         let (times, values) = (measurement.times(), measurement.values());
-        let largest = |list: &[f64]| list.iter().fold(0.0f64, |m, v| m.max(v.abs()));
         let floor = of_step(step.max(f64::EPSILON * largest(values)));
         if sensor.measured == Measured::Theta {
             let samples = Samples {
@@ -180,6 +182,10 @@ impl Fitted {
     }
 }
 
+fn largest(list: &[f64]) -> f64 {
+    list.iter().fold(0.0, |most, value| most.max(value.abs()))
+}
+
 /// Samples of something that the crank angle is read from.
 #[derive(Clone, Copy, Debug)]
 struct Seen<'a> {
@@ -225,6 +231,8 @@ impl Seen<'_> {
         let few = rows.div_ceil(stride);
         let mut before = parallel::list(few, |i| theta(i * stride));
         let mut lines = self.lines(theta);
+        // Each correction evaluates the samples' lines anew, with other roundings.
+        let computed = ROUNDED * f64::EPSILON * largest(self.values).max(largest(&lines[1]));
         let mut chosen: Option<Curve> = None;
         let (mut round, mut change_before) = (0, 0.0);
         loop {
@@ -245,11 +253,14 @@ impl Seen<'_> {
             let sigma = curve.quality().sigma;
             let moved = parallel::list(few, |i| {
                 let state = curve.state(self.times[i * stride]);
-                let error = sigma * state.covariance[0].sqrt() + state.rounding[0];
-                let change = (state.value[0] - before[i]).abs() / error.max(f64::MIN_POSITIVE);
-                (state.value[0], change)
+                let change = (state.value[0] - before[i]).abs();
+                let deviation = state.covariance[0].sqrt();
+                let error = sigma * deviation + state.rounding[0] + f64::MIN_POSITIVE;
+                let rounding = computed * deviation + state.rounding[0] + f64::MIN_POSITIVE;
+                (state.value[0], change / error, change / rounding)
             });
             let change = moved.iter().fold(0.0, |most, moved| moved.1.max(most));
+            let in_rounding = moved.iter().fold(0.0, |most, moved| moved.2.max(most));
             lines = self.lines(|i| curve.value(self.times[i]));
             if lines[0].iter().any(|slope| !slope.is_finite()) {
                 return Err("the fit leaves the angles that the crank can take".to_owned());
@@ -258,8 +269,9 @@ impl Seen<'_> {
             // Corrections shrink by about the same factor, or ever faster.
             let factor = change / change_before;
             let more = change * if factor < FAST { factor } else { 1.0 };
-            if more < SETTLED && round > last_choice || round == MOST {
-                return Ok((curve, lines, change < 1.0));
+            let settled = more < SETTLED || in_rounding < NOTHING;
+            if settled && round > last_choice || round == MOST {
+                return Ok((curve, lines, settled || change < 1.0));
             }
             change_before = change;
             before = moved.into_iter().map(|moved| moved.0).collect();

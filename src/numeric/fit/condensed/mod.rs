@@ -6,6 +6,7 @@
 //! solution, same covariance, and the squares that no such curve can take away are known.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 use nalgebra::{SMatrix, SymmetricEigen};
 
@@ -24,6 +25,9 @@ const OF_BLOCK: usize = 64;
 
 /// Blocks that a thread takes at a time.
 const TOGETHER: usize = 64;
+
+/// Most parts of the rows that are summed apart.
+const PARTS: usize = 8;
 
 /// Fewest blocks.
 const FEWEST: usize = 256;
@@ -115,7 +119,10 @@ impl<'a> Rows<'a> {
         let free = (fine.count - fine.t.len()) as f64;
         let variance = (fine.left / free).max(fine.floor * fine.floor);
         let more = (fine.t.len() - self.t.len()) as f64;
-        self.left - fine.left <= variance * (more + CLEAR * (2.0 * more).sqrt())
+        // Nodes have the weight of many samples, but are rounded like each.
+        let rounding = |target: &f64| (ROUNDED * f64::EPSILON * target).powi(2);
+        let rounded: f64 = fine.target.iter().map(rounding).sum();
+        self.left - fine.left <= variance * (more + CLEAR * (2.0 * more).sqrt()) + rounded
     }
 
     /// Blocks of these rows condensed to the nodes of each.
@@ -177,6 +184,19 @@ impl<'a> Rows<'a> {
         (0..self.t.len()).map(|i| self.row(i))
     }
 
+    /// Argument, weight and target of some rows.
+    pub fn some(&self, range: Range<usize>) -> impl Iterator<Item = (f64, f64, f64)> {
+        range.map(|i| self.row(i))
+    }
+
+    /// What is made of the rows part by part, on all cores; few rows are one part.
+    pub fn parts<T: Default + Send>(&self, make: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
+        let rows = self.t.len();
+        let length = rows.div_ceil(PARTS).max(MANY);
+        let starts = (0..rows).step_by(length);
+        parallel::map(starts, |start| make(start..(start + length).min(rows)))
+    }
+
     fn push(&mut self, t: f64, weight: f64, target: f64) {
         self.t.to_mut().push(t);
         self.target.to_mut().push(target);
@@ -185,6 +205,9 @@ impl<'a> Rows<'a> {
         }
     }
 }
+
+/// Units of rounding to which the target of a node is computed.
+const ROUNDED: f64 = 2.0;
 
 /// What stands for some blocks.
 #[derive(Debug, Default)]
