@@ -121,3 +121,14 @@ pub(super) fn products(
     }
     products
 }
+
+/// The columns, each times its weight, together.
+pub(super) fn combined(weights: &[f64], columns: &[Jet]) -> Jet {
+    let mut sum = [0.0; 3];
+    for (weight, column) in weights.iter().zip(columns) {
+        for (sum, value) in sum.iter_mut().zip(column) {
+            *sum += weight * value;
+        }
+    }
+    sum
+}

@@ -3,7 +3,7 @@
 use super::choice::{best, undecided};
 use super::condensed::Rows;
 use super::decay::Decay;
-use super::design::{Jet, columns, harmonics, products, rounding, solve, squares, value};
+use super::design::{columns, combined, harmonics, products, rounding, solve, squares, value};
 use super::triangle::Triangle;
 use super::{Quality, Samples, Size, State, add_products};
 
@@ -197,17 +197,6 @@ impl Fourier {
         }
         state
     }
-}
-
-/// The columns, each times its weight, together.
-fn combined(weights: &[f64], columns: &[Jet]) -> Jet {
-    let mut sum = [0.0; 3];
-    for (weight, column) in weights.iter().zip(columns) {
-        for (sum, value) in sum.iter_mut().zip(column) {
-            *sum += weight * value;
-        }
-    }
-    sum
 }
 
 fn most_harmonics(samples: &Rows<'_>) -> usize {

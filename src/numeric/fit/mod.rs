@@ -10,6 +10,7 @@ mod penalized;
 mod pieces;
 mod polynomial;
 mod powers;
+mod roughness;
 mod spline;
 mod triangle;
 

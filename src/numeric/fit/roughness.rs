@@ -1,0 +1,62 @@
+//! The roughness of a spline: sums of squares of differences of its coefficients.
+
+use crate::numeric::banded::Banded;
+
+/// Order of the differences that are kept small.
+pub(super) const ORDER: usize = 6;
+
+/// Weights of a difference: binomial coefficients of alternating sign.
+fn difference() -> [f64; ORDER + 1] {
+    let mut difference = [0.0; ORDER + 1];
+    difference[0] = 1.0;
+    for order in 1..=ORDER {
+        for k in (1..=order).rev() {
+            difference[k] -= difference[k - 1];
+        }
+    }
+    difference
+}
+
+/// Differences of coefficients.
+fn differences(coefficients: &[f64]) -> impl Iterator<Item = f64> {
+    let difference = difference();
+    let windows = coefficients.windows(ORDER + 1);
+    windows.map(move |w| w.iter().zip(difference).map(|(c, d)| c * d).sum())
+}
+
+/// Sum of squares of the differences of coefficients.
+pub(super) fn roughness(coefficients: &[f64]) -> f64 {
+    differences(coefficients).map(|d| d * d).sum()
+}
+
+/// DᵀD times coefficients, from the differences themselves: rounding then stays in the range of Dᵀ, where a strong
+/// penalty damps it.
+pub(super) fn pull(coefficients: &[f64]) -> Vec<f64> {
+    let weights = difference();
+    let mut pull = vec![0.0; coefficients.len()];
+    for (i, value) in differences(coefficients).enumerate() {
+        for (pull, weight) in pull[i..].iter_mut().zip(weights) {
+            *pull += weight * value;
+        }
+    }
+    pull
+}
+
+/// DᵀD for differences of `ORDER`, and the logarithm of the determinant of DDᵀ.
+pub(super) fn penalty(size: usize) -> (Banded, f64) {
+    let difference = difference();
+    let mut penalty = Banded::new(size);
+    for row in 0..size - ORDER {
+        for i in 0..=ORDER {
+            for j in 0..=i {
+                penalty.add(row + i, row + j, difference[i] * difference[j]);
+            }
+        }
+    }
+    // The determinant of the symmetric Toeplitz matrix of the symbol (2 − 2 cos)^ORDER, but for a constant factor
+    // (Böttcher and Silbermann, Integral Equations Oper. Theory 9 (1986) 1; for order 1 it is the size plus 1).
+    let rows = (size - ORDER) as f64;
+    let pairs = (0..ORDER).flat_map(|i| (0..ORDER).map(move |j| i + j));
+    let log_determinant = pairs.map(|k| (rows + 1.0 + k as f64).ln()).sum();
+    (penalty, log_determinant)
+}
