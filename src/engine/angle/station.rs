@@ -18,6 +18,8 @@ pub(super) struct Station<P> {
     pub side: f64,
     /// 2/M at the points, 1/(kg m²).
     pub mobility: Values,
+    /// Whether its degree resolves inertia and forces.
+    pub resolved: bool,
     /// The largest force that has a potential, N m: at balance the others are as large.
     pub largest_force: f64,
     /// Kinetic energy in the last turns.
@@ -90,10 +92,10 @@ impl<P: Copy> Station<P> {
                 station.tabulate(driven)?;
             }
             if enough.is_some() || degree == MOST {
-                break;
+                station.resolved = enough.is_some();
+                return Ok(station);
             }
         }
-        Ok(station)
     }
 
     fn empty(piece: Piece, rule: &'static Rule, side: f64) -> Station<P> {
@@ -103,6 +105,7 @@ impl<P: Copy> Station<P> {
             table: Table::default(),
             side,
             mobility: [0.0; MOST + 1],
+            resolved: true,
             largest_force: 0.0,
             past: Past::new(),
             factor: UNKNOWN,
@@ -172,11 +175,11 @@ impl<P: Copy> Station<P> {
         }
     }
 
-    /// The least degree at which the series of the inertia, and of what the forces do to the kinetic energy, have
-    /// decayed; none if this one is not enough.
+    /// The least degree at which the series of the speed by a kinetic energy that is the same everywhere, and of what
+    /// the forces do to it, have decayed; none if this one is not enough.
     fn degree_for(&self, fine: Fineness) -> Option<usize> {
         let kinetic = 0.5 * self.table.inertia[0] * fine.speed * fine.speed;
-        let inertia = self.rule.series(&self.table.inertia);
+        let slowness = self.rule.series(&self.table.inertia.map(f64::sqrt));
         let mut force = self.table.force;
         for (force, push) in force.iter_mut().zip(&self.table.push) {
             *force += push;
@@ -186,7 +189,7 @@ impl<P: Copy> Station<P> {
         let degrees = Rule::DEGREES.into_iter();
         let mut smaller = degrees.take_while(|degree| *degree <= self.rule.degree());
         smaller.find(|degree| {
-            inertia.tail_at(*degree) <= fine.tail && force.tail_at(*degree) * share <= fine.tail
+            slowness.tail_at(*degree) <= fine.tail && force.tail_at(*degree) * share <= fine.tail
         })
     }
 
@@ -245,9 +248,25 @@ pub(super) fn stations<D: Driven>(
     start: f64,
     fine: Fineness,
 ) -> Result<Vec<Station<D::Place>>, Unserved> {
+    let (few, all) = (driven.corners(), driven.corners_if_light());
+    if few.len() < all.len()
+        && let Some(list) = between(driven, few, start, fine, true)?
+    {
+        return Ok(list);
+    }
+    Ok(between(driven, all, start, fine, false)?.unwrap_or_default())
+}
+
+/// Panels between some corners; none if one of them is to be resolved and is not.
+fn between<D: Driven>(
+    driven: &D,
+    corners: &[f64],
+    start: f64,
+    fine: Fineness,
+    resolved: bool,
+) -> Result<Option<Vec<Station<D::Place>>>, Unserved> {
     let direction = fine.speed.signum();
-    let mut ends: Vec<f64> = driven
-        .corners()
+    let mut ends: Vec<f64> = corners
         .iter()
         .map(|corner| (direction * (corner - start)).rem_euclid(TAU))
         .filter(|ahead| *ahead > 1e-9 && *ahead < TAU - 1e-9)
@@ -269,9 +288,13 @@ pub(super) fn stations<D: Driven>(
             let ends = [from, until].map(|ahead| start + direction * ahead);
             // Neighbours are alike.
             let degree = list.last().map_or(FIRST_DEGREE, |last| last.rule.degree());
-            list.push(Station::new(driven, ends, 1.0, fine, degree)?);
+            let station = Station::new(driven, ends, 1.0, fine, degree)?;
+            if resolved && !station.resolved {
+                return Ok(None);
+            }
+            list.push(station);
             from = until;
         }
     }
-    Ok(list)
+    Ok(Some(list))
 }
