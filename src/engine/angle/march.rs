@@ -1,8 +1,9 @@
 //! Panel after panel, turn after turn.
 
-use super::station::{Fineness, Station, stations};
+use super::station::{Fineness, Station};
 use super::sweep::{Start, Swept, sweep};
 use super::switch::{Side, side};
+use super::turn::stations;
 use super::{Driven, Resolution};
 use crate::engine::energy::Unserved;
 use crate::engine::energy::panel::Panel;

@@ -22,6 +22,7 @@ mod station;
 mod steady;
 mod sweep;
 mod switch;
+mod turn;
 
 use std::f64::consts::TAU;
 

@@ -1,6 +1,4 @@
-//! The panels of one turn and what is known on them.
-
-use std::f64::consts::{PI, TAU};
+//! A panel of a turn and what is known on it.
 
 use super::past::Past;
 use super::{Driven, Table};
@@ -18,8 +16,6 @@ pub(super) struct Station<P> {
     pub side: f64,
     /// 2/M at the points, 1/(kg m²).
     pub mobility: Values,
-    /// Whether its degree resolves inertia and forces.
-    pub resolved: bool,
     /// The largest force that has a potential, N m: at balance the others are as large.
     pub largest_force: f64,
     /// Kinetic energy in the last turns.
@@ -53,59 +49,69 @@ pub(super) struct Fineness {
 
 /// Panels are not cut below this, rad.
 const SHORTEST: f64 = 1e-9;
-/// Panels are not longer at first, rad.
-const LONGEST: f64 = PI + 1e-9;
 /// What a sweep is taken to leave before it is known.
 const UNKNOWN: f64 = 0.3;
 /// What the forces leave out adds up over the turns: it is to be less by this.
 const ADDED_UP: f64 = 0.1;
 /// Degree of the series that are tried first.
-const FIRST_DEGREE: usize = 24;
+pub(super) const FIRST_DEGREE: usize = 24;
 
 impl<P: Copy> Station<P> {
     /// The panel from one angle to another; its degree is the least that resolves inertia and forces, after one
     /// that is tried first.
     pub fn new<D: Driven<Place = P>>(
         driven: &D,
-        [from, to]: [f64; 2],
+        ends: [f64; 2],
         side: f64,
         fine: Fineness,
         first: usize,
     ) -> Result<Station<P>, Unserved> {
-        let piece = Piece {
-            from,
-            to,
-            turning: Turning::Nowhere,
-        };
-        let mut station = Station::empty(piece, Rule::of(first), side);
+        let mut station = Station::empty(ends, Rule::of(first), side);
         station.tabulate(driven)?;
+        station.resolve(driven, fine, MOST)?;
+        Ok(station)
+    }
+
+    /// Takes the least degree that resolves inertia and forces, or `most`; whether it does resolve them.
+    pub fn resolve<D: Driven<Place = P>>(
+        &mut self,
+        driven: &D,
+        fine: Fineness,
+        most: usize,
+    ) -> Result<bool, Unserved> {
         loop {
-            let enough = station.degree_for(fine);
-            let tried = station.rule.degree();
-            let degree = enough.unwrap_or(if tried < FIRST_DEGREE {
+            let enough = self.degree_for(fine);
+            let tried = self.rule.degree();
+            if enough.is_none() && tried >= most {
+                return Ok(false);
+            }
+            let next = if tried < FIRST_DEGREE {
                 FIRST_DEGREE
             } else {
-                MOST
-            });
+                most
+            };
+            let degree = enough.unwrap_or(next);
             if degree != tried {
-                station.rule = Rule::of(degree);
-                station.tabulate(driven)?;
+                self.rule = Rule::of(degree);
+                self.tabulate(driven)?;
             }
-            if enough.is_some() || degree == MOST {
-                station.resolved = enough.is_some();
-                return Ok(station);
+            if enough.is_some() {
+                return Ok(true);
             }
         }
     }
 
-    fn empty(piece: Piece, rule: &'static Rule, side: f64) -> Station<P> {
+    pub fn empty([from, to]: [f64; 2], rule: &'static Rule, side: f64) -> Station<P> {
         Station {
-            piece,
+            piece: Piece {
+                from,
+                to,
+                turning: Turning::Nowhere,
+            },
             rule,
             table: Table::default(),
             side,
             mobility: [0.0; MOST + 1],
-            resolved: true,
             largest_force: 0.0,
             past: Past::new(),
             factor: UNKNOWN,
@@ -125,11 +131,11 @@ impl<P: Copy> Station<P> {
         known: Option<&Rest>,
         fine: Fineness,
     ) -> Result<Station<P>, Unserved> {
-        let piece = Piece { from, ..self.piece };
+        let ends = [from, self.piece.to];
         let mut station = match known {
-            None => Station::new(driven, [from, piece.to], -self.side, fine, FIRST_DEGREE)?,
+            None => Station::new(driven, ends, -self.side, fine, FIRST_DEGREE)?,
             Some(known) => {
-                let mut station = Station::empty(piece, known.rule, -self.side);
+                let mut station = Station::empty(ends, known.rule, -self.side);
                 station.past.remember(&known.kinetic);
                 station.tabulate(driven)?;
                 station
@@ -152,7 +158,7 @@ impl<P: Copy> Station<P> {
         self.tabulate(driven)
     }
 
-    fn tabulate<D: Driven<Place = P>>(&mut self, driven: &D) -> Result<(), Unserved> {
+    pub fn tabulate<D: Driven<Place = P>>(&mut self, driven: &D) -> Result<(), Unserved> {
         let piece = self.piece;
         let angles = self.rule.values(|x| piece.angle(x));
         let count = self.rule.degree() + 1;
@@ -240,61 +246,4 @@ impl<P: Copy> Station<P> {
     pub fn remember(&mut self, kinetic: &Values) {
         self.past.remember(kinetic);
     }
-}
-
-/// Panels of one turn between the corners.
-pub(super) fn stations<D: Driven>(
-    driven: &D,
-    start: f64,
-    fine: Fineness,
-) -> Result<Vec<Station<D::Place>>, Unserved> {
-    let (few, all) = (driven.corners(), driven.corners_if_light());
-    if few.len() < all.len()
-        && let Some(list) = between(driven, few, start, fine, true)?
-    {
-        return Ok(list);
-    }
-    Ok(between(driven, all, start, fine, false)?.unwrap_or_default())
-}
-
-/// Panels between some corners; none if one of them is to be resolved and is not.
-fn between<D: Driven>(
-    driven: &D,
-    corners: &[f64],
-    start: f64,
-    fine: Fineness,
-    resolved: bool,
-) -> Result<Option<Vec<Station<D::Place>>>, Unserved> {
-    let direction = fine.speed.signum();
-    let mut ends: Vec<f64> = corners
-        .iter()
-        .map(|corner| (direction * (corner - start)).rem_euclid(TAU))
-        .filter(|ahead| *ahead > 1e-9 && *ahead < TAU - 1e-9)
-        .collect();
-    ends.sort_by(f64::total_cmp);
-    ends.push(TAU);
-    let mut from = 0.0;
-    let mut list: Vec<Station<D::Place>> = Vec::with_capacity(8);
-    for to in ends {
-        let parts = ((to - from) / LONGEST).ceil();
-        let begin = from;
-        for part in 1..=parts as u32 {
-            let share = f64::from(part) / parts;
-            let until = if share < 1.0 {
-                begin + share * (to - begin)
-            } else {
-                to
-            };
-            let ends = [from, until].map(|ahead| start + direction * ahead);
-            // Neighbours are alike.
-            let degree = list.last().map_or(FIRST_DEGREE, |last| last.rule.degree());
-            let station = Station::new(driven, ends, 1.0, fine, degree)?;
-            if resolved && !station.resolved {
-                return Ok(None);
-            }
-            list.push(station);
-            from = until;
-        }
-    }
-    Ok(Some(list))
 }

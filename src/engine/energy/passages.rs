@@ -21,8 +21,9 @@ pub struct Passage {
     pub turning: bool,
 }
 
-/// What is as near to a mark as this is at it, rad.
+/// What is as near to a mark as this is at it, rad; far from zero angles are rounded more than that.
 const NEAR: f64 = 1e-12;
+const ROUNDED: f64 = 8.0 * f64::EPSILON;
 
 impl Piece {
     /// How far (rad) ahead of its start, in its direction, an angle is: in [0, 2π).
@@ -30,12 +31,16 @@ impl Piece {
         (self.span().signum() * (theta - self.from)).rem_euclid(TAU)
     }
 
+    fn near(&self) -> f64 {
+        NEAR.max(ROUNDED * self.from.abs().max(self.to.abs()))
+    }
+
     /// The next of some marked angles beyond a part of the piece, and how far it is ahead of the start, rad; its start
     /// is not beyond.
     fn next_mark(&self, marks: &[f64], beyond: f64) -> Option<(f64, f64)> {
+        let (near, span) = (self.near(), self.span().abs());
         let ahead = marks.iter().map(|mark| (self.ahead(*mark), *mark));
-        let inside = ahead
-            .filter(|(ahead, _)| *ahead > beyond.max(NEAR) && *ahead <= self.span().abs() + NEAR);
+        let inside = ahead.filter(|(ahead, _)| *ahead > beyond.max(near) && *ahead <= span + near);
         inside.min_by(|a, b| a.0.total_cmp(&b.0))
     }
 }
@@ -52,7 +57,7 @@ impl Panel {
                 turns: self.turns + turns,
                 rest: mark,
             };
-            let at_end = ahead >= self.piece.span().abs() - NEAR;
+            let at_end = ahead >= self.piece.span().abs() - self.piece.near();
             let (after, speed) = if at_end {
                 (self.duration.0, self.speed(1.0))
             } else {
