@@ -139,6 +139,12 @@ impl<'a, D: Driven> March<'a, D> {
         self.fastest
     }
 
+    /// Least kinetic energy at the points of the last panel, J.
+    pub fn least(&self) -> f64 {
+        let points = &self.swept.kinetic[..=self.swept.slope.degree()];
+        points.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
     /// Whether the next panel begins a turn.
     pub fn at_turn(&self) -> bool {
         self.next == 0 && self.parts.is_empty()
