@@ -192,7 +192,7 @@ impl Panel {
                 low = x;
             }
             let newton = x - excess / self.slope.value(x);
-            let next = if newton > low && newton < high {
+            let next = if newton >= low && newton <= high {
                 newton
             } else {
                 0.5 * (low + high)
