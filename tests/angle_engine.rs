@@ -54,6 +54,29 @@ fn a_braked_crank_follows_its_closed_solution() {
     }
 }
 
+/// The root of the kinetic energy of a crank alone, braked by viscous torque, falls linearly with the angle whatever it
+/// is: the first sweep over a panel is right and a second finds nothing to change.
+#[test]
+fn viscous_loss_alone_takes_two_sweeps() {
+    let (inertia, k, speed, turned) = (0.02, 1.0, 80.0, 7.9 * TAU);
+    let scene = Scene::new(0.05, 0.2)
+        .crank(Crank {
+            inertia,
+            ..Crank::default()
+        })
+        .torque(Load::Viscous(k * inertia))
+        .start(0.4, speed)
+        .duration(-(-k * turned / speed).ln_1p() / k);
+    let options = Options {
+        method: Method::Angle,
+        estimate: false,
+        ..Options::default()
+    };
+    let evaluations = simulate(&scene, &options).unwrap().summary.evaluations;
+    // Half a turn is a panel with 13 points at least; the forces are evaluated once more after the sweeps.
+    assert!(evaluations <= 3 * 13 * 16, "{evaluations}");
+}
+
 /// A crank alone, braked by viscous torque, passes each dead centre when it has turned by the angle to it, in the first
 /// turns and in those that are mapped; panels do not end there.
 #[test]

@@ -16,6 +16,8 @@ pub(super) struct Station<P> {
     pub side: f64,
     /// 2/M at the points, 1/(kg m²).
     pub mobility: Values,
+    /// Work of the forces of the position alone from the start to the points, J.
+    pub work: Values,
     /// The largest force that has a potential, N m: at balance the others are as large.
     pub largest_force: f64,
     /// Kinetic energy in the last turns.
@@ -112,6 +114,7 @@ impl<P: Copy> Station<P> {
             table: Table::default(),
             side,
             mobility: [0.0; MOST + 1],
+            work: [0.0; MOST + 1],
             largest_force: 0.0,
             past: Past::new(),
             factor: UNKNOWN,
@@ -174,6 +177,11 @@ impl<P: Copy> Station<P> {
         {
             *mobility = 2.0 / inertia;
         }
+        let half = self.half();
+        self.work = self.rule.integrals(&self.force_of_position());
+        for work in &mut self.work[..count] {
+            *work *= half;
+        }
         if known(&self.table.inertia) && known(&self.table.force) && known(&self.table.push) {
             Ok(())
         } else {
@@ -186,17 +194,22 @@ impl<P: Copy> Station<P> {
     fn degree_for(&self, fine: Fineness) -> Option<usize> {
         let kinetic = 0.5 * self.table.inertia[0] * fine.speed * fine.speed;
         let slowness = self.rule.series(&self.table.inertia.map(f64::sqrt));
-        let mut force = self.table.force;
-        for (force, push) in force.iter_mut().zip(&self.table.push) {
-            *force += push;
-        }
-        let force = self.rule.series(&force);
+        let force = self.rule.series(&self.force_of_position());
         let share = (force.largest() * self.half().abs() / kinetic / ADDED_UP).min(1.0);
         let degrees = Rule::DEGREES.into_iter();
         let mut smaller = degrees.take_while(|degree| *degree <= self.rule.degree());
         smaller.find(|degree| {
             slowness.tail_at(*degree) <= fine.tail && force.tail_at(*degree) * share <= fine.tail
         })
+    }
+
+    /// Force of the position alone at the points, N m.
+    fn force_of_position(&self) -> Values {
+        let mut force = self.table.force;
+        for (force, push) in force.iter_mut().zip(&self.table.push) {
+            *force += push;
+        }
+        force
     }
 
     /// Takes the next degree; false if there is none.
