@@ -4,7 +4,7 @@ use super::past::Past;
 use super::{Driven, Table};
 use crate::engine::energy::Unserved;
 use crate::engine::energy::piece::{Piece, Turning};
-use crate::numeric::chebyshev::{MOST, Rule, Values};
+use crate::numeric::chebyshev::{MOST, Rule, Values, largest};
 
 /// A panel with what depends on the position alone: the same in each turn.
 #[derive(Clone)]
@@ -253,6 +253,16 @@ impl<P: Copy> Station<P> {
             let inertia = &self.table.inertia;
             *kinetic = inertia.map(|here| start * (here / inertia[0]));
         }
+    }
+
+    /// Whether it was not solved yet.
+    pub fn is_new(&self) -> bool {
+        self.past.last().is_none()
+    }
+
+    /// Largest work of the forces of the position alone from the start to a point, as a magnitude, J.
+    pub fn largest_work(&self) -> f64 {
+        largest(&self.work[..=self.rule.degree()])
     }
 
     /// Keeps the kinetic energy of this turn for the next.
