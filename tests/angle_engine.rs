@@ -1,6 +1,6 @@
 //! The angle engine against a closed solution and against integration in time.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use proptest::prelude::*;
 use slider_crank::plan::Method;
@@ -51,6 +51,94 @@ fn a_braked_crank_follows_its_closed_solution() {
             );
         }
         assert!(result.summary.energy_residual.abs() < 1e-13);
+    }
+}
+
+/// The root of the kinetic energy of a crank alone, braked by viscous torque, falls linearly with the angle whatever it
+/// is: the first sweep over a panel is right and a second finds nothing to change.
+#[test]
+fn viscous_loss_alone_takes_two_sweeps() {
+    let (inertia, k, speed, turned) = (0.02, 1.0, 80.0, 7.9 * TAU);
+    let scene = Scene::new(0.05, 0.2)
+        .crank(Crank {
+            inertia,
+            ..Crank::default()
+        })
+        .torque(Load::Viscous(k * inertia))
+        .start(0.4, speed)
+        .duration(-(-k * turned / speed).ln_1p() / k);
+    let options = Options {
+        method: Method::Angle,
+        estimate: false,
+        ..Options::default()
+    };
+    let evaluations = simulate(&scene, &options).unwrap().summary.evaluations;
+    // Half a turn is a panel with 13 points at least; the forces are evaluated once more after the sweeps.
+    assert!(evaluations <= 3 * 13 * 16, "{evaluations}");
+}
+
+/// A crank alone, braked by viscous torque, passes each dead centre when it has turned by the angle to it, in the first
+/// turns and in those that are mapped; panels do not end there.
+#[test]
+fn dead_centres_are_passed_at_the_times_of_the_closed_solution() {
+    let (crank, rod, offset): (f64, f64, f64) = (0.05, 0.2, 0.03);
+    let (k, speed, duration) = (0.1, 100.0, 10.0);
+    let turned = speed / k * (1.0 - f64::exp(-k * duration));
+    // Crank and rod are in line, along or against each other.
+    let outer = -(offset / (rod + crank)).asin();
+    let inner = PI - (offset / (rod - crank)).asin();
+    for (start, direction) in [
+        (0.4, 1.0),
+        (0.4, -1.0),
+        (5.9, 1.0),
+        (inner, 1.0),
+        (outer, -1.0),
+    ] {
+        let scene = Scene::new(crank, rod)
+            .offset(offset)
+            .crank(Crank {
+                inertia: 0.02,
+                ..Crank::default()
+            })
+            .torque(Load::Viscous(0.02 * k))
+            .start(start, direction * speed)
+            .duration(duration);
+        let options = Options {
+            method: Method::Angle,
+            ..Options::default()
+        };
+        let summary = simulate(&scene, &options).unwrap().summary;
+        let stated = summary.error_estimate.unwrap().theta_rad;
+        // Two panels for each turn before the map.
+        assert_eq!(summary.steps, 96);
+        let first = [outer, inner].map(|dead_centre| {
+            let ahead = (direction * (dead_centre - start)).rem_euclid(TAU);
+            // The start itself is not passed.
+            if ahead < 1e-12 { ahead + TAU } else { ahead }
+        });
+        let mut ways: Vec<f64> = (0..200)
+            .flat_map(|turn| first.map(|ahead| ahead + TAU * f64::from(turn)))
+            .filter(|way| *way < turned)
+            .collect();
+        ways.sort_by(f64::total_cmp);
+        assert!(ways.len() > 190);
+        assert_eq!(summary.events_total, ways.len() as u64);
+        assert_eq!(summary.events.len(), ways.len());
+        for (event, way) in summary.events.iter().zip(&ways) {
+            assert_eq!(event.kind, "dead-centre");
+            let omega = speed - k * way;
+            let t = (speed / omega).ln() / k;
+            let off = [
+                (event.theta_rad - start - direction * way).abs(),
+                (event.t_s - t).abs() * omega,
+                (event.omega_rad_per_s - direction * omega).abs(),
+            ];
+            let resolved = 0.01 * scene.run.tolerance * omega;
+            assert!(
+                off.iter().all(|off| *off < 2.0 * stated.max(resolved)),
+                "{start} {direction} {way}: {off:?} {stated:e}"
+            );
+        }
     }
 }
 

@@ -40,13 +40,12 @@ pub(super) fn events(task: &Task<'_>, stretch: &Stretch<'_>, kept: usize) -> (Ve
         orbit, begin, end, ..
     } = *stretch;
     let mut once: Vec<(f64, &'static str, Angle, f64)> = Vec::new();
-    for passage in orbit.passages() {
+    let marks = dead_centres(task);
+    for passage in orbit.passages(&marks) {
         let kind = if passage.turning {
             "turning-point"
-        } else if is_dead_centre(task, passage.angle.rest) {
-            "dead-centre"
         } else {
-            continue;
+            "dead-centre"
         };
         once.push((passage.t, kind, passage.angle, passage.speed));
     }
@@ -91,8 +90,14 @@ pub(super) fn events(task: &Task<'_>, stretch: &Stretch<'_>, kept: usize) -> (Ve
             break;
         }
     }
-    let later = later_events(task, stretch, kept, &mut events);
+    let later = later_events(&marks, stretch, kept, &mut events);
     (events, total as u64 + later)
+}
+
+/// Crank angles of the dead centres, in [0, 2π).
+fn dead_centres(task: &Task<'_>) -> Vec<f64> {
+    let dead_centres = task.limits.dead_centres.iter();
+    dead_centres.map(|dead_centre| dead_centre.theta).collect()
 }
 
 /// Whether a crank angle, rad, is that of a dead centre.
@@ -105,7 +110,7 @@ pub(super) fn is_dead_centre(task: &Task<'_>, theta: f64) -> bool {
 
 /// Adds the dead centres of the turns after the first ones, and says how many there are.
 fn later_events(
-    task: &Task<'_>,
+    dead_centres: &[f64],
     stretch: &Stretch<'_>,
     kept: usize,
     events: &mut Vec<Event>,
@@ -115,11 +120,11 @@ fn later_events(
     let Some(first) = orbit.later_from() else {
         return 0;
     };
-    orbit.later_passages(|passage| {
+    orbit.later_passages(dead_centres, |passage| {
         if stretch.is_over(passage.t) {
             return false;
         }
-        if is_dead_centre(task, passage.angle.rest) && events.len() < kept {
+        if events.len() < kept {
             events.push(Event {
                 kind: "dead-centre",
                 t_s: stretch.begin + passage.t,
@@ -136,8 +141,7 @@ fn later_events(
         let until = |way: f64| ((way - ahead) / TAU + 1e-12).floor();
         (until(last) - until(first)).max(0.0) as u64
     };
-    let all = task.limits.dead_centres.iter().map(|dc| dc.theta);
-    all.map(|theta| passes(&theta)).sum()
+    dead_centres.iter().map(passes).sum()
 }
 
 /// Rows of a stretch, but not that of its end; `next` is the index of the next row at a time.

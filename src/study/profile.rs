@@ -18,7 +18,10 @@ pub(super) struct Position<'a> {
     sliding: Option<&'a Sliding>,
     /// Whole turns of the start, beside all angles: loads over theta need not be the same in each turn.
     turns: f64,
+    /// Dead centres and corners of loads.
     corners: Vec<f64>,
+    /// Corners of loads alone.
+    of_loads: Vec<f64>,
     repeats: bool,
     /// Work of the loads in one turn, J, and its error, if they are the same in each.
     work_of_turn: Option<(f64, f64)>,
@@ -26,24 +29,20 @@ pub(super) struct Position<'a> {
 }
 
 impl<'a> Position<'a> {
-    /// Angles are those beside the whole turns of `start`. Panels end at the dead centres, where the inertia of a
-    /// mechanism without crank inertia has a corner, and at the rows of tables over the crank angle.
+    /// Angles are those beside the whole turns of `start`. Panels end at the rows of tables over the crank angle, and
+    /// may end at the dead centres, where the inertia of a mechanism without crank inertia has a corner.
     pub fn new(equation: &'a Equation, limits: &Limits, start: Angle) -> Position<'a> {
         let loads = equation.loads();
         let dead_centres = limits.dead_centres.iter().map(|dc| dc.theta);
-        let tables = loads
-            .angle_corners()
-            .into_iter()
-            .map(|theta| theta.rem_euclid(TAU));
-        let mut corners: Vec<f64> = dead_centres.chain(tables).collect();
-        corners.sort_by(f64::total_cmp);
-        // A corner that rounding has made two would make a panel without length.
-        corners.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+        let tables = loads.angle_corners().into_iter();
+        let of_loads = in_order(tables.map(|theta| theta.rem_euclid(TAU)));
+        let corners = in_order(dead_centres.chain(of_loads.iter().copied()));
         Position {
             equation,
             sliding: None,
             turns: start.turns,
             corners,
+            of_loads,
             repeats: loads.have_potential() && !loads.turn_the_crank(),
             work_of_turn: None,
             evaluations: Cell::new(0),
@@ -133,6 +132,14 @@ impl<'a> Position<'a> {
     }
 }
 
+/// Angles in rising order; a corner that rounding has made two would make a panel without length.
+fn in_order(angles: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut angles: Vec<f64> = angles.collect();
+    angles.sort_by(f64::total_cmp);
+    angles.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+    angles
+}
+
 /// A position as the loads see it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spot {
@@ -197,6 +204,14 @@ impl Driven for Position<'_> {
     }
 
     fn corners(&self) -> &[f64] {
+        // Friction changes its sign at the dead centres.
+        match self.sliding {
+            Some(_) => &self.corners,
+            None => &self.of_loads,
+        }
+    }
+
+    fn corners_if_light(&self) -> &[f64] {
         &self.corners
     }
 }

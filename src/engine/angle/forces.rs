@@ -35,18 +35,17 @@ impl Forces {
         driven: &D,
         station: &Station<D::Place>,
         start: Start,
-        all: &Values,
+        kinetic: &Values,
     ) -> Option<()> {
         let count = station.rule.degree() + 1;
         self.clear_from(count);
-        let (kinetic, mobility) = (&all[..count], &station.mobility[..count]);
+        self.take_speeds(station, start, kinetic);
         let (push, damping) = (
             &station.table.push[..count],
             &station.table.damping[..count],
         );
-        let (speeds, spent) = (&mut self.speeds[..count], &mut self.spent[..count]);
+        let (speeds, spent) = (&self.speeds[..count], &mut self.spent[..count]);
         for j in 0..count {
-            speeds[j] = start.direction * (kinetic[j] * mobility[j]).sqrt();
             spent[j] = push[j] - damping[j] * speeds[j];
         }
         if let Some(switch) = &station.table.switch {
@@ -57,7 +56,7 @@ impl Forces {
         if driven.is_driven() {
             if driven.reads_time() {
                 let mut slopes = [0.0; MOST + 1];
-                fill_slopes(station, all, &mut slopes)?;
+                self.fill_slopes(station, &mut slopes)?;
                 self.times = station.rule.integrals(&slopes);
             }
             for (j, x) in station.rule.points().iter().enumerate() {
@@ -70,6 +69,27 @@ impl Forces {
             total[j] = force[j] + spent[j];
         }
         is_finite(total).then_some(())
+    }
+
+    /// Takes the speeds at the points from the kinetic energy there, J.
+    pub fn take_speeds<P: Copy>(&mut self, station: &Station<P>, start: Start, all: &Values) {
+        let count = station.rule.degree() + 1;
+        let (kinetic, mobility) = (&all[..count], &station.mobility[..count]);
+        let speeds = &mut self.speeds[..count];
+        for j in 0..count {
+            speeds[j] = start.direction * (kinetic[j] * mobility[j]).sqrt();
+        }
+    }
+
+    /// |dt/dx| at the points.
+    pub fn fill_slopes<P: Copy>(&self, station: &Station<P>, slopes: &mut Values) -> Option<()> {
+        let half = station.half();
+        let (filled, rest) = slopes.split_at_mut(station.rule.degree() + 1);
+        rest.fill(0.0);
+        for (slope, speed) in filled.iter_mut().zip(&self.speeds) {
+            *slope = half / speed;
+        }
+        is_finite(filled).then_some(())
     }
 
     /// What is beyond the points is zero.
@@ -121,23 +141,6 @@ impl Forces {
         }
         rates
     }
-}
-
-/// |dt/dx| at the points.
-pub(super) fn fill_slopes<P: Copy>(
-    station: &Station<P>,
-    kinetic: &Values,
-    slopes: &mut Values,
-) -> Option<()> {
-    let half = station.half().abs();
-    let count = station.rule.degree() + 1;
-    let (kinetic, mobility) = (&kinetic[..count], &station.mobility[..count]);
-    let (filled, rest) = slopes.split_at_mut(count);
-    rest.fill(0.0);
-    for j in 0..count {
-        filled[j] = half / (kinetic[j] * mobility[j]).sqrt();
-    }
-    is_finite(filled).then_some(())
 }
 
 /// Whether all values are: one that is not makes their sum so.

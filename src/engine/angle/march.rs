@@ -1,8 +1,9 @@
 //! Panel after panel, turn after turn.
 
-use super::station::{Fineness, Station, stations};
+use super::station::{Fineness, Station};
 use super::sweep::{Start, Swept, sweep};
 use super::switch::{Side, side};
+use super::turn::stations;
 use super::{Driven, Resolution};
 use crate::engine::energy::Unserved;
 use crate::engine::energy::panel::Panel;
@@ -136,6 +137,12 @@ impl<'a, D: Driven> March<'a, D> {
     /// Largest kinetic energy at the ends of panels so far, J.
     pub fn fastest(&self) -> f64 {
         self.fastest
+    }
+
+    /// Least kinetic energy at the points of the last panel, J.
+    pub fn least(&self) -> f64 {
+        let points = &self.swept.kinetic[..=self.swept.slope.degree()];
+        points.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
     /// Whether the next panel begins a turn.

@@ -22,6 +22,7 @@ mod station;
 mod steady;
 mod sweep;
 mod switch;
+mod turn;
 
 use std::f64::consts::TAU;
 
@@ -56,6 +57,10 @@ pub trait Driven {
 
     /// Angles in [0, 2π), in rising order, at which panels end.
     fn corners(&self) -> &[f64];
+
+    /// Those and others, at which they end too where the inertia nearly vanishes there: longer ones would not be
+    /// resolved.
+    fn corners_if_light(&self) -> &[f64];
 }
 
 /// What depends on the angle alone, at some angles.

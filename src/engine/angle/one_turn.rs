@@ -82,14 +82,14 @@ impl<'a, D: Driven> Turns<'a, D> {
         self.whole_turn(kinetic).map(|_| self.march.gain)
     }
 
-    /// The panels of a turn, and the least energy at their ends, J.
+    /// The panels of a turn, and the least energy at their points, J.
     fn whole_turn(&mut self, kinetic: f64) -> Result<(Leg, f64), Unserved> {
         let mut leg = Leg::open();
         let mut least = kinetic;
         self.march.restart(kinetic);
         loop {
             leg.push(self.march.panel()?.panel);
-            least = least.min(self.march.kinetic);
+            least = least.min(self.march.least());
             if self.march.at_turn() {
                 return Ok((leg, least));
             }

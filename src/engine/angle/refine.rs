@@ -13,9 +13,12 @@ const SHORT: f64 = 1e-3;
 /// followed to where it does: towards there each panel is a fraction of the one before, and a step in time passes.
 const STOPS: f64 = 0.1;
 const SOON: f64 = 0.25;
+/// Work of the position below this part of the kinetic energy is not the reason that a panel is too long: it will be in
+/// the next turn too.
+const LITTLE: f64 = 0.1;
 
 impl<D: Driven> March<'_, D> {
-    /// Raises the degree of the next panel, or cuts it: for this turn, and for all if it happens again.
+    /// Raises the degree of the next panel, or cuts it: for this turn, and for all if it happens again or will.
     pub(super) fn refine(&mut self, why: Unsolved) -> Result<(), Unserved> {
         self.refined = true;
         let fastest = self.fastest();
@@ -48,7 +51,9 @@ impl<D: Driven> March<'_, D> {
         if for_now {
             self.parts.pop();
             self.parts.extend([second, first]);
-        } else if station.failed {
+        } else if station.failed
+            || station.is_new() && half > SOON && station.largest_work() < LITTLE * self.kinetic
+        {
             self.stations.splice(self.next..=self.next, [first, second]);
         } else {
             station.failed = true;

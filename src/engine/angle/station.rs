@@ -1,12 +1,10 @@
-//! The panels of one turn and what is known on them.
-
-use std::f64::consts::{PI, TAU};
+//! A panel of a turn and what is known on it.
 
 use super::past::Past;
 use super::{Driven, Table};
 use crate::engine::energy::Unserved;
 use crate::engine::energy::piece::{Piece, Turning};
-use crate::numeric::chebyshev::{MOST, Rule, Values};
+use crate::numeric::chebyshev::{MOST, Rule, Values, largest};
 
 /// A panel with what depends on the position alone: the same in each turn.
 #[derive(Clone)]
@@ -18,6 +16,8 @@ pub(super) struct Station<P> {
     pub side: f64,
     /// 2/M at the points, 1/(kg m²).
     pub mobility: Values,
+    /// Work of the forces of the position alone from the start to the points, J.
+    pub work: Values,
     /// The largest force that has a potential, N m: at balance the others are as large.
     pub largest_force: f64,
     /// Kinetic energy in the last turns.
@@ -51,58 +51,70 @@ pub(super) struct Fineness {
 
 /// Panels are not cut below this, rad.
 const SHORTEST: f64 = 1e-9;
-/// Panels are not longer at first, rad.
-const LONGEST: f64 = PI + 1e-9;
 /// What a sweep is taken to leave before it is known.
 const UNKNOWN: f64 = 0.3;
 /// What the forces leave out adds up over the turns: it is to be less by this.
 const ADDED_UP: f64 = 0.1;
 /// Degree of the series that are tried first.
-const FIRST_DEGREE: usize = 24;
+pub(super) const FIRST_DEGREE: usize = 24;
 
 impl<P: Copy> Station<P> {
     /// The panel from one angle to another; its degree is the least that resolves inertia and forces, after one
     /// that is tried first.
     pub fn new<D: Driven<Place = P>>(
         driven: &D,
-        [from, to]: [f64; 2],
+        ends: [f64; 2],
         side: f64,
         fine: Fineness,
         first: usize,
     ) -> Result<Station<P>, Unserved> {
-        let piece = Piece {
-            from,
-            to,
-            turning: Turning::Nowhere,
-        };
-        let mut station = Station::empty(piece, Rule::of(first), side);
+        let mut station = Station::empty(ends, Rule::of(first), side);
         station.tabulate(driven)?;
-        loop {
-            let enough = station.degree_for(fine);
-            let tried = station.rule.degree();
-            let degree = enough.unwrap_or(if tried < FIRST_DEGREE {
-                FIRST_DEGREE
-            } else {
-                MOST
-            });
-            if degree != tried {
-                station.rule = Rule::of(degree);
-                station.tabulate(driven)?;
-            }
-            if enough.is_some() || degree == MOST {
-                break;
-            }
-        }
+        station.resolve(driven, fine, MOST)?;
         Ok(station)
     }
 
-    fn empty(piece: Piece, rule: &'static Rule, side: f64) -> Station<P> {
+    /// Takes the least degree that resolves inertia and forces, or `most`; whether it does resolve them.
+    pub fn resolve<D: Driven<Place = P>>(
+        &mut self,
+        driven: &D,
+        fine: Fineness,
+        most: usize,
+    ) -> Result<bool, Unserved> {
+        loop {
+            let enough = self.degree_for(fine);
+            let tried = self.rule.degree();
+            if enough.is_none() && tried >= most {
+                return Ok(false);
+            }
+            let next = if tried < FIRST_DEGREE {
+                FIRST_DEGREE
+            } else {
+                most
+            };
+            let degree = enough.unwrap_or(next);
+            if degree != tried {
+                self.rule = Rule::of(degree);
+                self.tabulate(driven)?;
+            }
+            if enough.is_some() {
+                return Ok(true);
+            }
+        }
+    }
+
+    pub fn empty([from, to]: [f64; 2], rule: &'static Rule, side: f64) -> Station<P> {
         Station {
-            piece,
+            piece: Piece {
+                from,
+                to,
+                turning: Turning::Nowhere,
+            },
             rule,
             table: Table::default(),
             side,
             mobility: [0.0; MOST + 1],
+            work: [0.0; MOST + 1],
             largest_force: 0.0,
             past: Past::new(),
             factor: UNKNOWN,
@@ -122,11 +134,11 @@ impl<P: Copy> Station<P> {
         known: Option<&Rest>,
         fine: Fineness,
     ) -> Result<Station<P>, Unserved> {
-        let piece = Piece { from, ..self.piece };
+        let ends = [from, self.piece.to];
         let mut station = match known {
-            None => Station::new(driven, [from, piece.to], -self.side, fine, FIRST_DEGREE)?,
+            None => Station::new(driven, ends, -self.side, fine, FIRST_DEGREE)?,
             Some(known) => {
-                let mut station = Station::empty(piece, known.rule, -self.side);
+                let mut station = Station::empty(ends, known.rule, -self.side);
                 station.past.remember(&known.kinetic);
                 station.tabulate(driven)?;
                 station
@@ -149,7 +161,7 @@ impl<P: Copy> Station<P> {
         self.tabulate(driven)
     }
 
-    fn tabulate<D: Driven<Place = P>>(&mut self, driven: &D) -> Result<(), Unserved> {
+    pub fn tabulate<D: Driven<Place = P>>(&mut self, driven: &D) -> Result<(), Unserved> {
         let piece = self.piece;
         let angles = self.rule.values(|x| piece.angle(x));
         let count = self.rule.degree() + 1;
@@ -165,6 +177,11 @@ impl<P: Copy> Station<P> {
         {
             *mobility = 2.0 / inertia;
         }
+        let half = self.half();
+        self.work = self.rule.integrals(&self.force_of_position());
+        for work in &mut self.work[..count] {
+            *work *= half;
+        }
         if known(&self.table.inertia) && known(&self.table.force) && known(&self.table.push) {
             Ok(())
         } else {
@@ -172,22 +189,27 @@ impl<P: Copy> Station<P> {
         }
     }
 
-    /// The least degree at which the series of the inertia, and of what the forces do to the kinetic energy, have
-    /// decayed; none if this one is not enough.
+    /// The least degree at which the series of the speed by a kinetic energy that is the same everywhere, and of what
+    /// the forces do to it, have decayed; none if this one is not enough.
     fn degree_for(&self, fine: Fineness) -> Option<usize> {
         let kinetic = 0.5 * self.table.inertia[0] * fine.speed * fine.speed;
-        let inertia = self.rule.series(&self.table.inertia);
-        let mut force = self.table.force;
-        for (force, push) in force.iter_mut().zip(&self.table.push) {
-            *force += push;
-        }
-        let force = self.rule.series(&force);
+        let slowness = self.rule.series(&self.table.inertia.map(f64::sqrt));
+        let force = self.rule.series(&self.force_of_position());
         let share = (force.largest() * self.half().abs() / kinetic / ADDED_UP).min(1.0);
         let degrees = Rule::DEGREES.into_iter();
         let mut smaller = degrees.take_while(|degree| *degree <= self.rule.degree());
         smaller.find(|degree| {
-            inertia.tail_at(*degree) <= fine.tail && force.tail_at(*degree) * share <= fine.tail
+            slowness.tail_at(*degree) <= fine.tail && force.tail_at(*degree) * share <= fine.tail
         })
+    }
+
+    /// Force of the position alone at the points, N m.
+    fn force_of_position(&self) -> Values {
+        let mut force = self.table.force;
+        for (force, push) in force.iter_mut().zip(&self.table.push) {
+            *force += push;
+        }
+        force
     }
 
     /// Takes the next degree; false if there is none.
@@ -233,45 +255,18 @@ impl<P: Copy> Station<P> {
         }
     }
 
+    /// Whether it was not solved yet.
+    pub fn is_new(&self) -> bool {
+        self.past.last().is_none()
+    }
+
+    /// Largest work of the forces of the position alone from the start to a point, as a magnitude, J.
+    pub fn largest_work(&self) -> f64 {
+        largest(&self.work[..=self.rule.degree()])
+    }
+
     /// Keeps the kinetic energy of this turn for the next.
     pub fn remember(&mut self, kinetic: &Values) {
         self.past.remember(kinetic);
     }
-}
-
-/// Panels of one turn between the corners.
-pub(super) fn stations<D: Driven>(
-    driven: &D,
-    start: f64,
-    fine: Fineness,
-) -> Result<Vec<Station<D::Place>>, Unserved> {
-    let direction = fine.speed.signum();
-    let mut ends: Vec<f64> = driven
-        .corners()
-        .iter()
-        .map(|corner| (direction * (corner - start)).rem_euclid(TAU))
-        .filter(|ahead| *ahead > 1e-9 && *ahead < TAU - 1e-9)
-        .collect();
-    ends.sort_by(f64::total_cmp);
-    ends.push(TAU);
-    let mut from = 0.0;
-    let mut list: Vec<Station<D::Place>> = Vec::with_capacity(8);
-    for to in ends {
-        let parts = ((to - from) / LONGEST).ceil();
-        let begin = from;
-        for part in 1..=parts as u32 {
-            let share = f64::from(part) / parts;
-            let until = if share < 1.0 {
-                begin + share * (to - begin)
-            } else {
-                to
-            };
-            let ends = [from, until].map(|ahead| start + direction * ahead);
-            // Neighbours are alike.
-            let degree = list.last().map_or(FIRST_DEGREE, |last| last.rule.degree());
-            list.push(Station::new(driven, ends, 1.0, fine, degree)?);
-            from = until;
-        }
-    }
-    Ok(list)
 }

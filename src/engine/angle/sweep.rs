@@ -1,7 +1,7 @@
 //! The collocation on one panel: K' = F(θ) + L(θ, ω, t), t' = 1/ω at the points of the panel.
 
 use super::Driven;
-use super::forces::{Forces, fill_slopes};
+use super::forces::Forces;
 use super::newton::correction;
 use super::station::Station;
 use crate::numeric::chebyshev::{MOST, Series, Values, largest};
@@ -64,8 +64,10 @@ const MOST_SWEEPS: u32 = 40;
 const SLOW: f64 = 0.3;
 /// Sweeps end where what they leave is this part of the tail: it adds up over the turns.
 const SETTLED: f64 = 1e-3;
+/// The same if the forces are evaluated once more, which is another sweep for the energy that is gained.
+const SETTLED_BEFORE_LAST: f64 = 1e-2;
 /// Least factor that a sweep is taken to leave.
-const LEAST_FACTOR: f64 = 1e-2;
+const LEAST_FACTOR: f64 = 1e-3;
 /// The last terms of a series of speeds by what it leaves out, where it decays slowly.
 const REMAINDER: f64 = 0.25;
 /// What is left of a relative change at rounding.
@@ -88,14 +90,26 @@ pub(super) fn sweep<D: Driven>(
     tail: f64,
     swept: &mut Swept,
 ) -> Result<(), Unsolved> {
-    let reads_time = driven.is_driven() && driven.reads_time();
+    // Evaluations of other loads than those of the table take more than the sweeps that they spare.
+    let is_driven = driven.is_driven();
+    let settled = if is_driven {
+        SETTLED
+    } else {
+        SETTLED_BEFORE_LAST
+    };
+    let reads_time = is_driven && driven.reads_time();
     station.guess(start.kinetic, reads_time, &mut swept.kinetic);
     swept.evaluations = 0;
     let mut newton = false;
     let mut before = f64::INFINITY;
     for _ in 0..MOST_SWEEPS {
         swept.evaluate(driven, station, start)?;
-        let mut change = swept.change(station, start);
+        let root = if newton || is_driven {
+            None
+        } else {
+            swept.change_by_root(station, start)
+        };
+        let mut change = root.unwrap_or_else(|| swept.change(station, start));
         if newton {
             let rates = swept.forces.rates(driven, station, start);
             correction(station.rule, station.half(), &rates, &mut change)
@@ -115,7 +129,12 @@ pub(super) fn sweep<D: Driven>(
                 swept.evaluate(driven, station, start)?;
                 return swept.finish(station, start, tail);
             }
-        } else if largest * factor.max(LEAST_FACTOR) <= SETTLED * tail || at_rounding {
+        } else if largest * factor.max(LEAST_FACTOR) <= settled * tail || at_rounding {
+            if is_driven {
+                swept.forces.take_speeds(station, start, &swept.kinetic);
+            } else {
+                swept.evaluate(driven, station, start)?;
+            }
             swept.finish(station, start, tail)?;
             // The last point is the same, rounded once more; under steep loads the gain would be worse.
             swept.end = start.kinetic + swept.gain;
@@ -182,7 +201,30 @@ impl Swept {
         change
     }
 
-    /// Checks that the series are resolved.
+    /// The same by way of w, where w² is the kinetic energy less the work of the position: w' = L/2w, which hardly
+    /// depends on w if the other forces L are viscous. None where the work is not the smaller part: then it would
+    /// gain less.
+    fn change_by_root<P: Copy>(&self, station: &Station<P>, start: Start) -> Option<Values> {
+        let count = station.rule.degree() + 1;
+        let (kinetic, work) = (&self.kinetic[..count], &station.work[..count]);
+        let (spent, push) = (&self.forces.spent[..count], &station.table.push[..count]);
+        let mut slopes = [0.0; MOST + 1];
+        for j in 0..count {
+            slopes[j] = 0.5 * (spent[j] - push[j]) / (kinetic[j] - work[j]).sqrt();
+        }
+        let half = station.half();
+        let at_start = start.kinetic.sqrt();
+        let mut change = station.rule.integrals(&slopes);
+        let mut serves = true;
+        for j in 0..count {
+            let root = at_start + half * change[j];
+            serves &= root > 0.0 && root * root > work[j];
+            change[j] = (root * root + work[j]) - kinetic[j];
+        }
+        serves.then_some(change)
+    }
+
+    /// Checks that the series are resolved, at the speeds of the last evaluation.
     fn finish<P: Copy>(
         &mut self,
         station: &Station<P>,
@@ -190,7 +232,8 @@ impl Swept {
         tail: f64,
     ) -> Result<(), Unsolved> {
         let (rule, half) = (station.rule, station.half());
-        fill_slopes(station, &self.kinetic, &mut self.slopes).ok_or(Unsolved::TooLong)?;
+        let known = self.forces.fill_slopes(station, &mut self.slopes);
+        known.ok_or(Unsolved::TooLong)?;
         self.slope = rule.series(&self.slopes);
         let noise = 8.0 * f64::EPSILON * (1.0 + station.piece.from.abs() / half.abs());
         let wanted = (REMAINDER * tail).max(tail.min(ROUNDING));

@@ -98,16 +98,17 @@ impl Leg {
         (Angle { turns, rest }, speed)
     }
 
-    /// Times at which the ends of panels are reached, with their angles and speeds.
-    pub fn ends(&self) -> impl DoubleEndedIterator<Item = (f64, Angle, f64)> + '_ {
-        let pairs = self.panels.iter().zip(&self.begins);
-        pairs.map(|(panel, begin)| {
-            let angle = Angle {
-                turns: panel.turns,
-                rest: panel.piece.to,
-            };
-            (begin + panel.duration.0, angle, panel.speed(1.0))
-        })
+    /// Calls for each panel with the time at which it begins, s, until it says that it is enough; whether it never
+    /// did.
+    pub fn each_panel(&self, mut visit: impl FnMut(&Panel, f64) -> bool) -> bool {
+        let mut pairs = self.panels.iter().zip(&self.begins);
+        pairs.all(|(panel, begin)| visit(panel, *begin))
+    }
+
+    /// Where and when (s) it turns back, if it does.
+    pub fn turning_point(&self) -> Option<(Angle, f64)> {
+        let end = self.last_angle(0.0)?;
+        (self.after == After::TurnsBack).then_some((end, self.duration.0))
     }
 
     /// The angle at its end, for a start with these whole turns; none without panels.

@@ -192,7 +192,7 @@ impl Panel {
                 low = x;
             }
             let newton = x - excess / self.slope.value(x);
-            let next = if newton > low && newton < high {
+            let next = if newton >= low && newton <= high {
                 newton
             } else {
                 0.5 * (low + high)
@@ -213,7 +213,13 @@ impl Panel {
 
     /// Time after the start at which an angle of the panel is reached.
     pub fn time_of(&self, theta: f64) -> f64 {
-        self.slope.integral().value(self.piece.variable(theta))
+        self.at(theta).0
+    }
+
+    /// That time, and the speed there.
+    pub(super) fn at(&self, theta: f64) -> (f64, f64) {
+        let x = self.piece.variable(theta);
+        (self.slope.integral().value(x), self.speed(x))
     }
 }
 

@@ -11,7 +11,7 @@ use crate::scene::Extent;
 
 /// With less than this part of the largest kinetic energy since it turned the crank is not handed over.
 const FAST: f64 = 0.25;
-/// A hand-over keeps this far from the ends of panels, rad: they may be events.
+/// A hand-over keeps this far from corners, rad: they may be events.
 const APART: f64 = 1e-6;
 /// Fewer turns than this before the end do not pay.
 const FEW_TURNS: f64 = 2.0;
@@ -56,7 +56,7 @@ impl<'a> Clear<'a> {
     }
 
     fn is_apart(&self, angle: Angle) -> bool {
-        let corners = self.course.position.corners().iter();
+        let corners = self.course.position.corners_if_light().iter();
         corners
             .map(|corner| (angle.rest - corner).rem_euclid(TAU))
             .all(|ahead| ahead.min(TAU - ahead) > APART)

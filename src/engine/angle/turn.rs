@@ -1,0 +1,71 @@
+//! The panels of one turn.
+
+use std::f64::consts::{PI, TAU};
+
+use super::Driven;
+use super::station::{FIRST_DEGREE, Fineness, Station};
+use crate::engine::energy::Unserved;
+use crate::numeric::chebyshev::{MOST, Rule};
+
+/// Panels are not longer at first, rad.
+const LONGEST: f64 = PI + 1e-9;
+
+/// Panels of one turn between the corners.
+pub(super) fn stations<D: Driven>(
+    driven: &D,
+    start: f64,
+    fine: Fineness,
+) -> Result<Vec<Station<D::Place>>, Unserved> {
+    let (few, all) = (driven.corners(), driven.corners_if_light());
+    if few.len() < all.len() {
+        // Beyond this degree more panels are no more work.
+        let heavy = between(driven, few, start, fine, FIRST_DEGREE)?;
+        if let Some(list) = heavy {
+            return Ok(list);
+        }
+    }
+    Ok(between(driven, all, start, fine, MOST)?.unwrap_or_default())
+}
+
+/// Panels between some corners; none if one of them is not resolved up to the degree `most`.
+fn between<D: Driven>(
+    driven: &D,
+    corners: &[f64],
+    start: f64,
+    fine: Fineness,
+    most: usize,
+) -> Result<Option<Vec<Station<D::Place>>>, Unserved> {
+    let direction = fine.speed.signum();
+    let mut ends: Vec<f64> = corners
+        .iter()
+        .map(|corner| (direction * (corner - start)).rem_euclid(TAU))
+        .filter(|ahead| *ahead > 1e-9 && *ahead < TAU - 1e-9)
+        .collect();
+    ends.sort_by(f64::total_cmp);
+    ends.push(TAU);
+    let mut from = 0.0;
+    let mut list: Vec<Station<D::Place>> = Vec::with_capacity(8);
+    for to in ends {
+        let parts = ((to - from) / LONGEST).ceil();
+        let begin = from;
+        for part in 1..=parts as u32 {
+            let share = f64::from(part) / parts;
+            let until = if share < 1.0 {
+                begin + share * (to - begin)
+            } else {
+                to
+            };
+            let ends = [from, until].map(|ahead| start + direction * ahead);
+            // Neighbours are alike.
+            let degree = list.last().map_or(FIRST_DEGREE, |last| last.rule.degree());
+            let mut station = Station::empty(ends, Rule::of(degree), 1.0);
+            station.tabulate(driven)?;
+            if !station.resolve(driven, fine, most)? && most < MOST {
+                return Ok(None);
+            }
+            list.push(station);
+            from = until;
+        }
+    }
+    Ok(Some(list))
+}
