@@ -1,20 +1,16 @@
 //! Error estimates against true errors, and engines against each other, over random scenes.
-//!
-//! The truth is the reference of the comparison of methods: collocation in double-double arithmetic of equations
-//! written apart from those of the engines. Where that is not sharp (loads that are not smooth where the crank
-//! turns back), it is another method at a tight tolerance.
+
+mod support;
 
 use std::f64::consts::TAU;
-use std::thread;
 
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{RngSeed, TestRunner};
-use slider_crank::plan::Method;
 use slider_crank::scene::{
-    Branch, Crank, Expression, Extent, Gravity, InertiaAbout, Load, Rod, Scene, Slider,
+    Branch, Crank, Expression, Gravity, InertiaAbout, Load, Rod, Scene, Slider,
 };
-use slider_crank::study::{Options, PrecisionOptions, PrecisionRow, precision, simulate};
+use support::judged::{Judged, estimates};
 
 const SCENES: usize = 520;
 
@@ -134,169 +130,6 @@ fn cases(seed: u64, count: usize) -> Vec<(Scene, [f64; 2])> {
     (0..count)
         .map(|_| case.new_tree(&mut runner).unwrap().current())
         .collect()
-}
-
-/// An error of angle or speed, as it is and as it was stated.
-#[derive(Clone, Debug)]
-#[allow(dead_code, reason = "shown by failures")]
-struct Judged {
-    scene: usize,
-    method: String,
-    tolerance: f64,
-    what: &'static str,
-    /// Distance from the truth.
-    distance: f64,
-    /// Error of what is taken for the truth.
-    unsure: f64,
-    stated: f64,
-    floor: f64,
-}
-
-impl Judged {
-    /// Whether the truth is a hundred times better than the error, or both are near the floor.
-    fn is_sharp(&self) -> bool {
-        100.0 * self.unsure <= self.distance || self.distance + self.unsure <= 8.0 * self.floor
-    }
-
-    /// True error over stated error.
-    fn below(&self) -> f64 {
-        (self.distance - self.unsure).max(0.0) / self.stated
-    }
-
-    /// Stated error over true error, or over the floor.
-    fn above(&self) -> f64 {
-        self.stated / (self.distance + self.unsure).max(self.floor)
-    }
-}
-
-/// Relative changes of a scene's numbers from which slopes are taken.
-const CHANGE: f64 = 1e-8;
-
-/// Angle and speed at the end.
-fn end(scene: &Scene, tolerance: f64, method: Method) -> [f64; 2] {
-    let options = Options {
-        method,
-        estimate: false,
-        ..Options::default()
-    };
-    let run = simulate(&scene.clone().tolerance(tolerance), &options).unwrap();
-    let last = run.summary.last;
-    assert!(run.summary.stopped.is_none(), "{:?}", run.summary.stopped);
-    [last.theta_rad, last.omega_rad_per_s]
-}
-
-/// Smaller errors are not judged from above, for the motion itself is not known better: what half a unit in the last
-/// place of the scene's own lengths, start and duration, which are decimals rounded to floats, changes at the end, and
-/// half a unit of the result. An error below it is so by chance.
-fn floors(scene: &Scene) -> [f64; 2] {
-    const UNITS: f64 = 0.5;
-    let base = end(scene, TIGHT, Method::Auto);
-    let changed = |change: fn(&mut Scene)| {
-        let mut scene = scene.clone();
-        change(&mut scene);
-        let there = end(&scene, TIGHT, Method::Auto);
-        [0, 1].map(|k| (there[k] - base[k]).abs() / CHANGE)
-    };
-    let slopes = [
-        changed(|scene| scene.geometry.crank *= 1.0 + CHANGE),
-        changed(|scene| scene.geometry.rod *= 1.0 + CHANGE),
-        changed(|scene| scene.motion.speed *= 1.0 + CHANGE),
-        changed(|scene| scene.motion.angle += TAU * CHANGE),
-        changed(|scene| {
-            if let Some(Extent::Duration(duration)) = &mut scene.run.extent {
-                *duration *= 1.0 + CHANGE;
-            }
-        }),
-    ];
-    let sum = |k: usize| slopes.iter().map(|slope| slope[k]).sum::<f64>();
-    [0, 1].map(|k| UNITS * f64::EPSILON * (sum(k) + base[k].abs()))
-}
-
-/// The tolerance of runs that others are measured against.
-const TIGHT: f64 = 1e-13;
-
-/// Distance from a run by a method that has nothing in common with the one under test, and how far the two such
-/// methods are from each other.
-fn by_another(scene: &Scene, row: &PrecisionRow) -> [(f64, f64); 2] {
-    let method: Method = row.method.parse().unwrap();
-    let ends = [Method::Time, Method::Dop853].map(|other| end(scene, TIGHT, other));
-    let library = matches!(method, Method::Dop853 | Method::Dopri5);
-    let truth = ends[usize::from(!library)];
-    let found = end(scene, row.tolerance, method);
-    [0, 1].map(|k| {
-        let unsure = 2.0 * (ends[0][k] - ends[1][k]).abs();
-        ((found[k] - truth[k]).abs(), unsure)
-    })
-}
-
-fn judge(index: usize, scene: &Scene, tolerances: &[f64]) -> Vec<Judged> {
-    let options = PrecisionOptions {
-        tolerances: tolerances.to_vec(),
-        repeats: 1,
-        most_s: 0.0,
-        ..PrecisionOptions::default()
-    };
-    let result = precision(scene, &options).unwrap();
-    let floors = floors(scene);
-    let unsure = [
-        result.reference_error_theta_rad.unwrap(),
-        result.reference_error_omega_rad_per_s.unwrap(),
-    ];
-    let mut judged = Vec::new();
-    for row in result.rows {
-        if let Some(why) = &row.failure {
-            // Only the angle may not serve as independent variable.
-            assert!(
-                row.method == "angle" && why.contains("near to rest"),
-                "{index} {}: {why}",
-                row.method
-            );
-            continue;
-        }
-        let errors = [row.error_theta_rad, row.error_omega_rad_per_s].map(Option::unwrap);
-        let stated = [row.estimate_theta_rad, row.estimate_omega_rad_per_s].map(Option::unwrap);
-        let both = [0, 1].map(|k| {
-            // An error that is a bound is a distance with the reference's own error added.
-            let without = errors[k] - unsure[k];
-            let bound = row.error_is_bound && 100.0 * unsure[k] > without;
-            Judged {
-                scene: index,
-                method: row.method.clone(),
-                tolerance: row.tolerance,
-                what: ["theta", "omega"][k],
-                distance: if bound { without } else { errors[k] },
-                unsure: unsure[k],
-                stated: stated[k],
-                floor: floors[k],
-            }
-        });
-        let mut others = None;
-        for (k, mut one) in both.into_iter().enumerate() {
-            if !one.is_sharp() {
-                let others = others.get_or_insert_with(|| by_another(scene, &row));
-                (one.distance, one.unsure) = others[k];
-            }
-            judged.push(one);
-        }
-    }
-    judged
-}
-
-/// All estimates of the scenes, on all processors.
-fn estimates(cases: &[(Scene, [f64; 2])]) -> Vec<Judged> {
-    let threads = thread::available_parallelism().map_or(2, usize::from);
-    let every = |k: usize| {
-        let mine = cases.iter().enumerate().skip(k).step_by(threads);
-        let judged = mine.flat_map(|(i, (scene, tolerances))| judge(i, scene, tolerances));
-        judged.collect::<Vec<_>>()
-    };
-    thread::scope(|scope| {
-        let workers: Vec<_> = (0..threads)
-            .map(|k| scope.spawn(move || every(k)))
-            .collect();
-        let results = workers.into_iter().map(|worker| worker.join().unwrap());
-        results.flatten().collect()
-    })
 }
 
 fn quantile(mut values: Vec<f64>, part: f64) -> f64 {

@@ -51,6 +51,9 @@ enum Inside {
 /// term has no acceleration there.
 const INNER: [f64; 3] = [0.25, 0.5, 0.75];
 
+/// On a shorter way than this part of the angle its ends differ by rounding alone.
+const SHORTEST: f64 = 64.0 * f64::EPSILON;
+
 impl Step {
     /// The step between two states.
     pub fn new(turns: f64, start: Node, end: Node) -> Step {
@@ -189,7 +192,13 @@ impl Step {
         let (a, b) = (&self.start, &self.end);
         let (v0, v1) = (h * a.omega, h * b.omega);
         let (c0, c1) = (0.5 * h * h * a.alpha, 0.5 * h * h * b.alpha);
-        let rise = b.theta - a.theta - v0 - c0;
+        let travel = if v0.abs().max(v1.abs()) > SHORTEST * a.theta.abs() {
+            b.theta - a.theta
+        } else {
+            // The angles say nothing about so short a way.
+            0.5 * (v0 + v1) + (c0 - c1) / 6.0
+        };
+        let rise = travel - v0 - c0;
         let slope = v1 - v0 - 2.0 * c0;
         let bend = 2.0 * (c1 - c0);
         let k3 = 10.0 * rise - 4.0 * slope + 0.5 * bend;

@@ -22,6 +22,7 @@ mod obstacle;
 mod positions;
 mod reactions;
 mod rocker;
+mod rounding;
 mod sensitivity;
 mod sizing;
 mod solid;

@@ -19,7 +19,7 @@ const CUT: f64 = 0.03;
 const LEAST_TAIL: f64 = 4e-15;
 
 /// Relative error of times by rounding.
-pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
+pub(super) const ROUNDING: f64 = 2.5 * f64::EPSILON;
 /// What is stated is larger than the distance of two runs by this.
 pub(super) const MARGIN: f64 = 1.5;
 
@@ -115,7 +115,7 @@ pub(super) fn finer() -> Resolution {
 fn distance(task: &Task<'_>, driving: &Driving, better: &Driving) -> ErrorEstimate {
     let end = driving.end;
     let (a, b) = (driving.orbit.state(end), better.orbit.state(end));
-    let floor = late_by(task, a, end, ROUNDING * end);
+    let floor = late_by(task, a, end, driving.errors.late + ROUNDING * end);
     ErrorEstimate {
         theta_rad: MARGIN * a.0.minus(b.0).abs() + floor.theta_rad,
         omega_rad_per_s: MARGIN * (a.1 - b.1).abs() + floor.omega_rad_per_s,

@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use super::spread::{Slopes, Spread};
 use super::summary::{Cost, ErrorEstimate};
 use crate::engine::step::Step;
 use crate::engine::time::{self, Finish, Settings, Start};
@@ -64,8 +65,14 @@ const TIGHTER: f64 = 50.0;
 const MARGIN: f64 = 1.5;
 /// Standard deviation of one rounding, in units of the last place.
 const ONE_ROUNDING: f64 = 0.3;
+/// Next to a balance the angle is the same float for a while, on the way of so many units in its last place; what
+/// several steps round in the same way adds up to this many times as much.
+const SAME: f64 = 32.0;
+const ALIKE: f64 = 2.0;
 /// The same of a step's mean acceleration: of a few units in each evaluation, averaged over the step.
 const EVALUATION: f64 = 1.0;
+/// An acceleration that is smaller than what this angle (rad) changes in it may be a difference of larger ones.
+const BALANCED: f64 = 0.1;
 /// What is stated of rounding, in standard deviations.
 const DEVIATIONS: f64 = 1.5;
 /// Where rounding inside a step takes over.
@@ -78,19 +85,15 @@ const MOST_EVALUATIONS: (u64, u64) = (20, 20_000);
 pub(super) struct Ended<'a> {
     /// Its last step.
     pub last: &'a Step,
-    /// Number of its steps.
-    pub steps: u64,
     /// Evaluations it took.
     pub evaluations: u64,
-    /// The largest speed in it, rad/s.
-    pub largest_speed: f64,
 }
 
 /// Global error of a run: its distance from a much better one, and what rounding may have added to both.
 ///
 /// Rounding: each step rounds θ and θ̇ to half a unit in the last place, independently of the others, and a
-/// rounded angle changes the acceleration; an error of the speed grows to one of the angle over the rest of
-/// the run. Independent errors add up by their squares.
+/// rounded angle changes the acceleration. These errors are carried to the end along the linearised motion, for
+/// near a balance they grow with it; independent ones add up by their squares.
 pub(super) fn estimate(
     equation: &Equation,
     start: Start,
@@ -99,7 +102,6 @@ pub(super) fn estimate(
 ) -> Option<(ErrorEstimate, Cost)> {
     let begun = Instant::now();
     let forward = Forward(equation);
-    let motion = Counted::new(&forward);
     let t_end = run.last.end.t;
     let (factor, beside) = MOST_EVALUATIONS;
     let collocation = Settings {
@@ -118,13 +120,20 @@ pub(super) fn estimate(
         max_evaluations: settings.max_evaluations.saturating_mul(4),
         ..*settings
     };
-    let better =
-        Better::run(&motion, start, &collocation).or_else(|| Better::run(&motion, start, &same))?;
+    let mut evaluations = 0;
+    let mut better = |settings: &Settings| {
+        // Counted anew: what the other one took leaves its limit as it is.
+        let motion = Counted::new(&forward);
+        let better = Better::run(equation, &motion, start, settings);
+        evaluations += motion.evaluations();
+        better
+    };
+    let better = better(&collocation).or_else(|| better(&same))?;
     let cost = Cost {
-        evaluations: motion.evaluations(),
+        evaluations,
         wall_s: begun.elapsed().as_secs_f64(),
     };
-    Some((better.distance(start, run), cost))
+    Some((better.distance(run), cost))
 }
 
 /// Tolerance of a run in time that is so much tighter that its own error does not count.
@@ -132,65 +141,93 @@ pub(super) fn tighter(tolerance: f64) -> f64 {
     (tolerance / MUCH_TIGHTER).max(TIGHTEST)
 }
 
-/// Square of what rounding does to the speed in a step, in units of the last place.
-pub(super) fn unevenness(step: &Step) -> f64 {
-    let travel = step.end.theta - step.start.theta;
-    if travel == 0.0 || !step.end.alpha.is_finite() {
-        return 0.0;
+/// What rounding does to a run in time.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rounding {
+    /// In units of the last place.
+    pub spread: Spread,
+    /// Whether the states at the ends of steps are rounded: collocation carries the digits below the last place.
+    rounds_states: bool,
+}
+
+impl Rounding {
+    /// Of a run by a method. Tolerances are absolute for angles below one radian: less than a unit in the last place of
+    /// one is not resolved at the start, however small the angle.
+    pub fn new(method: time::Method) -> Rounding {
+        Rounding {
+            spread: Spread::default().plus(ONE_ROUNDING, 0.0),
+            rounds_states: !matches!(method, time::Method::Picard),
+        }
     }
-    let slope = (step.end.alpha - step.start.alpha) / travel;
-    let angle = ONE_ROUNDING * step.end.theta.abs() * slope;
-    let evaluation = EVALUATION * step.end.alpha;
-    (angle * angle + evaluation * evaluation) * step.length().powi(2)
+
+    /// The state at the end of a step is rounded.
+    pub fn round(&mut self, theta: f64, omega: f64) {
+        let [angle, speed] = [theta, omega].map(|size| ONE_ROUNDING * size.abs());
+        self.spread = self.spread.plus(angle, speed);
+    }
+
+    /// Carries it over a step, and adds what that rounds.
+    pub fn step(&mut self, equation: &Equation, motion: &dyn Motion, step: &Step) {
+        let slopes = Slopes::of(motion, step);
+        let transition = slopes.transition(step);
+        let (h, end) = (step.length(), &step.end);
+        let travel = (end.theta - step.start.theta).abs();
+        let same = travel < SAME * f64::EPSILON * end.theta.abs();
+        let alike = if same { ALIKE } else { 1.0 };
+        let place = alike * ONE_ROUNDING * end.theta.abs() * slopes.by_angle;
+        let mut size = end.alpha.abs();
+        if size < BALANCED * slopes.by_angle.abs() {
+            let angle = step.angle(end.theta);
+            let inertia = equation.terms(end.theta).inertia.m;
+            size = size.max(ALIKE * equation.size_of_terms(end.t, angle, end.omega) / inertia);
+        }
+        let shaken = place.hypot(EVALUATION * size);
+        let carried = self.spread.carried(&transition);
+        self.spread = carried.pushed(shaken, &transition, h);
+        if self.rounds_states {
+            self.round(end.theta, end.omega);
+        }
+    }
+
+    /// What is stated of it, rad and rad/s. What it does to the run that is judged is seen in the distance of the two.
+    pub fn stated(&self) -> [f64; 2] {
+        [self.spread.angle, self.spread.speed]
+            .map(|variance| DEVIATIONS * f64::EPSILON * variance.sqrt())
+    }
 }
 
 /// The run that another is compared with.
 struct Better {
     last: Step,
-    steps: u64,
-    /// Sum of squares of what rounding does to the speed in its steps, in units of the last place.
-    unevenness: f64,
+    rounding: Rounding,
 }
 
 impl Better {
-    fn run(motion: &Counted<'_>, start: Start, settings: &Settings) -> Option<Better> {
-        let mut unevenness = 0.0;
-        let (finish, last, steps) = time::run(motion, start, settings, &mut |step| {
-            unevenness += self::unevenness(step);
+    fn run(
+        equation: &Equation,
+        motion: &Counted<'_>,
+        start: Start,
+        settings: &Settings,
+    ) -> Option<Better> {
+        let mut rounding = Rounding::new(settings.method);
+        let (finish, last, _) = time::run(motion, start, settings, &mut |step| {
+            rounding.step(equation, motion, step);
             false
         });
-        (finish == Finish::AtEnd).then_some(Better {
-            last,
-            steps,
-            unevenness,
-        })
+        (finish == Finish::AtEnd).then_some(Better { last, rounding })
     }
 
-    fn distance(&self, start: Start, run: Ended<'_>) -> ErrorEstimate {
+    fn distance(&self, run: Ended<'_>) -> ErrorEstimate {
         let (best, last) = (&self.last, run.last);
         let whole = last.angle(last.end.theta);
         let angle = best.angle(best.end.theta).minus(whole).abs();
         let speed = (best.end.omega - last.end.omega).abs();
-        let roundings = ((run.steps + self.steps) as f64).sqrt();
-        // The acceleration is evaluated at rounded angles; fewer, longer steps average less.
-        let fewer = self.steps as f64 / run.steps.max(1) as f64;
-        let shaken = (self.unevenness * fewer.max(1.0)).sqrt();
-        let one = DEVIATIONS * f64::EPSILON;
-        let speed_noise = one * (ONE_ROUNDING * run.largest_speed * roundings).hypot(shaken);
-        let duration = last.end.t - start.t;
-        let in_steps = one * ONE_ROUNDING * (last.end.theta.abs() + 1.0) * roundings;
-        // Errors of the speed that are made evenly over the run.
-        let grown = speed_noise * duration / 3f64.sqrt();
-        let angle_noise = in_steps.hypot(grown) + f64::EPSILON * whole.radians().abs();
-        // An angle that is off while the crank is fast is a delay.
-        let delayed = if run.largest_speed == 0.0 {
-            0.0
-        } else {
-            (last.end.alpha / run.largest_speed * angle_noise).abs()
-        };
+        let [angle_noise, speed_noise] = self.rounding.stated();
         ErrorEstimate {
-            theta_rad: MARGIN * angle + angle_noise,
-            omega_rad_per_s: MARGIN * speed + speed_noise + delayed,
+            theta_rad: MARGIN * angle + angle_noise + f64::EPSILON * whole.radians().abs(),
+            omega_rad_per_s: MARGIN * speed
+                + speed_noise
+                + 0.5 * f64::EPSILON * last.end.omega.abs(),
         }
     }
 }

@@ -74,9 +74,7 @@ pub(super) fn run(
     let estimate = if task.options.estimate && stopped.is_none() {
         let run = forward::Ended {
             last: &last,
-            steps,
             evaluations,
-            largest_speed,
         };
         forward::estimate(equation, start, &settings, run)
     } else {

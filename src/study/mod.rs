@@ -26,6 +26,7 @@ mod row;
 mod schedule;
 mod simulate;
 mod sliding;
+mod spread;
 mod statics;
 mod steady;
 mod stopped;

@@ -163,7 +163,8 @@ fn write_rows(
 }
 
 /// Error of a state if its time may be off by `late` (s): it moves the state along the motion. The angle in its
-/// turn is right to two units of one radian, and rounded once more with its turns.
+/// turn is right to two units of one radian, and rounded once more with its turns. The speed comes from series of 33
+/// terms, whose sum is rounded by half of √33 units. These errors are independent.
 pub(super) fn late_by(
     task: &Task<'_>,
     (angle, omega): (Angle, f64),
@@ -173,8 +174,8 @@ pub(super) fn late_by(
     let (alpha, _) = task.maker.forward(end, angle, omega);
     let rounding = f64::EPSILON * (2.0 + 0.5 * angle.radians().abs());
     ErrorEstimate {
-        theta_rad: omega.abs() * late + rounding,
-        omega_rad_per_s: alpha.abs() * late + 2.0 * f64::EPSILON * omega.abs(),
+        theta_rad: (omega * late).hypot(rounding),
+        omega_rad_per_s: (alpha * late).hypot(3.0 * f64::EPSILON * omega),
     }
 }
 

@@ -238,6 +238,12 @@ impl Profile for Position<'_> {
         }
     }
 
+    fn rounding(&self, theta: f64) -> f64 {
+        self.count(1);
+        let size = self.equation.size_of_terms(0.0, self.angle(theta), 0.0);
+        0.5 * f64::EPSILON * size
+    }
+
     fn corners(&self) -> &[f64] {
         &self.corners
     }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::march::March;
-use super::{Done, Driven, Driving, Goal, Resolution, Short, work_until};
+use super::{Done, Driven, Driving, Errors, Goal, Resolution, Short, work_until};
 use crate::engine::energy::leg::Leg;
 use crate::engine::energy::turns::{Cell, Mark, Turn, Turns};
 use crate::engine::energy::{Orbit, Unserved};
@@ -42,6 +42,7 @@ pub(super) fn run<D: Driven>(
         work: march.work,
         low: [0.0; 2],
     };
+    let (errors, first) = (march.errors, march.t.0);
     let mut way = Way {
         tail: resolution.tail,
         width: WIDEST,
@@ -89,6 +90,12 @@ pub(super) fn run<D: Driven>(
         orbit,
         end,
         work,
+        // As in the first turns.
+        errors: Errors {
+            late: errors.late * end / first,
+            early: errors.early * end / first,
+            ..errors
+        },
         evaluations,
         short,
     })

@@ -1,5 +1,6 @@
 //! Panel after panel, turn after turn.
 
+use super::errors::{Errors, uncertain};
 use super::station::{Fineness, Station};
 use super::sweep::{Start, Swept, sweep};
 use super::switch::{Side, side};
@@ -32,6 +33,8 @@ pub(super) struct March<'a, D: Driven> {
     pub kinetic: f64,
     /// What its rounding left out, J.
     kinetic_low: f64,
+    /// What rounding does to it.
+    pub errors: Errors,
     /// Whole turns since the start, with sign.
     pub turns: f64,
     /// Kinetic energy gained, J.
@@ -98,6 +101,7 @@ impl<'a, D: Driven> March<'a, D> {
             t: (0.0, 0.0),
             kinetic,
             kinetic_low: 0.0,
+            errors: Errors::at(kinetic),
             turns: 0.0,
             gain: 0.0,
             work: 0.0,
@@ -117,6 +121,7 @@ impl<'a, D: Driven> March<'a, D> {
         self.t = (0.0, 0.0);
         self.kinetic = kinetic;
         self.kinetic_low = 0.0;
+        self.errors = Errors::at(kinetic);
         self.fastest = kinetic;
         self.turns = 0.0;
         self.gain = 0.0;
@@ -205,7 +210,8 @@ impl<'a, D: Driven> March<'a, D> {
     /// Takes a panel over a piece of the next station, and what is left of it for this turn.
     fn pass(&mut self, piece: Piece, rest: Option<Station<D::Place>>) -> Done {
         let swept = &self.swept;
-        let rule = self.parts.last().unwrap_or(&self.stations[self.next]).rule;
+        let station = self.parts.last().unwrap_or(&self.stations[self.next]);
+        let rule = station.rule;
         let work = 0.5 * (piece.to - piece.from) * rule.rounded_integral(swept.spent());
         // Under steep loads the end is not the start and the gain.
         let summed = swept.end == self.kinetic + swept.gain;
@@ -218,9 +224,17 @@ impl<'a, D: Driven> March<'a, D> {
         self.fastest = self.fastest.max(self.kinetic);
         self.work += work;
         self.evaluations += swept.evaluations;
+        let kept = (0.5 * work.min(0.0) / self.kinetic).exp();
+        let count = rule.degree() + 1;
+        let misplaced = [&station.table.force, &station.table.push]
+            .map(|forces| uncertain(&piece, &forces[..count]));
+        let noise = f64::EPSILON * (swept.gain.abs() + misplaced[0] + misplaced[1]);
+        let (early, most) = swept.early(rule);
         let (slopes, slope) = (&swept.slopes, swept.slope);
         let mut panel = Panel::from_slopes(piece, rule, slopes, slope, 0.0, self.kinetic);
         panel.turns = self.turns;
+        let duration = panel.duration.0;
+        self.errors.pass(kept, noise, early, duration, most);
         let (sum, lost) = two_sum(self.t.0, panel.duration.0);
         self.t = two_sum(sum, lost + self.t.1 + panel.duration.1);
         self.parts.pop();

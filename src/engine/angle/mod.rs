@@ -10,6 +10,7 @@
 //! The forces may have two forms, one on each side of a zero of a function of the state, the switch. A panel ends
 //! there, and what is left of it is solved with the other form.
 
+mod errors;
 mod forces;
 mod map;
 mod march;
@@ -31,6 +32,7 @@ use super::energy::{Orbit, Unserved};
 use super::time::Start;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MOST, Values};
+pub use errors::Errors;
 use march::{Done, March};
 pub use one_turn::{Cycle, one_turn};
 pub use steady::{NoCycle, steady};
@@ -135,6 +137,8 @@ pub struct Driving {
     pub end: f64,
     /// Work of the loads without a potential until its end, J.
     pub work: f64,
+    /// What rounding does to it.
+    pub errors: Errors,
     /// How often the loads were evaluated.
     pub evaluations: u64,
     /// What kept it from its goal.
@@ -207,6 +211,7 @@ pub fn run<D: Driven>(
                     end: leg.duration.0,
                     orbit: Orbit::one_way(start, speed, leg),
                     work: march.work,
+                    errors: march.errors,
                     evaluations: march.evaluations,
                 });
             }
@@ -228,6 +233,7 @@ pub fn run<D: Driven>(
                 orbit,
                 end,
                 work,
+                errors: march.errors,
                 evaluations: march.evaluations,
                 short: None,
             });

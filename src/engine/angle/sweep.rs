@@ -4,7 +4,7 @@ use super::Driven;
 use super::forces::Forces;
 use super::newton::correction;
 use super::station::Station;
-use crate::numeric::chebyshev::{MOST, Series, Values, largest};
+use crate::numeric::chebyshev::{MOST, Rule, Series, Values, largest};
 
 /// The state at the start of a panel.
 #[derive(Clone, Copy, Debug)]
@@ -179,6 +179,13 @@ fn keep_positive(kinetic: &Values, change: &mut Values) {
 }
 
 impl Swept {
+    /// The integral of dt/2K over the panel, s/J, and the larger kinetic energy of its ends, J.
+    pub fn early(&self, rule: &Rule) -> (f64, f64) {
+        let early: Values = std::array::from_fn(|j| 0.5 * self.slopes[j] / self.kinetic[j]);
+        let most = self.kinetic[0].max(self.kinetic[rule.degree()]);
+        (rule.rounded_integral(&early), most)
+    }
+
     /// The forces at the kinetic energy.
     fn evaluate<D: Driven>(
         &mut self,

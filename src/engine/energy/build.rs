@@ -43,6 +43,8 @@ struct Builder<'a> {
     /// Kinetic energy there, and the largest so far, J.
     kinetic: f64,
     largest: f64,
+    /// How far it may be off beside its own rounding, J.
+    off: f64,
     /// Length of the next panel at most, rad.
     length: f64,
     turns_at: Option<f64>,
@@ -71,6 +73,7 @@ impl Leg {
             at: begin.start,
             kinetic: begin.kinetic,
             largest: begin.kinetic,
+            off: begin.off,
             length: LONGEST,
             turns_at: None,
             turns: 0.0,
@@ -101,7 +104,7 @@ impl Builder<'_> {
         let short = (to - at).abs() <= SHORTEST * at.abs().max(1.0);
         let accepted = if short { f64::INFINITY } else { tolerance };
         match Panel::attempt(self.profile, piece, self.kinetic, accepted, rounding)? {
-            Tried::Done(panel) => self.take(*panel),
+            Tried::Done(panel, off) => self.take(*panel, off),
             Tried::TurnsAt(end) if end != at => {
                 let home = self.home.as_ref();
                 let exact = home.and_then(|again| again.turning_point(at, end));
@@ -149,12 +152,14 @@ impl Builder<'_> {
         {
             self.kinetic = exact;
             let to_go = (self.whole_turn - self.at).abs();
-            return f64::EPSILON * exact * (1.0 + self.at.abs() / to_go);
+            let size = exact.max(self.begin.kinetic);
+            return f64::EPSILON * size * (1.0 + self.at.abs() / to_go);
         }
-        self.begin.off + f64::EPSILON * self.largest
+        self.off + f64::EPSILON * self.largest
     }
 
-    fn take(&mut self, mut panel: Panel) {
+    fn take(&mut self, mut panel: Panel, off: f64) {
+        self.off = self.off.hypot(off);
         let piece = panel.piece;
         self.at = piece.to;
         panel.turns = self.begin.direction * self.turns;
@@ -184,6 +189,7 @@ impl Builder<'_> {
             self.leg.after = After::GoesOn;
         } else {
             self.at = start;
+            self.off = self.begin.off;
             let gain = self.gain.unwrap_or_default();
             self.kinetic = gain.mul_add(self.turns, self.begin.kinetic);
         }

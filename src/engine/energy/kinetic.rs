@@ -1,5 +1,6 @@
 //! The kinetic energy on a piece, from the force.
 
+use super::Unserved;
 use super::panel::Tried;
 use super::piece::{Piece, Turning};
 use crate::numeric::chebyshev::{Rule, Series, Values};
@@ -13,6 +14,22 @@ pub(super) struct Energy<'a> {
     pub kinetic: f64,
     pub rule: &'static Rule,
     pub force: &'a Series,
+}
+
+/// A start whose speed the force makes up in a shorter way than this, rad, is not told from one at rest.
+const LEAST_WAY: f64 = 1e-12;
+
+/// The kinetic energy (J) of a start at an angle (rad) under a force (N m), if a motion can be computed from it.
+pub(super) fn at_start(theta: f64, kinetic: f64, force: f64) -> Result<f64, Unserved> {
+    if !kinetic.is_finite() || !force.is_finite() {
+        Err(Unserved::NotFinite)
+    } else if kinetic == 0.0 && force == 0.0 {
+        Err(Unserved::Equilibrium)
+    } else if kinetic > 0.0 && kinetic < LEAST_WAY * theta.abs().max(1.0) * force.abs() {
+        Err(Unserved::TooSlow)
+    } else {
+        Ok(kinetic)
+    }
 }
 
 impl Energy<'_> {

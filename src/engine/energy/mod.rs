@@ -18,6 +18,7 @@ mod orbit;
 pub(in crate::engine) mod panel;
 mod passages;
 pub(in crate::engine) mod piece;
+mod steep;
 pub(in crate::engine) mod turns;
 
 use crate::numeric::chebyshev::Values;
@@ -33,6 +34,9 @@ pub trait Profile {
 
     /// The same at the first `count` of some angles.
     fn tabulate(&self, angles: &Values, count: usize, inertia: &mut Values, force: &mut Values);
+
+    /// By how much rounding may change the force at an angle beside the rounding of the angle, N m.
+    fn rounding(&self, theta: f64) -> f64;
 
     /// Angles in [0, 2π), in rising order, at which panels must end.
     fn corners(&self) -> &[f64];

@@ -4,11 +4,13 @@ use std::f64::consts::TAU;
 
 use super::build::Begin;
 use super::gains::{Course, Gains};
+use super::kinetic::at_start;
 use super::later::Later;
 use super::leg::{After, Leg};
 use super::turns::Turns;
 use super::{Profile, Unserved};
 use crate::numeric::angle::Angle;
+use crate::numeric::exact::two_sum;
 
 /// Turns that are computed one by one before the others are summed.
 const FIRST_TURNS: f64 = 16.0;
@@ -45,13 +47,7 @@ impl Orbit {
         let start = angle.reduced();
         let theta = start.rest;
         let (inertia, force) = profile.inertia_and_force(theta);
-        let kinetic = 0.5 * inertia * speed * speed;
-        if !kinetic.is_finite() || !force.is_finite() {
-            return Err(Unserved::NotFinite);
-        }
-        if kinetic == 0.0 && force == 0.0 {
-            return Err(Unserved::Equilibrium);
-        }
+        let kinetic = at_start(theta, 0.5 * inertia * speed * speed, force)?;
         let direction = if kinetic == 0.0 {
             force.signum()
         } else {
@@ -125,12 +121,13 @@ impl Orbit {
 
     /// The time after which the motion repeats (after a turn, or to and fro), s; rounded value and rest.
     pub fn period(&self) -> Option<(f64, f64)> {
+        let there = self.forward.duration;
         match (self.forward.after, &self.backward) {
-            (After::Repeats, _) => Some(self.forward.duration),
-            (After::TurnsBack, None) if self.from_rest => Some(twice(self.forward.duration)),
+            (After::Repeats, _) => Some(there),
+            (After::TurnsBack, None) if self.from_rest => Some(twice(there)),
             (After::TurnsBack, Some(back)) if back.after == After::TurnsBack => {
-                let (a, b) = (twice(self.forward.duration), twice(back.duration));
-                let (sum, lost) = crate::numeric::exact::two_sum(a.0, b.0);
+                let (a, b) = (twice(there), twice(back.duration));
+                let (sum, lost) = two_sum(a.0, b.0);
                 Some((sum, lost + a.1 + b.1))
             }
             _ => None,
@@ -272,20 +269,18 @@ impl Orbit {
     pub fn length(&self) -> f64 {
         match self.period() {
             Some(_) => f64::INFINITY,
-            None => self
-                .later
-                .as_ref()
-                .map_or(self.forward.duration.0, |later| later.end()),
+            None => {
+                let later = self.later.as_ref();
+                later.map_or(self.forward.duration.0, |later| later.end())
+            }
         }
     }
 
     /// Largest kinetic energy at the ends of panels, J.
     pub fn largest_kinetic(&self) -> f64 {
         let back = self.backward.as_ref().map_or(0.0, Leg::largest_kinetic);
-        let later = self
-            .later
-            .as_ref()
-            .map_or(0.0, |later| later.largest_kinetic());
+        let later = self.later.as_ref();
+        let later = later.map_or(0.0, |later| later.largest_kinetic());
         self.forward.largest_kinetic().max(back).max(later)
     }
 

@@ -3,11 +3,15 @@
 use super::extreme::{Extreme, extremes};
 use super::kinetic::Energy;
 use super::piece::{Piece, Turning};
+use super::steep::Steep;
 use super::{Profile, Unserved};
 use crate::numeric::chebyshev::{self, Rule, Series, Values};
 
 /// Degree of the series: half a turn of a usual engine is right to rounding.
 pub(super) const DEGREE: usize = chebyshev::MOST;
+
+/// Panels next to a balance are shorter than this, rad.
+const SHORT: f64 = 0.1;
 
 /// A piece with its series.
 #[derive(Clone, Debug)]
@@ -32,8 +36,8 @@ pub(in crate::engine) struct Panel {
 
 /// What is found when a panel is tried.
 pub(in crate::engine) enum Tried {
-    /// The series have converged.
-    Done(Box<Panel>),
+    /// The series have converged; how far the kinetic energy at the end is off because angles are rounded, J.
+    Done(Box<Panel>, f64),
     /// They have not: a shorter one is needed.
     Unresolved,
     /// The kinetic energy vanishes at this angle, before the end.
@@ -93,26 +97,44 @@ impl Panel {
         if tail > accepted {
             return Ok(Tried::Unresolved);
         }
-        let least = match piece.turning {
-            Turning::Nowhere => kinetic.iter().fold(f64::INFINITY, |m, k| m.min(*k)),
-            Turning::AtStart => f64::INFINITY,
-            Turning::AtEnd => energy.kinetic,
+        // Only next to a balance, where panels are short, may forces be small differences of large ones.
+        let near_balance = piece.span().abs() < SHORT;
+        let noise = if near_balance {
+            profile.rounding(piece.from)
+        } else {
+            0.0
         };
-        let left_out = energy.left_out() / least;
-        let shaken = shaken(rounding / least) + left_out + misplaced(&piece, &force);
+        let steep = Steep::of(&piece, &force, noise);
+        let (off, left_out) = (rounding + steep.energy, energy.left_out());
+        let shaken = match piece.turning {
+            Turning::Nowhere => {
+                // dT/dK is the integral of dt/2K.
+                let early: Values = std::array::from_fn(|j| 0.5 * slopes[j] / kinetic[j]);
+                let least = kinetic.iter().fold(f64::INFINITY, |m, k| m.min(*k));
+                off * rule.rounded_integral(&early) / rule.rounded_integral(&slopes)
+                    + left_out / least
+            }
+            Turning::AtStart => steep.at_turn(&piece, f64::INFINITY, off),
+            Turning::AtEnd => {
+                steep.at_turn(&piece, energy.kinetic, off) + left_out / energy.kinetic
+            }
+        };
         let kinetic_at_end = match piece.turning {
             Turning::Nowhere => kinetic[DEGREE],
             Turning::AtStart => 2.0 * piece.span().abs() * energy.mean_force(1.0),
             Turning::AtEnd => 0.0,
         };
-        Ok(Tried::Done(Box::new(Panel::from_slopes(
-            piece,
-            rule,
-            &slopes,
-            slope,
-            shaken,
-            kinetic_at_end,
-        ))))
+        Ok(Tried::Done(
+            Box::new(Panel::from_slopes(
+                piece,
+                rule,
+                &slopes,
+                slope,
+                shaken,
+                kinetic_at_end,
+            )),
+            steep.energy,
+        ))
     }
 
     /// A panel from dt/dx at the points of a rule and its series, the relative error of dt/dx by rounding, and
@@ -221,30 +243,4 @@ impl Panel {
         let x = self.piece.variable(theta);
         (self.slope.integral().value(x), self.speed(x))
     }
-}
-
-/// Relative error of the time if the kinetic energy is off by this part of itself; near an unstable rest, where
-/// that part is large, the place of the turning point is off too.
-fn shaken(part: f64) -> f64 {
-    if part > 100.0 * f64::EPSILON {
-        16.0 * part
-    } else {
-        0.5 * part
-    }
-}
-
-/// Relative error of the time because angles are rounded: near a turning point it is the force that is off,
-/// by more than itself where the crank starts next to an unstable rest.
-fn misplaced(piece: &Piece, force: &Values) -> f64 {
-    let at_turn = match piece.turning {
-        Turning::Nowhere => return 0.0,
-        Turning::AtStart => force[0],
-        Turning::AtEnd => force[DEGREE],
-    };
-    let (low, high) = force.iter().fold((f64::MAX, f64::MIN), |(low, high), f| {
-        (low.min(*f), high.max(*f))
-    });
-    let steepness = (high - low) / piece.span().abs();
-    let rounding = 0.5 * f64::EPSILON * piece.from.abs().max(piece.to.abs());
-    0.25 * (rounding * steepness / at_turn.abs()).min(2.0)
 }

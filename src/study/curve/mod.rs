@@ -16,6 +16,7 @@ use std::time::Instant;
 
 pub(super) use arrived::{Arrived, End, Follow, Observer};
 use estimate::estimate;
+pub(super) use noise::Noise;
 pub(super) use phase::Phase;
 pub(super) use watch::CurveWatch;
 use words::warnings;

@@ -49,8 +49,6 @@ pub(super) struct Arrived {
     pub work: f64,
     /// Largest kinetic energy at the ends of panels and steps, J.
     pub largest_kinetic: f64,
-    /// What a rounding of the largest kinetic energy over the angle makes of the speed where it is handed over, rad/s.
-    pub speed_noise: f64,
     pub evaluations: u64,
     pub steps: u64,
     /// Pieces over the angle, and in time.
@@ -74,7 +72,6 @@ impl Arrived {
             last: None,
             work: 0.0,
             largest_kinetic: 0.0,
-            speed_noise: 0.0,
             evaluations: 0,
             steps: 0,
             over_angle: 0,

@@ -168,9 +168,7 @@ impl Pass<'_, '_> {
             angle,
             speed,
         };
-        if let Some(short) = short {
-            let shaken = 0.5 * f64::EPSILON * largest / short.kinetic * speed.abs();
-            arrived.speed_noise = arrived.speed_noise.max(shaken);
+        if short.is_some() {
             let way = angle.minus(begin.angle).abs();
             let soon = way < 2.0 * self.wait;
             self.wait = if soon {

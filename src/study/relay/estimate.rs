@@ -6,16 +6,17 @@ use std::time::Instant;
 use super::arrived::{Arrived, End, Observer};
 use super::course::Course;
 use crate::engine::Counted;
-use crate::engine::angle::Driving;
+use crate::engine::angle::{Driving, Errors};
 use crate::engine::step::Step;
 use crate::engine::time::{Settings, Start};
 use crate::error::Error;
-use crate::numeric::angle::Angle;
+use crate::mechanism::Equation;
 use crate::scene::Extent;
 use crate::study::by_angle::{MARGIN, ROUNDING, finer};
-use crate::study::curve;
-use crate::study::forward::{tighter, unevenness};
+use crate::study::curve::{self, Noise};
+use crate::study::forward::{Forward, Rounding, tighter};
 use crate::study::over_angle::late_by;
+use crate::study::spread::{Spread, Transition};
 use crate::study::summary::{Cost, ErrorEstimate};
 use crate::study::task::Task;
 
@@ -24,70 +25,108 @@ const OTHER_WAIT: f64 = 1.4 * TAU;
 /// Evaluations of the second run for one of the first, and beside them.
 const MOST_EVALUATIONS: (u64, u64) = (20, 200_000);
 
-/// Adds up what rounding does in the pieces in time.
-#[derive(Default)]
-struct Shaken {
-    unevenness: f64,
-    largest_speed: f64,
-    steps: u64,
-    /// When the first piece in time begins, s.
-    since: Option<f64>,
-    /// The way since then, rad, and the largest speed on it, rad/s.
-    way: f64,
-    fastest: f64,
+/// What is stated of rounding with friction, in standard deviations.
+const RUBBING_DEVIATIONS: f64 = 2.0;
+
+/// Less of an error of the energy than this is forgotten.
+const FORGOTTEN: f64 = 0.1;
+
+/// Carries what rounding does from piece to piece.
+struct Shaken<'a> {
+    equation: &'a Equation,
+    motion: &'a Counted<'a>,
+    /// Of pieces over the angle, and in time without friction.
+    rounding: Rounding,
+    /// Of all, if there is friction.
+    rubbing: Option<Noise<'a>>,
 }
 
-impl Shaken {
-    fn pass(&mut self, way: f64, speed: f64) {
-        if self.since.is_some() {
-            self.way += way.abs();
-            self.fastest = self.fastest.max(speed.abs());
+impl Shaken<'_> {
+    /// Angle error and speed error, in rad and rad/s.
+    fn noise(&self) -> [f64; 2] {
+        match &self.rubbing {
+            Some(noise) => [noise.spread.angle, noise.spread.speed]
+                .map(|variance| RUBBING_DEVIATIONS * f64::EPSILON * variance.sqrt()),
+            None => self.rounding.stated(),
         }
     }
 
-    /// How long an error of the speed goes on to move the angle, s: a loss that brings the crank to rest ends it.
-    fn lasting(&self, end: f64) -> f64 {
-        let remaining = end - self.since.unwrap_or(end);
-        remaining.min(2.0 * self.way / self.fastest.max(f64::MIN_POSITIVE))
+    /// What becomes of a perturbation over a piece over the angle: it is early by a time, which stays, and has another
+    /// energy, which makes it early, too.
+    fn transition(&self, [from, to]: [&Start; 2], errors: &Errors) -> Transition {
+        let [inertia, then] = [from, to].map(|at| self.inertia(at));
+        let [alpha, after] = [from, to].map(|at| self.acceleration(at));
+        let energy = [-inertia * alpha, inertia * from.speed];
+        // A piece that loses nearly all of its energy forgets what it had.
+        let by_energy = if errors.kept < FORGOTTEN {
+            0.0
+        } else {
+            errors.early
+        };
+        let early = [
+            1.0 / from.speed + by_energy * energy[0],
+            by_energy * energy[1],
+        ];
+        let angle = early.map(|early| to.speed * early);
+        let speed = [0, 1].map(|k| (errors.kept * energy[k] / then + after * angle[k]) / to.speed);
+        [angle, speed]
+    }
+
+    fn inertia(&self, at: &Start) -> f64 {
+        self.equation.terms(at.angle.rest).inertia.m
+    }
+
+    fn acceleration(&self, at: &Start) -> f64 {
+        self.equation.acceleration(at.t, at.angle, at.speed)
     }
 }
 
-impl Observer for Shaken {
-    fn over_angle(&mut self, from: Start, _: f64, driving: Driving) -> Result<(), Error> {
+impl Observer for Shaken<'_> {
+    fn over_angle(&mut self, from: Start, until: f64, driving: Driving) -> Result<(), Error> {
         let (angle, speed) = driving.orbit.state(driving.end);
-        self.pass(angle.minus(from.angle), speed.abs().max(from.speed.abs()));
+        let to = Start {
+            t: until,
+            angle,
+            speed,
+        };
+        let errors = &driving.errors;
+        let transition = self.transition([&from, &to], errors);
+        // By its own rounding.
+        let [late, off] = [errors.late, errors.off].map(|error| error / f64::EPSILON);
+        let angle = speed * late;
+        let faster = off / (self.inertia(&to) * speed);
+        let along = [angle, self.acceleration(&to) * late];
+        let carried = |spread: Spread| {
+            spread
+                .carried(&transition)
+                .along(along[0], along[1])
+                .plus(0.0, faster)
+        };
+        self.rounding.spread = carried(self.rounding.spread);
+        if let Some(noise) = &mut self.rubbing {
+            noise.spread = carried(noise.spread);
+        }
         Ok(())
     }
 
     fn begin_in_time(&mut self, from: Start) {
-        self.since.get_or_insert(from.t);
+        self.rounding.round(from.angle.rest, from.speed);
     }
 
     fn step(&mut self, step: &Step) -> bool {
-        self.steps += 1;
-        self.unevenness += unevenness(step);
-        let speed = step.start.omega.abs().max(step.end.omega.abs());
-        self.pass(step.end.theta - step.start.theta, speed);
-        self.largest_speed = self.largest_speed.max(speed);
+        self.rounding.step(self.equation, self.motion, step);
         false
     }
 
     fn with_friction(&mut self, run: &mut dyn FnMut(&mut dyn curve::Observer)) {
-        run(self);
+        if let Some(noise) = &mut self.rubbing {
+            run(noise);
+        }
     }
 
     fn end_in_time(&mut self, _: &Counted<'_>, _: &Step, _: &Settings) -> Option<Step> {
         None
     }
-}
-
-impl curve::Observer for Shaken {
-    fn step(&mut self, step: &Step, _: curve::Phase) -> bool {
-        self.since.get_or_insert(step.start.t);
-        Observer::step(self, step)
-    }
-
-    fn event(&mut self, _: &'static str, _: f64, _: Angle, _: f64) {}
 }
 
 /// Global error of the last state: its distance from that of a much finer run with other pieces, and what rounding
@@ -115,26 +154,30 @@ pub(super) fn estimate(
             .saturating_add(beside),
         ..*course
     };
-    let mut shaken = Shaken::default();
+    let forward = Forward(course.equation);
+    let motion = Counted::new(&forward);
+    let sliding = course.sliding;
+    let mut shaken = Shaken {
+        equation: course.equation,
+        motion: &motion,
+        rounding: Rounding::new(finer.settings.method),
+        rubbing: sliding.map(|sliding| Noise::new(sliding.equation())),
+    };
     let best = finer.run(None, &mut shaken).ok()?;
     if best.end != End::AtGoal {
         return None;
     }
     let floor = late_by(task, (end.angle, end.speed), end.t, ROUNDING * end.t);
-    let noise = f64::EPSILON
-        * (0.5 * shaken.largest_speed * (2.0 * shaken.steps as f64).sqrt()
-            + shaken.unevenness.sqrt())
-        + best.speed_noise;
+    let [angle_noise, speed_noise] = shaken.noise();
     let estimate = ErrorEstimate {
-        theta_rad: MARGIN * end.angle.minus(best.now.angle).abs()
-            + floor.theta_rad
-            + noise * shaken.lasting(end.t),
+        theta_rad: MARGIN * end.angle.minus(best.now.angle).abs() + floor.theta_rad + angle_noise,
         omega_rad_per_s: MARGIN * (end.speed - best.now.speed).abs()
             + floor.omega_rad_per_s
-            + noise,
+            + speed_noise,
     };
+    let for_slopes = shaken.rubbing.map_or(0, |noise| noise.evaluations.get());
     let cost = Cost {
-        evaluations: best.evaluations,
+        evaluations: best.evaluations + motion.evaluations() + for_slopes,
         wall_s: begun.elapsed().as_secs_f64(),
     };
     Some((estimate, cost))

@@ -1,0 +1,38 @@
+//! What rounding does to the forces: near a balance they are small differences of large terms.
+
+use super::Equation;
+use crate::numeric::angle::Angle;
+use crate::scene::Instant;
+
+/// Relative change of the slider's position from which the slope of the loads is taken.
+const CHANGE: f64 = 1e-6;
+
+impl Equation {
+    /// Size of the terms whose sum is M θ̈, N m, at time t (s), crank angle and speed (rad/s): half a unit in the last
+    /// place of it is what rounding may do to the sum. A load counts with what a change of the slider's position by
+    /// itself would change in it, and its lever x' = −r (sin θ + cos θ tan φ) with both of its parts.
+    pub fn size_of_terms(&self, t: f64, theta: impl Into<Angle>, omega: f64) -> f64 {
+        let theta = theta.into();
+        let terms = self.terms(theta.rest);
+        let pose = &terms.pose;
+        let now = Instant {
+            t,
+            theta: theta.radians(),
+            omega,
+            x: pose.x,
+            v: pose.dx * omega,
+        };
+        let place = pose.x.abs() + self.linkage().r;
+        let moved = Instant {
+            x: pose.x + CHANGE * place,
+            ..now
+        };
+        let [here, there] = [now, moved].map(|now| self.loads().at(&now));
+        let changed = |here: f64, there: f64| here.abs() + (there - here).abs() / CHANGE;
+        let lever = pose.dx.abs();
+        let parts = self.linkage().r * (pose.cos * pose.sin_phi / pose.cos_phi).abs();
+        let force = changed(here.force, there.force) * lever + here.force.abs() * parts;
+        let inertia = (terms.inertia.half_dm * omega * omega).abs();
+        force + changed(here.torque, there.torque) + terms.dv.abs() + inertia
+    }
+}
