@@ -14,8 +14,13 @@ use crate::engine::step::Step;
 /// it would be no small part.
 const CHANGE: f64 = 1e-4;
 const LATER: f64 = 1e-2;
-/// On a way this short, rad, the slopes are taken as constant.
+/// On a way this short, rad, the slopes are taken as constant if the motion is not onwards...
 const SHORT: f64 = 1e-3;
+/// ... and on one this short always: angle and speed are rounded.
+const SHORTEST: f64 = 1e-11;
+
+/// A motion is onwards where its least speed in a step is this part of the largest.
+const EVEN: f64 = 0.5;
 
 /// Where the time changes the motion by more than this part of it in a step, the one a little later is another one.
 const PUSHED: f64 = 0.3;
@@ -77,7 +82,7 @@ impl Spread {
     }
 }
 
-/// Slopes of the acceleration in the middle of a step.
+/// Slopes of the acceleration in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Slopes {
     /// 1/s²
@@ -89,7 +94,8 @@ pub(super) struct Slopes {
 }
 
 impl Slopes {
-    /// Of the motion in a step: two evaluations, one more if it depends on time, and one if the step has no polynomial.
+    /// Of the motion in a step. How the acceleration changes over the step tells its mean slope by the angle, also where
+    /// that is steep in a small part of the step; only next to a turning point it is taken from one place.
     pub fn of(motion: &dyn Motion, step: &Step) -> Slopes {
         let h = step.length();
         let t = step.start.t + 0.5 * h;
@@ -107,9 +113,22 @@ impl Slopes {
         } else {
             0.0
         };
+        let by_speed = (at(t, theta, speed + faster) - here) / faster;
+        let (start, end) = (&step.start, &step.end);
+        let mean_speed = (end.theta - start.theta) / h;
+        let mean_acceleration = (end.omega - start.omega) / h;
+        let change = (end.alpha - start.alpha) / h;
+        let along = (change - by_speed * mean_acceleration - by_time) / mean_speed;
+        let onwards = start.omega.min(end.omega) > 0.0 || start.omega.max(end.omega) < 0.0;
+        let tells = onwards && (mean_speed * h).abs() >= SHORTEST && along.is_finite();
+        let by_angle = if tells {
+            along
+        } else {
+            (at(t, theta + CHANGE, speed) - here) / CHANGE
+        };
         Slopes {
-            by_angle: (at(t, theta + CHANGE, speed) - here) / CHANGE,
-            by_speed: (at(t, theta, speed + faster) - here) / faster,
+            by_angle,
+            by_speed,
             by_time,
         }
     }
@@ -118,20 +137,48 @@ impl Slopes {
     pub fn transition(&self, step: &Step) -> Transition {
         let h = step.length();
         let frozen = exponential(self.by_angle, self.by_speed, h);
-        if (step.end.theta - step.start.theta).abs() < SHORT {
-            return frozen;
-        }
+        let travel = (step.end.theta - step.start.theta).abs();
         let along = [step.start.omega, step.start.alpha];
         // What the time changes in the forces moves the motion a little later in another way.
         let pushed = [0.5 * h * h * self.by_time, h * self.by_time];
         let then = [step.end.omega - pushed[0], step.end.alpha - pushed[1]];
         let size = |[angle, speed]: [f64; 2]| angle.hypot(h * speed);
-        if size(pushed) > PUSHED * size(along) {
+        if travel < SHORTEST || size(pushed) > PUSHED * size(along) {
             return frozen;
         }
-        let found = self.with_motion(&frozen, along, then, h);
+        let found = match self.onwards(step, then) {
+            Some(found) => found,
+            None if travel < SHORT => frozen,
+            None => self.with_motion(&frozen, along, then, h),
+        };
         let finite = found.iter().flatten().all(|entry| entry.is_finite());
         if finite { found } else { frozen }
+    }
+
+    /// The transition of a motion onwards. A motion that is faster at the start by one comes to the same angle faster by
+    /// θ̇₀ exp(∫ b dt)/θ̇, and so much earlier that the time gained is the integral of that over θ̇: no slope by the
+    /// angle is in it, which next to a limit may be steep in a small part of the step. None where the speed changes a lot.
+    fn onwards(&self, step: &Step, then: [f64; 2]) -> Option<Transition> {
+        let (start, h) = (&step.start, step.length());
+        let (_, middle) = step.at(step.start.t + 0.5 * h);
+        let speeds =
+            [start.omega, middle, step.end.omega].map(|omega| omega * start.omega.signum());
+        let least = speeds.iter().fold(f64::INFINITY, |a, b| a.min(*b));
+        let most = speeds.iter().fold(0.0f64, |a, b| a.max(*b));
+        if least < EVEN * most || then[0] == 0.0 {
+            return None;
+        }
+        let left = |part: f64| (part * self.by_speed * h).exp();
+        let [first, second, third] = speeds.map(|speed| speeds[0] / (speed * speed));
+        let gained = h / 6.0 * (first + 4.0 * left(0.5) * second + left(1.0) * third);
+        let gained = gained * start.omega.signum();
+        let faster = [
+            gained * then[0],
+            gained * then[1] + left(1.0) * start.omega / then[0],
+        ];
+        Some(std::array::from_fn(|i| {
+            [(then[i] - start.alpha * faster[i]) / start.omega, faster[i]]
+        }))
     }
 
     /// The transition that takes `along` to `then`, with the right determinant; the rest as in another one. Speeds
