@@ -69,6 +69,9 @@ impl Spline {
             Size::Fixed(pieces) => pieces,
             Size::Auto => {
                 let most = rows.saturating_sub(DEGREE + 1).max(1);
+                // Where polynomials in blocks twice as wide as the smallest leave noise, more pieces would follow it.
+                let blocks = condensed.first().and_then(Rows::blocks);
+                let most = blocks.map_or(most, |blocks| blocks.min(most));
                 let (mut pieces, mut worse) = (FEWEST.min(most), 0);
                 let mut best: Option<(f64, usize, bool)> = None;
                 while pieces <= most && (worse < 2 || best.is_some_and(|best| !best.2)) {
