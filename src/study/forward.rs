@@ -151,11 +151,12 @@ pub(super) struct Rounding {
 }
 
 impl Rounding {
-    /// Of a run by a method. Tolerances are absolute for angles below one radian: less than a unit in the last place of
-    /// one is not resolved at the start, however small the angle.
-    pub fn new(method: time::Method) -> Rounding {
+    /// Of a run by a method, which moves or stays in a balance. Tolerances are absolute for angles below one radian: of a
+    /// motion less than a unit in the last place of one is not resolved at the start, however small the angle.
+    pub fn new(method: time::Method, moves: bool) -> Rounding {
+        let angle = if moves { ONE_ROUNDING } else { 0.0 };
         Rounding {
-            spread: Spread::default().plus(ONE_ROUNDING, 0.0),
+            spread: Spread::default().plus(angle, 0.0),
             rounds_states: !matches!(method, time::Method::Picard),
         }
     }
@@ -209,7 +210,9 @@ impl Better {
         start: Start,
         settings: &Settings,
     ) -> Option<Better> {
-        let mut rounding = Rounding::new(settings.method);
+        let force = || motion.acceleration(start.t, start.angle, start.speed);
+        let moves = start.speed != 0.0 || motion.depends_on_time() || force() != 0.0;
+        let mut rounding = Rounding::new(settings.method, moves);
         let (finish, last, _) = time::run(motion, start, settings, &mut |step| {
             rounding.step(equation, motion, step);
             false

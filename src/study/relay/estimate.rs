@@ -160,7 +160,7 @@ pub(super) fn estimate(
     let mut shaken = Shaken {
         equation: course.equation,
         motion: &motion,
-        rounding: Rounding::new(finer.settings.method),
+        rounding: Rounding::new(finer.settings.method, true),
         rubbing: sliding.map(|sliding| Noise::new(sliding.equation())),
     };
     let best = finer.run(None, &mut shaken).ok()?;
