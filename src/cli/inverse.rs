@@ -131,9 +131,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         report::residuals(&result, output)?;
     }
     if let Some(mut output) = plot {
-        output.write(report::inverse_figure(&result)?.as_bytes())?;
+        output.write(report::inverse_figure(&result, printed.as_ref())?.as_bytes())?;
         output.finish()?;
     }
-    streams.show(&result.summary, || report::inverse(&result))?;
+    streams.show(&result.summary, || {
+        report::inverse(&result, printed.as_ref())
+    })?;
     Ok(Outcome::Done)
 }
