@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Outcome, Streams, scene};
+use super::{Outcome, Streams};
 use crate::error::Error;
 use crate::report::{self, Output};
 use crate::scene::{Measured, Measurement, Reading};
@@ -102,7 +102,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
             "give one of them as a file",
         ));
     }
-    let scene = scene(arguments.scene.as_ref())?;
+    let scene = streams.scene(arguments.scene.as_ref())?;
     let measurement = measurement(arguments)?;
     let options = InverseOptions {
         fit: arguments.fit,

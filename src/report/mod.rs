@@ -15,6 +15,7 @@ mod statics;
 mod steady;
 mod text;
 mod thinned;
+mod unfinished;
 
 pub use calibration::calibration;
 pub use explain::explanation;

@@ -23,6 +23,8 @@ pub mod unit;
 mod validate;
 mod variable;
 
+use std::path::Path;
+
 pub use body::{Crank, InertiaAbout, Rod, RodModel, Slider};
 pub use clearance::{Clearance, ContactLaw, Joint};
 pub use expression::{Expression, ExpressionError};
@@ -77,6 +79,18 @@ impl Scene {
         } else {
             Err(Problems::in_code(problems))
         }
+    }
+
+    /// The files of the tables of its loads.
+    pub fn table_files(&self) -> impl Iterator<Item = &Path> {
+        let loads = self.torques.iter().chain(&self.forces);
+        loads.filter_map(|load| match load {
+            Load::Table(table)
+            | Load::Gas {
+                pressure: table, ..
+            } => table.file(),
+            _ => None,
+        })
     }
 
     /// The same scene without what has no strength: zero masses, zero loads, zero gravity.
