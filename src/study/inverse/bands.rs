@@ -78,7 +78,8 @@ impl BandRule {
             [row.slider_force, row.slider_force_se].map(|value| value.unwrap_or(f64::NAN));
         let narrow = factor * error <= self.half_width_max_n;
         if !force.is_finite() || !error.is_finite() {
-            Some(AT_LIMIT)
+            // At a dead centre itself the lever arm is zero.
+            Some(if doubt.near_limit { AT_LIMIT } else { NO_SIGN })
         } else if !doubt.friction_known {
             Some(AT_REST)
         } else if doubt.near_limit && !narrow {
