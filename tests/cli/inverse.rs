@@ -523,6 +523,22 @@ fn the_built_in_motion_gives_back_its_polynomial() {
     }
 }
 
+/// A data file in the place of the scene is no scene with a thousand errors.
+#[test]
+fn a_scene_that_is_forgotten_or_comes_second_is_said() {
+    let rows: Vec<String> = (0..3000).map(|i| format!("{i},{i}")).collect();
+    let folder = folder(&data("t [s],theta [deg]", &rows));
+    let forgotten = folder.run(&["inverse", "data.csv"]);
+    forgotten.fails(2, &["needs a scene and the data of a motion"]);
+    let swapped = folder.run(&["inverse", "data.csv", "scene.toml"]);
+    swapped.fails(2, &["scene.toml:2", "no column holds the time"]);
+    let text = folder
+        .run(&["simulate", "data.csv"])
+        .fails(2, &["not TOML"])
+        .stderr;
+    assert!(text.matches("not TOML").count() <= 20, "{text}");
+}
+
 #[test]
 fn options_that_go_wrong() {
     let folder = folder(&data("t [s],theta [rad]", &rows(",")));

@@ -165,16 +165,15 @@ impl Inverse {
     /// for.
     pub fn reactions(&self, row: &InverseRow) -> Option<Reactions> {
         let reactor = self.reactor.as_ref()?;
-        let pose = self.equation.linkage().pose(row.theta);
-        let mut load = self.equation.load(row.t, row.theta, row.omega);
         row.slider_force?;
-        // The whole force along the guide, friction included.
         let terms = self.equation.terms(row.theta);
+        let mut load = self.equation.load(row.t, row.theta, row.omega);
+        // The whole force along the guide, friction included.
         let needed = self
             .equation
             .generalized_force(&terms, row.omega, row.alpha);
         load.force = (needed - load.torque) / terms.pose.dx;
-        Some(reactor.reactions(&pose, row.omega, row.alpha, &load))
+        Some(reactor.reactions(&terms.pose, row.omega, row.alpha, &load))
     }
 }
 
