@@ -13,6 +13,7 @@ mod reproduce;
 mod rows;
 mod statics;
 mod steady;
+mod sweep;
 mod text;
 mod thinned;
 
@@ -27,8 +28,10 @@ pub use precision::{precision, precision_csv, precision_figure, precision_notes}
 pub use reproduce::{
     ReproductionSummary, drawing_csv, drawing_svg, file_name, reproduction, reproduction_csv,
 };
+use rows::shortest as shortest_number;
 pub use rows::{Preview, RowWriter};
 pub use statics::{StaticsWriter, statics, statics_figure};
+pub use sweep::{SweepExtreme, SweepRange, SweepSummary, SweepWriter, VariedKey, sweep_text};
 pub use text::summary;
 
 use crate::error::Error;

@@ -17,3 +17,4 @@ mod statics;
 mod steady;
 mod streams;
 mod summary;
+mod sweep;
