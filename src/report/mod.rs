@@ -8,6 +8,7 @@ mod joint;
 mod motion;
 mod one_turn;
 mod output;
+mod page;
 mod precision;
 mod reproduce;
 mod rows;
@@ -24,6 +25,7 @@ pub use inverse::{inverse, inverse_figure, inverse_rows, residuals};
 pub use motion::PlotRows;
 pub use one_turn::{TurnWriter, turn, turn_figure};
 pub use output::Output;
+pub use page::page;
 pub use precision::{precision, precision_csv, precision_figure, precision_notes};
 pub use reproduce::{
     ReproductionSummary, drawing_csv, drawing_svg, file_name, reproduction, reproduction_csv,

@@ -9,6 +9,7 @@ mod inverse;
 mod kinematics;
 mod limits;
 mod one_turn;
+mod page;
 mod precision;
 mod program;
 mod reproduce;
