@@ -297,6 +297,31 @@ fn the_angle_of_the_scene_decides_where_the_motion_reverses_at_once() {
     }
 }
 
+/// With a rod hardly longer than the crank the slider, and with it the rod, stands still for half a turn: noise is all that
+/// the angle at the crank pin shows then, and no fit may make turns of it.
+#[test]
+fn samples_that_do_not_tell_the_motion_are_refused_or_followed() {
+    let scene = Scene::new(0.05, 0.05002)
+        .slider(Slider { mass: 1.0 })
+        .start(-0.8, 2.7);
+    let times: Vec<f64> = (0..200).map(|i| 0.01 * f64::from(i)).collect();
+    let theta: Vec<f64> = times.iter().map(|t| -0.8 + 2.7 * t + 0.3 * t * t).collect();
+    let exact = shown(&scene, Measured::Gamma, &theta);
+    for (seed, fit) in [
+        (1, FitKind::Spline),
+        (2, FitKind::Spline),
+        (3, FitKind::Polynomial),
+    ] {
+        let mut random = Random(77 + seed);
+        let noisy = exact.iter().map(|v| (v + 3e-3 * random.normal()).abs());
+        let motion = Measurement::new(Measured::Gamma, times.clone(), noisy.collect());
+        match inverse(&scene, &motion.expect("samples"), &fitted(fit)) {
+            Ok(found) => assert!(found.summary.data.revolutions.abs() < 2.0),
+            Err(error) => assert!(error.to_string().contains("astray"), "{error}"),
+        }
+    }
+}
+
 /// Far from either start, or not said, the scene's angle gives way to its speed.
 #[test]
 fn the_speed_of_the_scene_decides_where_its_angle_says_nothing() {

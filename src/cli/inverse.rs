@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Outcome, Streams, scene};
+use super::{Outcome, Streams};
 use crate::error::Error;
 use crate::report::{self, Output};
 use crate::scene::{Measured, Measurement, Reading};
@@ -102,7 +102,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
             "give one of them as a file",
         ));
     }
-    let scene = scene(arguments.scene.as_ref())?;
+    let scene = streams.scene(arguments.scene.as_ref())?;
     let measurement = measurement(arguments)?;
     let options = InverseOptions {
         fit: arguments.fit,
@@ -131,9 +131,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         report::residuals(&result, output)?;
     }
     if let Some(mut output) = plot {
-        output.write(report::inverse_figure(&result)?.as_bytes())?;
+        output.write(report::inverse_figure(&result, printed.as_ref())?.as_bytes())?;
         output.finish()?;
     }
-    streams.show(&result.summary, || report::inverse(&result))?;
+    streams.show(&result.summary, || {
+        report::inverse(&result, printed.as_ref())
+    })?;
     Ok(Outcome::Done)
 }

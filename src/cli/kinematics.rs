@@ -5,8 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
-    Outcome, Streams, angle, check_rows_of_turn, length, positive_angle, quantity, say, scene,
-    write_text,
+    Outcome, Streams, angle, check_rows_of_turn, length, positive_angle, quantity, say, write_text,
 };
 use crate::error::Error;
 use crate::report::{self, Output, TurnWriter};
@@ -61,7 +60,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         arguments.json,
     )?;
     check_rows_of_turn(arguments.every)?;
-    let mut scene = scene(arguments.scene.as_ref())?;
+    let mut scene = streams.scene(arguments.scene.as_ref())?;
     if let Some((stroke, ratio)) = arguments.stroke.zip(arguments.rod_ratio) {
         let (crank, rod) = study::size_from_stroke(stroke, ratio, scene.geometry.offset)?;
         (scene.geometry.crank, scene.geometry.rod) = (crank, rod);

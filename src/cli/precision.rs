@@ -70,13 +70,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         options.tolerances = arguments.tolerances.clone();
     }
     let files = scene_files(&arguments.scenes)?;
-    let read: Vec<_> = files.iter().map(Some).collect();
-    let written: Vec<_> = [&arguments.out, &arguments.plot]
-        .into_iter()
-        .flatten()
-        .collect();
-    check_files(&read, &written)?;
     let scenes = scenes(&files)?;
+    let tables = scenes.iter().flat_map(Scene::table_files);
+    let read: Vec<&Path> = files.iter().map(PathBuf::as_path).chain(tables).collect();
+    let written = [&arguments.out, &arguments.plot].into_iter().flatten();
+    check_files(&read, &written.cloned().collect::<Vec<_>>())?;
     let create = |path: &Option<PathBuf>| path.as_deref().map(Output::create).transpose();
     let (rows, plot) = (create(&arguments.out)?, create(&arguments.plot)?);
     let text_on_stdout = !(rows_on_stdout || plot_on_stdout || arguments.json);

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Outcome, Streams, scene};
+use super::{Outcome, Streams};
 use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{self, Output, PlotRows, Preview, RowWriter};
@@ -96,7 +96,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         &[arguments.plot.as_ref(), arguments.report.as_ref()],
         arguments.json,
     )?;
-    let mut scene = scene(arguments.scene.as_ref())?;
+    let mut scene = streams.scene(arguments.scene.as_ref())?;
     if let Some(tolerance) = arguments.tolerance {
         scene.run.tolerance = tolerance;
     }

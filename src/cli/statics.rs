@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
-    Outcome, Streams, angle, check_rows_of_turn, length, positive_angle, print, quantity, scene,
+    Outcome, Streams, angle, check_rows_of_turn, length, positive_angle, print, quantity,
     write_text,
 };
 use crate::error::Error;
@@ -116,7 +116,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         arguments.json,
     )?;
     check_rows_of_turn(arguments.every)?;
-    let result = study::statics(&scene(arguments.scene.as_ref())?, &arguments.options())?;
+    let result = study::statics(
+        &streams.scene(arguments.scene.as_ref())?,
+        &arguments.options(),
+    )?;
     if let Some(path) = &arguments.out {
         let output = Output::create(path)?;
         let mut writer = StaticsWriter::new(output, &result, arguments.details)?;

@@ -7,11 +7,13 @@ use serde::Serialize;
 
 use crate::error::Error;
 use crate::report::{self, Output};
+use crate::scene::Scene;
 
 /// The files and streams of a command, checked before anything is computed.
 pub(super) struct Streams {
     rows_on_stdout: bool,
     json: bool,
+    written: Vec<PathBuf>,
 }
 
 impl Streams {
@@ -38,15 +40,25 @@ impl Streams {
                 "write the rows to a file: --out rows.csv",
             ));
         }
-        let written: Vec<&PathBuf> = rows
-            .into_iter()
-            .chain(files.iter().flatten().copied())
-            .collect();
-        check_files(read, &written)?;
+        let files = files.iter().flatten().copied();
+        let written: Vec<PathBuf> = rows.into_iter().chain(files).cloned().collect();
+        let read: Vec<&Path> = read.iter().flatten().map(|file| file.as_path()).collect();
+        check_files(&read, &written)?;
         Ok(Streams {
             rows_on_stdout,
             json,
+            written,
         })
+    }
+
+    /// The scene of the command: a file, or the built-in engine.
+    ///
+    /// # Errors
+    /// What is wrong with it; [`Error::Refused`] if a result would go onto a table that it reads.
+    pub fn scene(&self, file: Option<&PathBuf>) -> Result<Scene, Error> {
+        let scene = super::scene(file)?;
+        check_files(&scene.table_files().collect::<Vec<_>>(), &self.written)?;
+        Ok(scene)
     }
 
     /// Whether a summary for the reader goes to standard output.
@@ -76,13 +88,13 @@ impl Streams {
 ///
 /// # Errors
 /// [`Error::Refused`].
-pub(super) fn check_files(read: &[Option<&PathBuf>], written: &[&PathBuf]) -> Result<(), Error> {
+pub(super) fn check_files(read: &[&Path], written: &[PathBuf]) -> Result<(), Error> {
     for (index, path) in written.iter().enumerate() {
         let (shown, here) = (path.display(), place(path));
         if is_standard(Some(path)) || (here.exists() && !here.is_file()) {
             continue;
         }
-        if read.iter().flatten().any(|file| place(file) == here) {
+        if read.iter().any(|file| place(file) == here) {
             return Err(Error::refused(
                 format!("`{shown}` is read by this command and would be overwritten"),
                 "write the result to another file",

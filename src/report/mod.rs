@@ -17,6 +17,7 @@ mod steady;
 mod sweep;
 mod text;
 mod thinned;
+mod unfinished;
 
 pub use calibration::calibration;
 pub use explain::explanation;

@@ -3,11 +3,10 @@
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::NamedTempFile;
-
+use super::unfinished::Unfinished;
 use crate::error::Error;
 
-/// A stream of output. A file is written beside its target and takes its name in [`Output::finish`].
+/// A stream of output. A file takes its name in [`Output::finish`].
 #[derive(Debug)]
 pub struct Output {
     target: String,
@@ -19,7 +18,8 @@ enum Stream {
     Standard(BufWriter<io::Stdout>),
     Device(BufWriter<std::fs::File>),
     File {
-        writer: BufWriter<NamedTempFile>,
+        writer: BufWriter<Unfinished>,
+        folder: PathBuf,
         path: PathBuf,
     },
 }
@@ -61,22 +61,15 @@ impl Output {
                 target,
             });
         }
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".slider-crank-");
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            let before = std::fs::metadata(path).map(|file| file.permissions());
-            builder.permissions(before.unwrap_or(std::fs::Permissions::from_mode(0o666)));
-        }
-        // The name until then means nothing to the user, so the system's reason is given without it.
-        let file = builder
-            .tempfile_in(folder)
+        let before = std::fs::metadata(path).ok();
+        // Until it is complete its name means nothing to the user: the system's reason is given without it.
+        let file = Unfinished::new(folder, before.as_ref())
             .map_err(|error| failed(error.kind().into()))?;
         Ok(Output {
             target,
             stream: Stream::File {
                 writer: BufWriter::with_capacity(1 << 16, file),
+                folder: folder.to_owned(),
                 path: path.to_owned(),
             },
         })
@@ -120,10 +113,13 @@ impl Output {
         match self.stream {
             Stream::Standard(mut writer) => writer.flush().map_err(failed),
             Stream::Device(mut writer) => writer.flush().map_err(failed),
-            Stream::File { writer, path } => {
+            Stream::File {
+                writer,
+                folder,
+                path,
+            } => {
                 let file = writer.into_inner().map_err(|e| failed(e.into_error()))?;
-                file.persist(&path).map_err(|e| failed(e.error))?;
-                Ok(())
+                file.finish(&folder, &path).map_err(failed)
             }
         }
     }

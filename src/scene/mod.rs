@@ -26,6 +26,8 @@ mod vary;
 
 use builtin::DUARTE;
 
+use std::path::Path;
+
 pub use body::{Crank, InertiaAbout, Rod, RodModel, Slider};
 pub use clearance::{Clearance, ContactLaw, Joint};
 pub use expression::{Expression, ExpressionError};
@@ -81,6 +83,18 @@ impl Scene {
         } else {
             Err(Problems::in_code(problems))
         }
+    }
+
+    /// The files of the tables of its loads.
+    pub fn table_files(&self) -> impl Iterator<Item = &Path> {
+        let loads = self.torques.iter().chain(&self.forces);
+        loads.filter_map(|load| match load {
+            Load::Table(table)
+            | Load::Gas {
+                pressure: table, ..
+            } => table.file(),
+            _ => None,
+        })
     }
 
     /// The same scene without what has no strength: zero masses, zero loads, zero gravity.

@@ -144,3 +144,21 @@ fn a_named_pipe_stays_a_pipe() {
         .expect("rows in the pipe");
     assert!(rows.starts_with("t_s,"), "{rows}");
 }
+
+/// Where the system has files without names.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_run_that_is_stopped_leaves_nothing() {
+    let folder = Folder::with(&free("revolutions = 100000\noutput_every = \"1 deg\""));
+    folder.write("rows.csv", "old");
+    let mut child = folder.start(&["simulate", "scene.toml", "--out", "rows.csv"]);
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    assert!(
+        child.try_wait().expect("a state").is_none(),
+        "it ran too fast"
+    );
+    child.kill().expect("it is stopped");
+    child.wait().expect("an end");
+    assert_eq!(folder.names(), ["rows.csv", "scene.toml"]);
+    assert_eq!(folder.read("rows.csv"), "old");
+}

@@ -88,9 +88,23 @@ fn damaged_numbers_are_shown_with_line_and_column() {
             ["data.csv:6:1", "1 value where the header has 2 columns"],
         ),
         ("0.04,\"0.42", ["data.csv:6:6", "a quote is not closed"]),
+        ("0.04,\"0.4\n2\"", ["data.csv:6:6", "a quote is not closed"]),
+        ("#N/A,0.42", ["data.csv:6:1", "`#N/A` is not a number"]),
+        ("   \n0.04,abc", ["data.csv:7:6", "`abc` is not a number"]),
     ] {
         refused(&with_row(row), &words);
     }
+}
+
+#[test]
+fn lines_are_counted_whatever_they_end_with() {
+    let text = with_row("0.04,abc");
+    for end in ["\r\n", "\r"] {
+        let words = ["data.csv:6:6", "`abc` is not a number"];
+        refused(&text.replace('\n', end), &words);
+    }
+    let tabs = with_row("\t").replace(',', "\t");
+    refused(&tabs, &["data.csv:6:1", "the value is missing"]);
 }
 
 #[test]
@@ -173,6 +187,16 @@ fn damaged_headers_are_shown() {
         &["--columns", "t [s],theta"],
         &["--columns", "has no unit"],
     );
+    refused_with(
+        &data("t [s],theta [rad]", &rows(",")),
+        &["--columns", "t [s],theta [rad]"],
+        &["the file has a header", "leave --columns out"],
+    );
+    refused_with(
+        &no_header,
+        &["--columns", "t [s],theta [rad],note"],
+        &["data.csv:1:1", "2 values where --columns has 3 columns"],
+    );
 }
 
 #[test]
@@ -196,6 +220,11 @@ fn files_that_hold_too_little_or_something_else() {
     refused(&zero, &["line 3", "zero byte"]);
     for (bytes, words) in [
         (&b"\xff\xfet\0"[..], "UTF-16"),
+        (
+            b"PK\x03\x04\x14\0",
+            "an archive, as workbooks of spreadsheets are",
+        ),
+        (b"\x1f\x8b\x08\0", "the file is compressed"),
         (
             &b"t [s],theta [\xb0]\n"[..],
             "line 1, column 14: the byte 0xb0 is not UTF-8",
@@ -297,6 +326,11 @@ fn files_as_instruments_write_them() {
         (plain.clone(), &[][..]),
         (plain.replace('\n', "\r\n"), &[]),
         (format!("\u{feff}# bench 3\n{plain}\n\n# end\n"), &[]),
+        (
+            format!("# bench 3\n \n{plain}  \n").replace('\n', "\r"),
+            &[],
+        ),
+        (data("t/s,theta/rad", &rows(",")), &[]),
         (data("t_s\ttheta_rad", &rows("\t")), &[]),
         (data("note;time (ms);theta [deg]", &degrees), &[]),
         (rows(",").join("\n"), &["--columns", "t [s],theta [rad]"]),
@@ -334,6 +368,33 @@ fn files_as_instruments_write_them() {
         assert_eq!((rows.header.as_str(), rows.len()), (COLUMNS, 12));
         close(rows.column("omega_rad_per_s")[5], 3.0, 1e-5);
     }
+}
+
+#[test]
+fn a_sample_far_off_is_noted_even_among_few() {
+    let mut rows: Vec<String> = (0..30)
+        .map(|i| {
+            format!(
+                "{0:.2},{1:.6}",
+                0.01 * f64::from(i),
+                0.3 + 0.0301234 * f64::from(i)
+            )
+        })
+        .collect();
+    let warnings = |rows: &[String]| {
+        let folder = folder(&data("t [s],theta [rad]", rows));
+        let run = folder.run(&["inverse", "scene.toml", "data.csv", "--json"]);
+        run.done().json()["warnings"].to_string()
+    };
+    assert_eq!(warnings(&rows), "[]");
+    rows[7] = "0.07,0.52".to_owned();
+    let found = warnings(&rows);
+    assert!(
+        found.contains(
+            "1 sample lies more than 6 standard deviations off the fit, the first at line 9"
+        ),
+        "{found}"
+    );
 }
 
 #[test]

@@ -255,3 +255,25 @@ fn nothing_is_written_onto_what_is_read_or_twice_to_one_file() {
     assert_eq!(kept, scene);
     assert!(!folder.path("new").exists());
 }
+
+#[test]
+fn nothing_is_written_onto_the_tables_of_a_scene() {
+    let table = "theta [deg],torque [N m]\n0,1\n180,2\n360,1\n";
+    let load = "[[torque]]\nkind = \"table\"\nfile = \"table.csv\"\nof = \"theta\"\nperiod = \"360 deg\"\n";
+    let folder = Folder::with(&format!("{}\n{load}", free(GOOD)));
+    folder.write("table.csv", table);
+    folder.write("data.csv", "t [s],theta [rad]\n0,0\n1,1\n");
+    for arguments in [
+        &["simulate", "scene.toml", "--out"][..],
+        &["simulate", "scene.toml", "--plot"],
+        &["kinematics", "scene.toml", "--out"],
+        &["statics", "scene.toml", "--plot"],
+        &["precision", "scene.toml", "--out"],
+        &["inverse", "scene.toml", "data.csv", "--residuals"],
+    ] {
+        let arguments = [arguments, &["./table.csv"]].concat();
+        let words = ["table.csv", "is read by this command", "help:"];
+        folder.run(&arguments).fails(2, &words);
+    }
+    assert_eq!(folder.read("table.csv"), table);
+}

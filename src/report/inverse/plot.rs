@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::report::{Axis, Figure, panels};
-use crate::study::Inverse;
+use crate::study::{AsPrinted, Inverse, InverseRow};
 
 /// Points of a curve that a figure shows.
 const POINTS: usize = 2000;
@@ -10,98 +10,222 @@ const POINTS: usize = 2000;
 /// Samples that are drawn over the fit, so that both are seen.
 const SAMPLES: usize = 100;
 
-/// Data, fit, residuals, force and torque side by side, as SVG.
+/// Stretches without force that are marked.
+const MARKS: usize = 40;
+
+/// Part of the forces, at each end, that may lie in the peaks beside dead centres.
+const PEAKS: f64 = 0.025;
+
+/// Part of the longest lever arm of a motion above which a force is in no such peak.
+const LONG_ARM: f64 = 0.1;
+
+/// Data, fit, residuals, force and torque side by side, as SVG; with the forces as Duarte et al. print them if given.
 ///
 /// # Errors
 /// [`Error::Write`] if it cannot be drawn.
-pub fn inverse_figure(result: &Inverse) -> Result<String, Error> {
-    let summary = &result.summary;
-    let (data, factor) = (&summary.data, summary.band_factor);
-    let (name, unit, scale) = match data.column {
+pub fn inverse_figure(result: &Inverse, printed: Option<&AsPrinted>) -> Result<String, Error> {
+    let figures = [
+        motion(result),
+        residuals(result),
+        forces(result, printed),
+        torques(result),
+    ];
+    panels(&result.summary.scene, &figures, 2)
+}
+
+fn time() -> Axis {
+    Axis::linear("time [s]")
+}
+
+/// Name and unit of what was measured, and its size in SI.
+fn quantity(result: &Inverse) -> (&'static str, &'static str, f64) {
+    match result.summary.data.column {
         "x" => ("slider position x", "mm", 1e3),
         "gamma" => ("crank-pin angle gamma", "deg", 1f64.to_degrees()),
         _ => ("crank angle theta", "deg", 1f64.to_degrees()),
-    };
-    let stride = result.rows.len().div_ceil(POINTS);
-    let rows = || result.rows.iter().step_by(stride);
-    let samples = || result.residuals.iter().step_by(stride);
-    let time = || Axis::linear("time [s]");
-    let few = result
-        .residuals
-        .iter()
-        .step_by(result.residuals.len().div_ceil(SAMPLES));
-    let measured = few.map(|s| (s.t, s.measured * scale)).collect();
-    let fitted = samples()
-        .map(|s| (s.t, (s.measured - s.residual) * scale))
-        .collect();
-    let motion = Figure::new(
-        format!("{name}: samples and {} fit", summary.fit.kind),
+    }
+}
+
+/// How far apart drawn rows are, for at most so many.
+fn stride(rows: usize, most: usize) -> usize {
+    rows.div_ceil(most).max(1)
+}
+
+/// The label of points, with how many are left out.
+fn one_in(stride: usize, name: &str) -> String {
+    match stride {
+        1 => name.to_owned(),
+        _ => format!("{name}, one in {stride}"),
+    }
+}
+
+fn motion(result: &Inverse) -> Figure {
+    let (name, unit, scale) = quantity(result);
+    let few = stride(result.residuals.len(), SAMPLES);
+    let many = stride(result.residuals.len(), POINTS);
+    let samples = result.residuals.iter().step_by(few);
+    let fit = result.residuals.iter().step_by(many);
+    Figure::new(
+        format!("{name}: samples and {} fit", result.summary.fit.kind),
         time(),
         Axis::linear(format!("{name} [{unit}]")),
     )
-    .points("samples", measured)
-    .line("fit", fitted);
-    let sigma = summary.fit.sigma * scale;
-    let ends = [data.from_s, data.to_s];
-    let residuals = Figure::new(
+    .points(
+        one_in(few, "samples"),
+        samples.map(|s| (s.t, s.measured * scale)).collect(),
+    )
+    .line(
+        "fit",
+        fit.map(|s| (s.t, (s.measured - s.residual) * scale))
+            .collect(),
+    )
+}
+
+fn residuals(result: &Inverse) -> Figure {
+    let (_, unit, scale) = quantity(result);
+    let (data, sigma) = (&result.summary.data, result.summary.fit.sigma * scale);
+    let many = stride(result.residuals.len(), POINTS);
+    let list = result.residuals.iter().step_by(many);
+    let level = |y: f64| [data.from_s, data.to_s].map(|t| (t, y)).to_vec();
+    let label = "twice the standard deviation of a sample";
+    Figure::new(
         "residuals",
         time(),
         Axis::linear(format!("measured minus fitted [{unit}]")),
     )
     .points(
-        "residual",
-        samples().map(|s| (s.t, s.residual * scale)).collect(),
+        one_in(many, "residuals"),
+        list.map(|s| (s.t, s.residual * scale)).collect(),
     )
-    .dashed(
-        "twice their standard deviation",
-        ends.map(|t| (t, 2.0 * sigma)).to_vec(),
-    )
-    .dashed(
-        "twice their standard deviation",
-        ends.map(|t| (t, -2.0 * sigma)).to_vec(),
-    );
-    let force = |row: &crate::study::InverseRow, side: f64| {
-        row.slider_force.unwrap_or(f64::NAN)
-            + side * factor * row.slider_force_se.unwrap_or(f64::NAN)
+    .dashed(label, level(2.0 * sigma))
+    .dashed(label, level(-2.0 * sigma))
+}
+
+fn forces(result: &Inverse, printed: Option<&AsPrinted>) -> Figure {
+    let summary = &result.summary;
+    let rows = drawn(result);
+    let of = |row: &InverseRow, side: f64| {
+        let error = row.slider_force_se.unwrap_or(f64::NAN);
+        row.slider_force.unwrap_or(f64::NAN) + side * summary.band_factor * error
     };
-    let mut forces = Figure::new(
-        "slider force with 95 % band",
-        time(),
-        Axis::linear("slider force [N]"),
-    )
-    .band(
-        "slider force",
-        rows()
-            .map(|r| (r.t, force(r, -1.0), force(r, 1.0)))
-            .collect(),
-    )
-    .line(
-        "slider force",
-        rows().map(|r| (r.t, force(r, 0.0))).collect(),
-    );
-    for band in summary.dead_centre_bands.iter().take(40) {
-        forces = forces.vertical_mark(
-            0.5 * (band.from_s + band.to_s),
-            "not determined (dead centre)",
-        );
+    let with_arm = |row: &&InverseRow| Some((row.slider_force?, result.lever_arm(row)));
+    let values: Vec<_> = rows.iter().flatten().filter_map(with_arm).collect();
+    let (axis, cut) = without_peaks("slider force [N]", &values);
+    let median = summary
+        .slider_force
+        .map_or(f64::NAN, |force| force.median_se);
+    let label = band_label("slider force", median * summary.band_factor, "N");
+    let title = match cut {
+        true => "slider force with 95 % band; peaks at dead centres are cut off",
+        false => "slider force with 95 % band",
+    };
+    let line = |value: &dyn Fn(&InverseRow) -> f64| -> Vec<(f64, f64)> {
+        let point =
+            |row: &Option<&InverseRow>| row.map_or((f64::NAN, f64::NAN), |r| (r.t, value(r)));
+        rows.iter().map(point).collect()
+    };
+    let mut figure = Figure::new(title, time(), axis)
+        .band(&label, band(&rows, of))
+        .line(&label, line(&|row| of(row, 0.0)));
+    if let Some(printed) = printed {
+        let force = |which: usize| {
+            move |row: &InverseRow| printed.forces(row).map_or(f64::NAN, |f| f[which])
+        };
+        figure = figure
+            .line("energies of the paper", line(&force(0)))
+            .dashed("(9) as printed", line(&force(1)));
     }
-    let torque = |row: &crate::study::InverseRow, side: f64| {
-        row.crank_torque + side * factor * row.crank_torque_se
-    };
-    let torques = Figure::new(
+    for band in summary.dead_centre_bands.iter().take(MARKS) {
+        figure = figure.vertical_mark(0.5 * (band.from_s + band.to_s), "not determined");
+    }
+    figure
+}
+
+fn torques(result: &Inverse) -> Figure {
+    let factor = result.summary.band_factor;
+    let of = |row: &InverseRow, side: f64| row.crank_torque + side * factor * row.crank_torque_se;
+    let rows: Vec<_> = drawn(result).into_iter().filter(Option::is_some).collect();
+    let half = result.summary.crank_torque.median_se * factor;
+    let label = band_label("crank torque", half, "N m");
+    let line = rows.iter().flatten().map(|row| (row.t, row.crank_torque));
+    Figure::new(
         "crank torque that does the same, with 95 % band",
         time(),
         Axis::linear("crank torque [N m]"),
     )
-    .band(
-        "crank torque",
-        rows()
-            .map(|r| (r.t, torque(r, -1.0), torque(r, 1.0)))
-            .collect(),
-    )
-    .line(
-        "crank torque",
-        rows().map(|r| (r.t, r.crank_torque)).collect(),
+    .band(&label, band(&rows, of))
+    .line(&label, line.collect())
+}
+
+/// The rows that are drawn, with a gap wherever the lever arm x' changes its sign: the force has no value at a dead
+/// centre, and other signs on either side.
+fn drawn(result: &Inverse) -> Vec<Option<&InverseRow>> {
+    let stride = stride(result.rows.len(), POINTS);
+    let mut drawn = Vec::new();
+    let mut side = 0.0;
+    for row in result.rows.iter().step_by(stride) {
+        let now = result.lever_arm(row).signum();
+        if side * now < 0.0 {
+            drawn.push(None);
+        }
+        drawn.push(Some(row));
+        side = now;
+    }
+    drawn
+}
+
+fn band(
+    rows: &[Option<&InverseRow>],
+    of: impl Fn(&InverseRow, f64) -> f64,
+) -> Vec<(f64, f64, f64)> {
+    let ends = |row: &InverseRow| (row.t, of(row, -1.0), of(row, 1.0));
+    let gap = (f64::NAN, f64::NAN, f64::NAN);
+    rows.iter().map(|row| row.map_or(gap, ends)).collect()
+}
+
+/// The label of a value with a band that may be too narrow to be seen.
+fn band_label(name: &str, half: f64, unit: &str) -> String {
+    match half {
+        _ if half.is_nan() => name.to_owned(),
+        1e-3..1e4 => format!(
+            "{name}, band +- {half:.*} {unit} at the median",
+            decimals(half)
+        ),
+        _ => format!("{name}, band +- {half:.1e} {unit} at the median"),
+    }
+}
+
+/// Decimals that show two digits of a number.
+fn decimals(value: f64) -> usize {
+    (1.0 - value.log10().floor()).max(0.0) as usize
+}
+
+/// An axis for forces, each with the lever arm, and whether peaks beside dead centres are cut off: the bulk of all is
+/// seen, and all those on a long arm.
+fn without_peaks(label: &str, forces: &[(f64, f64)]) -> (Axis, bool) {
+    let axis = Axis::linear(label);
+    let mut sorted: Vec<f64> = forces.iter().map(|(force, _)| *force).collect();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let Some(last) = sorted.len().checked_sub(1) else {
+        return (axis, false);
+    };
+    let beyond = (PEAKS * last as f64) as usize;
+    let (low, high) = (sorted[beyond], sorted[last - beyond]);
+    let longest = forces
+        .iter()
+        .fold(0.0, |most: f64, (_, arm)| most.max(arm.abs()));
+    let long = forces
+        .iter()
+        .filter(|(_, arm)| arm.abs() > LONG_ARM * longest);
+    let (low, high) = long.fold(
+        (2.0 * low - high, 2.0 * high - low),
+        |(low, high), (force, _)| (low.min(*force), high.max(*force)),
     );
-    panels(&summary.scene, &[motion, residuals, forces, torques], 2)
+    let (lowest, highest) = (sorted[0], sorted[last]);
+    if low <= lowest && highest <= high {
+        return (axis, false);
+    }
+    let (low, high) = (low.max(lowest), high.min(highest));
+    let margin = 0.04 * (high - low);
+    (axis.range(low - margin, high + margin), true)
 }

@@ -2,13 +2,13 @@
 
 use std::fmt::Write;
 
-use crate::study::{ForceRange, Inverse, InverseRow};
+use crate::study::{AsPrinted, ForceRange, Inverse};
 
 /// Rows of the table.
 const ROWS: usize = 16;
 
-/// Summary and some rows.
-pub fn inverse(result: &Inverse) -> String {
+/// Summary and some rows, with the forces as Duarte et al. print them if given.
+pub fn inverse(result: &Inverse, printed: Option<&AsPrinted>) -> String {
     let summary = &result.summary;
     let mut text = String::new();
     let mut put = |name: &str, value: String| {
@@ -58,6 +58,10 @@ pub fn inverse(result: &Inverse) -> String {
         put("slider force", "not determined at any sample".to_owned());
     }
     put("crank torque", range(&summary.crank_torque, "N m"));
+    put(
+        "95 % band",
+        format!("+- {:.4} standard errors", summary.band_factor),
+    );
     for band in &summary.dead_centre_bands {
         put(
             "no slider force",
@@ -75,7 +79,7 @@ pub fn inverse(result: &Inverse) -> String {
     for warning in &summary.warnings {
         put("warning", warning.clone());
     }
-    table(&mut text, &result.rows);
+    table(&mut text, result, printed);
     text
 }
 
@@ -86,25 +90,29 @@ fn range(range: &ForceRange, unit: &str) -> String {
     )
 }
 
-fn table(text: &mut String, rows: &[InverseRow]) {
-    let _ = writeln!(
+fn table(text: &mut String, result: &Inverse, printed: Option<&AsPrinted>) {
+    let _ = write!(
         text,
-        "\n{:>12} {:>12} {:>13} {:>13} {:>13} {:>11} {:>13}",
+        "\n{:>12} {:>12} {:>13} {:>13} {:>13} {:>13} {:>13}",
         "t [s]",
         "theta [deg]",
         "omega [rad/s]",
         "alpha [1/s2]",
         "force [N]",
-        "+- [N]",
+        "std error [N]",
         "torque [N m]"
     );
-    let stride = rows.len().div_ceil(ROWS);
+    if printed.is_some() {
+        let _ = write!(text, " {:>13} {:>13}", "spin-only [N]", "their (9) [N]");
+    }
+    text.push('\n');
+    let stride = result.rows.len().div_ceil(ROWS);
     let cell = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |v| format!("{v:.5}"));
     let error = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |v| format!("{v:.2e}"));
-    for row in rows.iter().step_by(stride) {
-        let _ = writeln!(
+    for row in result.rows.iter().step_by(stride) {
+        let _ = write!(
             text,
-            "{:>12.6} {:>12.4} {:>13.6} {:>13.6} {:>13} {:>11} {:>13.6}",
+            "{:>12.6} {:>12.4} {:>13.6} {:>13.6} {:>13} {:>13} {:>13.6}",
             row.t,
             row.theta.to_degrees(),
             row.omega,
@@ -113,5 +121,12 @@ fn table(text: &mut String, rows: &[InverseRow]) {
             error(row.slider_force_se),
             row.crank_torque
         );
+        if let Some(printed) = printed {
+            let forces = printed.forces(row);
+            for which in 0..2 {
+                let _ = write!(text, " {:>13}", cell(forces.map(|f| f[which])));
+            }
+        }
+        text.push('\n');
     }
 }

@@ -61,7 +61,7 @@ pub(super) fn columns(header: &ByteRecord, reading: &Reading) -> Result<Columns,
         }
     };
     let Some(time) = find(&["t", "time"])? else {
-        let what = "no column holds the time".to_owned();
+        let what = "no column holds the time: none is called t or time".to_owned();
         return Err(wrong(None, only(&cells, what)));
     };
     let mut found = Vec::new();
@@ -110,7 +110,7 @@ pub(super) fn columns(header: &ByteRecord, reading: &Reading) -> Result<Columns,
 fn only(cells: &[String], what: String) -> String {
     match cells {
         [one] => format!(
-            "{what}: the header has one column, `{one}`; columns are separated by comma, semicolon or tab"
+            "{what}; the header has one column, `{one}`; columns are separated by comma, semicolon or tab"
         ),
         _ => what,
     }

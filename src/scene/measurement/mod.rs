@@ -5,6 +5,7 @@ mod plain;
 mod read;
 mod rows;
 mod source;
+mod text;
 
 use std::path::Path;
 
@@ -141,7 +142,7 @@ impl Measurement {
             file: file.to_owned(),
             source,
         })?;
-        let text = read::text(file, bytes)?;
+        let text = text::text(file, bytes)?;
         Ok(Measurement::parse(file, text, reading)?)
     }
 

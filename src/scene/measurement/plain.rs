@@ -2,6 +2,7 @@
 
 use super::columns::Columns;
 use super::read::{Samples, decimals_of};
+use super::source::no_value;
 use crate::numeric::parallel;
 
 /// Bytes of a piece of text, about.
@@ -52,6 +53,9 @@ fn samples_of(text: &str, delimiter: u8, columns: &Columns) -> Option<Samples> {
             continue;
         }
         if bytes[at] == b'#' {
+            if no_value(&text[at..], delimiter).is_some() {
+                return None;
+            }
             at += bytes[at..].iter().position(|byte| *byte == b'\n')?;
             continue;
         }

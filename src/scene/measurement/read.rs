@@ -6,7 +6,8 @@ use csv::ByteRecord;
 
 use super::columns::{Columns, columns};
 use super::plain;
-use super::source::{Source, cell, line_at, reader};
+use super::source::{Records, Source, cell, line_at, no_value};
+use super::text::with_line_feeds;
 use super::{Measurement, Reading};
 use crate::scene::number::{self, counted};
 use crate::scene::table::pairs::delimiter;
@@ -15,83 +16,41 @@ use crate::scene::{Problem, Problems};
 /// Problems that are listed; all are counted.
 const MOST_LISTED: usize = 20;
 
-/// The text of a file, or where it stops being one.
-pub(super) fn text(file: &Path, bytes: Vec<u8>) -> Result<String, Problems> {
-    let wrong = |what: String| {
-        let help = "save the data as plain CSV text in UTF-8";
-        Problems::in_file(file, "", vec![Problem::new("", what, help)])
-    };
-    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
-        return Err(wrong("the file is UTF-16 text".to_owned()));
-    }
-    let line = |at: usize| bytes[..at].iter().filter(|b| **b == b'\n').count() + 1;
-    if bytes.contains(&0) {
-        let at = bytes.iter().take_while(|byte| **byte != 0).count();
-        return Err(wrong(format!(
-            "line {}: the file is not text, it has a zero byte",
-            line(at)
-        )));
-    }
-    match String::from_utf8(bytes) {
-        Ok(text) => Ok(text),
-        Err(error) => {
-            let at = error.utf8_error().valid_up_to();
-            let bytes = error.as_bytes();
-            let line = bytes[..at].iter().filter(|b| **b == b'\n').count() + 1;
-            let start = bytes[..at]
-                .iter()
-                .rposition(|b| *b == b'\n')
-                .map_or(0, |n| n + 1);
-            Err(wrong(format!(
-                "line {line}, column {}: the byte 0x{:02x} is not UTF-8 text",
-                at - start + 1,
-                bytes[at]
-            )))
-        }
-    }
-}
-
 /// A file's samples, each a number, not yet checked against each other.
 pub(super) fn measurement(
     file: &Path,
     text: String,
     reading: &Reading,
 ) -> Result<Measurement, Problems> {
+    let text = with_line_feeds(text);
     let (has_header, delimiter) = (reading.columns.is_none(), delimiter(&text));
-    let (columns, body) = {
-        let mut records = reader(&text, delimiter, has_header);
-        let (header, end) = match &reading.columns {
-            Some(given) => (split(given), 0),
-            None => {
-                let header = records.byte_headers().cloned().unwrap_or_default();
-                (
-                    header,
-                    usize::try_from(records.position().byte()).unwrap_or(0),
-                )
-            }
-        };
-        if has_header && header.iter().all(<[u8]>::is_empty) {
-            let problem = Problem::new(
-                "",
-                "the file is empty",
-                "give rows of time and motion below a header, as `t [s],theta [deg]`",
-            );
-            return Err(Problems::in_file(file, &text, vec![problem]));
+    let wrong =
+        |what: &str, help: &str| Problems::in_file(file, &text, vec![Problem::new("", what, help)]);
+    let mut records = Records::new(&text, delimiter);
+    if !records.next() {
+        let help = "give rows of time and motion below a header, as `t [s],theta [deg]`";
+        return Err(wrong("the file is empty", help));
+    }
+    let (header, body) = match &reading.columns {
+        Some(_) if columns(&records.record, reading).is_ok() => {
+            let help = "leave --columns out: it is for files without header";
+            return Err(wrong("the file has a header", help));
         }
-        let columns = columns(&header, reading).map_err(|found| {
-            let mut problem = Problem::new("header", found.what, found.help);
-            match &reading.columns {
-                Some(_) => problem.what = format!("--columns: {}", problem.what),
-                None => {
-                    let whole = line_at(&text, end);
-                    let part = found.column.map(|at| cell(&text, end, delimiter, at));
-                    problem.span = Some(part.unwrap_or(whole));
-                }
-            }
-            Problems::in_file(file, &text, vec![problem])
-        })?;
-        (columns, end)
+        Some(given) => (split(given), 0),
+        None => (records.record.clone(), records.end()),
     };
+    let columns = columns(&header, reading).map_err(|found| {
+        let mut problem = Problem::new("header", found.what, found.help);
+        match &reading.columns {
+            Some(_) => problem.what = format!("--columns: {}", problem.what),
+            None => {
+                let whole = line_at(&text, body);
+                let part = found.column.map(|at| cell(&text, body, delimiter, at));
+                problem.span = Some(part.unwrap_or(whole));
+            }
+        }
+        Problems::in_file(file, &text, vec![problem])
+    })?;
     let rows = text.get(body..);
     let plain = rows.and_then(|rows| plain::samples(rows, delimiter, &columns));
     let (times, values, decimals) = match plain {
@@ -138,16 +97,20 @@ fn samples(
     has_header: bool,
     columns: &Columns,
 ) -> Result<Samples, Problems> {
-    let mut records = reader(text, delimiter, has_header);
-    let mut record = ByteRecord::new();
+    let mut records = Records::new(text, delimiter);
+    if has_header {
+        records.next();
+    }
     let (mut times, mut values, mut decimals) = (Vec::new(), Vec::new(), None);
-    let (mut problems, mut count) = (Vec::new(), 0);
+    let mut problems = without_values(text, delimiter);
+    let mut count = problems.len();
     let names = ["time", columns.measured.name()];
-    while matches!(records.read_byte_record(&mut record), Ok(true)) {
+    let mut before = records.end();
+    while records.next() {
+        let (record, end) = (&records.record, records.end());
         let mut wrong = |column: Option<usize>, field: &str, what: String, help: String| {
             count += 1;
             if problems.len() < MOST_LISTED {
-                let end = usize::try_from(records.position().byte()).unwrap_or(text.len());
                 let mut problem = Problem::new(field, what, help);
                 problem.span = Some(match column {
                     Some(column) => cell(text, end, delimiter, column),
@@ -157,20 +120,19 @@ fn samples(
             }
         };
         if record.iter().any(|cell| cell.contains(&b'\n')) {
-            let quote = text.rfind('"').unwrap_or(0);
-            let mut problem = Problem::new(
-                "quote",
-                "a quote is not closed",
-                "write numbers without quotes",
-            );
-            problem.span = Some(quote..quote + 1);
-            problems.push(problem);
+            problems.push(open_quote(text, before));
             break;
         }
+        before = end;
         if record.len() != columns.count {
             let what = format!(
-                "{} where the header has {}",
+                "{} where {} {}",
                 counted(record.len(), "value"),
+                if has_header {
+                    "the header has"
+                } else {
+                    "--columns has"
+                },
                 counted(columns.count, "column")
             );
             let help = "give one value for each column; leave no quote open".to_owned();
@@ -203,6 +165,40 @@ fn samples(
     } else {
         Err(Problems::in_file(file, text, problems))
     }
+}
+
+/// Rows that begin with what spreadsheets write where a formula has no value.
+fn without_values(text: &str, delimiter: u8) -> Vec<Problem> {
+    let mut start = 0;
+    let mut problems = Vec::new();
+    for line in text.split_inclusive('\n') {
+        if let Some(mark) = no_value(line, delimiter)
+            && problems.len() < MOST_LISTED
+        {
+            let (what, help) = not_a_number(mark);
+            let mut problem = Problem::new("row", what, help);
+            problem.span = Some(start..start + mark.len());
+            problems.push(problem);
+        }
+        start += line.len();
+    }
+    problems
+}
+
+/// A value that goes on over the end of its line, in the record that begins at or after a byte.
+fn open_quote(text: &str, from: usize) -> Problem {
+    let mut start = from;
+    for line in text[from..].split_inclusive('\n') {
+        if let (Some(at), false) = (line.find('"'), line.starts_with('#')) {
+            start += at;
+            break;
+        }
+        start += line.len();
+    }
+    let help = "write numbers without quotes, and each row on a line of its own";
+    let mut problem = Problem::new("quote", "a quote is not closed on its line", help);
+    problem.span = Some(start..start + 1);
+    problem
 }
 
 /// A number, or what is wrong with it and what would be right.

@@ -20,28 +20,52 @@ pub(super) struct Source {
     pub value: Column,
 }
 
-/// A reader of the records of a data file, its header not among them.
-pub(super) fn reader(text: &str, delimiter: u8, has_header: bool) -> csv::Reader<&[u8]> {
-    csv::ReaderBuilder::new()
-        .delimiter(delimiter)
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .flexible(true)
-        .has_headers(has_header)
-        .from_reader(text.as_bytes())
+/// The records of a data file: lines that are neither blank nor comments.
+#[derive(Debug)]
+pub(super) struct Records<'a> {
+    reader: csv::Reader<&'a [u8]>,
+    /// The last record that was read.
+    pub record: ByteRecord,
+}
+
+impl<'a> Records<'a> {
+    /// Those of a text.
+    pub fn new(text: &'a str, delimiter: u8) -> Records<'a> {
+        let reader = csv::ReaderBuilder::new()
+            .delimiter(delimiter)
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .flexible(true)
+            .has_headers(false)
+            .from_reader(text.as_bytes());
+        let record = ByteRecord::new();
+        Records { reader, record }
+    }
+
+    /// Reads the next record; false after the last one.
+    pub fn next(&mut self) -> bool {
+        while matches!(self.reader.read_byte_record(&mut self.record), Ok(true)) {
+            if self.record.len() > 1 || self.record.iter().any(|cell| !cell.is_empty()) {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// The byte at which the last record ends.
+    pub fn end(&self) -> usize {
+        usize::try_from(self.reader.position().byte()).unwrap_or(usize::MAX)
+    }
 }
 
 impl Source {
     /// The byte at which the record of a sample ends.
     fn end(&self, sample: usize) -> usize {
-        let mut reader = reader(&self.text, self.delimiter, self.has_header);
-        let mut record = ByteRecord::new();
-        for _ in 0..=sample {
-            if !matches!(reader.read_byte_record(&mut record), Ok(true)) {
-                break;
-            }
+        let mut records = Records::new(&self.text, self.delimiter);
+        for _ in 0..sample + 1 + usize::from(self.has_header) {
+            records.next();
         }
-        usize::try_from(reader.position().byte()).unwrap_or(self.text.len())
+        records.end()
     }
 
     /// The line of a sample, from 1.
@@ -73,9 +97,10 @@ impl Source {
 
 /// The line that ends at or before a byte.
 pub(super) fn line_at(text: &str, end: usize) -> Range<usize> {
-    let end = end.min(text.len());
-    let read = text.as_bytes()[..end].trim_ascii_end().len();
-    let start = text[..read].rfind(['\n', '\r']).map_or(0, |at| at + 1);
+    let read = text[..end.min(text.len())]
+        .trim_end_matches(['\n', '\r'])
+        .len();
+    let start = text[..read].rfind('\n').map_or(0, |at| at + 1);
     start..read
 }
 
@@ -93,4 +118,18 @@ pub(super) fn cell(text: &str, end: usize, delimiter: u8, column: usize) -> Rang
         start += piece.len() + 1;
     }
     line
+}
+
+/// What spreadsheets write where a formula has no value. At the beginning of a line it looks like a comment.
+const NO_VALUE: [&str; 7] = [
+    "#N/A", "#REF!", "#VALUE!", "#DIV/0!", "#NAME?", "#NUM!", "#NULL!",
+];
+
+/// What stands in the place of a value where a row begins, if it is such a mark.
+pub(super) fn no_value(line: &str, delimiter: u8) -> Option<&'static str> {
+    let begins = |mark: &&str| {
+        let rest = line.strip_prefix(mark).map(str::trim_start);
+        rest.is_some_and(|rest| rest.as_bytes().first() == Some(&delimiter))
+    };
+    NO_VALUE.into_iter().find(begins)
 }

@@ -46,7 +46,8 @@ impl Table {
             place: &|row| format!("{}: ", pairs.place(ends[row])),
         };
         let curve = rows.curve(interpolation, period)?;
-        Ok(Table { of, curve, name })
+        let file = Some(file.to_owned());
+        Ok(Table { of, curve, file })
     }
 }
 

@@ -25,15 +25,16 @@ pub(in crate::scene) fn split(text: &str) -> Header {
     if let Some((name, unit)) = text.split_once(" / ") {
         return header(name, unit);
     }
-    match text.split_once('_') {
-        Some((name, unit)) => header(name, &unit.replace("_per_", "/").replace('_', " ")),
-        None => header(text, ""),
+    if let Some((name, unit)) = text.split_once('_') {
+        return header(name, &unit.replace("_per_", "/").replace('_', " "));
     }
+    let (name, unit) = text.split_once('/').unwrap_or((text, ""));
+    header(name, unit)
 }
 
 fn header(name: &str, unit: &str) -> Header {
     Header {
-        name: name.trim().to_lowercase(),
+        name: name.trim_matches([' ', '/', '_']).to_lowercase(),
         unit: unit.trim().to_owned(),
     }
 }
@@ -83,6 +84,8 @@ mod tests {
             ("Time (ms)", "time", "ms"),
             ("omega_rad_per_s", "omega", "rad/s"),
             ("pressure / bar", "pressure", "bar"),
+            ("p/bar", "p", "bar"),
+            ("omega/(rad/s)", "omega", "rad/s"),
             ("\u{feff}theta[deg]", "theta", "deg"),
             ("x", "x", ""),
         ] {

@@ -6,6 +6,7 @@ pub(super) mod pairs;
 pub(super) mod rows;
 
 use std::fmt;
+use std::path::{Path, PathBuf};
 
 use super::Variable;
 use crate::numeric::interpolate::Curve;
@@ -18,7 +19,8 @@ use rows::{Column, Rows};
 pub struct Table {
     of: Variable,
     curve: Curve,
-    name: String,
+    /// Where it was read, unless it is of code.
+    file: Option<PathBuf>,
 }
 
 /// Why a table of a scene file cannot be used.
@@ -74,13 +76,18 @@ impl Table {
         Ok(Table {
             of,
             curve,
-            name: "table".to_owned(),
+            file: None,
         })
     }
 
     /// The variable it is a table of.
     pub fn of(&self) -> Variable {
         self.of
+    }
+
+    /// The file it was read from; none for a table of code.
+    pub fn file(&self) -> Option<&Path> {
+        self.file.as_deref()
     }
 
     /// The interpolated value, in SI; NaN outside a table that does not repeat.
@@ -115,6 +122,9 @@ impl Table {
 
 impl fmt::Display for Table {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} over {}", self.name, self.of.name())
+        match &self.file {
+            Some(file) => write!(f, "{} over {}", file.display(), self.of.name()),
+            None => write!(f, "table over {}", self.of.name()),
+        }
     }
 }

@@ -39,6 +39,9 @@ const ROUNDED: f64 = 2.0;
 /// A fit is settled where further corrections would change it by less than this part of a standard error.
 const SETTLED: f64 = 1e-3;
 
+/// Way of a fit from the crank angles that the samples were unfolded to, rad, beyond which it fits other ones.
+const ASTRAY: f64 = 0.5 * std::f64::consts::PI;
+
 /// Units of rounding below which corrections do not shrink any more.
 const NOTHING: f64 = 4.0;
 
@@ -230,6 +233,7 @@ impl Seen<'_> {
         let stride = 1 + rows / PART;
         let few = rows.div_ceil(stride);
         let mut before = parallel::list(few, |i| theta(i * stride));
+        let read = before.clone();
         let mut lines = self.lines(theta);
         // Each correction evaluates the samples' lines anew, with other roundings.
         let computed = ROUNDED * f64::EPSILON * largest(self.values).max(largest(&lines[1]));
@@ -264,6 +268,10 @@ impl Seen<'_> {
             lines = self.lines(|i| curve.value(self.times[i]));
             if lines[0].iter().any(|slope| !slope.is_finite()) {
                 return Err("the fit leaves the angles that the crank can take".to_owned());
+            }
+            let far = |(moved, read): (&(f64, _, _), &f64)| (moved.0 - read).abs() > ASTRAY;
+            if moved.iter().zip(&read).any(far) {
+                return Err("the fit goes astray, far off the crank angles of the samples: they hardly tell them, or it is not the fit for this motion".to_owned());
             }
             round += 1;
             // Corrections shrink by about the same factor, or ever faster.

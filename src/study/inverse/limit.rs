@@ -34,7 +34,7 @@ pub(super) fn apart(linkage: &Linkage) -> String {
 
 /// Why samples cannot be fitted; next to a limit those of a slider or a rod tell nothing of the crank angle's motion.
 pub(super) fn unfit(linkage: &Linkage, what: String) -> Error {
-    let help = "give more samples, or a lower --degree";
+    let help = "give more samples, or another --fit or --degree";
     if linkage.limit_angles().is_empty() {
         return Error::refused(what, help);
     }

@@ -156,6 +156,11 @@ impl Inverse {
         self.reactor.is_some()
     }
 
+    /// The lever arm x' of the slider force at a row, m/rad.
+    pub fn lever_arm(&self, row: &InverseRow) -> f64 {
+        self.equation.linkage().pose(row.theta).dx
+    }
+
     /// The joint forces of a row, with its slider force acting; none where that is empty, or if they were not asked
     /// for.
     pub fn reactions(&self, row: &InverseRow) -> Option<Reactions> {

@@ -8,6 +8,12 @@ use crate::scene::{Measurement, Scene};
 /// Residuals beyond this many standard deviations are named.
 const OUTLIER: f64 = 6.0;
 
+/// Fewest degrees of freedom of the others that tell their standard deviation well enough.
+const LEAST_FREE: f64 = 10.0;
+
+/// Units of rounding to which a residual is computed.
+const ROUNDED: f64 = 4.0;
+
 /// What is to be known of the scene's loads.
 pub(super) fn of_scene(scene: &Scene, options: &InverseOptions) -> Vec<String> {
     let reduced = scene.reduced();
@@ -79,12 +85,23 @@ fn superfluous(fitted: &Fitted, options: &InverseOptions) -> Option<String> {
     })
 }
 
-/// Samples far off the fit.
+/// Samples far off the fit, in standard deviations of the others: one of few samples adds much to that of all.
 fn outliers(fitted: &Fitted, measurement: &Measurement) -> Option<String> {
-    let limit = OUTLIER * fitted.curve.quality().sigma;
-    let far = |residual: &f64| residual.abs() > limit;
+    let quality = fitted.curve.quality();
+    let free = measurement.len() as f64 - quality.parameters - 1.0;
+    if free < LEAST_FREE {
+        return None;
+    }
+    let measured = fitted.measured(measurement).iter();
+    let largest = measured.fold(0.0, |most: f64, value| most.max(value.abs()));
+    let least = quality.floor.max(ROUNDED * f64::EPSILON * largest).powi(2);
+    let squares: f64 = fitted.residuals.iter().map(|r| r * r).sum();
+    let far = |residual: &f64| {
+        let square = residual * residual;
+        square > OUTLIER * OUTLIER * ((squares - square) / free).max(least)
+    };
     let count = fitted.residuals.iter().filter(|r| far(r)).count();
-    let first = fitted.residuals.iter().position(far)?;
+    let first = fitted.residuals.iter().position(|r| far(r))?;
     let samples = if count == 1 {
         "1 sample lies".to_owned()
     } else {
