@@ -113,6 +113,15 @@ impl Curve {
         Ok(())
     }
 
+    /// Estimates the error of a curve that goes through its samples from curves through fewer of them; gives the standard
+    /// deviation of the noise that it takes them to have, if that is another.
+    pub fn compare(&mut self, samples: &Samples<'_>) -> Option<f64> {
+        match self {
+            Curve::Polynomial(_) | Curve::Fourier(_) => None,
+            Curve::Spline(spline) => spline.compare(samples),
+        }
+    }
+
     /// The curve and its derivatives.
     pub fn state(&self, t: f64) -> State {
         match self {

@@ -190,8 +190,12 @@ impl Normal<'_> {
 
     /// A penalty that cuts off at a frequency this many times as high, but not below the weakest.
     pub fn weaker(&self, strength: f64, cut_off: f64) -> f64 {
-        let weakest = self.mean_pivot() * WEAKEST.exp();
-        (strength / cut_off.powi(2 * ORDER as i32)).max(weakest.min(strength))
+        (strength / cut_off.powi(2 * ORDER as i32)).max(self.weakest().min(strength))
+    }
+
+    /// The weakest penalty.
+    pub fn weakest(&self) -> f64 {
+        self.mean_pivot() * WEAKEST.exp()
     }
 
     /// The strength of the penalty with the largest restricted likelihood.

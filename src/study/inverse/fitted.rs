@@ -22,6 +22,8 @@ pub(super) struct Fitted {
     noise: f64,
     /// Standard deviation of a sample that was computed.
     computed: f64,
+    /// Degrees of freedom of the noise.
+    pub free: f64,
 }
 
 /// Corrections after which a fit counts as not settling.
@@ -91,7 +93,7 @@ impl Fitted {
             let curve = Curve::fit(&samples, kind, size)?;
             let residuals = parallel::list(theta.len(), |i| theta[i] - curve.value(times[i]));
             let computed = ROUNDED * f64::EPSILON * largest(&theta);
-            let mut fitted = Fitted::of(curve, residuals, true, computed);
+            let mut fitted = Fitted::of(curve, &samples, residuals, true, computed);
             fitted.round(sensor, values, &samples, step)?;
             fitted.continued = Some(theta);
             return Ok(fitted);
@@ -118,22 +120,36 @@ impl Fitted {
             weight: Some(&slopes),
             floor,
         };
-        let mut fitted = Fitted::of(curve, residuals, settled, computed);
+        let mut fitted = Fitted::of(curve, &samples, residuals, settled, computed);
         fitted.round(sensor, values, &samples, step)?;
         Ok(fitted)
     }
 
-    fn of(curve: Curve, residuals: Vec<f64>, settled: bool, computed: f64) -> Fitted {
+    fn of(
+        mut curve: Curve,
+        samples: &Samples<'_>,
+        residuals: Vec<f64>,
+        settled: bool,
+        computed: f64,
+    ) -> Fitted {
         let quality = curve.quality();
-        let pattern = Pattern::of(&residuals, quality.parameters, quality.floor);
+        let mut pattern = Pattern::of(&residuals, quality.parameters, quality.floor);
+        let rows = residuals.len() as f64;
+        let (mut noise, mut free) = (quality.sigma, (rows - quality.parameters).max(1.0));
+        if let Some(seen) = curve.compare(samples) {
+            // Residuals of a curve through the samples tell nothing.
+            (noise, free) = (seen, 0.5 * rows);
+            pattern.widening = 1.0;
+        }
         Fitted {
             curve,
             residuals,
             pattern,
             settled,
             continued: None,
-            noise: quality.sigma,
+            noise,
             computed,
+            free,
         }
     }
 

@@ -121,8 +121,7 @@ pub fn inverse(
         sigma: fitted.sigma(),
         guide: guide.as_ref(),
     };
-    let free = measurement.len() as f64 - fitted.curve.quality().parameters;
-    let factor = student::half_band(free.max(1.0));
+    let factor = student::half_band(fitted.free);
     let found = Rows::new(&backwards, &fitted.curve, measurement.times(), factor);
     reachable(measurement, &found)?;
     limit::keeps_clear(&backwards, &sensor, &fitted, measurement)?;
