@@ -69,7 +69,7 @@ fn coarser(samples: &Samples<'_>, pieces: usize, stride: usize) -> Option<Spline
     };
     let (t, target) = (part(samples.t), part(samples.target));
     let weight = samples.weight.map(part);
-    let most = t.len().checked_sub(DEGREE + 1).filter(|most| *most > DEGREE)?;
+    let most = t.len().checked_sub(DEGREE + 1).filter(|most| *most > 1)?;
     let part = Samples {
         t: &t,
         target: &target,

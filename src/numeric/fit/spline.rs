@@ -10,7 +10,9 @@
 use super::condensed::Rows;
 use super::penalized::Normal;
 use super::pieces::{DEGREE, Grid, basis, last_bases};
-use super::{Quality, Samples, Size, State, add_products, differences, refinement};
+use super::{
+    DIAGONAL, Quality, Samples, Size, State, add_products, differences, refinement,
+};
 use crate::numeric::banded::{Banded, DIAGONALS};
 
 /// Pieces for each one that the samples ask for, so that the penalty and not the pieces decide how smooth it is.
@@ -130,7 +132,7 @@ impl Spline {
                 floor: normal.floor(),
             },
             condition: factor.diagonal_ratio(),
-            through: strength <= normal.weakest(),
+            through: strength <= 64.0 * normal.weakest(),
             between: Vec::new(),
             errors: vec![normal.bent_away(strength, &factor, &coefficients)],
             covariance: covariance(&normal, [likely, strength], inverse),
@@ -180,7 +182,6 @@ impl Spline {
         let normal = Normal::new(&rows, self.grid.pieces);
         let inverse = normal.factor(self.strength)?.inverse_band();
         self.covariance = covariance(&normal, [f64::INFINITY, self.strength], inverse);
-        self.errors.clear();
         self.between = between;
         Some(noise.max(samples.floor))
     }
@@ -257,7 +258,7 @@ impl Spline {
             add_products(&mut state.bias, &error, 1.0);
         }
         if let Some(between) = self.between.get(piece) {
-            for (entry, error) in [0, 2, 5].into_iter().zip(between) {
+            for (entry, error) in DIAGONAL.into_iter().zip(between) {
                 state.bias[entry] += error * error;
             }
         }

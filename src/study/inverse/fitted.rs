@@ -1,9 +1,10 @@
 //! The fit of θ(t), in terms of what was measured.
 
+use super::missed::Missed;
 use super::pattern::Pattern;
 use super::rounding::{Rounding, common_step, of_step};
 use super::sensor::Sensor;
-use crate::numeric::fit::{Curve, Kind, Samples, Size};
+use crate::numeric::fit::{Curve, Kind, Samples, Size, State};
 use crate::numeric::parallel;
 use crate::scene::{Measured, Measurement};
 
@@ -24,6 +25,8 @@ pub(super) struct Fitted {
     computed: f64,
     /// Degrees of freedom of the noise.
     pub free: f64,
+    /// What the curve misses of the motion, if its residuals show it.
+    pub missed: Option<Missed>,
 }
 
 /// Corrections after which a fit counts as not settling.
@@ -133,12 +136,19 @@ impl Fitted {
         computed: f64,
     ) -> Fitted {
         let quality = curve.quality();
-        let mut pattern = Pattern::of(&residuals, quality.parameters, quality.floor);
+        let known = quality.floor.max(computed);
+        let mut pattern = Pattern::of(&residuals, quality.parameters, known);
         let rows = residuals.len() as f64;
         let (mut noise, mut free) = (quality.sigma, (rows - quality.parameters).max(1.0));
         if let Some(seen) = curve.compare(samples) {
             // Residuals of a curve through the samples tell nothing.
             (noise, free) = (seen, 0.5 * rows);
+            pattern.widening = 1.0;
+        }
+        let sigma = (noise * pattern.widening).hypot(computed);
+        let missed = Missed::of(&curve, samples, &residuals, &pattern, sigma);
+        if let Some(missed) = &missed {
+            noise = missed.noise;
             pattern.widening = 1.0;
         }
         Fitted {
@@ -150,6 +160,7 @@ impl Fitted {
             noise,
             computed,
             free,
+            missed,
         }
     }
 
@@ -174,7 +185,17 @@ impl Fitted {
         self.curve.admit(samples, &errors)?;
         self.noise = rounding.noise(self.noise);
         self.pattern.widening = 1.0;
+        self.missed = None;
         Ok(())
+    }
+
+    /// The motion at a time, rad and s.
+    pub fn state(&self, t: f64) -> State {
+        let state = self.curve.state(t);
+        match &self.missed {
+            Some(missed) => missed.beside(state, t),
+            None => state,
+        }
     }
 
     /// Standard deviation of what the fit leaves of the samples.

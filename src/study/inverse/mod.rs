@@ -6,6 +6,7 @@ mod fitted;
 mod force;
 mod guide;
 mod limit;
+mod missed;
 mod pattern;
 mod printed;
 mod rounding;
@@ -122,7 +123,7 @@ pub fn inverse(
         guide: guide.as_ref(),
     };
     let factor = student::half_band(fitted.free);
-    let found = Rows::new(&backwards, &fitted.curve, measurement.times(), factor);
+    let found = Rows::new(&backwards, &fitted, measurement.times(), factor);
     reachable(measurement, &found)?;
     limit::keeps_clear(&backwards, &sensor, &fitted, measurement)?;
     finite(&equation, measurement, &found.rows)?;
