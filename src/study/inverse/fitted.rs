@@ -172,7 +172,7 @@ impl Fitted {
         samples: &Samples<'_>,
         step: f64,
     ) -> Result<(), String> {
-        let Some(rounding) = Rounding::of(step, values.len(), self.left()) else {
+        let Some(rounding) = Rounding::of(step, values.len(), self.left(), self.curve.quality().parameters) else {
             return Ok(());
         };
         let (curve, residuals) = (&self.curve, &self.residuals);
