@@ -113,11 +113,11 @@ impl Curve {
         Ok(())
     }
 
-    /// Estimates the error of a curve that goes through its samples from curves through fewer of them; gives the standard
-    /// deviation of the noise that it takes them to have, if that is another.
-    pub fn compare(&mut self, samples: &Samples<'_>) -> Option<f64> {
+    /// Estimates the error of a curve that goes through its samples, if it does, from curves through fewer of them, and
+    /// their noise from their differences; whether it has done so.
+    pub fn compare(&mut self, samples: &Samples<'_>) -> bool {
         match self {
-            Curve::Polynomial(_) | Curve::Fourier(_) => None,
+            Curve::Polynomial(_) | Curve::Fourier(_) => false,
             Curve::Spline(spline) => spline.compare(samples),
         }
     }

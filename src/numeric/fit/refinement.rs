@@ -65,7 +65,9 @@ fn coarser(samples: &Samples<'_>, pieces: usize, stride: usize) -> Option<Spline
     let part = |list: &[f64]| -> Vec<f64> {
         let last = list.len() - 1;
         let steps = last.div_ceil(stride);
-        (0..=steps).map(|i| list[(i * last + steps / 2) / steps]).collect()
+        (0..=steps)
+            .map(|i| list[(i * last + steps / 2) / steps])
+            .collect()
     };
     let (t, target) = (part(samples.t), part(samples.target));
     let weight = samples.weight.map(part);

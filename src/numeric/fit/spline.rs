@@ -10,9 +10,7 @@
 use super::condensed::Rows;
 use super::penalized::Normal;
 use super::pieces::{DEGREE, Grid, basis, last_bases};
-use super::{
-    DIAGONAL, Quality, Samples, Size, State, add_products, differences, refinement,
-};
+use super::{DIAGONAL, Quality, Samples, Size, State, add_products, differences, refinement};
 use crate::numeric::banded::{Banded, DIAGONALS};
 
 /// Pieces for each one that the samples ask for, so that the penalty and not the pieces decide how smooth it is.
@@ -20,6 +18,9 @@ const FINER: usize = 4;
 
 /// Cut-off frequency of the fit for one of the most likely penalty.
 const CUT_OFF: f64 = std::f64::consts::SQRT_2;
+
+/// Penalties up to this many times the weakest one let a spline go through the samples.
+const THROUGH: f64 = 64.0;
 
 /// Step in the logarithm of the penalty for derivatives by it.
 const STEP: f64 = 0.05;
@@ -42,7 +43,7 @@ pub struct Spline {
     covariance: Banded,
     /// Coefficients of what may be wrong beside noise: of what the penalty has bent away, and of errors of the samples.
     errors: Vec<Vec<f64>>,
-    /// Whether it has the weakest penalty: it goes through the samples.
+    /// Whether its penalty is so weak that it goes through the samples.
     through: bool,
     /// What it and its derivatives may be off between such samples, for each piece.
     between: Vec<[f64; 3]>,
@@ -132,7 +133,7 @@ impl Spline {
                 floor: normal.floor(),
             },
             condition: factor.diagonal_ratio(),
-            through: strength <= 64.0 * normal.weakest(),
+            through: strength <= THROUGH * normal.weakest(),
             between: Vec::new(),
             errors: vec![normal.bent_away(strength, &factor, &coefficients)],
             covariance: covariance(&normal, [likely, strength], inverse),
@@ -170,20 +171,25 @@ impl Spline {
         Ok(())
     }
 
-    /// Estimates the error of a spline that goes through its samples from splines through fewer of them; gives the standard
-    /// deviation of the noise, if any other than the likely one is seen.
-    pub(super) fn compare(&mut self, samples: &Samples<'_>) -> Option<f64> {
-        if !self.through {
-            return None;
-        }
-        let noise = differences::noise(samples)?;
-        let between = refinement::errors(self, samples)?;
-        let rows = Rows::new(samples, self.grid.pieces);
-        let normal = Normal::new(&rows, self.grid.pieces);
-        let inverse = normal.factor(self.strength)?.inverse_band();
-        self.covariance = covariance(&normal, [f64::INFINITY, self.strength], inverse);
-        self.between = between;
-        Some(noise.max(samples.floor))
+    /// Estimates the error of a spline that goes through its samples, if it does, from splines through fewer of them, and
+    /// their noise from their differences; whether it has done so.
+    pub(super) fn compare(&mut self, samples: &Samples<'_>) -> bool {
+        let judged = self.through.then(|| {
+            let rows = Rows::new(samples, self.grid.pieces);
+            let normal = Normal::new(&rows, self.grid.pieces);
+            let inverse = normal.factor(self.strength)?.inverse_band();
+            let noise = differences::noise(samples)?;
+            let between = refinement::errors(self, samples)?;
+            // Not as rough as a likely curve: by noise alone.
+            let covariance = covariance(&normal, [f64::INFINITY, self.strength], inverse);
+            Some((covariance, noise, between))
+        });
+        let Some((covariance, noise, between)) = judged.flatten() else {
+            return false;
+        };
+        (self.covariance, self.between) = (covariance, between);
+        self.quality.sigma = noise.max(samples.floor);
+        true
     }
 
     /// The argument at a place, from 0 to 1, in a piece.

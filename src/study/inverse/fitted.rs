@@ -1,7 +1,6 @@
 //! The fit of θ(t), in terms of what was measured.
 
-use super::missed::Missed;
-use super::pattern::Pattern;
+use super::errors::Errors;
 use super::rounding::{Rounding, common_step, of_step};
 use super::sensor::Sensor;
 use crate::numeric::fit::{Curve, Kind, Samples, Size, State};
@@ -14,19 +13,11 @@ pub(super) struct Fitted {
     pub curve: Curve,
     /// Measured minus fitted, rad or m.
     pub residuals: Vec<f64>,
-    pub pattern: Pattern,
+    pub errors: Errors,
     /// Whether the fit came to rest.
     pub settled: bool,
     /// A measured crank angle, continued over the turns, rad.
     continued: Option<Vec<f64>>,
-    /// Standard deviation of a sample by noise alone: rounding that is not noise is in the curve's errors.
-    noise: f64,
-    /// Standard deviation of a sample that was computed.
-    computed: f64,
-    /// Degrees of freedom of the noise.
-    pub free: f64,
-    /// What the curve misses of the motion, if its residuals show it.
-    pub missed: Option<Missed>,
 }
 
 /// Corrections after which a fit counts as not settling.
@@ -96,7 +87,7 @@ impl Fitted {
             let curve = Curve::fit(&samples, kind, size)?;
             let residuals = parallel::list(theta.len(), |i| theta[i] - curve.value(times[i]));
             let computed = ROUNDED * f64::EPSILON * largest(&theta);
-            let mut fitted = Fitted::of(curve, &samples, residuals, true, computed);
+            let mut fitted = Fitted::of(curve, residuals, &samples, computed);
             fitted.round(sensor, values, &samples, step)?;
             fitted.continued = Some(theta);
             return Ok(fitted);
@@ -123,45 +114,25 @@ impl Fitted {
             weight: Some(&slopes),
             floor,
         };
-        let mut fitted = Fitted::of(curve, &samples, residuals, settled, computed);
+        let mut fitted = Fitted::of(curve, residuals, &samples, computed);
+        fitted.settled = settled;
         fitted.round(sensor, values, &samples, step)?;
         Ok(fitted)
     }
 
-    fn of(
-        mut curve: Curve,
-        samples: &Samples<'_>,
-        residuals: Vec<f64>,
-        settled: bool,
-        computed: f64,
-    ) -> Fitted {
-        let quality = curve.quality();
-        let known = quality.floor.max(computed);
-        let mut pattern = Pattern::of(&residuals, quality.parameters, known);
-        let rows = residuals.len() as f64;
-        let (mut noise, mut free) = (quality.sigma, (rows - quality.parameters).max(1.0));
-        if let Some(seen) = curve.compare(samples) {
-            // Residuals of a curve through the samples tell nothing.
-            (noise, free) = (seen, 0.5 * rows);
-            pattern.widening = 1.0;
-        }
-        let sigma = (noise * pattern.widening).hypot(computed);
-        let missed = Missed::of(&curve, samples, &residuals, &pattern, sigma);
-        if let Some(missed) = &missed {
-            noise = missed.noise;
-            pattern.widening = 1.0;
-        }
+    fn of(mut curve: Curve, residuals: Vec<f64>, samples: &Samples<'_>, computed: f64) -> Fitted {
         Fitted {
+            errors: Errors::of(&mut curve, samples, &residuals, computed),
             curve,
             residuals,
-            pattern,
-            settled,
+            settled: true,
             continued: None,
-            noise,
-            computed,
-            free,
-            missed,
         }
+    }
+
+    /// The motion at a time, rad and s.
+    pub fn state(&self, t: f64) -> State {
+        self.errors.state(&self.curve, t)
     }
 
     /// Counts rounding of the measured values to steps that is not noise as an error of the curve, and not as noise.
@@ -172,7 +143,8 @@ impl Fitted {
         samples: &Samples<'_>,
         step: f64,
     ) -> Result<(), String> {
-        let Some(rounding) = Rounding::of(step, values.len(), self.left(), self.curve.quality().parameters) else {
+        let parameters = self.curve.quality().parameters;
+        let Some(rounding) = Rounding::of(step, values.len(), self.left(), parameters) else {
             return Ok(());
         };
         let (curve, residuals) = (&self.curve, &self.residuals);
@@ -183,23 +155,12 @@ impl Fitted {
         });
         let errors = rounding.errors(&exact);
         self.curve.admit(samples, &errors)?;
-        self.noise = rounding.noise(self.noise);
-        self.pattern.widening = 1.0;
-        self.missed = None;
+        self.errors.without(&rounding);
         Ok(())
     }
 
-    /// The motion at a time, rad and s.
-    pub fn state(&self, t: f64) -> State {
-        let state = self.curve.state(t);
-        match &self.missed {
-            Some(missed) => missed.beside(state, t),
-            None => state,
-        }
-    }
-
     /// Standard deviation of what the fit leaves of the samples.
-    fn left(&self) -> f64 {
+    pub fn left(&self) -> f64 {
         let quality = self.curve.quality();
         let free = self.residuals.len() as f64 - quality.parameters;
         (quality.squares / free.max(1.0)).sqrt()
@@ -211,11 +172,6 @@ impl Fitted {
             Some(theta) => theta,
             None => measurement.values(),
         }
-    }
-
-    /// Standard deviation of a measured value by noise, widened where the residuals are not independent.
-    pub fn sigma(&self) -> f64 {
-        (self.noise * self.pattern.widening).hypot(self.computed)
     }
 }
 

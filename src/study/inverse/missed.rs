@@ -51,7 +51,8 @@ impl Missed {
         if found.quality().squares > NOISY * squares {
             return None;
         }
-        let noise = found.compare(&left).unwrap_or(found.quality().sigma);
+        found.compare(&left);
+        let noise = found.quality().sigma;
         let missed = Missed {
             curve: found,
             noise,

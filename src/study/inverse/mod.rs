@@ -2,6 +2,7 @@
 //! equation is read backwards.
 
 mod bands;
+mod errors;
 mod fitted;
 mod force;
 mod guide;
@@ -119,10 +120,10 @@ pub fn inverse(
     let backwards = Backwards {
         equation: &equation,
         beside_forces: options.beside_forces,
-        sigma: fitted.sigma(),
+        sigma: fitted.errors.sigma(),
         guide: guide.as_ref(),
     };
-    let factor = student::half_band(fitted.free);
+    let factor = student::half_band(fitted.errors.free);
     let found = Rows::new(&backwards, &fitted, measurement.times(), factor);
     reachable(measurement, &found)?;
     limit::keeps_clear(&backwards, &sensor, &fitted, measurement)?;

@@ -46,14 +46,14 @@ pub(super) fn of_fit(
             quality.parameters.round()
         ));
     }
-    if fitted.pattern.clear {
+    if fitted.errors.pattern.clear {
         warnings.push(format!(
             "the residuals are not noise (correlation of each with the next {:.2}, runs of one sign {:+.0} standard deviations): the fit misses part of the motion, or the samples are not independent; the standard errors {}, and {}",
-            fitted.pattern.lag_one,
-            fitted.pattern.runs,
-            match &fitted.missed {
+            fitted.errors.pattern.lag_one,
+            fitted.errors.pattern.runs,
+            match &fitted.errors.missed {
                 Some(_) => "have in them what a spline through the residuals shows".to_owned(),
-                None => format!("are widened by {:.1}", fitted.pattern.widening),
+                None => format!("are widened by {:.1}", fitted.errors.pattern.widening),
             },
             match options.fit {
                 Kind::Polynomial if options.size == Size::Auto => "--fit spline may follow the motion better",
@@ -84,7 +84,7 @@ fn superfluous(fitted: &Fitted, options: &InverseOptions) -> Option<String> {
 
 /// Samples far off the fit.
 fn outliers(fitted: &Fitted, measurement: &Measurement) -> Option<String> {
-    let limit = OUTLIER * fitted.curve.quality().sigma;
+    let limit = OUTLIER * fitted.curve.quality().sigma.max(fitted.left());
     let far = |residual: &f64| residual.abs() > limit;
     let count = fitted.residuals.iter().filter(|r| far(r)).count();
     let first = fitted.residuals.iter().position(far)?;
