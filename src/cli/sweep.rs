@@ -64,6 +64,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         Some(file) => Draft::load(file)?,
         None => Draft::duarte(),
     };
+    if let Ok(scene) = draft.scene() {
+        streams.spare_tables(&scene)?;
+    }
     let options = SweepOptions {
         motion: !arguments.no_motion,
         method: arguments.method,

@@ -410,6 +410,10 @@ fn what_cannot_be_varied_is_refused_with_what_would_be_right() {
             &["--vary", "geometry.rod=1m,2m", "--out", "scene.toml"],
             &["overwritten"],
         ),
+        (
+            &["--vary", "geometry.rod=1m,2m", "--out", "torque.csv"],
+            &["overwritten"],
+        ),
     ] {
         let arguments = [&["sweep", "scene.toml"], more].concat();
         folder.run(&arguments).fails(2, words);
