@@ -10,6 +10,7 @@ mod schema;
 mod simulate;
 mod statics;
 mod streams;
+mod sweep;
 
 use std::io::IsTerminal;
 use std::path::PathBuf;
@@ -42,6 +43,8 @@ enum Command {
     Precision(precision::Arguments),
     /// Static slider force against crank torque, with the band that friction allows
     Statics(statics::Arguments),
+    /// Key figures of many designs: any scene keys varied
+    Sweep(sweep::Arguments),
     /// Every number and figure of the four papers beside ours, with the verdict
     Reproduce(reproduce::Arguments),
     /// The equation, what is modelled and why, and what will compute it
@@ -68,6 +71,7 @@ pub fn main() -> ExitCode {
         Command::Kinematics(arguments) => kinematics::run(&arguments),
         Command::Precision(arguments) => precision::run(&arguments),
         Command::Statics(arguments) => statics::run(&arguments),
+        Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),

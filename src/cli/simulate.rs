@@ -21,6 +21,9 @@ pub(super) struct Arguments {
     /// Draws the rows as SVG: slider motion, and of a loose joint the force and the journal's path
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
+    /// Writes summary, figure, what is modelled, events and some rows as one HTML page to this file
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
     /// Prints the summary as one JSON object
     #[arg(long)]
     json: bool,
@@ -90,7 +93,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let streams = Streams::new(
         &[arguments.scene.as_ref()],
         arguments.out.as_ref(),
-        &[arguments.plot.as_ref()],
+        &[arguments.plot.as_ref(), arguments.report.as_ref()],
         arguments.json,
     )?;
     let mut scene = streams.scene(arguments.scene.as_ref())?;
@@ -114,10 +117,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     }
     let output = arguments.out.as_deref().map(Output::create).transpose()?;
     let figure = arguments.plot.as_deref().map(Output::create).transpose()?;
+    let page = arguments.report.as_deref().map(Output::create);
+    let page = page.transpose()?;
     let mut rows = Rows {
-        plot: figure.is_some().then(PlotRows::default),
+        plot: (figure.is_some() || page.is_some()).then(PlotRows::default),
         writer: output.map(RowWriter::new),
-        preview: streams.text_on_stdout().then(Preview::default),
+        preview: (streams.text_on_stdout() || page.is_some()).then(Preview::default),
     };
     let result = study::simulate_rows(&scene, &options, &mut rows)?;
     if let Some(writer) = rows.writer {
@@ -130,8 +135,18 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         figure.finish()?;
     }
     let preview = rows.preview.map(|preview| preview.rows());
+    let preview = preview.unwrap_or_default();
+    if let (Some(mut page), Some(plot)) = (page, &rows.plot) {
+        page.write(report::page(&summary, &preview, plot)?.as_bytes())?;
+        page.finish()?;
+    }
     streams.show(&summary, || {
-        report::summary(&summary, preview.as_deref().unwrap_or_default())
+        let preview = if streams.text_on_stdout() {
+            &preview[..]
+        } else {
+            &[]
+        };
+        report::summary(&summary, preview)
     })?;
     Ok(match summary.stopped {
         Some(message) => Outcome::Incomplete(message),

@@ -57,8 +57,16 @@ impl Streams {
     /// What is wrong with it; [`Error::Refused`] if a result would go onto a table that it reads.
     pub fn scene(&self, file: Option<&PathBuf>) -> Result<Scene, Error> {
         let scene = super::scene(file)?;
-        check_files(&scene.table_files().collect::<Vec<_>>(), &self.written)?;
+        self.spare_tables(&scene)?;
         Ok(scene)
+    }
+
+    /// Whether no result would go onto a table that a scene reads.
+    ///
+    /// # Errors
+    /// [`Error::Refused`].
+    pub fn spare_tables(&self, scene: &Scene) -> Result<(), Error> {
+        check_files(&scene.table_files().collect::<Vec<_>>(), &self.written)
     }
 
     /// Whether a summary for the reader goes to standard output.

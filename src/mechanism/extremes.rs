@@ -34,10 +34,14 @@ impl Extremes {
             return None;
         }
         let grid = grid(linkage);
-        let (velocity_min, velocity_max) = pair(linkage, &grid, |p| p.dx, |_, p| p.d2x)?;
+        let poses: Vec<_> = grid
+            .iter()
+            .map(|theta| (*theta, linkage.pose(*theta)))
+            .collect();
+        let (velocity_min, velocity_max) = pair(linkage, &poses, |p| p.dx, |_, p| p.d2x)?;
         let (acceleration_min, acceleration_max) = pair(
             linkage,
-            &grid,
+            &poses,
             |p| p.d2x,
             |linkage, p| linkage.third_derivatives(p).1,
         )?;
@@ -50,17 +54,19 @@ impl Extremes {
     }
 }
 
-/// Smallest and largest `value` over a turn, from the roots of its derivative.
+/// Smallest and largest `value` over a turn, from the roots of its derivative between these poses.
 fn pair(
     linkage: &Linkage,
-    grid: &[f64],
+    poses: &[(f64, Pose)],
     value: impl Fn(&Pose) -> f64,
     derivative: impl Fn(&Linkage, &Pose) -> f64,
 ) -> Option<(Extreme, Extreme)> {
     let slope = |theta: f64| derivative(linkage, &linkage.pose(theta));
-    let mut found: Vec<Extreme> = grid
-        .windows(2)
-        .filter_map(|w| root::bracketed(slope, w[0], w[1]))
+    let slopes: Vec<f64> = poses.iter().map(|(_, p)| derivative(linkage, p)).collect();
+    let between = poses.windows(2).zip(slopes.windows(2));
+    let mut found: Vec<Extreme> = between
+        .filter(|(_, slopes)| slopes[0].signum() != slopes[1].signum() || slopes.contains(&0.0))
+        .filter_map(|(poses, _)| root::bracketed(slope, poses[0].0, poses[1].0))
         .map(|theta| Extreme {
             value: value(&linkage.pose(theta)),
             theta: theta.rem_euclid(TAU) % TAU,

@@ -8,11 +8,13 @@ mod joint;
 mod motion;
 mod one_turn;
 mod output;
+mod page;
 mod precision;
 mod reproduce;
 mod rows;
 mod statics;
 mod steady;
+mod sweep;
 mod text;
 mod thinned;
 mod unfinished;
@@ -24,12 +26,15 @@ pub use inverse::{inverse, inverse_figure, inverse_rows, residuals};
 pub use motion::PlotRows;
 pub use one_turn::{TurnWriter, turn, turn_figure};
 pub use output::Output;
+pub use page::page;
 pub use precision::{precision, precision_csv, precision_figure, precision_notes};
 pub use reproduce::{
     ReproductionSummary, drawing_csv, drawing_svg, file_name, reproduction, reproduction_csv,
 };
+use rows::shortest as shortest_number;
 pub use rows::{Preview, RowWriter};
 pub use statics::{StaticsWriter, statics, statics_figure};
+pub use sweep::{SweepExtreme, SweepRange, SweepSummary, SweepWriter, VariedKey, sweep_text};
 pub use text::summary;
 
 use crate::error::Error;

@@ -10,9 +10,20 @@ use crate::study::{Kinematics, Located, NamedPosition, Row, Summary};
 /// The summary of a run, with a few of its rows.
 pub fn summary(summary: &Summary, rows: &[Row]) -> String {
     let mut text = String::new();
-    let mut put = |name: &str, value: String| {
+    for (name, value) in facts(summary) {
         let _ = writeln!(text, "{name:<17} {value}");
-    };
+    }
+    if !rows.is_empty() {
+        text.push('\n');
+        text.push_str(&table(rows));
+    }
+    text
+}
+
+/// What there is to say of a run, each with its name; names that belong to the one before begin with spaces.
+pub(super) fn facts(summary: &Summary) -> Vec<(String, String)> {
+    let mut facts = Vec::new();
+    let mut put = |name: &str, value: String| facts.push((name.to_owned(), value));
     if !summary.scene.is_empty() {
         put("scene", summary.scene.clone());
     }
@@ -92,11 +103,7 @@ pub fn summary(summary: &Summary, rows: &[Row]) -> String {
     if let Some(stopped) = &summary.stopped {
         put("stopped early", stopped.clone());
     }
-    if !rows.is_empty() {
-        text.push('\n');
-        table(&mut text, rows);
-    }
-    text
+    facts
 }
 
 fn events(summary: &Summary) -> String {
@@ -149,7 +156,9 @@ fn seconds(value: f64) -> String {
     }
 }
 
-fn table(text: &mut String, rows: &[Row]) {
+/// Rows in columns that stand below each other.
+pub(super) fn table(rows: &[Row]) -> String {
+    let mut text = String::new();
     let _ = writeln!(
         text,
         "{:>12} {:>10} {:>11} {:>14} {:>11} {:>11}",
@@ -169,6 +178,7 @@ fn table(text: &mut String, rows: &[Row]) {
             row.v + 0.0
         );
     }
+    text
 }
 
 /// Where a named position is, and why it has its name.

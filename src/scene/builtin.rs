@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Problems, Scene, read};
+use super::{Draft, Problems, Scene};
 use crate::error::Error;
 
 /// The engine of Duarte et al. 2018, table 1, spinning freely; the scene of commands without one.
@@ -16,7 +16,8 @@ impl Scene {
     /// assert_eq!(scene.geometry.rod, 0.15583);
     /// ```
     pub fn duarte() -> Scene {
-        read::scene(Path::new("duarte-engine.toml"), DUARTE)
+        Draft::duarte()
+            .scene()
             .unwrap_or_else(|problems| unreachable!("the built-in scene is right: {problems}"))
     }
 
@@ -26,7 +27,7 @@ impl Scene {
     /// # Errors
     /// [`Problems`]: all that is wrong, with its places.
     pub fn parse(file: &Path, text: &str) -> Result<Scene, Problems> {
-        read::scene(file, text)
+        Draft::new(file, text).scene()
     }
 
     /// Reads a scene file; `-` is standard input.
@@ -34,15 +35,6 @@ impl Scene {
     /// # Errors
     /// [`Error::Read`] if the file cannot be read, [`Error::Scene`] if it is not a scene.
     pub fn load(file: &Path) -> Result<Scene, Error> {
-        let text = if file == Path::new("-") {
-            std::io::read_to_string(std::io::stdin())
-        } else {
-            std::fs::read_to_string(file)
-        }
-        .map_err(|source| Error::Read {
-            file: file.to_owned(),
-            source,
-        })?;
-        Ok(Scene::parse(file, &text)?)
+        Ok(Draft::load(file)?.scene()?)
     }
 }

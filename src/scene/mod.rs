@@ -22,6 +22,9 @@ mod table;
 pub mod unit;
 mod validate;
 mod variable;
+mod vary;
+
+use builtin::DUARTE;
 
 use std::path::Path;
 
@@ -36,6 +39,7 @@ pub use problem::{Problem, Problems};
 pub use schema::schema;
 pub use table::{Interpolation, Table, calibration_points};
 pub use variable::{Instant, Variable, Variables};
+pub use vary::{Draft, Varied};
 
 /// A complete scene.
 #[derive(Clone, Debug)]

@@ -31,6 +31,7 @@ mod statics;
 mod steady;
 mod stopped;
 mod summary;
+mod sweep;
 mod task;
 mod watch;
 
@@ -55,3 +56,4 @@ pub use steady::{
     Estimated, Flywheel, LoadWork, SpeedExtreme, SteadyOptions, SteadyState, steady_state,
 };
 pub use summary::{Cost, ErrorEstimate, Event, Final, Summary, TorqueRange};
+pub use sweep::{Design, Outcome, Sweep, SweepOptions};

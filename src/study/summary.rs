@@ -87,7 +87,7 @@ impl Summary {
         let (residual, scale) = solved.energy;
         let mut warnings = solved.warnings;
         let kept = solved.events.len();
-        if solved.events_total > kept as u64 {
+        if kept > 0 && solved.events_total > kept as u64 {
             let total = solved.events_total;
             warnings.push(format!(
                 "{total} events occurred; the first {kept} are listed"

@@ -113,6 +113,15 @@ impl Curve {
         Ok(())
     }
 
+    /// Estimates the error of a curve that goes through its samples, if it does, from curves through fewer of them, and
+    /// their noise from their differences; whether it has done so.
+    pub fn compare(&mut self, samples: &Samples<'_>) -> bool {
+        match self {
+            Curve::Polynomial(_) | Curve::Fourier(_) => false,
+            Curve::Spline(spline) => spline.compare(samples),
+        }
+    }
+
     /// The curve and its derivatives.
     pub fn state(&self, t: f64) -> State {
         match self {

@@ -5,11 +5,13 @@ mod condensed;
 mod curve;
 mod decay;
 mod design;
+mod differences;
 mod fourier;
 mod penalized;
 mod pieces;
 mod polynomial;
 mod powers;
+mod refinement;
 mod roughness;
 mod spline;
 mod triangle;
@@ -68,12 +70,32 @@ impl State {
         quadratic(&self.bias, gradient)
     }
 
+    /// This curve with another as what is wrong with it, instead of what may be left out; the other one is as it is for
+    /// samples of this standard deviation, and is not relied on to cancel.
+    pub fn wrong_by(mut self, other: &State, sigma: f64) -> State {
+        self.bias = other.bias;
+        add_products(&mut self.bias, &other.value, 1.0);
+        for (bias, covariance) in self.bias.iter_mut().zip(other.covariance) {
+            *bias += sigma * sigma * covariance;
+        }
+        for (entry, value) in DIAGONAL.into_iter().zip(other.value) {
+            self.bias[entry] += ALONE * value * value;
+        }
+        self
+    }
+
     /// What rounding may have done to a combination of the three.
     pub fn rounding_of(&self, gradient: &[f64; 3]) -> f64 {
         let parts = gradient.iter().zip(&self.rounding);
         parts.map(|(g, r)| (g * r).abs()).sum()
     }
 }
+
+/// Where a lower triangle has the squares.
+const DIAGONAL: [usize; 3] = [0, 2, 5];
+
+/// Part of the square of each of three errors that is left where they cancel.
+const ALONE: f64 = 0.01;
 
 /// gᵀ S g for a symmetric matrix given by its lower triangle.
 fn quadratic(matrix: &[f64; 6], gradient: &[f64; 3]) -> f64 {

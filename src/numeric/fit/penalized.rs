@@ -8,6 +8,12 @@ use crate::numeric::banded::{Banded, DIAGONALS};
 /// Logarithm of the weakest penalty, relative to the mean pivot.
 const WEAKEST: f64 = -15.0;
 
+/// The same of the strongest one: next to it a spline is a polynomial.
+const STRONGEST: f64 = 26.0;
+
+/// Costs that differ by this are of penalties about as likely: one standard deviation of the likely penalty.
+const ALIKE: f64 = 1.0;
+
 /// Sums over the samples for one grid.
 pub(super) struct Normal<'a> {
     pub grid: Grid,
@@ -190,8 +196,12 @@ impl Normal<'_> {
 
     /// A penalty that cuts off at a frequency this many times as high, but not below the weakest.
     pub fn weaker(&self, strength: f64, cut_off: f64) -> f64 {
-        let weakest = self.mean_pivot() * WEAKEST.exp();
-        (strength / cut_off.powi(2 * ORDER as i32)).max(weakest.min(strength))
+        (strength / cut_off.powi(2 * ORDER as i32)).max(self.weakest().min(strength))
+    }
+
+    /// The weakest penalty.
+    pub fn weakest(&self) -> f64 {
+        self.mean_pivot() * WEAKEST.exp()
     }
 
     /// The strength of the penalty with the largest restricted likelihood.
@@ -215,14 +225,34 @@ impl Normal<'_> {
                 - (size - ORDER) as f64 * strength.ln()
                 + of_size
         };
-        let best = minimum(&cost, WEAKEST, 26.0);
-        let strength = pivot * best.exp();
+        let best = minimum(&cost, WEAKEST, STRONGEST);
+        let least = cost(best);
+        // Samples that allow any strong penalty tell but the weakest one that goes with them.
+        let strength = if cost(STRONGEST) <= least + ALIKE {
+            crossing(&cost, least + ALIKE, WEAKEST, best)
+        } else {
+            best
+        };
+        let strength = pivot * strength.exp();
         Some(Choice {
-            cost: cost(best),
+            cost: least,
             strength,
             coefficients: self.solve(strength, &self.factor(strength)?, about.near),
         })
     }
+}
+
+/// The last place before `to` at which a function that falls comes down to a value.
+fn crossing(f: &dyn Fn(f64) -> f64, value: f64, mut from: f64, mut to: f64) -> f64 {
+    for _ in 0..8 {
+        let middle = 0.5 * (from + to);
+        if f(middle) > value {
+            from = middle;
+        } else {
+            to = middle;
+        }
+    }
+    to
 }
 
 /// Place of the least value: a grid of 2, then golden section.

@@ -10,7 +10,7 @@
 use super::condensed::Rows;
 use super::penalized::Normal;
 use super::pieces::{DEGREE, Grid, basis, last_bases};
-use super::{Quality, Samples, Size, State, add_products};
+use super::{DIAGONAL, Quality, Samples, Size, State, add_products, differences, refinement};
 use crate::numeric::banded::{Banded, DIAGONALS};
 
 /// Pieces for each one that the samples ask for, so that the penalty and not the pieces decide how smooth it is.
@@ -18,6 +18,9 @@ const FINER: usize = 4;
 
 /// Cut-off frequency of the fit for one of the most likely penalty.
 const CUT_OFF: f64 = std::f64::consts::SQRT_2;
+
+/// Penalties up to this many times the weakest one let a spline go through the samples.
+const THROUGH: f64 = 64.0;
 
 /// Step in the logarithm of the penalty for derivatives by it.
 const STEP: f64 = 0.05;
@@ -40,6 +43,10 @@ pub struct Spline {
     covariance: Banded,
     /// Coefficients of what may be wrong beside noise: of what the penalty has bent away, and of errors of the samples.
     errors: Vec<Vec<f64>>,
+    /// Whether its penalty is so weak that it goes through the samples.
+    through: bool,
+    /// What it and its derivatives may be off between such samples, for each piece.
+    between: Vec<[f64; 3]>,
     quality: Quality,
     condition: f64,
 }
@@ -126,6 +133,8 @@ impl Spline {
                 floor: normal.floor(),
             },
             condition: factor.diagonal_ratio(),
+            through: strength <= THROUGH * normal.weakest(),
+            between: Vec::new(),
             errors: vec![normal.bent_away(strength, &factor, &coefficients)],
             covariance: covariance(&normal, [likely, strength], inverse),
             grid: normal.grid,
@@ -162,6 +171,32 @@ impl Spline {
         Ok(())
     }
 
+    /// Estimates the error of a spline that goes through its samples, if it does, from splines through fewer of them, and
+    /// their noise from their differences; whether it has done so.
+    pub(super) fn compare(&mut self, samples: &Samples<'_>) -> bool {
+        let judged = self.through.then(|| {
+            let rows = Rows::new(samples, self.grid.pieces);
+            let normal = Normal::new(&rows, self.grid.pieces);
+            let inverse = normal.factor(self.strength)?.inverse_band();
+            let noise = differences::noise(samples)?;
+            let between = refinement::errors(self, samples)?;
+            // Not as rough as a likely curve: by noise alone.
+            let covariance = covariance(&normal, [f64::INFINITY, self.strength], inverse);
+            Some((covariance, noise, between))
+        });
+        let Some((covariance, noise, between)) = judged.flatten() else {
+            return false;
+        };
+        (self.covariance, self.between) = (covariance, between);
+        self.quality.sigma = noise.max(samples.floor);
+        true
+    }
+
+    /// The argument at a place, from 0 to 1, in a piece.
+    pub(super) fn argument(&self, piece: usize, u: f64) -> f64 {
+        self.grid.start + self.grid.width * (piece as f64 + u)
+    }
+
     /// Number of its pieces.
     pub fn pieces(&self) -> usize {
         self.grid.pieces
@@ -188,8 +223,8 @@ impl Spline {
         terms.fold(0.0, |sum, (b, c)| sum + b * c)
     }
 
-    /// The spline and its derivatives at `t`.
-    pub fn state(&self, t: f64) -> State {
+    /// The B-splines and their derivatives at `t`, and its piece.
+    fn bases(&self, t: f64) -> (usize, [[f64; DIAGONALS]; 3]) {
         let (piece, u) = self.grid.place(t);
         let per = 1.0 / self.grid.width;
         let [lowest, lower, value] = last_bases(u);
@@ -203,6 +238,19 @@ impl Spline {
                 per * per * (at(&lowest, i, 2) - 2.0 * at(&lowest, i, 1) + lowest[i])
             }),
         ];
+        (piece, bases)
+    }
+
+    /// The spline and its derivatives at `t`, alone.
+    pub(super) fn derivatives(&self, t: f64) -> [f64; 3] {
+        let (piece, bases) = self.bases(t);
+        let part = &self.coefficients[piece..piece + DIAGONALS];
+        bases.map(|basis| basis.iter().zip(part).map(|(b, c)| b * c).sum())
+    }
+
+    /// The spline and its derivatives at `t`.
+    pub fn state(&self, t: f64) -> State {
+        let (piece, bases) = self.bases(t);
         let mut state = State::default();
         for (k, basis) in bases.iter().enumerate() {
             for (b, c) in basis.iter().zip(&self.coefficients[piece..]) {
@@ -214,6 +262,11 @@ impl Spline {
             let part = &error[piece..piece + DIAGONALS];
             let error = bases.map(|basis| basis.iter().zip(part).map(|(b, c)| b * c).sum());
             add_products(&mut state.bias, &error, 1.0);
+        }
+        if let Some(between) = self.between.get(piece) {
+            for (entry, error) in DIAGONAL.into_iter().zip(between) {
+                state.bias[entry] += error * error;
+            }
         }
         let spread = bases.map(|basis| self.covariance.times_part(piece, &basis));
         let mut entry = 0;

@@ -10,6 +10,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::keys::{self, Section};
+use super::vary::Setting;
 use super::{Problem, Problems, Scene, assemble, validate};
 pub(super) use reader::Reader;
 pub(super) use values::Values;
@@ -17,9 +18,14 @@ pub(super) use values::Values;
 /// Errors of syntax that are listed: what is no scene at all has one on each line.
 const MOST_LISTED: usize = 20;
 
-/// Reads the text of a scene file; tables it names are looked for beside it.
-pub(super) fn scene(file: &Path, source: &str) -> Result<Scene, Problems> {
-    let (document, errors) = DeTable::parse_recoverable(source);
+/// Reads the text of a scene file, with these values in place of its own; tables it names are looked for
+/// beside it.
+pub(super) fn scene<'a>(
+    file: &Path,
+    source: &'a str,
+    settings: impl Iterator<Item = Setting<'a>>,
+) -> Result<Scene, Problems> {
+    let (mut document, errors) = DeTable::parse_recoverable(source);
     if !errors.is_empty() {
         let problem = |error: &toml::de::Error| Problem {
             field: "syntax".to_owned(),
@@ -31,6 +37,10 @@ pub(super) fn scene(file: &Path, source: &str) -> Result<Scene, Problems> {
         return Err(Problems::in_file(file, source, problems));
     }
     let mut reader = Reader::new(source);
+    for setting in settings {
+        let applied = setting.apply(document.get_mut());
+        reader.problems.extend(applied.err());
+    }
     let (title, tables) = tables(&mut reader, document.get_ref());
     let folder = file.parent().unwrap_or(Path::new(""));
     let scene = assemble::scene(&mut reader, title, &tables, folder);

@@ -115,6 +115,28 @@ impl Quantity {
         self.facts().2
     }
 
+    /// The SI unit as names of columns have it; empty for numbers.
+    pub(in crate::scene) fn column(self) -> &'static str {
+        match self {
+            Self::Length => "m",
+            Self::Mass => "kg",
+            Self::Inertia => "kg_m2",
+            Self::Angle => "rad",
+            Self::AngularSpeed => "rad_per_s",
+            Self::Acceleration => "m_per_s2",
+            Self::Time => "s",
+            Self::Force => "n",
+            Self::Torque => "nm",
+            Self::RotaryDamping => "nm_s_per_rad",
+            Self::LinearDamping => "n_s_per_m",
+            Self::Stiffness => "n_per_m",
+            Self::Pressure => "pa",
+            Self::Density => "kg_per_m3",
+            Self::Velocity => "m_per_s",
+            Self::Number => "",
+        }
+    }
+
     /// Radians are a dimension only where leaving them out could be a mistake:
     /// `N m s` is as good as `N m s/rad`.
     pub(super) fn accepts(self, found: Dimension) -> bool {

@@ -1,9 +1,9 @@
 //! The fit of θ(t), in terms of what was measured.
 
-use super::pattern::Pattern;
+use super::errors::Errors;
 use super::rounding::{Rounding, common_step, of_step};
 use super::sensor::Sensor;
-use crate::numeric::fit::{Curve, Kind, Samples, Size};
+use crate::numeric::fit::{Curve, Kind, Samples, Size, State};
 use crate::numeric::parallel;
 use crate::scene::{Measured, Measurement};
 
@@ -13,15 +13,11 @@ pub(super) struct Fitted {
     pub curve: Curve,
     /// Measured minus fitted, rad or m.
     pub residuals: Vec<f64>,
-    pub pattern: Pattern,
+    pub errors: Errors,
     /// Whether the fit came to rest.
     pub settled: bool,
     /// A measured crank angle, continued over the turns, rad.
     continued: Option<Vec<f64>>,
-    /// Standard deviation of a sample by noise alone: rounding that is not noise is in the curve's errors.
-    noise: f64,
-    /// Standard deviation of a sample that was computed.
-    computed: f64,
 }
 
 /// Corrections after which a fit counts as not settling.
@@ -94,7 +90,7 @@ impl Fitted {
             let curve = Curve::fit(&samples, kind, size)?;
             let residuals = parallel::list(theta.len(), |i| theta[i] - curve.value(times[i]));
             let computed = ROUNDED * f64::EPSILON * largest(&theta);
-            let mut fitted = Fitted::of(curve, residuals, true, computed);
+            let mut fitted = Fitted::of(curve, residuals, &samples, computed);
             fitted.round(sensor, values, &samples, step)?;
             fitted.continued = Some(theta);
             return Ok(fitted);
@@ -121,23 +117,25 @@ impl Fitted {
             weight: Some(&slopes),
             floor,
         };
-        let mut fitted = Fitted::of(curve, residuals, settled, computed);
+        let mut fitted = Fitted::of(curve, residuals, &samples, computed);
+        fitted.settled = settled;
         fitted.round(sensor, values, &samples, step)?;
         Ok(fitted)
     }
 
-    fn of(curve: Curve, residuals: Vec<f64>, settled: bool, computed: f64) -> Fitted {
-        let quality = curve.quality();
-        let pattern = Pattern::of(&residuals, quality.parameters, quality.floor);
+    fn of(mut curve: Curve, residuals: Vec<f64>, samples: &Samples<'_>, computed: f64) -> Fitted {
         Fitted {
+            errors: Errors::of(&mut curve, samples, &residuals, computed),
             curve,
             residuals,
-            pattern,
-            settled,
+            settled: true,
             continued: None,
-            noise: quality.sigma,
-            computed,
         }
+    }
+
+    /// The motion at a time, rad and s.
+    pub fn state(&self, t: f64) -> State {
+        self.errors.state(&self.curve, t)
     }
 
     /// Counts rounding of the measured values to steps that is not noise as an error of the curve, and not as noise.
@@ -148,7 +146,8 @@ impl Fitted {
         samples: &Samples<'_>,
         step: f64,
     ) -> Result<(), String> {
-        let Some(rounding) = Rounding::of(step, values.len(), self.left()) else {
+        let parameters = self.curve.quality().parameters;
+        let Some(rounding) = Rounding::of(step, values.len(), self.left(), parameters) else {
             return Ok(());
         };
         let (curve, residuals) = (&self.curve, &self.residuals);
@@ -159,13 +158,12 @@ impl Fitted {
         });
         let errors = rounding.errors(&exact);
         self.curve.admit(samples, &errors)?;
-        self.noise = rounding.noise(self.noise);
-        self.pattern.widening = 1.0;
+        self.errors.without(&rounding);
         Ok(())
     }
 
     /// Standard deviation of what the fit leaves of the samples.
-    fn left(&self) -> f64 {
+    pub fn left(&self) -> f64 {
         let quality = self.curve.quality();
         let free = self.residuals.len() as f64 - quality.parameters;
         (quality.squares / free.max(1.0)).sqrt()
@@ -177,11 +175,6 @@ impl Fitted {
             Some(theta) => theta,
             None => measurement.values(),
         }
-    }
-
-    /// Standard deviation of a measured value by noise, widened where the residuals are not independent.
-    pub fn sigma(&self) -> f64 {
-        (self.noise * self.pattern.widening).hypot(self.computed)
     }
 }
 

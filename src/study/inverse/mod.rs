@@ -2,10 +2,12 @@
 //! equation is read backwards.
 
 mod bands;
+mod errors;
 mod fitted;
 mod force;
 mod guide;
 mod limit;
+mod missed;
 mod pattern;
 mod printed;
 mod rounding;
@@ -118,12 +120,11 @@ pub fn inverse(
     let backwards = Backwards {
         equation: &equation,
         beside_forces: options.beside_forces,
-        sigma: fitted.sigma(),
+        sigma: fitted.errors.sigma(),
         guide: guide.as_ref(),
     };
-    let free = measurement.len() as f64 - fitted.curve.quality().parameters;
-    let factor = student::half_band(free.max(1.0));
-    let found = Rows::new(&backwards, &fitted.curve, measurement.times(), factor);
+    let factor = student::half_band(fitted.errors.free);
+    let found = Rows::new(&backwards, &fitted, measurement.times(), factor);
     reachable(measurement, &found)?;
     limit::keeps_clear(&backwards, &sensor, &fitted, measurement)?;
     finite(&backwards, measurement, &found.rows)?;

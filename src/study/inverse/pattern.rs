@@ -9,16 +9,16 @@ pub(super) struct Pattern {
     pub runs: f64,
     /// Factor on standard errors for residuals that are not independent; 1 where they look so.
     pub widening: f64,
-    /// Whether the residuals are more than the digits of the samples.
-    pub shown: bool,
+    /// Whether the residuals have a pattern, and are more than the digits of the samples.
+    pub clear: bool,
 }
 
 /// Standard deviations beyond which a pattern is one.
 const CLEAR: f64 = 4.0;
 
 impl Pattern {
-    /// Reads the residuals of a fit that is worth this many parameters; those within the digits of the samples, whose
-    /// standard deviation is `floor`, tell nothing about the fit, but may depend on each other as well.
+    /// Reads the residuals of a fit that is worth this many parameters; those within what samples and curve are
+    /// known to, of standard deviation `floor`, tell nothing about the fit.
     pub fn of(residuals: &[f64], parameters: f64, floor: f64) -> Pattern {
         let n = residuals.len() as f64;
         let square: f64 = residuals.iter().map(|r| r * r).sum();
@@ -27,7 +27,7 @@ impl Pattern {
                 lag_one: 0.0,
                 runs: 0.0,
                 widening: 1.0,
-                shown: false,
+                clear: false,
             };
         }
         let shown = square > n * (1.5 * floor).powi(2);
@@ -37,8 +37,7 @@ impl Pattern {
         // Residuals of noise are correlated by about −(parameters)/n through the fit itself.
         let deviations = (lag_one + parameters / n) * n.sqrt();
         let mut widening = 1.0;
-        // Rounding follows the value that is rounded: it is not taken for noise.
-        if deviations > CLEAR || runs < -CLEAR || !shown {
+        if shown && (deviations > CLEAR || runs < -CLEAR) {
             let time = correlation_time(residuals);
             let free = (n - parameters).max(1.0);
             widening = (time * n / free).sqrt().max(1.0);
@@ -47,13 +46,8 @@ impl Pattern {
             lag_one,
             runs,
             widening,
-            shown,
+            clear: widening > 1.0,
         }
-    }
-
-    /// Whether the residuals have a pattern.
-    pub fn is_clear(&self) -> bool {
-        self.shown && self.widening > 1.0
     }
 }
 

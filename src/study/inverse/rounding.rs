@@ -28,13 +28,16 @@ const SLIGHT: f64 = 0.01;
 const PLAIN: f64 = 32.0;
 
 impl Rounding {
-    /// The rounding of so many values to steps, if it is not noise: fits leave them with this standard deviation.
-    pub fn of(step: f64, values: usize, left: f64) -> Option<Rounding> {
+    /// The rounding of so many values to steps, if it is not noise: a fit of so many parameters leaves them with this
+    /// standard deviation.
+    pub fn of(step: f64, values: usize, left: f64, parameters: f64) -> Option<Rounding> {
         // On an even motion exact values have a common step as well.
         if step <= 0.0 || left < 0.5 * of_step(step) {
             return None;
         }
         let noise = (left * left - of_step(step).powi(2)).max(0.0);
+        // The places of the values in the steps are known as the fit is, which follows rounding as well.
+        let noise = noise + of_step(step).powi(2) * parameters / values as f64;
         let most = if values > MANY { FEWER } else { TERMS };
         let term = |k: usize| {
             let k = k as f64;

@@ -3,7 +3,7 @@
 use super::bands::{BandRule, DeadCentreBand, LONG_ARM, alike};
 use super::fitted::Fitted;
 use super::force::{Backwards, Demand};
-use crate::numeric::fit::{Curve, State};
+use crate::numeric::fit::State;
 use crate::numeric::parallel;
 use crate::scene::Measurement;
 
@@ -111,10 +111,10 @@ impl InverseRow {
 
 impl Rows {
     /// The rows; half of a 95 % band is `factor` standard errors.
-    pub fn new(backwards: &Backwards<'_>, curve: &Curve, times: &[f64], factor: f64) -> Rows {
+    pub fn new(backwards: &Backwards<'_>, fitted: &Fitted, times: &[f64], factor: f64) -> Rows {
         let linkage = backwards.equation.linkage();
         let (rows, doubts) = parallel::pairs(times.len(), |i| {
-            let state = curve.state(times[i]);
+            let state = fitted.state(times[i]);
             let demand = backwards.demand(times[i], &state);
             let row = InverseRow::new(times[i], &state, &demand);
             (row, Doubt::new(&demand, linkage.r))

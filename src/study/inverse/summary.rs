@@ -209,9 +209,9 @@ impl FitSummary {
                 Curve::Polynomial(polynomial) if polynomial.extended() => "double-double",
                 _ => "double",
             },
-            residual_lag_one: fitted.pattern.lag_one,
-            residual_runs: fitted.pattern.runs,
-            widening: fitted.pattern.widening,
+            residual_lag_one: fitted.errors.pattern.lag_one,
+            residual_runs: fitted.errors.pattern.runs,
+            widening: fitted.errors.pattern.widening,
         }
     }
 }

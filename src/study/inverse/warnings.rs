@@ -52,12 +52,15 @@ pub(super) fn of_fit(
             quality.parameters.round()
         ));
     }
-    if fitted.pattern.is_clear() {
+    if fitted.errors.pattern.clear {
         warnings.push(format!(
-            "the residuals are not noise (correlation of each with the next {:.2}, runs of one sign {:+.0} standard deviations): the fit misses part of the motion, or the samples are not independent; the standard errors are widened by {:.1}, and {}",
-            fitted.pattern.lag_one,
-            fitted.pattern.runs,
-            fitted.pattern.widening,
+            "the residuals are not noise (correlation of each with the next {:.2}, runs of one sign {:+.0} standard deviations): the fit misses part of the motion, or the samples are not independent; the standard errors {}, and {}",
+            fitted.errors.pattern.lag_one,
+            fitted.errors.pattern.runs,
+            match &fitted.errors.missed {
+                Some(_) => "have in them what a spline through the residuals shows".to_owned(),
+                None => format!("are widened by {:.1}", fitted.errors.pattern.widening),
+            },
             match options.fit {
                 Kind::Polynomial if options.size == Size::Auto => "--fit spline may follow the motion better",
                 Kind::Polynomial => "a higher --degree or --fit spline may follow the motion better",

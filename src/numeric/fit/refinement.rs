@@ -1,0 +1,82 @@
+//! What a spline through samples without visible noise is off, from splines through a half and a quarter of them.
+//!
+//! Where refining makes differences smaller by a factor, it goes on doing so, and by 64 for the second derivative of a
+//! resolved motion (the error of splines of degree 7 is of order 8, two orders less for that derivative).
+
+use super::pieces::DEGREE;
+use super::{Samples, Size, Spline};
+
+/// Least factor by which the error is taken to be smaller than the difference that was made by doubling the samples.
+const LEAST: f64 = 1.0 / 64.0;
+
+/// The same for the two pieces at each end, where the penalty and not the motion gives the last derivatives: the error is of
+/// lower order.
+const LEAST_AT_END: f64 = 1.0 / 8.0;
+
+/// Places in a piece at which splines are compared.
+const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+
+/// Pieces on each side that count with each for the finer and the coarser difference.
+const BESIDE: [usize; 2] = [2, 4];
+
+/// Errors of angle, speed and acceleration for each piece of a spline; none for too few samples.
+pub(super) fn errors(spline: &Spline, samples: &Samples<'_>) -> Option<Vec<[f64; 3]>> {
+    let half = coarser(samples, spline.pieces(), 2)?;
+    let quarter = coarser(samples, spline.pieces(), 4)?;
+    let pieces = 0..spline.pieces();
+    let differences: Vec<[[[f64; 3]; PLACES.len()]; 2]> = pieces
+        .clone()
+        .map(|piece| {
+            let mut found = [[[0.0; 3]; PLACES.len()]; 2];
+            for (place, u) in PLACES.into_iter().enumerate() {
+                let t = spline.argument(piece, u);
+                let [fine, middle, coarse] =
+                    [spline, &half, &quarter].map(|spline| spline.derivatives(t));
+                found[0][place] = std::array::from_fn(|k| middle[k] - fine[k]);
+                found[1][place] = std::array::from_fn(|k| coarse[k] - middle[k]);
+            }
+            found
+        })
+        .collect();
+    let mean = |piece: usize, level: usize, k: usize| {
+        let from = piece.saturating_sub(BESIDE[level]);
+        let to = (piece + BESIDE[level] + 1).min(differences.len());
+        let around = differences[from..to].iter().flat_map(|d| &d[level]);
+        let squares: f64 = around.map(|d| d[k] * d[k]).sum();
+        (squares / (PLACES.len() * (to - from)) as f64).sqrt()
+    };
+    let error = |piece: usize| {
+        std::array::from_fn(|k| {
+            let [last, before] = [0, 1].map(|level| mean(piece, level, k));
+            // Towards the ends errors grow fast.
+            let here = differences[piece][0].iter().map(|d| d[k].abs());
+            let last = here.fold(last, f64::max);
+            let factor = if before > 0.0 { last / before } else { 1.0 };
+            let from_end = piece.min(differences.len() - 1 - piece);
+            let least = if from_end < 2 { LEAST_AT_END } else { LEAST };
+            last * factor.clamp(least, 1.0)
+        })
+    };
+    Some(pieces.map(error).collect())
+}
+
+/// A spline through each sample of a stride, the first and the last one among them.
+fn coarser(samples: &Samples<'_>, pieces: usize, stride: usize) -> Option<Spline> {
+    let part = |list: &[f64]| -> Vec<f64> {
+        let last = list.len() - 1;
+        let steps = last.div_ceil(stride);
+        (0..=steps)
+            .map(|i| list[(i * last + steps / 2) / steps])
+            .collect()
+    };
+    let (t, target) = (part(samples.t), part(samples.target));
+    let weight = samples.weight.map(part);
+    let most = t.len().checked_sub(DEGREE + 1).filter(|most| *most > 1)?;
+    let part = Samples {
+        t: &t,
+        target: &target,
+        weight: weight.as_deref(),
+        floor: samples.floor,
+    };
+    Spline::fit(&part, Size::Fixed(most.min(pieces.div_ceil(stride)))).ok()
+}

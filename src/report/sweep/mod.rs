@@ -1,0 +1,177 @@
+//! The designs of a sweep: rows, what they range over, and where they are kept until all are there.
+
+mod columns;
+mod growing;
+mod ranges;
+
+use std::ops::Range;
+use std::path::Path;
+
+use super::{Output, shortest_number};
+use crate::error::Error;
+use crate::study::{Design, Sweep};
+use growing::Growing;
+use ranges::Tally;
+pub use ranges::{SweepExtreme, SweepRange, SweepSummary, VariedKey, sweep_text};
+
+/// Rows of `sweep`, in the order of the designs.
+///
+/// A file grows beside its target under the name of the target with `.part` at its end, and takes its name
+/// when all rows are in it; if the sweep is cut off, the next one of the same scene, values and options goes
+/// on where it ended. The header stands in the first part of a sweep only, so that the files of all parts
+/// make the whole when they are put one after the other.
+#[derive(Debug)]
+pub struct SweepWriter<'a> {
+    sweep: &'a Sweep,
+    range: Range<usize>,
+    target: Target,
+    tally: Tally,
+    /// Rows that were there already.
+    kept: usize,
+}
+
+#[derive(Debug)]
+enum Target {
+    Nothing,
+    Stream(Output),
+    File(Growing),
+}
+
+impl<'a> SweepWriter<'a> {
+    /// Opens the target of part `part` of `parts`, counted from 1: none, `-` for standard output, or a file;
+    /// takes up what an earlier sweep left.
+    ///
+    /// # Errors
+    /// [`Error::Write`]; [`Error::Refused`] if what was left is of another sweep.
+    pub fn new(
+        path: Option<&Path>,
+        sweep: &'a Sweep,
+        [part, parts]: [usize; 2],
+    ) -> Result<SweepWriter<'a>, Error> {
+        let header = line(&columns::header(sweep))?;
+        let header = if part == 1 { header.as_str() } else { "" };
+        let range = sweep.part(part, parts);
+        let mut tally = Tally::new(sweep);
+        let mut kept = 0;
+        let target = match path {
+            None => Target::Nothing,
+            Some(path) if path == Path::new("-") || is_device(path) => {
+                let mut output = Output::create(path)?;
+                output.write(header.as_bytes())?;
+                Target::Stream(output)
+            }
+            Some(path) => {
+                let mark = format!(
+                    "sweep {:016x} {}..{}",
+                    sweep.identity(),
+                    range.start,
+                    range.end
+                );
+                let mut last = String::new();
+                let file = Growing::open(path, &mark, header, |row| {
+                    tally.take(&cells(row)?);
+                    kept += 1;
+                    row.clone_into(&mut last);
+                    Ok(())
+                })?;
+                // The tables that a scene names may have changed though its own file has not.
+                if kept > 0 && row(sweep, &sweep.design(range.start + kept - 1))? != last {
+                    return Err(file.of_another());
+                }
+                Target::File(file)
+            }
+        };
+        Ok(SweepWriter {
+            sweep,
+            range,
+            target,
+            tally,
+            kept,
+        })
+    }
+
+    /// The designs that are not there yet.
+    pub fn missing(&self) -> Range<usize> {
+        (self.range.start + self.kept).min(self.range.end)..self.range.end
+    }
+
+    /// Writes rows; those of a file are safe when this returns.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn take(&mut self, designs: &[Design]) -> Result<(), Error> {
+        let mut text = String::new();
+        for design in designs {
+            let cells = columns::cells(self.sweep, design);
+            text.push_str(&line(&cells)?);
+            self.tally.take(&cells);
+        }
+        match &mut self.target {
+            Target::Nothing => Ok(()),
+            Target::Stream(output) => output.write(text.as_bytes()),
+            Target::File(file) => file.append(text.as_bytes()),
+        }
+    }
+
+    /// Completes the output and sums up, after `wall_s` seconds of computation.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn finish(self, wall_s: f64) -> Result<SweepSummary, Error> {
+        match self.target {
+            Target::Nothing => {}
+            Target::Stream(output) => output.finish()?,
+            Target::File(file) => file.finish()?,
+        }
+        Ok(self
+            .tally
+            .summary(self.sweep, &self.range, self.kept, wall_s))
+    }
+}
+
+/// Whether a path is there and neither a file nor a folder: a pipe, a device.
+fn is_device(path: &Path) -> bool {
+    path.exists() && !path.is_file() && !path.is_dir()
+}
+
+fn row(sweep: &Sweep, design: &Design) -> Result<String, Error> {
+    line(&columns::cells(sweep, design))
+}
+
+fn failed(error: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> Error {
+    Error::Write {
+        target: "CSV".to_owned(),
+        source: std::io::Error::other(error),
+    }
+}
+
+/// Cells as one line of CSV.
+fn line(cells: &[String]) -> Result<String, Error> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(cells).map_err(failed)?;
+    let bytes = writer
+        .into_inner()
+        .map_err(|error| failed(error.to_string()))?;
+    String::from_utf8(bytes).map_err(failed)
+}
+
+/// One line of CSV as cells.
+fn cells(line: &str) -> Result<Vec<String>, Error> {
+    let mut reader = csv::ReaderBuilder::new();
+    let mut reader = reader.has_headers(false).from_reader(line.as_bytes());
+    let record = reader.records().next().transpose().map_err(failed)?;
+    Ok(record
+        .unwrap_or_default()
+        .iter()
+        .map(str::to_owned)
+        .collect())
+}
+
+/// A number as a cell; what is not finite is empty.
+fn cell(number: f64) -> String {
+    if number.is_finite() {
+        shortest_number(number)
+    } else {
+        String::new()
+    }
+}

@@ -1,0 +1,150 @@
+//! The text of a scene file, from which scenes with other values are made.
+
+use std::path::{Path, PathBuf};
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::{KeyPath, Varied};
+use crate::error::Error;
+use crate::scene::{DUARTE, Problem, Problems, Scene, read};
+
+/// A scene file whose values may be replaced before it is read.
+///
+/// ```
+/// use slider_crank::scene::{Draft, Varied};
+/// let draft = Draft::duarte();
+/// let rod: Varied = "geometry.rod = 150mm:160mm:3".parse().unwrap();
+/// let scene = draft.with([(&rod, 1)]).unwrap();
+/// assert_eq!(scene.geometry.rod, 0.155);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Draft {
+    file: PathBuf,
+    text: String,
+}
+
+impl Draft {
+    /// From the text of a scene file; `file` is its name in messages and the place from which the tables it
+    /// names are found.
+    pub fn new(file: &Path, text: impl Into<String>) -> Draft {
+        Draft {
+            file: file.to_owned(),
+            text: text.into(),
+        }
+    }
+
+    /// Reads the text of a scene file; `-` is standard input.
+    ///
+    /// # Errors
+    /// [`Error::Read`].
+    pub fn load(file: &Path) -> Result<Draft, Error> {
+        let text = if file == Path::new("-") {
+            std::io::read_to_string(std::io::stdin())
+        } else {
+            std::fs::read_to_string(file)
+        };
+        let text = text.map_err(|source| Error::Read {
+            file: file.to_owned(),
+            source,
+        })?;
+        Ok(Draft::new(file, text))
+    }
+
+    /// The file of the built-in scene.
+    pub fn duarte() -> Draft {
+        Draft::new(Path::new("duarte-engine.toml"), DUARTE)
+    }
+
+    /// The text of the file.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Whether the scene has the table that a varied key belongs to, or a place for it.
+    ///
+    /// # Errors
+    /// [`Problems`]: the scene has fewer tables of this name.
+    pub fn takes(&self, varied: &Varied) -> Result<(), Problems> {
+        let (mut document, _) = DeTable::parse_recoverable(&self.text);
+        let applied = varied.setting(0).apply(document.get_mut());
+        applied.map_err(|problem| Problems::in_file(&self.file, &self.text, vec![problem]))
+    }
+
+    /// The scene as it is written.
+    ///
+    /// # Errors
+    /// [`Problems`]: all that is wrong, with its places.
+    pub fn scene(&self) -> Result<Scene, Problems> {
+        self.with([])
+    }
+
+    /// The scene with values in place of its own, or beside them: of each varied key the one of this index.
+    ///
+    /// # Errors
+    /// [`Problems`]: all that is wrong with the scene that results.
+    pub fn with<'a>(
+        &self,
+        values: impl IntoIterator<Item = (&'a Varied, usize)>,
+    ) -> Result<Scene, Problems> {
+        let settings = values.into_iter().map(|(varied, i)| varied.setting(i));
+        read::scene(&self.file, &self.text, settings)
+    }
+}
+
+/// A value in place of the one in the file.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::scene) struct Setting<'a> {
+    pub path: KeyPath,
+    pub text: &'a str,
+}
+
+impl<'a> Setting<'a> {
+    /// Writes the value into the document, with its table if that is not there.
+    ///
+    /// # Errors
+    /// If the scene has fewer tables of this name.
+    pub fn apply(self, document: &mut DeTable<'a>) -> Result<(), Problem> {
+        let (section, key) = (self.path.section, self.path.key);
+        let table = document
+            .entry(nowhere(section.name.into()))
+            .or_insert_with(|| {
+                nowhere(match section.repeated {
+                    true => DeValue::Array(Default::default()),
+                    false => DeValue::Table(Default::default()),
+                })
+            });
+        let mut table = table.get_mut();
+        if let DeValue::Array(list) = table {
+            let count = list.len();
+            let found = list.get_mut(self.path.index);
+            table = found.ok_or_else(|| self.no_table(count))?.get_mut();
+        }
+        // What is no table is left for the reader to complain of.
+        if let DeValue::Table(table) = table {
+            let value = DeValue::String(self.text.into());
+            let old = table.get(key.name);
+            let span = old.map_or(0..0, Spanned::span);
+            table.insert(nowhere(key.name.into()), Spanned::new(span, value));
+        }
+        Ok(())
+    }
+
+    fn no_table(&self, count: usize) -> Problem {
+        let name = self.path.section.name;
+        let what = format!(
+            "`{}` cannot be set: tables [[{name}]] in the scene: {count}",
+            self.path
+        );
+        Problem::new(
+            name,
+            what,
+            format!("add a [[{name}]] with its kind to the scene"),
+        )
+    }
+}
+
+/// What does not stand in the file.
+fn nowhere<T>(value: T) -> Spanned<T> {
+    Spanned::new(0..0, value)
+}

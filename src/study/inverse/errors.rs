@@ -1,0 +1,76 @@
+//! What a fit, its residuals and rounding tell of the errors of a motion.
+
+use super::missed::Missed;
+use super::pattern::Pattern;
+use super::rounding::Rounding;
+use crate::numeric::fit::{Curve, Samples, State};
+
+/// What is known of the errors of a fitted motion, beside what the curve knows of its own.
+#[derive(Debug)]
+pub(super) struct Errors {
+    pub pattern: Pattern,
+    /// Standard deviation of a sample by noise alone: rounding that is not noise is in the curve's errors.
+    noise: f64,
+    /// Standard deviation of a sample that was computed.
+    computed: f64,
+    /// Degrees of freedom of the noise.
+    pub free: f64,
+    /// What the curve misses of the motion, if its residuals show it.
+    pub missed: Option<Missed>,
+}
+
+impl Errors {
+    /// Those of a curve that leaves these residuals, for samples that may be off by `computed` even without noise.
+    pub fn of(
+        curve: &mut Curve,
+        samples: &Samples<'_>,
+        residuals: &[f64],
+        computed: f64,
+    ) -> Errors {
+        let quality = curve.quality();
+        let known = quality.floor.max(computed);
+        let pattern = Pattern::of(residuals, quality.parameters, known);
+        let rows = residuals.len() as f64;
+        let through = curve.compare(samples);
+        let mut errors = Errors {
+            pattern,
+            noise: curve.quality().sigma,
+            computed,
+            free: (rows - quality.parameters).max(1.0),
+            missed: None,
+        };
+        if through {
+            // The residuals tell nothing; the noise is seen in differences that overlap.
+            errors.pattern.widening = 1.0;
+            errors.free = 0.5 * rows;
+            return errors;
+        }
+        errors.missed = Missed::of(curve, samples, residuals, &errors.pattern, errors.sigma());
+        if let Some(missed) = &errors.missed {
+            errors.noise = missed.noise;
+            errors.pattern.widening = 1.0;
+        }
+        errors
+    }
+
+    /// Leaves to the curve what of the errors of the samples is rounding and not noise.
+    pub fn without(&mut self, rounding: &Rounding) {
+        self.noise = rounding.noise(self.noise);
+        self.pattern.widening = 1.0;
+        self.missed = None;
+    }
+
+    /// Standard deviation of a measured value by noise, widened where the residuals are not independent.
+    pub fn sigma(&self) -> f64 {
+        (self.noise * self.pattern.widening).hypot(self.computed)
+    }
+
+    /// The motion at a time, rad and s.
+    pub fn state(&self, curve: &Curve, t: f64) -> State {
+        let state = curve.state(t);
+        match &self.missed {
+            Some(missed) => missed.beside(state, t),
+            None => state,
+        }
+    }
+}
