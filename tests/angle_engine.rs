@@ -1,13 +1,14 @@
 //! The angle engine against a closed solution and against integration in time.
 
+mod support;
+
 use std::f64::consts::{PI, TAU};
 
 use proptest::prelude::*;
 use slider_crank::plan::Method;
-use slider_crank::scene::{
-    Branch, Crank, Every, Gravity, InertiaAbout, Load, Rod, Scene, Slider, Variables,
-};
+use slider_crank::scene::{Crank, Every, Gravity, Load, Scene, Variables};
 use slider_crank::study::{Options, Row, Simulation, simulate, simulate_rows};
+use support::machines::machine;
 
 fn run(scene: &Scene, method: Method) -> Simulation {
     let options = Options {
@@ -187,21 +188,7 @@ fn driven_mechanism() -> impl Strategy<Value = Scene> {
         let (crank, rod, slider) = masses;
         let (angle, speed, clockwise) = motion;
         let (torque, damping, damper, push, drag) = loads;
-        Scene::new(r, l)
-            .offset(offset * r)
-            .branch(if left { Branch::Left } else { Branch::Right })
-            .crank(Crank {
-                inertia: 2.0 * crank * r * r,
-                ..Crank::default()
-            })
-            .rod(Rod {
-                mass: rod,
-                cg: 0.4 * l,
-                inertia: 0.1 * rod * l * l,
-                inertia_about: InertiaAbout::Cg,
-                ..Rod::default()
-            })
-            .slider(Slider { mass: slider })
+        machine([r, l, offset * r], left, [2.0 * crank, rod, slider], 0.0)
             .gravity(Gravity::standard())
             .torque(Load::Constant(torque))
             .torque(Load::Viscous(damping * r))

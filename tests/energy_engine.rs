@@ -1,6 +1,7 @@
 //! The energy engine against a quadrature of its own and against integration in time.
 
 mod energy_integral;
+mod support;
 
 use std::f64::consts::{PI, TAU};
 
@@ -8,9 +9,10 @@ use energy_integral::EnergyIntegral;
 use proptest::prelude::*;
 use slider_crank::plan::Method;
 use slider_crank::scene::{
-    Branch, Crank, Gravity, InertiaAbout, Load, Rod, RodModel, Scene, Slider, Variables,
+    Crank, Gravity, InertiaAbout, Load, Rod, RodModel, Scene, Slider, Variables,
 };
 use slider_crank::study::{Options, Simulation, simulate};
+use support::machines::{machine, weighted_crank};
 
 fn with(method: Method) -> Options {
     Options {
@@ -40,15 +42,8 @@ fn mechanism() -> impl Strategy<Value = Scene> {
         let l = r + e.abs() + longer * r;
         let (crank, rod, slider, along, lateral) = masses;
         let (angle, speed, clockwise, direction) = motion;
-        Scene::new(r, l)
-            .offset(e)
-            .branch(if left { Branch::Left } else { Branch::Right })
-            .crank(Crank {
-                mass: crank,
-                cg: 0.3 * r,
-                cg_lateral: 0.1 * r,
-                inertia: crank * r * r,
-            })
+        machine([r, l, e], left, [crank, rod, slider], lateral)
+            .crank(weighted_crank(crank, r))
             .rod(Rod {
                 model: RodModel::Rigid,
                 mass: rod,
@@ -57,7 +52,6 @@ fn mechanism() -> impl Strategy<Value = Scene> {
                 inertia: 0.1 * rod * l * l,
                 inertia_about: InertiaAbout::Cg,
             })
-            .slider(Slider { mass: slider })
             .gravity(Gravity {
                 acceleration: 9.80665,
                 direction,

@@ -7,10 +7,9 @@ use std::f64::consts::TAU;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{RngSeed, TestRunner};
-use slider_crank::scene::{
-    Branch, Crank, Expression, Gravity, InertiaAbout, Load, Rod, Scene, Slider,
-};
+use slider_crank::scene::{Expression, Gravity, Load, Scene};
 use support::judged::{Judged, estimates};
+use support::machines::machine;
 
 const SCENES: usize = 520;
 
@@ -95,22 +94,7 @@ fn case() -> impl Strategy<Value = (Scene, [f64; 2])> {
             let (angle, speed, clockwise, turns) = motion;
             let speed = 10f64.powf(speed) * if clockwise { -1.0 } else { 1.0 };
             let energy = 0.5 * (crank + 0.6 * rod + 0.5 * slider) * (r * speed).powi(2);
-            let mut scene = Scene::new(r, l)
-                .offset(e)
-                .branch(if left { Branch::Left } else { Branch::Right })
-                .crank(Crank {
-                    inertia: crank * r * r,
-                    ..Crank::default()
-                })
-                .rod(Rod {
-                    mass: rod,
-                    cg: 0.4 * l,
-                    cg_lateral: aside * l,
-                    inertia: 0.1 * rod * l * l,
-                    inertia_about: InertiaAbout::Cg,
-                    ..Rod::default()
-                })
-                .slider(Slider { mass: slider })
+            let mut scene = machine([r, l, e], left, [crank, rod, slider], aside)
                 .start(angle, speed)
                 .duration(turns * TAU / speed.abs());
             for (part, size) in parts.into_iter().zip(sizes).take(count) {

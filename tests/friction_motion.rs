@@ -8,22 +8,11 @@ use std::f64::consts::PI;
 use proptest::prelude::*;
 use slider_crank::mechanism::Equation;
 use slider_crank::plan::Method;
-use slider_crank::scene::{
-    Branch, Crank, Friction, Gravity, Instant, Load, Rod, Scene, Slider, Variables,
-};
+use slider_crank::scene::{Branch, Crank, Gravity, Instant, Load, Rod, Scene, Slider, Variables};
 use slider_crank::study::{Options, Row, Simulation, explain, simulate, simulate_rows};
 use support::close;
+use support::machines::{leaning, rubbing};
 use support::random::{cases, magnitude};
-
-fn friction(scene: Scene, coefficient: f64, static_coefficient: f64) -> Scene {
-    Scene {
-        friction: Some(Friction {
-            coefficient,
-            static_coefficient,
-        }),
-        ..scene
-    }
-}
 
 fn run(scene: &Scene) -> Simulation {
     let run = simulate(scene, &Options::default()).expect("a run");
@@ -58,7 +47,7 @@ fn a_slider_alone_stops_after_v2_over_2_mu_g() {
             acceleration: 9.81,
             direction: up * PI / 2.0,
         };
-        let mut scene = friction(Scene::new(0.1, 0.3).offset(offset).branch(branch), 0.3, 0.4)
+        let mut scene = rubbing(Scene::new(0.1, 0.3).offset(offset).branch(branch), 0.3, 0.4)
             .slider(Slider { mass: 2.0 })
             .start(theta, omega)
             .duration(1.0);
@@ -95,7 +84,7 @@ fn a_slider_alone_stops_after_v2_over_2_mu_g() {
 fn an_oscillator_with_dry_friction_loses_the_same_amplitude_in_each_half_swing() {
     let (mass, stiffness, mu, g) = (2.0, 800.0, 0.002, 9.81);
     let swings = |mu_static: f64, first: f64| {
-        let mut scene = friction(Scene::new(0.1, 0.3), mu, mu_static)
+        let mut scene = rubbing(Scene::new(0.1, 0.3), mu, mu_static)
             .slider(Slider { mass })
             .start(first, 0.0)
             .gravity(Gravity {
@@ -200,7 +189,7 @@ fn any_scene() -> impl Strategy<Value = Scene> {
             let rod = crank * (ratio + 1.0);
             // Small enough for friction not to jam where the rod leans most.
             let mu = mu * 0.4;
-            friction(Scene::new(crank, rod), mu, mu * more)
+            rubbing(Scene::new(crank, rod), mu, mu * more)
                 .offset(crank * offset * 0.5)
                 .branch(if left { Branch::Left } else { Branch::Right })
                 .crank(Crank {
@@ -340,19 +329,19 @@ fn run_unless_stopped(scene: &Scene) -> Option<Simulation> {
 /// events at 1e-13.
 #[test]
 fn newton_and_euler_integrated_elsewhere_arrive_at_the_same_states() {
-    let coasting = friction(machine().offset(0.01), 0.2, 0.2)
+    let coasting = rubbing(machine().offset(0.01), 0.2, 0.2)
         .start(0.3, 20.0)
         .duration(2.0);
-    let left = friction(machine().offset(-0.02).branch(Branch::Left), 0.3, 0.3)
+    let left = rubbing(machine().offset(-0.02).branch(Branch::Left), 0.3, 0.3)
         .start(0.3, -20.0)
         .duration(1.0);
-    let sticking = friction(machine().offset(0.01), 0.25, 0.35)
+    let sticking = rubbing(machine().offset(0.01), 0.25, 0.35)
         .force(Load::function(Variables::T.or(Variables::X), |now| {
             12.0 * (9.0 * now.t).sin() - 60.0 * (now.x - 0.15)
         }))
         .start(0.9, 0.0)
         .duration(1.0);
-    let fast = friction(machine().offset(0.01), 0.5, 0.5)
+    let fast = rubbing(machine().offset(0.01), 0.5, 0.5)
         .torque(Load::function(Variables::OMEGA, |now| {
             2.0 - 0.01 * now.omega
         }))
@@ -390,7 +379,7 @@ fn newton_and_euler_integrated_elsewhere_arrive_at_the_same_states() {
 /// Torn loose when the force in time leaves the static band: F = 12 sin 9t − 60 (x − 0.15), found there too.
 #[test]
 fn a_sticking_slider_slips_when_its_static_band_is_left() {
-    let scene = friction(machine().offset(0.01), 0.25, 0.35)
+    let scene = rubbing(machine().offset(0.01), 0.25, 0.35)
         .force(Load::function(Variables::T.or(Variables::X), |now| {
             12.0 * (9.0 * now.t).sin() - 60.0 * (now.x - 0.15)
         }))
@@ -406,23 +395,8 @@ fn a_sticking_slider_slips_when_its_static_band_is_left() {
 /// itself.
 #[test]
 fn jamming_is_named() {
-    // A flywheel pushes a light slider by a rod that leans far: μ tan φ > 1 on a part of the turn.
-    let scene = |mu: f64| {
-        friction(Scene::new(0.1, 0.12), mu, mu)
-            .crank(Crank {
-                inertia: 0.05,
-                ..Crank::default()
-            })
-            .rod(Rod {
-                mass: 0.02,
-                cg: 0.06,
-                inertia: 2e-5,
-                ..Rod::default()
-            })
-            .slider(Slider { mass: 0.2 })
-            .gravity(Gravity::standard())
-            .duration(1.0)
-    };
+    // μ tan φ > 1 on a part of the turn.
+    let scene = |mu: f64| rubbing(leaning(0.2), mu, mu).gravity(Gravity::standard());
     let run = simulate(&scene(1.5).start(0.3, 6.0), &Options::default()).unwrap();
     let why = run.summary.stopped.expect("jams");
     assert!(why.contains("jams") && why.contains("t = "), "{why}");
@@ -437,10 +411,10 @@ fn jamming_is_named() {
 fn friction_of_no_strength_is_left_out() {
     let scene = machine().offset(0.01).start(0.3, 20.0).duration(0.5);
     let plain = run(&scene);
-    let none = run(&friction(scene.clone(), 0.0, 0.0));
+    let none = run(&rubbing(scene.clone(), 0.0, 0.0));
     assert_eq!(plain.summary.last, none.summary.last);
     assert_eq!(plain.summary.engine, none.summary.engine);
-    let little = run(&friction(scene, 1e-13, 1e-13));
+    let little = run(&rubbing(scene, 1e-13, 1e-13));
     assert_eq!(little.summary.engine, "angle");
     close(
         "theta",
@@ -455,7 +429,7 @@ fn friction_of_no_strength_is_left_out() {
 /// x is Coulomb's.
 #[test]
 fn rows_hold_the_friction_in_their_forces() {
-    let free = friction(machine().offset(0.01), 0.3, 0.3)
+    let free = rubbing(machine().offset(0.01), 0.3, 0.3)
         .start(0.3, 30.0)
         .duration(0.4);
     let mut driven = free.clone();
@@ -513,7 +487,7 @@ fn torques_that_hold_the_crank_are_explained_with_friction() {
             (4.0, 0.0),
             (0.3, 0.0),
         ] {
-            let scene = friction(Scene::new(0.05, 0.15).offset(0.01), mu, mu_static)
+            let scene = rubbing(Scene::new(0.05, 0.15).offset(0.01), mu, mu_static)
                 .branch(branch)
                 .crank(Crank {
                     inertia,

@@ -7,19 +7,14 @@ use std::f64::consts::{PI, TAU};
 
 use proptest::prelude::*;
 use slider_crank::plan::{Engine, Method, Plan};
-use slider_crank::scene::{
-    Branch, Crank, Every, Friction, Gravity, Load, Rod, Scene, Slider, Variables,
-};
+use slider_crank::scene::{Branch, Crank, Every, Gravity, Load, Rod, Scene, Slider, Variables};
 use slider_crank::study::{Options, Row, Simulation, simulate, simulate_rows};
 use support::close;
+use support::machines::{self, leaning};
 use support::random::{cases, magnitude};
 
-fn rubbing(mut scene: Scene, coefficient: f64) -> Scene {
-    scene.friction = Some(Friction {
-        coefficient,
-        static_coefficient: 1.2 * coefficient,
-    });
-    scene
+fn rubbing(scene: Scene, coefficient: f64) -> Scene {
+    machines::rubbing(scene, coefficient, 1.2 * coefficient)
 }
 
 fn run(scene: &Scene, method: Method) -> Simulation {
@@ -436,20 +431,7 @@ fn the_plan_says_what_serves() {
 /// A guide that jams at some angle of the turn is left to integration in time, which names it.
 #[test]
 fn jamming_is_named() {
-    let scene = rubbing(Scene::new(0.1, 0.12), 1.5)
-        .crank(Crank {
-            inertia: 0.05,
-            ..Crank::default()
-        })
-        .rod(Rod {
-            mass: 0.02,
-            cg: 0.06,
-            inertia: 2e-5,
-            ..Rod::default()
-        })
-        .slider(Slider { mass: 0.05 })
-        .start(0.3, 6.0)
-        .duration(1.0);
+    let scene = rubbing(leaning(0.05), 1.5).start(0.3, 6.0);
     let (auto, timed) = (run(&scene, Method::Auto), run(&scene, Method::Time));
     assert!(
         auto.summary.plan.reason.contains("jams"),

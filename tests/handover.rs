@@ -1,6 +1,8 @@
 //! Runs that are handed from the angle to the time and back, against closed solutions, against integration in time
 //! alone, and against the reference in double-double arithmetic.
 
+mod support;
+
 use std::f64::consts::TAU;
 
 use proptest::prelude::*;
@@ -8,13 +10,12 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::{RngSeed, TestRunner};
 use slider_crank::error::Error;
 use slider_crank::plan::Method;
-use slider_crank::scene::{
-    Branch, Crank, Every, Expression, Gravity, InertiaAbout, Load, Rod, Scene, Slider,
-};
+use slider_crank::scene::{Crank, Every, Expression, Gravity, Load, Scene};
 use slider_crank::study::{
     Options, PrecisionOptions, Row, Simulation, Summary, explain, precision, simulate,
     simulate_rows,
 };
+use support::machines::machine;
 
 fn run(scene: &Scene, method: Method) -> Simulation {
     let options = Options {
@@ -54,21 +55,7 @@ fn mechanism() -> impl Strategy<Value = Scene> {
         // It comes to rest after about so many turns, and the run goes on beyond that.
         let brake = 0.5 * inertia * speed * speed.abs() / (turns * TAU);
         let stops = 2.0 * turns * TAU / speed.abs();
-        let scene = Scene::new(r, l)
-            .offset(offset * r)
-            .branch(if left { Branch::Left } else { Branch::Right })
-            .crank(Crank {
-                inertia: 2.0 * crank * r * r,
-                ..Crank::default()
-            })
-            .rod(Rod {
-                mass: rod,
-                cg: 0.4 * l,
-                inertia: 0.1 * rod * l * l,
-                inertia_about: InertiaAbout::Cg,
-                ..Rod::default()
-            })
-            .slider(Slider { mass: slider })
+        let scene = machine([r, l, offset * r], left, [2.0 * crank, rod, slider], 0.0)
             .start(angle, speed)
             .duration(beyond * stops);
         let scene = if gravity {

@@ -509,6 +509,13 @@ fn the_table_of_forces_is_right() {
                 "{cell} for {expected}"
             );
         }
+        // The file is to be made anew where the band becomes another one.
+        let error = row.slider_force_se.expect("an error");
+        assert!(
+            (cells[5] / error - 1.0).abs() < 0.01,
+            "{} for {error}",
+            cells[5]
+        );
     }
     assert!(lines.next().is_none());
 }

@@ -3,16 +3,16 @@
 
 #[allow(dead_code, reason = "shared with other tests")]
 mod energy_integral;
+mod support;
 
 use std::f64::consts::{PI, TAU};
 
 use energy_integral::{EnergyIntegral, gauss_legendre};
 use proptest::prelude::*;
 use slider_crank::plan::Method;
-use slider_crank::scene::{
-    Branch, Crank, Gravity, InertiaAbout, Load, Rod, Scene, Slider, Variables,
-};
+use slider_crank::scene::{Gravity, Load, Scene, Variables};
 use slider_crank::study::{Options, Simulation, simulate};
+use support::machines::machine;
 
 /// A torque over the crank angle and its integral from zero.
 #[derive(Clone, Copy, Debug)]
@@ -108,22 +108,7 @@ fn mechanism() -> impl Strategy<Value = (Scene, Torque)> {
         let energy = 0.5 * crank * (r * speed).powi(2);
         let (work, brakes, swing) = torque;
         let mean = 10f64.powf(work) * energy / TAU * if brakes { -1.0 } else { 1.0 };
-        let scene = Scene::new(r, l)
-            .offset(e)
-            .branch(if left { Branch::Left } else { Branch::Right })
-            .crank(Crank {
-                inertia: crank * r * r,
-                ..Crank::default()
-            })
-            .rod(Rod {
-                mass: rod,
-                cg: 0.4 * l,
-                cg_lateral: aside * l,
-                inertia: 0.1 * rod * l * l,
-                inertia_about: InertiaAbout::Cg,
-                ..Rod::default()
-            })
-            .slider(Slider { mass: slider })
+        let scene = machine([r, l, e], left, [crank, rod, slider], aside)
             .gravity(Gravity {
                 acceleration: 0.02 * r * speed * speed,
                 direction,

@@ -1,5 +1,7 @@
 //! The comparison of methods, and the reference it rests on.
 
+mod support;
+
 use slider_crank::plan::Method;
 use slider_crank::scene::{
     Branch, Clearance, Crank, Friction, Gravity, Joint, Load, MotionKind, Rod, Scene, Slider,
@@ -8,6 +10,7 @@ use slider_crank::scene::{
 use slider_crank::study::{
     Options, Precision, PrecisionOptions, PrecisionRow, precision, simulate,
 };
+use support::machines::{leaning, rubbing};
 
 fn compare(scene: &Scene, tolerances: &[f64]) -> Precision {
     let options = PrecisionOptions {
@@ -287,25 +290,8 @@ fn friction_is_in_the_reference() {
 /// All runs jam at one place: they are measured there, and none has failed.
 #[test]
 fn where_the_motion_ends_its_methods_are_measured() {
-    let mut scene = Scene::new(0.1, 0.12)
-        .crank(Crank {
-            inertia: 0.05,
-            ..Crank::default()
-        })
-        .rod(Rod {
-            mass: 0.02,
-            cg: 0.06,
-            inertia: 2e-5,
-            ..Rod::default()
-        })
-        .slider(Slider { mass: 0.2 })
-        .gravity(Gravity::standard())
-        .start(0.3, 6.0)
-        .duration(1.0);
-    scene.friction = Some(Friction {
-        coefficient: 1.5,
-        static_coefficient: 1.5,
-    });
+    let scene = leaning(0.2).gravity(Gravity::standard()).start(0.3, 6.0);
+    let scene = rubbing(scene, 1.5, 1.5);
     let result = compare(&scene, &[1e-5, 1e-10]);
     assert!(result.has_results() && result.t_s > 0.05 && result.t_s < 0.1);
     for row in &result.rows {

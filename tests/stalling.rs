@@ -1,10 +1,11 @@
 //! Nothing hangs: motions that make no way end in a clear message, and rest is found without a search for ever.
 
+mod support;
+
 use slider_crank::plan::Method;
-use slider_crank::scene::{
-    Crank, Expression, Friction, Gravity, Load, Rod, Scene, Slider, Variables,
-};
+use slider_crank::scene::{Crank, Expression, Gravity, Load, Rod, Scene, Slider, Variables};
 use slider_crank::study::{Options, Summary, simulate};
+use support::machines;
 
 fn machine() -> Scene {
     Scene::new(0.05, 0.15)
@@ -26,13 +27,7 @@ fn machine() -> Scene {
 }
 
 fn rubbing(coefficient: f64, static_coefficient: f64) -> Scene {
-    Scene {
-        friction: Some(Friction {
-            coefficient,
-            static_coefficient,
-        }),
-        ..machine()
-    }
+    machines::rubbing(machine(), coefficient, static_coefficient)
 }
 
 fn run_with(scene: &Scene, options: &Options) -> Summary {

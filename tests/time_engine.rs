@@ -1,6 +1,8 @@
 //! The stepper in time: its order by theory and by trial, the motion inside a step, events, and what it does
 //! where there is no motion.
 
+mod support;
+
 use std::f64::consts::{PI, TAU};
 
 use proptest::prelude::*;
@@ -12,10 +14,11 @@ use slider_crank::engine::{Counted, Motion, NODES};
 use slider_crank::numeric::angle::Angle;
 use slider_crank::plan::Method;
 use slider_crank::scene::{
-    Branch, Crank, Expression, Gravity, InertiaAbout, Interpolation, Load, Rod, Scene, Slider,
-    Table, Variable, Variables,
+    Branch, Crank, Expression, Gravity, Interpolation, Load, Rod, Scene, Slider, Table, Variable,
+    Variables,
 };
 use slider_crank::study::{Options, Simulation, simulate};
+use support::machines::machine;
 
 /// A rooted tree: its branches.
 #[derive(Clone, Debug, PartialEq)]
@@ -583,21 +586,7 @@ fn driven_mechanism() -> impl Strategy<Value = Scene> {
         let (crank, rod, slider) = masses;
         let (torque, loss, push, rate) = loads;
         let (angle, speed, duration) = start;
-        Scene::new(r, l)
-            .offset(e)
-            .branch(if left { Branch::Left } else { Branch::Right })
-            .crank(Crank {
-                inertia: crank * r * r,
-                ..Crank::default()
-            })
-            .rod(Rod {
-                mass: rod,
-                cg: 0.4 * l,
-                inertia: 0.1 * rod * l * l,
-                inertia_about: InertiaAbout::Cg,
-                ..Rod::default()
-            })
-            .slider(Slider { mass: slider })
+        machine([r, l, e], left, [crank, rod, slider], 0.0)
             .gravity(Gravity::standard())
             .torque(Load::Constant(torque * 20.0 * r))
             .torque(Load::Viscous(loss * r))

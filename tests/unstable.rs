@@ -10,11 +10,10 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::{RngSeed, TestRunner};
 use slider_crank::mechanism::Equation;
 use slider_crank::plan::Method;
-use slider_crank::scene::{
-    Branch, Crank, Expression, Gravity, InertiaAbout, Load, Rod, Scene, Slider,
-};
+use slider_crank::scene::{Crank, Expression, Gravity, Load, Scene, Slider};
 use slider_crank::study::{Options, simulate};
 use support::judged::{Judged, estimates};
+use support::machines::{machine, weighted_crank};
 
 const SCENES: usize = 30;
 
@@ -141,24 +140,8 @@ fn scene(
 ) -> Option<Scene> {
     let e = if central { 0.0 } else { offset * r };
     let l = r + e.abs() + 10f64.powf(room) * 2.0 * r;
-    let bare = Scene::new(r, l)
-        .offset(e)
-        .branch(if left { Branch::Left } else { Branch::Right })
-        .crank(Crank {
-            mass: crank,
-            cg: 0.3 * r,
-            cg_lateral: 0.1 * r,
-            inertia: crank * r * r,
-        })
-        .rod(Rod {
-            mass: rod,
-            cg: 0.4 * l,
-            cg_lateral: aside * l,
-            inertia: 0.1 * rod * l * l,
-            inertia_about: InertiaAbout::Cg,
-            ..Rod::default()
-        })
-        .slider(Slider { mass: slider });
+    let bare =
+        machine([r, l, e], left, [crank, rod, slider], aside).crank(weighted_crank(crank, r));
     let force = 50.0 * (0.2 + size.abs());
     let sign = if size < 0.0 { -1.0 } else { 1.0 };
     let stiffness = force / r;

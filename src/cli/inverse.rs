@@ -102,8 +102,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
             "give one of them as a file",
         ));
     }
-    let scene = streams.scene(arguments.scene.as_ref())?;
+    // First the data, whose lack tells a data file in the place of the scene.
     let measurement = measurement(arguments)?;
+    let scene = streams.scene(arguments.scene.as_ref())?;
     let options = InverseOptions {
         fit: arguments.fit,
         size: arguments.degree,

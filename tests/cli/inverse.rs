@@ -422,6 +422,64 @@ fn gaps_and_unused_columns_are_noted() {
 }
 
 #[test]
+fn figures_show_the_bulk_of_the_forces_and_those_of_the_paper() {
+    let folder = Folder::with(PUMP);
+    let row = |i: u32| {
+        let i = f64::from(i);
+        format!("{},{}", 0.001 * i, 0.3 + 0.02 * i + 1e-5 * i * i)
+    };
+    let rows: Vec<String> = (0..1000).map(row).collect();
+    folder.write("data.csv", &data("t [s],theta [rad]", &rows));
+    let arguments = ["inverse", "scene.toml", "data.csv", "--plot", "turns.svg"];
+    folder.run(&arguments).done();
+    let turns = folder.read("turns.svg");
+    assert!(turns.contains("peaks at dead centres are cut off"));
+    assert!(turns.contains("samples, one in 10"));
+    let arguments = ["inverse", "--as-printed", "--plot", "duarte.svg"];
+    let text = folder.run(&arguments).done().stdout;
+    assert!(text.contains("spin-only [N]"), "{text}");
+    let duarte = folder.read("duarte.svg");
+    assert!(duarte.contains("(9) as printed") && !duarte.contains("cut off"));
+}
+
+#[test]
+fn times_far_from_zero_are_noted() {
+    let rows = |start: f64| -> Vec<String> {
+        let row = |i: u32| {
+            format!(
+                "{:.2},{:.6}",
+                start + 0.01 * f64::from(i),
+                0.3 + 0.0301234 * f64::from(i)
+            )
+        };
+        (0..40).map(row).collect()
+    };
+    for (start, noted) in [(0.0, false), (1e5, false), (1.7e9, true)] {
+        let folder = folder(&data("t [s],theta [rad]", &rows(start)));
+        let run = folder.run(&["inverse", "scene.toml", "data.csv", "--json"]);
+        let warnings = run.done().json()["warnings"].to_string();
+        assert_eq!(
+            warnings.contains("let the time begin near 0"),
+            noted,
+            "{warnings}"
+        );
+    }
+}
+
+/// At a dead centre itself the force over the lever arm is no number: it is said that it is the arm.
+#[test]
+fn a_sample_at_a_dead_centre_is_named_as_one() {
+    let rows: Vec<String> = (0..40)
+        .map(|i| format!("{},{}", f64::from(i) / 64.0, f64::from(i) / 16.0))
+        .collect();
+    let folder = folder(&data("t [s],theta [rad]", &rows));
+    let run = folder.run(&["inverse", "scene.toml", "data.csv", "--json"]);
+    let bands = run.done().json()["dead_centre_bands"].to_string();
+    assert!(bands.contains("the sign of the lever arm"), "{bands}");
+    assert!(!bands.contains("normal to the guide"), "{bands}");
+}
+
+#[test]
 fn the_summary_has_every_key() {
     let folder = Folder::new();
     for fit in ["polynomial", "spline"] {
@@ -463,6 +521,22 @@ fn the_built_in_motion_gives_back_its_polynomial() {
             1e-13,
         );
     }
+}
+
+/// A data file in the place of the scene is no scene with a thousand errors.
+#[test]
+fn a_scene_that_is_forgotten_or_comes_second_is_said() {
+    let rows: Vec<String> = (0..3000).map(|i| format!("{i},{i}")).collect();
+    let folder = folder(&data("t [s],theta [deg]", &rows));
+    let forgotten = folder.run(&["inverse", "data.csv"]);
+    forgotten.fails(2, &["needs a scene and the data of a motion"]);
+    let swapped = folder.run(&["inverse", "data.csv", "scene.toml"]);
+    swapped.fails(2, &["scene.toml:2", "no column holds the time"]);
+    let text = folder
+        .run(&["simulate", "data.csv"])
+        .fails(2, &["not TOML"])
+        .stderr;
+    assert!(text.matches("not TOML").count() <= 20, "{text}");
 }
 
 #[test]

@@ -262,7 +262,8 @@ fn nothing_is_written_onto_the_tables_of_a_scene() {
     let load = "[[torque]]\nkind = \"table\"\nfile = \"table.csv\"\nof = \"theta\"\nperiod = \"360 deg\"\n";
     let folder = Folder::with(&format!("{}\n{load}", free(GOOD)));
     folder.write("table.csv", table);
-    folder.write("data.csv", "t [s],theta [rad]\n0,0\n1,1\n");
+    let motion = "t [s],theta [rad]\n0,0\n1,1\n2,2\n3,3\n4,4\n5,5\n";
+    folder.write("data.csv", motion);
     for arguments in [
         &["simulate", "scene.toml", "--out"][..],
         &["simulate", "scene.toml", "--plot"],

@@ -8,6 +8,7 @@ pub mod alike;
 pub mod exact;
 pub mod image;
 pub mod judged;
+pub mod machines;
 pub mod newton;
 pub mod random;
 pub mod rubbing;

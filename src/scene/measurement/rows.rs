@@ -1,11 +1,14 @@
 //! Samples checked against each other.
 
 use super::{LEAST_ROWS, Measured, Measurement};
-use crate::scene::number::{counted, show};
+use crate::scene::number::{computed, counted, show};
 use crate::scene::{Problem, Problems};
 
 /// A step of time this many times the usual one is a gap.
 const GAP: f64 = 4.5;
+
+/// Part of the usual step to which times have to be known.
+const COARSE: f64 = 1e-6;
 
 /// Larger values leave no digits for what is computed from them.
 const LARGEST: f64 = 1e12;
@@ -51,8 +54,8 @@ pub(super) fn check_rows(measurement: &mut Measurement) -> Result<(), Problems> 
         problems.push(problem);
     }
     if problems.is_empty() {
-        let note = gaps(measurement);
-        measurement.notes.extend(note);
+        let notes = [gaps(measurement), far_from_zero(measurement)];
+        measurement.notes.extend(notes.into_iter().flatten());
         return Ok(());
     }
     Err(match &measurement.source {
@@ -103,6 +106,21 @@ fn gaps(measurement: &Measurement) -> Option<String> {
         show((times[first + 1] - times[first]) / factor),
         show(usual / factor)
     ))
+}
+
+/// Times with so many digits before the point that those behind it are lost.
+fn far_from_zero(measurement: &Measurement) -> Option<String> {
+    let times = &measurement.times;
+    let largest = times[0].abs().max(times[times.len() - 1].abs());
+    let step = (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
+    let known = f64::EPSILON * largest;
+    (known > COARSE * step).then(|| {
+        format!(
+            "so far from zero, times are known to {} s only, where samples are {} s apart, and forces to as little: let the time begin near 0",
+            computed(known),
+            computed(step)
+        )
+    })
 }
 
 impl Measured {

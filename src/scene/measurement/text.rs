@@ -53,7 +53,7 @@ pub(super) fn text(file: &Path, bytes: Vec<u8>) -> Result<String, Problems> {
 
 /// A text whose lines end with line feeds, as those of old systems with carriage returns alone do not.
 pub(super) fn with_line_feeds(text: String) -> String {
-    if text.contains('\r') && !text.contains('\n') {
+    if !text.contains('\n') && text.contains('\r') {
         text.replace('\r', "\n")
     } else {
         text

@@ -47,6 +47,11 @@ const TOO_WIDE: &str =
 
 const TOO_WIDE_AT_LIMIT: &str = "the rod is nearly normal to the guide: the uncertainty of the motion makes that of the force wider than the force";
 
+/// Whether samples beside each other are left empty by one cause: rest is another one than a dead centre.
+pub(super) fn alike(reason: &str, other: &str) -> bool {
+    (reason == AT_REST) == (other == AT_REST)
+}
+
 impl BandRule {
     /// The rule for a motion: crank length in m, torque and its standard error in N m at each sample, half of a 95 % band
     /// in standard errors.
@@ -78,7 +83,8 @@ impl BandRule {
             [row.slider_force, row.slider_force_se].map(|value| value.unwrap_or(f64::NAN));
         let narrow = factor * error <= self.half_width_max_n;
         if !force.is_finite() || !error.is_finite() {
-            Some(AT_LIMIT)
+            // At a dead centre itself the lever arm is zero.
+            Some(if doubt.near_limit { AT_LIMIT } else { NO_SIGN })
         } else if !doubt.friction_known {
             Some(AT_REST)
         } else if doubt.near_limit && !narrow {

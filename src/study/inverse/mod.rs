@@ -127,7 +127,7 @@ pub fn inverse(
     let found = Rows::new(&backwards, &fitted, measurement.times(), factor);
     reachable(measurement, &found)?;
     limit::keeps_clear(&backwards, &sensor, &fitted, measurement)?;
-    finite(&equation, measurement, &found.rows)?;
+    finite(&backwards, measurement, &found.rows)?;
     let mut warnings = measurement.notes().to_vec();
     warnings.extend(unfolded.warnings);
     warnings.extend(warnings::of_scene(scene, options));
@@ -166,16 +166,15 @@ impl Inverse {
     /// for.
     pub fn reactions(&self, row: &InverseRow) -> Option<Reactions> {
         let reactor = self.reactor.as_ref()?;
-        let pose = self.equation.linkage().pose(row.theta);
-        let mut load = self.equation.load(row.t, row.theta, row.omega);
         row.slider_force?;
-        // The whole force along the guide, friction included.
         let terms = self.equation.terms(row.theta);
+        let mut load = self.equation.load(row.t, row.theta, row.omega);
+        // The whole force along the guide, friction included.
         let needed = self
             .equation
             .generalized_force(&terms, row.omega, row.alpha);
         load.force = (needed - load.torque) / terms.pose.dx;
-        Some(reactor.reactions(&pose, row.omega, row.alpha, &load))
+        Some(reactor.reactions(&terms.pose, row.omega, row.alpha, &load))
     }
 }
 
@@ -211,7 +210,7 @@ fn reachable(measurement: &Measurement, found: &Rows) -> Result<(), Error> {
 
 /// Refuses loads without a value along the motion, and a guide that locks itself.
 fn finite(
-    equation: &Equation,
+    backwards: &Backwards<'_>,
     measurement: &Measurement,
     rows: &[InverseRow],
 ) -> Result<(), Error> {
@@ -226,7 +225,14 @@ fn finite(
         row.t,
         row.theta
     );
-    if equation.load(row.t, row.theta, row.omega).is_finite() {
+    let load = backwards.equation.load(row.t, row.theta, row.omega);
+    if load.is_finite() && backwards.guide.is_none() {
+        return Err(Error::refused(
+            format!("the crank torque is not a finite number {place}"),
+            "check the units of the data, of the time above all",
+        ));
+    }
+    if load.is_finite() {
         return Err(Error::refused(
             format!(
                 "the guide locks itself {place}: friction holds the slider against any torque on the crank"

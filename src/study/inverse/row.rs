@@ -1,6 +1,6 @@
 //! One output row for each sample.
 
-use super::bands::{BandRule, DeadCentreBand, LONG_ARM};
+use super::bands::{BandRule, DeadCentreBand, LONG_ARM, alike};
 use super::fitted::Fitted;
 use super::force::{Backwards, Demand};
 use crate::numeric::fit::State;
@@ -136,7 +136,7 @@ impl Rows {
             rule,
             unreachable: doubts.iter().position(|doubt| !doubt.exists),
         };
-        let mut before = false;
+        let mut before: Option<&str> = None;
         for (i, doubt) in doubts.iter().enumerate() {
             let row = &mut found.rows[i];
             let reason = rule.reason(row, doubt, factor);
@@ -144,9 +144,10 @@ impl Rows {
                 (row.slider_force, row.slider_force_se) = (None, None);
                 row.near_dead_centre = true;
                 let (t, theta) = (row.t, row.theta);
-                found.extend_band(t, theta, reason, before);
+                let goes_on = before.is_some_and(|before| alike(before, reason));
+                found.extend_band(t, theta, reason, goes_on);
             }
-            before = reason.is_some();
+            before = reason;
         }
         found
     }

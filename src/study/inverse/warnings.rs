@@ -104,7 +104,7 @@ fn outliers(fitted: &Fitted, measurement: &Measurement) -> Option<String> {
         square > OUTLIER * OUTLIER * ((squares - square) / free).max(least)
     };
     let count = fitted.residuals.iter().filter(|r| far(r)).count();
-    let first = fitted.residuals.iter().position(|r| far(r))?;
+    let first = fitted.residuals.iter().position(far)?;
     let samples = if count == 1 {
         "1 sample lies".to_owned()
     } else {

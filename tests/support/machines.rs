@@ -1,0 +1,69 @@
+//! Machines that several tests use.
+
+use slider_crank::scene::{Crank, Friction, InertiaAbout, Rod, Scene, Slider};
+
+use super::alike::branch;
+
+/// A mechanism of lengths r, l, e (m), left or right, with the masses (kg) of crank, rod and slider. The crank's is a
+/// flywheel's, at the crank pin; the rod's centre of gravity is at 0.4 of its length, `aside` of its length to the left.
+pub fn machine(
+    [r, l, e]: [f64; 3],
+    left: bool,
+    [crank, rod, slider]: [f64; 3],
+    aside: f64,
+) -> Scene {
+    Scene::new(r, l)
+        .offset(e)
+        .branch(branch(left))
+        .crank(Crank {
+            inertia: crank * r * r,
+            ..Crank::default()
+        })
+        .rod(Rod {
+            mass: rod,
+            cg: 0.4 * l,
+            cg_lateral: aside * l,
+            inertia: 0.1 * rod * l * l,
+            inertia_about: InertiaAbout::Cg,
+            ..Rod::default()
+        })
+        .slider(Slider { mass: slider })
+}
+
+/// A crank of this mass (kg) and length (m) with its centre of gravity beside the pivot.
+pub fn weighted_crank(mass: f64, r: f64) -> Crank {
+    Crank {
+        mass,
+        cg: 0.3 * r,
+        cg_lateral: 0.1 * r,
+        inertia: mass * r * r,
+    }
+}
+
+/// A flywheel pushes a slider (kg) by a light rod that leans far: with a coefficient of friction of 1.5 it jams.
+pub fn leaning(slider: f64) -> Scene {
+    Scene::new(0.1, 0.12)
+        .crank(Crank {
+            inertia: 0.05,
+            ..Crank::default()
+        })
+        .rod(Rod {
+            mass: 0.02,
+            cg: 0.06,
+            inertia: 2e-5,
+            ..Rod::default()
+        })
+        .slider(Slider { mass: slider })
+        .duration(1.0)
+}
+
+/// The scene with friction at its guide.
+pub fn rubbing(scene: Scene, coefficient: f64, static_coefficient: f64) -> Scene {
+    Scene {
+        friction: Some(Friction {
+            coefficient,
+            static_coefficient,
+        }),
+        ..scene
+    }
+}
