@@ -14,7 +14,7 @@ const MOST: usize = 12;
 const DEGREE: f64 = 16.0;
 
 /// Evidence that decides.
-pub(super) const ENOUGH: f64 = 20.0;
+pub(super) const ENOUGH: f64 = 25.0;
 
 /// Ratio of the sums of squares that is as much, where neither motion leaves noise alone.
 const RATIO: f64 = 1e4;
@@ -23,7 +23,7 @@ const RATIO: f64 = 1e4;
 const NOISE: f64 = 4.0;
 
 /// Fewest blocks away from the fold on either side, and fewest in all.
-const CLEAR: usize = 2;
+const CLEAR: usize = 1;
 const FEWEST: usize = 5;
 
 /// Steps of Gauss and Newton.

@@ -46,9 +46,10 @@ pub(super) fn unfold(
         return wrapped::unwrap(sensor.linkage, measurement);
     }
     let record = record(sensor, measurement);
-    possible(sensor, measurement, record.noise)?;
+    possible(sensor, measurement, &record)?;
     let strokes = Strokes::new(sensor);
-    let turnings = turnings::turnings(record.values, record.threshold());
+    let [plain, at_ends] = record.thresholds();
+    let turnings = turnings::turnings(record.values, plain, at_ends);
     let few = record.values.len() < FEWEST * turnings.len();
     let motion = Motion {
         record,
@@ -155,7 +156,7 @@ const BEYOND: f64 = 0.06;
 fn possible(
     &Sensor { linkage, measured }: &Sensor<'_>,
     measurement: &Measurement,
-    noise: f64,
+    record: &Record<'_>,
 ) -> Result<(), Error> {
     let values = measurement.values();
     let size = Sensor { linkage, measured }.size();
@@ -170,8 +171,8 @@ fn possible(
         };
         angles.angles().is_empty()
     };
-    let rounding = measurement.resolution() + 1e-12 * size;
-    let most = (8.0 * noise).min(BEYOND * size) + rounding;
+    let rounding = measurement.resolution() + 2.0 * record.rounding + 1e-12 * size;
+    let most = (8.0 * record.noise).min(BEYOND * size) + rounding;
     let wrong = parallel::list(values.len(), |i| {
         excess(values[i]) > most || nowhere(values[i])
     });

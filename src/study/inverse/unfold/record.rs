@@ -16,23 +16,24 @@ pub(super) struct Record<'a> {
 /// Standard deviations between a value and a fold that may be one.
 const FAR: f64 = 10.0;
 
-/// Largest part of their range by which values are to change from one turning point to the next.
-const CHANGE: f64 = 0.05;
+/// Fewer that a turning point may be from the next one, and part of the range of all values that is enough.
+const LESS: f64 = 6.0;
+const CHANGE: f64 = 0.2;
 
 impl Record<'_> {
     pub fn last(&self) -> usize {
         self.values.len() - 1
     }
 
-    /// By how much a value is to turn back for a turning point.
-    pub fn threshold(&self) -> f64 {
+    /// By how much a value is to change between turning points, and before the first of them or after the last.
+    pub fn thresholds(&self) -> [f64; 2] {
         let ends = (f64::INFINITY, f64::NEG_INFINITY);
-        let (least, most) = self
-            .values
-            .iter()
-            .fold(ends, |(a, b), v| (a.min(*v), b.max(*v)));
-        let noise = FAR * (self.noise + self.rounding);
-        noise.min(CHANGE * (most - least))
+        let values = self.values.iter();
+        let (least, most) = values.fold(ends, |(a, b), v| (a.min(*v), b.max(*v)));
+        let noise = self.noise + self.rounding;
+        // Few samples of a fast motion look noisier than they are.
+        let plain = (FAR * noise).min((CHANGE * (most - least)).max(LESS * noise));
+        [plain, plain.min(LESS * noise)]
     }
 
     /// Whether the motion may have been at a fold near a sample, between samples too.

@@ -17,8 +17,9 @@ pub(super) struct Start {
 /// The scene's angle belongs to a motion that begins this near to it, rad...
 const NEAR: f64 = 0.1;
 
-/// ... if each other one begins beyond this many times as far from it.
+/// ... if each other one begins beyond this many times as far from it, or as an angle is meant that is given exactly, rad.
 const FARTHER: f64 = 4.0;
+const EXACT: f64 = 0.02;
 
 /// Sums of squares within this factor do not decide: the mirror image of a smooth motion is smooth as well, if less so
 /// where the direction of the wrist pin from the pivot changes fast.
@@ -59,7 +60,7 @@ pub(super) fn choose(
     by_angle.sort_by(|a, b| off(*a).total_cmp(&off(*b)));
     let nearest = by_angle[0];
     let next = by_angle.get(1).map_or(f64::INFINITY, |i| off(*i));
-    let plain = off(nearest) <= NEAR && next > FARTHER * NEAR + blur;
+    let plain = off(nearest) <= NEAR && next > FARTHER * (off(nearest) + EXACT + blur);
     let sign = if start.speed < 0.0 { -1.0 } else { 1.0 };
     // Next to a fold the motion may begin on either stroke, unseen.
     let unseen = if next - off(nearest) < 2.0 * blur {

@@ -57,7 +57,8 @@ impl Window {
         };
         let mut past = Vec::with_capacity(count);
         for at in (0..count).map(place) {
-            let (value, noise) = record.value(at, around);
+            // Not over the fold, where a size has a bend.
+            let (value, noise) = record.value(at, around.min(at.abs_diff(turning)));
             let (angles, stroke) = (strokes.angles(value), along(at));
             let error = [value - noise, value + noise]
                 .map(|value| turned_back(strokes.angles(value)[stroke] - angles[stroke]).abs());
