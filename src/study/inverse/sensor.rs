@@ -36,6 +36,14 @@ impl Sensor<'_> {
         }
     }
 
+    /// A size of what is measured: the crank length, m, or 1 rad.
+    pub fn size(&self) -> f64 {
+        match self.measured {
+            Measured::X => self.linkage.r,
+            _ => 1.0,
+        }
+    }
+
     /// Whether a value counts with its sign turned round, as −1, or as it is, as 1.
     pub fn sign(&self, value: f64, theta: impl FnOnce() -> f64) -> f64 {
         if self.measured != Measured::Gamma {

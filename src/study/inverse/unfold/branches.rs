@@ -2,53 +2,10 @@
 
 use super::super::limit::apart;
 use super::super::sensor::Sensor;
-use super::anchors::Anchors;
+use super::strokes::{Stroke, Strokes};
 use crate::error::Error;
-use crate::mechanism::{Candidates, Linkage};
+use crate::mechanism::Linkage;
 use crate::scene::{Branch, Measured, Measurement};
-
-/// Reads crank angles from a measured value.
-#[derive(Debug)]
-pub(super) struct Branches<'a> {
-    sensor: &'a Sensor<'a>,
-    /// The linkage on the other branch, if the motion can reach it.
-    other: Option<Linkage>,
-}
-
-impl Branches<'_> {
-    pub fn new<'a>(sensor: &'a Sensor<'a>) -> Branches<'a> {
-        let reaches = !sensor.linkage.limit_angles().is_empty();
-        Branches {
-            sensor,
-            other: reaches.then(|| other(sensor.linkage)),
-        }
-    }
-
-    fn of(&self, linkage: &Linkage, value: f64) -> Candidates {
-        match self.sensor.measured {
-            Measured::X => linkage.angles_of_x(value),
-            _ => linkage.angles_of_gamma(value),
-        }
-    }
-
-    /// The crank angles of a turn that belong to a measured value on the linkage's branch.
-    pub fn of_one(&self, value: f64) -> Candidates {
-        self.of(self.sensor.linkage, value)
-    }
-
-    /// The same, and those of the other branch if the motion can reach it.
-    pub fn angles(&self, value: f64) -> Candidates {
-        self.beside(self.of_one(value), value)
-    }
-
-    /// These angles and those of the other branch if the motion can reach it.
-    pub fn beside(&self, one: Candidates, value: f64) -> Candidates {
-        match &self.other {
-            Some(other) => one.with(&self.of(other, value)),
-            None => one,
-        }
-    }
-}
 
 fn other(linkage: &Linkage) -> Linkage {
     linkage.on_branch(if linkage.s > 0.0 {
@@ -74,25 +31,17 @@ fn is_beyond(sensor: &Sensor<'_>, value: f64, theta: f64) -> bool {
     off(&beyond) + 1e-9 * scale < off(sensor)
 }
 
-/// Lets the motion begin on the branch of the scene, if it can.
-pub(super) fn begin_on_branch(
-    sensor: &Sensor<'_>,
-    measurement: &Measurement,
-    anchors: &mut Anchors,
-) {
-    if sensor.linkage.limit_angles().is_empty() {
-        return;
+/// The strokes of the first value that are on the branch of the scene, or all if none is.
+pub(super) fn begin_on_branch(strokes: &Strokes<'_>, value: f64) -> Vec<Stroke> {
+    let all = strokes.all();
+    let linkage = strokes.sensor.linkage;
+    if linkage.limit_angles().is_empty() {
+        return all;
     }
-    let value = measurement.values()[anchors.index[0]];
-    let mut kept = Candidates::default();
-    for theta in anchors.candidates[0].angles() {
-        if !is_beyond(sensor, value, *theta) {
-            kept = kept.with(&Candidates::one(*theta));
-        }
-    }
-    if !kept.angles().is_empty() {
-        anchors.candidates[0] = kept;
-    }
+    let angles = strokes.angles(value);
+    let on_branch = |stroke: &Stroke| !is_beyond(strokes.sensor, value, angles[*stroke]);
+    let kept: Vec<Stroke> = all.iter().copied().filter(on_branch).collect();
+    if kept.is_empty() { all } else { kept }
 }
 
 /// Refuses a motion that leaves the branch of the scene.

@@ -1,0 +1,204 @@
+//! Which of two motions the samples tell: one that goes back from a fold, or one that passes it.
+//!
+//! Both are told by polynomials of rising degree. The motion whose crank angle is smooth needs a low degree to leave
+//! nothing but noise; the other one has a bend at the fold, and needs a high degree if it gets there at all.
+
+use super::super::sensor::Sensor;
+use super::window::Window;
+use crate::numeric::orthogonal::{self, Expansion};
+
+/// Largest degree.
+const MOST: usize = 12;
+
+/// Squared standard errors that a degree d is to bring, over ln(1 + d).
+const DEGREE: f64 = 16.0;
+
+/// Evidence that decides.
+pub(super) const ENOUGH: f64 = 25.0;
+
+/// Ratio of the sums of squares that is as much, where neither motion leaves noise alone.
+const RATIO: f64 = 1e4;
+
+/// Standard deviations by which a sum of squares that is noise may be large.
+const NOISE: f64 = 4.0;
+
+/// Fewest blocks away from the fold on either side, and fewest in all.
+const CLEAR: usize = 1;
+const FEWEST: usize = 5;
+
+/// Steps of Gauss and Newton.
+const STEPS: usize = 5;
+
+/// For or against a passage.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Evidence {
+    /// By how much the motion that goes back is worse, in squared standard errors; it is better if this is negative.
+    pub passes: f64,
+    /// Whether the better one leaves nothing but noise.
+    pub explained: bool,
+}
+
+impl Evidence {
+    /// What the samples of a window tell.
+    pub fn of(window: &Window, sensor: &Sensor<'_>) -> Evidence {
+        let count = window.t.len();
+        if window.clear.iter().any(|clear| *clear < CLEAR) || count < FEWEST {
+            return Evidence::default();
+        }
+        let most = MOST.min(count / 2 + 1);
+        let weights: Vec<f64> = window.error.iter().map(|error| 1.0 / error).collect();
+        let fit = |angles: &Vec<f64>| fitted(&window.t, &over(angles, &weights), &weights, most);
+        let back = fit(&window.back);
+        let last = |fit: &Expansion<f64>| fit.squares.last().copied().unwrap_or(f64::INFINITY);
+        let past = window.past.iter().map(fit);
+        let Some(past) = past.min_by(|a, b| last(a).total_cmp(&last(b))) else {
+            return Evidence::default();
+        };
+        let rough = Evidence::between(&misfits(&back), &misfits(&past), count);
+        if rough.is_plain() {
+            return rough;
+        }
+        let [back, past] = [back, past].map(|fit| refined(window, sensor, &fit));
+        Evidence::between(&back, &past, count)
+    }
+
+    /// Whether there is no need to look closer.
+    pub fn is_plain(&self) -> bool {
+        let plain = if self.explained { 50.0 } else { 2.5 };
+        self.passes.abs() > plain * ENOUGH
+    }
+
+    fn between(back: &[Misfit], past: &[Misfit], count: usize) -> Evidence {
+        let samples = count as f64;
+        let free = |misfit: &Misfit| samples - misfit.degree as f64 - 1.0;
+        let most = back.iter().chain(past).map(|m| m.degree).max().unwrap_or(0);
+        let noise = 1.0 + NOISE * (2.0 / samples).sqrt();
+        // Only what leaves half of the degrees to the other motion shows that it needs more.
+        let explains = |m: &Misfit| m.degree <= most.div_ceil(2) && m.squares < noise * free(m);
+        if back.iter().chain(past).any(explains) {
+            let cost = |list: &[Misfit]| least(list, Misfit::cost);
+            return Evidence {
+                passes: cost(back) - cost(past),
+                explained: true,
+            };
+        }
+        let left = |list: &[Misfit]| least(list, |m| m.squares / free(m));
+        Evidence {
+            passes: ENOUGH * (left(back) / left(past)).ln() / RATIO.ln(),
+            explained: false,
+        }
+    }
+}
+
+/// What a polynomial leaves.
+#[derive(Clone, Copy, Debug)]
+struct Misfit {
+    degree: usize,
+    /// Sum of squares in squared standard errors.
+    squares: f64,
+}
+
+impl Misfit {
+    fn cost(&self) -> f64 {
+        self.squares + DEGREE * (self.degree as f64).ln_1p()
+    }
+}
+
+fn least(list: &[Misfit], of: impl Fn(&Misfit) -> f64) -> f64 {
+    list.iter().map(of).fold(f64::INFINITY, f64::min)
+}
+
+fn over(values: &[f64], weights: &[f64]) -> Vec<f64> {
+    values.iter().zip(weights).map(|(v, w)| v * w).collect()
+}
+
+fn fitted(t: &[f64], target: &[f64], weights: &[f64], most: usize) -> Expansion<f64> {
+    orthogonal::fit(t, target, Some(weights), |squares| squares.len() <= most)
+}
+
+/// What the polynomials of each degree leave.
+fn misfits(fit: &Expansion<f64>) -> Vec<Misfit> {
+    let list = fit.squares.iter().enumerate();
+    list.map(|(degree, squares)| Misfit {
+        degree,
+        squares: *squares,
+    })
+    .collect()
+}
+
+/// What polynomials leave in terms of what was measured: near a fold a value tells the square of an angle, or its size.
+fn refined(window: &Window, sensor: &Sensor<'_>, fit: &Expansion<f64>) -> Vec<Misfit> {
+    let mut list = Vec::new();
+    let mut best = f64::INFINITY;
+    for degree in (1..fit.squares.len()).rev().step_by(2) {
+        let squares = measured(window, sensor, fit, degree);
+        let misfit = Misfit { degree, squares };
+        list.push(misfit);
+        // Lower degrees leave more.
+        if squares > best {
+            break;
+        }
+        best = best.min(misfit.cost());
+    }
+    list
+}
+
+/// The sum of squares that a polynomial leaves in terms of what was measured (Gauss and Newton, with halved steps).
+fn measured(window: &Window, sensor: &Sensor<'_>, fit: &Expansion<f64>, degree: usize) -> f64 {
+    let rows = |angles: &[f64]| -> (Vec<f64>, Vec<f64>) {
+        let shown = angles.iter().zip(&window.shown);
+        let rows = shown.map(|(angle, (value, noise))| {
+            let (rest, slope) = sensor.residual(*value, window.at_fold + angle);
+            (rest / noise, slope / noise)
+        });
+        rows.unzip()
+    };
+    let size = |rest: &[f64]| {
+        let sum: f64 = rest.iter().map(|r| r * r).sum();
+        if sum.is_nan() { f64::INFINITY } else { sum }
+    };
+    let mut angles = values(fit, degree, &window.t);
+    let (mut rest, mut slopes) = rows(&angles);
+    let mut least = size(&rest);
+    for _ in 0..STEPS {
+        let change = fitted(&window.t, &rest, &slopes, degree);
+        let change = values(&change, degree, &window.t);
+        let before = least;
+        for part in [1.0, 0.5, 0.25, 0.125] {
+            let next: Vec<f64> = angles
+                .iter()
+                .zip(&change)
+                .map(|(a, c)| a + part * c)
+                .collect();
+            let (next_rest, next_slopes) = rows(&next);
+            let sum = size(&next_rest);
+            if sum < least {
+                (angles, rest, slopes, least) = (next, next_rest, next_slopes, sum);
+                break;
+            }
+        }
+        if least > 0.99 * before {
+            break;
+        }
+    }
+    least
+}
+
+/// A fit up to a degree at the given times, from −1 to 1.
+fn values(fit: &Expansion<f64>, degree: usize, t: &[f64]) -> Vec<f64> {
+    let count = fit.coefficients.len().min(degree + 1);
+    let value = |t: &f64| {
+        let s = (t - fit.middle) / fit.half;
+        let (mut before, mut now, mut sum) = (0.0, 0.0, 0.0);
+        for j in 0..count {
+            let next = match j {
+                0 => 1.0 / fit.norms[0],
+                _ => ((s - fit.centres[j - 1]) * now - fit.norms[j - 1] * before) / fit.norms[j],
+            };
+            (before, now) = (now, next);
+            sum += fit.coefficients[j] * now;
+        }
+        sum
+    };
+    t.iter().map(value).collect()
+}

@@ -1,0 +1,140 @@
+//! A motion along the strokes.
+
+use std::f64::consts::TAU;
+
+use super::strokes::{Fold, Stroke};
+use super::visit::{Motion, Visit};
+use crate::numeric::parallel;
+
+/// A motion that begins on one of the strokes.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Track {
+    /// Crank angle at each sample, rad.
+    pub theta: Vec<f64>,
+    /// Samples where it is not certain whether the motion passes a fold.
+    pub doubts: Vec<usize>,
+    /// How often the motion comes to a fold.
+    pub visits: usize,
+}
+
+/// Standard deviations that a motion is to outweigh between the first or last samples.
+const STEP: f64 = 6.0;
+
+impl Track {
+    pub fn new(motion: &Motion<'_>, first: Stroke) -> Track {
+        let count = motion.turnings.len();
+        let mut along = vec![first];
+        let mut visits: Vec<Option<Visit>> = Vec::with_capacity(count);
+        for k in 0..count {
+            let visit = motion.fold(k).map(|fold| motion.look(k, fold, along[k]));
+            along.push(visit.map_or(along[k], |visit| visit.next(along[k])));
+            visits.push(visit);
+        }
+        for k in 0..count {
+            let Some(visit) = visits[k].filter(|visit| !visit.certain) else {
+                continue;
+            };
+            let again = motion.look_again(k, visit, &along);
+            visits[k] = Some(again);
+            if again.passes != visit.passes {
+                for k in k..count {
+                    along[k + 1] = visits[k].map_or(along[k], |visit| visit.next(along[k]));
+                }
+            }
+        }
+        let doubtful = |k: &usize| visits[*k].is_some_and(|visit| !visit.certain);
+        let doubts = (0..count).filter(doubtful);
+        Track {
+            doubts: doubts.map(|k| motion.turnings[k].at).collect(),
+            visits: visits.iter().flatten().count(),
+            theta: motion.angles(&along),
+        }
+    }
+}
+
+impl Motion<'_> {
+    /// The crank angle of each sample, with its turns, on the strokes between turning points.
+    fn angles(&self, along: &[Stroke]) -> Vec<f64> {
+        let values = self.record.values;
+        let changes: Vec<usize> = (0..self.turnings.len())
+            .map(|k| self.change(self.turnings[k].at, [along[k], along[k + 1]]))
+            .collect();
+        let mut theta = parallel::list(values.len(), |i| {
+            let stroke = along[changes.partition_point(|change| *change <= i)];
+            self.strokes.angles(values[i])[stroke]
+        });
+        for i in 0..theta.len() {
+            let expected = match i {
+                0 => 0.0,
+                1 => theta[0],
+                _ => 2.0 * theta[i - 1] - theta[i - 2],
+            };
+            theta[i] = in_turn(theta[i], expected);
+        }
+        if let [.., last] = along
+            && theta.len() > 5
+        {
+            let end = theta.len() - 1;
+            self.mend(&mut theta, [end - 1, end - 2, end - 3, end - 4], *last);
+            self.mend(&mut theta, [end, end - 1, end - 2, end - 3], *last);
+            self.mend(&mut theta, [1, 2, 3, 4], along[0]);
+            self.mend(&mut theta, [0, 1, 2, 3], along[0]);
+        }
+        theta
+    }
+
+    /// The first sample on the stroke after a turning point, which itself may be on either.
+    fn change(&self, at: usize, [from, to]: [Stroke; 2]) -> usize {
+        if from == to || at == 0 || at == self.record.last() {
+            return at;
+        }
+        let angle = |i: usize, stroke: Stroke| self.strokes.angles(self.record.values[i])[stroke];
+        let start = angle(at - 1, from);
+        let around = (at.saturating_sub(2)..=(at + 2).min(self.record.last())).filter(|i| *i != at);
+        let others: Vec<(usize, f64)> = around
+            .map(|i| (i, in_turn(angle(i, if i < at { from } else { to }), start)))
+            .collect();
+        let expected = self.foretold(at, &others);
+        let off = |stroke: Stroke| (in_turn(angle(at, stroke), expected) - expected).abs();
+        if off(from) <= off(to) { at + 1 } else { at }
+    }
+
+    /// Lets the first or last sample be where three next to it lead: past a fold that is between samples.
+    fn mend(&self, theta: &mut [f64], [at, a, b, c]: [usize; 4], stroke: Stroke) {
+        let values = self.record.values;
+        let step = 2.0
+            * (values[at] - values[a])
+                .abs()
+                .max((values[a] - values[b]).abs());
+        let folds = [true, false].map(|above| self.strokes.fold(values[at], above));
+        let is_near = |fold: &Fold| (values[at] - fold.value).abs() <= step;
+        let Some(fold) = folds.into_iter().flatten().find(is_near) else {
+            return;
+        };
+        if step < STEP * self.record.noise {
+            return;
+        }
+        let expected = self.foretold(at, &[a, b, c].map(|i| (i, theta[i])));
+        let angles = self.strokes.angles(values[at]);
+        let [one, other] =
+            [stroke, stroke ^ fold.change].map(|stroke| in_turn(angles[stroke], expected));
+        let is_near = (one - expected).abs() <= (other - expected).abs();
+        theta[at] = if is_near { one } else { other };
+    }
+
+    /// The polynomial through the angles of some samples at another one.
+    fn foretold(&self, at: usize, others: &[(usize, f64)]) -> f64 {
+        let t = |i: usize| self.record.times[i];
+        let part = |(i, angle): &(usize, f64)| {
+            let weights = others.iter().filter(|(j, _)| j != i);
+            let weights = weights.map(|(j, _)| (t(at) - t(*j)) / (t(*i) - t(*j)));
+            angle * weights.product::<f64>()
+        };
+        others.iter().map(part).sum()
+    }
+}
+
+/// The angle in the turn that brings it nearest to another.
+pub(super) fn in_turn(angle: f64, expected: f64) -> f64 {
+    angle + ((expected - angle) / TAU).round() * TAU
+}
