@@ -40,7 +40,8 @@ pub(super) struct Arguments {
     /// Adds joint, guide and shaking forces to the rows
     #[arg(long)]
     reactions: bool,
-    /// Adds the slider force by the energies that Duarte et al. print, and by their equation (9) as printed, to the rows
+    /// Adds the slider force by the energies that Duarte et al. print, and by their equation (9) as printed, to rows, text
+    /// and figure
     #[arg(long)]
     as_printed: bool,
     /// Writes samples, fit and residuals as CSV to this file
