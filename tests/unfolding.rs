@@ -1,0 +1,452 @@
+//! The crank angle from a slider position or a crank-pin angle: right, or said to be in doubt where the samples do not tell.
+
+mod noise;
+mod support;
+
+use std::f64::consts::{PI, TAU};
+
+use noise::Random;
+use proptest::prelude::*;
+use slider_crank::mechanism::Linkage;
+use slider_crank::scene::{Branch, Measured, Measurement, Scene, Slider};
+use slider_crank::study::{FitKind, FitSize, InverseOptions, inverse};
+use support::random::{cases, magnitude, rotating_crank};
+
+const BOTH: [Measured; 2] = [Measured::X, Measured::Gamma];
+
+/// A wrong choice at a dead centre is off by more than that, rad; a fit through a sharp turn is not.
+const WRONG: f64 = 0.3;
+
+fn scene(crank: f64, rod: f64, offset: f64, branch: Branch) -> Scene {
+    Scene::new(crank, rod)
+        .offset(offset)
+        .branch(branch)
+        .slider(Slider { mass: 1.0 })
+}
+
+fn plain() -> Scene {
+    scene(0.05, 0.15, 0.0, Branch::Right)
+}
+
+/// What an instrument shows: the angle at the crank pin from the directions to pivot and wrist pin.
+fn shown(scene: &Scene, measured: Measured, theta: f64) -> f64 {
+    let pose = Linkage::new(&scene.geometry).pose(theta);
+    let (r, e) = (scene.geometry.crank, scene.geometry.offset);
+    let (ax, ay) = (r * theta.cos(), r * theta.sin());
+    let (px, py) = (pose.x - ax, -e - ay);
+    match measured {
+        Measured::X => pose.x,
+        _ => (px * ay - py * ax).abs().atan2(-ax * px - ay * py),
+    }
+}
+
+/// What comes of a motion.
+#[derive(Clone, Debug)]
+enum Found {
+    Right,
+    Wrong,
+    /// With what is said.
+    Doubt(String),
+}
+
+struct Motion<'a> {
+    theta: &'a dyn Fn(f64) -> f64,
+    samples: usize,
+    /// Standard deviation, rad or in crank lengths.
+    noise: f64,
+    /// To which values are rounded, rad or in crank lengths.
+    step: f64,
+}
+
+impl std::fmt::Debug for Motion<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let [a, b, c] = [0.0, 0.5, 1.0].map(|t| (self.theta)(t));
+        write!(
+            f,
+            "{} samples from {a} by {b} to {c} rad, noise {}, step {}",
+            self.samples, self.noise, self.step
+        )
+    }
+}
+
+impl Motion<'_> {
+    fn unfold(&self, scene: &Scene, measured: Measured) -> Found {
+        let last = (self.samples - 1) as f64;
+        let times: Vec<f64> = (0..self.samples).map(|i| i as f64 / last).collect();
+        let theta: Vec<f64> = times.iter().map(|t| (self.theta)(*t)).collect();
+        let size = match measured {
+            Measured::X => scene.geometry.crank,
+            _ => 1.0,
+        };
+        let mut random = Random(88_172_645_463_325_252);
+        let values = theta.iter().map(|theta| {
+            let value = shown(scene, measured, *theta) + self.noise * size * random.normal();
+            let value = match measured {
+                Measured::X => value,
+                _ => PI - (PI - value.abs()).abs(),
+            };
+            match self.step * size {
+                0.0 => value,
+                step => (value / step).round() * step,
+            }
+        });
+        let values = values.collect();
+        let speed = ((self.theta)(1e-6) - theta[0]) * 1e6;
+        let scene = scene.clone().start(theta[0], speed);
+        let measurement = Measurement::new(measured, times, values).expect("samples");
+        let options = |fit: FitKind, size: FitSize| InverseOptions {
+            fit,
+            size,
+            ..InverseOptions::default()
+        };
+        // A straight line is fitted to whatever comes of the samples.
+        let line = inverse(
+            &scene,
+            &measurement,
+            &options(FitKind::Polynomial, FitSize::Fixed(1)),
+        );
+        let doubt = |said: &String| said.contains("cannot be told");
+        let said = line.map(|line| line.summary.warnings).unwrap_or_default();
+        if let Some(said) = said.into_iter().find(doubt) {
+            return Found::Doubt(said);
+        }
+        let found = match inverse(
+            &scene,
+            &measurement,
+            &options(FitKind::Spline, FitSize::Auto),
+        ) {
+            Ok(found) => found,
+            Err(refused) => return Found::Doubt(refused.to_string()),
+        };
+        let middle = found.rows.len() / 2;
+        let turns = ((found.rows[middle].theta - theta[middle]) / TAU).round() * TAU;
+        let off = found
+            .rows
+            .iter()
+            .zip(&theta)
+            .map(|(row, theta)| (row.theta - turns - theta).abs());
+        if off.fold(0.0, f64::max) < WRONG {
+            Found::Right
+        } else {
+            Found::Wrong
+        }
+    }
+}
+
+fn is_right(motion: &Motion<'_>, scene: &Scene) {
+    for measured in BOTH {
+        let found = motion.unfold(scene, measured);
+        assert!(
+            matches!(found, Found::Right),
+            "{measured:?}, {motion:?}, {:?}: {found:?}",
+            scene.geometry
+        );
+    }
+}
+
+fn is_not_wrong(motion: &Motion<'_>, scene: &Scene) {
+    for measured in BOTH {
+        let found = motion.unfold(scene, measured);
+        assert!(
+            !matches!(found, Found::Wrong),
+            "{measured:?}, {motion:?}, {:?}: {found:?}",
+            scene.geometry
+        );
+    }
+}
+
+/// From 0 to 1, at rest at both ends.
+fn ease(t: f64) -> f64 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * t * (10.0 - 15.0 * t + 6.0 * t * t)
+}
+
+/// Without offset the strokes are mirror images: after a rest at a dead centre a motion that goes on and one that goes
+/// back show the same.
+#[test]
+fn a_rest_at_a_dead_centre_is_in_doubt_where_it_is() {
+    for dead_centre in [0.0, PI] {
+        for way in [1.0, -1.0] {
+            let theta = move |t: f64| {
+                dead_centre - 2.0 * (1.0 - ease(t / 0.4)) + way * 2.5 * ease((t - 0.6) / 0.4)
+            };
+            for (samples, noise) in [(200, 0.0), (200, 1e-4), (5000, 1e-3)] {
+                let motion = Motion {
+                    theta: &theta,
+                    samples,
+                    noise,
+                    step: 0.0,
+                };
+                for measured in BOTH {
+                    let found = motion.unfold(&plain(), measured);
+                    let Found::Doubt(said) = &found else {
+                        panic!("{measured:?}, {way}, {samples}, {noise}: {found:?}")
+                    };
+                    let number = |after: &str| -> f64 {
+                        let (_, rest) = said.split_once(after).expect("a number");
+                        let end = rest.find([' ', ')']).expect("an end");
+                        rest[..end].parse().expect("a number")
+                    };
+                    assert!(said.contains("theta = "), "{samples}, {noise}, {said}");
+                    let t = number("(t = ");
+                    assert!((0.3..0.7).contains(&t), "{said}");
+                    assert!(
+                        (number("theta = ") - dead_centre).abs() % TAU < 0.2,
+                        "{said}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_rest_away_from_a_dead_centre_is_told() {
+    // It rests 0.3 rad before the dead centre, and passes it later or goes back.
+    for way in [1.0, -1.0] {
+        let theta =
+            move |t: f64| -0.3 - 2.0 * (1.0 - ease(t / 0.4)) + way * 2.0 * ease((t - 0.6) / 0.4);
+        for noise in [0.0, 1e-6, 1e-4] {
+            let motion = Motion {
+                theta: &theta,
+                samples: 600,
+                noise,
+                step: 0.0,
+            };
+            is_right(&motion, &plain());
+            is_not_wrong(&motion, &scene(0.05, 0.15, 0.02, Branch::Left));
+        }
+    }
+}
+
+/// The turning point comes as near to the dead centre as to 0.1 rad.
+#[test]
+fn swings_that_turn_just_before_a_dead_centre_go_back() {
+    for (short, noise) in [(0.1, 0.0), (0.1, 1e-5), (0.2, 3e-4), (0.4, 2e-3)] {
+        for dead_centre in [0.0, PI] {
+            let theta = move |t: f64| dead_centre - short - 0.9 * (1.0 - (5.0 * t + 0.4).sin());
+            let motion = Motion {
+                theta: &theta,
+                samples: 800,
+                noise,
+                step: 0.0,
+            };
+            is_right(&motion, &plain());
+        }
+    }
+}
+
+#[test]
+fn swings_across_a_dead_centre_pass_it() {
+    for (swing, noise) in [(0.3, 0.0), (0.3, 1e-5), (0.8, 1e-3), (2.5, 3e-3)] {
+        for dead_centre in [0.0, PI] {
+            let theta = move |t: f64| dead_centre + swing * (9.0 * t + 0.4).sin();
+            let motion = Motion {
+                theta: &theta,
+                samples: 900,
+                noise,
+                step: 0.0,
+            };
+            is_right(&motion, &plain());
+        }
+    }
+}
+
+/// The crank almost stops once in each turn, at some place.
+#[test]
+fn a_crank_that_almost_stops_goes_on_or_is_in_doubt() {
+    for slowest in [0.3, 0.1, 0.03] {
+        for place in 0..8 {
+            let start = TAU * f64::from(place) / 8.0;
+            let theta =
+                move |t: f64| start + 3.0 * TAU * t - (1.0 - slowest) * (3.0 * TAU * t).sin();
+            for noise in [0.0, 1e-5, 1e-3] {
+                let motion = Motion {
+                    theta: &theta,
+                    samples: 500,
+                    noise,
+                    step: 0.0,
+                };
+                let scene = scene(0.05, 0.12, 0.01, Branch::Right);
+                if slowest > 0.2 && noise < 1e-4 {
+                    is_right(&motion, &scene);
+                } else {
+                    is_not_wrong(&motion, &scene);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn few_samples_of_a_turn_are_enough_for_a_steady_motion() {
+    for (samples, noise) in [(81, 0.0), (161, 0.0), (161, 1e-3)] {
+        for sense in [1.0, -1.0] {
+            let theta = move |t: f64| 0.4 + sense * (10.0 * TAU * t + 0.2 * (7.0 * t).sin());
+            let motion = Motion {
+                theta: &theta,
+                samples,
+                noise,
+                step: 0.0,
+            };
+            let scene = scene(0.05, 0.2, 0.01, Branch::Left);
+            if samples > 100 {
+                is_right(&motion, &scene);
+            } else {
+                is_not_wrong(&motion, &scene);
+            }
+        }
+    }
+}
+
+#[test]
+fn coarse_steps_of_an_instrument_do_not_mislead() {
+    for step in [1e-4, 1e-3, 5e-3] {
+        let theta = |t: f64| 0.7 + 30.0 * t - 14.0 * t * t;
+        let motion = Motion {
+            theta: &theta,
+            samples: 700,
+            noise: 0.0,
+            step,
+        };
+        is_not_wrong(&motion, &plain());
+    }
+}
+
+#[test]
+fn the_size_of_a_mechanism_does_not_matter() {
+    for crank in [2e-6, 0.05, 8.0] {
+        let theta = |t: f64| 0.7 + 30.0 * t - 14.0 * t * t;
+        let motion = Motion {
+            theta: &theta,
+            samples: 700,
+            noise: 1e-4,
+            step: 0.0,
+        };
+        is_right(
+            &motion,
+            &scene(crank, 2.7 * crank, -0.4 * crank, Branch::Right),
+        );
+    }
+}
+
+/// On a crank that cannot turn fully the crank-pin angle turns back also where the wrist pin is beside the pivot.
+#[test]
+fn swings_of_rockers_across_either_fold_are_told() {
+    let linkage = |scene: &Scene| Linkage::new(&scene.geometry);
+    for (branch, sign) in [(Branch::Right, 1.0), (Branch::Left, -1.0)] {
+        let rocker = scene(0.05, 0.07, 0.06, branch);
+        // The angles at which the wrist pin is beside the pivot, on this branch.
+        let x = |theta: f64| sign * linkage(&rocker).pose(theta).x;
+        let beside = (0..2000).map(|k| TAU * f64::from(k) / 2000.0);
+        let mut beside = beside.filter(|theta| {
+            let [a, b] = [theta - 0.3, theta + 0.3].map(|theta| linkage(&rocker).pose(theta));
+            a.exists() && b.exists() && x(*theta).abs() < 2e-4
+        });
+        let Some(middle) = beside.next_back() else {
+            panic!("the wrist pin is nowhere beside the pivot")
+        };
+        for swing in [0.1, 0.25] {
+            for noise in [0.0, 1e-5] {
+                let theta = move |t: f64| middle + swing * (12.0 * t + 0.5).sin();
+                let motion = Motion {
+                    theta: &theta,
+                    samples: 600,
+                    noise,
+                    step: 0.0,
+                };
+                is_right(&motion, &rocker);
+            }
+        }
+    }
+}
+
+/// θ(t) for 0 ≤ t ≤ 1.
+#[derive(Clone, Copy, Debug)]
+enum Formula {
+    Turns { path: f64, swing: f64, rate: f64 },
+    Swing { swing: f64, rate: f64 },
+    Coast { path: f64, ratio: f64 },
+    StopAndGo { path: f64, part: f64, rate: f64 },
+}
+
+impl Formula {
+    fn at(&self, t: f64) -> f64 {
+        match *self {
+            Formula::Turns { path, swing, rate } => path * t + swing * (rate * t).sin(),
+            Formula::Swing { swing, rate } => swing * (rate * t).sin(),
+            Formula::Coast { path, ratio } => path * (1.0 - ratio.powf(-t)) / (1.0 - 1.0 / ratio),
+            Formula::StopAndGo { path, part, rate } => path * (t + part * (rate * t).sin() / rate),
+        }
+    }
+}
+
+fn formula() -> impl Strategy<Value = Formula> {
+    let path = || magnitude(2.5, 70.0);
+    prop_oneof![
+        (path(), 0.0..0.5, 1.0..6.0).prop_map(|(path, swing, rate)| Formula::Turns {
+            path,
+            swing,
+            rate
+        }),
+        (magnitude(0.2, 3.0), 3.0..12.0).prop_map(|(swing, rate)| Formula::Swing { swing, rate }),
+        (path(), magnitude(2.0, 100.0)).prop_map(|(path, ratio)| Formula::Coast { path, ratio }),
+        (path(), 0.3..0.98, 6.0..35.0).prop_map(|(path, part, rate)| Formula::StopAndGo {
+            path,
+            part,
+            rate
+        }),
+    ]
+}
+
+proptest! {
+    #![proptest_config(cases(150))]
+
+    #[test]
+    fn random_motions_are_unfolded_or_in_doubt(
+        geometry in rotating_crank(0.05),
+        formula in formula(),
+        start in -PI..PI,
+        sense in prop_oneof![Just(1.0), Just(-1.0)],
+        samples in magnitude(150.0, 2500.0),
+        noise in prop_oneof![Just(0.0), magnitude(1e-7, 3e-3)],
+        measured in prop_oneof![Just(Measured::X), Just(Measured::Gamma)],
+    ) {
+        let theta = move |t: f64| start + sense * formula.at(t);
+        let fastest = (0..500).map(|k| (formula.at(f64::from(k + 1) / 500.0) - formula.at(f64::from(k) / 500.0)).abs());
+        let fastest = 500.0 * fastest.fold(0.0, f64::max);
+        // At least 25 in a turn.
+        let samples = (samples as usize).max((25.0 * fastest / TAU) as usize);
+        let mut scene = plain();
+        scene.geometry = geometry;
+        let motion = Motion { theta: &theta, samples, noise, step: 0.0 };
+        let found = motion.unfold(&scene, measured);
+        prop_assert!(!matches!(found, Found::Wrong), "{:?}", found);
+    }
+}
+
+/// Doubt is for what cannot be told: hardly for motions that do not stop near a dead centre.
+#[test]
+fn steady_motions_are_hardly_ever_in_doubt() {
+    let mut random = Random(9_007_199_254_740_881);
+    let (mut doubts, mut all) = (0, 0);
+    for _ in 0..60 {
+        let path = 3.0 + 40.0 * random.even();
+        let (swing, start) = (0.4 * random.even(), TAU * random.even());
+        let noise = 10f64.powf(-6.0 + 3.5 * random.even());
+        let theta = move |t: f64| start + path * t + swing * (5.0 * t).sin();
+        let motion = Motion {
+            theta: &theta,
+            samples: 600,
+            noise,
+            step: 0.0,
+        };
+        for measured in BOTH {
+            let found = motion.unfold(&scene(0.05, 0.15, 0.01, Branch::Right), measured);
+            assert!(!matches!(found, Found::Wrong), "{found:?}");
+            doubts += usize::from(matches!(found, Found::Doubt(_)));
+            all += 1;
+        }
+    }
+    assert!(doubts * 25 < all, "{doubts} of {all}");
+}
