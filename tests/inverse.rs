@@ -421,7 +421,22 @@ fn a_motion_that_the_fit_misses_is_named() {
         ..InverseOptions::default()
     };
     let found = inverse(&scene, &motion, &options).expect("an inversion");
-    assert!(found.summary.fit.widening > 2.0);
+    // The band is as wide as what a spline finds beside it.
+    let options = InverseOptions {
+        fit: FitKind::Spline,
+        ..InverseOptions::default()
+    };
+    let right = inverse(&scene, &motion, &options).expect("an inversion");
+    let (mut inside, mut squares) = (0, 0.0);
+    for (row, right) in found.rows.iter().zip(&right.rows) {
+        let off = (row.crank_torque - right.crank_torque).abs() / row.crank_torque_se;
+        inside += usize::from(off <= found.summary.band_factor);
+        squares += off * off;
+    }
+    let (rows, factor) = (found.rows.len(), found.summary.fit.widening);
+    assert!(10 * inside >= 9 * rows, "{inside} of {rows}");
+    let error = (squares / rows as f64).sqrt();
+    assert!((0.1..=1.5).contains(&error), "{error}, widened by {factor}");
     assert!(
         found
             .summary

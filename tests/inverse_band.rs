@@ -252,9 +252,9 @@ impl Case {
         }
     }
 
-    /// Part of the forces inside their bands, and the mean number of parameters.
-    fn coverage(&self, fit: FitKind, noise: Noise, draws: u32, random: &mut Random) -> (f64, f64) {
-        let (mut inside, mut all, mut parameters) = (0.0, 0.0, 0.0);
+    /// How the errors of the forces compare with what is said of them.
+    fn coverage(&self, fit: FitKind, noise: Noise, draws: u32, random: &mut Random) -> Coverage {
+        let (mut inside, mut all, mut parameters, mut squares) = (0.0, 0.0, 0.0, 0.0);
         for _ in 0..draws {
             let values = noise.on(&self.shown, random);
             let motion = Measurement::new(self.measured, self.times.clone(), values);
@@ -269,20 +269,27 @@ impl Case {
                     all += 1.0;
                     let half = found.summary.band_factor * se;
                     inside += f64::from((force - exact).abs() <= half);
+                    squares += ((force - exact) / se).powi(2);
                 }
             }
             parameters += found.summary.fit.parameters / f64::from(draws);
         }
         let given = all / (f64::from(draws) * self.times.len() as f64);
         assert!(given > 0.7, "{given} of the rows have a force");
-        (inside / all, parameters)
+        Coverage {
+            share: inside / all,
+            parameters,
+            error: (squares / all).sqrt(),
+        }
     }
 
     /// The coverage of a scene is 90 to 99 %, but for what chance explains: the error of a fit of p parameters changes its
     /// sign about p times, which makes p/2 independent forces a draw.
     #[track_caller]
     fn is_covered(&self, fit: FitKind, noise: Noise, draws: u32, random: &mut Random) -> f64 {
-        let (share, parameters) = self.coverage(fit, noise, draws, random);
+        let Coverage {
+            share, parameters, ..
+        } = self.coverage(fit, noise, draws, random);
         let independent = f64::from(draws) * 0.5 * parameters;
         let chance = |share: f64| 3.0 * (share * (1.0 - share) / independent).sqrt();
         let (least, most) = (0.90 - chance(0.90), 0.99 + chance(0.99));
@@ -294,6 +301,17 @@ impl Case {
         );
         share
     }
+}
+
+/// How errors compare with what is said of them.
+#[derive(Clone, Copy, Debug)]
+struct Coverage {
+    /// Part of the forces inside their bands.
+    share: f64,
+    /// Mean number of parameters.
+    parameters: f64,
+    /// Root mean square of the errors, in standard errors.
+    error: f64,
 }
 
 /// What samples have beside the motion.
@@ -391,10 +409,28 @@ fn rounded_samples() {
     case.is_covered(FitKind::Fourier, Noise::Steps(2e-3), 8, random);
 }
 
-/// Samples without noise have the rounding of the run that they come from.
+/// Motor against a force that grows with the speed: the crank speeds up, and harmonics of a steady rotation cannot follow.
+fn speeding_up(random: &mut Random) -> Draft {
+    let c = random.within(1.0, 3.0);
+    let (angle, speed) = (random.within(0.0, TAU), random.within(15.0, 20.0));
+    let motor = Load::Motor {
+        stall: random.within(1.5, 3.0),
+        no_load_speed: 40.0,
+    };
+    Draft {
+        scene: mechanism(random, 1.0).torque(motor).start(angle, speed),
+        force: Arc::new(move |now| -c * now.v),
+        reads: Variables::V,
+        path: TAU * random.within(3.0, 6.0),
+    }
+}
+
+/// Samples without noise have the rounding of the run that they come from, and what lies between them is found from fewer
+/// of them: the band has the errors in it and is not much wider.
 #[test]
 fn computed_samples() {
-    for (number, fit) in FitKind::ALL.into_iter().cycle().take(6).enumerate() {
+    let mut errors = [const { Vec::new() }; FitKind::ALL.len()];
+    for (number, fit) in FitKind::ALL.into_iter().cycle().take(15).enumerate() {
         let random = &mut Random::new(1000 + number as u64);
         let draft = match fit {
             FitKind::Polynomial => swing(random),
@@ -404,7 +440,40 @@ fn computed_samples() {
         let measured = [Measured::Theta, Measured::X][number % 2];
         let rows = (150.0 * 8f64.powf(random.even())).max(60.0 * draft.path / TAU) as usize;
         let case = Case::new(&draft, measured, rows, 0.0, random);
-        let (share, _) = case.coverage(fit, Noise::Normal(0.0), 1, random);
-        assert!(share >= 0.9, "{fit:?}, {measured:?}, {rows} rows: {share}");
+        let found = case.coverage(fit, Noise::Normal(0.0), 1, random);
+        let is_right = found.share >= 0.9 && (0.03..=1.5).contains(&found.error);
+        assert!(is_right, "{fit:?}, {measured:?}, {rows} rows: {found:?}");
+        errors[number % errors.len()].push(found.error);
     }
+    for (fit, mut list) in FitKind::ALL.into_iter().zip(errors) {
+        list.sort_by(f64::total_cmp);
+        assert!(list[list.len() / 2] > 0.15, "{fit:?}: {list:.3?}");
+    }
+}
+
+/// What a fit cannot follow is seen in its residuals, and the band is as wide as that.
+#[test]
+fn motions_that_a_fit_misses() {
+    for number in 0..4 {
+        let random = &mut Random::new(1100 + number);
+        let case = Case::new(&speeding_up(random), Measured::Theta, 500, 0.3, random);
+        let found = case.coverage(FitKind::Fourier, Noise::Normal(0.0), 1, random);
+        let is_right = found.share >= 0.9 && (0.3..=1.5).contains(&found.error);
+        assert!(is_right, "scene {number}: {found:?}");
+    }
+}
+
+/// Few samples of few steps: where in a step a value lies is hardly known from a fit that follows the steps.
+#[test]
+fn few_samples_rounded() {
+    let (mut mean, scenes) = (0.0, 12);
+    for number in 0..scenes {
+        let random = &mut Random::new(1200 + number);
+        let case = Case::new(&swing(random), Measured::Theta, 62, 0.0, random);
+        let step = 1e-4 * 30f64.powf(random.even());
+        let found = case.coverage(FitKind::Polynomial, Noise::Steps(step), 20, random);
+        assert!(found.error < 1.5, "scene {number}: {found:?}");
+        mean += found.share / scenes as f64;
+    }
+    assert!((0.93..=0.985).contains(&mean), "{mean}");
 }

@@ -71,15 +71,15 @@ impl State {
     }
 
     /// This curve with another as what is wrong with it, instead of what may be left out; the other one is as it is for
-    /// samples of this standard deviation, and is not relied on to cancel.
-    pub fn wrong_by(mut self, other: &State, sigma: f64) -> State {
+    /// samples of this standard deviation. Where its value and derivatives cancel, this part of each is left.
+    pub fn wrong_by(mut self, other: &State, sigma: f64, left: f64) -> State {
         self.bias = other.bias;
         add_products(&mut self.bias, &other.value, 1.0);
         for (bias, covariance) in self.bias.iter_mut().zip(other.covariance) {
             *bias += sigma * sigma * covariance;
         }
         for (entry, value) in DIAGONAL.into_iter().zip(other.value) {
-            self.bias[entry] += ALONE * value * value;
+            self.bias[entry] += (left * value).powi(2);
         }
         self
     }
@@ -93,9 +93,6 @@ impl State {
 
 /// Where a lower triangle has the squares.
 const DIAGONAL: [usize; 3] = [0, 2, 5];
-
-/// Part of the square of each of three errors that is left where they cancel.
-const ALONE: f64 = 0.01;
 
 /// gᵀ S g for a symmetric matrix given by its lower triangle.
 fn quadratic(matrix: &[f64; 6], gradient: &[f64; 3]) -> f64 {

@@ -9,6 +9,10 @@ const SMOOTH: f64 = 0.7;
 /// Part of the squares of residuals that a spline may leave: noise hides derivatives of what it does not follow.
 const NOISY: f64 = 1e-3;
 
+/// Part of what is missed of angle, speed and acceleration that is left where these make up for each other; where much of
+/// the angle (rad) is missed the equation bends, and more is left.
+const LEFT: f64 = 0.1;
+
 /// Most residuals that are looked at.
 const MOST: usize = 4000;
 
@@ -72,6 +76,8 @@ impl Missed {
 
     /// The state of the fit with what it misses as what may be wrong.
     pub fn beside(&self, state: State, t: f64) -> State {
-        state.wrong_by(&self.curve.state(t), self.noise)
+        let missed = self.curve.state(t);
+        let left = LEFT + missed.value[0].abs();
+        state.wrong_by(&missed, self.noise, left)
     }
 }
