@@ -20,12 +20,14 @@ pub(super) struct Errors {
 }
 
 impl Errors {
-    /// Those of a curve that leaves these residuals, for samples that may be off by `computed` even without noise.
+    /// Those of a curve that leaves these residuals, for samples that may be off by `computed` even without noise. `line` is
+    /// that of [`Missed::of`].
     pub fn of(
         curve: &mut Curve,
         samples: &Samples<'_>,
         residuals: &[f64],
         computed: f64,
+        line: impl Fn(&Curve, usize, f64) -> (f64, f64),
     ) -> Errors {
         let quality = curve.quality();
         let known = quality.floor.max(computed);
@@ -45,7 +47,8 @@ impl Errors {
             errors.free = 0.5 * rows;
             return errors;
         }
-        errors.missed = Missed::of(curve, samples, residuals, &errors.pattern, errors.sigma());
+        let line = |i: usize, more: f64| line(curve, i, more);
+        errors.missed = Missed::of(curve, samples, &line, &errors.pattern, errors.sigma());
         if let Some(missed) = &errors.missed {
             errors.noise = missed.noise;
             errors.pattern.widening = 1.0;

@@ -90,7 +90,9 @@ impl Fitted {
             let curve = Curve::fit(&samples, kind, size)?;
             let residuals = parallel::list(theta.len(), |i| theta[i] - curve.value(times[i]));
             let computed = ROUNDED * f64::EPSILON * largest(&theta);
-            let mut fitted = Fitted::of(curve, residuals, &samples, computed);
+            let line =
+                |curve: &Curve, i: usize, more: f64| (theta[i] - curve.value(times[i]) - more, 1.0);
+            let mut fitted = Fitted::of(curve, residuals, &samples, computed, line);
             fitted.round(sensor, values, &samples, step)?;
             fitted.continued = Some(theta);
             return Ok(fitted);
@@ -117,15 +119,24 @@ impl Fitted {
             weight: Some(&slopes),
             floor,
         };
-        let mut fitted = Fitted::of(curve, residuals, &samples, computed);
+        let line = |curve: &Curve, i: usize, more: f64| {
+            sensor.residual(values[i], curve.value(times[i]) + more)
+        };
+        let mut fitted = Fitted::of(curve, residuals, &samples, computed, line);
         fitted.settled = settled;
         fitted.round(sensor, values, &samples, step)?;
         Ok(fitted)
     }
 
-    fn of(mut curve: Curve, residuals: Vec<f64>, samples: &Samples<'_>, computed: f64) -> Fitted {
+    fn of(
+        mut curve: Curve,
+        residuals: Vec<f64>,
+        samples: &Samples<'_>,
+        computed: f64,
+        line: impl Fn(&Curve, usize, f64) -> (f64, f64),
+    ) -> Fitted {
         Fitted {
-            errors: Errors::of(&mut curve, samples, &residuals, computed),
+            errors: Errors::of(&mut curve, samples, &residuals, computed, line),
             curve,
             residuals,
             settled: true,

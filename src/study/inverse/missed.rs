@@ -14,7 +14,10 @@ const NOISY: f64 = 1e-3;
 const LEFT: f64 = 0.1;
 
 /// Most residuals that are looked at.
-const MOST: usize = 4000;
+const MOST: usize = 2000;
+
+/// Corrections of what is missed of a crank angle that was not measured itself.
+const ROUNDS: usize = 3;
 
 /// Most places at which errors are compared.
 const PLACES: usize = 500;
@@ -30,35 +33,51 @@ pub(super) struct Missed {
 impl Missed {
     /// The curve that residuals with a pattern show; none where the fit, for samples of the standard deviation `sigma`,
     /// already tells more of its errors.
+    ///
+    /// `line` gives what a sample leaves beside the fit with so much more of the crank angle, rad, and by how much the
+    /// measured value grows with the latter.
     pub fn of(
         curve: &Curve,
         samples: &Samples<'_>,
-        residuals: &[f64],
+        line: &dyn Fn(usize, f64) -> (f64, f64),
         pattern: &Pattern,
         sigma: f64,
     ) -> Option<Missed> {
         if !pattern.clear || pattern.lag_one < SMOOTH || curve.kind() == Kind::Spline {
             return None;
         }
-        let stride = residuals.len().div_ceil(MOST);
-        let part = |list: &[f64]| -> Vec<f64> { list.iter().step_by(stride).copied().collect() };
-        let (t, target) = (part(samples.t), part(residuals));
-        let weight = samples.weight.map(part);
-        let left = Samples {
-            t: &t,
-            target: &target,
-            weight: weight.as_deref(),
-            floor: samples.floor,
-        };
-        let mut found = Curve::fit(&left, Kind::Spline, Size::Auto).ok()?;
-        let squares: f64 = target.iter().map(|r| r * r).sum();
-        if found.quality().squares > NOISY * squares {
-            return None;
+        let last = samples.t.len() - 1;
+        let steps = last.min(MOST);
+        let chosen: Vec<usize> = (0..=steps).map(|i| i * last / steps).collect();
+        let t: Vec<f64> = chosen.iter().map(|i| samples.t[*i]).collect();
+        let rounds = if samples.weight.is_some() { ROUNDS } else { 1 };
+        let (mut found, mut follows) = (None, false);
+        for _ in 0..rounds {
+            let more = |t: f64| found.as_ref().map_or(0.0, |found: &Curve| found.value(t));
+            let lines = chosen.iter().zip(&t).map(|(i, t)| {
+                let more = more(*t);
+                let (residual, slope) = line(*i, more);
+                (slope, residual + slope * more)
+            });
+            let (weight, target): (Vec<f64>, Vec<f64>) = lines.unzip();
+            let left = Samples {
+                t: &t,
+                target: &target,
+                weight: Some(&weight),
+                floor: samples.floor,
+            };
+            let mut spline = Curve::fit(&left, Kind::Spline, Size::Auto).ok()?;
+            let squares: f64 = target.iter().map(|r| r * r).sum();
+            follows = spline.quality().squares <= NOISY * squares;
+            if follows {
+                spline.compare(&left);
+            }
+            found = Some(spline);
         }
-        found.compare(&left);
-        let noise = found.quality().sigma;
+        let spline = found.filter(|_| follows)?;
+        let noise = spline.quality().sigma;
         let missed = Missed {
-            curve: found,
+            curve: spline,
             noise,
         };
         let acceleration = [0.0, 0.0, 1.0];
