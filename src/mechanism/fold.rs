@@ -12,27 +12,9 @@ pub struct Candidates {
 }
 
 impl Candidates {
-    /// One crank angle.
-    pub fn one(theta: f64) -> Candidates {
-        Candidates {
-            list: [theta, 0.0, 0.0, 0.0],
-            count: 1,
-        }
-    }
-
     /// The angles.
     pub fn angles(&self) -> &[f64] {
         &self.list[..self.count]
-    }
-
-    /// These angles and others that are not among them.
-    pub fn with(mut self, others: &Candidates) -> Candidates {
-        for theta in others.angles() {
-            if !self.angles().contains(theta) {
-                self.push(*theta);
-            }
-        }
-        self
     }
 
     fn push(&mut self, theta: f64) {

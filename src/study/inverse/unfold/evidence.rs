@@ -63,9 +63,14 @@ impl Evidence {
     }
 
     /// Whether there is no need to look closer.
-    pub fn is_plain(&self) -> bool {
-        let plain = if self.explained { 50.0 } else { 2.5 };
+    fn is_plain(&self) -> bool {
+        let plain = if self.explained { 50.0 } else { 1.5 };
         self.passes.abs() > plain * ENOUGH
+    }
+
+    /// Whether there is no need to look elsewhere.
+    pub fn is_clear(&self) -> bool {
+        self.is_plain() || self.explained && self.passes.abs() > 4.0 * ENOUGH
     }
 
     fn between(back: &[Misfit], past: &[Misfit], count: usize) -> Evidence {

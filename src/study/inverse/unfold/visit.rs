@@ -121,7 +121,7 @@ impl Motion<'_> {
             let window = Window::new(&self.record, self.strokes, (at, fold), &back, range);
             let one = Evidence::of(&window, &sensor);
             list.push(one);
-            if one.is_plain() {
+            if one.is_clear() {
                 break;
             }
         }
