@@ -1,6 +1,6 @@
 //! Fitted curves against exactly known answers.
 
-use slider_crank::numeric::fit::{Curve, Fourier, Kind, Polynomial, Samples, Size, Spline};
+use slider_crank::numeric::fit::{Curve, Fourier, Kind, Polynomial, Rows, Samples, Size, Spline};
 
 fn samples<'a>(t: &'a [f64], target: &'a [f64]) -> Samples<'a> {
     Samples {
@@ -287,11 +287,69 @@ fn a_spline_comes_to_rest() {
         .collect();
     let samples = samples(&t, &y);
     let before = Spline::fit(&samples, Size::Fixed(1024)).expect("a spline");
-    let after = before.again(&samples).expect("a spline");
+    let after = before.again(&Rows::from(&samples)).expect("a spline");
     for t in t.iter().step_by(37) {
         let state = after.state(*t);
         let error = after.quality().sigma * state.covariance[0].sqrt();
         let change = (state.value[0] - before.value(*t)).abs();
         assert!(change < 1e-2 * error, "{t}: {}", change / error);
+    }
+}
+
+/// What fits work on is counted: whether samples have noise, none, or are rounded to steps that a slow motion takes long
+/// over, a few nodes of many samples each stand for them, and no square is lost.
+#[test]
+fn very_many_samples_are_fitted_by_few_rows() {
+    let count = 400_000;
+    let t: Vec<f64> = (0..count)
+        .map(|i| f64::from(i) / f64::from(count))
+        .collect();
+    let mut random = 1_u64;
+    let mut noise = || {
+        random = random
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (random >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+    };
+    let turns = |t: f64| 0.3 + 20.0 * t + 0.05 * (20.0 * t).sin();
+    let steps = |step: f64| move |y: f64| (y / step).round() * step;
+    let cases: [(Vec<f64>, f64); 4] = [
+        (t.iter().map(|t| turns(*t) + 1e-4 * noise()).collect(), 0.0),
+        (t.iter().map(|t| turns(*t)).collect(), 0.0),
+        (t.iter().map(|t| steps(1e-3)(turns(*t))).collect(), 1e-3),
+        (
+            t.iter().map(|t| steps(5e-3)(turns(0.05 * t))).collect(),
+            5e-3,
+        ),
+    ];
+    for (case, (y, step)) in cases.iter().enumerate() {
+        let samples = Samples {
+            floor: step / 12f64.sqrt(),
+            ..samples(&t, y)
+        };
+        for kind in Kind::ALL {
+            let rows = kind.rows(&samples, Size::Auto, 1e-14);
+            assert!(
+                rows.number() * 8 <= t.len(),
+                "{case}, {kind:?}: {}",
+                rows.number()
+            );
+            if kind == Kind::Fourier && case == 3 {
+                continue;
+            }
+            // As many samples as they stand for are counted and weighed.
+            let curve = Curve::to(&rows, kind, Size::Auto).expect("a curve");
+            let squares = t.iter().zip(y).map(|(t, y)| (y - curve.value(*t)).powi(2));
+            let squares: f64 = squares.sum();
+            let quality = curve.quality();
+            // A few roundings of numbers up to 20, by the inequality of Cauchy and Schwarz.
+            let one = 1e-14 * f64::from(count).sqrt();
+            let rounding = one * (one + 2.0 * squares.sqrt());
+            assert!(
+                (quality.squares - squares).abs() < 1e-6 * squares + rounding,
+                "{case}, {kind:?}: {} {squares}",
+                quality.squares
+            );
+        }
     }
 }

@@ -128,3 +128,28 @@ fn a_wrong_row_among_many_is_found() {
         assert!(shown.contains("50002"), "{shown}");
     }
 }
+
+/// Five digits of numbers from 0.1 to 1000: fewer decimals the larger they are, and none where they would be zeros.
+#[test]
+fn digits_are_those_of_values_of_each_size() {
+    let digits = |row: usize| {
+        let value = 0.1 * 10f64.powf(4.0 * row as f64 / ROWS as f64);
+        let decimals = 4 - value.log10().floor() as i32;
+        let text = format!("{value:.*}", decimals.max(0) as usize);
+        match text.contains('.') {
+            true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+            false => text,
+        }
+    };
+    let found = read(text(&PLAIN, |row, _| digits(row))).expect("numbers");
+    // A quarter of them each to 1e-5, 1e-4, 1e-3 and 1e-2.
+    let squares: f64 = (2..6).map(|k| 100f64.powi(-k)).sum();
+    let expected = (squares / 4.0).sqrt();
+    assert!((found.resolution() / expected - 1.0).abs() < 1e-3);
+    // All to as many decimals, but for zeros at the end.
+    let plain = |row: usize| (2.0 + 1e-4 * row as f64).to_string();
+    let found = read(text(&PLAIN, |row, _| {
+        plain(row)[..6.min(plain(row).len())].to_owned()
+    }));
+    assert_eq!(found.expect("numbers").resolution(), 1e-4);
+}

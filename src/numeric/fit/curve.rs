@@ -1,7 +1,8 @@
 //! One type for all fitted curves.
 
+use super::condensed::Rows;
 use super::pieces::DEGREE;
-use super::{Fourier, Polynomial, Quality, Samples, Size, Spline, State};
+use super::{Fourier, MOST_IN_DOUBLE, Polynomial, Quality, Samples, Size, Spline, State};
 
 /// Kinds of curves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,6 +25,17 @@ impl Kind {
             Kind::Polynomial => "polynomial",
             Kind::Spline => "spline",
             Kind::Fourier => "fourier",
+        }
+    }
+
+    /// What stands for samples in fits of this kind and size: the samples, or narrow blocks of very many. They may have been
+    /// computed, with a standard deviation of `computed`.
+    pub fn rows<'a>(self, samples: &Samples<'a>, size: Size, computed: f64) -> Rows<'a> {
+        match self {
+            // What double-double arithmetic gives would be lost with the rounding of blocks.
+            Kind::Polynomial if samples.t.len() <= MOST_IN_DOUBLE => Rows::from(samples),
+            Kind::Spline => Rows::new(samples, Spline::unit(size), computed),
+            _ => Rows::new(samples, 1, computed),
         }
     }
 
@@ -54,11 +66,21 @@ impl Curve {
     /// # Errors
     /// A text that says why the samples do not serve.
     pub fn fit(samples: &Samples<'_>, kind: Kind, size: Size) -> Result<Curve, String> {
-        let counting = match samples.weight {
-            Some(weight) => weight.iter().filter(|w| **w != 0.0).count(),
-            None => samples.t.len(),
-        };
+        let rows = kind.rows(samples, size, samples.computed());
+        let curve = Curve::to(&rows, kind, size)?;
+        if curve.is_seen_by(&rows) {
+            return Ok(curve);
+        }
+        Curve::to(&Rows::from(samples), kind, size)
+    }
+
+    /// Fits a curve to rows.
+    ///
+    /// # Errors
+    /// A text that says why the samples do not serve.
+    pub fn to(rows: &Rows<'_>, kind: Kind, size: Size) -> Result<Curve, String> {
         if let Size::Fixed(size) = size {
+            let counting = rows.counting();
             let parameters = kind.parameters(size);
             if kind == Kind::Spline && size == 0 {
                 return Err("a spline has at least one piece".to_owned());
@@ -70,9 +92,9 @@ impl Curve {
             }
         }
         match kind {
-            Kind::Polynomial => Ok(Curve::Polynomial(Polynomial::fit(samples, size))),
-            Kind::Spline => Spline::fit(samples, size).map(Curve::Spline),
-            Kind::Fourier => Fourier::fit(samples, size).map(Curve::Fourier),
+            Kind::Polynomial => Ok(Curve::Polynomial(Polynomial::to(rows, size))),
+            Kind::Spline => Spline::to(rows, size).map(Curve::Spline),
+            Kind::Fourier => Fourier::to(rows, size).map(Curve::Fourier),
         }
     }
 
@@ -85,18 +107,28 @@ impl Curve {
         }
     }
 
-    /// Fits a curve of the same terms, under the same penalty, to samples of almost the same motion: it is near.
+    /// Fits a curve of the same terms, under the same penalty, to rows of almost the same motion: it is near.
     ///
     /// # Errors
     /// A text that says why the samples do not serve.
-    pub fn again(&self, samples: &Samples<'_>) -> Result<Curve, String> {
+    pub fn again(&self, rows: &Rows<'_>) -> Result<Curve, String> {
         match self {
             Curve::Polynomial(polynomial) => {
-                Curve::fit(samples, Kind::Polynomial, Size::Fixed(polynomial.degree()))
+                Curve::to(rows, Kind::Polynomial, Size::Fixed(polynomial.degree()))
             }
-            Curve::Spline(spline) => spline.again(samples).map(Curve::Spline),
-            Curve::Fourier(fourier) => fourier.again(samples).map(Curve::Fourier),
+            Curve::Spline(spline) => spline.again(rows).map(Curve::Spline),
+            Curve::Fourier(fourier) => fourier.again(rows).map(Curve::Fourier),
         }
+    }
+
+    /// Whether blocks of samples are narrow enough for what the curve does in one.
+    pub fn is_seen_by(&self, rows: &Rows<'_>) -> bool {
+        let waves = match self {
+            Curve::Polynomial(polynomial) => polynomial.degree().pow(2) as f64,
+            Curve::Spline(spline) => spline.pieces() as f64,
+            Curve::Fourier(fourier) => return fourier.is_seen_by(rows),
+        };
+        rows.blocks().is_none_or(|blocks| waves <= blocks as f64)
     }
 
     /// Counts what errors of the targets make of the curve as what may be wrong with it: each list holds one error for

@@ -1,6 +1,7 @@
 //! The least-squares problem of a rotation with harmonics, linear about given parameters c, Ω, a_1, b_1, a_2, b_2, ...
 
-use super::Samples;
+use nalgebra::DMatrix;
+
 use super::condensed::Rows;
 use super::triangle::Triangle;
 
@@ -60,11 +61,14 @@ pub(super) fn columns(tau: f64, parameters: &[f64], columns: &mut Vec<Jet>) -> [
 }
 
 pub(super) fn squares(samples: &Rows<'_>, middle: f64, parameters: &[f64]) -> f64 {
-    let rest = samples.iter().map(|(t, weight, target)| {
-        let residual = target - weight * value(t - middle, parameters);
-        residual * residual
+    let parts = samples.parts(|range| {
+        let rest = samples.some(range).map(|(t, weight, target)| {
+            let residual = target - weight * value(t - middle, parameters);
+            residual * residual
+        });
+        rest.sum::<f64>()
     });
-    samples.left + rest.sum::<f64>()
+    samples.left + parts.iter().sum::<f64>()
 }
 
 /// The triangle of the design matrix at these parameters, extended by zeros to `count` harmonics, and the correction
@@ -77,18 +81,112 @@ pub(super) fn solve(
 ) -> Result<(Triangle, Vec<f64>), String> {
     let mut extended = parameters.to_vec();
     extended.resize(2 + 2 * count, 0.0);
-    let mut triangle = Triangle::new(extended.len());
-    let mut list = Vec::new();
-    for (t, weight, target) in samples.iter() {
-        let value = columns(t - middle, &extended, &mut list);
-        let residual = target - weight * value[0];
-        triangle.add(list.iter().map(|column| weight * column[0]), residual);
-    }
+    let quick = samples.is_very_many().then(|| {
+        let gram = gram(samples, middle, &extended);
+        Triangle::of_gram(&gram)
+    });
+    let mut triangle = quick.flatten().unwrap_or_else(|| {
+        let mut triangle = Triangle::new(extended.len());
+        let mut list = Vec::new();
+        for (t, weight, target) in samples.iter() {
+            let value = columns(t - middle, &extended, &mut list);
+            let residual = target - weight * value[0];
+            triangle.add(list.iter().map(|column| weight * column[0]), residual);
+        }
+        triangle
+    });
     let step = triangle.solve();
     match step {
         Some(step) if step.iter().all(|s| s.is_finite()) => Ok((triangle, step)),
         _ => Err("the samples do not determine rotation and harmonics".to_owned()),
     }
+}
+
+/// Products of the columns of the design matrix and the residuals with each other. Those of two harmonics follow from sums
+/// over one: 2 cos kφ cos lφ = cos (k − l)φ + cos (k + l)φ.
+fn gram(samples: &Rows<'_>, middle: f64, parameters: &[f64]) -> DMatrix<f64> {
+    let count = parameters.len() / 2 - 1;
+    let size = parameters.len();
+    let (omega, length) = (parameters[1], 2 * count + 1);
+    // Sums of cos kφ, sin kφ, and those with the column of the rotation, with the residuals.
+    let parts = samples.parts(|range| {
+        let mut waves = vec![[0.0; 2]; length];
+        let mut beside = vec![[[0.0; 2]; 2]; count + 1];
+        let mut own = [0.0; 3];
+        let mut list = vec![(0.0, 1.0); length];
+        for (t, weight, target) in samples.some(range) {
+            let tau = t - middle;
+            let angle = omega * tau;
+            for (wave, next) in list[1..].iter_mut().zip(harmonics(angle)) {
+                *wave = next;
+            }
+            let (mut value, mut slope) = (parameters[0] + angle, 1.0);
+            let pairs = parameters[2..].chunks_exact(2).zip(&list[1..]);
+            for ((pair, (sin, cos)), k) in pairs.zip(1..) {
+                value += pair[0] * cos + pair[1] * sin;
+                slope += f64::from(k) * (pair[1] * cos - pair[0] * sin);
+            }
+            let square = weight * weight;
+            for (sum, (sin, cos)) in waves.iter_mut().zip(&list) {
+                sum[0] += square * cos;
+                sum[1] += square * sin;
+            }
+            let residual = target - weight * value;
+            let two = [square * tau * slope, weight * residual];
+            for (sum, (sin, cos)) in beside.iter_mut().zip(&list) {
+                for (sum, value) in sum.iter_mut().zip(two) {
+                    sum[0] += value * cos;
+                    sum[1] += value * sin;
+                }
+            }
+            own[0] += two[0] * tau * slope;
+            own[1] += two[1] * tau * slope;
+            own[2] += residual * residual;
+        }
+        (waves, beside, own)
+    });
+    let mut waves = vec![[0.0; 2]; length];
+    let mut beside = vec![[[0.0; 2]; 2]; count + 1];
+    let mut own = [0.0; 3];
+    for part in parts {
+        let add = |sum: &mut [f64; 2], more: &[f64; 2]| (0..2).for_each(|i| sum[i] += more[i]);
+        waves.iter_mut().zip(&part.0).for_each(|(a, b)| add(a, b));
+        let pairs = beside.as_flattened_mut().iter_mut();
+        pairs
+            .zip(part.1.as_flattened())
+            .for_each(|(a, b)| add(a, b));
+        own.iter_mut().zip(part.2).for_each(|(a, b)| *a += b);
+    }
+    // Harmonic of a column, and whether it is a sine.
+    let harmonic = |column: usize| match column {
+        0 => (0, 0),
+        _ => (column / 2, column % 2),
+    };
+    let product = |(k, a): (usize, usize), (l, b): (usize, usize)| {
+        let [together, apart] = [waves[k + l], waves[k.abs_diff(l)]];
+        match (a, b) {
+            (0, 0) => 0.5 * (apart[0] + together[0]),
+            (1, 1) => 0.5 * (apart[0] - together[0]),
+            // The sine's harmonic less the other.
+            _ => {
+                let positive = (a == 1) == (k >= l);
+                0.5 * (together[1] + if positive { apart[1] } else { -apart[1] })
+            }
+        }
+    };
+    DMatrix::from_fn(size + 1, size + 1, |i, j| {
+        let (i, j) = (i.min(j), i.max(j));
+        match (i, j) {
+            (1, 1) => own[0],
+            _ if (i, j) == (1, size) => own[1],
+            _ if i == size => own[2],
+            _ if j == size || i == 1 || j == 1 => {
+                let (k, sine) = harmonic(if i == 1 { j } else { i });
+                beside[k][usize::from(j == size)][sine]
+            }
+            _ => product(harmonic(i), harmonic(j)),
+        }
+    })
 }
 
 /// What rounding may add to the sum of squares.
@@ -99,27 +197,6 @@ pub(super) fn rounding(samples: &Rows<'_>, middle: f64, parameters: &[f64]) -> f
         error * error
     };
     samples.iter().map(one).sum()
-}
-
-/// Products of the columns of the design matrix with lists of errors, one for each sample.
-pub(super) fn products(
-    samples: &Samples<'_>,
-    middle: f64,
-    parameters: &[f64],
-    errors: &[Vec<f64>],
-) -> Vec<Vec<f64>> {
-    let mut products = vec![vec![0.0; parameters.len()]; errors.len()];
-    let mut list = Vec::with_capacity(parameters.len());
-    for (i, t) in samples.t.iter().enumerate() {
-        let weight = samples.weight.map_or(1.0, |weight| weight[i]);
-        columns(t - middle, parameters, &mut list);
-        for (products, error) in products.iter_mut().zip(errors) {
-            let error = weight * error[i];
-            let rows = products.iter_mut().zip(&list);
-            rows.for_each(|(p, column)| *p += column[0] * error);
-        }
-    }
-    products
 }
 
 /// The columns, each times its weight, together.

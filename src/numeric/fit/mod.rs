@@ -12,15 +12,20 @@ mod pieces;
 mod polynomial;
 mod powers;
 mod refinement;
+mod rotation;
 mod roughness;
 mod spline;
+mod spread;
 mod triangle;
 
+pub use condensed::Rows;
 pub use curve::{Curve, Kind};
 pub use fourier::Fourier;
 pub use polynomial::Polynomial;
 pub use powers::Powers;
 pub use spline::Spline;
+
+use crate::numeric::parallel;
 
 /// Rows `weight`·y(t) = `target` of a least-squares problem; t rises strictly.
 #[derive(Clone, Copy, Debug)]
@@ -33,6 +38,47 @@ pub struct Samples<'a> {
     pub weight: Option<&'a [f64]>,
     /// Standard deviation of a target that is due to its digits alone.
     pub floor: f64,
+}
+
+/// Samples whose products are formed at a time.
+const TOGETHER: usize = 1 << 14;
+
+impl Samples<'_> {
+    /// Standard deviation of targets that were computed: a computed motion goes on with the errors of its largest values.
+    fn computed(&self) -> f64 {
+        let largest = self.target.iter().fold(0.0f64, |most, y| most.max(y.abs()));
+        2.0 * f64::EPSILON * largest
+    }
+
+    /// Products of the terms of a curve, which are given for an argument one after the other with their numbers, with lists
+    /// of errors of the targets.
+    fn products(
+        &self,
+        size: usize,
+        errors: &[Vec<f64>],
+        terms: impl Fn(f64, &mut dyn FnMut(usize, f64)) + Sync,
+    ) -> Vec<Vec<f64>> {
+        let rows = self.t.len();
+        let starts = (0..rows).step_by(TOGETHER);
+        let parts = parallel::map(starts, |start| {
+            let mut products = vec![vec![0.0; size]; errors.len()];
+            for i in start..(start + TOGETHER).min(rows) {
+                let weight = self.weight.map_or(1.0, |weight| weight[i]);
+                terms(self.t[i], &mut |term, value| {
+                    for (products, error) in products.iter_mut().zip(errors) {
+                        products[term] += weight * value * error[i];
+                    }
+                });
+            }
+            products
+        });
+        let mut sums = vec![vec![0.0; size]; errors.len()];
+        for part in parts {
+            let pairs = sums.iter_mut().flatten().zip(part.iter().flatten());
+            pairs.for_each(|(sum, product)| *sum += product);
+        }
+        sums
+    }
 }
 
 /// How many terms a fit has.

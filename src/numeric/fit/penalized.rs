@@ -83,23 +83,6 @@ impl<'a> Normal<'a> {
         (squares, right)
     }
 
-    /// Whether the residuals look like noise, hardly correlated, each with the next, or are those of the digits.
-    pub fn follows(&self, coefficients: &[f64]) -> bool {
-        let (mut squares, mut products, mut before) = (0.0, 0.0, 0.0);
-        for (t, weight, target) in self.samples.iter() {
-            let (piece, u) = self.grid.place(t);
-            let part = &coefficients[piece..piece + DIAGONALS];
-            let value: f64 = basis(DEGREE, u).iter().zip(part).map(|(b, c)| b * c).sum();
-            let residual = target - weight * value;
-            squares += residual * residual;
-            products += residual * before;
-            before = residual;
-        }
-        let of_digits = self.samples.count as f64 * (1.5 * self.samples.floor).powi(2);
-        products <= 3.0 * squares / (self.samples.len() as f64).sqrt()
-            || squares + self.samples.left <= of_digits
-    }
-
     /// Cholesky's factor of the normal matrix with a penalty of this strength.
     pub fn factor(&self, strength: f64) -> Option<Banded> {
         self.matrix.plus(strength, &self.penalty).cholesky()
@@ -134,11 +117,30 @@ impl<'a> Normal<'a> {
 
 /// A grid with its most likely penalty.
 pub(super) struct Choice {
+    grid: Grid,
     /// Minus twice the logarithm of the restricted likelihood.
     pub cost: f64,
     /// Strength of the penalty.
     pub strength: f64,
     pub coefficients: Vec<f64>,
+}
+
+impl Choice {
+    /// Whether its residuals look like noise, hardly correlated, each with the next, or are those of the digits.
+    pub fn follows(&self, rows: &Rows<'_>) -> bool {
+        let (mut squares, mut products, mut before) = (0.0, 0.0, 0.0);
+        for (t, weight, target) in rows.iter() {
+            let (piece, u) = self.grid.place(t);
+            let part = &self.coefficients[piece..piece + DIAGONALS];
+            let value: f64 = basis(DEGREE, u).iter().zip(part).map(|(b, c)| b * c).sum();
+            let residual = target - weight * value;
+            squares += residual * residual;
+            products += residual * before;
+            before = residual;
+        }
+        products <= 3.0 * squares / (rows.number() as f64).sqrt()
+            || rows.are_digits(squares + rows.left, 0.0)
+    }
 }
 
 /// Sums about a solution that is near all those that are asked for, so that nothing cancels where the noise is small.
@@ -235,6 +237,7 @@ impl Normal<'_> {
         };
         let strength = pivot * strength.exp();
         Some(Choice {
+            grid: self.grid,
             cost: least,
             strength,
             coefficients: self.solve(strength, &self.factor(strength)?, about.near),

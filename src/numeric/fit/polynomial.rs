@@ -1,8 +1,9 @@
 //! Polynomials of any degree.
 
 use super::choice::{best, undecided};
+use super::condensed::Rows;
 use super::decay::Decay;
-use super::{MOST_IN_DOUBLE, Powers, Quality, Samples, Size, State, add_products};
+use super::{Kind, MOST_IN_DOUBLE, Powers, Quality, Samples, Size, State, add_products};
 use crate::numeric::double_double::DoubleDouble;
 use crate::numeric::orthogonal::{self, Expansion};
 use crate::numeric::real::Real;
@@ -39,19 +40,27 @@ pub struct Polynomial {
 impl Polynomial {
     /// Fits a polynomial. There must be more samples than coefficients.
     pub fn fit(samples: &Samples<'_>, size: Size) -> Polynomial {
-        if samples.t.len() <= MOST_IN_DOUBLE {
-            Polynomial::with::<DoubleDouble>(samples, size, |x| x)
+        Polynomial::to(
+            &Kind::Polynomial.rows(samples, size, samples.computed()),
+            size,
+        )
+    }
+
+    /// Fits a polynomial to rows.
+    pub(super) fn to(rows: &Rows<'_>, size: Size) -> Polynomial {
+        if rows.count <= MOST_IN_DOUBLE {
+            Polynomial::with::<DoubleDouble>(rows, size, |x| x)
         } else {
-            Polynomial::with::<f64>(samples, size, DoubleDouble::from)
+            Polynomial::with::<f64>(rows, size, DoubleDouble::from)
         }
     }
 
     fn with<T: Real>(
-        samples: &Samples<'_>,
+        samples: &Rows<'_>,
         size: Size,
         double: impl Fn(T) -> DoubleDouble,
     ) -> Polynomial {
-        let rows = samples.t.len();
+        let rows = samples.count;
         let least = rows as f64 * samples.floor * samples.floor;
         let automatic = size == Size::Auto;
         let most = match size {
@@ -69,14 +78,18 @@ impl Polynomial {
             };
             (degree, decay)
         };
-        let mut found: Expansion<T> =
-            orthogonal::fit(samples.t, samples.target, samples.weight, |squares| {
-                squares.len() <= most
-                    && (!automatic
-                        || undecided(rows, 1, 1, squares, least)
-                        || squares.len() <= enough(squares).0)
-                    || squares.len() > most && squares.len() <= most + TAIL
-            });
+        let left = T::from(samples.left);
+        let all = |squares: &[T]| squares.iter().map(|s| *s + left).collect::<Vec<T>>();
+        let (t, weight, target) = samples.columns();
+        let mut found: Expansion<T> = orthogonal::fit(t, target, weight, |squares| {
+            let squares = &all(squares);
+            squares.len() <= most
+                && (!automatic
+                    || undecided(rows, 1, 1, squares, least)
+                    || squares.len() <= enough(squares).0)
+                || squares.len() > most && squares.len() <= most + TAIL
+        });
+        found.squares = all(&found.squares);
         let (degree, decay) = enough(&found.squares);
         let degree = degree.min(found.coefficients.len() - 1);
         let beyond = degree + 1..found.coefficients.len().min(degree + 1 + TAIL);
@@ -125,16 +138,8 @@ impl Polynomial {
 
     /// Counts what errors of the samples make of the polynomial as what may be wrong with it.
     pub(super) fn admit(&mut self, samples: &Samples<'_>, errors: &[Vec<f64>]) {
-        let mut found = vec![vec![0.0; self.coefficients.len()]; errors.len()];
-        for (i, t) in samples.t.iter().enumerate() {
-            let weight = samples.weight.map_or(1.0, |weight| weight[i]);
-            self.terms(*t, |j, q| {
-                for (found, error) in found.iter_mut().zip(errors) {
-                    found[j] += weight * q * error[i];
-                }
-            });
-        }
-        self.errors = found;
+        let size = self.coefficients.len();
+        self.errors = samples.products(size, errors, |t, take| self.terms(t, take));
     }
 
     /// The orthonormal terms at `t`, one after the other.

@@ -10,7 +10,7 @@
 use super::condensed::Rows;
 use super::penalized::Normal;
 use super::pieces::{DEGREE, Grid, basis, last_bases};
-use super::{DIAGONAL, Quality, Samples, Size, State, add_products, differences, refinement};
+use super::{DIAGONAL, Kind, Quality, Samples, Size, State, add_products, differences, refinement};
 use crate::numeric::banded::{Banded, DIAGONALS};
 
 /// Pieces for each one that the samples ask for, so that the penalty and not the pieces decide how smooth it is.
@@ -57,47 +57,25 @@ impl Spline {
     /// # Errors
     /// A text that says why the samples do not serve.
     pub fn fit(samples: &Samples<'_>, size: Size) -> Result<Spline, String> {
+        Spline::to(&Kind::Spline.rows(samples, size, samples.computed()), size)
+    }
+
+    /// The number of pieces in twice, four times... as many of which all numbers of pieces that are tried fit.
+    pub(super) fn unit(size: Size) -> usize {
+        match size {
+            Size::Fixed(pieces) => pieces.max(1),
+            Size::Auto => FEWEST,
+        }
+    }
+
+    /// Fits a smoothing spline to rows.
+    pub(super) fn to(rows: &Rows<'_>, size: Size) -> Result<Spline, String> {
         let failed = || FAILED.to_owned();
-        let rows = samples.t.len();
-        let all = Rows::from(samples);
-        let condensed = match size {
-            Size::Fixed(pieces) => Rows::condense(samples, pieces.max(1)),
-            Size::Auto => Rows::condense(samples, FEWEST),
-        };
-        // Knots inside a block would be lost.
-        let rows_for = |pieces: usize| {
-            let serves = |rows: &&Rows<'_>| {
-                rows.blocks()
-                    .is_some_and(|blocks| blocks.is_multiple_of(pieces))
-            };
-            condensed.iter().rev().find(serves).unwrap_or(&all)
-        };
         let pieces = match size {
             Size::Fixed(pieces) => pieces,
-            Size::Auto => {
-                let most = rows.saturating_sub(DEGREE + 1).max(1);
-                // Where polynomials in blocks twice as wide as the smallest leave noise, more pieces would follow it.
-                let blocks = condensed.first().and_then(Rows::blocks);
-                let most = blocks.map_or(most, |blocks| blocks.min(most));
-                let (mut pieces, mut worse) = (FEWEST.min(most), 0);
-                let mut best: Option<(f64, usize, bool)> = None;
-                while pieces <= most && (worse < 2 || best.is_some_and(|best| !best.2)) {
-                    let normal = Normal::new(rows_for(pieces), pieces);
-                    let choice = normal.choose().ok_or_else(failed)?;
-                    if best.is_none_or(|best| choice.cost < best.0) {
-                        let follows = normal.follows(&choice.coefficients);
-                        best = Some((choice.cost, pieces, follows));
-                        worse = 0;
-                    } else {
-                        worse += 1;
-                    }
-                    pieces *= 2;
-                }
-                let enough = best.ok_or_else(failed)?.1;
-                (FINER * enough).min(most).max(enough)
-            }
+            Size::Auto => enough_pieces(rows).ok_or_else(failed)?,
         };
-        let normal = Normal::new(rows_for(pieces), pieces);
+        let normal = Normal::new(rows, pieces);
         let choice = normal.choose().ok_or_else(failed)?;
         let strength = normal.weaker(choice.strength, CUT_OFF);
         Spline::new(normal, [choice.strength, strength], choice.coefficients).ok_or_else(failed)
@@ -107,9 +85,8 @@ impl Spline {
     ///
     /// # Errors
     /// A text that says why the samples do not serve.
-    pub fn again(&self, samples: &Samples<'_>) -> Result<Spline, String> {
-        let rows = Rows::new(samples, self.grid.pieces);
-        let normal = Normal::new(&rows, self.grid.pieces);
+    pub fn again(&self, rows: &Rows<'_>) -> Result<Spline, String> {
+        let normal = Normal::new(rows, self.grid.pieces);
         let strengths = [self.likely, self.strength];
         let spline = Spline::new(normal, strengths, self.coefficients.clone());
         spline.ok_or_else(|| FAILED.to_owned())
@@ -150,22 +127,17 @@ impl Spline {
         samples: &Samples<'_>,
         errors: &[Vec<f64>],
     ) -> Result<(), String> {
-        let rows = Rows::new(samples, self.grid.pieces);
+        let size = Size::Fixed(self.grid.pieces);
+        let rows = Kind::Spline.rows(samples, size, samples.computed());
         let normal = Normal::new(&rows, self.grid.pieces);
         let factor = normal.factor(self.strength).ok_or(FAILED)?;
-        let mut right = vec![vec![0.0; self.grid.size()]; errors.len()];
-        for (i, t) in samples.t.iter().enumerate() {
-            let (piece, u) = self.grid.place(*t);
-            let basis = basis(DEGREE, u);
-            let weight = samples.weight.map_or(1.0, |weight| weight[i]);
-            for (right, error) in right.iter_mut().zip(errors) {
-                let error = weight * error[i];
-                right[piece..]
-                    .iter_mut()
-                    .zip(basis)
-                    .for_each(|(r, b)| *r += b * error);
-            }
-        }
+        let right = samples.products(self.grid.size(), errors, |t, take| {
+            let (piece, u) = self.grid.place(t);
+            let basis = basis(DEGREE, u).into_iter();
+            basis
+                .zip(piece..)
+                .for_each(|(value, term)| take(term, value));
+        });
         self.errors
             .extend(right.iter().map(|right| factor.solve(right)));
         Ok(())
@@ -175,7 +147,8 @@ impl Spline {
     /// their noise from their differences; whether it has done so.
     pub(super) fn compare(&mut self, samples: &Samples<'_>) -> bool {
         let judged = self.through.then(|| {
-            let rows = Rows::new(samples, self.grid.pieces);
+            let size = Size::Fixed(self.grid.pieces);
+            let rows = Kind::Spline.rows(samples, size, samples.computed());
             let normal = Normal::new(&rows, self.grid.pieces);
             let inverse = normal.factor(self.strength)?.inverse_band();
             let noise = differences::noise(samples)?;
@@ -279,6 +252,31 @@ impl Spline {
         }
         state
     }
+}
+
+/// Number of pieces that the samples ask for, none if they determine no spline.
+fn enough_pieces(rows: &Rows<'_>) -> Option<usize> {
+    let most = rows.count.saturating_sub(DEGREE + 1).max(1);
+    // Knots inside a block would be lost; what narrow blocks leave is noise.
+    let most = rows.blocks().map_or(most, |blocks| blocks.min(most));
+    let levels = rows.levels(FEWEST);
+    let (mut pieces, mut worse) = (FEWEST.min(most), 0);
+    let mut best: Option<(f64, usize, bool)> = None;
+    while pieces <= most && (worse < 2 || best.is_some_and(|best| !best.2)) {
+        let serves = |level: &&Rows<'_>| level.blocks().is_none_or(|blocks| blocks >= pieces);
+        let level = levels.iter().rev().find(serves).unwrap_or(rows);
+        let choice = Normal::new(level, pieces).choose()?;
+        if best.is_none_or(|best| choice.cost < best.0) {
+            let follows = choice.follows(rows);
+            best = Some((choice.cost, pieces, follows));
+            worse = 0;
+        } else {
+            worse += 1;
+        }
+        pieces *= 2;
+    }
+    let enough = best?.1;
+    Some((FINER * enough).min(most).max(enough))
 }
 
 /// Mean products of the errors of the coefficients, for samples of unit variance and curves as rough as the likely

@@ -2,6 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
+/// Part of the square of a column below which products do not tell what others leave of it.
+const SINGULAR: f64 = 1e-10;
+
 /// The triangle R of A = QR, with Qᵀ times the right-hand side.
 #[derive(Clone, Debug)]
 pub(super) struct Triangle {
@@ -34,6 +37,27 @@ impl Triangle {
         }
     }
 
+    /// From the products of the columns of matrix and right-hand side; none where they say too little of it.
+    pub fn of_gram(gram: &DMatrix<f64>) -> Option<Triangle> {
+        let size = gram.nrows() - 1;
+        let mut triangle = Triangle::new(size);
+        let r = &mut triangle.rows;
+        for j in 0..=size {
+            for i in 0..=j {
+                let known: f64 = (0..i).map(|k| r[(k, i)] * r[(k, j)]).sum();
+                let rest = gram[(i, j)] - known;
+                r[(i, j)] = if i < j {
+                    rest / r[(i, i)]
+                } else if j < size && (rest.is_nan() || rest <= SINGULAR * gram[(j, j)]) {
+                    return None;
+                } else {
+                    rest.max(0.0).sqrt()
+                };
+            }
+        }
+        Some(triangle)
+    }
+
     fn reduce(&mut self) {
         let (rows, width) = self.rows.shape();
         let r = std::mem::replace(&mut self.rows, DMatrix::zeros(0, 0))
@@ -53,26 +77,27 @@ impl Triangle {
         Some(solution.iter().copied().collect())
     }
 
-    /// Sums of squared residuals with the first 0, 1, 2, ... columns alone.
-    pub fn squares(&self) -> Vec<f64> {
+    /// Sums of squared residuals with the first 0, 1, 2, ... columns alone, where the right-hand side is what the columns with
+    /// these coefficients leave.
+    pub fn squares(&self, coefficients: &[f64]) -> Vec<f64> {
         let mut sums = vec![0.0; self.size + 1];
         let mut sum = 0.0;
         for i in (0..=self.size).rev() {
-            sum += self.rows[(i, self.size)].powi(2);
+            let known = coefficients.iter().enumerate().skip(i);
+            let known: f64 = known.map(|(j, c)| self.rows[(i, j)] * c).sum();
+            sum += (self.rows[(i, self.size)] + known).powi(2);
             sums[i] = sum;
         }
         sums
     }
 
-    /// The rows of (Rᵀ)⁻¹ up to their diagonals, one after the other; not numbers for a singular matrix. They turn a row of
-    /// the matrix into one whose square is the variance of what it gives with the solution.
-    pub fn whitening(&self) -> Vec<f64> {
+    /// Covariance of the solution for a right-hand side of unit variance, (RᵀR)⁻¹; not numbers for a singular matrix.
+    pub fn covariance(&self) -> DMatrix<f64> {
         let n = self.size;
         let triangle = self.rows.view((0, 0), (n, n)).upper_triangle();
         let inverse = triangle.solve_upper_triangular(&DMatrix::identity(n, n));
         let inverse = inverse.unwrap_or_else(|| DMatrix::from_element(n, n, f64::NAN));
-        let rows = (0..n).flat_map(|i| (0..=i).map(move |j| (j, i)));
-        rows.map(|place| inverse[place]).collect()
+        &inverse * inverse.transpose()
     }
 
     /// Solves RᵀR x = b.

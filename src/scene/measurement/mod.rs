@@ -1,6 +1,7 @@
 //! Measured motion: time and crank angle, crank-pin angle or slider position, sample by sample.
 
 mod columns;
+mod digits;
 mod plain;
 mod read;
 mod rows;
@@ -181,7 +182,8 @@ impl Measurement {
         self.times.is_empty()
     }
 
-    /// The least difference that the digits of the values can show, rad or m; 0 for values of code.
+    /// The step to which the digits of the values round them, rad or m, a root mean square where larger values have fewer
+    /// decimals; 0 for values of code.
     pub fn resolution(&self) -> f64 {
         self.resolution
     }

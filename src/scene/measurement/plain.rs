@@ -1,7 +1,8 @@
 //! Rows of plain numbers, read on all cores. Whatever else a file holds is left to the reader that says what is wrong.
 
 use super::columns::Columns;
-use super::read::{Samples, decimals_of};
+use super::digits::Digits;
+use super::read::Samples;
 use super::source::no_value;
 use crate::numeric::parallel;
 
@@ -19,11 +20,15 @@ pub(super) fn samples(text: &str, delimiter: u8, columns: &Columns) -> Option<Sa
     let found = parallel::map(pieces.into_iter(), read);
     let found: Vec<Samples> = found.into_iter().collect::<Option<_>>()?;
     let rows = found.iter().map(|(times, _, _)| times.len()).sum();
-    let mut all = (Vec::with_capacity(rows), Vec::with_capacity(rows), None);
-    for (times, values, decimals) in found {
+    let mut all = (
+        Vec::with_capacity(rows),
+        Vec::with_capacity(rows),
+        Digits::default(),
+    );
+    for (times, values, digits) in found {
         all.0.extend(times);
         all.1.extend(values);
-        all.2 = all.2.max(decimals);
+        all.2.join(&digits);
     }
     Some(all)
 }
@@ -43,7 +48,11 @@ fn pieces(mut text: &str) -> Vec<&str> {
 
 fn samples_of(text: &str, delimiter: u8, columns: &Columns) -> Option<Samples> {
     let rows = text.len() / 16;
-    let mut samples = (Vec::with_capacity(rows), Vec::with_capacity(rows), None);
+    let mut samples = (
+        Vec::with_capacity(rows),
+        Vec::with_capacity(rows),
+        Digits::default(),
+    );
     let bytes = text.as_bytes();
     let is_end = |byte: &u8| matches!(byte, b'\n' | b'\r');
     let mut at = 0;
@@ -82,7 +91,7 @@ fn samples_of(text: &str, delimiter: u8, columns: &Columns) -> Option<Samples> {
         let [time, value] = pair.map(|cell| cell.parse::<f64>().ok().filter(|v| v.is_finite()));
         samples.0.push(time? * columns.time.factor);
         samples.1.push(value? * columns.value.factor);
-        samples.2 = samples.2.max(decimals_of(pair[1].as_bytes()));
+        samples.2.take(value?, pair[1].as_bytes());
     }
     Some(samples)
 }

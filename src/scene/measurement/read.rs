@@ -5,6 +5,7 @@ use std::path::Path;
 use csv::ByteRecord;
 
 use super::columns::{Columns, columns};
+use super::digits::Digits;
 use super::plain;
 use super::source::{Records, Source, cell, line_at, no_value};
 use super::text::with_line_feeds;
@@ -53,11 +54,11 @@ pub(super) fn measurement(
     })?;
     let rows = text.get(body..);
     let plain = rows.and_then(|rows| plain::samples(rows, delimiter, &columns));
-    let (times, values, decimals) = match plain {
+    let (times, values, digits) = match plain {
         Some(samples) => samples,
         None => samples(file, &text, delimiter, has_header, &columns)?,
     };
-    let resolution = columns.value.factor * 10f64.powi(-decimals.unwrap_or(0));
+    let resolution = columns.value.factor * digits.step();
     Ok(Measurement {
         measured: columns.measured,
         times,
@@ -86,8 +87,8 @@ fn split(header: &str) -> ByteRecord {
         .into()
 }
 
-/// Times, values, and the most decimals that a value has.
-pub(super) type Samples = (Vec<f64>, Vec<f64>, Option<i32>);
+/// Times, values, and how finely these are printed.
+pub(super) type Samples = (Vec<f64>, Vec<f64>, Digits);
 
 /// The samples of a file, or all that is wrong with it.
 fn samples(
@@ -101,7 +102,7 @@ fn samples(
     if has_header {
         records.next();
     }
-    let (mut times, mut values, mut decimals) = (Vec::new(), Vec::new(), None);
+    let (mut times, mut values, mut digits) = (Vec::new(), Vec::new(), Digits::default());
     let mut problems = without_values(text, delimiter);
     let mut count = problems.len();
     let names = ["time", columns.measured.name()];
@@ -149,7 +150,7 @@ fn samples(
         let [time, value] = pair;
         times.push(time * columns.time.factor);
         values.push(value * columns.value.factor);
-        decimals = decimals.max(decimals_of(&record[columns.at[1]]));
+        digits.take(value, &record[columns.at[1]]);
     }
     if count > problems.len() {
         let more = format!(
@@ -161,7 +162,7 @@ fn samples(
         problems.push(last);
     }
     if problems.is_empty() {
-        Ok((times, values, decimals))
+        Ok((times, values, digits))
     } else {
         Err(Problems::in_file(file, text, problems))
     }
@@ -235,20 +236,4 @@ fn not_a_number(text: &str) -> (String, String) {
         "give a number; units belong in the header, comments begin with #"
     };
     (format!("`{text}` is not a number"), help.to_owned())
-}
-
-/// The power of ten of the last digit of a number, changed in sign.
-pub(super) fn decimals_of(cell: &[u8]) -> Option<i32> {
-    let end = cell.iter().position(|b| matches!(b, b'e' | b'E'));
-    let mantissa = &cell[..end.unwrap_or(cell.len())];
-    let exponent = end.and_then(|at| std::str::from_utf8(&cell[at + 1..]).ok()?.parse().ok());
-    let after = mantissa
-        .iter()
-        .rposition(|b| *b == b'.')
-        .map_or(0, |at| mantissa.len() - at - 1);
-    Some(
-        (after as i32)
-            .saturating_sub(exponent.unwrap_or(0))
-            .clamp(-300, 300),
-    )
 }

@@ -12,6 +12,7 @@ mod pattern;
 mod printed;
 mod rounding;
 mod row;
+mod seen;
 mod sensor;
 mod summary;
 mod unfold;

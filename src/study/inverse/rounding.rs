@@ -8,6 +8,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use crate::numeric::parallel;
+
 /// How the samples are rounded, as far as it is not noise.
 #[derive(Clone, Debug)]
 pub(super) struct Rounding {
@@ -23,6 +25,12 @@ const FEWER: usize = 3;
 
 /// Part of the variance of a sample below which rounding is noise.
 const SLIGHT: f64 = 0.01;
+
+/// Part of a step to which a difference is to be known to tell something about it.
+const TELLING: f64 = 0.25;
+
+/// Fewest differences that are to agree.
+const ENOUGH: usize = 12;
 
 /// Steps are this many times as large as what they are known to.
 const PLAIN: f64 = 32.0;
@@ -63,11 +71,11 @@ impl Rounding {
         for (k, variance) in self.terms.iter().enumerate() {
             let size = variance.sqrt();
             let rate = TAU * (k + 1) as f64 / self.step;
-            let waves = exact.iter().map(|(value, sign)| {
+            let (cos, sin) = parallel::pairs(exact.len(), |i| {
+                let (value, sign) = exact[i];
                 let (sin, cos) = (rate * value).sin_cos();
                 (sign * size * cos, sign * size * sin)
             });
-            let (cos, sin) = waves.unzip();
             errors.extend([cos, sin]);
         }
         errors
@@ -80,11 +88,22 @@ pub(super) fn of_step(step: f64) -> f64 {
 }
 
 /// The largest step of which all differences of neighbouring values are multiples, if it is plainly larger than what the
-/// values are known to: Euclid's algorithm.
+/// values are known to: that of the values as they stand, or else of values that were rounded once more to these digits.
 pub(super) fn common_step(values: &[f64], digits: f64) -> Option<f64> {
     let largest = values.iter().fold(0.0f64, |most, v| most.max(v.abs()));
-    let known = digits + 4.0 * f64::EPSILON * largest;
+    let rounding = 4.0 * f64::EPSILON * largest;
+    [rounding, digits + rounding]
+        .into_iter()
+        .filter_map(|known| step_of(values, known))
+        // Steps of the digits themselves say nothing new.
+        .find(|step| *step > 1.5 * digits)
+}
+
+/// The same for values that are known to so much: Euclid's algorithm.
+fn step_of(values: &[f64], known: f64) -> Option<f64> {
     let (mut step, mut error) = (0.0, known);
+    // Differences so long that any is a multiple say nothing.
+    let (mut telling, mut silent) = (0, 0);
     for pair in values.windows(2) {
         let difference = (pair[1] - pair[0]).abs();
         if difference <= known {
@@ -102,7 +121,13 @@ pub(super) fn common_step(values: &[f64], digits: f64) -> Option<f64> {
         let times = (large.0 / small.0).round();
         let rest = (large.0 - times * small.0).abs();
         let uncertain = large.1 + times * small.1;
+        if uncertain < TELLING * small.0 {
+            telling += 1;
+        } else {
+            silent += 1;
+        }
         (step, error) = if rest > uncertain {
+            (telling, silent) = (0, 0);
             (rest, uncertain)
         } else if uncertain < 0.5 * small.0 && large.1 < times * small.1 {
             (large.0 / times, large.1 / times)
@@ -113,5 +138,44 @@ pub(super) fn common_step(values: &[f64], digits: f64) -> Option<f64> {
             return None;
         }
     }
-    (step > 0.0).then_some(step)
+    (telling >= silent.max(ENOUGH)).then_some(step)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn motion(rounded: impl Fn(f64) -> f64) -> Vec<f64> {
+        let one = |i: u32| {
+            let t = 1e-3 * f64::from(i);
+            rounded(3.0 * t + 0.1 * (2.0 * t).sin())
+        };
+        (0..2000).map(one).collect()
+    }
+
+    #[test]
+    fn steps_are_found_whatever_the_digits() {
+        let to = |step: f64| move |value: f64| (value / step).round() * step;
+        // Steps of a few units of the last digit, and steps that were printed to digits once more.
+        for (step, digits) in [(3e-4, 1e-4), (5e-3, 1e-3), (1e-3, 1e-8)] {
+            let values = motion(|value| to(digits)(to(step)(value)));
+            let found = common_step(&values, digits).expect("a step");
+            assert!((found / step - 1.0).abs() < 1e-6, "{step}: {found}");
+        }
+        let step = std::f64::consts::TAU / 4096.0;
+        let values = motion(|value| to(1e-6)(to(step)(value)));
+        let found = common_step(&values, 1e-6).expect("a step");
+        assert!((found / step - 1.0).abs() < 1e-2, "{found}");
+        // The digits themselves are known.
+        assert_eq!(common_step(&motion(to(1e-4)), 1e-4), None);
+    }
+
+    #[test]
+    fn an_even_motion_has_no_step() {
+        let fine = |i: u32| 0.3 + 1e-6 * f64::from(i) + 1e-8 * (1e-5 * f64::from(i)).sin();
+        let values: Vec<f64> = (0..100_000).map(fine).collect();
+        for digits in [0.0, 1e-17, 1e-22] {
+            assert_eq!(common_step(&values, digits), None);
+        }
+    }
 }

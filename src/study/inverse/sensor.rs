@@ -13,25 +13,23 @@ pub(super) struct Sensor<'a> {
 }
 
 impl Sensor<'_> {
-    /// What is measured minus what the crank angle θ (rad) gives, and the derivative of the latter.
-    ///
-    /// A crank-pin angle is measured without sign: the sign and turn next to those of the crank angle are taken.
-    pub fn residual(&self, value: f64, theta: f64) -> (f64, f64) {
+    /// Whether values have lost their signs.
+    pub fn folds(&self) -> bool {
+        self.measured == Measured::Gamma
+    }
+
+    /// What the instrument shows at a crank angle θ (rad), and its derivative; a crank-pin angle with its sign, continued over
+    /// the turns.
+    pub fn shown(&self, theta: f64) -> (f64, f64) {
         match self.measured {
-            Measured::Theta => (value - theta, 1.0),
+            Measured::Theta => (theta, 1.0),
             Measured::X => {
                 let pose = self.linkage.pose(theta);
-                (value - pose.x, pose.dx)
+                (pose.x, pose.dx)
             }
             Measured::Gamma => {
                 let pose = self.linkage.pose(theta);
-                let (signed, slope) = self.linkage.crank_pin_angle(theta, &pose);
-                let [plus, minus] = rests(value, signed);
-                if plus.abs() <= minus.abs() {
-                    (plus, slope)
-                } else {
-                    (minus, slope)
-                }
+                self.linkage.crank_pin_angle(theta, &pose)
             }
         }
     }
@@ -44,15 +42,35 @@ impl Sensor<'_> {
         }
     }
 
+    /// What is measured minus what the crank angle θ (rad) gives, and the derivative of the latter.
+    ///
+    /// A crank-pin angle is measured without sign: the sign and turn next to those of the crank angle are taken.
+    pub fn residual(&self, value: f64, theta: f64) -> (f64, f64) {
+        let (shown, slope) = self.shown(theta);
+        (self.unfolded(value, || shown) - shown, slope)
+    }
+
+    /// A value with the sign and turn next to what the instrument shows: values of a smooth motion are smooth then.
+    pub fn unfolded(&self, value: f64, shown: impl FnOnce() -> f64) -> f64 {
+        if !self.folds() {
+            return value;
+        }
+        let shown = shown();
+        let [plus, minus] = rests(value, shown);
+        let signed = if plus.abs() <= minus.abs() {
+            value
+        } else {
+            -value
+        };
+        signed + ((shown - signed) / TAU).round() * TAU
+    }
+
     /// Whether a value counts with its sign turned round, as −1, or as it is, as 1.
     pub fn sign(&self, value: f64, theta: impl FnOnce() -> f64) -> f64 {
-        if self.measured != Measured::Gamma {
+        if !self.folds() {
             return 1.0;
         }
-        let theta = theta();
-        let pose = self.linkage.pose(theta);
-        let (signed, _) = self.linkage.crank_pin_angle(theta, &pose);
-        let [plus, minus] = rests(value, signed);
+        let [plus, minus] = rests(value, self.shown(theta()).0);
         if plus.abs() <= minus.abs() { 1.0 } else { -1.0 }
     }
 }

@@ -5,14 +5,15 @@
 //! For curves that are polynomials of degree n − 1 in each block the condensed problem is the same problem: same
 //! solution, same covariance, and the squares that no such curve can take away are known.
 
+mod nodes;
+
 use std::borrow::Cow;
 use std::ops::Range;
 
-use nalgebra::{SMatrix, SymmetricEigen};
-
 use super::Samples;
 use super::pieces::DEGREE;
-use crate::numeric::{orthogonal, parallel};
+use crate::numeric::parallel;
+use nodes::Part;
 
 /// Nodes of a block.
 const NODES: usize = DEGREE + 1;
@@ -26,29 +27,33 @@ const OF_BLOCK: usize = 64;
 /// Blocks that a thread takes at a time.
 const TOGETHER: usize = 64;
 
-/// Most parts of the rows that are summed apart.
+/// Parts of the rows that are summed apart, and the most rows that are one part.
 const PARTS: usize = 8;
+const ONE_PART: usize = 8_192;
 
 /// Fewest blocks.
 const FEWEST: usize = 256;
+
+/// Standard deviations of the digits within which what is left is theirs, whatever its order.
+const OF_DIGITS: f64 = 1.5;
 
 /// Standard deviations by which squares exceed those of noise if a block is too wide for the motion in it.
 const CLEAR: f64 = 5.0;
 
 /// Rows `weight`·y(t) = `target` as fits take them: the samples, or what stands for them.
 #[derive(Clone, Debug)]
-pub(super) struct Rows<'a> {
+pub struct Rows<'a> {
     t: Cow<'a, [f64]>,
     target: Cow<'a, [f64]>,
     weight: Option<Cow<'a, [f64]>>,
     /// Standard deviation of a target that is due to its digits alone.
-    pub floor: f64,
+    pub(super) floor: f64,
     /// First and last argument of the samples.
-    pub span: [f64; 2],
+    pub(super) span: [f64; 2],
     /// Number of samples.
-    pub count: usize,
+    pub(super) count: usize,
     /// Squares that are in no row.
-    pub left: f64,
+    pub(super) left: f64,
     /// Where the rows of each block end; none for samples as they are.
     ends: Vec<usize>,
 }
@@ -69,24 +74,21 @@ impl<'a> From<&Samples<'a>> for Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    /// The samples, condensed to as few blocks as serve; as they are if none do.
-    pub fn new(samples: &Samples<'a>, unit: usize) -> Rows<'a> {
-        let condensed = Rows::condense(samples, unit).pop();
-        condensed.unwrap_or_else(|| Rows::from(samples))
-    }
-
-    /// The samples condensed to ever fewer blocks, if they are many and as long as noise outweighs what no polynomial
-    /// follows. The number of blocks is `unit` times a power of two.
-    pub fn condense(samples: &Samples<'a>, unit: usize) -> Vec<Rows<'a>> {
+    /// Very many samples condensed to narrow blocks, `unit` times a power of two of them; as they are where that would lose
+    /// more of the motion than noise or the digits hide.
+    ///
+    /// Blocks half as wide as those that pass leave of the motion 2^-NODES of what they do. The samples may have been
+    /// computed, with a standard deviation of `computed`.
+    pub(super) fn new(samples: &Samples<'a>, unit: usize, computed: f64) -> Rows<'a> {
+        let all = Rows::from(samples);
         let most = samples.t.len() / OF_BLOCK;
-        if samples.t.len() < MANY || unit > most {
-            return Vec::new();
+        if samples.t.len() < MANY || 2 * unit.max(FEWEST) > most {
+            return all;
         }
         let mut blocks = unit;
         while 2 * blocks <= most {
             blocks *= 2;
         }
-        let all = Rows::from(samples);
         let [first, last] = all.span;
         let width = (last - first) / blocks as f64;
         let mut end = 0;
@@ -95,22 +97,66 @@ impl<'a> Rows<'a> {
             end += samples.t[end..].partition_point(|t| *t < limit);
             if block < blocks { end } else { samples.t.len() }
         });
-        let mut now: Rows<'a> = all.condensed(&ends.collect::<Vec<usize>>());
-        // Blocks half as wide as those that pass leave of the motion 2^-NODES of what they do.
-        let mut list = Vec::new();
-        while now.ends.len().is_multiple_of(2) && now.ends.len() / 2 >= FEWEST.max(unit) {
-            let pairs: Vec<usize> = now.ends.chunks(2).map(|pair| pair[1]).collect();
-            let wide = now.condensed(&pairs);
-            if !wide.is_noise_beside(&now) {
-                break;
-            }
-            list.push(std::mem::replace(&mut now, wide));
+        let narrow = all.condensed(&ends.collect::<Vec<usize>>());
+        let wide = narrow.halved();
+        if wide.is_some_and(|wide| {
+            wide.is_noise_beside(&narrow) || wide.are_digits(wide.left, computed)
+        }) {
+            narrow
+        } else {
+            all
         }
-        list
+    }
+
+    /// These rows, and the same in ever fewer blocks as long as there are at least so many. For curves that are polynomials
+    /// of degree NODES − 1 in each block they are the same problem.
+    pub(super) fn levels(&self, fewest: usize) -> Vec<Rows<'_>> {
+        let mut levels = vec![self.borrowed()];
+        while let Some(last) = levels.last()
+            && last.ends.len() >= 2 * fewest
+            && let Some(wide) = last.halved()
+        {
+            levels.push(wide);
+        }
+        levels
+    }
+
+    /// The same rows in half as many blocks; none for an odd number of them.
+    fn halved(&self) -> Option<Rows<'static>> {
+        let pairs = self.ends.chunks_exact(2).map(|pair| pair[1]);
+        let halves = !self.ends.is_empty() && self.ends.len().is_multiple_of(2);
+        halves.then(|| self.condensed(&pairs.collect::<Vec<usize>>()))
+    }
+
+    fn borrowed(&self) -> Rows<'_> {
+        Rows {
+            t: Cow::Borrowed(&self.t),
+            target: Cow::Borrowed(&self.target),
+            weight: self.weight.as_deref().map(Cow::Borrowed),
+            ends: self.ends.clone(),
+            ..*self
+        }
+    }
+
+    /// The problem of rows `weight`·f(y(t)) = `target`, linear in y: `line` gives slope and value at zero of f for an
+    /// argument and what f is to be there.
+    pub fn linear(&self, line: impl Fn(f64, f64) -> [f64; 2] + Sync) -> Rows<'_> {
+        let (weight, target) = parallel::pairs(self.number(), |i| {
+            let (t, weight, target) = self.row(i);
+            // What has no weight has no value.
+            let value = if weight == 0.0 { 0.0 } else { target / weight };
+            let [slope, at_zero] = line(t, value);
+            (weight * slope, weight * at_zero)
+        });
+        Rows {
+            target: target.into(),
+            weight: Some(weight.into()),
+            ..self.borrowed()
+        }
     }
 
     /// Number of blocks; none for samples as they are.
-    pub fn blocks(&self) -> Option<usize> {
+    pub(super) fn blocks(&self) -> Option<usize> {
         (!self.ends.is_empty()).then_some(self.ends.len())
     }
 
@@ -123,6 +169,11 @@ impl<'a> Rows<'a> {
         let rounding = |target: &f64| (ROUNDED * f64::EPSILON * target).powi(2);
         let rounded: f64 = fine.target.iter().map(rounding).sum();
         self.left - fine.left <= variance * (more + CLEAR * (2.0 * more).sqrt()) + rounded
+    }
+
+    /// Whether squares that are left of the samples are no more than those of the digits, or of how they were computed.
+    pub(super) fn are_digits(&self, squares: f64, computed: f64) -> bool {
+        squares <= self.count as f64 * (OF_DIGITS * self.floor.max(computed)).powi(2)
     }
 
     /// Blocks of these rows condensed to the nodes of each.
@@ -174,8 +225,18 @@ impl<'a> Rows<'a> {
         (self.t[i], weight, self.target[i])
     }
 
+    /// Whether they are fewer than the samples.
+    pub fn is_condensed(&self) -> bool {
+        !self.ends.is_empty()
+    }
+
+    /// Number of rows that have a weight.
+    pub(super) fn counting(&self) -> usize {
+        self.iter().filter(|(_, weight, _)| *weight != 0.0).count()
+    }
+
     /// Number of rows.
-    pub fn len(&self) -> usize {
+    pub fn number(&self) -> usize {
         self.t.len()
     }
 
@@ -185,14 +246,27 @@ impl<'a> Rows<'a> {
     }
 
     /// Argument, weight and target of some rows.
-    pub fn some(&self, range: Range<usize>) -> impl Iterator<Item = (f64, f64, f64)> {
+    pub(super) fn some(&self, range: Range<usize>) -> impl Iterator<Item = (f64, f64, f64)> {
         range.map(|i| self.row(i))
     }
 
+    /// Whether they stand for very many samples.
+    pub(super) fn is_very_many(&self) -> bool {
+        self.count >= MANY
+    }
+
+    /// Arguments, weights if they are not all 1, and targets.
+    pub(super) fn columns(&self) -> (&[f64], Option<&[f64]>, &[f64]) {
+        (&self.t, self.weight.as_deref(), &self.target)
+    }
+
     /// What is made of the rows part by part, on all cores; few rows are one part.
-    pub fn parts<T: Default + Send>(&self, make: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
+    pub(super) fn parts<T: Default + Send>(
+        &self,
+        make: impl Fn(Range<usize>) -> T + Sync,
+    ) -> Vec<T> {
         let rows = self.t.len();
-        let length = rows.div_ceil(PARTS).max(MANY);
+        let length = rows.div_ceil(PARTS).max(ONE_PART);
         let starts = (0..rows).step_by(length);
         parallel::map(starts, |start| make(start..(start + length).min(rows)))
     }
@@ -208,58 +282,6 @@ impl<'a> Rows<'a> {
 
 /// Units of rounding to which the target of a node is computed.
 const ROUNDED: f64 = 2.0;
-
-/// What stands for some blocks.
-#[derive(Debug, Default)]
-struct Part {
-    /// Argument, weight and target.
-    rows: Vec<[f64; 3]>,
-    /// Where the rows of each block end.
-    ends: Vec<usize>,
-    /// Squares that are in no row.
-    left: f64,
-}
-
-impl Part {
-    /// Adds what stands for the samples of a block.
-    fn take(&mut self, block: &Samples<'_>) {
-        let weight = |i: usize| block.weight.map_or(1.0, |weight| weight[i]);
-        let counting = || (0..block.t.len()).filter(|i| weight(*i) != 0.0);
-        let found = (counting().count() > NODES).then(|| {
-            let enough = |squares: &[f64]| squares.len() < NODES;
-            orthogonal::fit::<f64>(block.t, block.target, block.weight, enough)
-        });
-        let Some(found) = found.filter(|found| found.coefficients.len() == NODES) else {
-            let nothing = (0..block.t.len()).filter(|i| weight(*i) == 0.0);
-            self.left += nothing.map(|i| block.target[i].powi(2)).sum::<f64>();
-            for i in counting() {
-                self.rows.push([block.t[i], weight(i), block.target[i]]);
-            }
-            return;
-        };
-        self.left += found.squares[NODES - 1];
-        let jacobi = SMatrix::<f64, NODES, NODES>::from_fn(|i, j| match i.abs_diff(j) {
-            0 => found.centres[i],
-            1 => found.norms[i.max(j)],
-            _ => 0.0,
-        });
-        let SymmetricEigen {
-            eigenvalues,
-            eigenvectors,
-        } = jacobi.symmetric_eigen();
-        let mut order: [usize; NODES] = std::array::from_fn(|i| i);
-        order.sort_by(|a, b| eigenvalues[*a].total_cmp(&eigenvalues[*b]));
-        for node in order {
-            let vector = eigenvectors.column(node);
-            let values = found.coefficients.iter().zip(vector.iter());
-            self.rows.push([
-                found.middle + found.half * eigenvalues[node],
-                found.norms[0] * vector[0],
-                values.map(|(c, v)| c * v).sum(),
-            ]);
-        }
-    }
-}
 
 #[cfg(test)]
 mod tests;

@@ -97,8 +97,8 @@ fn samples<'a>((t, target): &'a (Vec<f64>, Vec<f64>)) -> Samples<'a> {
 fn fits_to_condensed_samples_are_those_to_all() {
     let record = record(0.0);
     let samples = samples(&record);
-    let (all, few) = (Rows::from(&samples), Rows::new(&samples, 4));
-    assert!(few.len() < all.len() / 4);
+    let (all, few) = (Rows::from(&samples), Rows::new(&samples, 4, 0.0));
+    assert!(few.number() < all.number() / 4);
     let fit = |rows: &Rows<'_>| Normal::new(rows, 128).choose().expect("a spline");
     let (a, b) = (fit(&all), fit(&few));
     assert!((a.strength / b.strength - 1.0).abs() < 1e-6);
@@ -117,5 +117,9 @@ fn fits_to_condensed_samples_are_those_to_all() {
 
 #[test]
 fn what_blocks_would_lose_is_not_condensed() {
-    assert!(Rows::new(&samples(&record(1e-2)), 4).blocks().is_none());
+    assert!(
+        Rows::new(&samples(&record(1e-2)), 4, 0.0)
+            .blocks()
+            .is_none()
+    );
 }

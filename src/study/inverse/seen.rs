@@ -1,0 +1,223 @@
+//! The motion that fits samples of something the crank angle is read from: Gauss and Newton's method.
+//!
+//! Very many samples are condensed once: what the instrument shows is as smooth a function of time as the motion.
+
+use super::fitted::{ROUNDED, largest};
+use super::sensor::Sensor;
+use crate::numeric::fit::{Curve, Kind, Rows, Samples, Size};
+use crate::numeric::parallel;
+
+/// Corrections after which a fit counts as not settling.
+const MOST: usize = 30;
+
+/// Rows that show how far a motion is from settled.
+const PART: usize = 20_000;
+
+/// Times that samples get their signs and turns anew.
+const UNFOLDED: usize = 8;
+
+/// The correction before which the terms are chosen again, when the motion is about right.
+const LAST_CHOICE: usize = 3;
+
+/// A fit is settled where further corrections would change it by less than this part of a standard error.
+const SETTLED: f64 = 1e-3;
+
+/// Way of a fit from the crank angles that the samples were unfolded to, rad, beyond which it fits other ones.
+const ASTRAY: f64 = 0.5 * std::f64::consts::PI;
+
+/// Units of rounding below which corrections do not shrink any more.
+const NOTHING: f64 = 4.0;
+
+/// A correction below this part of the one before it tells that the next one will be as much smaller again.
+const FAST: f64 = 0.01;
+
+/// Samples of something that the crank angle is read from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Seen<'a> {
+    pub sensor: &'a Sensor<'a>,
+    pub times: &'a [f64],
+    pub values: &'a [f64],
+    /// Standard deviation of a value that is due to its digits alone.
+    pub floor: f64,
+}
+
+impl Seen<'_> {
+    /// The motion, from crank angles (rad) that are near, and whether it came to rest.
+    pub fn fit(&self, theta: Vec<f64>, kind: Kind, size: Size) -> Result<(Curve, bool), String> {
+        let computed = self.computed(&theta);
+        let mut unfolded = self.unfolded(|i| theta[i]);
+        // Crank angles of samples do not tell the signs of values near zero: they are taken from a first motion.
+        let mut first = self.sensor.folds();
+        let mut near = Near::Samples(theta);
+        let (mut in_blocks, mut rounds) = (true, 0);
+        loop {
+            let samples = Samples {
+                t: self.times,
+                target: &unfolded,
+                weight: None,
+                floor: self.floor,
+            };
+            let rows = match in_blocks {
+                true => kind.rows(&samples, size, if first { f64::INFINITY } else { computed }),
+                false => Rows::from(&samples),
+            };
+            first &= rows.is_condensed();
+            rounds += 1;
+            let (curve, settled) = self.settle(&rows, &near, kind, size)?;
+            near = if curve.is_seen_by(&rows) {
+                let again = self.unfolded(|i| curve.value(self.times[i]));
+                if !first && (again == unfolded || rounds == UNFOLDED) {
+                    return Ok((curve, settled));
+                }
+                unfolded = again;
+                match first {
+                    true => Near::Motion(curve),
+                    false => Near::Curve(curve),
+                }
+            } else {
+                in_blocks = false;
+                Near::Motion(curve)
+            };
+            first = false;
+        }
+    }
+
+    /// Standard deviation of a sample that was computed.
+    fn computed(&self, theta: &[f64]) -> f64 {
+        let reached = theta.iter().step_by(1 + theta.len() / PART);
+        let reached = reached.map(|theta| (self.sensor.shown(*theta).1 * theta).abs());
+        ROUNDED * f64::EPSILON * reached.fold(largest(self.values), f64::max)
+    }
+
+    /// The values with their signs and turns about a motion.
+    fn unfolded(&self, theta: impl Fn(usize) -> f64 + Sync) -> Vec<f64> {
+        parallel::list(self.times.len(), |i| {
+            self.sensor
+                .unfolded(self.values[i], || self.sensor.shown(theta(i)).0)
+        })
+    }
+
+    /// Corrects a motion until it fits: the curve, and whether it came to rest.
+    fn settle(
+        &self,
+        rows: &Rows<'_>,
+        near: &Near,
+        kind: Kind,
+        size: Size,
+    ) -> Result<(Curve, bool), String> {
+        let theta = |t: f64| near.at(self.times, t);
+        let last_choice = near.last_choice(rows, self.sensor.folds());
+        let stride = 1 + rows.number() / PART;
+        let times: Vec<f64> = rows.iter().step_by(stride).map(|(t, _, _)| t).collect();
+        let mut before = parallel::list(times.len(), |i| theta(times[i]));
+        let read = before.clone();
+        let mut lines = self.linear(rows, theta);
+        // Each correction evaluates the samples' lines anew, with other roundings.
+        let reached = lines
+            .iter()
+            .zip(rows.iter())
+            .map(|(line, row)| line.2 / row.1);
+        let reached = reached.fold(0.0f64, |most, value| most.max(value.abs()));
+        let computed = ROUNDED * f64::EPSILON * largest(self.values).max(reached);
+        let mut chosen = match near {
+            Near::Curve(curve) => Some(curve.clone()),
+            _ => None,
+        };
+        let (mut round, mut change_before) = (0, 0.0);
+        loop {
+            // Once the motion is about right the choice of terms stays, so that it cannot go on alternating.
+            let curve = match chosen {
+                Some(curve) if Some(round) != last_choice => curve.again(&lines)?,
+                _ => Curve::to(&lines, kind, size)?,
+            };
+            // Two motions are not held at a time.
+            drop(lines);
+            let sigma = curve.quality().sigma;
+            let moved = parallel::list(times.len(), |i| {
+                let state = curve.state(times[i]);
+                let change = (state.value[0] - before[i]).abs();
+                let deviation = state.covariance[0].sqrt();
+                let error = sigma * deviation + state.rounding[0] + f64::MIN_POSITIVE;
+                let rounding = computed * deviation + state.rounding[0] + f64::MIN_POSITIVE;
+                (state.value[0], change / error, change / rounding)
+            });
+            let change = moved.iter().fold(0.0, |most, moved| moved.1.max(most));
+            let in_rounding = moved.iter().fold(0.0, |most, moved| moved.2.max(most));
+            lines = self.linear(rows, |t| curve.value(t));
+            if lines.iter().any(|(_, slope, _)| !slope.is_finite()) {
+                return Err("the fit leaves the angles that the crank can take".to_owned());
+            }
+            let far = |(moved, read): (&(f64, _, _), &f64)| (moved.0 - read).abs() > ASTRAY;
+            if moved.iter().zip(&read).any(far) {
+                return Err("the fit goes astray, far off the crank angles of the samples: they hardly tell them, or it is not the fit for this motion".to_owned());
+            }
+            round += 1;
+            // Corrections shrink by about the same factor, or ever faster.
+            let factor = change / change_before;
+            let more = change * if factor < FAST { factor } else { 1.0 };
+            let settled = more < SETTLED || in_rounding < NOTHING;
+            let chosen_last = last_choice.is_none_or(|last| round > last);
+            if settled && chosen_last || round == MOST {
+                return Ok((curve, settled || change < 1.0));
+            }
+            change_before = change;
+            before = moved.into_iter().map(|moved| moved.0).collect();
+            chosen = Some(curve);
+        }
+    }
+
+    /// Rows about a motion, each a line in the crank angle.
+    fn linear<'r>(&self, rows: &'r Rows<'_>, theta: impl Fn(f64) -> f64 + Sync) -> Rows<'r> {
+        rows.linear(|t, value| {
+            let theta = theta(t);
+            let (shown, slope) = self.sensor.shown(theta);
+            [slope, value - shown + slope * theta]
+        })
+    }
+
+    /// The samples about a motion, each a line in the crank angle: slope and value at zero, with what they leave of the
+    /// samples.
+    pub fn lines(&self, theta: impl Fn(usize) -> f64 + Sync) -> [Vec<f64>; 3] {
+        parallel::columns(self.times.len(), |i| {
+            let theta = theta(i);
+            let (residual, slope) = self.sensor.residual(self.values[i], theta);
+            [slope, residual + slope * theta, residual]
+        })
+    }
+}
+
+/// A motion from which another is begun.
+#[derive(Debug)]
+enum Near {
+    /// Crank angles of the samples, rad.
+    Samples(Vec<f64>),
+    /// A motion that is about right.
+    Motion(Curve),
+    /// One whose terms are to stay.
+    Curve(Curve),
+}
+
+impl Near {
+    /// The crank angle, rad.
+    fn at(&self, times: &[f64], t: f64) -> f64 {
+        match self {
+            Near::Samples(theta) => {
+                let at = times.partition_point(|time| *time < t);
+                theta[at.min(theta.len() - 1)]
+            }
+            Near::Motion(curve) | Near::Curve(curve) => curve.value(t),
+        }
+    }
+
+    /// The correction before which the terms are chosen for the last time: in blocks of samples the motion is about right
+    /// at once.
+    fn last_choice(&self, rows: &Rows<'_>, folds: bool) -> Option<usize> {
+        match self {
+            // The signs of folded values come anew after that, and the terms with them.
+            Near::Samples(_) if rows.is_condensed() => Some(usize::from(!folds)),
+            Near::Samples(_) => Some(LAST_CHOICE),
+            Near::Motion(_) => Some(0),
+            Near::Curve(_) => None,
+        }
+    }
+}
