@@ -171,8 +171,9 @@ mod tests {
     }
 
     #[test]
-    fn an_even_motion_has_no_step() {
-        let fine = |i: u32| 0.3 + 1e-6 * f64::from(i) + 1e-8 * (1e-5 * f64::from(i)).sin();
+    fn a_motion_without_rounding_has_no_step() {
+        let turned = |i: f64| 0.3 + 1e-6 * i + 0.05 * (1.0 + 6e-6 * i).sin();
+        let fine = |i: u32| turned(f64::from(i));
         let values: Vec<f64> = (0..100_000).map(fine).collect();
         for digits in [0.0, 1e-17, 1e-22] {
             assert_eq!(common_step(&values, digits), None);
