@@ -1,8 +1,12 @@
-//! What a spline through samples without visible noise is off, from splines through a half and a quarter of them.
+//! What a spline through samples without visible noise is off, from splines through a half and a quarter of them or, where
+//! there are very many, from splines of a half and a quarter of its pieces.
 //!
 //! Where refining makes differences smaller by a factor, it goes on doing so, and by 64 for the second derivative of a
 //! resolved motion (the error of splines of degree 7 is of order 8, two orders less for that derivative).
 
+use std::borrow::Cow;
+
+use super::condensed::{MANY, Rows};
 use super::pieces::DEGREE;
 use super::{Samples, Size, Spline};
 
@@ -19,10 +23,71 @@ const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 /// Pieces on each side that count with each for the finer and the coarser difference.
 const BESIDE: [usize; 2] = [2, 4];
 
+/// Samples of a piece that tell its error where there are very many.
+const OF_PIECE: usize = 16;
+
+/// Samples by which a spline is judged: as they are or, of very many, some of them, each for those between.
+#[derive(Debug)]
+pub(super) struct Few<'a> {
+    t: Cow<'a, [f64]>,
+    target: Cow<'a, [f64]>,
+    weight: Option<Cow<'a, [f64]>>,
+    floor: f64,
+    /// Whether the pieces and not the samples are what resolves the motion.
+    many: bool,
+}
+
+impl<'a> Few<'a> {
+    /// Of the samples of a spline of so many pieces.
+    pub fn of(samples: &Samples<'a>, pieces: usize) -> Few<'a> {
+        let many = samples.t.len() >= MANY;
+        let stride = if many {
+            samples.t.len() / (OF_PIECE * pieces)
+        } else {
+            1
+        };
+        if stride < 2 {
+            return Few {
+                t: samples.t.into(),
+                target: samples.target.into(),
+                weight: samples.weight.map(Cow::from),
+                floor: samples.floor,
+                many,
+            };
+        }
+        let more = (stride as f64).sqrt();
+        let weight = |i: usize| more * samples.weight.map_or(1.0, |weight| weight[i]);
+        let places = || (0..samples.t.len()).step_by(stride);
+        Few {
+            t: places().map(|i| samples.t[i]).collect(),
+            target: places().map(|i| more * samples.target[i]).collect(),
+            weight: Some(places().map(weight).collect()),
+            floor: samples.floor,
+            many,
+        }
+    }
+
+    pub fn samples(&self) -> Samples<'_> {
+        Samples {
+            t: &self.t,
+            target: &self.target,
+            weight: self.weight.as_deref(),
+            floor: self.floor,
+        }
+    }
+}
+
 /// Errors of angle, speed and acceleration for each piece of a spline; none for too few samples.
-pub(super) fn errors(spline: &Spline, samples: &Samples<'_>) -> Option<Vec<[f64; 3]>> {
-    let half = coarser(samples, spline.pieces(), 2)?;
-    let quarter = coarser(samples, spline.pieces(), 4)?;
+pub(super) fn errors(spline: &Spline, few: &Few<'_>) -> Option<Vec<[f64; 3]>> {
+    let samples = few.samples();
+    let coarser = |by: usize| match few.many {
+        true => {
+            let size = Size::Fixed(spline.pieces().div_ceil(by));
+            Spline::to(&Rows::from(&samples), size).ok()
+        }
+        false => through_fewer(&samples, spline.pieces(), by),
+    };
+    let (half, quarter) = (coarser(2)?, coarser(4)?);
     let pieces = 0..spline.pieces();
     let differences: Vec<[[[f64; 3]; PLACES.len()]; 2]> = pieces
         .clone()
@@ -61,7 +126,7 @@ pub(super) fn errors(spline: &Spline, samples: &Samples<'_>) -> Option<Vec<[f64;
 }
 
 /// A spline through each sample of a stride, the first and the last one among them.
-fn coarser(samples: &Samples<'_>, pieces: usize, stride: usize) -> Option<Spline> {
+fn through_fewer(samples: &Samples<'_>, pieces: usize, stride: usize) -> Option<Spline> {
     let part = |list: &[f64]| -> Vec<f64> {
         let last = list.len() - 1;
         let steps = last.div_ceil(stride);

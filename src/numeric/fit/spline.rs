@@ -147,12 +147,12 @@ impl Spline {
     /// their noise from their differences; whether it has done so.
     pub(super) fn compare(&mut self, samples: &Samples<'_>) -> bool {
         let judged = self.through.then(|| {
-            let size = Size::Fixed(self.grid.pieces);
-            let rows = Kind::Spline.rows(samples, size, samples.computed());
+            let few = refinement::Few::of(samples, self.grid.pieces);
+            let rows = Rows::from(&few.samples());
             let normal = Normal::new(&rows, self.grid.pieces);
             let inverse = normal.factor(self.strength)?.inverse_band();
             let noise = differences::noise(samples)?;
-            let between = refinement::errors(self, samples)?;
+            let between = refinement::errors(self, &few)?;
             // Not as rough as a likely curve: by noise alone.
             let covariance = covariance(&normal, [f64::INFINITY, self.strength], inverse);
             Some((covariance, noise, between))

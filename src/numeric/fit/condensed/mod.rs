@@ -19,7 +19,7 @@ use nodes::Part;
 const NODES: usize = DEGREE + 1;
 
 /// Fewest samples that are condensed.
-const MANY: usize = 50_000;
+pub(super) const MANY: usize = 50_000;
 
 /// Fewest samples of the smallest blocks, on average.
 const OF_BLOCK: usize = 64;
