@@ -9,7 +9,7 @@ use noise::Random;
 use proptest::prelude::*;
 use slider_crank::mechanism::Linkage;
 use slider_crank::scene::{Branch, Measured, Measurement, Scene, Slider};
-use slider_crank::study::{FitKind, FitSize, InverseOptions, inverse};
+use slider_crank::study::{FitKind, FitSize, Inverse, InverseOptions, inverse};
 use support::random::{cases, magnitude, rotating_crank};
 
 const BOTH: [Measured; 2] = [Measured::X, Measured::Gamma];
@@ -105,16 +105,21 @@ impl Motion<'_> {
             &measurement,
             &options(FitKind::Polynomial, FitSize::Fixed(1)),
         );
-        let doubt = |said: &String| said.contains("cannot be told");
-        let said = line.map(|line| line.summary.warnings).unwrap_or_default();
-        if let Some(said) = said.into_iter().find(doubt) {
-            return Found::Doubt(said);
-        }
-        let found = match inverse(
+        let spline = inverse(
             &scene,
             &measurement,
             &options(FitKind::Spline, FitSize::Auto),
-        ) {
+        );
+        // Either fit may be refused; what was said of the angles is the same.
+        let said = |fit: &Result<Inverse, _>| {
+            let warnings = fit.as_ref().ok().map(|fit| &fit.summary.warnings);
+            let doubt = |said: &&String| said.contains("cannot be told");
+            warnings.and_then(|list| list.iter().find(doubt).cloned())
+        };
+        if let Some(said) = said(&line).or_else(|| said(&spline)) {
+            return Found::Doubt(said);
+        }
+        let found = match spline {
             Ok(found) => found,
             Err(refused) => return Found::Doubt(refused.to_string()),
         };

@@ -33,14 +33,16 @@ pub(super) fn apart(linkage: &Linkage) -> String {
 }
 
 /// Why samples cannot be fitted; next to a limit those of a slider or a rod tell nothing of the crank angle's motion.
-pub(super) fn unfit(linkage: &Linkage, what: String) -> Error {
+/// What was noted of their crank angles may be the reason.
+pub(super) fn unfit(linkage: &Linkage, what: String, noted: &[String]) -> Error {
     let help = "give more samples, or another --fit or --degree";
+    let notes: String = noted.iter().map(|note| format!("\nnote: {note}")).collect();
     if linkage.limit_angles().is_empty() {
-        return Error::refused(what, help);
+        return Error::refused(format!("{what}{notes}"), help);
     }
     let apart = apart(linkage);
     Error::refused(
-        format!("{what}, or the motion comes to a limit of the crank"),
+        format!("{what}, or the motion comes to a limit of the crank{notes}"),
         format!("{help}; past a limit {apart}"),
     )
 }

@@ -117,7 +117,7 @@ pub fn inverse(
         options.fit,
         options.size,
     );
-    let fitted = fitted.map_err(|what| limit::unfit(sensor.linkage, what))?;
+    let fitted = fitted.map_err(|what| limit::unfit(sensor.linkage, what, &unfolded.warnings))?;
     let backwards = Backwards {
         equation: &equation,
         beside_forces: options.beside_forces,
