@@ -8,9 +8,9 @@ use std::fmt::Write;
 use std::path::Path;
 
 use proptest::prelude::*;
-use slider_crank::mechanism::Linkage;
 use slider_crank::scene::{Crank, Gravity, Measured, Measurement, Reading, Rod, Scene, Slider};
 use slider_crank::study::{FitKind, Inverse, InverseOptions, inverse};
+use support::instrument::shown;
 use support::newton::Parts;
 use support::random::{cases, rotating_crank};
 
@@ -100,19 +100,6 @@ fn force(scene: &Scene, [theta, omega, alpha]: [f64; 3]) -> f64 {
     let with = |force: f64| parts.solve(omega, 0.0, force).0;
     let (free, pushed) = (with(0.0), with(1.0));
     (alpha - free) / (pushed - free)
-}
-
-/// What an instrument shows: angle at the crank pin from the directions to pivot and wrist pin.
-fn shown(scene: &Scene, measured: Measured, theta: f64) -> f64 {
-    let pose = Linkage::new(&scene.geometry).pose(theta);
-    let (r, e) = (scene.geometry.crank, scene.geometry.offset);
-    let (ax, ay) = (r * theta.cos(), r * theta.sin());
-    let (px, py) = (pose.x - ax, -e - ay);
-    match measured {
-        Measured::Theta => theta,
-        Measured::X => pose.x,
-        Measured::Gamma => (px * ay - py * ax).abs().atan2(-ax * px - ay * py),
-    }
 }
 
 /// Units, order, delimiter and comments of a file.

@@ -10,6 +10,7 @@ use proptest::prelude::*;
 use slider_crank::mechanism::Linkage;
 use slider_crank::scene::{Branch, Measured, Measurement, Scene, Slider};
 use slider_crank::study::{FitKind, FitSize, Inverse, InverseOptions, inverse};
+use support::instrument::shown;
 use support::random::{cases, magnitude, rotating_crank};
 
 const BOTH: [Measured; 2] = [Measured::X, Measured::Gamma];
@@ -26,18 +27,6 @@ fn scene(crank: f64, rod: f64, offset: f64, branch: Branch) -> Scene {
 
 fn plain() -> Scene {
     scene(0.05, 0.15, 0.0, Branch::Right)
-}
-
-/// What an instrument shows: the angle at the crank pin from the directions to pivot and wrist pin.
-fn shown(scene: &Scene, measured: Measured, theta: f64) -> f64 {
-    let pose = Linkage::new(&scene.geometry).pose(theta);
-    let (r, e) = (scene.geometry.crank, scene.geometry.offset);
-    let (ax, ay) = (r * theta.cos(), r * theta.sin());
-    let (px, py) = (pose.x - ax, -e - ay);
-    match measured {
-        Measured::X => pose.x,
-        _ => (px * ay - py * ax).abs().atan2(-ax * px - ay * py),
-    }
 }
 
 /// What comes of a motion.

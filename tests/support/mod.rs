@@ -7,6 +7,7 @@
 pub mod alike;
 pub mod exact;
 pub mod image;
+pub mod instrument;
 pub mod judged;
 pub mod machines;
 pub mod newton;

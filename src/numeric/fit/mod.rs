@@ -25,6 +25,7 @@ pub use polynomial::Polynomial;
 pub use powers::Powers;
 pub use spline::Spline;
 
+use crate::numeric::chebyshev::largest;
 use crate::numeric::parallel;
 
 /// Rows `weight`·y(t) = `target` of a least-squares problem; t rises strictly.
@@ -46,8 +47,7 @@ const TOGETHER: usize = 1 << 14;
 impl Samples<'_> {
     /// Standard deviation of targets that were computed: a computed motion goes on with the errors of its largest values.
     fn computed(&self) -> f64 {
-        let largest = self.target.iter().fold(0.0f64, |most, y| most.max(y.abs()));
-        2.0 * f64::EPSILON * largest
+        2.0 * f64::EPSILON * largest(self.target)
     }
 
     /// Products of the terms of a curve, which are given for an argument one after the other with their numbers, with lists

@@ -50,7 +50,7 @@ impl<'a> SweepWriter<'a> {
     ) -> Result<SweepWriter<'a>, Error> {
         let header = line(&columns::header(sweep))?;
         let header = if part == 1 { header.as_str() } else { "" };
-        let range = sweep.part(part, parts);
+        let range = sweep.part(part, parts)?;
         let mut tally = Tally::new(sweep);
         let mut kept = 0;
         let target = match path {

@@ -58,11 +58,17 @@ impl Varied {
     }
 
     /// A value as a scene file has it.
+    ///
+    /// # Panics
+    /// If there is no value of this index, as slices do.
     pub fn text(&self, index: usize) -> &str {
         &self.values[index].text
     }
 
     /// A value in SI units and radians; none for words, formulas and files.
+    ///
+    /// # Panics
+    /// If there is no value of this index, as slices do.
     pub fn number(&self, index: usize) -> Option<f64> {
         self.values[index].number.filter(|_| self.numbers)
     }

@@ -4,6 +4,7 @@ use super::errors::Errors;
 use super::rounding::{Rounding, common_step, of_step};
 use super::seen::Seen;
 use super::sensor::Sensor;
+use crate::numeric::chebyshev::largest;
 use crate::numeric::fit::{Curve, Kind, Samples, Size, State};
 use crate::numeric::parallel;
 use crate::scene::{Measured, Measurement};
@@ -163,8 +164,4 @@ impl Fitted {
             None => measurement.values(),
         }
     }
-}
-
-pub(super) fn largest(list: &[f64]) -> f64 {
-    list.iter().fold(0.0, |most, value| most.max(value.abs()))
 }

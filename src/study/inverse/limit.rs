@@ -8,6 +8,7 @@ use super::force::{Backwards, NEAR_LIMIT};
 use super::sensor::Sensor;
 use crate::error::Error;
 use crate::mechanism::Linkage;
+use crate::numeric::chebyshev::largest;
 use crate::numeric::fit::{Curve, State};
 use crate::scene::Measurement;
 use std::f64::consts::TAU;
@@ -100,8 +101,7 @@ fn misfit(sensor: &Sensor<'_>, fitted: &Fitted, sample: usize, theta: f64) -> f6
     let (_, slope) = sensor.residual(0.0, theta);
     let samples = fitted.residuals.len() as f64;
     let free = (samples - fitted.curve.quality().parameters).max(1.0);
-    let largest = nearby.iter().fold(0.0f64, |most, r| most.max(r.abs()));
-    largest * (samples / free).sqrt() / slope.abs()
+    largest(nearby) * (samples / free).sqrt() / slope.abs()
 }
 
 /// The way from a crank angle to the nearest limit, rad.

@@ -8,6 +8,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use crate::numeric::chebyshev::largest;
 use crate::numeric::parallel;
 
 /// How the samples are rounded, as far as it is not noise.
@@ -90,8 +91,7 @@ pub(super) fn of_step(step: f64) -> f64 {
 /// The largest step of which all differences of neighbouring values are multiples, if it is plainly larger than what the
 /// values are known to: that of the values as they stand, or else of values that were rounded once more to these digits.
 pub(super) fn common_step(values: &[f64], digits: f64) -> Option<f64> {
-    let largest = values.iter().fold(0.0f64, |most, v| most.max(v.abs()));
-    let rounding = 4.0 * f64::EPSILON * largest;
+    let rounding = 4.0 * f64::EPSILON * largest(values);
     [rounding, digits + rounding]
         .into_iter()
         .filter_map(|known| step_of(values, known))

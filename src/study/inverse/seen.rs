@@ -2,8 +2,9 @@
 //!
 //! Very many samples are condensed once: what the instrument shows is as smooth a function of time as the motion.
 
-use super::fitted::{ROUNDED, largest};
+use super::fitted::ROUNDED;
 use super::sensor::Sensor;
+use crate::numeric::chebyshev::largest;
 use crate::numeric::fit::{Curve, Kind, Rows, Samples, Size};
 use crate::numeric::parallel;
 

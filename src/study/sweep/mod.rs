@@ -52,6 +52,8 @@ impl Default for SweepOptions {
 /// assert_eq!(design.values, [2]);
 /// assert_eq!(design.kinematics.unwrap().stroke_m, 0.094);
 /// assert!(design.motion.unwrap().last.omega_rad_per_s > 90.0);
+/// assert_eq!(sweep.part(2, 3)?, 1..2);
+/// assert!(sweep.part(4, 3).is_err());
 /// # Ok::<(), slider_crank::error::Error>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -147,9 +149,18 @@ impl Sweep {
 
     /// The designs of part `part` of `parts`, counted from 1: parts of nearly the same size that follow each
     /// other.
-    pub fn part(&self, part: usize, parts: usize) -> Range<usize> {
+    ///
+    /// # Errors
+    /// [`Error::Refused`] if there is no such part.
+    pub fn part(&self, part: usize, parts: usize) -> Result<Range<usize>, Error> {
+        if part < 1 || part > parts {
+            return Err(Error::refused(
+                format!("there is no part {part} of {parts}"),
+                "count the parts from 1",
+            ));
+        }
         let edge = |k: usize| (self.len() as u128 * k as u128 / parts as u128) as usize;
-        edge(part - 1)..edge(part)
+        Ok(edge(part - 1)..edge(part))
     }
 
     /// A number that is another one for a sweep of another scene file, other values or other options.
@@ -182,7 +193,7 @@ impl Sweep {
         Ok(self.draft.with(values)?)
     }
 
-    /// Computes one design, counted from 0.
+    /// Computes one design, counted from 0 and below [`Sweep::len`].
     pub fn design(&self, index: usize) -> Design {
         let values = self.values(index);
         let scene = self.scene(&values);

@@ -189,21 +189,7 @@ fn measured(window: &Window, sensor: &Sensor<'_>, fit: &Expansion<f64>, degree: 
     least
 }
 
-/// A fit up to a degree at the given times, from −1 to 1.
+/// A fit up to a degree at the given times.
 fn values(fit: &Expansion<f64>, degree: usize, t: &[f64]) -> Vec<f64> {
-    let count = fit.coefficients.len().min(degree + 1);
-    let value = |t: &f64| {
-        let s = (t - fit.middle) / fit.half;
-        let (mut before, mut now, mut sum) = (0.0, 0.0, 0.0);
-        for j in 0..count {
-            let next = match j {
-                0 => 1.0 / fit.norms[0],
-                _ => ((s - fit.centres[j - 1]) * now - fit.norms[j - 1] * before) / fit.norms[j],
-            };
-            (before, now) = (now, next);
-            sum += fit.coefficients[j] * now;
-        }
-        sum
-    };
-    t.iter().map(value).collect()
+    t.iter().map(|t| fit.value(degree, *t)).collect()
 }

@@ -17,6 +17,7 @@ mod visit;
 mod window;
 mod wrapped;
 
+use super::rounding::of_step;
 use super::sensor::Sensor;
 use crate::error::Error;
 use crate::numeric::parallel;
@@ -96,7 +97,7 @@ const ROUNDING: f64 = 1e-14;
 fn record<'a>(sensor: &Sensor<'_>, measurement: &'a Measurement) -> Record<'a> {
     let (times, values) = (measurement.times(), measurement.values());
     let least = ROUNDING * sensor.size();
-    let printed = measurement.resolution() / 12f64.sqrt();
+    let printed = of_step(measurement.resolution());
     Record {
         times,
         values,

@@ -1,5 +1,7 @@
 //! Noise of the measured values, from the values alone.
 
+use super::super::rounding::of_step;
+use crate::numeric::chebyshev::largest;
 use crate::numeric::parallel;
 
 /// Numbers of neighbours that are tried: a smooth motion adds the less the more there are, if samples are dense.
@@ -49,8 +51,7 @@ pub(super) fn rounding(values: &[f64]) -> f64 {
     if (equal as f64) < EQUAL * values.len() as f64 {
         return 0.0;
     }
-    let size = values.iter().fold(0.0f64, |most, v| most.max(v.abs()));
+    let size = largest(values);
     let seen = steps().filter(|step| *step > 8.0 * f64::EPSILON * size);
-    seen.reduce(f64::min)
-        .map_or(0.0, |step| step / 12f64.sqrt())
+    seen.reduce(f64::min).map_or(0.0, of_step)
 }
