@@ -1,8 +1,7 @@
 //! The plan of a scene with clearance in a joint.
 
-use std::borrow::Cow;
-
-use super::{Engine, Method, Stepper};
+use super::choice::Choice;
+use super::{Engine, Method};
 use crate::error::Error;
 
 /// What the contact engine integrates.
@@ -23,15 +22,15 @@ pub(super) fn contact_state(prescribed: bool) -> Vec<&'static str> {
 }
 
 /// The engine of a scene with clearance.
-pub(super) fn contact(
-    method: Method,
-) -> Result<(Engine, Option<Stepper>, Cow<'static, str>), Error> {
+pub(super) fn contact(method: Method) -> Result<Choice, Error> {
     if method != Method::Auto {
         return Err(Error::refused(
             format!("method {method} cannot serve a scene with clearance in a joint"),
             "use --method auto, or take [clearance] out of the scene",
         ));
     }
-    let reason = "a joint has clearance: rod and slider move freely of it but for the contact force; flight and contact are integrated apart";
-    Ok((Engine::Contact, None, reason.into()))
+    Ok(Choice::of(
+        Engine::Contact,
+        "a joint has clearance: rod and slider move freely of it but for the contact force; flight and contact are integrated apart",
+    ))
 }

@@ -1,6 +1,7 @@
 //! The plan: what a scene needs and which engine computes it. The one place where a scene becomes terms,
 //! coordinate, events and engine; `explain` prints it.
 
+mod choice;
 mod contact;
 mod method;
 mod periodic;
@@ -12,7 +13,8 @@ use std::borrow::Cow;
 
 use serde::Serialize;
 
-use contact::{contact, contact_state};
+use choice::choose;
+use contact::contact_state;
 pub use method::Method;
 pub(crate) use periodic::repeats_with_each_turn;
 use refusal::{refuse_what_cannot_move, refuse_what_is_not_modelled, refuse_what_jams};
@@ -21,7 +23,7 @@ use terms::terms;
 use crate::error::Error;
 use crate::mechanism::{Class, Curve, Linkage, Loads};
 use crate::numeric::angle::Angle;
-use crate::scene::{Load, MotionKind, Scene, Variable, Variables};
+use crate::scene::{MotionKind, Scene, Variable};
 
 /// What computes the motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -62,6 +64,17 @@ pub enum Stepper {
     Dop853,
     /// Dormand and Prince, order 5(4), of ode_solvers.
     Dopri5,
+}
+
+impl Stepper {
+    /// Its name in words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Stepper::Picard => "Gauss collocation of order 24, by Picard sweeps",
+            Stepper::Dop853 => "Dop853 of ode_solvers",
+            Stepper::Dopri5 => "Dopri5 of ode_solvers",
+        }
+    }
 }
 
 /// One term that is modelled or left out.
@@ -105,172 +118,80 @@ impl Plan {
         let reduced = scene.reduced();
         let linkage = Linkage::new(&scene.geometry);
         refuse_what_is_not_modelled(&reduced)?;
-        let (kept, left_out) = terms(scene, &reduced);
         let loads = Loads::new(&reduced);
-        let prescribed = scene.motion.kind == MotionKind::ConstantSpeed;
-        let (engine, stepper, reason) = engine(prescribed, method, &loads, &reduced)?;
-        if engine == Engine::Contact {
-            refuse_what_jams(&reduced, &linkage)?;
-        } else if engine != Engine::ClosedForm {
-            refuse_what_cannot_move(&reduced, &linkage)?;
+        let choice = choose(method, &loads, &reduced)?;
+        match choice.engine {
+            Engine::Contact => refuse_what_jams(&reduced, &linkage)?,
+            Engine::ClosedForm => {}
+            _ => refuse_what_cannot_move(&reduced, &linkage)?,
         }
-        let mut state = Vec::new();
-        if engine == Engine::Angle {
-            state.extend(["kinetic energy", "t"]);
-        }
-        if engine == Engine::Time {
-            state.extend(["theta", "omega"]);
-            if !loads.have_potential() || reduced.friction.is_some() {
-                state.push("work of the loads");
-            }
-            if loads.reads().has(Variable::T) {
-                state.push("t");
-            }
-        }
-        if engine == Engine::Contact {
-            state.extend(contact_state(prescribed));
-        }
-        let mut events = vec!["dead-centre"];
-        if engine == Engine::Contact {
-            events.extend(["impact", "separation"]);
-        }
-        if engine != Engine::ClosedForm && !(engine == Engine::Contact && prescribed) {
-            events.push("turning-point");
-        }
-        let on_curve = (engine == Engine::Time)
-            .then(|| Curve::through(&linkage, Angle::from(scene.motion.angle).reduced()))
-            .flatten();
-        let coordinate = on_curve.map_or("crank angle theta", |(curve, _)| curve.coordinate());
-        if engine == Engine::Time && Class::of(&linkage) != Class::RotatingCrank {
-            events.push("limit");
-            state[0] = "coordinate q";
-            state[1] = "its speed";
-        }
-        if engine != Engine::ClosedForm && reduced.friction.is_some() {
-            events.extend(["stick", "slip", "rest"]);
-        }
+        let (kept, left_out) = terms(scene, &reduced);
         Ok(Plan {
-            engine,
-            reason,
-            stepper,
-            coordinate: match engine {
-                Engine::Contact => "crank angle theta, direction psi of the rod, slider position x",
-                _ => coordinate,
-            },
-            state,
-            events,
+            engine: choice.engine,
+            reason: choice.reason,
+            stepper: choice.stepper,
+            coordinate: coordinate(choice.engine, &reduced, &linkage),
+            state: state(choice.engine, &reduced, &loads),
+            events: events(choice.engine, &reduced),
             kept,
             left_out,
         })
     }
 }
 
-/// Whether every load depends on the position alone, and its corners are known.
-fn energy_serves(loads: &Loads, scene: &Scene) -> bool {
-    let position = Variables::THETA.or(Variables::X);
-    loads.reads().or(position) == position
-        && scene.torques.iter().chain(&scene.forces).all(is_smooth)
+fn is_prescribed(scene: &Scene) -> bool {
+    scene.motion.kind == MotionKind::ConstantSpeed
 }
 
-/// Whether the crank turns, the corners of the loads are known, and one table of a turn serves all turns.
-fn angle_serves(scene: &Scene) -> bool {
-    scene.motion.speed != 0.0
-        && scene.torques.iter().chain(&scene.forces).all(is_smooth)
-        && repeats_with_each_turn(scene)
+/// Whether the crank meets limits of its motion, or a change point.
+fn is_limited(scene: &Scene) -> bool {
+    Class::of(&Linkage::new(&scene.geometry)) != Class::RotatingCrank
 }
 
-/// Whether the corners of a load are known as crank angles, if it has any.
-fn is_smooth(load: &Load) -> bool {
-    match load {
-        Load::Table(table) => table.of() == Variable::Theta,
-        Load::Expression(expression) => !expression.jumps(),
-        _ => true,
+fn coordinate(engine: Engine, scene: &Scene, linkage: &Linkage) -> &'static str {
+    let crank = "crank angle theta";
+    match engine {
+        Engine::Contact => "crank angle theta, direction psi of the rod, slider position x",
+        Engine::Time => Curve::through(linkage, Angle::from(scene.motion.angle).reduced())
+            .map_or(crank, |(curve, _)| curve.coordinate()),
+        _ => crank,
     }
 }
 
-fn engine(
-    prescribed: bool,
-    method: Method,
-    loads: &Loads,
-    scene: &Scene,
-) -> Result<(Engine, Option<Stepper>, Cow<'static, str>), Error> {
-    let reason = |text: &'static str| Cow::Borrowed(text);
-    let class = Class::of(&Linkage::new(&scene.geometry));
-    let crosses = class == Class::ChangePoint;
-    if scene.clearance.is_some() {
-        return contact(method);
-    }
-    match (method, prescribed) {
-        (Method::Auto | Method::ClosedForm, true) => Ok((
-            Engine::ClosedForm,
-            None,
-            reason(
-                "the crank speed is prescribed: nothing to integrate, the equation is read backwards",
-            ),
-        )),
-        (_, true) => Err(Error::refused(
-            format!("method {method} cannot serve a scene whose crank speed is prescribed"),
-            "use --method auto, or motion kind = \"free\"",
-        )),
-        (Method::ClosedForm, false) => Err(Error::refused(
-            "method closed-form cannot serve a free motion",
-            "use --method auto, or motion kind = \"constant-speed\"",
-        )),
-        (Method::Energy | Method::Angle, false) if crosses => Err(Error::refused(
-            format!(
-                "method {method} cannot serve the lengths of a change point, which it passes onto the other branch"
-            ),
-            "use --method auto, time, dop853 or dopri5",
-        )),
-        (Method::Auto, false) if crosses => Ok((
-            Engine::Time,
-            Some(Stepper::Picard),
-            reason("a change point: integration in time along the configuration curve"),
-        )),
-        (Method::Auto | Method::Energy | Method::Angle, false) if scene.friction.is_some() => {
-            rubbing::engine(method, scene, class)
+fn state(engine: Engine, scene: &Scene, loads: &Loads) -> Vec<&'static str> {
+    match engine {
+        Engine::ClosedForm | Engine::Energy => Vec::new(),
+        Engine::Angle => vec!["kinetic energy", "t"],
+        Engine::Contact => contact_state(is_prescribed(scene)),
+        Engine::Time => {
+            let mut state = match is_limited(scene) {
+                true => vec!["coordinate q", "its speed"],
+                false => vec!["theta", "omega"],
+            };
+            if !loads.have_potential() || scene.friction.is_some() {
+                state.push("work of the loads");
+            }
+            if loads.reads().has(Variable::T) {
+                state.push("t");
+            }
+            state
         }
-        (Method::Auto | Method::Energy, false) if energy_serves(loads, scene) => Ok((
-            Engine::Energy,
-            None,
-            reason(
-                "every load depends on the position alone: omega from the energy, time from one quadrature",
-            ),
-        )),
-        (Method::Energy, false) => Err(Error::refused(
-            format!(
-                "method energy cannot serve these loads, which depend on {}",
-                loads.reads()
-            ),
-            "use --method auto; energy needs loads of theta and x alone, tables over theta only, and formulas without step, sign, floor and mod",
-        )),
-        (Method::Auto | Method::Angle, false) if angle_serves(scene) => Ok((
-            Engine::Angle,
-            None,
-            reason(
-                "the crank turns: its energy and the time over the crank angle; where it comes near to rest, integration in time takes over",
-            ),
-        )),
-        (Method::Angle, false) => Err(Error::refused(
-            "method angle needs a crank that turns from the start, tables over theta only, formulas without step, sign, floor and mod, and loads over theta that repeat with each turn",
-            "use --method auto, time, dop853 or dopri5",
-        )),
-        (Method::Dopri5, false) => Ok((
-            Engine::Time,
-            Some(Stepper::Dopri5),
-            reason("asked for; the loads and the start decide the motion"),
-        )),
-        (Method::Dop853, false) => Ok((
-            Engine::Time,
-            Some(Stepper::Dop853),
-            reason("asked for; the loads and the start decide the motion"),
-        )),
-        (Method::Auto | Method::Time, false) => Ok((
-            Engine::Time,
-            Some(Stepper::Picard),
-            reason(
-                "the loads and the start decide the motion: integration in time, by sweeps over Gauss nodes",
-            ),
-        )),
     }
+}
+
+fn events(engine: Engine, scene: &Scene) -> Vec<&'static str> {
+    let mut events = vec!["dead-centre"];
+    if engine == Engine::Contact {
+        events.extend(["impact", "separation"]);
+    }
+    if !is_prescribed(scene) {
+        events.push("turning-point");
+    }
+    if engine == Engine::Time && is_limited(scene) {
+        events.push("limit");
+    }
+    if engine != Engine::ClosedForm && scene.friction.is_some() {
+        events.extend(["stick", "slip", "rest"]);
+    }
+    events
 }

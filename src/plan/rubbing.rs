@@ -1,9 +1,9 @@
 //! Which engine computes a motion with Coulomb friction at the guide.
 
-use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-use super::{Engine, Method, Stepper, angle_serves};
+use super::choice::{Choice, angle_serves};
+use super::{Engine, Method, Stepper};
 use crate::error::Error;
 use crate::mechanism::{Class, Constrained, Curve, Linkage};
 use crate::scene::Scene;
@@ -12,12 +12,7 @@ use crate::scene::Scene;
 const PLACES: u32 = 64;
 
 /// The engine of a scene with friction.
-pub(super) fn engine(
-    method: Method,
-    scene: &Scene,
-    class: Class,
-) -> Result<(Engine, Option<Stepper>, Cow<'static, str>), Error> {
-    let help = "use --method auto, time, dop853 or dopri5";
+pub(super) fn engine(method: Method, scene: &Scene, class: Class) -> Result<Choice, Error> {
     if method == Method::Energy {
         return Err(Error::refused(
             "method energy cannot serve Coulomb friction, whose work depends on the speed",
@@ -25,19 +20,19 @@ pub(super) fn engine(
         ));
     }
     match why_not_angle(scene, class) {
-        None => Ok((
+        None => Ok(Choice::of(
             Engine::Angle,
-            None,
-            "the crank turns: its energy and the time over the crank angle, with Coulomb friction piece by piece between its changes; where it comes near to rest, integration in time takes over".into(),
+            "the crank turns: its energy and the time over the crank angle, with Coulomb friction piece by piece between its changes; where it comes near to rest, integration in time takes over",
         )),
         Some(why) if method == Method::Angle => Err(Error::refused(
             format!("method angle cannot serve this motion with Coulomb friction: {why}"),
-            help,
+            "use --method auto, time, dop853 or dopri5",
         )),
-        Some(why) => Ok((
-            Engine::Time,
-            Some(Stepper::Picard),
-            format!("Coulomb friction, and {why}: integration in time, piece by piece between its changes").into(),
+        Some(why) => Ok(Choice::in_time(
+            Stepper::Picard,
+            format!(
+                "Coulomb friction, and {why}: integration in time, piece by piece between its changes"
+            ),
         )),
     }
 }

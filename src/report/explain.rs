@@ -39,11 +39,7 @@ pub fn explanation(result: &Explanation) -> String {
         plan.reason
     ));
     if let Some(stepper) = plan.stepper {
-        line(format!(
-            "  {:<22} {} of ode_solvers",
-            "stepper",
-            format!("{stepper:?}").to_lowercase()
-        ));
+        line(format!("  {:<22} {}", "stepper", stepper.name()));
     }
     line(format!("  {:<22} {}", "coordinate", plan.coordinate));
     let state = match plan.state.len() {

@@ -1,5 +1,7 @@
 //! Motion of the crank, and extent, output and accuracy of a run.
 
+use std::f64::consts::TAU;
+
 /// Initial or prescribed motion of the crank.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion {
@@ -49,6 +51,16 @@ pub enum Extent {
     Duration(f64),
     /// After this many turns of the crank, either way.
     Revolutions(f64),
+}
+
+impl Extent {
+    /// The angle by which the crank turns, rad, if that ends the run.
+    pub fn angle(self) -> Option<f64> {
+        match self {
+            Extent::Duration(_) => None,
+            Extent::Revolutions(turns) => Some(turns * TAU),
+        }
+    }
 }
 
 /// Distance of output rows.

@@ -9,7 +9,7 @@ use super::schedule::Schedule;
 use super::simulate::Simulation;
 use super::summary::{Final, Solved, Summary};
 use super::task::Task;
-use super::watch::{Seen, Watch, radians};
+use super::watch::{Seen, Watch};
 use super::{curve, forward, stopped};
 use crate::engine::Counted;
 use crate::engine::library;
@@ -63,29 +63,22 @@ pub(super) fn run(
         recorded,
         ..
     } = watch;
-    let wall_s = (begun.elapsed() - log.row_time).as_secs_f64();
+    let wall_s = log.wall_s(begun);
     let evaluations = motion.evaluations();
     let stopped = if seen.at_limit {
         Some(stopped::at_limit(&last))
     } else {
         stopped::reason(finish, equation, motion.impossible(), &last, &task.extent)
     };
-    let largest_speed = log.speed.0.abs().max(log.speed.1.abs());
-    let estimate = if task.options.estimate && stopped.is_none() {
+    let mut warnings = Vec::new();
+    let estimate = task.estimate(stopped.as_ref(), &mut warnings, || {
         let run = forward::Ended {
             last: &last,
             evaluations,
         };
         forward::estimate(equation, start, &settings, run)
-    } else {
-        None
-    };
+    });
     let angle = last.angle(last.end.theta);
-    let mut warnings = Vec::new();
-    if task.options.estimate && stopped.is_none() && estimate.is_none() {
-        let why = "the error could not be estimated: the second, tighter run did not finish";
-        warnings.push(why.to_owned());
-    }
     let t_end = last.end.t;
     let solved = Solved {
         last: Final {
@@ -95,18 +88,17 @@ pub(super) fn run(
         },
         turned: angle.minus(start.angle),
         error_estimate: estimate.map(|(error, _)| error),
-        energy: energy_residual(equation, start, &last, largest_speed),
+        energy: energy_residual(equation, start, &last, log.fastest()),
         evaluations,
         steps,
         wall_s,
         estimate_cost: estimate.map(|(_, cost)| cost),
         speed: log.speed,
-        driving_torque: None,
-        clearance: None,
         events: log.events,
         events_total: log.events_total,
         warnings,
         stopped,
+        ..Solved::default()
     };
     Ok(Simulation {
         summary: Summary::new(task, solved),
@@ -132,10 +124,7 @@ pub(super) fn watch<'a>(
         start: task.first_state(),
         dead_centres: task.limits.dead_centres.len(),
         watched: dead_centres.chain(guards).collect(),
-        turn_limit: match task.extent {
-            Extent::Revolutions(turns) => Some(radians(turns)),
-            Extent::Duration(_) => None,
-        },
+        turn_limit: task.extent.angle(),
         log: Log::new(task, false),
         seen: Seen::default(),
         recorded: record.then(Vec::new),

@@ -44,6 +44,16 @@ impl Log {
         }
     }
 
+    /// Wall time since the run began, without that of its rows, s.
+    pub fn wall_s(&self, begun: Instant) -> f64 {
+        begun.elapsed().saturating_sub(self.row_time).as_secs_f64()
+    }
+
+    /// Largest crank speed in either sense, rad/s.
+    pub fn fastest(&self) -> f64 {
+        self.speed.0.abs().max(self.speed.1.abs())
+    }
+
     /// Whether there is room for another event.
     pub fn keeps_more(&self) -> bool {
         self.events.len() < self.kept

@@ -194,7 +194,7 @@ fn each_angle(
     turnings.push(end);
     for to in turnings {
         for k in passed(turned(from) / step, turned(to) / step) {
-            let target = k as f64 * step;
+            let target = k * step;
             let t = if orbit.rotates() {
                 orbit.time_of_turn((target - before).abs())
             } else {

@@ -9,7 +9,7 @@ const DEFAULT_ROWS: u32 = 500;
 
 /// Whole numbers passed on the way from `a` to `b`, in the order of passing: `a` does not count, `b` does. What
 /// is off a whole number by rounding only counts as the whole number.
-pub(super) fn passed(a: f64, b: f64) -> Vec<i64> {
+pub(super) fn passed(a: f64, b: f64) -> impl Iterator<Item = f64> {
     let snapped = |x: f64| {
         if (x - x.round()).abs() < 1e-9 {
             x.round()
@@ -18,11 +18,12 @@ pub(super) fn passed(a: f64, b: f64) -> Vec<i64> {
         }
     };
     let (a, b) = (snapped(a), snapped(b));
-    if b > a {
-        (a.floor() as i64 + 1..=b.floor() as i64).collect()
+    let (start, way) = if b > a {
+        (a.floor(), b.floor() - a.floor())
     } else {
-        (b.ceil() as i64..=a.ceil() as i64 - 1).rev().collect()
-    }
+        (a.ceil(), b.ceil() - a.ceil())
+    };
+    (1..=way.abs() as u64).map(move |i| start + (i as f64).copysign(way))
 }
 
 /// Rows at regular times or crank angles. The first and the last state are rows always.
@@ -81,11 +82,18 @@ mod tests {
 
     #[test]
     fn whole_numbers_are_passed_once() {
-        assert_eq!(passed(0.0, 3.0), [1, 2, 3]);
-        assert_eq!(passed(0.0, -2.5), [-1, -2]);
-        assert_eq!(passed(2.0 + 1e-15, 2.9), [0i64; 0]);
-        assert_eq!(passed(2.9, 2.0 + 1e-15), [2]);
-        assert_eq!(passed(-0.5, 0.5), [0]);
-        assert_eq!(passed(1.5, 1.5), [0i64; 0]);
+        let list = |a, b| passed(a, b).collect::<Vec<_>>();
+        assert_eq!(list(0.0, 3.0), [1.0, 2.0, 3.0]);
+        assert_eq!(list(0.0, -2.5), [-1.0, -2.0]);
+        assert_eq!(list(2.0 + 1e-15, 2.9), [0.0; 0]);
+        assert_eq!(list(2.9, 2.0 + 1e-15), [2.0]);
+        assert_eq!(list(-0.5, 0.5), [0.0]);
+        assert_eq!(list(1.5, 1.5), [0.0; 0]);
+    }
+
+    #[test]
+    fn more_whole_numbers_than_memory_holds_are_passed_one_by_one() {
+        assert_eq!(passed(0.0, 1e300).nth(1), Some(2.0));
+        assert_eq!(passed(0.0, -1e300).nth(1), Some(-2.0));
     }
 }

@@ -27,6 +27,24 @@ impl<'a> Task<'a> {
         Angle::from(self.scene.motion.angle).reduced()
     }
 
+    /// The error estimate, if one is asked for and the run was not stopped; a warning if its second run does not finish.
+    pub fn estimate<T>(
+        &self,
+        stopped: Option<&String>,
+        warnings: &mut Vec<String>,
+        second: impl FnOnce() -> Option<T>,
+    ) -> Option<T> {
+        if !self.options.estimate || stopped.is_some() {
+            return None;
+        }
+        let estimate = second();
+        if estimate.is_none() {
+            let why = "the error could not be estimated: the second, tighter run did not finish";
+            warnings.push(why.to_owned());
+        }
+        estimate
+    }
+
     /// The state of the crank at the start.
     pub fn first_state(&self) -> Start {
         Start {

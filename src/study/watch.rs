@@ -1,6 +1,5 @@
 //! What a run in time gives beside its end: rows, events, extreme speeds, the dense trajectory.
 
-use std::f64::consts::TAU;
 use std::time::Instant;
 
 use super::log::Log;
@@ -175,8 +174,7 @@ impl Watch<'_> {
             let way = |t: f64| self.turned(step, step.at(t).0) / spacing;
             for k in passed(way(from), way(to)) {
                 step.refine(self.motion);
-                let theta =
-                    step.start.theta + (k as f64 * spacing - self.turned(step, step.start.theta));
+                let theta = step.start.theta + (k * spacing - self.turned(step, step.start.theta));
                 // A turning point may fall short of its angle by rounding.
                 let t = step.time_of_angle(theta, from, to).unwrap_or(to);
                 // The end is a row of its own.
@@ -208,9 +206,4 @@ impl Watch<'_> {
         }
         Ok(())
     }
-}
-
-/// Turns in radians.
-pub(super) fn radians(turns: f64) -> f64 {
-    turns * TAU
 }

@@ -5,12 +5,17 @@ mod clearance;
 mod loads;
 mod start;
 
+use std::f64::consts::TAU;
+
 use super::number::{apart, show};
 use super::{Every, Extent, Friction, Geometry, InertiaAbout, Problem, Rod, RodModel, Run, Scene};
 use check::Check;
 
 /// Local error targets below this cannot be met in double precision.
 const LEAST_TOLERANCE: f64 = 1e-14;
+
+/// More output rows than this, some hundred gigabytes, are a slip of the unit.
+const MOST_ROWS: f64 = 1e9;
 
 /// Adds one problem for each impossible value. Values that have a problem already are not compared with
 /// others: what follows from a problem is none of its own.
@@ -127,6 +132,16 @@ fn friction(list: &mut Check, friction: &Friction) {
     }
 }
 
+/// Output rows of a run, as far as the scene tells; of rows over the crank angle at least those of one turn.
+fn rows(run: &Run) -> f64 {
+    match (run.output_every, run.extent) {
+        (Some(Every::Time(step)), Some(Extent::Duration(duration))) => duration / step,
+        (Some(Every::Angle(step)), Some(Extent::Revolutions(turns))) => turns * TAU / step,
+        (Some(Every::Angle(step)), _) => TAU / step,
+        _ => 0.0,
+    }
+}
+
 fn run(list: &mut Check, run: &Run) {
     match run.extent {
         Some(Extent::Duration(duration)) => list.not_negative("run.duration", duration, "s"),
@@ -137,6 +152,13 @@ fn run(list: &mut Check, run: &Run) {
         Some(Every::Time(step)) => list.positive("run.output_every", step, "s"),
         Some(Every::Angle(step)) => list.positive("run.output_every", step, "rad"),
         None => {}
+    }
+    if list.sound(["run.output_every"]) && rows(run) > MOST_ROWS {
+        list.add(
+            "run.output_every",
+            format!("more than {MOST_ROWS} output rows would be written"),
+            "give a larger step, like \"1 ms\" or \"1 deg\", or leave it out for 500 rows",
+        );
     }
     if !(LEAST_TOLERANCE..=0.1).contains(&run.tolerance) {
         list.add(

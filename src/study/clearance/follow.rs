@@ -206,7 +206,7 @@ impl<const N: usize> Follow<'_, N> {
             let turned = |y: &[f64; N]| (self.model.state(y).theta - self.asked.start) / spacing;
             for k in passed(turned(&stretch.start), turned(&stretch.end)) {
                 let (from, to) = (stretch.start[0], stretch.end[0]);
-                let way = |t: f64| turned(&stretch.at(t)) - k as f64;
+                let way = |t: f64| turned(&stretch.at(t)) - k;
                 let t = root::bracketed(way, from, to).unwrap_or(to);
                 if t < until * (1.0 - 1e-12) {
                     let s = self.model.state(&stretch.at(t));

@@ -20,7 +20,6 @@ use super::schedule::Schedule;
 use super::simulate::Simulation;
 use super::summary::{Cost, Summary};
 use super::task::Task;
-use super::watch::radians;
 use crate::engine::contact::{self, Ended, Finish, Phase, Settings, Stretch};
 use crate::error::Error;
 use crate::mechanism::{LooseMechanism, LooseState};
@@ -185,10 +184,7 @@ impl<'a, const N: usize> Run<'a, N> {
             turns: task.start().turns,
             start: self.start.theta,
             watched: task.limits.dead_centres.iter().map(|dc| dc.theta).collect(),
-            turn_limit: match task.extent {
-                Extent::Revolutions(turns) => Some(radians(turns)),
-                Extent::Duration(_) => None,
-            },
+            turn_limit: task.extent.angle(),
             events_kept: task.options.events_kept,
             keep_steps: record,
             sampled: task.options.estimate,

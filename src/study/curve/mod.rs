@@ -59,10 +59,7 @@ pub(super) fn run(
         equation: &constrained,
         settings: settings(task, equation),
         start,
-        turn_limit: match task.extent {
-            Extent::Revolutions(turns) => Some(super::watch::radians(turns)),
-            Extent::Duration(_) => None,
-        },
+        turn_limit: task.extent.angle(),
         turned_from: task.start(),
     };
     let mut watch = CurveWatch {
@@ -89,43 +86,34 @@ pub(super) fn run(
         return Err(stopped::no_start(equation, crank, &task.limits));
     }
     watch.write_last_row(&arrived.last)?;
-    let wall_s = (begun.elapsed() - watch.log.row_time).as_secs_f64();
+    let log = watch.log;
+    let wall_s = log.wall_s(begun);
     let stopped = why(task, &arrived, &constrained);
-    let estimate = if task.options.estimate && stopped.is_none() {
-        estimate(&follow, &arrived)
-    } else {
-        None
-    };
     let mut warnings = warnings(task);
-    if task.options.estimate && stopped.is_none() && estimate.is_none() {
-        let why = "the error could not be estimated: the second, tighter run did not finish";
-        warnings.push(why.to_owned());
-    }
-    let end = &arrived.last.end;
-    let last = crank_state(curve, &arrived.last);
-    let peak = watch.log.speed.0.abs().max(watch.log.speed.1.abs());
+    let second = || estimate(&follow, &arrived);
+    let estimate = task.estimate(stopped.as_ref(), &mut warnings, second);
+    let t_end = arrived.last.end.t;
+    let (angle, omega) = crank_state(curve, &arrived.last);
     let solved = Solved {
-        clearance: None,
         last: Final {
-            t_s: end.t,
-            theta_rad: last.0.radians(),
-            omega_rad_per_s: last.1,
+            t_s: t_end,
+            theta_rad: angle.radians(),
+            omega_rad_per_s: omega,
         },
-        turned: last.0.minus(task.start()),
+        turned: angle.minus(task.start()),
         error_estimate: estimate.map(|(error, _)| error),
-        energy: energy_residual(&constrained, equation, start, &arrived, peak),
+        energy: energy_residual(&constrained, equation, start, &arrived, log.fastest()),
         evaluations: arrived.evaluations,
         steps: arrived.steps,
         wall_s,
         estimate_cost: estimate.map(|(_, cost)| cost),
-        speed: watch.log.speed,
-        driving_torque: None,
-        events: watch.log.events,
-        events_total: watch.log.events_total,
+        speed: log.speed,
+        events: log.events,
+        events_total: log.events_total,
         warnings,
         stopped,
+        ..Solved::default()
     };
-    let t_end = end.t;
     let seen = constrained.clone();
     let view = move |angle: Angle, speed: f64| {
         let curve = seen.curve();

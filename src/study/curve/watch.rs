@@ -132,7 +132,7 @@ impl CurveWatch<'_> {
             let way = |t: f64| self.turned(step, t) / spacing;
             for k in passed(way(w[0]), way(w[1])) {
                 step.refine(motion);
-                let target = k as f64 * spacing;
+                let target = k * spacing;
                 let t = root::bracketed(|t| self.turned(step, t) - target, w[0], w[1]);
                 self.write_row(step, motion, t.unwrap_or(w[1]))?;
             }

@@ -64,17 +64,11 @@ pub(super) fn run(
     let mut arrived = course.run(first.map(|first| first.driving), &mut notes)?;
     arrived.evaluations += places;
     let log = notes.finish(&arrived)?;
-    let wall_s = wall_s + (begun.elapsed() - log.row_time).as_secs_f64();
+    let wall_s = wall_s + log.wall_s(begun);
     let stopped = stopped(task, &arrived);
     let mut warnings = Vec::new();
-    let mut estimated = None;
-    if task.options.estimate && stopped.is_none() {
-        estimated = estimate(task, &course, &arrived);
-        if estimated.is_none() {
-            let why = "the error could not be estimated: the second, tighter run did not finish";
-            warnings.push(why.to_owned());
-        }
-    }
+    let second = || estimate(task, &course, &arrived);
+    let estimated = task.estimate(stopped.as_ref(), &mut warnings, second);
     name_pieces(task, &arrived)?;
     let now = arrived.now;
     let (speed, unbounded) = speeds(task, log.speed, now.speed);

@@ -1,14 +1,11 @@
 //! Pieces in time with friction at the guide.
 
-use std::f64::consts::TAU;
-
 use super::arrived::End;
 use super::clear::Clear;
 use super::course::Pass;
 use crate::engine::step::Step;
 use crate::engine::time::{Finish, Settings, Start};
 use crate::numeric::angle::Angle;
-use crate::scene::Extent;
 use crate::study::curve::{self, Follow};
 use crate::study::sliding::Sliding;
 
@@ -25,10 +22,7 @@ impl Pass<'_, '_> {
                 ..course.settings
             },
             start: from,
-            turn_limit: match course.extent {
-                Extent::Revolutions(turns) => Some(turns * TAU),
-                Extent::Duration(_) => None,
-            },
+            turn_limit: course.extent.angle(),
             turned_from: course.start.angle,
         };
         let mut rubbed = None;

@@ -1,0 +1,151 @@
+//! Which engine computes a motion, and why.
+
+use std::borrow::Cow;
+
+use super::contact::contact;
+use super::periodic::repeats_with_each_turn;
+use super::{Engine, Method, Stepper, rubbing};
+use crate::error::Error;
+use crate::mechanism::{Class, Linkage, Loads};
+use crate::scene::{Load, MotionKind, Scene, Variable, Variables};
+
+/// An engine with its reason.
+pub(super) struct Choice {
+    pub engine: Engine,
+    pub stepper: Option<Stepper>,
+    pub reason: Cow<'static, str>,
+}
+
+impl Choice {
+    /// An engine that has no stepper.
+    pub fn of(engine: Engine, reason: impl Into<Cow<'static, str>>) -> Choice {
+        Choice {
+            engine,
+            stepper: None,
+            reason: reason.into(),
+        }
+    }
+
+    /// The time engine.
+    pub fn in_time(stepper: Stepper, reason: impl Into<Cow<'static, str>>) -> Choice {
+        Choice {
+            engine: Engine::Time,
+            stepper: Some(stepper),
+            reason: reason.into(),
+        }
+    }
+}
+
+/// The first engine that serves a scene without parts of zero strength, or the one that is asked for.
+pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Choice, Error> {
+    if scene.clearance.is_some() {
+        return contact(method);
+    }
+    if scene.motion.kind == MotionKind::ConstantSpeed {
+        return prescribed(method);
+    }
+    let asked = "asked for; the loads and the start decide the motion";
+    let class = Class::of(&Linkage::new(&scene.geometry));
+    match method {
+        Method::ClosedForm => Err(Error::refused(
+            "method closed-form cannot serve a free motion",
+            "use --method auto, or motion kind = \"constant-speed\"",
+        )),
+        Method::Dop853 => Ok(Choice::in_time(Stepper::Dop853, asked)),
+        Method::Dopri5 => Ok(Choice::in_time(Stepper::Dopri5, asked)),
+        Method::Time => Ok(by_sweeps()),
+        Method::Auto | Method::Energy | Method::Angle => {
+            if class == Class::ChangePoint {
+                change_point(method)
+            } else if scene.friction.is_some() {
+                rubbing::engine(method, scene, class)
+            } else {
+                over_angle(method, loads, scene)
+            }
+        }
+    }
+}
+
+fn by_sweeps() -> Choice {
+    Choice::in_time(
+        Stepper::Picard,
+        "the loads and the start decide the motion: integration in time, by sweeps over Gauss nodes",
+    )
+}
+
+fn prescribed(method: Method) -> Result<Choice, Error> {
+    if matches!(method, Method::Auto | Method::ClosedForm) {
+        Ok(Choice::of(
+            Engine::ClosedForm,
+            "the crank speed is prescribed: nothing to integrate, the equation is read backwards",
+        ))
+    } else {
+        Err(Error::refused(
+            format!("method {method} cannot serve a scene whose crank speed is prescribed"),
+            "use --method auto, or motion kind = \"free\"",
+        ))
+    }
+}
+
+fn change_point(method: Method) -> Result<Choice, Error> {
+    if method == Method::Auto {
+        Ok(Choice::in_time(
+            Stepper::Picard,
+            "a change point: integration in time along the configuration curve",
+        ))
+    } else {
+        Err(Error::refused(
+            format!(
+                "method {method} cannot serve the lengths of a change point, which it passes onto the other branch"
+            ),
+            "use --method auto, time, dop853 or dopri5",
+        ))
+    }
+}
+
+/// Without friction: the energy, else the crank angle, else the time as the independent variable.
+fn over_angle(method: Method, loads: &Loads, scene: &Scene) -> Result<Choice, Error> {
+    match method {
+        Method::Auto | Method::Energy if energy_serves(loads, scene) => Ok(Choice::of(
+            Engine::Energy,
+            "every load depends on the position alone: omega from the energy, time from one quadrature",
+        )),
+        Method::Energy => Err(Error::refused(
+            format!(
+                "method energy cannot serve these loads, which depend on {}",
+                loads.reads()
+            ),
+            "use --method auto; energy needs loads of theta and x alone, tables over theta only, and formulas without step, sign, floor and mod",
+        )),
+        _ if angle_serves(scene) => Ok(Choice::of(
+            Engine::Angle,
+            "the crank turns: its energy and the time over the crank angle; where it comes near to rest, integration in time takes over",
+        )),
+        Method::Angle => Err(Error::refused(
+            "method angle needs a crank that turns from the start, tables over theta only, formulas without step, sign, floor and mod, and loads over theta that repeat with each turn",
+            "use --method auto, time, dop853 or dopri5",
+        )),
+        _ => Ok(by_sweeps()),
+    }
+}
+
+/// Whether every load depends on the position alone, and its corners are known.
+fn energy_serves(loads: &Loads, scene: &Scene) -> bool {
+    let position = Variables::THETA.or(Variables::X);
+    loads.reads().or(position) == position && are_smooth(scene)
+}
+
+/// Whether the crank turns, the corners of the loads are known, and one table of a turn serves all turns.
+pub(super) fn angle_serves(scene: &Scene) -> bool {
+    scene.motion.speed != 0.0 && are_smooth(scene) && repeats_with_each_turn(scene)
+}
+
+/// Whether the corners of the loads are known as crank angles, if they have any.
+fn are_smooth(scene: &Scene) -> bool {
+    let mut loads = scene.torques.iter().chain(&scene.forces);
+    loads.all(|load| match load {
+        Load::Table(table) => table.of() == Variable::Theta,
+        Load::Expression(expression) => !expression.jumps(),
+        _ => true,
+    })
+}
