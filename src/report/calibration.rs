@@ -1,38 +1,31 @@
 //! A calibration in words.
 
-use std::fmt::Write;
-
+use super::facts::Facts;
 use crate::study::Calibration;
 
 /// The line, its statistics, and the forces of the readings.
 pub fn calibration(result: &Calibration) -> String {
-    let mut text = String::new();
-    let mut put = |name: &str, value: String| {
-        let _ = writeln!(text, "{name:<12} {value}");
-    };
+    let mut facts = Facts::of("");
     let fit = &result.fit;
     let error = |se: Option<f64>| se.map_or(String::new(), |se| format!(" +- {se}"));
-    put("points", format!("{}", fit.points));
-    put(
-        "slope",
-        format!("{}{} per N", fit.slope, error(fit.slope_se)),
-    );
-    put(
+    facts.add("points", fit.points);
+    let (slope, slope_error) = (fit.slope, error(fit.slope_se));
+    facts.add("slope", format_args!("{slope}{slope_error} per N"));
+    let intercept_error = error(fit.intercept_se);
+    facts.add(
         "intercept",
-        format!("{}{}", fit.intercept, error(fit.intercept_se)),
+        format_args!("{}{intercept_error}", fit.intercept),
     );
     if let Some(r_squared) = fit.r_squared {
-        put("R squared", format!("{r_squared}"));
+        facts.add("R squared", r_squared);
     }
     for measured in &result.forces {
-        let force = format!("{}{} N", measured.force_n, error(measured.force_se_n));
-        put(
+        let (force, error) = (measured.force_n, error(measured.force_se_n));
+        facts.add(
             "force",
-            format!("{force} for a reading of {}", measured.reading),
+            format_args!("{force}{error} N for a reading of {}", measured.reading),
         );
     }
-    for warning in &result.warnings {
-        put("warning", warning.clone());
-    }
-    text
+    facts.warnings(&result.warnings);
+    facts.lines(12)
 }

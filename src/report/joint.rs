@@ -1,20 +1,18 @@
 //! A loose joint in words.
 
-use super::text::digits;
-use crate::study::ClearanceSummary;
+use super::facts::{Facts, with_error};
+use crate::study::{ClearanceSummary, ContactStatistics};
 
 /// The loose joint.
-pub(super) fn clearance(put: &mut impl FnMut(&str, String), joint: &ClearanceSummary) {
-    put(
+pub(super) fn clearance(facts: &mut Facts, joint: &ClearanceSummary) {
+    let (radial, law) = (joint.radial_m, joint.contact_law);
+    facts.add(
         "loose joint",
-        format!(
-            "{}, {} m radial clearance, {}",
-            joint.joint, joint.radial_m, joint.contact_law
-        ),
+        format_args!("{}, {radial} m radial clearance, {law}", joint.joint),
     );
-    put(
+    facts.add(
         "  contact",
-        format!(
+        format_args!(
             "{} impacts, {:.2} % of the time, peak {:.6} N, mean {:.6} N",
             joint.impacts,
             100.0 * joint.contact_share,
@@ -22,43 +20,36 @@ pub(super) fn clearance(put: &mut impl FnMut(&str, String), joint: &ClearanceSum
             joint.force_mean_n
         ),
     );
-    put(
-        "  energy lost",
-        format!("{} J of {} J put in", joint.dissipated_j, joint.work_j),
-    );
-    let with_error = |value: f64, error: Option<f64>, unit: &str| match error {
-        Some(error) => format!("{} +- {error:.1e} {unit}", digits(value, error)),
+    let (lost, work) = (joint.dissipated_j, joint.work_j);
+    facts.add("  energy lost", format_args!("{lost} J of {work} J put in"));
+    let shown = |value: f64, error: Option<f64>, unit: &str| match error {
+        Some(error) => with_error(value, error, unit),
         None => format!("{value:.6} {unit}, error not stated"),
     };
     let last = &joint.last;
-    put("  slider", with_error(last.x_m, last.error_x_m, "m"));
-    put("  rod", with_error(last.phi_rad, last.error_phi_rad, "rad"));
+    facts.add("  slider", shown(last.x_m, last.error_x_m, "m"));
+    facts.add("  rod", shown(last.phi_rad, last.error_phi_rad, "rad"));
     if let Some(horizon) = &joint.horizon {
         let until = if horizon.whole_run { "the end, " } else { "" };
-        put(
+        let (t, turns) = (horizon.t_s, horizon.revolutions);
+        facts.add(
             "  reproducible",
-            format!(
-                "to {until}t = {} s, {:.3} turns",
-                horizon.t_s, horizon.revolutions
-            ),
+            format_args!("to {until}t = {t} s, {turns:.3} turns"),
         );
         if let Some(beyond) = &horizon.beyond {
-            for (name, one) in [
-                ("  beyond", &beyond.run),
-                ("  at 1/50 of tol.", &beyond.tighter),
-            ] {
-                put(
-                    name,
-                    format!(
-                        "{} impacts, {:.1} % contact, force peak {:.0} N, mean {:.1} N, rms {:.1} N",
-                        one.impacts,
-                        100.0 * one.contact_share,
-                        one.force_peak_n,
-                        one.force_mean_n,
-                        one.force_rms_n
-                    ),
-                );
-            }
+            facts.add("  beyond", statistics(&beyond.run));
+            facts.add("  at 1/50 of tol.", statistics(&beyond.tighter));
         }
     }
+}
+
+fn statistics(contact: &ContactStatistics) -> String {
+    format!(
+        "{} impacts, {:.1} % contact, force peak {:.0} N, mean {:.1} N, rms {:.1} N",
+        contact.impacts,
+        100.0 * contact.contact_share,
+        contact.force_peak_n,
+        contact.force_mean_n,
+        contact.force_rms_n
+    )
 }

@@ -2,6 +2,7 @@
 
 mod calibration;
 mod explain;
+mod facts;
 mod figure;
 mod inverse;
 mod joint;

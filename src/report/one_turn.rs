@@ -2,11 +2,12 @@
 
 use std::fmt::Write;
 
+use super::facts::{Facts, degrees};
 use super::rows::{REACTIONS, reactions, write};
-use super::text::kinematics;
+use super::text::{NAMES, extreme, kinematics};
 use super::{Axis, Figure, Output, panels};
 use crate::error::Error;
-use crate::study::{Located, OneTurn, StrokeTorque, TurnRow};
+use crate::study::{ForceAnalysis, Located, OffsetExtremes, OneTurn, StrokeTorque, TurnRow};
 
 const POSITION: &str =
     "theta_rad,x_m,dx_m_per_rad,d2x_m_per_rad2,phi_rad,dphi,d2phi,transmission_rad";
@@ -107,59 +108,24 @@ impl TurnWriter {
 
 /// What the lengths give, and what was asked for beside it.
 pub fn turn(result: &OneTurn) -> String {
-    let mut text = kinematics(&result.kinematics);
-    let mut put = |name: &str, value: String| {
-        let _ = writeln!(text, "{name:<22} {value}");
-    };
-    if let Some(forces) = &result.forces {
-        let masses = &forces.masses;
-        put(
-            "rotating mass",
-            format!("{} kg at the crank pin", masses.rotating_kg),
-        );
-        put(
-            "reciprocating mass",
-            format!("{} kg at the wrist pin", masses.reciprocating_kg),
-        );
-        for (name, stroke) in [("outward", forces.outward), ("inward", forces.inward)] {
-            if let Some(StrokeTorque { max, min }) = stroke {
-                let at = |found: Located| {
-                    let angle = found.theta_rad.to_degrees();
-                    format!("{} N m at {angle} deg", found.value)
-                };
-                put(
-                    &format!("torque, {name} stroke"),
-                    format!("{} to {}", at(min), at(max)),
-                );
-            }
-        }
+    let mut facts = kinematics(&result.kinematics);
+    if let Some(analysis) = &result.forces {
+        forces(&mut facts, analysis);
     }
+    let unit = match result.kinematics.speed_rad_per_s {
+        Some(_) => "m/s2",
+        None => "m/rad2",
+    };
     for with in &result.offsets {
-        let mut line = format!("stroke {} m", with.stroke_m);
-        let mut add = |name: &str, found: Option<Located>, unit: &str| {
-            if let Some(Located { value, theta_rad }) = found {
-                let angle = theta_rad.to_degrees();
-                let _ = write!(line, "; {name} {value:.7} {unit} at {angle:.5} deg");
-            }
-        };
-        let unit = match result.kinematics.speed_rad_per_s {
-            Some(_) => "m/s2",
-            None => "m/rad2",
-        };
-        add("largest acceleration", with.acceleration_max, unit);
-        add("smallest", with.acceleration_min, unit);
-        for (name, stroke) in [("outward", with.outward), ("inward", with.inward)] {
-            add(&format!("{name} torque from"), stroke.map(|s| s.min), "N m");
-            add("to", stroke.map(|s| s.max), "N m");
-        }
-        put(&format!("with offset {} m", with.offset_m), line);
+        let name = format!("with offset {} m", with.offset_m);
+        facts.add(name, offset(with, unit));
     }
     if let Some(check) = &result.loop_closure {
-        let guess = check.guess_rad.to_degrees();
-        put(
+        facts.add(
             "Newton-Raphson",
-            format!(
-                "from {guess} deg: {} to {} steps; {} angles on the scene's branch, {} on the other, {} without end",
+            format_args!(
+                "from {} deg: {} to {} steps; {} angles on the scene's branch, {} on the other, {} without end",
+                degrees(check.guess_rad),
                 check.iterations_min,
                 check.iterations_max,
                 check.on_branch,
@@ -167,15 +133,54 @@ pub fn turn(result: &OneTurn) -> String {
                 check.failed
             ),
         );
-        put(
-            "  off the closed form",
-            format!("{:.1e} m", check.worst_x_m),
-        );
+        let worst = check.worst_x_m;
+        facts.add("  off the closed form", format_args!("{worst:.1e} m"));
     }
+    let mut text = facts.lines(NAMES);
     if let Some(changed) = &result.changed {
-        let _ = write!(text, "\nwith the changed lengths\n{}", kinematics(changed));
+        let changed = kinematics(changed).lines(NAMES);
+        let _ = write!(text, "\nwith the changed lengths\n{changed}");
     }
     text
+}
+
+fn forces(facts: &mut Facts, analysis: &ForceAnalysis) {
+    let masses = &analysis.masses;
+    let rotating = masses.rotating_kg;
+    facts.add(
+        "rotating mass",
+        format_args!("{rotating} kg at the crank pin"),
+    );
+    let reciprocating = masses.reciprocating_kg;
+    facts.add(
+        "reciprocating mass",
+        format_args!("{reciprocating} kg at the wrist pin"),
+    );
+    for (name, stroke) in [("outward", analysis.outward), ("inward", analysis.inward)] {
+        if let Some(StrokeTorque { max, min }) = stroke {
+            let [min, max] = [min, max].map(|found| extreme(&found, "N m"));
+            let name = format!("torque, {name} stroke");
+            facts.add(name, format_args!("{min} to {max}"));
+        }
+    }
+}
+
+/// Stroke and extremes with another offset, the acceleration in this unit.
+fn offset(with: &OffsetExtremes, unit: &str) -> String {
+    let mut line = format!("stroke {} m", with.stroke_m);
+    let mut add = |name: &str, found: Option<Located>, unit: &str| {
+        if let Some(Located { value, theta_rad }) = found {
+            let angle = theta_rad.to_degrees();
+            let _ = write!(line, "; {name} {value:.7} {unit} at {angle:.5} deg");
+        }
+    };
+    add("largest acceleration", with.acceleration_max, unit);
+    add("smallest", with.acceleration_min, unit);
+    for (name, stroke) in [("outward", with.outward), ("inward", with.inward)] {
+        add(&format!("{name} torque from"), stroke.map(|s| s.min), "N m");
+        add("to", stroke.map(|s| s.max), "N m");
+    }
+    line
 }
 
 /// Slider position, velocity and acceleration over the crank angle, with those of the changed lengths, and

@@ -60,13 +60,13 @@ fn section(page: &mut String, title: &str, content: &str) {
 
 fn summed_up(page: &mut String, summary: &Summary) {
     page.push_str("<table>\n");
-    for (name, value) in facts(summary).iter().filter(|(name, _)| name != "scene") {
+    for (name, value) in facts(summary).iter().filter(|(name, _)| *name != "scene") {
         let part = if name.starts_with(' ') {
             " class=\"part\""
         } else {
             ""
         };
-        let row = match name.as_str() {
+        let row = match name {
             "warning" | "stopped early" => " class=\"warning\"",
             _ => "",
         };

@@ -2,11 +2,12 @@
 
 use std::fmt::Write;
 
+use super::facts::Facts;
 use super::rows::write;
-use super::text::place;
+use super::text::{NAMES, extreme, place};
 use super::{Axis, Figure, Output, panels};
 use crate::error::Error;
-use crate::study::{Located, StaticAnalysis, StaticsRow};
+use crate::study::{StaticAnalysis, StaticsRow};
 
 const FORCE: &str = "slider_force_n,slider_force_min_n,slider_force_max_n";
 const TORQUE: &str = "crank_torque_nm,crank_torque_min_nm,crank_torque_max_nm";
@@ -74,36 +75,25 @@ impl StaticsWriter {
 
 /// What holds the equilibrium, in words and in a table of a few angles.
 pub fn statics(result: &StaticAnalysis) -> String {
-    let mut text = String::new();
-    let mut put = |name: &str, value: String| {
-        let _ = writeln!(text, "{name:<24} {value}");
-    };
-    if !result.scene.is_empty() {
-        put("scene", result.scene.clone());
-    }
     let (what, unit) = match result.sought {
         "crank-torque" => ("crank torque", "N m"),
         _ => ("slider force", "N"),
     };
-    put("class", result.class.to_owned());
-    put("sought", format!("{what} beside the other loads"));
-    put("friction coefficient", format!("{}", result.friction));
-    let least = |found: &Located| {
-        let angle = found.theta_rad.to_degrees();
-        format!("{} {unit} at {angle} deg", found.value)
-    };
+    let mut facts = Facts::of(&result.scene);
+    facts.add("class", result.class);
+    facts.add("sought", format_args!("{what} beside the other loads"));
+    facts.add("friction coefficient", result.friction);
     for found in &result.least {
-        put("least", least(found));
+        facts.add("least", extreme(found, unit));
     }
     for found in &result.least_with_friction {
-        put("least with friction", least(found));
+        facts.add("least with friction", extreme(found, unit));
     }
     for position in &result.positions {
-        put(position.kind, place(position));
+        facts.add(position.kind, place(position));
     }
-    for warning in &result.warnings {
-        put("warning", warning.clone());
-    }
+    facts.warnings(&result.warnings);
+    let mut text = facts.lines(NAMES);
     let header = [
         "theta [deg]".to_owned(),
         format!("{what} [{unit}]"),

@@ -1,25 +1,21 @@
 //! The periodic steady state in words.
 
-use super::text::digits;
+use super::facts::{Facts, with_error};
 use crate::study::{Estimated, Flywheel, SpeedExtreme, SteadyState};
 
 fn shown(estimated: Estimated, unit: &str) -> String {
     let Estimated { value, error } = estimated;
-    format!("{} +- {error:.1e} {unit}", digits(value, error))
-        .trim_end()
-        .to_owned()
+    with_error(value, error, unit)
 }
 
 /// The key figures.
-pub(super) fn steady_state(put: &mut impl FnMut(&str, String), steady: &SteadyState) {
-    put(
-        "steady state",
-        format!("period {}", shown(steady.period_s, "s")),
-    );
-    put("  mean speed", shown(steady.omega_mean_rad_per_s, "rad/s"));
-    put("  slowest", extreme(&steady.slowest));
-    put("  fastest", extreme(&steady.fastest));
-    put("  fluctuation", shown(steady.fluctuation, ""));
+pub(super) fn steady_state(facts: &mut Facts, steady: &SteadyState) {
+    let period = shown(steady.period_s, "s");
+    facts.add("steady state", format_args!("period {period}"));
+    facts.add("  mean speed", shown(steady.omega_mean_rad_per_s, "rad/s"));
+    facts.add("  slowest", extreme(&steady.slowest));
+    facts.add("  fastest", extreme(&steady.fastest));
+    facts.add("  fluctuation", shown(steady.fluctuation, ""));
     let left = if steady.stable {
         format!(
             "{} of one is left after a turn",
@@ -28,14 +24,14 @@ pub(super) fn steady_state(put: &mut impl FnMut(&str, String), steady: &SteadySt
     } else {
         "do not die out".to_owned()
     };
-    put("  deviations", left);
-    put("  power in", shown(steady.power_in_w, "W"));
-    put("  power out", shown(steady.power_out_w, "W"));
+    facts.add("  deviations", left);
+    facts.add("  power in", shown(steady.power_in_w, "W"));
+    facts.add("  power out", shown(steady.power_out_w, "W"));
     if let Some(wheel) = &steady.flywheel {
-        flywheel(put, wheel);
+        flywheel(facts, wheel);
     }
     for note in &steady.notes {
-        put("  note", note.clone());
+        facts.add("  note", note);
     }
 }
 
@@ -47,20 +43,17 @@ fn extreme(extreme: &SpeedExtreme) -> String {
     }
 }
 
-fn flywheel(put: &mut impl FnMut(&str, String), wheel: &Flywheel) {
+fn flywheel(facts: &mut Facts, wheel: &Flywheel) {
     let added = wheel.added_inertia_kg_m2;
     let (value, what) = if added.value < 0.0 {
         (-added.value, "could be taken from the crank")
     } else {
         (added.value, "to be added to the crank")
     };
-    let inertia = Estimated { value, ..added };
-    put(
+    let inertia = with_error(value, added.error, "kg m2");
+    let wanted = wheel.wanted_fluctuation;
+    facts.add(
         "  flywheel",
-        format!(
-            "{} {what}, for a fluctuation of {}",
-            shown(inertia, "kg m2"),
-            wheel.wanted_fluctuation
-        ),
+        format_args!("{inertia} {what}, for a fluctuation of {wanted}"),
     );
 }

@@ -3,16 +3,17 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
+use super::facts::{Facts, degrees, with_error};
 use super::joint::clearance;
 use super::steady::steady_state;
-use crate::study::{Kinematics, Located, NamedPosition, Row, Summary};
+use crate::study::{Kinematics, Located, NamedPosition, Row, Summary, TorqueRange};
+
+/// Characters of the longest name of a position.
+pub(super) const NAMES: usize = 24;
 
 /// The summary of a run, with a few of its rows.
 pub fn summary(summary: &Summary, rows: &[Row]) -> String {
-    let mut text = String::new();
-    for (name, value) in facts(summary) {
-        let _ = writeln!(text, "{name:<17} {value}");
-    }
+    let mut text = facts(summary).lines(17);
     if !rows.is_empty() {
         text.push('\n');
         text.push_str(&table(rows));
@@ -20,90 +21,75 @@ pub fn summary(summary: &Summary, rows: &[Row]) -> String {
     text
 }
 
-/// What there is to say of a run, each with its name; names that belong to the one before begin with spaces.
-pub(super) fn facts(summary: &Summary) -> Vec<(String, String)> {
-    let mut facts = Vec::new();
-    let mut put = |name: &str, value: String| facts.push((name.to_owned(), value));
-    if !summary.scene.is_empty() {
-        put("scene", summary.scene.clone());
-    }
-    put(
-        "engine",
-        format!("{} ({})", summary.engine, summary.plan.reason),
-    );
-    let last = &summary.last;
-    let error = summary.error_estimate;
-    let plus_minus = |value: f64, bound: Option<f64>, unit: &str| match bound {
-        Some(bound) => format!("{} +- {bound:.1e} {unit}", digits(value, bound)),
-        None => format!("{value} {unit}, error not estimated"),
-    };
-    put("end", format!("t = {} s", last.t_s));
-    put(
-        "  crank angle",
-        plus_minus(last.theta_rad, error.map(|e| e.theta_rad), "rad"),
-    );
-    put(
-        "  crank speed",
-        plus_minus(
-            last.omega_rad_per_s,
-            error.map(|e| e.omega_rad_per_s),
-            "rad/s",
-        ),
-    );
-    put("turns", format!("{}", summary.revolutions));
-    put(
-        "crank speed",
-        format!(
-            "{} to {} rad/s",
-            bound(summary.omega_min),
-            bound(summary.omega_max)
-        ),
-    );
+/// What there is to say of a run.
+pub(super) fn facts(summary: &Summary) -> Facts {
+    let mut facts = Facts::of(&summary.scene);
+    let (engine, reason) = (&summary.engine, &summary.plan.reason);
+    facts.add("engine", format_args!("{engine} ({reason})"));
+    end(&mut facts, summary);
     if let Some(torque) = &summary.driving_torque {
-        put(
+        let TorqueRange {
+            min_nm,
+            max_nm,
+            mean_nm,
+        } = torque;
+        facts.add(
             "driving torque",
-            format!(
-                "{} to {} N m, mean {} N m",
-                torque.min_nm, torque.max_nm, torque.mean_nm
-            ),
+            format_args!("{min_nm} to {max_nm} N m, mean {mean_nm} N m"),
         );
     }
-    put(
+    let (relative, residual) = (summary.energy_residual, summary.energy_residual_j);
+    facts.add(
         "energy residual",
-        format!(
-            "{:.1e} of the largest energy ({:.1e} J)",
-            summary.energy_residual, summary.energy_residual_j
-        ),
+        format_args!("{relative:.1e} of the largest energy ({residual:.1e} J)"),
     );
-    put(
+    let (evaluations, steps) = (summary.evaluations, summary.steps);
+    let time = seconds(summary.wall_s);
+    facts.add(
         "cost",
-        format!(
-            "{} evaluations, {} steps, {}",
-            summary.evaluations,
-            summary.steps,
-            seconds(summary.wall_s)
-        ),
+        format_args!("{evaluations} evaluations, {steps} steps, {time}"),
     );
     if let Some(cost) = &summary.estimate_cost {
-        put(
+        let (evaluations, time) = (cost.evaluations, seconds(cost.wall_s));
+        facts.add(
             "  of the estimate",
-            format!("{} evaluations, {}", cost.evaluations, seconds(cost.wall_s)),
+            format_args!("{evaluations} evaluations, {time}"),
         );
     }
-    put("events", events(summary));
+    facts.add("events", events(summary));
     if let Some(joint) = &summary.clearance {
-        clearance(&mut put, joint);
+        clearance(&mut facts, joint);
     }
     if let Some(steady) = &summary.steady_state {
-        steady_state(&mut put, steady);
+        steady_state(&mut facts, steady);
     }
-    for warning in &summary.warnings {
-        put("warning", warning.clone());
-    }
+    facts.warnings(&summary.warnings);
     if let Some(stopped) = &summary.stopped {
-        put("stopped early", stopped.clone());
+        facts.add("stopped early", stopped);
     }
     facts
+}
+
+/// The last state, and the speeds on the way to it.
+fn end(facts: &mut Facts, summary: &Summary) {
+    let last = &summary.last;
+    let error = summary.error_estimate;
+    let shown = |value: f64, error: Option<f64>, unit: &str| match error {
+        Some(error) => with_error(value, error, unit),
+        None => format!("{value} {unit}, error not estimated"),
+    };
+    facts.add("end", format_args!("t = {} s", last.t_s));
+    let angle = shown(last.theta_rad, error.map(|e| e.theta_rad), "rad");
+    facts.add("  crank angle", angle);
+    let speed = shown(
+        last.omega_rad_per_s,
+        error.map(|e| e.omega_rad_per_s),
+        "rad/s",
+    );
+    facts.add("  crank speed", speed);
+    facts.add("turns", summary.revolutions);
+    let [least, largest] = [summary.omega_min, summary.omega_max].map(bound);
+    facts.add("crank speed", format_args!("{least} to {largest} rad/s"));
 }
 
 fn events(summary: &Summary) -> String {
@@ -129,15 +115,6 @@ fn events(summary: &Summary) -> String {
         }
     }
     text
-}
-
-/// A value with the digits that its error leaves, and no more.
-pub(super) fn digits(value: f64, error: f64) -> String {
-    if error == 0.0 {
-        return format!("{value}");
-    }
-    let places = (-error.log10()).ceil().clamp(0.0, 17.0) as usize;
-    format!("{value:.places$}")
 }
 
 fn bound(speed: f64) -> String {
@@ -183,75 +160,61 @@ pub(super) fn table(rows: &[Row]) -> String {
 
 /// Where a named position is, and why it has its name.
 pub(super) fn place(position: &NamedPosition) -> String {
-    let from = position.theta_rad.to_degrees();
-    let to = position
-        .to_rad
-        .map_or(String::new(), |to| format!(" to {}", to.to_degrees()));
+    let from = degrees(position.theta_rad);
+    let to = position.to_rad.map(degrees);
+    let to = to.map_or(String::new(), |to| format!(" to {to}"));
     format!("{from}{to} deg: {}", position.reason)
 }
 
+/// Where an extreme is.
+pub(super) fn extreme(found: &Located, unit: &str) -> String {
+    format!("{} {unit} at {} deg", found.value, degrees(found.theta_rad))
+}
+
 /// What the lengths give.
-pub(super) fn kinematics(result: &Kinematics) -> String {
-    let mut text = String::new();
-    let mut put = |name: &str, value: String| {
-        let _ = writeln!(text, "{name:<22} {value}");
-    };
-    if !result.scene.is_empty() {
-        put("scene", result.scene.clone());
-    }
-    put("class", result.class.to_owned());
-    put("stroke", format!("{} m", result.stroke_m));
+pub(super) fn kinematics(result: &Kinematics) -> Facts {
+    let mut facts = Facts::of(&result.scene);
+    facts.add("class", result.class);
+    facts.add("stroke", format_args!("{} m", result.stroke_m));
     for dead_centre in &result.dead_centres {
-        put(
-            &format!("{} dead centre", dead_centre.kind),
-            format!(
-                "{} deg, x = {} m",
-                dead_centre.theta_rad.to_degrees(),
-                dead_centre.x_m
-            ),
+        let (angle, x) = (degrees(dead_centre.theta_rad), dead_centre.x_m);
+        facts.add(
+            format_args!("{} dead centre", dead_centre.kind),
+            format_args!("{angle} deg, x = {x} m"),
         );
     }
     if let (Some(advance), Some(back), Some(ratio)) =
         (result.advance_rad, result.return_rad, result.time_ratio)
     {
-        put("outward stroke", format!("{} deg", advance.to_degrees()));
-        put("inward stroke", format!("{} deg", back.to_degrees()));
-        put("time ratio", format!("{ratio}"));
+        facts.add("outward stroke", format_args!("{} deg", degrees(advance)));
+        facts.add("inward stroke", format_args!("{} deg", degrees(back)));
+        facts.add("time ratio", ratio);
     }
-    for [from, to] in &result.reach_rad {
-        put(
-            "reachable crank angles",
-            format!("{} to {} deg", from.to_degrees(), to.to_degrees()),
-        );
+    for reach in &result.reach_rad {
+        let [from, to] = reach.map(degrees);
+        facts.add("reachable crank angles", format_args!("{from} to {to} deg"));
     }
     for position in &result.positions {
         if position.kind != "dead-centre" {
-            put(position.kind, place(position));
+            facts.add(position.kind, place(position));
         }
     }
-    put(
-        "least transmission",
-        format!("{} deg", result.transmission_min_rad.to_degrees()),
-    );
+    let transmission = degrees(result.transmission_min_rad);
+    facts.add("least transmission", format_args!("{transmission} deg"));
     let units = match result.speed_rad_per_s {
         Some(_) => ["m/s", "m/s2"],
         None => ["m/rad", "m/rad2"],
     };
-    for (name, extreme, unit) in [
+    for (name, found, unit) in [
         ("largest velocity", result.velocity_max, units[0]),
         ("smallest velocity", result.velocity_min, units[0]),
         ("largest acceleration", result.acceleration_max, units[1]),
         ("smallest acceleration", result.acceleration_min, units[1]),
     ] {
-        if let Some(Located { value, theta_rad }) = extreme {
-            put(
-                name,
-                format!("{value} {unit} at {} deg", theta_rad.to_degrees()),
-            );
+        if let Some(found) = found {
+            facts.add(name, extreme(&found, unit));
         }
     }
-    for warning in &result.warnings {
-        put("warning", warning.clone());
-    }
-    text
+    facts.warnings(&result.warnings);
+    facts
 }

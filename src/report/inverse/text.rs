@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use crate::study::{AsPrinted, ForceRange, Inverse};
+use crate::report::facts::Facts;
+use crate::study::{AsPrinted, FitSummary, ForceRange, Inverse};
 
 /// Rows of the table.
 const ROWS: usize = 16;
@@ -10,62 +11,29 @@ const ROWS: usize = 16;
 /// Summary and some rows, with the forces as Duarte et al. print them if given.
 pub fn inverse(result: &Inverse, printed: Option<&AsPrinted>) -> String {
     let summary = &result.summary;
-    let mut text = String::new();
-    let mut put = |name: &str, value: String| {
-        let _ = writeln!(text, "{name:<22} {value}");
-    };
-    if !summary.scene.is_empty() {
-        put("scene", summary.scene.clone());
-    }
+    let mut facts = Facts::of(&summary.scene);
     let data = &summary.data;
-    put(
+    facts.add(
         "data",
-        format!(
+        format_args!(
             "{} samples of {} from {} to {} s, {:.4} turns",
             data.rows, data.column, data.from_s, data.to_s, data.revolutions
         ),
     );
-    let fit = &summary.fit;
-    put(
-        "fit",
-        format!(
-            "{}, degree {}, {:.4} parameters",
-            fit.kind, fit.degree, fit.parameters
-        ),
-    );
-    if fit.kind != "spline" {
-        for (power, (c, e)) in fit
-            .coefficients
-            .iter()
-            .zip(&fit.standard_errors)
-            .enumerate()
-        {
-            let value = match (c, e) {
-                (Some(c), Some(e)) => format!("{c:.15e} +- {e:.2e}"),
-                _ => "no digits in plain time".to_owned(),
-            };
-            put(&format!("  coefficient {power}"), value);
-        }
+    fit(&mut facts, &summary.fit, data.unit);
+    match &summary.slider_force {
+        Some(force) => facts.add("slider force", range(force, "N")),
+        None => facts.add("slider force", "not determined at any sample"),
     }
-    put("  R^2", format!("{:.9}", fit.r_squared));
-    put("  residual rms", format!("{:.6e} {}", fit.rms, data.unit));
-    if let Some(condition) = fit.condition {
-        put("  condition", format!("{condition:.3e}"));
-    }
-    if let Some(force) = &summary.slider_force {
-        put("slider force", range(force, "N"));
-    } else {
-        put("slider force", "not determined at any sample".to_owned());
-    }
-    put("crank torque", range(&summary.crank_torque, "N m"));
-    put(
+    facts.add("crank torque", range(&summary.crank_torque, "N m"));
+    facts.add(
         "95 % band",
-        format!("+- {:.4} standard errors", summary.band_factor),
+        format_args!("+- {:.4} standard errors", summary.band_factor),
     );
     for band in &summary.dead_centre_bands {
-        put(
+        facts.add(
             "no slider force",
-            format!(
+            format_args!(
                 "t = {} to {} s, theta = {:.4} to {:.4} deg, {} rows: {}",
                 band.from_s,
                 band.to_s,
@@ -76,11 +44,33 @@ pub fn inverse(result: &Inverse, printed: Option<&AsPrinted>) -> String {
             ),
         );
     }
-    for warning in &summary.warnings {
-        put("warning", warning.clone());
-    }
+    facts.warnings(&summary.warnings);
+    let mut text = facts.lines(22);
     table(&mut text, result, printed);
     text
+}
+
+fn fit(facts: &mut Facts, fit: &FitSummary, unit: &str) {
+    let (kind, degree, parameters) = (fit.kind, fit.degree, fit.parameters);
+    facts.add(
+        "fit",
+        format_args!("{kind}, degree {degree}, {parameters:.4} parameters"),
+    );
+    if kind != "spline" {
+        let errors = fit.standard_errors.iter();
+        for (power, (c, e)) in fit.coefficients.iter().zip(errors).enumerate() {
+            let value = match (c, e) {
+                (Some(c), Some(e)) => format!("{c:.15e} +- {e:.2e}"),
+                _ => "no digits in plain time".to_owned(),
+            };
+            facts.add(format_args!("  coefficient {power}"), value);
+        }
+    }
+    facts.add("  R^2", format_args!("{:.9}", fit.r_squared));
+    facts.add("  residual rms", format_args!("{:.6e} {unit}", fit.rms));
+    if let Some(condition) = fit.condition {
+        facts.add("  condition", format_args!("{condition:.3e}"));
+    }
 }
 
 fn range(range: &ForceRange, unit: &str) -> String {

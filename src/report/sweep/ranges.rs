@@ -7,6 +7,7 @@ use std::ops::Range;
 use serde::Serialize;
 
 use super::columns::{before_figures, header};
+use crate::report::facts::Facts;
 use crate::report::shortest_number;
 use crate::study::Sweep;
 
@@ -148,13 +149,7 @@ impl SweepSummary {
 
 /// What a sweep found, in words and a table of the ranges.
 pub fn sweep_text(summary: &SweepSummary) -> String {
-    let mut text = String::new();
-    let mut put = |name: &str, value: String| {
-        let _ = writeln!(text, "{name:<17} {value}");
-    };
-    if !summary.scene.is_empty() {
-        put("scene", summary.scene.clone());
-    }
+    let mut facts = Facts::of(&summary.scene);
     for one in &summary.varied {
         let VariedKey {
             key,
@@ -162,9 +157,9 @@ pub fn sweep_text(summary: &SweepSummary) -> String {
             first,
             last,
         } = one;
-        put(
+        facts.add(
             "varied",
-            format!("{key}: {first} to {last}, {count} values"),
+            format_args!("{key}: {first} to {last}, {count} values"),
         );
     }
     let [from, to] = summary.part;
@@ -172,14 +167,15 @@ pub fn sweep_text(summary: &SweepSummary) -> String {
         true => String::new(),
         false => format!(", of these {from} to {to}"),
     };
-    put("designs", format!("{}{part}", summary.designs));
+    facts.add("designs", format_args!("{}{part}", summary.designs));
     for (status, count) in &summary.status {
-        put(&format!("  {status}"), count.to_string());
+        facts.add(format_args!("  {status}"), count);
     }
     if summary.taken_up > 0 {
-        put("  there already", summary.taken_up.to_string());
+        facts.add("  there already", summary.taken_up);
     }
-    put("time", format!("{:.3} s", summary.wall_s));
+    facts.add("time", format_args!("{:.3} s", summary.wall_s));
+    let mut text = facts.lines(17);
     let _ = writeln!(
         text,
         "\n{:<26} {:>24} {:>10} {:>24} {:>10}",
