@@ -1,12 +1,12 @@
 //! `inverse`: slider force and crank torque from a measured motion.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Outcome, Streams};
+use super::{Outcome, Streams, create, fill, is_standard};
 use crate::error::Error;
-use crate::report::{self, Output};
+use crate::report;
 use crate::scene::{Measured, Measurement, Reading};
 use crate::study::{self, AsPrinted, FitKind, FitSize, InverseOptions};
 
@@ -96,8 +96,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         &[arguments.residuals.as_ref(), arguments.plot.as_ref()],
         arguments.json,
     )?;
-    let standard = |path: &Option<PathBuf>| path.as_deref() == Some(Path::new("-"));
-    if standard(&arguments.scene) && standard(&arguments.data) {
+    if is_standard(arguments.scene.as_ref()) && is_standard(arguments.data.as_ref()) {
         return Err(Error::refused(
             "scene and data cannot both come from standard input",
             "give one of them as a file",
@@ -116,13 +115,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         .as_printed
         .then(|| AsPrinted::new(&scene))
         .transpose()?;
-    let out = arguments.out.as_deref().map(Output::create).transpose()?;
-    let residuals = arguments
-        .residuals
-        .as_deref()
-        .map(Output::create)
-        .transpose()?;
-    let plot = arguments.plot.as_deref().map(Output::create).transpose()?;
+    let out = create(arguments.out.as_ref())?;
+    let residuals = create(arguments.residuals.as_ref())?;
+    let plot = create(arguments.plot.as_ref())?;
     let mut result = study::inverse(&scene, &measurement, &options)?;
     let of_printed = printed.as_ref().and_then(AsPrinted::warning);
     result.summary.warnings.extend(of_printed);
@@ -132,10 +127,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     if let Some(output) = residuals {
         report::residuals(&result, output)?;
     }
-    if let Some(mut output) = plot {
-        output.write(report::inverse_figure(&result, printed.as_ref())?.as_bytes())?;
-        output.finish()?;
-    }
+    fill(plot, || report::inverse_figure(&result, printed.as_ref()))?;
     streams.show(&result.summary, || {
         report::inverse(&result, printed.as_ref())
     })?;

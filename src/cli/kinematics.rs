@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
-    Outcome, Streams, angle, check_rows_of_turn, length, positive_angle, quantity, say, write_text,
+    Outcome, Streams, angle, check_rows_of_turn, create, fill, length, positive_angle, quantity,
+    say,
 };
 use crate::error::Error;
-use crate::report::{self, Output, TurnWriter};
+use crate::report::{self, TurnWriter};
 use crate::scene::unit::Quantity;
 use crate::study::{self, Length, TurnOptions};
 
@@ -67,16 +68,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         say(&format!("sized: crank {crank} m, rod {rod} m"));
     }
     let result = study::one_turn(&scene, &arguments.options())?;
-    if let Some(path) = &arguments.out {
-        let mut writer = TurnWriter::new(Output::create(path)?, &result)?;
+    if let Some(output) = create(arguments.out.as_ref())? {
+        let mut writer = TurnWriter::new(output, &result)?;
         for row in result.rows(arguments.every) {
             writer.row(&row)?;
         }
         writer.finish()?;
     }
-    if let Some(path) = &arguments.plot {
-        write_text(path, &report::turn_figure(&result)?)?;
-    }
+    let plot = create(arguments.plot.as_ref())?;
+    fill(plot, || report::turn_figure(&result))?;
     streams.show(&result, || report::turn(&result))?;
     Ok(Outcome::Done)
 }

@@ -21,7 +21,7 @@ use clap::{Parser, Subcommand};
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::scene::unit::{self, Quantity};
-use streams::{Streams, check_files, is_standard, print, say, write_text};
+use streams::{Streams, check_files, create, fill, is_standard, print, say};
 
 /// Dynamics of the offset slider-crank from its Lagrange equation.
 #[derive(Debug, Parser)]

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Outcome, check_files, is_standard, print, say, scene};
+use super::{Outcome, check_files, create, fill, is_standard, print, say, scene};
 use crate::error::Error;
-use crate::report::{self, Output};
+use crate::report;
 use crate::scene::Scene;
 use crate::study::{self, Precision, PrecisionOptions};
 
@@ -29,7 +29,7 @@ pub(super) struct Arguments {
     #[arg(long)]
     json: bool,
     /// Timed runs of each method at each tolerance
-    #[arg(long, value_name = "COUNT", default_value_t = PrecisionOptions::default().repeats)]
+    #[arg(long, value_name = "COUNT", default_value_t = PrecisionOptions::default().repeats, value_parser = clap::value_parser!(u32).range(1..))]
     repeats: u32,
     /// Most time for repeated runs of one scene, in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = PrecisionOptions::default().most_s)]
@@ -46,56 +46,85 @@ fn tolerance(text: &str) -> Result<f64, String> {
     }
 }
 
+impl Arguments {
+    fn options(&self) -> PrecisionOptions {
+        let mut options = PrecisionOptions {
+            repeats: self.repeats,
+            most_s: self.most_time,
+            max_evaluations: self.max_evaluations,
+            ..PrecisionOptions::default()
+        };
+        if !self.tolerances.is_empty() {
+            options.tolerances.clone_from(&self.tolerances);
+        }
+        options
+    }
+
+    /// Whether text goes to standard output, for nothing else does.
+    fn text_on_stdout(&self) -> Result<bool, Error> {
+        let others = [
+            is_standard(self.out.as_ref()),
+            is_standard(self.plot.as_ref()),
+            self.json,
+        ];
+        match others.into_iter().filter(|taken| *taken).count() {
+            0 => Ok(true),
+            1 => Ok(false),
+            _ => Err(Error::refused(
+                "more than one of rows, figure and JSON would go to standard output",
+                "write to files: --out rows.csv --plot figure.svg",
+            )),
+        }
+    }
+}
+
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
-    let [rows_on_stdout, plot_on_stdout] =
-        [&arguments.out, &arguments.plot].map(|path| is_standard(path.as_ref()));
-    if [rows_on_stdout, plot_on_stdout, arguments.json]
-        .iter()
-        .filter(|taken| **taken)
-        .count()
-        > 1
-    {
-        return Err(Error::refused(
-            "more than one of rows, figure and JSON would go to standard output",
-            "write to files: --out rows.csv --plot figure.svg",
-        ));
-    }
-    let mut options = PrecisionOptions {
-        repeats: arguments.repeats,
-        most_s: arguments.most_time,
-        max_evaluations: arguments.max_evaluations,
-        ..PrecisionOptions::default()
-    };
-    if !arguments.tolerances.is_empty() {
-        options.tolerances = arguments.tolerances.clone();
-    }
+    let text_on_stdout = arguments.text_on_stdout()?;
     let files = scene_files(&arguments.scenes)?;
     let scenes = scenes(&files)?;
     let tables = scenes.iter().flat_map(Scene::table_files);
     let read: Vec<&Path> = files.iter().map(PathBuf::as_path).chain(tables).collect();
     let written = [&arguments.out, &arguments.plot].into_iter().flatten();
     check_files(&read, &written.cloned().collect::<Vec<_>>())?;
-    let create = |path: &Option<PathBuf>| path.as_deref().map(Output::create).transpose();
-    let (rows, plot) = (create(&arguments.out)?, create(&arguments.plot)?);
-    let text_on_stdout = !(rows_on_stdout || plot_on_stdout || arguments.json);
+    let rows = create(arguments.out.as_ref())?;
+    let plot = create(arguments.plot.as_ref())?;
+    let results = compare(&scenes, &arguments.options(), text_on_stdout)?;
+    fill(rows, || report::precision_csv(&results))?;
+    fill(plot, || report::precision_figure(&results))?;
+    if arguments.json {
+        print(&report::json(&serde_json::json!({ "scenes": results }))?)?;
+    }
+    let failed = results.iter().filter(|result| !result.has_results());
+    Ok(match failed.count() {
+        0 => Outcome::Done,
+        failed => Outcome::Incomplete(format!(
+            "{failed} of {} scenes cannot be computed to their end; their rows are empty",
+            scenes.len()
+        )),
+    })
+}
+
+/// Compares the methods on each scene, and shows each comparison when it is there.
+fn compare(
+    scenes: &[Scene],
+    options: &PrecisionOptions,
+    text_on_stdout: bool,
+) -> Result<Vec<Precision>, Error> {
     let mut results = Vec::new();
-    let mut failed = 0;
     for (number, scene) in scenes.iter().enumerate() {
         if scenes.len() > 1 && std::io::stderr().is_terminal() {
             let title = scene.title.as_deref().unwrap_or_default();
             say(&format!("{} of {}: {title}", number + 1, scenes.len()));
         }
-        let result = match study::precision(scene, &options) {
+        let result = match study::precision(scene, options) {
             Err(error @ Error::Refused { .. }) if scenes.len() > 1 => {
                 Precision::refused(scene, &error)
             }
             result => result?,
         };
-        failed += usize::from(!result.has_results());
-        let gap = if number > 0 { "\n" } else { "" };
-        let text = format!("{gap}{}", report::precision(&result));
         if text_on_stdout {
-            print(&text)?;
+            let gap = if number > 0 { "\n" } else { "" };
+            print(&format!("{gap}{}", report::precision(&result)))?;
         } else {
             for note in report::precision_notes(&result) {
                 say(&format!("note: {}: {note}", result.scene));
@@ -103,26 +132,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         }
         results.push(result);
     }
-    write(rows, || report::precision_csv(&results))?;
-    write(plot, || report::precision_figure(&results))?;
-    if arguments.json {
-        print(&report::json(&serde_json::json!({ "scenes": results }))?)?;
-    }
-    Ok(match failed {
-        0 => Outcome::Done,
-        _ => Outcome::Incomplete(format!(
-            "{failed} of {} scenes cannot be computed to their end; their rows are empty",
-            scenes.len()
-        )),
-    })
-}
-
-fn write(output: Option<Output>, text: impl Fn() -> Result<String, Error>) -> Result<(), Error> {
-    let Some(mut output) = output else {
-        return Ok(());
-    };
-    output.write(text()?.as_bytes())?;
-    output.finish()
+    Ok(results)
 }
 
 /// The scenes of files; without any the built-in one.

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Outcome, print, say, write_text};
+use super::{Outcome, print, say};
 use crate::error::Error;
-use crate::report::{self, ReproductionSummary};
+use crate::report::{self, Output, ReproductionSummary};
 use crate::study::{self, Paper};
 
 /// Arguments of `reproduce`.
@@ -55,7 +55,7 @@ fn write_files(folder: &Path, result: &study::Reproduction) -> Result<usize, Err
         target: folder.display().to_string(),
         source,
     })?;
-    let write = |name: String, text: String| write_text(&folder.join(name), &text);
+    let write = |name: String, text: String| Output::create(&folder.join(name))?.text(&text);
     write("numbers.csv".to_owned(), report::reproduction_csv(result)?)?;
     for drawing in &result.drawings {
         let name = report::file_name(drawing);

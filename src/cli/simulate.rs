@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Outcome, Streams};
+use super::{Outcome, Streams, create, fill};
 use crate::error::Error;
 use crate::plan::Method;
-use crate::report::{self, Output, PlotRows, Preview, RowWriter};
+use crate::report::{self, PlotRows, Preview, RowWriter};
 use crate::study::{self, Options, Row, RowSink, SteadyOptions};
 
 /// Arguments of `simulate`.
@@ -82,10 +82,23 @@ impl RowSink for Rows {
     }
 }
 
-fn steady_options(arguments: &Arguments) -> SteadyOptions {
-    SteadyOptions {
-        fluctuation: arguments.fluctuation,
-        max_evaluations: arguments.max_evaluations,
+impl Arguments {
+    fn options(&self) -> Options {
+        Options {
+            method: self.method,
+            reactions: self.reactions,
+            driving_torque: self.torque,
+            estimate: !self.no_estimate,
+            max_evaluations: self.max_evaluations,
+            events_kept: self.max_events,
+        }
+    }
+
+    fn steady_options(&self) -> SteadyOptions {
+        SteadyOptions {
+            fluctuation: self.fluctuation,
+            max_evaluations: self.max_evaluations,
+        }
     }
 }
 
@@ -100,54 +113,37 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     if let Some(tolerance) = arguments.tolerance {
         scene.run.tolerance = tolerance;
     }
-    let options = Options {
-        method: arguments.method,
-        reactions: arguments.reactions,
-        driving_torque: arguments.torque,
-        estimate: !arguments.no_estimate,
-        max_evaluations: arguments.max_evaluations,
-        events_kept: arguments.max_events,
-    };
     let steady = arguments
         .steady_state
-        .then(|| study::steady_state(&scene, &steady_options(arguments)))
+        .then(|| study::steady_state(&scene, &arguments.steady_options()))
         .transpose()?;
     if let Some(steady) = &steady {
         scene = steady.start(&scene);
     }
-    let output = arguments.out.as_deref().map(Output::create).transpose()?;
-    let figure = arguments.plot.as_deref().map(Output::create).transpose()?;
-    let page = arguments.report.as_deref().map(Output::create);
-    let page = page.transpose()?;
+    let output = create(arguments.out.as_ref())?;
+    let figure = create(arguments.plot.as_ref())?;
+    let page = create(arguments.report.as_ref())?;
     let mut rows = Rows {
         plot: (figure.is_some() || page.is_some()).then(PlotRows::default),
         writer: output.map(RowWriter::new),
         preview: (streams.text_on_stdout() || page.is_some()).then(Preview::default),
     };
-    let result = study::simulate_rows(&scene, &options, &mut rows)?;
+    let result = study::simulate_rows(&scene, &arguments.options(), &mut rows)?;
     if let Some(writer) = rows.writer {
         writer.finish()?;
     }
     let mut summary = result.summary;
     summary.steady_state = steady;
-    if let (Some(mut figure), Some(plot)) = (figure, &rows.plot) {
-        figure.write(plot.to_svg(&summary)?.as_bytes())?;
-        figure.finish()?;
+    let preview = rows.preview.map_or(Vec::new(), |preview| preview.rows());
+    if let Some(plot) = &rows.plot {
+        fill(figure, || plot.to_svg(&summary))?;
+        fill(page, || report::page(&summary, &preview, plot))?;
     }
-    let preview = rows.preview.map(|preview| preview.rows());
-    let preview = preview.unwrap_or_default();
-    if let (Some(mut page), Some(plot)) = (page, &rows.plot) {
-        page.write(report::page(&summary, &preview, plot)?.as_bytes())?;
-        page.finish()?;
-    }
-    streams.show(&summary, || {
-        let preview = if streams.text_on_stdout() {
-            &preview[..]
-        } else {
-            &[]
-        };
-        report::summary(&summary, preview)
-    })?;
+    let shown = match streams.text_on_stdout() {
+        true => &preview[..],
+        false => &[],
+    };
+    streams.show(&summary, || report::summary(&summary, shown))?;
     Ok(match summary.stopped {
         Some(message) => Outcome::Incomplete(message),
         None => Outcome::Done,

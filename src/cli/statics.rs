@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
-    Outcome, Streams, angle, check_rows_of_turn, length, positive_angle, print, quantity,
-    write_text,
+    Outcome, Streams, angle, check_rows_of_turn, create, fill, length, positive_angle, print,
+    quantity,
 };
 use crate::error::Error;
-use crate::report::{self, Output, StaticsWriter};
+use crate::report::{self, StaticsWriter};
 use crate::scene::unit::Quantity;
 use crate::study::{self, StaticsOptions};
 
@@ -120,17 +120,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         &streams.scene(arguments.scene.as_ref())?,
         &arguments.options(),
     )?;
-    if let Some(path) = &arguments.out {
-        let output = Output::create(path)?;
+    if let Some(output) = create(arguments.out.as_ref())? {
         let mut writer = StaticsWriter::new(output, &result, arguments.details)?;
         for row in result.rows(arguments.every) {
             writer.row(&row)?;
         }
         writer.finish()?;
     }
-    if let Some(path) = &arguments.plot {
-        write_text(path, &report::statics_figure(&result)?)?;
-    }
+    let plot = create(arguments.plot.as_ref())?;
+    fill(plot, || report::statics_figure(&result))?;
     streams.show(&result, || report::statics(&result))?;
     Ok(Outcome::Done)
 }

@@ -30,7 +30,7 @@ impl Streams {
         let rows_on_stdout = is_standard(rows);
         if files.iter().any(|file| is_standard(*file)) {
             return Err(Error::refused(
-                "a figure or residuals would go to standard output, where the summary is",
+                "a figure, a page or residuals would go to standard output, where the summary is",
                 "write them to files, like --plot figure.svg",
             ));
         }
@@ -140,14 +140,18 @@ pub(super) fn say(message: &str) {
 
 /// Writes a text to standard output.
 pub(super) fn print(text: &str) -> Result<(), Error> {
-    let mut output = Output::standard();
-    output.write(text.as_bytes())?;
-    output.finish()
+    Output::standard().text(text)
 }
 
-/// Writes a text to a file, `-` for standard output.
-pub(super) fn write_text(path: &Path, text: &str) -> Result<(), Error> {
-    let mut output = Output::create(path)?;
-    output.write(text.as_bytes())?;
-    output.finish()
+/// Opens an output that may be asked for, `-` for standard output.
+pub(super) fn create(path: Option<&PathBuf>) -> Result<Option<Output>, Error> {
+    path.map(|path| Output::create(path)).transpose()
+}
+
+/// Writes a text to an output that may be asked for.
+pub(super) fn fill(
+    output: Option<Output>,
+    text: impl FnOnce() -> Result<String, Error>,
+) -> Result<(), Error> {
+    output.map_or(Ok(()), |output| output.text(&text()?))
 }

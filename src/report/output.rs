@@ -83,11 +83,6 @@ impl Output {
         }
     }
 
-    /// Whether it is standard output.
-    pub fn is_standard(&self) -> bool {
-        matches!(self.stream, Stream::Standard(_))
-    }
-
     /// Writes bytes.
     ///
     /// # Errors
@@ -99,6 +94,15 @@ impl Output {
             Stream::File { writer, .. } => writer.write_all(bytes),
         };
         result.map_err(|source| self.error(source))
+    }
+
+    /// Writes a text that is all there is to write.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn text(mut self, text: &str) -> Result<(), Error> {
+        self.write(text.as_bytes())?;
+        self.finish()
     }
 
     /// Completes the output; a file gets its name now.
