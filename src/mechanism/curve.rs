@@ -68,11 +68,6 @@ impl Place {
     pub fn phi(&self) -> f64 {
         self.rod_sin.atan2(self.rod_cos.abs())
     }
-
-    /// Whether all of it is finite.
-    pub fn exists(&self) -> bool {
-        self.d2x.is_finite()
-    }
 }
 
 /// Below this the rod counts as standing normal to the guide, as cos Φ.
@@ -130,11 +125,6 @@ impl Curve {
     /// The linkage.
     pub fn linkage(&self) -> &Linkage {
         &self.linkage
-    }
-
-    /// Whether the coordinate is the crank angle.
-    pub fn is_crank_angle(&self) -> bool {
-        self.chart == Chart::Crank
     }
 
     /// What the coordinate is.

@@ -66,18 +66,6 @@ pub enum RodModel {
     Massless,
 }
 
-impl RodModel {
-    /// Its name in scene files.
-    pub fn name(self) -> &'static str {
-        match self {
-            RodModel::Rigid => "rigid",
-            RodModel::TwoMass => "two-mass",
-            RodModel::SpinOnly => "spin-only",
-            RodModel::Massless => "massless",
-        }
-    }
-}
-
 /// Mass of the slider.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Slider {

@@ -31,14 +31,6 @@ impl Branch {
             Branch::Left => -1.0,
         }
     }
-
-    /// Its name in scene files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Branch::Right => "right",
-            Branch::Left => "left",
-        }
-    }
 }
 
 /// A uniform gravity field.

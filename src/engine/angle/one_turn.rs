@@ -29,8 +29,6 @@ pub struct Cycle {
     pub multiplier_error: f64,
     /// Whether the motion from the first speed approaches it.
     pub approached: bool,
-    /// How often the loads were evaluated.
-    pub evaluations: u64,
 }
 
 /// One turn from `angle` with `speed` (rad/s), whether it is periodic or not.
@@ -138,7 +136,6 @@ impl<'a, D: Driven> Turns<'a, D> {
             multiplier: 1.0,
             multiplier_error: 0.0,
             approached: true,
-            evaluations: self.march.evaluations,
         })
     }
 }

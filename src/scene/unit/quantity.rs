@@ -40,26 +40,6 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// Every quantity, in the order of the enum.
-    pub const ALL: [Quantity; 16] = [
-        Quantity::Length,
-        Quantity::Mass,
-        Quantity::Inertia,
-        Quantity::Angle,
-        Quantity::AngularSpeed,
-        Quantity::Acceleration,
-        Quantity::Time,
-        Quantity::Force,
-        Quantity::Torque,
-        Quantity::RotaryDamping,
-        Quantity::LinearDamping,
-        Quantity::Stiffness,
-        Quantity::Pressure,
-        Quantity::Density,
-        Quantity::Velocity,
-        Quantity::Number,
-    ];
-
     fn facts(self) -> (&'static str, Dimension, &'static str) {
         match self {
             Self::Length => ("a length", [1, 0, 0, 0], "\"47 mm\", \"0.047 m\", \"2 in\""),
