@@ -95,23 +95,26 @@ fn a_longer_run_with_rows_takes_no_more_memory() {
     assert!(long <= short + 8, "{short} and {long}");
 }
 
+/// Allocations of a run of so many turns by this engine, without estimate and events.
+fn of_turns(scene: &Scene, turns: f64, engine: &str) -> u64 {
+    let scene = scene.clone().revolutions(turns);
+    let options = Options {
+        estimate: false,
+        events_kept: 0,
+        ..Options::default()
+    };
+    let run = || slider_crank::study::simulate(&scene, &options).unwrap();
+    assert_eq!(run().summary.engine, engine);
+    measure(|| assert!(run().summary.evaluations > 0)).count_total
+}
+
 /// Turns over the crank angle: their series are kept in one list, which doubles when it is full.
 #[test]
 fn turns_take_no_memory_but_their_place_in_the_list() {
-    let allocations = |turns: f64| {
-        let scene = Scene::duarte()
-            .torque(Load::Constant(1.0))
-            .torque(Load::Viscous(0.01))
-            .revolutions(turns);
-        let options = Options {
-            estimate: false,
-            events_kept: 0,
-            ..Options::default()
-        };
-        let run = || slider_crank::study::simulate(&scene, &options).unwrap();
-        assert_eq!(run().summary.engine, "angle");
-        measure(|| assert!(run().summary.evaluations > 0)).count_total
-    };
+    let scene = Scene::duarte()
+        .torque(Load::Constant(1.0))
+        .torque(Load::Viscous(0.01));
+    let allocations = |turns: f64| of_turns(&scene, turns, "angle");
     let (few, more) = (allocations(5.0), allocations(40.0));
     // 70 panels more: a handful of lists that double a few times.
     assert!(more <= few + 16, "{few} {more}");
@@ -123,19 +126,8 @@ fn turns_take_no_memory_but_their_place_in_the_list() {
 /// Turns that gain the same work each are summed: a few cells of the energy more for a hundred times the turns.
 #[test]
 fn turns_under_a_constant_torque_take_no_memory_each() {
-    let allocations = |turns: f64| {
-        let scene = Scene::duarte()
-            .torque(Load::Constant(1.0))
-            .revolutions(turns);
-        let options = Options {
-            estimate: false,
-            events_kept: 0,
-            ..Options::default()
-        };
-        let run = || slider_crank::study::simulate(&scene, &options).unwrap();
-        assert_eq!(run().summary.engine, "energy");
-        measure(|| assert!(run().summary.evaluations > 0)).count_total
-    };
+    let scene = Scene::duarte().torque(Load::Constant(1.0));
+    let allocations = |turns: f64| of_turns(&scene, turns, "energy");
     let (many, most) = (allocations(1e4), allocations(1e6));
     assert!(most <= 4 * many, "{many} {most}");
     let (few, half) = (allocations(4e5), allocations(8e5));

@@ -16,13 +16,10 @@ fn commands(folder: &Folder) -> Vec<String> {
 
 #[test]
 fn the_commands_of_this_version_are_listed() {
-    let found = commands(&Folder::new());
-    for command in ["simulate", "kinematics", "explain", "check", "schema"] {
-        assert!(
-            found.iter().any(|name| name == command),
-            "no {command} in {found:?}"
-        );
-    }
+    let mut found = commands(&Folder::new());
+    found.sort();
+    let all = "check explain inverse kinematics precision reproduce schema simulate statics sweep";
+    assert_eq!(found.join(" "), all);
 }
 
 /// Lines of a help text that introduce an argument, and whether a help follows: on the same line after
@@ -97,6 +94,7 @@ fn what_no_command_takes_is_refused() {
         (&["simulate", "--tolerance", "small"], "small"),
         (&["simulate", "--max-evaluations", "1.5"], "1.5"),
         (&["simulate", "--max-events", "-1"], "-1"),
+        (&["precision", "--repeats", "0"], "--repeats"),
     ] {
         folder.run(arguments).fails(2, &[word]);
     }
@@ -167,5 +165,19 @@ fn a_method_that_cannot_serve_the_scene_is_refused_with_the_reason() {
         for method in ["auto", "time", "dop853", "dopri5"] {
             run("free.toml", method).done();
         }
+    }
+}
+
+#[test]
+fn explain_names_the_stepper_and_whose_it_is() {
+    let folder = Folder::new();
+    for (method, stepper) in [
+        ("time", "Gauss collocation"),
+        ("dop853", "Dop853 of ode_solvers"),
+        ("dopri5", "Dopri5 of ode_solvers"),
+    ] {
+        let said = folder.run(&["explain", "--method", method]).done().stdout;
+        let line = said.lines().find(|line| line.contains("stepper"));
+        assert!(line.is_some_and(|line| line.contains(stepper)), "{said}");
     }
 }

@@ -225,8 +225,7 @@ impl Folder {
     pub fn run_with_input(&self, arguments: &[&str], input: &str) -> Outcome {
         let mut child = self.start(arguments);
         give(&mut child, input);
-        let output = child.wait_with_output().expect("the program ends");
-        read_outcome(output)
+        ended(child)
     }
 
     /// Started, with all three streams as pipes.
@@ -268,6 +267,11 @@ pub fn give(child: &mut Child, input: &str) {
 
 pub fn outcome(command: &mut Command) -> Outcome {
     read_outcome(command.output().expect("the program starts"))
+}
+
+/// What a program that was started said, and how it ended.
+pub fn ended(child: Child) -> Outcome {
+    read_outcome(child.wait_with_output().expect("the program ends"))
 }
 
 fn read_outcome(output: std::process::Output) -> Outcome {

@@ -174,20 +174,9 @@ fn what_cannot_be_meant_is_refused() {
         (&["--every", "1e-9 deg"], &["rows"]),
         (&["--out", "-", "--json"], &["standard output"]),
     ] {
-        let arguments = [&["statics", "scene.toml"][..], arguments].concat();
-        let outcome = folder.run(&arguments);
-        assert_eq!(
-            (outcome.code, outcome.stdout.as_str()),
-            (Some(2), ""),
-            "{arguments:?}"
-        );
-        for word in words {
-            assert!(
-                outcome.stderr.contains(word),
-                "{word} in {}",
-                outcome.stderr
-            );
-        }
+        folder
+            .run(&[&["statics", "scene.toml"][..], arguments].concat())
+            .fails(2, words);
     }
     folder
         .run(&["statics", "--calibration", "c.csv"])

@@ -1,9 +1,9 @@
 //! Standard input and output: data in pipes, talk on standard error, no escape codes, no harm in a closed pipe.
 
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader};
 use std::process::Stdio;
 
-use super::program::{Folder, Outcome, ROCKER, Rows, driven, free, give, outcome};
+use super::program::{Folder, Outcome, ROCKER, Rows, driven, ended, free, give, outcome};
 
 const GOOD: &str = "duration = \"0.1 s\"";
 
@@ -149,19 +149,7 @@ fn a_reader_that_leaves_is_no_error() {
         reader.read_line(&mut header).expect("a header");
         assert!(header.contains("theta_rad"), "{header}");
         drop(reader);
-        let mut said = String::new();
-        child
-            .stderr
-            .take()
-            .expect("a pipe")
-            .read_to_string(&mut said)
-            .expect("UTF-8");
-        assert_eq!(
-            child.wait().expect("an end").code(),
-            Some(0),
-            "{arguments:?}: {said}"
-        );
-        assert_eq!(said, "", "{arguments:?}");
+        ended(child).done();
     }
 }
 
@@ -183,21 +171,11 @@ fn a_reader_that_was_never_there_is_no_error() {
         let mut child = folder.start(arguments);
         drop(child.stdout.take());
         give(&mut child, &free(GOOD));
-        let mut said = String::new();
-        child
-            .stderr
-            .take()
-            .expect("a pipe")
-            .read_to_string(&mut said)
-            .expect("UTF-8");
-        assert_eq!(
-            child.wait().expect("an end").code(),
-            Some(0),
-            "{arguments:?}: {said}"
-        );
+        let Outcome { code, stderr, .. } = ended(child);
+        assert_eq!(code, Some(0), "{arguments:?}: {stderr}");
         assert!(
-            !said.contains("panicked") && !said.contains("error"),
-            "{arguments:?}: {said}"
+            !stderr.contains("panicked") && !stderr.contains("error"),
+            "{arguments:?}: {stderr}"
         );
     }
 }

@@ -83,36 +83,37 @@ pub fn angle() -> impl Strategy<Value = f64> {
 
 /// All loads there are formulas for, as a scene takes them and as the test computes them.
 #[derive(Clone, Copy, Debug)]
-pub struct Drive([f64; 10]);
+pub struct Drive {
+    torque: f64,
+    rotary: f64,
+    stall: f64,
+    no_load: f64,
+    wave: f64,
+    force: f64,
+    stiffness: f64,
+    rest: f64,
+    linear: f64,
+    drag: f64,
+}
 
 impl Drive {
     pub fn add_to(&self, scene: Scene) -> Scene {
-        let [
-            torque,
-            rotary,
-            stall,
-            no_load,
-            wave,
-            force,
-            stiffness,
-            rest,
-            linear,
-            drag,
-        ] = self.0;
+        let Drive { wave, drag, .. } = *self;
+        let (stiffness, rest) = (self.stiffness, self.rest);
         scene
-            .torque(Load::Constant(torque))
-            .torque(Load::Viscous(rotary))
+            .torque(Load::Constant(self.torque))
+            .torque(Load::Viscous(self.rotary))
             .torque(Load::Motor {
-                stall,
-                no_load_speed: no_load,
+                stall: self.stall,
+                no_load_speed: self.no_load,
             })
             .torque(Load::function(
                 Variables::THETA.or(Variables::T),
                 move |now| wave * (2.0 * now.theta + now.t).sin(),
             ))
-            .force(Load::Constant(force))
+            .force(Load::Constant(self.force))
             .force(Load::Spring { stiffness, rest })
-            .force(Load::Viscous(linear))
+            .force(Load::Viscous(self.linear))
             .force(Load::function(Variables::X.or(Variables::V), move |now| {
                 drag * now.x * now.v.abs()
             }))
@@ -120,69 +121,54 @@ impl Drive {
 
     /// Torque and force.
     pub fn value(&self, t: f64, theta: f64, omega: f64, x: f64, v: f64) -> [f64; 2] {
-        let [
-            torque,
-            rotary,
-            stall,
-            no_load,
-            wave,
-            force,
-            stiffness,
-            rest,
-            linear,
-            drag,
-        ] = self.0;
         [
-            torque - rotary * omega + stall - stall / no_load * omega
-                + wave * (2.0 * theta + t).sin(),
-            force - stiffness * (x - rest) - linear * v + drag * x * v.abs(),
+            self.torque - self.rotary * omega + self.stall - self.stall / self.no_load * omega
+                + self.wave * (2.0 * theta + t).sin(),
+            self.force - self.stiffness * (x - self.rest) - self.linear * v
+                + self.drag * x * v.abs(),
         ]
     }
-}
 
-impl Drive {
     /// Torque and force of those whose work is not that of a potential: damping, the falling part of the
     /// motor line, and the functions.
     pub fn without_potential(&self, t: f64, theta: f64, omega: f64, x: f64, v: f64) -> [f64; 2] {
-        let [_, rotary, stall, no_load, wave, _, _, _, linear, drag] = self.0;
         [
-            -rotary * omega - stall / no_load * omega + wave * (2.0 * theta + t).sin(),
-            -linear * v + drag * x * v.abs(),
+            -self.rotary * omega - self.stall / self.no_load * omega
+                + self.wave * (2.0 * theta + t).sin(),
+            -self.linear * v + self.drag * x * v.abs(),
         ]
     }
 
     /// Potential of the others.
     pub fn potential(&self, theta: f64, x: f64) -> f64 {
-        let [torque, _, stall, _, _, force, stiffness, rest, ..] = self.0;
-        -(torque + stall) * theta - force * x + 0.5 * stiffness * (x - rest) * (x - rest)
+        let stretched = x - self.rest;
+        -(self.torque + self.stall) * theta - self.force * x
+            + 0.5 * self.stiffness * stretched * stretched
     }
 
     /// Sizes of the terms of torque and force, where x and x' are of these sizes.
     pub fn sizes(&self, x: f64, dx: f64, omega: f64) -> [f64; 2] {
-        let [
-            torque,
-            rotary,
-            stall,
-            no_load,
-            wave,
-            force,
-            stiffness,
-            rest,
-            linear,
-            drag,
-        ] = self.0.map(f64::abs);
         let (omega, v) = (omega.abs(), dx * omega.abs());
         [
-            torque + rotary * omega + stall + stall / no_load * omega + wave,
-            force + stiffness * (x + rest) + linear * v + drag * x * v,
+            self.torque.abs()
+                + self.rotary * omega
+                + self.stall
+                + self.stall / self.no_load * omega
+                + self.wave.abs(),
+            self.force.abs()
+                + self.stiffness * (x + self.rest.abs())
+                + self.linear * v
+                + self.drag.abs() * x * v,
         ]
     }
 
     /// Size of the energies of the potential, J, over a few turns.
     pub fn energy_size(&self, scene: &Scene) -> f64 {
-        let [torque, _, stall, _, _, force, stiffness, rest, ..] = self.0.map(f64::abs);
         let x = scene.geometry.crank + scene.geometry.rod;
-        20.0 * (torque + stall) + force * x + stiffness * (x + rest) * (x + rest)
+        let stretched = x + self.rest.abs();
+        20.0 * (self.torque.abs() + self.stall)
+            + self.force.abs() * x
+            + self.stiffness * stretched * stretched
     }
 }
 
@@ -201,7 +187,20 @@ fn drive() -> impl Strategy<Value = Drive> {
         positive(),
         any(),
     )
-        .prop_map(|(a, b, c, d, e, f, g, h, i, j)| Drive([a, b, c, d, e, f, g, h, i, j]))
+        .prop_map(
+            |(torque, rotary, stall, no_load, wave, force, stiffness, rest, linear, drag)| Drive {
+                torque,
+                rotary,
+                stall,
+                no_load,
+                wave,
+                force,
+                stiffness,
+                rest,
+                linear,
+                drag,
+            },
+        )
 }
 
 /// A mechanism with bodies and loads in a state of motion.
