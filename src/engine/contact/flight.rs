@@ -5,8 +5,13 @@ use super::step::{Dense, Stages};
 use super::{Contact, Phase, Sample};
 use crate::numeric::root;
 
-/// A step is looked at in so many pieces; in each the rate of the gap changes its sign at most once.
+/// A step is looked at in so many pieces.
 const PIECES: usize = 8;
+/// A piece is cut in two until it is this part of a step, or the cubic through its ends says that the gap stays open;
+/// in a piece as short as this the rate of the gap changes its sign at most once.
+const FINEST: f64 = 1.0 / 1024.0;
+/// The gap may be off the cubic by this times what it is off in the middle of a piece.
+const DOUBT: f64 = 4.0;
 
 impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     pub(super) fn fly(&mut self) -> Halt {
@@ -16,11 +21,12 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         self.flight_h = self.h;
         let after = self.model.gap(stages.end());
         let fastest = before.1.abs().max(after.1.abs());
-        if before.0.min(after.0) > 3.0 * h * fastest {
+        let bend = h * h * self.now.depth_acceleration.abs();
+        if before.0.min(after.0) > 3.0 * h * fastest + bend {
             return self.accept(stages, h);
         }
         let (dense, then) = self.inside(&mut stages);
-        match closing(self.model, &dense) {
+        match closing(self.model, &dense, h) {
             None => {
                 let end = self.snapped(*stages.end(), h);
                 self.accept_to(&stages, end, then)
@@ -120,37 +126,77 @@ pub(super) fn nudged<const N: usize>(
     std::array::from_fn(|i| y[i] + dt * slope[i])
 }
 
-/// Where inside a step the gap closes first, if it does: by its sign at the ends of the pieces and at the least
-/// gaps between them, so that a graze is not missed. A gap of zero at the start that opens is looked at
-/// from its end backwards: at the start its sign is rounding.
-fn closing<M: Contact<N>, const N: usize>(model: &M, dense: &Dense<N>) -> Option<f64> {
-    let gap = |u: f64| model.gap(&dense.at(u));
-    let mut before = (0.0, gap(0.0));
-    for i in 1..=PIECES {
-        let u = i as f64 / PIECES as f64;
-        let after = (u, gap(u));
-        let opens = i == 1 && before.1.0 <= before.1.1 * 1e-9;
-        let mut end = after;
-        if after.1.0 >= 0.0 && before.1.1 < 0.0 && after.1.1 > 0.0 {
-            let least = root::bracketed(|u| gap(u).1, before.0, after.0)?;
-            end = (least, gap(least));
-        }
-        if end.1.0 < 0.0 {
-            let (mut from, mut to) = (before.0, end.0);
-            if opens {
-                from = 0.5 * to;
-                while gap(from).0 <= 0.0 && from > 1e-9 * u {
-                    (from, to) = (0.5 * from, from);
-                }
-            }
-            if gap(from).0 <= 0.0 {
-                return Some(from);
-            }
-            return root::bracketed(|u| gap(u).0, from, to);
-        }
+/// The gap at a part u of a step.
+#[derive(Clone, Copy)]
+struct Gap {
+    u: f64,
+    /// m
+    value: f64,
+    /// m/s
+    rate: f64,
+}
+
+/// Where inside a step of length h (s) the gap closes first, if it does.
+fn closing<M: Contact<N>, const N: usize>(model: &M, dense: &Dense<N>, h: f64) -> Option<f64> {
+    let gap = |u: f64| {
+        let (value, rate) = model.gap(&dense.at(u));
+        Gap { u, value, rate }
+    };
+    let mut before = gap(0.0);
+    (1..=PIECES).find_map(|i| {
+        let after = gap(i as f64 / PIECES as f64);
+        let found = closing_between(&gap, before, after, h);
         before = after;
+        found
+    })
+}
+
+/// The same between two places. The control points of the cubic bound it from below.
+fn closing_between(gap: &impl Fn(f64) -> Gap, from: Gap, to: Gap, h: f64) -> Option<f64> {
+    let width = (to.u - from.u) * h;
+    let cubic = [
+        from.value,
+        from.value + from.rate * width / 3.0,
+        to.value - to.rate * width / 3.0,
+        to.value,
+    ];
+    let [a, b, c, d] = cubic;
+    let middle = gap(0.5 * (from.u + to.u));
+    let off = middle.value - 0.125 * (a + 3.0 * (b + c) + d);
+    let turned = middle.rate * width - 0.75 * (c + d - a - b);
+    let doubt = DOUBT * (off.abs() + 0.25 * turned.abs());
+    if cubic.into_iter().fold(f64::INFINITY, f64::min) > doubt {
+        None
+    } else if to.u - from.u > FINEST {
+        closing_between(gap, from, middle, h).or_else(|| closing_between(gap, middle, to, h))
+    } else {
+        closing_in(gap, from, to)
     }
-    None
+}
+
+/// The same in a short piece: by the sign of the gap at its ends and at the least gap between them, so that a graze
+/// is not missed. A gap of zero at the start of a step that opens is looked at from the end of the piece backwards:
+/// at the start its sign is rounding.
+fn closing_in(gap: &impl Fn(f64) -> Gap, start: Gap, end: Gap) -> Option<f64> {
+    let opens = start.u == 0.0 && start.value <= start.rate * 1e-9;
+    let mut last = end;
+    if end.value >= 0.0 && start.rate < 0.0 && end.rate > 0.0 {
+        last = gap(root::bracketed(|u| gap(u).rate, start.u, end.u)?);
+    }
+    if last.value >= 0.0 {
+        return None;
+    }
+    let (mut from, mut to) = (start.u, last.u);
+    if opens {
+        from = 0.5 * to;
+        while gap(from).value <= 0.0 && from > 1e-9 * end.u {
+            (from, to) = (0.5 * from, from);
+        }
+    }
+    if gap(from).value <= 0.0 {
+        return Some(from);
+    }
+    root::bracketed(|u| gap(u).value, from, to)
 }
 
 /// Where a value that is positive at the start is first found to be negative.

@@ -15,7 +15,11 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         let (depth, rate) = (self.now.depth, self.now.depth_rate);
         if rate > 0.0 {
             let reach = self.reach(rate);
-            if depth < 1e-3 * reach && self.by_root(approach, 0.0, reach.sqrt())? {
+            let from = match depth > self.model.rounding(&self.y) {
+                true => depth.sqrt(),
+                false => 0.0,
+            };
+            if depth < 1e-3 * reach && self.by_root(approach, from, reach.sqrt())? {
                 self.h = 0.7 * (self.y[0] - began);
                 self.enter(self.phase);
             }
@@ -156,7 +160,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             let near = self.near;
             let rates = |y: &[f64; N]| model.sample(&near, Phase::Flight, None, y).rates;
             self.y = nudged(&self.y, dt, rates);
-            self.near = model.near(&self.y);
+            self.near = model.near_after(&near, &self.y);
             self.evaluations += 2;
         }
         self.enter(Phase::Flight);
