@@ -33,7 +33,8 @@ pub use batch::Instants;
 pub use body::{Bodies, Body, Path};
 pub use called::{LoadValue, single};
 pub use clearance::{
-    Depth, JointTouch, LooseMechanism, LooseRates, LooseState, NormalForce, Turned,
+    Depth, GuideForces, JointTouch, LooseMechanism, LooseRates, LooseState, NormalForce, Rubbing,
+    Turned,
 };
 pub use constrained::{Across, Constrained};
 pub use curve::{Curve, Place};

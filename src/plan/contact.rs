@@ -6,15 +6,7 @@ use crate::error::Error;
 
 /// What the contact engine integrates.
 pub(super) fn contact_state(prescribed: bool) -> Vec<&'static str> {
-    let mut state = vec![
-        "t",
-        "psi",
-        "x",
-        "psi.",
-        "v",
-        "work",
-        "energy lost in the contact",
-    ];
+    let mut state = vec!["t", "psi", "x", "psi.", "v", "work", "energy lost"];
     if !prescribed {
         state.splice(1..1, ["theta", "omega"]);
     }

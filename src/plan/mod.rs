@@ -191,7 +191,10 @@ fn events(engine: Engine, scene: &Scene) -> Vec<&'static str> {
         events.push("limit");
     }
     if engine != Engine::ClosedForm && scene.friction.is_some() {
-        events.extend(["stick", "slip", "rest"]);
+        events.extend(["stick", "slip"]);
+        if engine != Engine::Contact {
+            events.push("rest");
+        }
     }
     events
 }

@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::mechanism::{Class, Curve, Linkage};
 use crate::numeric::angle::Angle;
-use crate::scene::{MotionKind, RodModel, Scene};
+use crate::scene::{ContactLaw, MotionKind, RodModel, Scene};
 
 pub(super) fn refuse_what_is_not_modelled(scene: &Scene) -> Result<(), Error> {
     let spin_only = scene.rod.is_some_and(|rod| rod.model == RodModel::SpinOnly);
@@ -13,10 +13,13 @@ pub(super) fn refuse_what_is_not_modelled(scene: &Scene) -> Result<(), Error> {
             "use model = \"rigid\" or \"two-mass\" with [friction]",
         ));
     }
-    if scene.friction.is_some() && scene.clearance.is_some() {
+    let linked = scene
+        .clearance
+        .is_some_and(|clearance| clearance.law == ContactLaw::MasslessLink);
+    if scene.friction.is_some() && linked {
         return Err(Error::refused(
-            "Coulomb friction at the guide together with clearance in a joint is not modelled",
-            "take [friction] or [clearance] out of the scene, or set its coefficient or radial to 0",
+            "Coulomb friction at the guide together with a massless link in a joint is not modelled",
+            "use another contact_law, or take [friction] out of the scene",
         ));
     }
     Ok(())

@@ -6,6 +6,8 @@
 //! variable (after Hénon, Physica D 5 (1982) 412): in it the motion is smooth, and the contact ends exactly at
 //! zero, without a search.
 
+mod accept;
+mod breaks;
 mod dop853;
 mod flight;
 mod run;
@@ -50,11 +52,28 @@ pub struct Sample<const N: usize> {
 
 /// A motion of N numbers, the first of them the time, s.
 pub trait Contact<const N: usize> {
-    /// What makes evaluations near a state cheaper.
+    /// What makes evaluations near a state cheaper, and which of several laws of motion holds there.
     type Near: Copy;
 
     /// Prepares evaluations near a state.
     fn near(&self, y: &[f64; N]) -> Self::Near;
+
+    /// The same at a later state, where the law of motion is that of before.
+    fn near_after(&self, before: &Self::Near, y: &[f64; N]) -> Self::Near;
+
+    /// What is positive while the law of motion lasts, and what leaves a kink in the rates where its sign changes;
+    /// none if there is but one law, whose rates are smooth.
+    fn breaks(&self, near: &Self::Near, phase: Phase, y: &[f64; N]) -> Option<[f64; 2]>;
+
+    /// Goes over to the law of motion that holds after this state, from what the one of before makes of the time
+    /// that follows.
+    fn change(
+        &self,
+        near: &Self::Near,
+        phase: Phase,
+        y: &mut [f64; N],
+        soon: &[f64; N],
+    ) -> Self::Near;
 
     /// Rates and depth in a phase; in contact the depth (m) may be known better than from the state.
     fn sample(

@@ -1,5 +1,6 @@
 //! The run, phase by phase.
 
+use super::breaks::Breaks;
 use super::step::Stages;
 use super::{Contact, Phase, Sample, Settings, Stretch};
 
@@ -17,6 +18,8 @@ pub enum Finish {
     WorkLimit,
     /// The rates are not finite, or change too fast.
     StepTooSmall,
+    /// Not an end: a step is made anew, as it goes beyond a change of the law of motion.
+    Broken,
 }
 
 /// The end of a run.
@@ -53,6 +56,7 @@ pub(super) struct Runner<'a, M: Contact<N>, const N: usize> {
     pub flight_h: f64,
     /// The time the present piece goes to, s: the end or a corner of the rates.
     pub until: f64,
+    pub breaks: Breaks<N>,
     pub evaluations: u64,
     pub steps: u64,
     sizes: [f64; N],
@@ -82,6 +86,7 @@ pub fn run<M: Contact<N>, const N: usize>(
         h: 0.0,
         flight_h: 0.0,
         until: settings.t_end,
+        breaks: Breaks::default(),
         evaluations: 0,
         steps: 0,
         sizes,
@@ -106,17 +111,25 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         while self.y[0] < self.settings.t_end {
             self.until = self.model.next_corner(self.y[0]).min(self.settings.t_end);
             while self.y[0] < self.until {
-                match self.phase {
-                    Phase::Flight => self.fly()?,
-                    Phase::Contact { approach } => self.touch(approach)?,
-                    Phase::Release { approach } => self.recede(approach)?,
-                    Phase::Link => self.link()?,
+                match self.go_on() {
+                    Err(Finish::Broken) => {}
+                    ended => ended?,
                 }
             }
-            // Beyond a corner the rates are others.
+            // Beyond a corner or a change the rates are others.
+            self.change()?;
             self.enter(self.phase);
         }
         Ok(())
+    }
+
+    fn go_on(&mut self) -> Halt {
+        match self.phase {
+            Phase::Flight => self.fly(),
+            Phase::Contact { approach } => self.touch(approach),
+            Phase::Release { approach } => self.recede(approach),
+            Phase::Link => self.link(),
+        }
     }
 
     /// The phase and the first step at the start.
@@ -226,58 +239,6 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             return Err(Finish::WorkLimit);
         }
         Ok(())
-    }
-
-    /// Takes a step in time as accepted.
-    pub fn accept(&mut self, mut stages: Stages<N>, h: f64) -> Halt {
-        let end = self.snapped(*stages.end(), h);
-        let then = self.sample(None, &end);
-        stages.set_last_rate(then.rates);
-        self.accept_to(&stages, end, then)
-    }
-
-    /// The end of a step of length h, at the last time if it is that but for rounding.
-    pub fn snapped(&self, mut end: [f64; N], h: f64) -> [f64; N] {
-        if (self.until - end[0]).abs() <= 1e-10 * h {
-            end[0] = self.until;
-        }
-        end
-    }
-
-    /// Takes a step in time as accepted, with its end and the rates there.
-    pub fn accept_to(&mut self, stages: &Stages<N>, end: [f64; N], then: Sample<N>) -> Halt {
-        let (model, phase, near) = (self.model, self.phase, self.near);
-        let end = match phase {
-            Phase::Release { .. } => model.receded(&self.y, &end),
-            _ => end,
-        };
-        let mut rates = |_: f64, y: &[f64; N]| model.sample(&near, phase, None, y).rates;
-        self.follow(stages, &mut rates, end, then)
-    }
-
-    /// Hands a step to the follower and goes to its end.
-    pub fn follow(
-        &mut self,
-        stages: &Stages<N>,
-        rates: &mut dyn FnMut(f64, &[f64; N]) -> [f64; N],
-        end: [f64; N],
-        then: Sample<N>,
-    ) -> Halt {
-        self.steps += 1;
-        let mut stretch = Stretch {
-            phase: self.phase,
-            start: self.y,
-            end,
-            before: self.now,
-            after: then,
-            stages,
-            rates,
-            dense: None,
-        };
-        let stop = (self.follower)(&mut stretch);
-        (self.y, self.now) = (end, then);
-        self.near = self.model.near(&self.y);
-        if stop { Err(Finish::Stopped) } else { Ok(()) }
     }
 
     fn link(&mut self) -> Halt {

@@ -1,5 +1,6 @@
 //! Forces in the loose joint, and the accelerations that follow from them.
 
+use super::rubbing::{GuideForces, Rubbing};
 use super::{Action, Frame, LooseMechanism, LooseRates, LooseState, cross, dot};
 use crate::mechanism::LoadValue;
 use crate::numeric::angle::Angle;
@@ -59,7 +60,7 @@ impl LooseMechanism {
                 force: [normal * n[0], normal * n[1]],
                 ..Action::default()
             };
-            let rates = self.accelerations(s, f, action);
+            let rates = self.accelerations(s, f, action, Rubbing::Never);
             let bend = dot(f.offset, self.second(f, s, &rates)) + dot(f.rate, f.rate);
             (rates, bend)
         };
@@ -77,7 +78,13 @@ impl LooseMechanism {
     }
 
     #[inline(always)]
-    pub(super) fn accelerations(&self, s: &LooseState, f: &Frame, action: Action) -> LooseRates {
+    pub(super) fn accelerations(
+        &self,
+        s: &LooseState,
+        f: &Frame,
+        action: Action,
+        rubbing: Rubbing,
+    ) -> LooseRates {
         let load = match &self.loads {
             Some(loads) => loads.at(&Instant {
                 t: s.t,
@@ -99,7 +106,10 @@ impl LooseMechanism {
         let (l, axis) = (self.l, f.axis);
         // Moment on the crank of gravity, and of what acts through its pin without the rod's inertia.
         let weight = self.crank_weight[0] * a[0] - self.crank_weight[1] * a[1];
-        let mut rates = LooseRates::default();
+        let mut rates = LooseRates {
+            on_rod: action.force,
+            ..LooseRates::default()
+        };
         let on_crank;
         match self.joint {
             Joint::CrankPin => {
@@ -115,11 +125,47 @@ impl LooseMechanism {
                 );
                 let coupling = -m * k[1];
                 let determinant = mass * self.rod_inertia - coupling * coupling;
-                rates.a = (self.rod_inertia * along - coupling * moment) / determinant;
-                rates.spin_rate = (mass * moment - coupling * along) / determinant;
+                let moved = |along: f64| {
+                    [
+                        (self.rod_inertia * along - coupling * moment) / determinant,
+                        (mass * moment - coupling * along) / determinant,
+                    ]
+                };
+                let normal = |spin_rate: f64| {
+                    m * (k[0] * spin_rate - k[1] * spin) - mass * gy - action.force[1]
+                };
+                [rates.a, rates.spin_rate] = match rubbing {
+                    Rubbing::Never => moved(along),
+                    Rubbing::Slides(direction) => {
+                        let free = normal(moved(along)[1]);
+                        rates.guide = self.sliding(direction, free, self.guide_gain(f));
+                        moved(along + rates.guide.friction)
+                    }
+                    Rubbing::Sticks => {
+                        let spin_rate = moment / self.rod_inertia;
+                        rates.guide = GuideForces {
+                            normal: normal(spin_rate),
+                            friction: coupling * spin_rate - along,
+                        };
+                        [0.0, spin_rate]
+                    }
+                };
             }
             Joint::WristPin => {
-                rates.a = (load.force - fx) * self.per_slider_mass + gx;
+                let along = load.force - fx;
+                let normal = action.force[1] - self.slider_mass * gy;
+                rates.a = match rubbing {
+                    Rubbing::Never => along * self.per_slider_mass + gx,
+                    Rubbing::Slides(direction) => {
+                        rates.guide = self.sliding(direction, normal, 0.0);
+                        (along + rates.guide.friction) * self.per_slider_mass + gx
+                    }
+                    Rubbing::Sticks => {
+                        let friction = -(along + self.slider_mass * gx);
+                        rates.guide = GuideForces { normal, friction };
+                        0.0
+                    }
+                };
                 // Rows: moments about O with the rod's mass carried along; moments about the crank pin.
                 let together = m * dot(a, k);
                 let apart = m * cross(a, k);
@@ -146,6 +192,19 @@ impl LooseMechanism {
         } else {
             rates.power += load.torque * s.omega;
         }
+        rates.lost = -rates.guide.friction * s.v;
         rates
+    }
+
+    /// What one newton on the slider along the guide adds to the guide's normal force, N.
+    pub(super) fn guide_gain(&self, f: &Frame) -> f64 {
+        let (m, [along, across]) = (self.rod_mass, f.centre);
+        let mass = m + self.slider_mass;
+        match self.joint {
+            Joint::CrankPin => {
+                m * along * m * across / (mass * self.rod_inertia - (m * across).powi(2))
+            }
+            Joint::WristPin => 0.0,
+        }
     }
 }

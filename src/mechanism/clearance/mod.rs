@@ -7,14 +7,16 @@
 mod energy;
 mod forces;
 mod law;
+mod rubbing;
 mod start;
 mod turn;
 
 pub use law::NormalForce;
+pub use rubbing::{GuideForces, Rubbing};
 pub use turn::Turned;
 
 use super::Loads;
-use crate::scene::{Clearance, Joint};
+use crate::scene::{Clearance, Friction, Joint};
 
 /// Position and velocity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -47,10 +49,14 @@ pub struct LooseRates {
     pub a: f64,
     /// Power of the loads and of the torque that drives a crank of prescribed speed, W.
     pub power: f64,
-    /// Power lost in the contact, W.
+    /// Power lost in the contact and by friction at the guide, W.
     pub lost: f64,
+    /// What the guide does to the slider; found where it has friction only.
+    pub guide: GuideForces,
     /// Normal force, N: what the bearing's wall pushes the journal with.
     pub normal: f64,
+    /// Force of the loose joint on the rod, friction included, N.
+    pub on_rod: [f64; 2],
     /// Torque on the crank beside those of the scene, N m, that keeps a prescribed speed.
     pub driving_torque: f64,
 }
@@ -111,6 +117,7 @@ pub struct LooseMechanism {
     bearing: f64,
     force: NormalForce,
     friction: f64,
+    guide: Option<Friction>,
 }
 
 /// A state with what is often needed of it.
@@ -211,19 +218,9 @@ impl LooseMechanism {
         ]
     }
 
-    /// Factor of the elastic force at a rate of the depth (m/s); a contact presses while it is positive.
-    pub fn pressing(&self, rate: f64, approach: f64) -> f64 {
-        self.force.factor(rate, approach)
-    }
-
-    /// Speed by which the contact law divides, m/s, for a contact that begins with this speed.
-    pub fn approach(&self, speed: f64) -> f64 {
-        speed.max(self.clearance.least_approach_speed)
-    }
-
-    /// The law of the contact.
-    pub fn force(&self) -> &NormalForce {
-        &self.force
+    /// The joint that is loose.
+    pub fn joint(&self) -> Joint {
+        self.joint
     }
 
     /// The clearance of the scene.
@@ -233,19 +230,21 @@ impl LooseMechanism {
 
     /// Accelerations, powers and forces.
     pub fn rates(&self, s: &LooseState, touch: JointTouch) -> LooseRates {
-        self.rates_in(s, &self.frame(s), touch)
+        self.rates_in(s, &self.frame(s), touch, self.rubbing(s, touch))
     }
 
-    /// As [`Self::rates`], from the directions of crank and rod at a state nearby; and the depth.
+    /// As [`Self::rates`], from the directions of crank and rod at a state nearby and with a slider that rubs in
+    /// this way; and the depth.
     #[inline(always)]
     pub fn rates_near(
         &self,
         near: &Turned,
         s: &LooseState,
         touch: JointTouch,
+        rubbing: Rubbing,
     ) -> (LooseRates, Depth) {
         let f = self.frame_from(s, near.crank(s.theta), near.rod(s.psi));
-        let rates = self.rates_in(s, &f, touch);
+        let rates = self.rates_in(s, &f, touch, rubbing);
         let (value, rate) = self.depth_in(&f);
         let depth = Depth {
             value,
@@ -256,13 +255,20 @@ impl LooseMechanism {
     }
 
     #[inline(always)]
-    fn rates_in(&self, s: &LooseState, f: &Frame, touch: JointTouch) -> LooseRates {
+    fn rates_in(
+        &self,
+        s: &LooseState,
+        f: &Frame,
+        touch: JointTouch,
+        rubbing: Rubbing,
+    ) -> LooseRates {
         match touch {
-            JointTouch::Apart => self.accelerations(s, f, Action::default()),
+            JointTouch::Apart => self.accelerations(s, f, Action::default(), rubbing),
             JointTouch::Pressed { approach, depth } => {
                 let (action, normal, lost) = self.contact(s, f, approach, depth);
-                let mut rates = self.accelerations(s, f, action);
-                (rates.normal, rates.lost) = (normal, lost);
+                let mut rates = self.accelerations(s, f, action, rubbing);
+                rates.normal = normal;
+                rates.lost += lost;
                 rates
             }
             JointTouch::Linked => self.linked(s, f),

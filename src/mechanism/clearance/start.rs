@@ -49,6 +49,7 @@ impl LooseMechanism {
                 _ => NormalForce::new(&clearance)?,
             },
             friction: clearance.friction.unwrap_or(0.0),
+            guide: scene.friction,
         };
         mechanism.refuse_what_has_no_inertia()?;
         Ok(mechanism)

@@ -1,5 +1,7 @@
 //! Joint and guide forces by Newton and Euler, body by body, from the motion.
 
+mod loose;
+
 use super::{Equation, Linkage, LoadValue, Path, Place, Pose};
 use crate::error::Error;
 use crate::numeric::angle::Angle;
@@ -54,6 +56,18 @@ struct Body {
     inertia: f64,
 }
 
+/// What the force at the wrist pin follows from.
+enum Known {
+    /// Force on the slider along the guide, N, and the moments about A; that fails at a limit.
+    Load(f64),
+    /// Force on the slider along the guide and normal force of the guide, N.
+    Slider(f64, f64),
+    /// Force on the rod at A, N.
+    CrankPin([f64; 2]),
+    /// Force on the slider at P, N.
+    WristPin([f64; 2]),
+}
+
 /// The paths of the bodies with respect to a coordinate, and where the crank pin and the rod are.
 struct Ways {
     crank: Path,
@@ -61,7 +75,7 @@ struct Ways {
     slider: Path,
     pin: [f64; 2],
     axis: [f64; 2],
-    /// θ' and θ''
+    /// θ' and θ''.
     turn: [f64; 2],
 }
 
@@ -120,7 +134,7 @@ impl Reactor {
             axis: [s * pose.cos_phi, -pose.sin_phi],
             turn: [1.0, 0.0],
         };
-        self.forces(&ways, omega, alpha, load.force, None)
+        self.forces(&ways, omega, alpha, &Known::Load(load.force))
     }
 
     /// The forces for a motion along the configuration curve (rad/s and rad/s² of its coordinate), under the
@@ -134,12 +148,6 @@ impl Reactor {
         normal: f64,
     ) -> Reactions {
         let linkage = &self.linkage;
-        let turned = |[cos, sin]: [f64; 2], body: &Body| {
-            [
-                body.along * cos - body.left * sin,
-                body.along * sin + body.left * cos,
-            ]
-        };
         let (crank, axis) = ([place.cos, place.sin], [place.rod_cos, -place.rod_sin]);
         let pin = crank.map(|part| linkage.r * part);
         let crank_turn = [place.dtheta, place.d2theta];
@@ -158,18 +166,10 @@ impl Reactor {
             axis,
             turn: crank_turn,
         };
-        self.forces(&ways, speed, acceleration, force, Some(normal))
+        self.forces(&ways, speed, acceleration, &Known::Slider(force, normal))
     }
 
-    /// Without the normal force of the guide it follows from the moments about A, which fails at a limit.
-    fn forces(
-        &self,
-        ways: &Ways,
-        speed: f64,
-        acceleration: f64,
-        force: f64,
-        normal: Option<f64>,
-    ) -> Reactions {
+    fn forces(&self, ways: &Ways, speed: f64, acceleration: f64, known: &Known) -> Reactions {
         let Linkage { l, e, .. } = self.linkage;
         let squared = speed * speed;
         let rate = |path: &Path| {
@@ -192,21 +192,23 @@ impl Reactor {
         let slider_needs = needs(self.slider_mass, [slider_acceleration, 0.0]);
 
         let axis = ways.axis;
-        let centre = [
-            self.rod.along * axis[0] - self.rod.left * axis[1],
-            self.rod.along * axis[1] + self.rod.left * axis[0],
-        ];
-        // Slider along x; the rod's moments about A: (P − A) × wrist pin force = −(spin and inertia).
-        let wrist_x = slider_needs[0] - force;
-        let wrist_y = match normal {
-            Some(normal) => slider_needs[1] - normal,
-            None => {
+        let centre = turned(axis, &self.rod);
+        let wrist_pin = match *known {
+            // Slider along x; the rod's moments about A: (P − A) × wrist pin force = −(spin and inertia).
+            Known::Load(force) => {
+                let x = slider_needs[0] - force;
                 let moment = self.rod.inertia * rod_spin + cross(centre, rod_needs);
-                (l * axis[1] * wrist_x - moment) / (l * axis[0])
+                [x, (l * axis[1] * x - moment) / (l * axis[0])]
             }
+            Known::Slider(force, normal) => [slider_needs[0] - force, slider_needs[1] - normal],
+            Known::CrankPin(force) => [0, 1].map(|i| force[i] - rod_needs[i]),
+            Known::WristPin(force) => force,
         };
-        let guide = slider_needs[1] - wrist_y;
-        let crank_pin = [rod_needs[0] + wrist_x, rod_needs[1] + wrist_y];
+        let guide = slider_needs[1] - wrist_pin[1];
+        let crank_pin = match *known {
+            Known::CrankPin(force) => force,
+            _ => [0, 1].map(|i| rod_needs[i] + wrist_pin[i]),
+        };
         let crank_bearing = [crank_needs[0] + crank_pin[0], crank_needs[1] + crank_pin[1]];
 
         let place = [ways.pin[0] + centre[0], ways.pin[1] + centre[1]];
@@ -221,7 +223,7 @@ impl Reactor {
         Reactions {
             crank_bearing,
             crank_pin,
-            wrist_pin: [wrist_x, wrist_y],
+            wrist_pin,
             guide,
             shaking: [
                 -(crank_rate[0] + rod_rate[0] + slider_rate),
@@ -261,6 +263,14 @@ impl Reactor {
         let load = equation.loads().value(t, theta, omega, &pose);
         self.reactions(&pose, omega, alpha, &load)
     }
+}
+
+/// A body's centre of gravity from the end that its axis (a unit vector) begins at, m.
+fn turned([cos, sin]: [f64; 2], body: &Body) -> [f64; 2] {
+    [
+        body.along * cos - body.left * sin,
+        body.along * sin + body.left * cos,
+    ]
 }
 
 fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {

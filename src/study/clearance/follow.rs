@@ -52,6 +52,7 @@ pub(super) struct Seen {
     pub row_time: Duration,
     pub error: Option<Error>,
     phase: Phase,
+    sticking: bool,
     next_row: u64,
 }
 
@@ -70,6 +71,7 @@ impl Seen {
             row_time: Duration::ZERO,
             error: None,
             phase,
+            sticking: false,
             next_row: 0,
         }
     }
@@ -86,6 +88,7 @@ impl<const N: usize> Follow<'_, N> {
     /// Takes a stretch; true ends the run.
     pub fn take(&mut self, stretch: &mut Stretch<'_, N>) -> bool {
         self.follow_phase(stretch);
+        self.follow_guide(stretch);
         if N == super::motion::FREE {
             self.follow_crank(stretch);
         }
@@ -151,6 +154,20 @@ impl<const N: usize> Follow<'_, N> {
         };
         self.seen.phase = stretch.phase;
         self.event(kind, s.t, s.theta, s.omega);
+    }
+
+    /// Where friction holds the slider and lets it go; a slider that is held has no velocity at all.
+    fn follow_guide(&mut self, stretch: &Stretch<'_, N>) {
+        let (from, to) = (
+            self.model.state(&stretch.start),
+            self.model.state(&stretch.end),
+        );
+        let sticking = self.model.mechanism.rubs() && from.v == 0.0 && to.v == 0.0;
+        if sticking != self.seen.sticking {
+            let kind = if sticking { "stick" } else { "slip" };
+            self.event(kind, from.t, from.theta, from.omega);
+        }
+        self.seen.sticking = sticking;
     }
 
     /// Dead centres, turning points, extreme speeds and the turn limit of a crank that moves by itself.
@@ -236,12 +253,14 @@ impl<const N: usize> Follow<'_, N> {
         let s = linked.as_ref().unwrap_or(s);
         let rates = mechanism.rates(s, touch(phase, None));
         let maker = self.asked.maker;
+        let reactor = maker.reactor.as_ref();
         let ideal = maker.row(s.t, self.angle(s.theta), s.omega, Some(rates.alpha));
         self.rows.row(&Row {
             x: s.x,
             v: s.v,
             a: rates.a,
             phi: phi(s.psi, self.asked.branch),
+            reactions: reactor.map(|reactor| reactor.loose(mechanism.joint(), s, &rates)),
             driving_torque: maker.driving_torque.then_some(rates.driving_torque),
             clearance: Some(LooseRow {
                 ideal: [ideal.x, ideal.v, ideal.a],

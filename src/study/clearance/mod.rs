@@ -40,12 +40,6 @@ pub(super) fn run(
     rows: &mut dyn RowSink,
     record: bool,
 ) -> Result<Simulation, Error> {
-    if task.options.reactions {
-        return Err(Error::refused(
-            "joint forces of a mechanism with clearance are not part of this version",
-            "leave out --reactions; the rows have the force in the loose joint",
-        ));
-    }
     let scene = task.scene.reduced();
     let Some(clearance) = scene.clearance else {
         return Err(Error::refused(
@@ -229,7 +223,10 @@ impl<'a, const N: usize> Run<'a, N> {
             (Finish::AtEnd, Extent::Revolutions(turns)) if last.t >= FAR => Some(format!(
                 "the crank does not complete {turns} turns: stopped {place}; give a duration instead"
             )),
-            (Finish::AtEnd | Finish::Stopped, _) => None,
+            (Finish::AtEnd | Finish::Stopped | Finish::Broken, _) => None,
+            (Finish::StepTooSmall, _) if self.mechanism.jams(last) => Some(format!(
+                "the slider jams: rigid bodies with this coefficient of friction have no acceleration, or two; stopped {place}"
+            )),
             (Finish::WorkLimit, _) => Some(format!(
                 "the work limit of evaluations is reached: stopped {place}; raise --max-evaluations, shorten the run or loosen the tolerance"
             )),

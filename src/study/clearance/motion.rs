@@ -1,10 +1,10 @@
 //! The mechanism with a loose joint as the integrator sees it.
 
 use crate::engine::contact::{Contact, Phase, Sample};
-use crate::mechanism::{JointTouch, LooseMechanism, LooseState, Turned};
+use crate::mechanism::{JointTouch, LooseMechanism, LooseState, Rubbing, Turned};
 
 /// Numbers of a state whose crank moves by itself: t, θ, ψ, x and their rates, the work of the loads and the
-/// energy lost in the contact.
+/// energy lost in the contact and by friction at the guide.
 pub(super) const FREE: usize = 9;
 /// Numbers of a state whose crank has a prescribed speed: the same without θ and its rate; the work is that of
 /// the drive too.
@@ -61,7 +61,7 @@ impl<const N: usize> Loose<'_, N> {
         Self::packed(&free)
     }
 
-    /// Work of loads and drive, and energy lost in the contact, J.
+    /// Work of loads and drive, and energy lost in the contact and by friction at the guide, J.
     pub fn work(&self, y: &[f64; N]) -> [f64; 2] {
         [y[N - 2], y[N - 1]]
     }
@@ -83,18 +83,64 @@ pub(super) fn touch(phase: Phase, depth: Option<f64>) -> JointTouch {
     }
 }
 
-impl<const N: usize> Contact<N> for Loose<'_, N> {
-    type Near = Turned;
+/// Where the links are and how the slider rubs, at a state nearby.
+#[derive(Clone, Copy)]
+pub(super) struct Near {
+    turned: Turned,
+    rubbing: Rubbing,
+}
 
-    fn near(&self, y: &[f64; N]) -> Turned {
+impl<const N: usize> Contact<N> for Loose<'_, N> {
+    type Near = Near;
+
+    fn near(&self, y: &[f64; N]) -> Near {
         let s = self.state(y);
-        Turned::new(s.theta, s.psi)
+        Near {
+            turned: Turned::new(s.theta, s.psi),
+            rubbing: self.mechanism.rubbing(&s, JointTouch::Apart),
+        }
+    }
+
+    fn near_after(&self, before: &Near, y: &[f64; N]) -> Near {
+        let s = self.state(y);
+        Near {
+            turned: Turned::new(s.theta, s.psi),
+            ..*before
+        }
+    }
+
+    fn breaks(&self, near: &Near, phase: Phase, y: &[f64; N]) -> Option<[f64; 2]> {
+        let speed = self.reach * self.pace;
+        self.mechanism.rubs().then(|| {
+            let (s, touch) = (self.state(y), touch(phase, None));
+            self.mechanism.rubs_on(&s, touch, near.rubbing, speed)
+        })
+    }
+
+    fn change(&self, near: &Near, phase: Phase, y: &mut [f64; N], soon: &[f64; N]) -> Near {
+        let touch = touch(phase, None);
+        let rubbing = match near.rubbing {
+            Rubbing::Sticks => self.mechanism.let_go(&self.state(soon), touch),
+            _ => {
+                // What is left of the velocity is rounding.
+                let s = LooseState {
+                    v: 0.0,
+                    ..self.state(y)
+                };
+                *y = self.numbers(&s, self.work(y));
+                self.mechanism.rubbing(&s, touch)
+            }
+        };
+        Near { rubbing, ..*near }
     }
 
     #[inline(always)]
-    fn sample(&self, near: &Turned, phase: Phase, depth: Option<f64>, y: &[f64; N]) -> Sample<N> {
+    fn sample(&self, near: &Near, phase: Phase, depth: Option<f64>, y: &[f64; N]) -> Sample<N> {
         let s = self.state(y);
-        let (r, d) = self.mechanism.rates_near(near, &s, touch(phase, depth));
+        let touch = touch(phase, depth);
+        let (r, d) = self
+            .mechanism
+            .rates_near(&near.turned, &s, touch, near.rubbing);
         Sample {
             rates: Self::packed(&[
                 1.0,

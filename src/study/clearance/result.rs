@@ -30,7 +30,7 @@ pub struct ClearanceSummary {
     pub force_mean_n: f64,
     /// Largest penetration, m.
     pub penetration_peak_m: f64,
-    /// Energy lost in the contact, J.
+    /// Energy lost in the contact and by friction at the guide, J.
     pub dissipated_j: f64,
     /// Work of the loads and of what drives a crank of prescribed speed, J.
     pub work_j: f64,

@@ -46,12 +46,16 @@ pub(super) struct Loose<'a> {
 }
 
 impl<'a> Loose<'a> {
-    /// The mechanism of a scene; none for a link without mass, and where the scene cannot be computed.
+    /// The mechanism of a scene; none for a link without mass, for friction at the guide, and where the scene cannot
+    /// be computed.
     pub(super) fn new(scene: &Scene, extended: &'a Extended) -> Option<Loose<'a>> {
         let reduced = scene.reduced();
         let clearance = reduced.clearance?;
         let rigid = |rod: &Rod| rod.model == RodModel::Rigid;
-        if clearance.law == ContactLaw::MasslessLink || !reduced.rod.as_ref().is_some_and(rigid) {
+        if reduced.friction.is_some()
+            || clearance.law == ContactLaw::MasslessLink
+            || !reduced.rod.as_ref().is_some_and(rigid)
+        {
             return None;
         }
         let mechanism = LooseMechanism::new(&reduced, clearance).ok()?;

@@ -1,0 +1,103 @@
+//! Where the law of motion changes inside a phase, or its rates have a kink: steps end there.
+
+use super::run::{Halt, Runner};
+use super::{Contact, Finish, Stretch};
+use crate::numeric::root;
+
+/// A step is looked at in so many pieces.
+const PIECES: u32 = 8;
+/// What is nearer to the beginning of a step than this part of it is the break that the step begins at.
+const BEGINS: f64 = 1e-6;
+/// Most changes at one time, beyond which none of the laws lasts.
+const MOST_AT_ONCE: u32 = 4;
+
+/// The changes of a run.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Breaks<const N: usize> {
+    /// The one at the end of the present piece.
+    due: Option<Break<N>>,
+    /// When the last one was, s, and how many there were at that time before it.
+    last: (f64, u32),
+}
+
+impl<const N: usize> Default for Breaks<N> {
+    fn default() -> Breaks<N> {
+        Breaks {
+            due: None,
+            last: (f64::NEG_INFINITY, 0),
+        }
+    }
+}
+
+/// A change that is due.
+#[derive(Clone, Copy, Debug)]
+struct Break<const N: usize> {
+    /// s
+    t: f64,
+    /// A state after it, as if there were no change; none where the law stays the same beyond a kink.
+    soon: Option<[f64; N]>,
+}
+
+impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
+    /// Refuses a step that goes beyond a change: the next one ends there.
+    pub(super) fn stop_at_break(&mut self, stretch: &mut Stretch<'_, N>) -> Halt {
+        if self.breaks.due.is_some() {
+            return Ok(());
+        }
+        let Some(found) = self.first_break(stretch) else {
+            return Ok(());
+        };
+        self.until = found.t;
+        self.breaks.due = Some(found);
+        Err(Finish::Broken)
+    }
+
+    fn first_break(&self, stretch: &mut Stretch<'_, N>) -> Option<Break<N>> {
+        let (model, near, phase) = (self.model, self.near, self.phase);
+        let breaks = |y: &[f64; N]| model.breaks(&near, phase, y);
+        let (start, h) = (stretch.start[0], stretch.length());
+        let (mut from, mut before) = (start, breaks(&stretch.start)?);
+        for i in 1..=PIECES {
+            let to = match i {
+                PIECES => stretch.end[0],
+                _ => start + h * f64::from(i) / f64::from(PIECES),
+            };
+            let y = stretch.at(to);
+            let after = breaks(&y)?;
+            let mut value = |index: usize, t: f64| breaks(&stretch.at(t)).map_or(0.0, |b| b[index]);
+            let kink = (before[1] * after[1] < 0.0)
+                .then(|| root::bracketed(|t| value(1, t), from, to))
+                .flatten()
+                .filter(|t| t - start > BEGINS * h);
+            let end = (after[0] < 0.0).then(|| match before[0] > 0.0 {
+                true => root::bracketed(|t| value(0, t), from, to).unwrap_or(from),
+                false => from,
+            });
+            match (end, kink) {
+                (None, None) => (from, before) = (to, after),
+                (Some(t), kink) if kink.is_none_or(|kink| t <= kink) => {
+                    return Some(Break { t, soon: Some(y) });
+                }
+                (_, Some(t)) | (Some(t), None) => return Some(Break { t, soon: None }),
+            }
+        }
+        None
+    }
+
+    /// Goes over to the law that holds from here on, where a change is due.
+    pub(super) fn change(&mut self) -> Halt {
+        let Some(soon) = self.breaks.due.take().and_then(|due| due.soon) else {
+            return Ok(());
+        };
+        let (t, before) = self.breaks.last;
+        let here = if t == self.y[0] { before + 1 } else { 0 };
+        self.breaks.last = (self.y[0], here);
+        if here > MOST_AT_ONCE {
+            return Err(Finish::StepTooSmall);
+        }
+        self.near = self
+            .model
+            .change(&self.near, self.phase, &mut self.y, &soon);
+        Ok(())
+    }
+}

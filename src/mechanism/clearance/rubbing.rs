@@ -1,0 +1,107 @@
+//! Coulomb friction of the slider in its guide while a joint is loose.
+
+use super::{JointTouch, LooseMechanism, LooseState};
+
+/// How the slider rubs in its guide.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Rubbing {
+    /// Not at all: the guide has no friction.
+    #[default]
+    Never,
+    /// It slides, towards +x (+1) or −x (−1).
+    Slides(f64),
+    /// It is held fast.
+    Sticks,
+}
+
+/// The guide's forces on the slider.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GuideForces {
+    /// Along +y, N.
+    pub normal: f64,
+    /// Along +x, N.
+    pub friction: f64,
+}
+
+/// A slider that is held is let go where the force exceeds what holds by this part, and one that slides has turned
+/// round where its velocity has, by this part of the speeds that occur: less than either is rounding.
+const DOUBT: f64 = 1e-14;
+
+impl LooseMechanism {
+    /// Whether the guide has friction.
+    pub fn rubs(&self) -> bool {
+        self.guide.is_some()
+    }
+
+    /// How the slider rubs in a state: as it moves, and at rest as the forces decide.
+    pub fn rubbing(&self, s: &LooseState, touch: JointTouch) -> Rubbing {
+        if !self.rubs() {
+            Rubbing::Never
+        } else if s.v != 0.0 {
+            Rubbing::Slides(s.v.signum())
+        } else if self.hold(s, touch) >= 0.0 {
+            Rubbing::Sticks
+        } else {
+            self.let_go(s, touch)
+        }
+    }
+
+    /// What a slider does that is held no longer.
+    pub fn let_go(&self, s: &LooseState, touch: JointTouch) -> Rubbing {
+        Rubbing::Slides(-self.held(s, touch).friction.signum())
+    }
+
+    /// By how much the guide could hold the slider more than it has to, N.
+    fn hold(&self, s: &LooseState, touch: JointTouch) -> f64 {
+        let forces = self.held(s, touch);
+        let most = self.guide.map_or(0.0, |guide| guide.static_coefficient) * forces.normal.abs();
+        most * (1.0 + DOUBT) - forces.friction.abs() * (1.0 - DOUBT)
+    }
+
+    fn held(&self, s: &LooseState, touch: JointTouch) -> GuideForces {
+        self.rates_in(s, &self.frame(s), touch, Rubbing::Sticks)
+            .guide
+    }
+
+    /// What is positive while the slider rubs in this way, and what leaves a kink in the accelerations where its
+    /// sign changes. `speed` is the size of the speeds, m/s.
+    pub fn rubs_on(
+        &self,
+        s: &LooseState,
+        touch: JointTouch,
+        rubbing: Rubbing,
+        speed: f64,
+    ) -> [f64; 2] {
+        match rubbing {
+            Rubbing::Never => [1.0; 2],
+            Rubbing::Sticks => [self.hold(s, touch), 1.0],
+            Rubbing::Slides(direction) => {
+                let rates = self.rates_in(s, &self.frame(s), touch, rubbing);
+                [direction * s.v + DOUBT * speed, rates.guide.normal]
+            }
+        }
+    }
+
+    /// The guide's forces on a slider that slides, from the normal force without friction and from what one newton
+    /// along the guide adds to it (κ): N = N₀/(1 − c κ) with the friction c N. Not a number where rigid bodies jam,
+    /// μ |κ| ≥ 1.
+    pub(super) fn sliding(&self, direction: f64, free: f64, kappa: f64) -> GuideForces {
+        let mu = self.guide.map_or(0.0, |guide| guide.coefficient);
+        let c = -mu * direction * free.signum();
+        let normal = match mu * kappa.abs() < 1.0 {
+            true => free / (1.0 - c * kappa),
+            false => f64::NAN,
+        };
+        GuideForces {
+            normal,
+            friction: c * normal,
+        }
+    }
+
+    /// Whether rigid bodies jam in a state.
+    pub fn jams(&self, s: &LooseState) -> bool {
+        self.sliding(1.0, 1.0, self.guide_gain(&self.frame(s)))
+            .normal
+            .is_nan()
+    }
+}
