@@ -238,6 +238,50 @@ fn a_sweep_that_was_killed_goes_on_where_it_ended() {
     assert!(left.len() > 16 && rows.starts_with(&left[..left.len() - 1].join("\n")));
 }
 
+/// Of two sweeps into one file the second is refused, be it the same one or another, and the first is none the
+/// worse for it.
+#[test]
+fn a_file_that_another_sweep_is_writing_is_left_to_it() {
+    let folder = Folder::with(&free("duration = \"400 s\""));
+    let sweep = |speeds: &str| {
+        let vary = format!("motion.speed={speeds}");
+        let words = ["sweep", "scene.toml", "--method", "time", "--no-estimate"];
+        let words = words.map(str::to_owned).to_vec();
+        [
+            words,
+            ["--out", "rows.csv", "--vary", &vary]
+                .map(str::to_owned)
+                .to_vec(),
+        ]
+        .concat()
+    };
+    let long = sweep("5rad/s:50rad/s:128");
+    let long: Vec<&str> = long.iter().map(String::as_str).collect();
+    let mut first = folder.start(&long);
+    let part = folder.path("rows.csv.part");
+    for _ in 0..6000 {
+        if std::fs::read_to_string(&part).is_ok_and(|text| text.lines().count() > 2) {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let before = std::fs::read_to_string(&part).expect("rows of the first");
+    let words = ["rows.csv.part", "another sweep", "wait"];
+    for speeds in ["5rad/s:50rad/s:128", "5rad/s,6rad/s"] {
+        let other = sweep(speeds);
+        let other: Vec<&str> = other.iter().map(String::as_str).collect();
+        folder.run(&other).fails(2, &words);
+    }
+    assert_eq!(first.try_wait().expect("a child"), None, "it still runs");
+    let after = std::fs::read_to_string(&part).expect("rows of the first");
+    assert!(after.starts_with(&before), "left to the first");
+    // What a dead process had is free again.
+    first.kill().expect("a child");
+    first.wait().expect("a child");
+    folder.run(&long).done();
+    assert_eq!(Table::read(&folder.read("rows.csv")).rows.len(), 128);
+}
+
 #[test]
 fn wherever_it_was_cut_off_the_result_is_the_same() {
     let folder = folder();

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+use super::alone;
 use crate::error::Error;
 use crate::report::Output;
 
@@ -22,7 +23,8 @@ impl Growing {
     /// Opens what an earlier run left and hands its whole rows on, or begins anew with this header.
     ///
     /// # Errors
-    /// [`Error::Write`], [`Error::Refused`] if what is there has another mark, and errors of `row`.
+    /// [`Error::Write`], [`Error::Refused`] if what is there has another mark or another process writes it, and
+    /// errors of `row`.
     pub fn open(
         target: &Path,
         mark: &str,
@@ -34,9 +36,13 @@ impl Growing {
         let mut part = target.as_os_str().to_owned();
         part.push(".part");
         let part = PathBuf::from(part);
-        let mut options = File::options();
-        let options = options.read(true).write(true).create(true).truncate(false);
-        let file = options.open(&part).map_err(|source| error(&part, source))?;
+        let file = alone::open(&part).map_err(|source| error(&part, source))?;
+        let Some(file) = file else {
+            return Err(Error::refused(
+                format!("another sweep is writing `{}`", part.display()),
+                "wait until it is done, or write to another file",
+            ));
+        };
         let mark = format!("# slider-crank {mark}\n");
         let mut growing = Growing {
             target: target.to_owned(),
@@ -111,7 +117,10 @@ impl Growing {
             }
         }
         output.finish()?;
-        std::fs::remove_file(&self.part).map_err(failed)
+        // Where a file that is open cannot be deleted it is closed first.
+        #[cfg(not(unix))]
+        drop(self.file);
+        std::fs::remove_file(&self.part).map_err(|source| error(&self.part, source))
     }
 
     /// The refusal of rows that belong to something else.

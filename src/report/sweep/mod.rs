@@ -1,5 +1,6 @@
 //! The designs of a sweep: rows, what they range over, and where they are kept until all are there.
 
+mod alone;
 mod columns;
 mod growing;
 mod ranges;
@@ -42,7 +43,7 @@ impl<'a> SweepWriter<'a> {
     /// takes up what an earlier sweep left.
     ///
     /// # Errors
-    /// [`Error::Write`]; [`Error::Refused`] if what was left is of another sweep.
+    /// [`Error::Write`]; [`Error::Refused`] if what was left is of another sweep, or one is writing it.
     pub fn new(
         path: Option<&Path>,
         sweep: &'a Sweep,
