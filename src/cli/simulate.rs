@@ -27,7 +27,7 @@ pub(super) struct Arguments {
     /// Prints the summary as one JSON object
     #[arg(long)]
     json: bool,
-    /// Adds joint, guide and shaking forces to the rows
+    /// Adds joint, guide and shaking forces to the rows, and the largest of them to the summary
     #[arg(long)]
     reactions: bool,
     /// Adds the torque that drives a crank of prescribed speed to the rows

@@ -35,6 +35,9 @@ pub(super) struct Arguments {
     /// Does without the forward motion: one turn in closed form only
     #[arg(long)]
     no_motion: bool,
+    /// Adds the largest joint, guide and shaking forces of the motion
+    #[arg(long)]
+    reactions: bool,
     /// auto, closed-form, energy, angle, time, dop853 or dopri5
     #[arg(long, default_value = "auto")]
     method: Method,
@@ -69,6 +72,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     }
     let options = SweepOptions {
         motion: !arguments.no_motion,
+        reactions: arguments.reactions,
         method: arguments.method,
         estimate: !arguments.no_estimate,
         max_evaluations: arguments.max_evaluations,

@@ -9,6 +9,7 @@ pub mod double_double;
 pub mod exact;
 pub mod fit;
 pub mod gauss;
+pub mod golden;
 pub mod interpolate;
 pub mod line_fit;
 pub mod orthogonal;

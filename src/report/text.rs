@@ -38,6 +38,12 @@ pub(super) fn facts(summary: &Summary) -> Facts {
             format_args!("{min_nm} to {max_nm} N m, mean {mean_nm} N m"),
         );
     }
+    for (name, peak) in summary.peaks.iter().flat_map(|peaks| peaks.named()) {
+        facts.add(
+            name,
+            format_args!("at most {} N, at t = {} s", peak.value_n, peak.t_s),
+        );
+    }
     let (relative, residual) = (summary.energy_residual, summary.energy_residual_j);
     facts.add(
         "energy residual",

@@ -193,7 +193,8 @@ fn write_rows(
         return Ok(());
     }
     let every = task.scene.run.output_every;
-    let schedule = match Schedule::new(every, Extent::Duration(end)) {
+    let scene = || Schedule::new(every, Extent::Duration(end));
+    let schedule = match task.looked_at.unwrap_or_else(scene) {
         Schedule::Angles { step } if speed != 0.0 => Schedule::Times {
             step: step / speed.abs(),
             end,

@@ -6,7 +6,7 @@ use super::row::RowMaker;
 use super::summary::TorqueRange;
 use crate::mechanism::Equation;
 use crate::numeric::angle::Angle;
-use crate::numeric::gauss;
+use crate::numeric::{gauss, golden};
 use crate::scene::Variable;
 
 /// A run at constant speed.
@@ -89,19 +89,12 @@ impl Drive<'_> {
         let value = |index: &usize| sign * torques[*index];
         let best = (0..times.len()).max_by(|a, b| value(a).total_cmp(&value(b)));
         let best = best.unwrap_or(0);
-        let mut a = times[best.saturating_sub(1)];
-        let mut b = times[(best + 1).min(times.len() - 1)];
-        let mut found = sign * torques[best];
-        for _ in 0..60 {
-            let (c, d) = (
-                b - 0.618_033_988_75 * (b - a),
-                a + 0.618_033_988_75 * (b - a),
-            );
-            let (at_c, at_d) = (sign * self.torque(c), sign * self.torque(d));
-            found = found.max(at_c).max(at_d);
-            if at_c > at_d { b = d } else { a = c }
-        }
-        found
+        let (from, to) = (
+            times[best.saturating_sub(1)],
+            times[(best + 1).min(times.len() - 1)],
+        );
+        let (_, between) = golden::largest(|t| sign * self.torque(t), from, to);
+        between.max(sign * torques[best])
     }
 
     /// Mean over time.

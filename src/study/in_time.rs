@@ -5,7 +5,6 @@ use std::time::Instant;
 
 use super::log::Log;
 use super::row::RowSink;
-use super::schedule::Schedule;
 use super::simulate::Simulation;
 use super::summary::{Final, Solved, Summary};
 use super::task::Task;
@@ -120,7 +119,7 @@ pub(super) fn watch<'a>(
         motion,
         maker: &task.maker,
         rows,
-        schedule: Schedule::new(task.scene.run.output_every, task.extent),
+        schedule: task.schedule(),
         start: task.first_state(),
         dead_centres: task.limits.dead_centres.len(),
         watched: dead_centres.chain(guards).collect(),

@@ -18,6 +18,7 @@ mod offsets;
 mod one_turn;
 mod over_angle;
 mod passages;
+mod peaks;
 mod precision;
 mod profile;
 mod relay;
@@ -47,6 +48,7 @@ pub use inverse::{
 pub use kinematics::{DeadCentre, Kinematics, KinematicsRow, Located, NamedPosition, kinematics};
 pub use offsets::{OffsetExtremes, offset_extremes};
 pub use one_turn::{LengthSlope, LoopCheck, OneTurn, TurnOptions, TurnRow, one_turn};
+pub use peaks::{Peak, Peaks};
 pub use precision::{Precision, PrecisionOptions, PrecisionRow, precision};
 pub use reproduce::{Drawing, Entry, Paper, Plot, Reproduction, Series, Style, Verdict, reproduce};
 pub use row::{LooseRow, NoRows, Row, RowSink};

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::schedule::{Schedule, passed};
+use super::schedule::passed;
 use super::summary::Event;
 use super::task::Task;
 use crate::engine::energy::Orbit;
@@ -158,7 +158,7 @@ pub(super) fn write_rows(
         let (angle, omega) = orbit.state(own);
         write(t, angle, omega)
     };
-    let schedule = Schedule::new(task.scene.run.output_every, task.extent);
+    let schedule = task.schedule();
     if let Some(step) = schedule.angle_step() {
         if *next == 0 {
             at(0.0, begin)?;

@@ -1,10 +1,11 @@
 //! Forward motion: scene -> mechanism -> plan -> engine -> trajectory.
 
 use super::row::{NoRows, RowMaker, RowSink};
+use super::schedule::Schedule;
 use super::sliding::Sliding;
 use super::summary::Summary;
 use super::task::Task;
-use super::{clearance, closed_form, in_time, over_angle};
+use super::{clearance, closed_form, in_time, over_angle, peaks};
 use crate::error::Error;
 use crate::mechanism::{Constrained, Curve, Equation, Limits, Reactor};
 use crate::plan::{Engine, Method, Plan};
@@ -16,7 +17,7 @@ use crate::trajectory::Trajectory;
 pub struct Options {
     /// The method; [`Method::Auto`] leaves it to the plan.
     pub method: Method,
-    /// Joint forces in the rows.
+    /// Joint forces in the rows, and the largest of them.
     pub reactions: bool,
     /// Driving torque in the rows, for prescribed motions.
     pub driving_torque: bool,
@@ -92,6 +93,34 @@ fn run(
     rows: &mut dyn RowSink,
     record: bool,
 ) -> Result<Simulation, Error> {
+    let mut run = run_with_rows_at(None, scene, options, rows, record)?;
+    let summary = &mut run.summary;
+    if options.reactions && summary.stopped.is_none() && summary.clearance.is_none() {
+        let again = Options {
+            estimate: false,
+            events_kept: 0,
+            ..*options
+        };
+        let mut look = |schedule: Schedule, scan: &mut dyn RowSink| {
+            run_with_rows_at(Some(schedule), scene, &again, scan, false).map(|_| ())
+        };
+        summary.peaks = peaks::search(scene, summary, &mut look)?;
+        if summary.peaks.is_none() {
+            summary.warnings.push(
+                "the largest joint forces are not given: the run is too long to be looked through as closely as it takes, or a force has no finite value".to_owned(),
+            );
+        }
+    }
+    Ok(run)
+}
+
+fn run_with_rows_at(
+    looked_at: Option<Schedule>,
+    scene: &Scene,
+    options: &Options,
+    rows: &mut dyn RowSink,
+    record: bool,
+) -> Result<Simulation, Error> {
     let plan = Plan::new(scene, options.method)?;
     let extent = scene.run.extent.ok_or_else(|| {
         Error::refused(
@@ -108,6 +137,7 @@ fn run(
         options,
         plan,
         extent,
+        looked_at,
         limits: Limits::new(equation.linkage(), scene.motion.speed),
         maker: RowMaker {
             equation: &equation,

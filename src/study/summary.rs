@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::clearance::ClearanceSummary;
+use super::peaks::Peaks;
 use super::steady::SteadyState;
 use super::task::Task;
 use crate::plan::Plan;
@@ -43,6 +44,9 @@ pub struct Summary {
     /// Torque that keeps the prescribed speed, for prescribed motions.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub driving_torque: Option<TorqueRange>,
+    /// Largest joint forces, if forces were asked for and the run came to its end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub peaks: Option<Peaks>,
     /// The loose joint, if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<ClearanceSummary>,
@@ -75,6 +79,7 @@ pub(super) struct Solved {
     pub estimate_cost: Option<Cost>,
     pub speed: (f64, f64),
     pub driving_torque: Option<TorqueRange>,
+    pub peaks: Option<Peaks>,
     pub clearance: Option<ClearanceSummary>,
     pub events: Vec<Event>,
     pub events_total: u64,
@@ -109,6 +114,7 @@ impl Summary {
             omega_min: solved.speed.0,
             omega_max: solved.speed.1,
             driving_torque: solved.driving_torque,
+            peaks: solved.peaks,
             clearance: solved.clearance,
             steady_state: None,
             events: solved.events,

@@ -1,6 +1,7 @@
 //! A run that is ready to be computed.
 
 use super::row::RowMaker;
+use super::schedule::Schedule;
 use super::simulate::Options;
 use crate::engine::time::Start;
 use crate::mechanism::{Equation, Limits};
@@ -14,11 +15,19 @@ pub(super) struct Task<'a> {
     pub options: &'a Options,
     pub plan: Plan,
     pub extent: Extent,
+    /// Rows that are due in place of the scene's.
+    pub looked_at: Option<Schedule>,
     pub limits: Limits,
     pub maker: RowMaker<'a>,
 }
 
 impl<'a> Task<'a> {
+    /// When rows are due.
+    pub fn schedule(&self) -> Schedule {
+        let scene = || Schedule::new(self.scene.run.output_every, self.extent);
+        self.looked_at.unwrap_or_else(scene)
+    }
+
     pub fn equation(&self) -> &'a Equation {
         self.maker.equation
     }

@@ -53,6 +53,34 @@ fn rows_and_summary_show_the_loose_joint() {
 }
 
 #[test]
+fn rows_have_the_joint_forces_too() {
+    let folder = Folder::new();
+    let scene = scene("clearance-5000rpm.toml");
+    let run = [
+        "simulate",
+        &scene,
+        "--reactions",
+        "--json",
+        "--out",
+        "rows.csv",
+    ];
+    let summary = folder.run(&run).done().json();
+    let rows = Rows::read(&folder.read("rows.csv"));
+    assert!(rows.complete() && rows.len() == 1081);
+    let column = |name: &str| rows.column(name);
+    let (x, y) = (column("wrist_pin_x_n"), column("wrist_pin_y_n"));
+    let (contact, guide) = (column("contact_force_n"), column("guide_n"));
+    for i in 0..rows.len() {
+        // The loose joint is the wrist pin, without friction; the slider has no weight.
+        close(x[i].hypot(y[i]), contact[i], 1e-12);
+        assert!((guide[i] + y[i]).abs() <= 1e-12 * contact[i]);
+    }
+    let peak = at(&summary, "peaks.wrist_pin.value_n");
+    assert!(contact.iter().all(|force| *force <= peak * (1.0 + 1e-9)));
+    assert!((peak / at(&summary, "clearance.force_peak_n") - 1.0).abs() < 1e-3);
+}
+
+#[test]
 fn the_plan_names_the_loose_joint() {
     let folder = Folder::new();
     let scene = scene("gupta-clearance.toml");

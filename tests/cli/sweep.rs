@@ -152,6 +152,48 @@ fn every_design_is_the_scene_with_its_values_written_out() {
 }
 
 #[test]
+fn largest_forces_are_those_of_the_scene_with_its_values_written_out() {
+    let folder = folder();
+    run(&folder, &["--reactions", "--out", "forces.csv"]).done();
+    let table = Table::read(&folder.read("forces.csv"));
+    assert_eq!(table.rows.len(), 8);
+    for row in 0..8 {
+        let (offset, model) = ([-10, 0, 10, 20][row / 2], ["rigid", "two-mass"][row % 2]);
+        folder.write("scene.toml", &pump(&format!("{offset} mm"), model));
+        let simulate = ["simulate", "scene.toml", "--reactions", "--json"];
+        let motion = folder.run(&simulate).done().json();
+        for name in [
+            "crank_bearing",
+            "crank_pin",
+            "wrist_pin",
+            "guide",
+            "shaking",
+        ] {
+            let found = table.number(row, &format!("{name}_peak_n"));
+            let wanted = at(&motion, &format!("peaks.{name}.value_n"));
+            assert!(found > 0.0);
+            close(found, wanted, 4e-16);
+        }
+    }
+    // The other columns are those of a sweep without them.
+    folder.write("scene.toml", &pump("3 mm", "rigid"));
+    let plain = Table::read(&whole(&folder));
+    for (name, row) in plain
+        .names
+        .iter()
+        .flat_map(|name| (0..8).map(move |row| (name, row)))
+    {
+        assert_eq!(
+            table.text(row, name),
+            plain.text(row, name),
+            "{name} of {row}"
+        );
+    }
+    let words = ["largest joint forces", "--no-motion"];
+    run(&folder, &["--reactions", "--no-motion"]).fails(2, &words);
+}
+
+#[test]
 fn strokes_of_offset_mechanisms_are_those_of_the_triangles_at_the_dead_centres() {
     let folder = Folder::with(&free("duration = \"1 s\""));
     let vary = ["--vary", "geometry.offset=-90mm:90mm:19", "--no-motion"];

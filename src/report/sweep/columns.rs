@@ -37,6 +37,15 @@ const MOTION: [&str; 15] = [
     "events",
 ];
 
+/// Columns of the largest joint forces.
+const PEAKS: [&str; 5] = [
+    "crank_bearing_peak_n",
+    "crank_pin_peak_n",
+    "wrist_pin_peak_n",
+    "guide_peak_n",
+    "shaking_peak_n",
+];
+
 /// Number of columns before the key figures: the design and its values, then `status`.
 pub(super) fn before_figures(sweep: &Sweep) -> usize {
     sweep.varied().len() + 2
@@ -49,6 +58,9 @@ pub(super) fn header(sweep: &Sweep) -> Vec<String> {
     names.extend(TURN.map(str::to_owned));
     if sweep.has_motion() {
         names.extend(MOTION.map(str::to_owned));
+    }
+    if sweep.has_reactions() {
+        names.extend(PEAKS.map(str::to_owned));
     }
     names.push("notes".to_owned());
     names
@@ -69,6 +81,12 @@ pub(super) fn cells(sweep: &Sweep, design: &Design) -> Vec<String> {
         match &design.motion {
             Some(summary) => cells.extend(motion(summary)),
             None => cells.extend(MOTION.map(|_| String::new())),
+        }
+    }
+    if sweep.has_reactions() {
+        match design.motion.as_ref().and_then(|summary| summary.peaks) {
+            Some(peaks) => cells.extend(peaks.named().map(|(_, peak)| cell(peak.value_n))),
+            None => cells.extend(PEAKS.map(|_| String::new())),
         }
     }
     // A row is a line.

@@ -11,6 +11,7 @@ use crate::engine::contact::Ended;
 use crate::mechanism::LooseState;
 use crate::scene::Joint;
 use crate::study::closed_form;
+use crate::study::peaks::Peaks;
 use crate::study::summary::{ErrorEstimate, Event, Final, Solved};
 use crate::trajectory::Trajectory;
 
@@ -61,6 +62,7 @@ impl<const N: usize> Run<'_, N> {
             |value| error(value, reach),
             horizon,
         );
+        let ends_early = stopped.is_some();
         let mut warnings = self.warnings(&summary, &seen, tighter.is_some() || stopped.is_some());
         let (events, events_total) = self.events(&seen, last.t);
         let theta = self.angle(&last).radians();
@@ -93,6 +95,7 @@ impl<const N: usize> Run<'_, N> {
             events_total,
             warnings,
             stopped,
+            peaks: seen.peaks.filter(|_| !ends_early).map(Peaks::new),
             clearance: Some(summary),
             ..Solved::default()
         }

@@ -11,6 +11,7 @@ use crate::error::Error;
 use crate::mechanism::LooseState;
 use crate::numeric::angle::Angle;
 use crate::numeric::root;
+use crate::study::peaks::{FORCES, Peak};
 use crate::study::row::{LooseRow, Row, RowMaker, RowSink};
 use crate::study::schedule::{Schedule, passed};
 use crate::study::summary::Event;
@@ -34,6 +35,8 @@ pub(super) struct Asked<'a> {
     pub keep_steps: bool,
     /// Whether the journal is sampled, for comparison with another run.
     pub sampled: bool,
+    /// Whether the largest joint forces are looked for.
+    pub forces: bool,
 }
 
 /// What was seen so far.
@@ -51,6 +54,7 @@ pub(super) struct Seen {
     pub steps: Vec<Step>,
     pub row_time: Duration,
     pub error: Option<Error>,
+    pub peaks: Option<[Peak; FORCES]>,
     phase: Phase,
     sticking: bool,
     next_row: u64,
@@ -70,6 +74,7 @@ impl Seen {
             steps: Vec::new(),
             row_time: Duration::ZERO,
             error: None,
+            peaks: None,
             phase,
             sticking: false,
             next_row: 0,
@@ -93,6 +98,7 @@ impl<const N: usize> Follow<'_, N> {
             self.follow_crank(stretch);
         }
         self.follow_contact(stretch);
+        self.follow_forces(stretch);
         while self.asked.sampled && self.seen.record.due() <= stretch.end[0] {
             let y = stretch.at(self.seen.record.due());
             let journal = self.model.mechanism.journal(&self.model.state(&y));

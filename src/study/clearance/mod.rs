@@ -3,6 +3,7 @@
 mod conclude;
 mod follow;
 mod motion;
+mod peak;
 mod press;
 mod record;
 mod result;
@@ -182,6 +183,7 @@ impl<'a, const N: usize> Run<'a, N> {
             events_kept: task.options.events_kept,
             keep_steps: record,
             sampled: task.options.estimate,
+            forces: task.options.reactions,
         }
     }
 
@@ -191,6 +193,7 @@ impl<'a, const N: usize> Run<'a, N> {
         let asked = Asked {
             turn_limit: None,
             keep_steps: false,
+            forces: false,
             events_kept: 0,
             ..self.asked(false)
         };

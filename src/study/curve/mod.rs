@@ -25,7 +25,6 @@ pub(super) use words::why;
 use super::in_time::settings;
 use super::log::Log;
 use super::row::RowSink;
-use super::schedule::Schedule;
 use super::simulate::Simulation;
 use super::stopped;
 use super::summary::{Final, Solved, Summary};
@@ -66,7 +65,7 @@ pub(super) fn run(
         equation: &constrained,
         reactor: task.maker.reactor.as_ref(),
         rows,
-        schedule: Schedule::new(task.scene.run.output_every, task.extent),
+        schedule: task.schedule(),
         start: task.start(),
         log: Log::new(task, false),
         recorded: record.then(Vec::new),

@@ -11,7 +11,6 @@ use crate::study::in_time;
 use crate::study::log::Log;
 use crate::study::passages::{Stretch, is_dead_centre};
 use crate::study::row::RowSink;
-use crate::study::schedule::Schedule;
 use crate::study::task::Task;
 use crate::study::watch::Watch;
 use crate::trajectory::Trajectory;
@@ -76,7 +75,7 @@ impl Notes<'_> {
             equation: sliding.equation(),
             reactor: task.maker.reactor.as_ref(),
             rows: &mut *self.watch.rows,
-            schedule: Schedule::new(task.scene.run.output_every, task.extent),
+            schedule: task.schedule(),
             start: task.start(),
             log,
             recorded: None,

@@ -85,6 +85,7 @@ impl Design {
         }
         let run = Options {
             method: options.method,
+            reactions: options.reactions,
             estimate: options.estimate,
             max_evaluations: options.max_evaluations,
             // All that is wanted of the events is their number.

@@ -19,6 +19,8 @@ pub use design::{Design, Outcome};
 pub struct SweepOptions {
     /// Whether the forward motion is computed, if the scene has a run; else one turn in closed form only.
     pub motion: bool,
+    /// Whether the largest joint forces of the motion are looked for.
+    pub reactions: bool,
     /// The method of the forward motion.
     pub method: Method,
     /// Whether its global error is estimated, by a second run.
@@ -32,6 +34,7 @@ impl Default for SweepOptions {
         let one = Options::default();
         SweepOptions {
             motion: true,
+            reactions: false,
             method: one.method,
             estimate: one.estimate,
             max_evaluations: one.max_evaluations,
@@ -72,6 +75,7 @@ impl Sweep {
     ///
     /// # Errors
     /// [`Error::Refused`] if nothing is varied, a key twice, or there are more than [`Sweep::MOST`] designs;
+    /// or if forces are asked for without a motion;
     /// [`Error::Scene`] if neither the scene as it is written nor the first design can be read, or if a load that
     /// is to be varied is not there.
     pub fn new(
@@ -121,6 +125,12 @@ impl Sweep {
                 .varied
                 .iter()
                 .any(|one| runs.contains(&one.key().as_str()));
+        if options.reactions && !options.motion {
+            return Err(Error::refused(
+                "the largest joint forces are those of a motion, and none is computed",
+                "give the scene a [run], and do without --no-motion",
+            ));
+        }
         sweep.options = options;
         sweep.title = scene.title.unwrap_or_default();
         Ok(sweep)
@@ -140,6 +150,11 @@ impl Sweep {
     /// Whether the forward motion is computed.
     pub fn has_motion(&self) -> bool {
         self.options.motion
+    }
+
+    /// Whether the largest joint forces are looked for.
+    pub fn has_reactions(&self) -> bool {
+        self.options.reactions
     }
 
     /// Title of the scene.

@@ -1,0 +1,83 @@
+//! Largest joint forces of a run.
+//!
+//! They are found on rows of a run that is made again with rows of its own: at times so close that the crank turns by
+//! a degree at most between them, then ever closer about the largest, until that changes nothing.
+
+mod scan;
+mod search;
+
+use serde::Serialize;
+
+use super::row::Row;
+use crate::mechanism::Reactions;
+pub(super) use search::search;
+
+/// Number of forces that are looked at.
+pub(super) const FORCES: usize = 5;
+
+/// The largest size of a force in a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Peak {
+    /// N
+    pub value_n: f64,
+    /// When, s.
+    pub t_s: f64,
+    /// What the last refinement added, N. The error of the motion itself comes on top.
+    pub added_n: f64,
+}
+
+/// The largest sizes of the joint forces in a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Peaks {
+    /// Of the crank's bearing at O.
+    pub crank_bearing: Peak,
+    /// Between crank and rod.
+    pub crank_pin: Peak,
+    /// Between rod and slider.
+    pub wrist_pin: Peak,
+    /// Of the guide, normal to it.
+    pub guide: Peak,
+    /// Minus the rate of change of the momentum of the mechanism.
+    pub shaking: Peak,
+}
+
+impl Peaks {
+    pub(super) fn new(
+        [crank_bearing, crank_pin, wrist_pin, guide, shaking]: [Peak; FORCES],
+    ) -> Peaks {
+        Peaks {
+            crank_bearing,
+            crank_pin,
+            wrist_pin,
+            guide,
+            shaking,
+        }
+    }
+
+    /// All of them, with their names.
+    pub fn named(&self) -> [(&'static str, Peak); FORCES] {
+        [
+            ("crank bearing", self.crank_bearing),
+            ("crank pin", self.crank_pin),
+            ("wrist pin", self.wrist_pin),
+            ("guide", self.guide),
+            ("shaking force", self.shaking),
+        ]
+    }
+}
+
+/// Sizes of the forces, N, in the order of [`Peaks`].
+pub(super) fn sizes(forces: &Reactions) -> [f64; FORCES] {
+    let size = |[x, y]: [f64; 2]| x.hypot(y);
+    [
+        size(forces.crank_bearing),
+        size(forces.crank_pin),
+        size(forces.wrist_pin),
+        forces.guide.abs(),
+        size(forces.shaking),
+    ]
+}
+
+fn of_row(row: &Row) -> [f64; FORCES] {
+    row.reactions.as_ref().map_or([f64::NAN; FORCES], sizes)
+}

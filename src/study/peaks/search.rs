@@ -1,0 +1,98 @@
+//! The search for the largest forces of a run that can be made again.
+
+use std::f64::consts::PI;
+
+use super::scan::{Scan, Track};
+use super::{FORCES, Peak, Peaks};
+use crate::error::Error;
+use crate::mechanism::Linkage;
+use crate::scene::Scene;
+use crate::study::row::RowSink;
+use crate::study::schedule::{Schedule, WINDOWS};
+use crate::study::summary::Summary;
+
+/// Most rows of a search.
+const MOST_ROWS: f64 = 4e5;
+/// Least rows of a search.
+const LEAST_ROWS: f64 = 720.0;
+/// Most refinements.
+const MOST_PASSES: u32 = 6;
+/// The forces are found where a refinement adds less than this part of them; the next would add a thousandth of it.
+const SETTLED: f64 = 1e-8;
+
+/// The largest forces of a finished run; none where it is too long to be looked through, or a force has no value.
+/// `look` makes the run again with these rows.
+pub(in crate::study) fn search(
+    scene: &Scene,
+    summary: &Summary,
+    look: &mut dyn FnMut(Schedule, &mut dyn RowSink) -> Result<(), Error>,
+) -> Result<Option<Peaks>, Error> {
+    let end = summary.last.t_s;
+    let mut step = first_step(scene, summary);
+    let coarse = loop {
+        if end > MOST_ROWS * step {
+            return Ok(None);
+        }
+        let mut scan = Scan::new(step);
+        look(Schedule::Times { step, end }, &mut scan)?;
+        if !scan.all.finite {
+            return Ok(None);
+        }
+        if scan.is_resolved() {
+            break scan.all;
+        }
+        step *= 0.5;
+    };
+    refined(coarse, step, end, look)
+}
+
+/// Time between the rows at first, s: the crank turns by a degree at most. Rods that are hardly long enough make
+/// peaks of the width sqrt((l − |e| − r)/r) in the crank angle.
+fn first_step(scene: &Scene, summary: &Summary) -> f64 {
+    let linkage = Linkage::new(&scene.geometry);
+    let narrow = (linkage.margin() / linkage.r).abs().sqrt();
+    let angle = (PI / 180.0).min(0.1 * narrow);
+    let fastest = summary.omega_min.abs().max(summary.omega_max.abs());
+    let turns = fastest * summary.last.t_s / angle;
+    summary.last.t_s / turns.max(LEAST_ROWS)
+}
+
+fn refined(
+    mut found: Track,
+    mut step: f64,
+    end: f64,
+    look: &mut dyn FnMut(Schedule, &mut dyn RowSink) -> Result<(), Error>,
+) -> Result<Option<Peaks>, Error> {
+    let mut added = [f64::INFINITY; FORCES];
+    for _ in 0..MOST_PASSES {
+        let mut times: [f64; WINDOWS] = std::array::from_fn(|i| match i < FORCES {
+            true => found.largest[i].t,
+            false => found.highest[i - FORCES].t,
+        });
+        times.sort_by(f64::total_cmp);
+        let (schedule, finer) = Schedule::about(times, step, end);
+        let mut scan = Scan::new(finer);
+        look(schedule, &mut scan)?;
+        if !scan.all.finite {
+            return Ok(None);
+        }
+        step = finer;
+        let both = found.largest.iter_mut().zip(scan.all.largest);
+        for ((best, now), added) in both.zip(&mut added) {
+            *added = (now.value - best.value).max(0.0);
+            if now.value > best.value {
+                *best = now;
+            }
+        }
+        found.highest = scan.all.highest;
+        let settled = |k: usize| added[k] <= SETTLED * found.largest[k].value;
+        if (0..FORCES).all(settled) {
+            break;
+        }
+    }
+    Ok(Some(Peaks::new(std::array::from_fn(|k| Peak {
+        value_n: found.largest[k].value,
+        t_s: found.largest[k].t,
+        added_n: added[k],
+    }))))
+}
