@@ -36,6 +36,17 @@
 //! # Ok::<(), slider_crank::error::Error>(())
 //! ```
 //!
+//! # Where to begin
+//!
+//! - A scene comes from code, as above, from a text ([`scene::Scene::parse`]) or from a file
+//!   ([`scene::Scene::load`]).
+//! - [`study::simulate`] keeps the dense motion; [`study::simulate_rows`] hands on its rows, in memory that does not
+//!   grow with the run.
+//! - [`study::kinematics`], [`study::forces`] and [`study::statics`] look at one turn of the crank.
+//! - [`study::inverse`] takes measured samples, from arrays ([`scene::Measurement::new`]) or from a file
+//!   ([`scene::Measurement::load`]).
+//! - [`study::Sweep`] computes many designs; [`study::explain`] shows the equation, its terms and the plan.
+//!
 //! Everything is SI and radians, f64; conventions are those of [`mechanism::Linkage`].
 
 pub mod cli;

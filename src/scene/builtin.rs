@@ -26,6 +26,24 @@ impl Scene {
     ///
     /// # Errors
     /// [`Problems`]: all that is wrong, with its places.
+    ///
+    /// ```
+    /// use slider_crank::scene::Scene;
+    /// let text = r#"
+    ///     [geometry]
+    ///     crank = "50 mm"
+    ///     rod = "150 mm"
+    ///
+    ///     [motion]
+    ///     speed = "300 rpm"
+    /// "#;
+    /// let scene = Scene::parse("pump.toml".as_ref(), text)?;
+    /// assert_eq!(scene.geometry.crank, 0.05);
+    ///
+    /// let problems = Scene::parse("pump.toml".as_ref(), "[geometry]").unwrap_err();
+    /// assert!(problems.to_string().contains("crank"));
+    /// # Ok::<(), slider_crank::error::Error>(())
+    /// ```
     pub fn parse(file: &Path, text: &str) -> Result<Scene, Problems> {
         Draft::new(file, text).scene()
     }

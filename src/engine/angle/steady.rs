@@ -50,10 +50,8 @@ pub fn steady<D: Driven>(
     let (low, high, approached) = turns.bracket(first, step)?;
     // Close to the root rounding may give another sign: the values that made the bracket stay.
     let known = |kinetic: f64| {
-        let ends = [low, high].into_iter();
-        ends.clone()
-            .find(|end| end.kinetic == kinetic)
-            .map(|end| end.gain)
+        let mut ends = [low, high].into_iter();
+        ends.find(|end| end.kinetic == kinetic).map(|end| end.gain)
     };
     let mut failed = None;
     let kinetic = root::bracketed(

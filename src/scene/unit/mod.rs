@@ -29,6 +29,9 @@ impl fmt::Display for UnitError {
 /// Powers of ten are applied to the decimal digits before they are rounded, so `"155.83 mm"` is the
 /// double nearest to 0.15583.
 ///
+/// # Errors
+/// What is wrong with number or unit, and examples of what would be right.
+///
 /// ```
 /// use slider_crank::scene::unit::{parse, Quantity};
 /// assert_eq!(parse("155.83 mm", Quantity::Length), Ok(0.15583));
@@ -104,6 +107,9 @@ fn measure(text: &str) -> Result<Measured<'_>, String> {
 }
 
 /// Factor of a unit that stands alone, as in a column header `pressure [bar]`: SI value of one unit.
+///
+/// # Errors
+/// As [`parse`].
 pub fn factor(unit: &str, quantity: Quantity) -> Result<f64, UnitError> {
     parse(&format!("1 {unit}"), quantity)
 }
