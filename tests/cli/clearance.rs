@@ -1,6 +1,6 @@
 //! A loose joint on the command line: columns, summary, figure.
 
-use super::program::{Folder, Rows, at, repository};
+use super::program::{Folder, Rows, at, close, repository};
 
 const COLUMNS: &str = "t_s,theta_rad,omega_rad_per_s,alpha_rad_per_s2,x_m,v_m_per_s,a_m_per_s2,phi_rad,\
     crank_torque_nm,x_ideal_m,v_ideal_m_per_s,a_ideal_m_per_s2,journal_x_m,journal_y_m,contact_force_n";
