@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-use super::program::{Folder, PUMP, at, close, free};
+use super::program::{Folder, PUMP, at, close, free, same};
 
 const ROW: &str = "design,geometry_offset_m,rod_model,status,class,stroke_m,advance_rad,return_rad,\
 time_ratio,transmission_min_rad,velocity_max_m_per_s,velocity_min_m_per_s,acceleration_max_m_per_s2,\
@@ -172,7 +172,7 @@ fn largest_forces_are_those_of_the_scene_with_its_values_written_out() {
             let found = table.number(row, &format!("{name}_peak_n"));
             let wanted = at(&motion, &format!("peaks.{name}.value_n"));
             assert!(found > 0.0);
-            close(found, wanted, 4e-16);
+            same(found, wanted);
         }
     }
     // The other columns are those of a sweep without them.
