@@ -265,7 +265,7 @@ fn a_short_massless_link_carries_the_forces_of_the_ideal_joint() {
     for joint in [Joint::CrankPin, Joint::WristPin] {
         let mut ideal = scene(joint, 0.01, Branch::Right)
             .constant_speed(0.3, 60.0)
-            .duration(0.02)
+            .duration(0.006)
             .output_every(Every::Time(1e-4));
         ideal.clearance = None;
         let wanted = rows(&ideal);
