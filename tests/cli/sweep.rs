@@ -172,7 +172,7 @@ fn largest_forces_are_those_of_the_scene_with_its_values_written_out() {
             let found = table.number(row, &format!("{name}_peak_n"));
             let wanted = at(&motion, &format!("peaks.{name}.value_n"));
             assert!(found > 0.0);
-            close(found, wanted, 4e-16);
+            close(found, wanted, 4e-16 * wanted);
         }
     }
     // The other columns are those of a sweep without them.
