@@ -136,4 +136,8 @@ fn files() {
     refused("load [N],reading\n1,2\n2,inf\n", &["line 3", "finite"]);
     refused("", &["line"]);
     assert!(calibrate(Path::new("no-such.csv"), &[]).is_err());
+    for reading in [f64::NAN, f64::INFINITY] {
+        let said = calibrate(Path::new("data/ng-calibration.csv"), &[reading]);
+        assert!(said.unwrap_err().to_string().contains("finite"));
+    }
 }

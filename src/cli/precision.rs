@@ -32,7 +32,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "COUNT", default_value_t = PrecisionOptions::default().repeats, value_parser = clap::value_parser!(u32).range(1..))]
     repeats: u32,
     /// Most time for repeated runs of one scene, in seconds
-    #[arg(long, value_name = "SECONDS", default_value_t = PrecisionOptions::default().most_s)]
+    #[arg(long, value_name = "SECONDS", default_value_t = PrecisionOptions::default().most_s, value_parser = seconds)]
     most_time: f64,
     /// Work limit: most evaluations of the equation in one run
     #[arg(long, value_name = "COUNT", default_value_t = PrecisionOptions::default().max_evaluations)]
@@ -75,6 +75,13 @@ impl Arguments {
                 "write to files: --out rows.csv --plot figure.svg",
             )),
         }
+    }
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(seconds) if seconds >= 0.0 => Ok(seconds),
+        _ => Err("give a number of seconds that is zero or more".to_owned()),
     }
 }
 

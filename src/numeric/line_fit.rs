@@ -94,6 +94,7 @@ impl LineFit {
         let uncertainty = self
             .residual_sd
             .map(|sd| sd / self.slope.abs() * (1.0 + 1.0 / self.points as f64 + from_mean).sqrt());
-        x.is_finite().then_some((x, uncertainty))
+        let finite = x.is_finite() && uncertainty.is_none_or(f64::is_finite);
+        finite.then_some((x, uncertainty))
     }
 }

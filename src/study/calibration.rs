@@ -54,6 +54,12 @@ pub fn calibrate(file: &Path, readings: &[f64]) -> Result<Calibration, Error> {
         });
     let mut forces = Vec::new();
     for reading in readings {
+        if !reading.is_finite() {
+            return Err(Error::refused(
+                format!("a reading of {reading} is no finite number"),
+                "give readings as the sensor shows them",
+            ));
+        }
         let (force_n, force_se_n) = fit
             .inverse(*reading)
             .ok_or_else(|| refused("the readings do not depend on the load"))?;

@@ -95,6 +95,7 @@ fn what_no_command_takes_is_refused() {
         (&["simulate", "--max-evaluations", "1.5"], "1.5"),
         (&["simulate", "--max-events", "-1"], "-1"),
         (&["precision", "--repeats", "0"], "--repeats"),
+        (&["precision", "--most-time", "nan"], "--most-time"),
     ] {
         folder.run(arguments).fails(2, &[word]);
     }

@@ -105,20 +105,7 @@ impl Panel {
             0.0
         };
         let steep = Steep::of(&piece, &force, noise);
-        let (off, left_out) = (rounding + steep.energy, energy.left_out());
-        let shaken = match piece.turning {
-            Turning::Nowhere => {
-                // dT/dK is the integral of dt/2K.
-                let early: Values = std::array::from_fn(|j| 0.5 * slopes[j] / kinetic[j]);
-                let least = kinetic.iter().fold(f64::INFINITY, |m, k| m.min(*k));
-                off * rule.rounded_integral(&early) / rule.rounded_integral(&slopes)
-                    + left_out / least
-            }
-            Turning::AtStart => steep.at_turn(&piece, f64::INFINITY, off),
-            Turning::AtEnd => {
-                steep.at_turn(&piece, energy.kinetic, off) + left_out / energy.kinetic
-            }
-        };
+        let shaken = shaken(&energy, &steep, &slopes, &kinetic, rounding);
         let kinetic_at_end = match piece.turning {
             Turning::Nowhere => kinetic[DEGREE],
             Turning::AtStart => 2.0 * piece.span().abs() * energy.mean_force(1.0),
@@ -242,5 +229,28 @@ impl Panel {
     pub(super) fn at(&self, theta: f64) -> (f64, f64) {
         let x = self.piece.variable(theta);
         (self.slope.integral().value(x), self.speed(x))
+    }
+}
+
+/// What errors of the kinetic energy make of the duration of a panel, relative to it. `slopes` and `kinetic` are dt/dx
+/// and the kinetic energy (J) at the points, `rounding` (J) what the energy at the start may be off.
+fn shaken(
+    energy: &Energy<'_>,
+    steep: &Steep,
+    slopes: &Values,
+    kinetic: &Values,
+    rounding: f64,
+) -> f64 {
+    let (piece, rule) = (&energy.piece, energy.rule);
+    let (off, left_out) = (rounding + steep.energy, energy.left_out());
+    match piece.turning {
+        Turning::Nowhere => {
+            // dT/dK is the integral of dt/2K.
+            let early: Values = std::array::from_fn(|j| 0.5 * slopes[j] / kinetic[j]);
+            let least = kinetic.iter().fold(f64::INFINITY, |m, k| m.min(*k));
+            off * rule.rounded_integral(&early) / rule.rounded_integral(slopes) + left_out / least
+        }
+        Turning::AtStart => steep.at_turn(piece, f64::INFINITY, off),
+        Turning::AtEnd => steep.at_turn(piece, energy.kinetic, off) + left_out / energy.kinetic,
     }
 }

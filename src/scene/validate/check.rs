@@ -17,6 +17,11 @@ const MASS_KEYS: [&str; 8] = [
     "depth",
 ];
 
+/// Largest value, SI: an energy, the product of five values, has one in double precision, too.
+const LARGEST: f64 = 1e50;
+/// Least value that has to be positive, SI: such a product does not vanish.
+const LEAST: f64 = 1.0 / LARGEST;
+
 /// The problems found so far.
 pub(super) struct Check<'a>(pub &'a mut Vec<Problem>);
 
@@ -35,14 +40,23 @@ impl Check<'_> {
         if !value.is_finite() {
             let what = format!("{value} is not a finite number");
             self.add(field, what, "give a finite value");
+        } else if value.abs() > LARGEST {
+            let what = format!("{value:e} is too large to be computed with");
+            self.add(field, what, "give a value below 1e50 in SI units");
         }
-        value.is_finite()
+        value.abs() <= LARGEST
     }
 
     pub fn positive(&mut self, field: impl Display, value: f64, unit: &str) {
-        if self.finite(&field, value) && value <= 0.0 {
+        if !self.finite(&field, value) {
+            return;
+        }
+        if value <= 0.0 {
             self.0
                 .push(Problem::not_positive(&field.to_string(), value, unit));
+        } else if value < LEAST {
+            let what = format!("{value:e} is too small to be computed with");
+            self.add(field, what, "give a value above 1e-50 in SI units");
         }
     }
 
