@@ -10,6 +10,7 @@ mod evidence;
 mod noise;
 mod record;
 mod start;
+mod steady;
 mod strokes;
 mod track;
 mod turnings;
@@ -58,9 +59,13 @@ pub(super) fn unfold(
         turnings: &turnings,
     };
     let first = branches::begin_on_branch(&strokes, record.values[0]);
-    let tracks = match few {
-        true => Vec::new(),
-        false => parallel::map(first.into_iter(), |stroke| Track::new(&motion, stroke)),
+    let tracks = if few {
+        Vec::new()
+    } else {
+        let passed = steady::passed(&motion);
+        parallel::map(first.into_iter(), |stroke| {
+            Track::new(&motion, &passed, stroke)
+        })
     };
     // At a dead centre the crank angle is known to about √(2 noise/x'').
     let blur = match sensor.measured {
