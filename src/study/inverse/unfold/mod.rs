@@ -100,7 +100,7 @@ const PART: usize = 2;
 const ROUNDING: f64 = 1e-14;
 
 fn record<'a>(sensor: &Sensor<'_>, measurement: &'a Measurement) -> Record<'a> {
-    let (times, values) = (measurement.times(), measurement.values());
+    let (times, values) = (measurement.elapsed(), measurement.values());
     let least = ROUNDING * sensor.size();
     let printed = of_step(measurement.resolution());
     Record {
