@@ -109,13 +109,44 @@ fn at_rest_the_force_is_empty() {
     let scene = rubbing(Scene::new(0.05, 0.15), 0.2);
     let found = inverse(&scene, &motion, &InverseOptions::default()).expect("an inversion");
     let row = found.rows[100];
-    assert!(row.slider_force.is_none() && row.near_dead_centre && row.crank_torque_se > 1e-3);
-    assert!(found.rows[60].slider_force.is_some() && found.rows[60].crank_torque_se < 1e-6);
+    assert!(row.slider_force.is_none() && row.near_dead_centre && row.crank_torque_se > Some(1e-3));
+    assert!(found.rows[60].slider_force.is_some() && found.rows[60].crank_torque_se < Some(1e-6));
     assert!(
         found.summary.dead_centre_bands[0]
             .reason
             .contains("friction may act either way")
     );
+}
+
+/// The guide locks itself where mu |tan phi| > 1: there is no torque there, but there is a force, and the
+/// other rows have both.
+#[test]
+fn where_a_guide_locks_itself_the_torque_is_empty() {
+    let times: Vec<f64> = (0..200).map(|i| 0.005 * f64::from(i)).collect();
+    let angles: Vec<f64> = times.iter().map(|t| 0.4 + 1.8 * t).collect();
+    let motion = Measurement::new(Measured::Theta, times, angles.clone()).expect("samples");
+    let mu = 1.6;
+    let scene = rubbing(Scene::new(0.05, 0.09), mu);
+    let found = inverse(&scene, &motion, &InverseOptions::default()).expect("an inversion");
+    let mut locked = 0;
+    for (row, theta) in found.rows.iter().zip(angles) {
+        let sine = 0.05 / 0.09 * theta.sin();
+        let slope = mu * sine / (1.0 - sine * sine).sqrt();
+        if (slope - 1.0).abs() > 1e-3 {
+            assert_eq!(row.crank_torque.is_none(), slope > 1.0, "{theta}");
+        }
+        locked += usize::from(row.crank_torque.is_none());
+        assert_eq!(row.crank_torque.is_none(), row.crank_torque_se.is_none());
+        assert!(row.slider_force.is_some());
+    }
+    let said = found
+        .summary
+        .warnings
+        .iter()
+        .find(|w| w.contains("locks itself"));
+    let said = said.expect("a warning");
+    assert!(0 < locked && locked < 200);
+    assert!(said.contains(&format!("at {locked} samples")), "{said}");
 }
 
 /// The rod presses the slider into the guide at 45° and more, and mu = 1.2: no torque on the crank keeps it moving.
@@ -182,10 +213,13 @@ proptest! {
         }
         // Acceleration and normal force are linear in torque and friction: with the torque of the row, the friction
         // that gives the acceleration has to be that of the normal force.
-        let (a, b) = (with(row.crank_torque, 0.0), with(row.crank_torque, 1.0));
+        let Some(torque) = row.crank_torque else {
+            return Ok(());
+        };
+        let (a, b) = (with(torque, 0.0), with(torque, 1.0));
         prop_assume!(dx.abs() > 0.05 * geometry.crank);
         let friction = (row.alpha - a[0]) / (b[0] - a[0]);
-        let [_, normal] = with(row.crank_torque, friction);
+        let [_, normal] = with(torque, friction);
         prop_assert!(
             (friction + mu * direction * normal.abs()).abs() < 1e-6 * (1.0 + normal.abs()),
             "{} {}", friction, normal

@@ -176,8 +176,8 @@ fn all_finite(found: &Inverse) {
             row.theta,
             row.omega,
             row.alpha,
-            row.crank_torque,
-            row.crank_torque_se,
+            row.crank_torque.unwrap_or(0.0),
+            row.crank_torque_se.unwrap_or(0.0),
         ];
         assert!(numbers.iter().all(|v| v.is_finite()), "{row:?}");
         assert_eq!(row.slider_force.is_none(), row.near_dead_centre);

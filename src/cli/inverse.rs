@@ -31,6 +31,9 @@ pub(super) struct Arguments {
     /// What the columns of a file without header are, like "t [s],theta [deg]"
     #[arg(long, value_name = "HEADER")]
     columns: Option<String>,
+    /// What numbers have between units and tenths, point or comma; with comma, semicolons or tabs separate the columns
+    #[arg(long, value_name = "MARK", default_value = "point", value_parser = ["point", "comma"])]
+    decimal: String,
     /// Gives the force that acts beside the forces of the scene, not the whole force on the slider
     #[arg(long)]
     beside_forces: bool,
@@ -78,6 +81,7 @@ fn measurement(arguments: &Arguments) -> Result<Measurement, Error> {
     let reading = Reading {
         columns: arguments.columns.clone(),
         column: arguments.column,
+        decimal_comma: arguments.decimal == "comma",
     };
     match (&arguments.scene, &arguments.data) {
         (_, Some(data)) => Measurement::load(data, &reading),

@@ -214,7 +214,21 @@ fn files_that_hold_too_little_or_something_else() {
     );
     refused(
         &data("t [s];theta [rad]", &with_commas()),
-        &["data.csv:2:3", "decimal comma"],
+        &["data.csv:2:3", "decimal comma", "--decimal comma"],
+    );
+    refused_with(
+        &data("t [s],theta [rad]", &rows(",")),
+        &["--decimal", "comma"],
+        &["commas cannot be decimal", "semicolon or tab"],
+    );
+    refused_with(
+        &data("t [s];theta [rad]", &with_commas()).replacen("0,01", "0.01", 1),
+        &["--decimal", "comma"],
+        &["data.csv:3:1", "`0.01` has a point"],
+    );
+    refused(
+        &data("t [s];x [mm]", &["0;1,234.5".to_owned()]),
+        &["data.csv:2:3", "separators of thousands"],
     );
     let zero = data("t [s],theta [rad]", &rows(",")).replace("0.33", "0\u{0}33");
     refused(&zero, &["line 3", "zero byte"]);
@@ -324,6 +338,20 @@ fn files_as_instruments_write_them() {
         .collect();
     for (text, options) in [
         (plain.clone(), &[][..]),
+        (
+            data("t [s];theta [rad]", &with_commas()),
+            &["--decimal", "comma"],
+        ),
+        (
+            data("t [s]\ttheta [rad]", &with_commas()).replace(';', "\t"),
+            &["--decimal", "comma"],
+        ),
+        (
+            data("t [s];theta [rad];", &rows(";"))
+                .replace('\n', ";\n")
+                .replacen(";;", ";", 1),
+            &[],
+        ),
         (plain.replace('\n', "\r\n"), &[]),
         (format!("\u{feff}# bench 3\n{plain}\n\n# end\n"), &[]),
         (
@@ -459,7 +487,7 @@ fn times_far_from_zero_are_noted() {
         let run = folder.run(&["inverse", "scene.toml", "data.csv", "--json"]);
         let warnings = run.done().json()["warnings"].to_string();
         assert_eq!(
-            warnings.contains("let the time begin near 0"),
+            warnings.contains("counted from the first row"),
             noted,
             "{warnings}"
         );

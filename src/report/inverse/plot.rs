@@ -143,11 +143,14 @@ fn forces(result: &Inverse, printed: Option<&AsPrinted>) -> Figure {
 
 fn torques(result: &Inverse) -> Figure {
     let factor = result.summary.band_factor;
-    let of = |row: &InverseRow, side: f64| row.crank_torque + side * factor * row.crank_torque_se;
+    let of = |row: &InverseRow, side: f64| {
+        let value = row.crank_torque.zip(row.crank_torque_se);
+        value.map_or(f64::NAN, |(torque, error)| torque + side * factor * error)
+    };
     let rows: Vec<_> = drawn(result).into_iter().filter(Option::is_some).collect();
     let half = result.summary.crank_torque.median_se * factor;
     let label = band_label("crank torque", half, "N m");
-    let line = rows.iter().flatten().map(|row| (row.t, row.crank_torque));
+    let line = rows.iter().flatten().map(|row| (row.t, of(row, 0.0)));
     Figure::new(
         "crank torque that does the same, with 95 % band",
         time(),

@@ -132,7 +132,7 @@ fn line(row: &InverseRow, text: &mut Vec<u8>) {
     for value in [row.slider_force, row.slider_force_se] {
         cell(value.unwrap_or(f64::NAN), text);
     }
-    cell(row.crank_torque, text);
+    cell(row.crank_torque.unwrap_or(f64::NAN), text);
     text.extend(if row.near_dead_centre { b",1" } else { b",0" });
 }
 

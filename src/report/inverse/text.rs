@@ -102,7 +102,7 @@ fn table(text: &mut String, result: &Inverse, printed: Option<&AsPrinted>) {
     for row in result.rows.iter().step_by(stride) {
         let _ = write!(
             text,
-            "{:>12.6} {:>12.4} {:>13.6} {:>13.6} {:>13} {:>13} {:>13.6}",
+            "{:>12.6} {:>12.4} {:>13.6} {:>13.6} {:>13} {:>13} {:>13}",
             row.t,
             row.theta.to_degrees(),
             row.omega,
@@ -110,6 +110,7 @@ fn table(text: &mut String, result: &Inverse, printed: Option<&AsPrinted>) {
             cell(row.slider_force),
             error(row.slider_force_se),
             row.crank_torque
+                .map_or_else(|| "-".to_owned(), |torque| format!("{torque:.6}"))
         );
         if let Some(printed) = printed {
             let forces = printed.forces(row);

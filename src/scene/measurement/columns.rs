@@ -1,5 +1,7 @@
 //! Which columns of a data file hold the time and the measured value.
 
+use std::borrow::Cow;
+
 use csv::ByteRecord;
 
 use super::{Measured, Reading};
@@ -15,6 +17,8 @@ pub(super) struct Columns {
     pub at: [usize; 2],
     pub time: Column,
     pub value: Column,
+    /// Whether numbers have decimal commas.
+    pub decimal_comma: bool,
     /// How many columns the header has.
     pub count: usize,
     /// What the reader should know.
@@ -95,6 +99,7 @@ pub(super) fn columns(header: &ByteRecord, reading: &Reading) -> Result<Columns,
         at: [time, value],
         time: unit(time, Quantity::Time)?,
         value: unit(value, measured.quantity())?,
+        decimal_comma: reading.decimal_comma,
         count: cells.len(),
         note: (reading.column.is_none() && !others.is_empty()).then(|| {
             format!(
@@ -113,5 +118,14 @@ fn only(cells: &[String], what: String) -> String {
             "{what}; the header has one column, `{one}`; columns are separated by comma, semicolon or tab"
         ),
         _ => what,
+    }
+}
+
+/// A number with a decimal point, whatever the file has; none if that has the other one.
+pub(super) fn with_point<'a>(cell: &'a str, columns: &Columns) -> Option<Cow<'a, str>> {
+    match columns.decimal_comma {
+        false => Some(Cow::Borrowed(cell)),
+        true if cell.contains('.') => None,
+        true => Some(Cow::Owned(cell.replacen(',', ".", 1))),
     }
 }

@@ -2,9 +2,11 @@
 
 mod columns;
 mod digits;
+mod elapsed;
 mod plain;
 mod read;
 mod rows;
+mod saturated;
 mod source;
 mod text;
 
@@ -78,6 +80,8 @@ pub struct Reading {
     pub columns: Option<String>,
     /// The measured column, where the file has several.
     pub column: Option<Measured>,
+    /// Whether numbers have decimal commas; columns are then separated by semicolon or tab.
+    pub decimal_comma: bool,
 }
 
 /// Samples of a motion, SI and radians, in the order of time.
@@ -85,6 +89,8 @@ pub struct Reading {
 pub struct Measurement {
     measured: Measured,
     times: Vec<f64>,
+    /// Times since the first row, s, where the times themselves have lost digits.
+    elapsed: Option<Vec<f64>>,
     values: Vec<f64>,
     resolution: f64,
     notes: Vec<String>,
@@ -112,6 +118,7 @@ impl Measurement {
         let mut measurement = Measurement {
             measured,
             times,
+            elapsed: None,
             values,
             resolution: 0.0,
             notes: Vec::new(),
@@ -153,6 +160,7 @@ impl Measurement {
     /// [`Problems`]: all that is wrong, with lines and columns.
     pub fn parse(file: &Path, text: String, reading: &Reading) -> Result<Measurement, Problems> {
         let mut measurement = read::measurement(file, text, reading)?;
+        measurement.count_from_first_row();
         check_rows(&mut measurement)?;
         Ok(measurement)
     }
@@ -165,6 +173,19 @@ impl Measurement {
     /// Times, s.
     pub fn times(&self) -> &[f64] {
         &self.times
+    }
+
+    /// Times for a fit, s: they count from [`origin`](Self::origin) where times so far from zero would lose digits.
+    pub fn elapsed(&self) -> &[f64] {
+        self.elapsed.as_deref().unwrap_or(&self.times)
+    }
+
+    /// The time from which times for a fit count, s: that of the first row, or 0.
+    pub fn origin(&self) -> f64 {
+        match self.elapsed {
+            Some(_) => self.times[0],
+            None => 0.0,
+        }
     }
 
     /// Measured values, rad or m.

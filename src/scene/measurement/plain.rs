@@ -1,6 +1,6 @@
 //! Rows of plain numbers, read on all cores. Whatever else a file holds is left to the reader that says what is wrong.
 
-use super::columns::Columns;
+use super::columns::{Columns, with_point};
 use super::digits::Digits;
 use super::read::Samples;
 use super::source::no_value;
@@ -88,7 +88,9 @@ fn samples_of(text: &str, delimiter: u8, columns: &Columns) -> Option<Samples> {
             }
             at += 1;
         }
-        let [time, value] = pair.map(|cell| cell.parse::<f64>().ok().filter(|v| v.is_finite()));
+        let pair = [with_point(pair[0], columns)?, with_point(pair[1], columns)?];
+        let number = |cell: &str| cell.parse::<f64>().ok().filter(|v| v.is_finite());
+        let [time, value] = [number(&pair[0]), number(&pair[1])];
         samples.0.push(time? * columns.time.factor);
         samples.1.push(value? * columns.value.factor);
         samples.2.take(value?, pair[1].as_bytes());

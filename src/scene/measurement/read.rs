@@ -4,7 +4,7 @@ use std::path::Path;
 
 use csv::ByteRecord;
 
-use super::columns::{Columns, columns};
+use super::columns::{Columns, columns, with_point};
 use super::digits::Digits;
 use super::plain;
 use super::source::{Records, Source, cell, line_at, no_value};
@@ -27,6 +27,13 @@ pub(super) fn measurement(
     let (has_header, delimiter) = (reading.columns.is_none(), delimiter(&text));
     let wrong =
         |what: &str, help: &str| Problems::in_file(file, &text, vec![Problem::new("", what, help)]);
+    if reading.decimal_comma && delimiter == b',' {
+        let help = "separate the columns by semicolon or tab";
+        return Err(wrong(
+            "commas cannot be decimal and separate the columns",
+            help,
+        ));
+    }
     let mut records = Records::new(&text, delimiter);
     if !records.next() {
         let help = "give rows of time and motion below a header, as `t [s],theta [deg]`";
@@ -62,6 +69,7 @@ pub(super) fn measurement(
     Ok(Measurement {
         measured: columns.measured,
         times,
+        elapsed: None,
         values,
         resolution,
         notes: columns.note.into_iter().collect(),
@@ -142,7 +150,7 @@ fn samples(
         }
         let mut pair = [f64::NAN; 2];
         for (value, (column, name)) in pair.iter_mut().zip(columns.at.into_iter().zip(names)) {
-            match parse(&record[column]) {
+            match parse(&record[column], columns) {
                 Ok(found) => *value = found,
                 Err((what, help)) => wrong(Some(column), name, what, help),
             }
@@ -150,7 +158,11 @@ fn samples(
         let [time, value] = pair;
         times.push(time * columns.time.factor);
         values.push(value * columns.value.factor);
-        digits.take(value, &record[columns.at[1]]);
+        let cell = std::str::from_utf8(&record[columns.at[1]]).unwrap_or_default();
+        digits.take(
+            value,
+            with_point(cell, columns).unwrap_or_default().as_bytes(),
+        );
     }
     if count > problems.len() {
         let more = format!(
@@ -203,8 +215,16 @@ fn open_quote(text: &str, from: usize) -> Problem {
 }
 
 /// A number, or what is wrong with it and what would be right.
-fn parse(cell: &[u8]) -> Result<f64, (String, String)> {
-    let text = std::str::from_utf8(cell).unwrap_or_default();
+fn parse(cell: &[u8], columns: &Columns) -> Result<f64, (String, String)> {
+    let whole = std::str::from_utf8(cell).unwrap_or_default();
+    let Some(text) = with_point(whole, columns) else {
+        return Err((
+            format!("`{whole}` has a point where numbers have decimal commas"),
+            "write every number with a decimal comma and without separators of thousands"
+                .to_owned(),
+        ));
+    };
+    let text = text.as_ref();
     let parsed = text.parse::<f64>().or_else(|_| number::plain(text).parse());
     match parsed {
         Ok(value) if value.is_finite() => Ok(value),
@@ -212,7 +232,7 @@ fn parse(cell: &[u8]) -> Result<f64, (String, String)> {
             format!("`{text}` is not a finite number"),
             "give a number, or take the row out".to_owned(),
         )),
-        Err(_) => Err(not_a_number(text)),
+        Err(_) => Err(not_a_number(whole)),
     }
 }
 
@@ -226,8 +246,13 @@ fn not_a_number(text: &str) -> (String, String) {
     if text.replacen(',', ".", 1).parse::<f64>().is_ok() {
         return (
             format!("`{text}` has a decimal comma where a point is expected"),
-            "write decimal points".to_owned(),
+            "write decimal points, or say so with --decimal comma if semicolons or tabs separate the columns".to_owned(),
         );
+    }
+    let separates = |c: char| matches!(c, ',' | '\'' | '_') || c.is_whitespace();
+    if text.replace(separates, "").parse::<f64>().is_ok() {
+        let help = "write numbers without separators of thousands".to_owned();
+        return (format!("`{text}` is not a plain number"), help);
     }
     let digits = number::length(text.trim_start_matches(['+', '-', number::MINUS]));
     let help = if digits > 0 {

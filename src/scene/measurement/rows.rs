@@ -1,14 +1,12 @@
 //! Samples checked against each other.
 
+use super::saturated::saturated;
 use super::{LEAST_ROWS, Measured, Measurement};
-use crate::scene::number::{computed, counted, show};
+use crate::scene::number::{apart, computed, counted, show};
 use crate::scene::{Problem, Problems};
 
 /// A step of time this many times the usual one is a gap.
 const GAP: f64 = 4.5;
-
-/// Part of the usual step to which times have to be known.
-const COARSE: f64 = 1e-6;
 
 /// Larger values leave no digits for what is computed from them.
 const LARGEST: f64 = 1e12;
@@ -33,9 +31,9 @@ pub(super) fn check_rows(measurement: &mut Measurement) -> Result<(), Problems> 
         .source
         .as_ref()
         .map_or(1.0, |source| source.time.factor);
-    let faults = times.windows(2).enumerate().filter(|(_, w)| w[1] <= w[0]);
-    for (i, w) in faults.take(20) {
-        let (now, before) = (show(w[1] / factor), show(w[0] / factor));
+    let faults = measurement.elapsed().windows(2).enumerate();
+    for (i, w) in faults.filter(|(_, w)| w[1] <= w[0]).take(20) {
+        let (now, before) = apart(times[i + 1] / factor, times[i] / factor);
         let what = if w[1] == w[0] {
             format!("the time {now} is repeated")
         } else {
@@ -54,7 +52,7 @@ pub(super) fn check_rows(measurement: &mut Measurement) -> Result<(), Problems> 
         problems.push(problem);
     }
     if problems.is_empty() {
-        let notes = [gaps(measurement), far_from_zero(measurement)];
+        let notes = [gaps, far_from_zero, saturated].map(|noted| noted(measurement));
         measurement.notes.extend(notes.into_iter().flatten());
         return Ok(());
     }
@@ -82,7 +80,7 @@ fn place(
 
 /// Steps of time far above the usual one.
 fn gaps(measurement: &Measurement) -> Option<String> {
-    let times = &measurement.times;
+    let times = measurement.elapsed();
     let mut steps: Vec<f64> = times.windows(2).map(|w| w[1] - w[0]).collect();
     let ends = (f64::INFINITY, 0.0f64);
     let (least, most) = (steps.iter()).fold(ends, |(a, b), step| (a.min(*step), b.max(*step)));
@@ -102,25 +100,29 @@ fn gaps(measurement: &Measurement) -> Option<String> {
         "{}, the first before {} (time {}), where {} passes without a sample and {} is usual: nothing is known of the motion there but what the fit assumes",
         counted(count, "gap"),
         measurement.place(first + 1),
-        show(times[first + 1] / factor),
+        show(measurement.times[first + 1] / factor),
         show((times[first + 1] - times[first]) / factor),
         show(usual / factor)
     ))
 }
 
-/// Times with so many digits before the point that those behind it are lost.
+/// Times with so many digits before the point that doubles lose those behind it.
 fn far_from_zero(measurement: &Measurement) -> Option<String> {
-    let times = &measurement.times;
-    let largest = times[0].abs().max(times[times.len() - 1].abs());
+    let known = measurement.lost()?;
+    let times = measurement.elapsed();
     let step = (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
-    let known = f64::EPSILON * largest;
-    (known > COARSE * step).then(|| {
-        format!(
-            "so far from zero, times are known to {} s only, where samples are {} s apart, and forces to as little: let the time begin near 0",
-            computed(known),
-            computed(step)
-        )
-    })
+    if measurement.elapsed.is_some() {
+        return Some(format!(
+            "times so far from zero are counted from the first row, in decimal: the coefficients of the fit refer to the time since t = {} s, which as t_s in the rows is rounded to {} s",
+            measurement.origin(),
+            computed(known)
+        ));
+    }
+    Some(format!(
+        "so far from zero, times are known to {} s only, where samples are {} s apart, and forces to as little: let the time begin near 0",
+        computed(known),
+        computed(step)
+    ))
 }
 
 impl Measured {

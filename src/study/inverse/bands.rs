@@ -64,7 +64,10 @@ impl BandRule {
         let largest = sizes.fold(0.0, f64::max);
         let mut errors: Vec<f64> = torques.map(|(_, se)| se).collect();
         let middle = errors.len() / 2;
-        let median = *errors.select_nth_unstable_by(middle, f64::total_cmp).1;
+        let median = match errors.is_empty() {
+            true => 0.0,
+            false => *errors.select_nth_unstable_by(middle, f64::total_cmp).1,
+        };
         BandRule {
             half_width_max_n: largest.max(10.0 * factor * median) / r,
             arm_m: LONG_ARM * r,

@@ -59,7 +59,7 @@ impl Fitted {
         (kind, size): (Kind, Size),
         step: f64,
     ) -> Result<Fitted, String> {
-        let (times, values) = (measurement.times(), measurement.values());
+        let (times, values) = (measurement.elapsed(), measurement.values());
         let floor = of_step(step.max(f64::EPSILON * largest(values)));
         if sensor.measured == Measured::Theta {
             let samples = Samples {

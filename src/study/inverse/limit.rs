@@ -60,7 +60,7 @@ pub(super) fn keeps_clear(
     if limits.is_empty() {
         return Ok(());
     }
-    let times = measurement.times();
+    let times = measurement.elapsed();
     let mut before: Option<State> = None;
     for (sample, t) in times.iter().enumerate() {
         let state = curve.state(*t);
@@ -81,8 +81,9 @@ pub(super) fn keeps_clear(
             if passed || !clear {
                 return Err(Error::refused(
                     format!(
-                        "the crank comes to a limit at {} (t = {t} s, theta = {theta} rad, standard error {error:.1e}), where the rod stands normal to the guide: whether the motion turns back there or goes on along the other branch is not certain",
-                        measurement.place(sample)
+                        "the crank comes to a limit at {} (t = {} s, theta = {theta} rad, standard error {error:.1e}), where the rod stands normal to the guide: whether the motion turns back there or goes on along the other branch is not certain",
+                        measurement.place(sample),
+                        measurement.times()[sample]
                     ),
                     apart(linkage),
                 ));

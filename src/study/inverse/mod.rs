@@ -125,13 +125,14 @@ pub fn inverse(
         guide: guide.as_ref(),
     };
     let factor = student::half_band(fitted.errors.free);
-    let found = Rows::new(&backwards, &fitted, measurement.times(), factor);
+    let found = Rows::new(&backwards, &fitted, measurement, factor);
     reachable(measurement, &found)?;
     limit::keeps_clear(&backwards, &sensor, &fitted, measurement)?;
-    finite(&backwards, measurement, &found.rows)?;
+    let locked = finite(&backwards, measurement, &found.rows)?;
     let mut warnings = measurement.notes().to_vec();
     warnings.extend(unfolded.warnings);
     warnings.extend(warnings::of_scene(scene, options));
+    warnings.extend(locked);
     warnings.extend(warnings::of_fit(&fitted, measurement, options));
     let summary = InverseSummary::new(
         scene,
@@ -209,40 +210,58 @@ fn reachable(measurement: &Measurement, found: &Rows) -> Result<(), Error> {
     ))
 }
 
-/// Refuses loads without a value along the motion, and a guide that locks itself.
+/// Refuses loads without a value along the motion; says where a guide locks itself, and refuses a motion all along which
+/// it does.
 fn finite(
     backwards: &Backwards<'_>,
     measurement: &Measurement,
     rows: &[InverseRow],
-) -> Result<(), Error> {
-    let bad = |row: &InverseRow| !row.crank_torque.is_finite();
-    let Some(sample) = rows.iter().position(bad) else {
-        return Ok(());
+) -> Result<Option<String>, Error> {
+    let place = |sample: usize| {
+        let InverseRow { t, theta, .. } = rows[sample];
+        let place = measurement.place(sample);
+        format!("at {place} (t = {t} s, theta = {theta} rad)")
     };
-    let row = &rows[sample];
-    let place = format!(
-        "at {} (t = {} s, theta = {} rad)",
-        measurement.place(sample),
-        row.t,
-        row.theta
-    );
-    let load = backwards.equation.load(row.t, row.theta, row.omega);
-    if load.is_finite() && backwards.guide.is_none() {
-        return Err(Error::refused(
-            format!("the crank torque is not a finite number {place}"),
-            "check the units of the data, of the time above all",
-        ));
+    let without = || (0..rows.len()).filter(|i| rows[*i].crank_torque.is_none());
+    for sample in without() {
+        let row = &rows[sample];
+        let load = backwards.equation.load(row.t, row.theta, row.omega);
+        if !load.is_finite() {
+            return Err(Error::refused(
+                format!(
+                    "the loads of the scene have no finite value {}",
+                    place(sample)
+                ),
+                "let the tables of the scene cover the measured motion, or take the load out",
+            ));
+        }
+        if backwards.guide.is_none() {
+            return Err(Error::refused(
+                format!("the crank torque is not a finite number {}", place(sample)),
+                "check the units of the data, of the time above all",
+            ));
+        }
     }
-    if load.is_finite() {
+    let (Some(first), count) = (without().next(), without().count()) else {
+        return Ok(None);
+    };
+    let locks = |place: String| {
+        format!(
+            "the guide locks itself {place}: friction holds the slider against any torque on the crank"
+        )
+    };
+    if count == rows.len() {
         return Err(Error::refused(
-            format!(
-                "the guide locks itself {place}: friction holds the slider against any torque on the crank"
-            ),
+            locks(place(first)),
             "a motion like this one needs less friction, or the longer rod of another mechanism: check [friction] and [geometry]",
         ));
     }
-    Err(Error::refused(
-        format!("the loads of the scene have no finite value {place}"),
-        "let the tables of the scene cover the measured motion, or take the load out",
-    ))
+    let samples = match count {
+        1 => place(first),
+        _ => format!("at {count} samples, the first {}", place(first)),
+    };
+    Ok(Some(format!(
+        "{}; their crank torque is left empty, and the slider force is what drives it by a pull or push on the slider",
+        locks(samples)
+    )))
 }

@@ -22,10 +22,10 @@ pub struct InverseRow {
     pub slider_force: Option<f64>,
     /// Its standard error, N.
     pub slider_force_se: Option<f64>,
-    /// Torque on the crank that does the same as the slider force, N m.
-    pub crank_torque: f64,
+    /// Torque on the crank that does the same as the slider force, N m; none where the guide locks itself against any.
+    pub crank_torque: Option<f64>,
     /// Its standard error, N m.
-    pub crank_torque_se: f64,
+    pub crank_torque_se: Option<f64>,
     /// Whether the force is left empty.
     pub near_dead_centre: bool,
 }
@@ -95,6 +95,7 @@ impl InverseRow {
     /// A row before it is decided whether it has a force.
     fn new(t: f64, state: &State, demand: &Demand) -> InverseRow {
         let [theta, omega, alpha] = state.value;
+        let is_known = demand.torque.is_finite() && demand.torque_se.is_finite();
         InverseRow {
             t,
             theta,
@@ -102,8 +103,8 @@ impl InverseRow {
             alpha,
             slider_force: Some(demand.force),
             slider_force_se: Some(demand.force_se),
-            crank_torque: demand.torque,
-            crank_torque_se: demand.torque_se,
+            crank_torque: is_known.then_some(demand.torque),
+            crank_torque_se: is_known.then_some(demand.torque_se),
             near_dead_centre: false,
         }
     }
@@ -111,23 +112,29 @@ impl InverseRow {
 
 impl Rows {
     /// The rows; half of a 95 % band is `factor` standard errors.
-    pub fn new(backwards: &Backwards<'_>, fitted: &Fitted, times: &[f64], factor: f64) -> Rows {
+    pub fn new(
+        backwards: &Backwards<'_>,
+        fitted: &Fitted,
+        measurement: &Measurement,
+        factor: f64,
+    ) -> Rows {
+        let (times, elapsed) = (measurement.times(), measurement.elapsed());
         let linkage = backwards.equation.linkage();
         let (rows, doubts) = parallel::pairs(times.len(), |i| {
-            let state = fitted.state(times[i]);
+            let state = fitted.state(elapsed[i]);
             let demand = backwards.demand(times[i], &state);
             let row = InverseRow::new(times[i], &state, &demand);
             (row, Doubt::new(&demand, linkage.r))
         });
         let rocks = !linkage.limit_angles().is_empty();
-        let torques = rows.iter().map(|row| {
+        let torques = rows.iter().filter_map(|row| {
             // The lever arm grows without bound towards a limit, and the torque with it.
             let longer = if rocks {
                 (linkage.pose(row.theta).dx.abs() / linkage.r).max(1.0)
             } else {
                 1.0
             };
-            (row.crank_torque / longer, row.crank_torque_se / longer)
+            Some((row.crank_torque? / longer, row.crank_torque_se? / longer))
         });
         let rule = BandRule::new(linkage.r, torques, factor);
         let mut found = Rows {

@@ -62,6 +62,8 @@ pub struct FitSummary {
     pub kind: &'static str,
     /// Degree of the polynomial or of the spline's pieces, number of harmonics.
     pub degree: usize,
+    /// The time from which the coefficients count theirs, s; other than 0 where times so far from zero lose digits.
+    pub time_origin_s: f64,
     /// Of the powers 1, t, t², ... (t in s, angle in rad); of 1, t, cos, sin, cos 2, ... of the mean rotation; of the
     /// B-splines. Null where plain time leaves no digits.
     pub coefficients: Vec<Option<f64>>,
@@ -138,7 +140,7 @@ impl InverseSummary {
         warnings: Vec<String>,
     ) -> InverseSummary {
         let force = |row: &InverseRow| Some((row.t, row.slider_force?, row.slider_force_se?));
-        let torque = |row: &InverseRow| (row.t, row.crank_torque, row.crank_torque_se);
+        let torque = |row: &InverseRow| Some((row.t, row.crank_torque?, row.crank_torque_se?));
         let nothing = ForceRange {
             min: 0.0,
             min_t_s: 0.0,
@@ -154,7 +156,7 @@ impl InverseSummary {
             beside_forces,
             band_factor,
             slider_force: ForceRange::of(found.rows.iter().filter_map(force)),
-            crank_torque: ForceRange::of(found.rows.iter().map(torque)).unwrap_or(nothing),
+            crank_torque: ForceRange::of(found.rows.iter().filter_map(torque)).unwrap_or(nothing),
             dead_centre_bands: found.bands.clone(),
             dead_centre_rule: found.rule,
             warnings,
@@ -190,6 +192,7 @@ impl FitSummary {
         FitSummary {
             kind: fitted.curve.kind().name(),
             degree: fitted.curve.degree(),
+            time_origin_s: measurement.origin(),
             standard_errors: coefficients
                 .iter()
                 .zip(&errors)

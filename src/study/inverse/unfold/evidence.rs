@@ -26,6 +26,18 @@ const NOISE: f64 = 4.0;
 const CLEAR: usize = 1;
 const FEWEST: usize = 5;
 
+/// Parts of all degrees within which a motion is simple.
+const PARTS: usize = 4;
+const HALF: usize = 2;
+const MOST_PARTS: usize = 3;
+
+/// What counts as far less, of a sum of squares.
+const FAR_LESS: f64 = 100.0;
+
+/// Evidence so many times as much as decides is plain if a motion is explained, and if none is.
+const PLAIN: f64 = 50.0;
+const PLAIN_UNEXPLAINED: f64 = 1.5;
+
 /// Steps of Gauss and Newton.
 const STEPS: usize = 5;
 
@@ -41,9 +53,21 @@ pub(super) struct Evidence {
 impl Evidence {
     /// What the samples of a window tell.
     pub fn of(window: &Window, sensor: &Sensor<'_>) -> Evidence {
+        let Some((rough, fits)) = Evidence::at_first_sight(window) else {
+            return Evidence::default();
+        };
+        if rough.is_plain() {
+            return rough;
+        }
+        let [back, past] = fits.map(|fit| refined(window, sensor, &fit));
+        Evidence::between(&back, &past, window.t.len())
+    }
+
+    /// What the crank angles of a window tell by themselves, and the polynomials through those that go back and that pass.
+    pub fn at_first_sight(window: &Window) -> Option<(Evidence, [Expansion<f64>; 2])> {
         let count = window.t.len();
         if window.clear.iter().any(|clear| *clear < CLEAR) || count < FEWEST {
-            return Evidence::default();
+            return None;
         }
         let most = MOST.min(count / 2 + 1);
         let weights: Vec<f64> = window.error.iter().map(|error| 1.0 / error).collect();
@@ -51,20 +75,23 @@ impl Evidence {
         let back = fit(&window.back);
         let last = |fit: &Expansion<f64>| fit.squares.last().copied().unwrap_or(f64::INFINITY);
         let past = window.past.iter().map(fit);
-        let Some(past) = past.min_by(|a, b| last(a).total_cmp(&last(b))) else {
-            return Evidence::default();
-        };
-        let rough = Evidence::between(&misfits(&back), &misfits(&past), count);
-        if rough.is_plain() {
-            return rough;
-        }
-        let [back, past] = [back, past].map(|fit| refined(window, sensor, &fit));
-        Evidence::between(&back, &past, count)
+        let past = past.min_by(|a, b| last(a).total_cmp(&last(b)))?;
+        let evidence = Evidence::between(&misfits(&back), &misfits(&past), count);
+        Some((evidence, [back, past]))
+    }
+
+    /// Whether a motion plainly passes, and leaves nothing but noise.
+    pub fn tells_a_passage(&self) -> bool {
+        self.explained && self.passes > 0.0 && self.is_plain()
     }
 
     /// Whether there is no need to look closer.
     fn is_plain(&self) -> bool {
-        let plain = if self.explained { 50.0 } else { 1.5 };
+        let plain = if self.explained {
+            PLAIN
+        } else {
+            PLAIN_UNEXPLAINED
+        };
         self.passes.abs() > plain * ENOUGH
     }
 
@@ -78,20 +105,44 @@ impl Evidence {
         let free = |misfit: &Misfit| samples - misfit.degree as f64 - 1.0;
         let most = back.iter().chain(past).map(|m| m.degree).max().unwrap_or(0);
         let noise = 1.0 + NOISE * (2.0 / samples).sqrt();
-        // Only what leaves half of the degrees to the other motion shows that it needs more.
-        let explains = |m: &Misfit| m.degree <= most.div_ceil(2) && m.squares < noise * free(m);
-        if back.iter().chain(past).any(explains) {
+        let explains = |m: &&Misfit| m.squares < noise * free(m);
+        let simplest = back
+            .iter()
+            .chain(past)
+            .filter(explains)
+            .map(|m| m.degree)
+            .min();
+        if let Some(degree) = simplest {
             let cost = |list: &[Misfit]| least(list, Misfit::cost);
-            return Evidence {
+            let explained = Evidence {
                 passes: cost(back) - cost(past),
                 explained: true,
             };
+            // Only what leaves half of the degrees to the other motion shows that it needs more, or what leaves it some that
+            // by far are not enough.
+            let leaves = |part: usize| PARTS * degree <= part * most + 1;
+            if leaves(HALF) || leaves(MOST_PARTS) && explained.is_plain() {
+                return explained;
+            }
         }
         let left = |list: &[Misfit]| least(list, |m| m.squares / free(m));
         Evidence {
             passes: ENOUGH * (left(back) / left(past)).ln() / RATIO.ln(),
             explained: false,
         }
+    }
+}
+
+/// Whether one motion leaves far less than another one that has more degrees, and that noise does not explain.
+pub(super) fn is_simpler(one: &Expansion<f64>, other: &Expansion<f64>) -> bool {
+    let most = one.squares.len().min(other.squares.len()).saturating_sub(1);
+    let (left, others) = (
+        one.squares.get(most * MOST_PARTS / PARTS),
+        other.squares.get(most),
+    );
+    match (left, others) {
+        (Some(left), Some(others)) => *others > (FAR_LESS * left).max(PLAIN * ENOUGH),
+        _ => false,
     }
 }
 

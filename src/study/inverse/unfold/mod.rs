@@ -10,6 +10,7 @@ mod evidence;
 mod noise;
 mod record;
 mod start;
+mod steady;
 mod strokes;
 mod track;
 mod turnings;
@@ -58,9 +59,13 @@ pub(super) fn unfold(
         turnings: &turnings,
     };
     let first = branches::begin_on_branch(&strokes, record.values[0]);
-    let tracks = match few {
-        true => Vec::new(),
-        false => parallel::map(first.into_iter(), |stroke| Track::new(&motion, stroke)),
+    let tracks = if few {
+        Vec::new()
+    } else {
+        let passed = steady::passed(&motion);
+        parallel::map(first.into_iter(), |stroke| {
+            Track::new(&motion, &passed, stroke)
+        })
     };
     // At a dead centre the crank angle is known to about √(2 noise/x'').
     let blur = match sensor.measured {
@@ -95,7 +100,7 @@ const PART: usize = 2;
 const ROUNDING: f64 = 1e-14;
 
 fn record<'a>(sensor: &Sensor<'_>, measurement: &'a Measurement) -> Record<'a> {
-    let (times, values) = (measurement.times(), measurement.values());
+    let (times, values) = (measurement.elapsed(), measurement.values());
     let least = ROUNDING * sensor.size();
     let printed = of_step(measurement.resolution());
     Record {

@@ -5,7 +5,7 @@ use crate::numeric::chebyshev::largest;
 use crate::numeric::parallel;
 
 /// Numbers of neighbours that are tried: a smooth motion adds the less the more there are, if samples are dense.
-const NEIGHBOURS: [usize; 3] = [4, 6, 8];
+const NEIGHBOURS: [usize; 5] = [4, 6, 8, 12, 16];
 
 /// Samples that are enough to know the noise by.
 const ENOUGH: usize = 20_000;

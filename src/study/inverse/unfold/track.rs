@@ -21,26 +21,31 @@ pub(super) struct Track {
 const STEP: f64 = 6.0;
 
 impl Track {
-    pub fn new(motion: &Motion<'_>, first: Stroke) -> Track {
+    /// The motion from a stroke on; at the turning points that it is known to have `passed` it is not looked at again.
+    pub fn new(motion: &Motion<'_>, passed: &[bool], first: Stroke) -> Track {
         let count = motion.turnings.len();
         let mut along = vec![first];
         let mut visits: Vec<Option<Visit>> = Vec::with_capacity(count);
         for k in 0..count {
-            let visit = motion.fold(k).map(|fold| motion.look(k, fold, along[k]));
+            let visit = motion.fold(k).map(|fold| match passed[k] {
+                true => Visit::passage(fold),
+                false => motion.look(k, fold, along[k]),
+            });
             along.push(visit.map_or(along[k], |visit| visit.next(along[k])));
             visits.push(visit);
         }
+        // What another verdict changes of the strokes after it.
+        let mut changed = 0;
         for k in 0..count {
-            let Some(visit) = visits[k].filter(|visit| !visit.certain) else {
-                continue;
-            };
-            let again = motion.look_again(k, visit, &along);
-            visits[k] = Some(again);
-            if again.passes != visit.passes {
-                for k in k..count {
-                    along[k + 1] = visits[k].map_or(along[k], |visit| visit.next(along[k]));
+            if let Some(visit) = visits[k].filter(|visit| !visit.certain) {
+                let stroke = |part: usize| along[part] ^ if part > k { changed } else { 0 };
+                let again = motion.look_again(k, visit, stroke);
+                visits[k] = Some(again);
+                if again.passes != visit.passes {
+                    changed ^= visit.fold.change;
                 }
             }
+            along[k + 1] ^= changed;
         }
         let doubtful = |k: &usize| visits[*k].is_some_and(|visit| !visit.certain);
         let doubts = (0..count).filter(doubtful);

@@ -35,6 +35,15 @@ pub(super) struct Visit {
 }
 
 impl Visit {
+    /// A certain passage.
+    pub fn passage(fold: Fold) -> Visit {
+        Visit {
+            fold,
+            passes: true,
+            certain: true,
+        }
+    }
+
     /// The stroke after it.
     pub fn next(self, stroke: Stroke) -> Stroke {
         if self.passes {
@@ -74,10 +83,10 @@ impl Motion<'_> {
 
     /// Looks again at one that is not certain, with more of the motion: its strokes between turning points are taken as
     /// they are, or those after this one the other way round.
-    pub fn look_again(&self, k: usize, visit: Visit, along: &[Stroke]) -> Visit {
+    pub fn look_again(&self, k: usize, visit: Visit, along: impl Fn(usize) -> Stroke) -> Visit {
         let at = self.turnings[k].at;
         let back = |i: usize| {
-            let stroke = along[self.turnings.partition_point(|turning| turning.at < i)];
+            let stroke = along(self.turnings.partition_point(|turning| turning.at < i));
             if i > at { visit.next(stroke) } else { stroke }
         };
         let ranges = WIDE.into_iter().map(|wide| self.between(k, wide));
@@ -91,8 +100,16 @@ impl Motion<'_> {
         }
     }
 
+    /// Whether a sample is a turning point.
+    pub fn turns_at(&self, sample: usize) -> bool {
+        let at = self
+            .turnings
+            .binary_search_by_key(&sample, |turning| turning.at);
+        at.is_ok()
+    }
+
     /// The samples of other turning points on either side.
-    fn between(&self, k: usize, away: usize) -> [usize; 2] {
+    pub fn between(&self, k: usize, away: usize) -> [usize; 2] {
         let at = |k: Option<usize>| {
             k.and_then(|k| self.turnings.get(k))
                 .map(|turning| turning.at)
@@ -118,7 +135,7 @@ impl Motion<'_> {
         };
         let mut list = Vec::new();
         for range in ranges {
-            let window = Window::new(&self.record, self.strokes, (at, fold), &back, range);
+            let window = Window::new(self, (at, fold), &back, range);
             let one = Evidence::of(&window, &sensor);
             list.push(one);
             if one.is_clear() {

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::record::Record;
-use super::strokes::{Fold, Stroke, Strokes};
+use super::strokes::{Fold, Stroke};
+use super::visit::Motion;
 
 /// Most blocks of samples.
 const BLOCKS: usize = 48;
@@ -35,12 +35,14 @@ impl Window {
     /// The window from one sample to another around the turning point at a fold; `along` has the stroke of each sample
     /// for a motion that goes back.
     pub fn new(
-        record: &Record<'_>,
-        strokes: &Strokes<'_>,
+        motion: &Motion<'_>,
         (turning, fold): (usize, Fold),
         along: impl Fn(usize) -> Stroke,
         [from, to]: [usize; 2],
     ) -> Window {
+        let Motion {
+            record, strokes, ..
+        } = motion;
         let at_fold = strokes.angles(fold.value)[along(turning)];
         let count = (to - from + 1).min(BLOCKS);
         let place = |k: usize| from + (to - from) * k / (count - 1).max(1);
@@ -55,7 +57,7 @@ impl Window {
             at_fold,
             ..Window::default()
         };
-        let mut past = Vec::with_capacity(count);
+        let (mut past, mut either) = (Vec::with_capacity(count), Vec::with_capacity(count));
         for at in (0..count).map(place) {
             // Not over the fold, where a size has a bend.
             let (value, noise) = record.value(at, around.min(at.abs_diff(turning)));
@@ -66,17 +68,18 @@ impl Window {
             window.t.push((record.times[at] - middle) / half);
             window.back.push(angles[stroke]);
             past.push(angles[stroke ^ fold.change]);
+            either.push(at != turning && motion.turns_at(at));
             window
                 .error
                 .push(error[0].max(error[1]) + 4.0 * f64::EPSILON);
         }
         let after = (0..count).find(|k| place(*k) > turning);
-        window.part(past, after.unwrap_or(count));
+        window.part(past, &either, after.unwrap_or(count));
         window
     }
 
-    /// Lets the motions part at the fold, which is before a block.
-    fn part(&mut self, mut past: Vec<f64>, after: usize) {
+    /// Lets the motions part at the fold, which is before a block. Samples at other turning points may be on `either` stroke.
+    fn part(&mut self, mut past: Vec<f64>, either: &[bool], after: usize) {
         let count = past.len();
         outward(&mut self.back, self.at_fold, after);
         outward(&mut past, self.at_fold, after);
@@ -89,7 +92,7 @@ impl Window {
         let is_clear = |k: &usize| lean(*k) > CLEAR * self.error[*k];
         let before = (0..after).rev().skip_while(|k| !is_clear(k));
         let beyond = (after..count).skip_while(|k| !is_clear(k));
-        let others = before.chain(beyond).filter(|k| !is_clear(k));
+        let others = before.chain(beyond).filter(|k| !is_clear(k) || either[*k]);
         let middle: Vec<usize> = others.chain(until..on).collect();
         for k in middle {
             self.error[k] = self.error[k].max(0.5 * (self.back[k] - past[k]).abs());
