@@ -119,6 +119,7 @@ impl Builder<'_> {
     fn piece(&self) -> Piece {
         let direction = self.begin.direction;
         let mut to = next_end(self.profile.corners(), self.at, direction, self.length);
+        to = self.profile.corner_between(self.at, to).unwrap_or(to);
         if self.gain.is_some() && direction * (to - self.whole_turn) > -1e-12 {
             to = self.whole_turn;
         }
