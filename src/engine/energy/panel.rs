@@ -44,15 +44,24 @@ pub(in crate::engine) enum Tried {
     TurnsAt(f64),
 }
 
+/// Where the kinetic energy of a piece is known, and how far it may be off there, J.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::engine) enum Uncertain {
+    /// At its start: elsewhere the rounding on the piece is added.
+    AtStart(f64),
+    /// At the turning point at its end, which is known by itself.
+    AtTurn(f64),
+}
+
 impl Panel {
     /// Tries a panel with the kinetic energy `kinetic` (J) at its start; `tolerance` is the tail that counts
-    /// as converged, `rounding` (J) what the kinetic energy may be off.
+    /// as converged, `uncertain` what the kinetic energy may be off.
     pub fn attempt(
         profile: &dyn Profile,
         piece: Piece,
         kinetic: f64,
         tolerance: f64,
-        rounding: f64,
+        uncertain: Uncertain,
     ) -> Result<Tried, Unserved> {
         let rule = Rule::of(DEGREE);
         let (mut inertia, mut force) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
@@ -105,7 +114,11 @@ impl Panel {
             0.0
         };
         let steep = Steep::of(&piece, &force, noise);
-        let (off, left_out) = (rounding + steep.energy, energy.left_out());
+        let left_out = energy.left_out();
+        let off = match uncertain {
+            Uncertain::AtStart(off) => off + steep.energy,
+            Uncertain::AtTurn(off) => off,
+        };
         let shaken = match piece.turning {
             Turning::Nowhere => {
                 // dT/dK is the integral of dt/2K.
