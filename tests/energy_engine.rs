@@ -5,11 +5,12 @@ mod support;
 
 use std::f64::consts::{PI, TAU};
 
-use energy_integral::EnergyIntegral;
+use energy_integral::{EnergyIntegral, gauss_legendre};
 use proptest::prelude::*;
 use slider_crank::plan::Method;
 use slider_crank::scene::{
-    Crank, Gravity, InertiaAbout, Load, Rod, RodModel, Scene, Slider, Variables,
+    Crank, Gravity, InertiaAbout, Interpolation, Load, Rod, RodModel, Scene, Slider, Table,
+    Variable, Variables,
 };
 use slider_crank::study::{Options, Simulation, simulate};
 use support::machines::{machine, weighted_crank};
@@ -339,4 +340,164 @@ fn what_the_energy_cannot_serve_is_run_in_time_and_said() {
     assert_eq!(run.summary.engine, "time");
     assert!(run.summary.plan.reason.contains("at rest"));
     assert!(simulate(&at_rest, &with(Method::Energy)).is_err());
+}
+
+/// A flywheel under a torque that is linear between the rows of a table: between them the kinetic energy is a parabola.
+struct Zigzag {
+    rows: Vec<[f64; 2]>,
+    period: f64,
+    inertia: f64,
+    start: [f64; 2],
+}
+
+impl Zigzag {
+    fn scene(&self) -> Scene {
+        let [angles, torques] =
+            [0, 1].map(|k| self.rows.iter().map(|row| row[k]).collect::<Vec<f64>>());
+        let table = Table::new(
+            Variable::Theta,
+            &angles,
+            &torques,
+            Interpolation::Linear,
+            Some(self.period),
+        );
+        Scene::new(0.05, 0.15)
+            .crank(Crank {
+                inertia: self.inertia,
+                ..Crank::default()
+            })
+            .torque(Load::Table(table.unwrap()))
+            .start(self.start[0], self.start[1])
+    }
+
+    /// Angle and torque of a row, counted through all periods.
+    fn row(&self, index: i64) -> [f64; 2] {
+        let count = self.rows.len() as i64;
+        let [angle, torque] = self.rows[index.rem_euclid(count) as usize];
+        [angle + index.div_euclid(count) as f64 * self.period, torque]
+    }
+
+    /// Time until an angle is reached, s, and the speed there, rad/s: from row to row, by Gauss-Legendre.
+    fn until(&self, theta: f64) -> [f64; 2] {
+        let rule = gauss_legendre(20);
+        let [mut at, speed] = self.start;
+        let sense = speed.signum();
+        let mut kinetic = 0.5 * self.inertia * speed * speed;
+        let (mut time, mut lost) = (0.0, 0.0);
+        let mut below = (-1000..)
+            .take_while(|i| self.row(*i)[0] <= at)
+            .last()
+            .unwrap();
+        while sense * (theta - at) > 0.0 {
+            if sense < 0.0 && self.row(below)[0] >= at {
+                below -= 1;
+            }
+            let [[left, low], [right, high]] = [self.row(below), self.row(below + 1)];
+            let slope = (high - low) / (right - left);
+            let here = low + slope * (at - left);
+            let end = if sense > 0.0 {
+                right.min(theta)
+            } else {
+                left.max(theta)
+            };
+            let gained = |way: f64| way * (here + 0.5 * slope * way);
+            let half = (end - at) / 16.0;
+            let at_node = |(part, (x, weight)): (u32, &(f64, f64))| {
+                let way = (f64::from(2 * part + 1) + x) * half;
+                half.abs() * weight / (2.0 * (kinetic + gained(way)) / self.inertia).sqrt()
+            };
+            let nodes = (0..8).flat_map(|part| rule.iter().map(move |node| (part, node)));
+            let duration: f64 = nodes.map(at_node).sum();
+            // Many terms, summed without their rounding.
+            let sum = time + duration;
+            lost += duration - (sum - time);
+            time = sum;
+            kinetic += gained(end - at);
+            at = end;
+            below += i64::from(sense > 0.0);
+        }
+        [time + lost, sense * (2.0 * kinetic / self.inertia).sqrt()]
+    }
+}
+
+/// A table that repeats within a turn, over two turns, or keeps no step with the turns at all has its rows in other
+/// places than those of the file: panels end at all of them, in either direction.
+#[test]
+fn rows_of_a_table_are_corners_wherever_they_come_again() {
+    let rows = vec![[0.1, 0.9], [0.45, -1.3], [0.52, 0.4], [1.0, 0.3]];
+    for period in [TAU / 4.0, 2.0 * TAU, 1.3, 8.7, 10.0] {
+        for start in [[0.3, 30.0], [-9.1, 25.0], [40.0, -30.0]] {
+            let zigzag = Zigzag {
+                rows: rows.clone(),
+                period,
+                inertia: 2e-2,
+                start,
+            };
+            let run = simulate(&zigzag.scene().duration(0.9), &Options::default())
+                .unwrap()
+                .summary;
+            assert_eq!(run.engine, "energy");
+            let [time, speed] = zigzag.until(run.last.theta_rad);
+            let stated = run.error_estimate.unwrap();
+            let late = (time - 0.9) * speed;
+            let what = format!(
+                "period {period}, start {start:?}: {late:e} of {stated:?}, {} panels",
+                run.steps
+            );
+            assert!(
+                late.abs() < 2.0 * stated.theta_rad + 3e-14 && late.abs() < 2e-13,
+                "{what}"
+            );
+            assert!(
+                (run.last.omega_rad_per_s - speed).abs() < 1e-13 * speed.abs(),
+                "{what}"
+            );
+            assert!(
+                run.energy_residual.abs() < 1e-13,
+                "{what}: {:e}",
+                run.energy_residual
+            );
+            // Panels grow to twice their length after a short one.
+            let passed = 90.0 / period.min(TAU) * rows.len() as f64 + 40.0;
+            assert!((run.steps as f64) < passed, "{what}");
+        }
+    }
+}
+
+/// A crank thrown up a little turns back soon: the turning point is as exact as the short way there, not as the panel of
+/// half a turn on which it is found. A pendulum, whose height there follows from its energy.
+#[test]
+fn a_short_way_to_a_turning_point_keeps_its_digits() {
+    for (angle, speed) in [(0.6, 0.05), (0.2, 0.3), (0.9, 0.4), (0.05, 0.2)] {
+        let (mass, cg, inertia, g) = (1.3, 0.02, 7e-4, 9.80665);
+        let scene = Scene::new(0.05, 0.15)
+            .crank(Crank {
+                mass,
+                cg,
+                inertia,
+                ..Crank::default()
+            })
+            .gravity(Gravity::standard())
+            .start(angle, speed)
+            .duration(1.0);
+        let run = simulate(&scene, &Options::default()).unwrap();
+        let turn = run
+            .summary
+            .events
+            .iter()
+            .find(|event| event.kind == "turning-point")
+            .unwrap();
+        // m g c (sin of the highest angle − sin of the start) = I speed²/2, by a difference without cancellation.
+        let rise = 0.5 * inertia * speed * speed / (mass * g * cg);
+        let mut way: f64 = 0.0;
+        for _ in 0..50 {
+            let gained = 2.0 * (angle + 0.5 * way).cos() * (0.5 * way).sin();
+            way -= (gained - rise) / (angle + way).cos();
+        }
+        let off = turn.theta_rad - angle - way;
+        assert!(
+            off.abs() <= 2.0 * f64::EPSILON * turn.theta_rad.abs(),
+            "{angle} {speed}: {off:e}"
+        );
+    }
 }

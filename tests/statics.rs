@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use proptest::prelude::*;
 use slider_crank::mechanism::{Linkage, Statics, drum_torque, friction_from_tilt};
 use slider_crank::scene::{
-    Branch, Friction, Interpolation, Load, RodModel, Scene, Table, Variable,
+    Branch, Friction, Gravity, Interpolation, Load, RodModel, Scene, Slider, Table, Variable,
 };
 use slider_crank::study::{StaticAnalysis, StaticsOptions, statics};
 use support::newton::Parts;
@@ -232,6 +232,35 @@ fn velocity_ratio_and_angle_at_the_crank_pin() {
             1e-14,
         );
     }
+}
+
+/// A slider of 1000 t without rod mass: N = W − R tan φ and |R − F| = μ N at the edges, so R = (F ± μ W)/(1 ± μ tan φ),
+/// τ = −R x'. However large the weight, the edges have all digits.
+#[test]
+fn the_edges_under_a_large_weight_keep_their_digits() {
+    let (mass, force, mu, theta) = (1e6, 3.0, 0.3_f64, 1.0_f64);
+    let scene = Scene::new(1.0, 3.0)
+        .slider(Slider { mass })
+        .gravity(Gravity::standard())
+        .force(Load::Constant(force));
+    let options = StaticsOptions {
+        force: Some(force),
+        friction: Some(mu),
+        ..StaticsOptions::default()
+    };
+    let band = statics(&scene, &options)
+        .unwrap()
+        .row(theta)
+        .balance
+        .band
+        .unwrap();
+    let sin_phi = theta.sin() / 3.0;
+    let tan_phi = sin_phi / (1.0 - sin_phi * sin_phi).sqrt();
+    let dx = -theta.sin() - theta.cos() * tan_phi;
+    let torque = |mu: f64| -(force + mu * mass * 9.80665) / (1.0 + mu * tan_phi) * dx;
+    let (min, max) = (torque(-mu), torque(mu));
+    close("least", band.min.unwrap(), min, min.abs(), 1e-14);
+    close("greatest", band.max.unwrap(), max, max, 1e-14);
 }
 
 #[test]

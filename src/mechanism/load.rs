@@ -116,6 +116,20 @@ impl Loads {
         self.called().flat_map(Load::angle_corners).collect()
     }
 
+    /// Crank angles between two, rad, at which tables have rows that do not keep step with the turns.
+    pub fn corners_out_of_step(&self, low: f64, high: f64) -> Vec<f64> {
+        let corners = |load: &Load| load.corners_out_of_step(low, high);
+        self.called().flat_map(corners).collect()
+    }
+
+    /// The first of them after `from` on the way to `to`, in either direction.
+    pub fn corner_out_of_step(&self, from: f64, to: f64) -> Option<f64> {
+        let corners = self
+            .called()
+            .filter_map(|load| load.corner_out_of_step(from, to));
+        corners.min_by(|a, b| (a - from).abs().total_cmp(&(b - from).abs()))
+    }
+
     /// The constant torque on the crank, N m.
     pub fn constant_torque(&self) -> f64 {
         self.torque

@@ -103,9 +103,10 @@ impl Statics {
         let torque = |force: f64| terms.dv - force * pose.dx - load.torque + 0.0;
         let guide = |force: f64| self.guide(pose, load.torque, force);
         balance.side_thrust = Some(0.0 - guide(load.force));
-        // The guide force is affine in the force that reaches the rod.
+        // The guide force is affine in the force R along +x that reaches the rod: beside the weight it holds
+        // R tan ψ, with sin ψ = −sin φ and cos ψ = s cos φ for the rod's turn angle ψ.
         let at_rest = guide(0.0);
-        let slope = guide(1.0) - at_rest;
+        let slope = -self.equation.linkage().s * pose.sin_phi / pose.cos_phi;
         let edge = |sign: f64| {
             let mu = sign * self.friction;
             (load.force + mu * at_rest) / (1.0 - mu * slope)

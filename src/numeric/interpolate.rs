@@ -77,6 +77,18 @@ impl Curve {
         }
     }
 
+    /// The points between two arguments, periods counted, in rising order.
+    pub fn points_between(&self, low: f64, high: f64) -> Vec<f64> {
+        let inside = |x: &f64| low < *x && *x < high;
+        let Some(period) = self.period else {
+            return self.x.iter().copied().filter(inside).collect();
+        };
+        let own = &self.x[..self.x.len() - 1];
+        let [first, last] = [low, high].map(|at| ((at - self.x[0]) / period).floor() as i64);
+        let again = |k: i64| own.iter().map(move |x| x + k as f64 * period);
+        (first..=last).flat_map(again).filter(inside).collect()
+    }
+
     /// The value at `at`; NaN outside the range of a curve that is not periodic.
     pub fn value(&self, at: f64) -> f64 {
         let (low, high) = self.range();

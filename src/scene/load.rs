@@ -1,5 +1,6 @@
 //! Loads: what a torque on the crank or a force on the slider depends on, and its value.
 
+use std::f64::consts::TAU;
 use std::fmt;
 use std::sync::Arc;
 
@@ -97,14 +98,53 @@ impl Load {
         }
     }
 
-    /// Crank angles, rad, at which the load is not smooth, as far as a table says so.
+    /// Crank angles, rad, at which the load is not smooth, as far as a table says so. Those of one that keeps step with
+    /// the turns are the same in each of them, or in each second one and so on, and whole turns do not count.
     pub fn angle_corners(&self) -> Vec<f64> {
+        match self.angle_table() {
+            Some((table, Step::With(turns))) => {
+                let first = table.rows()[0];
+                let mut rows = table.rows_between(first, first + turns * TAU);
+                rows.push(first);
+                rows
+            }
+            Some((table, Step::None)) => table.rows().to_vec(),
+            Some((_, Step::Without)) | None => Vec::new(),
+        }
+    }
+
+    /// Those between two angles, rad, of a table that does not keep step with the turns.
+    pub fn corners_out_of_step(&self, low: f64, high: f64) -> Vec<f64> {
+        match self.angle_table() {
+            Some((table, Step::Without)) => table.rows_between(low, high),
+            _ => Vec::new(),
+        }
+    }
+
+    /// The first of them after `from` on the way to `to`, in either direction.
+    pub fn corner_out_of_step(&self, from: f64, to: f64) -> Option<f64> {
+        let Some((table, Step::Without)) = self.angle_table() else {
+            return None;
+        };
+        // Within a period there is one.
+        let far = table.period()?.min((to - from).abs());
+        let reach = from + far * (to - from).signum();
+        let rows = table.rows_between(from.min(reach), from.max(reach));
+        if from < to {
+            rows.first().copied()
+        } else {
+            rows.last().copied()
+        }
+    }
+
+    /// A table over the crank angle, and how it keeps step with the turns.
+    fn angle_table(&self) -> Option<(&Table, Step)> {
         match self {
             Load::Table(table)
             | Load::Gas {
                 pressure: table, ..
-            } if table.of() == Variable::Theta => table.rows().to_vec(),
-            _ => Vec::new(),
+            } if table.of() == Variable::Theta => Some((table, Step::of(table))),
+            _ => None,
         }
     }
 
@@ -138,6 +178,40 @@ impl Load {
                 Some(expression.value(&Instant::default()))
             }
             _ => None,
+        }
+    }
+}
+
+/// How a table over the crank angle keeps step with the turns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Step {
+    /// It does not repeat.
+    None,
+    /// It is the same again after so many turns.
+    With(f64),
+    /// It repeats, but turn and period are no multiples of each other.
+    Without,
+}
+
+impl Step {
+    /// Periods that differ by less than this part of them are the same: 6.28319 rad is a turn.
+    const SAME: f64 = 1e-9;
+
+    /// More rows than this in a turn are found one by one, not listed.
+    const MOST_ROWS: f64 = 1e5;
+
+    fn of(table: &Table) -> Step {
+        let Some(period) = table.period() else {
+            return Step::None;
+        };
+        let whole = |ratio: f64| (ratio - ratio.round()).abs() <= Step::SAME * ratio;
+        let turns = period / TAU;
+        if turns > 0.5 && whole(turns) {
+            Step::With(turns.round())
+        } else if whole(1.0 / turns) && table.rows().len() as f64 <= Step::MOST_ROWS * turns {
+            Step::With(1.0)
+        } else {
+            Step::Without
         }
     }
 }

@@ -125,7 +125,12 @@ impl<'a> Position<'a> {
         });
         let mut cuts = vec![low];
         cuts.extend(corners.filter(|corner| low < *corner && *corner < high));
+        let before = self.turns * TAU;
+        let loads = self.equation.loads();
+        let out_of_step = loads.corners_out_of_step(low + before, high + before);
+        cuts.extend(out_of_step.iter().map(|corner| corner - before));
         cuts.push(high);
+        cuts.sort_by(f64::total_cmp);
         let piece = |w: &[f64]| gauss::adaptive(&force, w[0], w[1], 0.0);
         let work: f64 = cuts.windows(2).map(piece).sum();
         if to < from { -work } else { work }
@@ -246,6 +251,15 @@ impl Profile for Position<'_> {
 
     fn corners(&self) -> &[f64] {
         &self.corners
+    }
+
+    fn corner_between(&self, from: f64, to: f64) -> Option<f64> {
+        // The same corner again, off by rounding, is not a next one.
+        let apart = (to - from).signum() * 1e-12 * from.abs().max(1.0);
+        let turns = self.turns * TAU;
+        let loads = self.equation.loads();
+        let corner = loads.corner_out_of_step(from + apart + turns, to + turns)?;
+        Some(corner - turns)
     }
 
     fn repeats(&self) -> bool {

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::home::Return;
 use super::leg::{After, Leg};
-use super::panel::{Panel, Tried};
+use super::panel::{Panel, Tried, Uncertain};
 use super::piece::{LONGEST, Piece, Turning, missing, next_end};
 use super::{Profile, Unserved};
 
@@ -28,6 +28,20 @@ const SHORTEST: f64 = 1e-13;
 /// Below this part of the largest kinetic energy its sum over the panels has lost digits.
 const NEAR_REST: f64 = 1e-3;
 
+/// A turning point is off by less than this part of the last panel: linear in the force there.
+const SLIGHT: f64 = 1e-3;
+
+/// How a turning point was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Known {
+    /// On a panel from this angle on which the motion would turn before its end: to the rounding of that one.
+    OnPanel(f64),
+    /// By the energy that the last panel uses up.
+    ByEnergy,
+    /// By the short way to the end of the turn.
+    FromHome,
+}
+
 /// A leg that is being built.
 struct Builder<'a> {
     profile: &'a dyn Profile,
@@ -48,6 +62,8 @@ struct Builder<'a> {
     /// Length of the next panel at most, rad.
     length: f64,
     turns_at: Option<f64>,
+    /// How exact that angle is.
+    known: Known,
     turns: f64,
 }
 
@@ -76,6 +92,7 @@ impl Leg {
             off: begin.off,
             length: LONGEST,
             turns_at: None,
+            known: Known::OnPanel(begin.start),
             turns: 0.0,
         };
         let mut attempts = 0;
@@ -99,15 +116,19 @@ impl Builder<'_> {
     /// Tries the next panel: takes it, or makes it shorter.
     fn panel(&mut self, tolerance: f64) -> Result<(), Unserved> {
         let piece = self.piece();
-        let rounding = self.rounding();
+        let uncertain = self.uncertain(piece.turning);
         let (at, to) = (piece.from, piece.to);
         let short = (to - at).abs() <= SHORTEST * at.abs().max(1.0);
         let accepted = if short { f64::INFINITY } else { tolerance };
-        match Panel::attempt(self.profile, piece, self.kinetic, accepted, rounding)? {
-            Tried::Done(panel, off) => self.take(*panel, off),
+        match Panel::attempt(self.profile, piece, self.kinetic, accepted, uncertain)? {
+            Tried::Done(panel, off) => match self.turns_rather_at(&panel) {
+                Some(end) => self.turns_at = Some(end),
+                None => self.take(*panel, off),
+            },
             Tried::TurnsAt(end) if end != at => {
                 let home = self.home.as_ref();
                 let exact = home.and_then(|again| again.turning_point(at, end));
+                self.known = exact.map_or(Known::OnPanel(at), |_| Known::FromHome);
                 self.turns_at = Some(exact.unwrap_or(end));
             }
             _ if short => return Err(Unserved::NotFinite),
@@ -119,6 +140,7 @@ impl Builder<'_> {
     fn piece(&self) -> Piece {
         let direction = self.begin.direction;
         let mut to = next_end(self.profile.corners(), self.at, direction, self.length);
+        to = self.profile.corner_between(self.at, to).unwrap_or(to);
         if self.gain.is_some() && direction * (to - self.whole_turn) > -1e-12 {
             to = self.whole_turn;
         }
@@ -143,9 +165,15 @@ impl Builder<'_> {
         }
     }
 
-    /// How far the kinetic energy at the start of the next panel may be off, J; near rest it is that of the way to the
-    /// end of the turn, which keeps its digits.
-    fn rounding(&mut self) -> f64 {
+    /// How far the kinetic energy on the next panel may be off; near rest it is that of the way to the end of the turn,
+    /// which keeps its digits.
+    fn uncertain(&mut self, turning: Turning) -> Uncertain {
+        if let Some(home) = &self.home
+            && turning == Turning::AtEnd
+            && self.known == Known::FromHome
+        {
+            return Uncertain::AtTurn(home.rounding());
+        }
         if let Some(home) = &self.home
             && self.kinetic < NEAR_REST * self.largest
             && let Some(exact) = home.kinetic(self.at)
@@ -153,9 +181,27 @@ impl Builder<'_> {
             self.kinetic = exact;
             let to_go = (self.whole_turn - self.at).abs();
             let size = exact.max(self.begin.kinetic);
-            return f64::EPSILON * size * (1.0 + self.at.abs() / to_go);
+            return Uncertain::AtStart(f64::EPSILON * size * (1.0 + self.at.abs() / to_go));
         }
-        self.off + f64::EPSILON * self.largest
+        Uncertain::AtStart(self.off + f64::EPSILON * self.largest)
+    }
+
+    /// Where a motion turns, if that is not where its last panel ends, rad: a turning point found on a longer panel is
+    /// right to the rounding of that one, and the energy that the last one uses up says by how much it is off. Once:
+    /// what is left then is the rounding of this energy.
+    fn turns_rather_at(&mut self, panel: &Panel) -> Option<f64> {
+        let Piece { from, to, turning } = panel.piece;
+        // Later on the energy that is left has been rounded again.
+        if turning != Turning::AtEnd || self.known != Known::OnPanel(from) {
+            return None;
+        }
+        self.known = Known::ByEnergy;
+        let used = 0.5 * self.profile.inertia_and_force(from).0 * panel.speed(-1.0).powi(2);
+        let force = self.profile.inertia_and_force(to).1;
+        let missed = (self.kinetic - used) / force.abs();
+        let told = f64::EPSILON * to.abs() < missed.abs()
+            && missed.abs() < SLIGHT * panel.piece.span().abs();
+        told.then_some(to + self.begin.direction * missed)
     }
 
     fn take(&mut self, mut panel: Panel, off: f64) {

@@ -48,6 +48,11 @@ impl<'a> Return<'a> {
         (kinetic.is_finite() && kinetic > 0.0).then_some(kinetic)
     }
 
+    /// How far the energy of a turning point next to it may be off, J: the end of the turn is a rounded angle.
+    pub fn rounding(&self) -> f64 {
+        f64::EPSILON * self.angle.abs() * self.force(self.angle).abs()
+    }
+
     /// The turning point near `guess`, after `at`; beyond it, at the rest, the force changes its sign.
     pub fn turning_point(&self, at: f64, guess: f64) -> Option<f64> {
         if !self.is_near(guess) {

@@ -38,8 +38,11 @@ pub trait Profile {
     /// By how much rounding may change the force at an angle beside the rounding of the angle, N m.
     fn rounding(&self, theta: f64) -> f64;
 
-    /// Angles in [0, 2π), in rising order, at which panels must end.
+    /// Angles in [0, 2π), in rising order, at which panels must end in each turn.
     fn corners(&self) -> &[f64];
+
+    /// The nearest angle after `from` and before `to`, in either direction, at which a panel must end beside them.
+    fn corner_between(&self, from: f64, to: f64) -> Option<f64>;
 
     /// Whether everything repeats after a turn and no work is done in one.
     fn repeats(&self) -> bool;

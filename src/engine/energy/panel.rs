@@ -44,15 +44,24 @@ pub(in crate::engine) enum Tried {
     TurnsAt(f64),
 }
 
+/// Where the kinetic energy of a piece is known, and how far it may be off there, J.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::engine) enum Uncertain {
+    /// At its start: elsewhere the rounding on the piece is added.
+    AtStart(f64),
+    /// At the turning point at its end, which is known by itself.
+    AtTurn(f64),
+}
+
 impl Panel {
     /// Tries a panel with the kinetic energy `kinetic` (J) at its start; `tolerance` is the tail that counts
-    /// as converged, `rounding` (J) what the kinetic energy may be off.
+    /// as converged, `uncertain` what the kinetic energy may be off.
     pub fn attempt(
         profile: &dyn Profile,
         piece: Piece,
         kinetic: f64,
         tolerance: f64,
-        rounding: f64,
+        uncertain: Uncertain,
     ) -> Result<Tried, Unserved> {
         let rule = Rule::of(DEGREE);
         let (mut inertia, mut force) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
@@ -105,7 +114,11 @@ impl Panel {
             0.0
         };
         let steep = Steep::of(&piece, &force, noise);
-        let shaken = shaken(&energy, &steep, &slopes, &kinetic, rounding);
+        let off = match uncertain {
+            Uncertain::AtStart(off) => off + steep.energy,
+            Uncertain::AtTurn(off) => off,
+        };
+        let shaken = shaken(&energy, &steep, &slopes, &kinetic, off);
         let kinetic_at_end = match piece.turning {
             Turning::Nowhere => kinetic[DEGREE],
             Turning::AtStart => 2.0 * piece.span().abs() * energy.mean_force(1.0),
@@ -233,16 +246,10 @@ impl Panel {
 }
 
 /// What errors of the kinetic energy make of the duration of a panel, relative to it. `slopes` and `kinetic` are dt/dx
-/// and the kinetic energy (J) at the points, `rounding` (J) what the energy at the start may be off.
-fn shaken(
-    energy: &Energy<'_>,
-    steep: &Steep,
-    slopes: &Values,
-    kinetic: &Values,
-    rounding: f64,
-) -> f64 {
+/// and the kinetic energy (J) at the points, `off` (J) what it may be off.
+fn shaken(energy: &Energy<'_>, steep: &Steep, slopes: &Values, kinetic: &Values, off: f64) -> f64 {
     let (piece, rule) = (&energy.piece, energy.rule);
-    let (off, left_out) = (rounding + steep.energy, energy.left_out());
+    let left_out = energy.left_out();
     match piece.turning {
         Turning::Nowhere => {
             // dT/dK is the integral of dt/2K.

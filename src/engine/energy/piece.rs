@@ -88,18 +88,24 @@ pub(super) fn missing(start: f64, direction: f64) -> f64 {
     direction * two_sum(start, direction * TAU).1 + TAU_REST
 }
 
-/// The end of a panel that begins at `at`: its length, or the next corner before.
+/// The end of a panel that begins at `at`: its length, or the next corner before; corners are in rising order.
 pub(super) fn next_end(corners: &[f64], at: f64, direction: f64, length: f64) -> f64 {
     let turn = (at / TAU).floor() * TAU;
     let mut end = at + direction * length.min(LONGEST);
+    let near = 1e-12 * at.abs().max(1.0);
     for shift in [-TAU, 0.0, TAU] {
-        for corner in corners {
-            let corner = corner + turn + shift;
-            let ahead = direction * (corner - at);
-            if ahead > 1e-12 * at.abs().max(1.0) && ahead < direction * (end - at) {
-                end = corner;
-            }
-        }
+        let place = |corner: &f64| corner + turn + shift;
+        let next = if direction > 0.0 {
+            let passed = corners.partition_point(|corner| place(corner) - at <= near);
+            corners.get(passed)
+        } else {
+            let ahead = corners.partition_point(|corner| at - place(corner) > near);
+            corners[..ahead].last()
+        };
+        end = match next.map(place) {
+            Some(corner) if direction * (corner - end) < 0.0 => corner,
+            _ => end,
+        };
     }
     end
 }

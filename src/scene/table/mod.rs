@@ -115,6 +115,11 @@ impl Table {
         self.curve.next_point(at)
     }
 
+    /// The arguments of the rows between two, periods counted.
+    pub fn rows_between(&self, low: f64, high: f64) -> Vec<f64> {
+        self.curve.points_between(low, high)
+    }
+
     pub(super) fn is_zero(&self) -> bool {
         self.curve.values().iter().all(|y| *y == 0.0)
     }
