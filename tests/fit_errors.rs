@@ -1,6 +1,10 @@
 //! What fitted curves say of their errors, against curves that are known.
 
+mod noise;
+
 use std::f64::consts::TAU;
+
+use noise::Random;
 
 use slider_crank::numeric::fit::{Curve, Kind, Samples, Size};
 
@@ -78,5 +82,77 @@ fn noise_of_splines_through_samples() {
         let (curve, compared) = through(&arguments(100), noise);
         let part = curve.quality().sigma / noise;
         assert!(compared && (0.7..=1.3).contains(&part), "{noise:e}: {part}");
+    }
+}
+
+/// Part of the second derivatives of noisy samples of a curve, as fitted, that are within 1.96 standard errors of the
+/// true ones, and the root mean square of their errors in standard errors.
+fn second_derivatives(
+    kind: Kind,
+    curve: fn(f64) -> [f64; 2],
+    noise: f64,
+    draws: u64,
+) -> (f64, f64) {
+    const ROWS: usize = 400;
+    let t: Vec<f64> = (0..ROWS).map(|i| i as f64 / 199.5 - 1.0).collect();
+    let (mut inside, mut squares) = (0.0, 0.0);
+    for draw in 0..draws {
+        let mut random =
+            Random(0x9E37_79B9_7F4A_7C15 ^ (draw + 1).wrapping_mul(0xD134_2543_DE82_EF95));
+        let target: Vec<f64> = t
+            .iter()
+            .map(|t| curve(*t)[0] + noise * random.normal())
+            .collect();
+        let samples = Samples {
+            t: &t,
+            target: &target,
+            weight: None,
+            floor: 1e-16,
+        };
+        let fit = Curve::fit(&samples, kind, Size::Auto).expect("a fit");
+        let second = [0.0, 0.0, 1.0];
+        for t in &t {
+            let state = fit.state(*t);
+            let variance = fit.quality().sigma.powi(2) * state.variance(&second);
+            let square =
+                (state.value[2] - curve(*t)[1]).powi(2) / (variance + state.bias_of(&second));
+            inside += f64::from(square <= 1.96 * 1.96);
+            squares += square;
+        }
+    }
+    let all = draws as f64 * ROWS as f64;
+    (inside / all, (squares / all).sqrt())
+}
+
+/// A peak, and its second derivative: its terms fall off by 1.07 each.
+fn peak(t: f64) -> [f64; 2] {
+    let (a, off) = (200.0, t - 0.2);
+    let below = 1.0 + a * off * off;
+    [1.0 / below, (6.0 * a * off * off - 2.0) * a / below.powi(3)]
+}
+
+/// A motion that needs more terms than are tried: those that are left out are many.
+#[test]
+fn polynomials_of_the_highest_degree() {
+    let (share, error) = second_derivatives(Kind::Polynomial, peak, 1e-5, 6);
+    assert!(
+        share >= 0.9 && (0.2..=1.2).contains(&error),
+        "{share} {error}"
+    );
+}
+
+/// Part of a wave, and its second derivative.
+fn slow_wave(t: f64) -> [f64; 2] {
+    let sin = (1.3 * t + 0.4).sin();
+    [sin, -1.69 * sin]
+}
+
+/// Noise that hides all but about six terms leaves the roughness of the rest to a guess.
+#[test]
+fn splines_that_are_hardly_more_than_polynomials() {
+    for noise in [1e-3, 3e-4, 1e-4, 3e-5, 1e-5] {
+        let (share, error) = second_derivatives(Kind::Spline, slow_wave, noise, 40);
+        let is_right = (0.9..=0.995).contains(&share) && (0.6..=1.2).contains(&error);
+        assert!(is_right, "{noise:e}: {share} {error}");
     }
 }

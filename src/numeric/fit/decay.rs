@@ -5,6 +5,8 @@
 //! likelihood, as is that there are no terms after the last supported one. They tell how many terms leave out little, and
 //! how much.
 
+use std::ops::Range;
+
 /// Variances of the coefficients of a series, as a mixture of geometric series.
 #[derive(Clone, Debug)]
 pub(super) struct Decay {
@@ -80,6 +82,16 @@ impl Decay {
     pub fn variance(&self, k: usize) -> f64 {
         let one = |[weight, level, fall]: &[f64; 3]| weight * (level - fall * k as f64).exp();
         self.noise * self.mixture.iter().map(one).sum::<f64>()
+    }
+
+    /// Variances of the coefficients of a few terms that stand for all from the first of them on: together they add as much
+    /// to the second derivative, to which term k adds in proportion to k^`power`.
+    pub fn beyond(&self, terms: Range<usize>, power: i32) -> Vec<f64> {
+        let added = |k: usize| self.variance(k) * (k as f64).powi(power);
+        let all: f64 = (terms.start..terms.start + FAR).map(added).sum();
+        let few: f64 = terms.clone().map(added).sum();
+        let more = if few > 0.0 { all / few } else { 1.0 };
+        terms.map(|k| more * self.variance(k)).collect()
     }
 
     /// The first number of terms, from `supported` to `most`, that leaves out little of the second derivative, to which

@@ -16,6 +16,7 @@ mod rotation;
 mod roughness;
 mod spline;
 mod spread;
+mod support;
 mod triangle;
 
 pub use condensed::Rows;

@@ -94,6 +94,16 @@ impl<'a> Normal<'a> {
         factor.solve(&pull.iter().map(|p| strength * p).collect::<Vec<f64>>())
     }
 
+    /// What the parameters of a spline under a penalty of this strength are worth.
+    pub fn parameters(&self, strength: f64) -> Option<f64> {
+        let inverse = self.factor(strength)?.inverse_band();
+        Some(inverse.trace_of_product(&self.matrix))
+    }
+
+    pub fn rows(&self) -> &Rows<'a> {
+        self.samples
+    }
+
     pub fn floor(&self) -> f64 {
         self.samples.floor
     }

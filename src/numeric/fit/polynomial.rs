@@ -93,7 +93,7 @@ impl Polynomial {
         let (degree, decay) = enough(&found.squares);
         let degree = degree.min(found.coefficients.len() - 1);
         let beyond = degree + 1..found.coefficients.len().min(degree + 1 + TAIL);
-        let tail: Vec<f64> = beyond.map(|k| decay.variance(k)).collect();
+        let tail = decay.beyond(beyond, GROWTH);
         let (centres, norms) = (found.centres.clone(), found.norms.clone());
         found.truncate(degree);
         let parameters = found.coefficients.len();

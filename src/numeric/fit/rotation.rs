@@ -92,8 +92,8 @@ pub(super) fn supported(
         };
         let weights: f64 = samples.iter().map(|(_, weight, _)| weight * weight).sum();
         let beyond = count + 1..count + 1 + TAIL;
-        let tail = beyond.map(|k| 2.0 * decay.variance(k) / weights);
-        return Ok((count, tail.collect()));
+        let tail = decay.beyond(beyond, GROWTH).into_iter();
+        return Ok((count, tail.map(|v| 2.0 * v / weights).collect()));
     }
 }
 

@@ -10,6 +10,7 @@
 use super::condensed::Rows;
 use super::penalized::Normal;
 use super::pieces::{DEGREE, Grid, basis, last_bases};
+use super::support::supported;
 use super::{DIAGONAL, Kind, Quality, Samples, Size, State, add_products, differences, refinement};
 use crate::numeric::banded::{Banded, DIAGONALS};
 
@@ -78,6 +79,7 @@ impl Spline {
         let normal = Normal::new(rows, pieces);
         let choice = normal.choose().ok_or_else(failed)?;
         let strength = normal.weaker(choice.strength, CUT_OFF);
+        let strength = supported(&normal, strength);
         Spline::new(normal, [choice.strength, strength], choice.coefficients).ok_or_else(failed)
     }
 
