@@ -113,11 +113,14 @@ impl Rows {
     /// The rows; half of a 95 % band is `factor` standard errors.
     pub fn new(backwards: &Backwards<'_>, fitted: &Fitted, times: &[f64], factor: f64) -> Rows {
         let linkage = backwards.equation.linkage();
-        let (rows, doubts) = parallel::pairs(times.len(), |i| {
-            let state = fitted.state(times[i]);
-            let demand = backwards.demand(times[i], &state);
-            let row = InverseRow::new(times[i], &state, &demand);
-            (row, Doubt::new(&demand, linkage.r))
+        let (rows, doubts) = parallel::pairs_by(times.len(), |range| {
+            let times = &times[range];
+            let states = times.iter().zip(fitted.states(times));
+            states.map(|(t, state)| {
+                let demand = backwards.demand(*t, &state);
+                let row = InverseRow::new(*t, &state, &demand);
+                (row, Doubt::new(&demand, linkage.r))
+            })
         });
         let rocks = !linkage.limit_angles().is_empty();
         let torques = rows.iter().map(|row| {
