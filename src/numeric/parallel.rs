@@ -1,5 +1,6 @@
 //! Long lists on all cores, the same to the last bit whatever their number.
 
+use std::ops::Range;
 use std::sync::{Mutex, OnceLock, PoisonError};
 use std::thread;
 
@@ -52,17 +53,46 @@ pub fn list<T: Copy + Default + Send>(length: usize, f: impl Fn(usize) -> T + Sy
     list
 }
 
+/// The list of what `f` gives for numbers, of which it takes several side by side; the last ones may be repeated.
+pub fn lanes<const N: usize>(
+    numbers: &[f64],
+    f: impl Fn(&[f64; N]) -> [f64; N] + Sync,
+) -> Vec<f64> {
+    let mut list = vec![0.0; numbers.len()];
+    let pieces = list.chunks_mut(PIECE).zip(numbers.chunks(PIECE));
+    each(pieces, |(entries, numbers)| {
+        for (entries, numbers) in entries.chunks_mut(N).zip(numbers.chunks(N)) {
+            let last = numbers.len() - 1;
+            let found = f(&std::array::from_fn(|lane| numbers[lane.min(last)]));
+            entries.copy_from_slice(&found[..=last]);
+        }
+    });
+    list
+}
+
 /// The lists of what stands first and second in `f(0)`, `f(1)`, ...
 pub fn pairs<A, B>(length: usize, f: impl Fn(usize) -> (A, B) + Sync) -> (Vec<A>, Vec<B>)
 where
     A: Copy + Default + Send,
     B: Copy + Default + Send,
 {
+    pairs_by(length, |range| range.map(&f))
+}
+
+/// The lists of what stands first and second in what `f` gives for ranges one after the other.
+pub fn pairs_by<A, B, I>(length: usize, f: impl Fn(Range<usize>) -> I + Sync) -> (Vec<A>, Vec<B>)
+where
+    A: Copy + Default + Send,
+    B: Copy + Default + Send,
+    I: Iterator<Item = (A, B)>,
+{
     let mut lists = (vec![A::default(); length], vec![B::default(); length]);
     let pieces = lists.0.chunks_mut(PIECE).zip(lists.1.chunks_mut(PIECE));
     each(pieces.enumerate(), |(piece, (a, b))| {
-        for (i, (a, b)) in a.iter_mut().zip(b).enumerate() {
-            (*a, *b) = f(piece * PIECE + i);
+        let from = piece * PIECE;
+        let entries = f(from..from + a.len());
+        for ((a, b), entry) in a.iter_mut().zip(b).zip(entries) {
+            (*a, *b) = entry;
         }
     });
     lists

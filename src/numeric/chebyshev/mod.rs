@@ -69,10 +69,10 @@ impl Series {
     }
 
     /// Its values at many places at once.
-    pub fn values(&self, x: &Values) -> Values {
-        let (mut b1, mut b2) = ([0.0; MOST + 1], [0.0; MOST + 1]);
+    pub fn values<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
+        let (mut b1, mut b2) = ([0.0; N], [0.0; N]);
         for c in self.terms()[1..].iter().rev() {
-            for j in 0..=MOST {
+            for j in 0..N {
                 let next = (c - b2[j]) + 2.0 * x[j] * b1[j];
                 (b1[j], b2[j]) = (next, b1[j]);
             }

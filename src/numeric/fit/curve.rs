@@ -1,8 +1,10 @@
 //! One type for all fitted curves.
 
 use super::condensed::Rows;
+use super::dense;
 use super::pieces::DEGREE;
 use super::{Fourier, MOST_IN_DOUBLE, Polynomial, Quality, Samples, Size, Spline, State};
+use crate::numeric::parallel;
 
 /// Kinds of curves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,7 +68,12 @@ impl Curve {
     /// # Errors
     /// A text that says why the samples do not serve.
     pub fn fit(samples: &Samples<'_>, kind: Kind, size: Size) -> Result<Curve, String> {
-        let rows = kind.rows(samples, size, samples.computed());
+        let computed = match kind {
+            // What a polynomial cannot follow in a block it cannot follow anyway.
+            Kind::Polynomial => f64::INFINITY,
+            _ => samples.computed(),
+        };
+        let rows = kind.rows(samples, size, computed);
         let curve = Curve::to(&rows, kind, size)?;
         if curve.is_seen_by(&rows) {
             return Ok(curve);
@@ -104,6 +111,15 @@ impl Curve {
             Curve::Polynomial(polynomial) => polynomial.value(t),
             Curve::Spline(spline) => spline.value(t),
             Curve::Fourier(fourier) => fourier.value(t),
+        }
+    }
+
+    /// The curve alone at many arguments.
+    pub fn values(&self, t: &[f64]) -> Vec<f64> {
+        match self {
+            Curve::Polynomial(polynomial) => polynomial.values(t),
+            Curve::Spline(spline) => parallel::list(t.len(), |i| spline.value(t[i])),
+            Curve::Fourier(fourier) => fourier.values(t),
         }
     }
 
@@ -161,6 +177,17 @@ impl Curve {
             Curve::Spline(spline) => spline.state(t),
             Curve::Fourier(fourier) => fourier.state(t),
         }
+    }
+
+    /// The same at rising arguments, to rounding.
+    pub fn states(&self, t: &[f64]) -> Vec<State> {
+        let mut states = Vec::with_capacity(t.len());
+        let smooth = |t: &[f64]| match self {
+            Curve::Polynomial(_) | Curve::Fourier(_) => t.len(),
+            Curve::Spline(spline) => spline.grid().in_one_piece(t),
+        };
+        dense::states(t, smooth, |t| self.state(t), |state| states.push(state));
+        states
     }
 
     /// What it leaves of the samples.

@@ -1,5 +1,8 @@
 //! The least-squares problem of a rotation with harmonics, linear about given parameters c, Ω, a_1, b_1, a_2, b_2, ...
 
+use std::array;
+use std::ops::Range;
+
 use nalgebra::DMatrix;
 
 use super::condensed::Rows;
@@ -22,6 +25,29 @@ pub(super) fn value(tau: f64, parameters: &[f64]) -> f64 {
     let pairs = parameters[2..].chunks_exact(2).zip(harmonics(angle));
     let terms = pairs.map(|(pair, (sin, cos))| pair[0] * cos + pair[1] * sin);
     terms.fold(parameters[0] + angle, |sum, term| sum + term)
+}
+
+/// Arguments that are taken side by side.
+const LANES: usize = 4;
+
+/// A number for each of them.
+type Lanes = [f64; LANES];
+
+/// The curve alone at several arguments side by side.
+pub(super) fn values(tau: &Lanes, parameters: &[f64]) -> Lanes {
+    let angle = tau.map(|tau| parameters[1] * tau);
+    let mut sum = angle.map(|angle| parameters[0] + angle);
+    let first = angle.map(f64::sin_cos);
+    let first = [first.map(|(sin, _)| sin), first.map(|(_, cos)| cos)];
+    let mut wave = first;
+    for pair in parameters[2..].chunks_exact(2) {
+        let [sin, cos] = &wave;
+        for lane in 0..LANES {
+            sum[lane] += pair[0] * cos[lane] + pair[1] * sin[lane];
+        }
+        wave = turned(&wave, &first);
+    }
+    sum
 }
 
 /// The curve with three derivatives, and the derivative of the curve by each parameter, with two in time, which take the
@@ -62,11 +88,16 @@ pub(super) fn columns(tau: f64, parameters: &[f64], columns: &mut Vec<Jet>) -> [
 
 pub(super) fn squares(samples: &Rows<'_>, middle: f64, parameters: &[f64]) -> f64 {
     let parts = samples.parts(|range| {
-        let rest = samples.some(range).map(|(t, weight, target)| {
-            let residual = target - weight * value(t - middle, parameters);
-            residual * residual
-        });
-        rest.sum::<f64>()
+        let mut sum = 0.0;
+        for from in range.clone().step_by(LANES) {
+            let some = || samples.some(from..(from + LANES).min(range.end));
+            let mut taus = some().map(|(t, _, _)| t - middle);
+            let found = values(&array::from_fn(|_| taus.next().unwrap_or(0.0)), parameters);
+            for ((_, weight, target), value) in some().zip(found) {
+                sum += (target - weight * value).powi(2);
+            }
+        }
+        sum
     });
     samples.left + parts.iter().sum::<f64>()
 }
@@ -102,60 +133,105 @@ pub(super) fn solve(
     }
 }
 
+/// Sums of cos kφ, sin kφ, of those with the column of the rotation and with the residuals, and of these two with each other.
+#[derive(Debug, Default)]
+struct Sums {
+    waves: Vec<[Lanes; 2]>,
+    beside: Vec<[[Lanes; 2]; 2]>,
+    own: [Lanes; 3],
+}
+
+impl Sums {
+    fn of(samples: &Rows<'_>, range: Range<usize>, middle: f64, parameters: &[f64]) -> Sums {
+        let count = parameters.len() / 2 - 1;
+        let (omega, length) = (parameters[1], 2 * count + 1);
+        let mut sums = Sums {
+            waves: vec![[[0.0; LANES]; 2]; length],
+            beside: vec![[[[0.0; LANES]; 2]; 2]; count + 1],
+            own: [[0.0; LANES]; 3],
+        };
+        let mut list = vec![[[0.0; LANES], [1.0; LANES]]; length.max(2)];
+        for from in range.clone().step_by(LANES) {
+            let mut rows = samples.some(from..(from + LANES).min(range.end));
+            // What is not there has no weight.
+            let rows: [_; LANES] = array::from_fn(|_| rows.next().unwrap_or((middle, 0.0, 0.0)));
+            let tau = rows.map(|(t, _, _)| t - middle);
+            let angle = tau.map(|tau| omega * tau);
+            let first = angle.map(f64::sin_cos);
+            list[1] = [first.map(|(sin, _)| sin), first.map(|(_, cos)| cos)];
+            for k in 2..length {
+                list[k] = turned(&list[k - 1], &list[1]);
+            }
+            let mut value = angle.map(|angle| parameters[0] + angle);
+            let mut slope = [1.0; LANES];
+            let pairs = parameters[2..].chunks_exact(2).zip(&list[1..]);
+            for ((pair, [sin, cos]), k) in pairs.zip(1..) {
+                for lane in 0..LANES {
+                    value[lane] += pair[0] * cos[lane] + pair[1] * sin[lane];
+                    slope[lane] += f64::from(k) * (pair[1] * cos[lane] - pair[0] * sin[lane]);
+                }
+            }
+            let weight = rows.map(|(_, weight, _)| weight);
+            let square = weight.map(|weight| weight * weight);
+            for (sum, [sin, cos]) in sums.waves.iter_mut().zip(&list) {
+                add(&mut sum[0], &square, cos);
+                add(&mut sum[1], &square, sin);
+            }
+            let rotation = array::from_fn(|i| tau[i] * slope[i]);
+            let residual: Lanes = array::from_fn(|i| rows[i].2 - weight[i] * value[i]);
+            let two: [Lanes; 2] = [
+                array::from_fn(|i| square[i] * rotation[i]),
+                array::from_fn(|i| weight[i] * residual[i]),
+            ];
+            for (sum, [sin, cos]) in sums.beside.iter_mut().zip(&list) {
+                for (sum, value) in sum.iter_mut().zip(&two) {
+                    add(&mut sum[0], value, cos);
+                    add(&mut sum[1], value, sin);
+                }
+            }
+            add(&mut sums.own[0], &two[0], &rotation);
+            add(&mut sums.own[1], &two[1], &rotation);
+            add(&mut sums.own[2], &residual, &residual);
+        }
+        sums
+    }
+}
+
+/// Adds products lane by lane.
+#[inline(always)]
+fn add(sum: &mut Lanes, a: &Lanes, b: &Lanes) {
+    for lane in 0..LANES {
+        sum[lane] += a[lane] * b[lane];
+    }
+}
+
+/// Sines and cosines of the sums of angles.
+#[inline(always)]
+fn turned([sin, cos]: &[Lanes; 2], [by_sin, by_cos]: &[Lanes; 2]) -> [Lanes; 2] {
+    [
+        array::from_fn(|i| sin[i] * by_cos[i] + cos[i] * by_sin[i]),
+        array::from_fn(|i| cos[i] * by_cos[i] - sin[i] * by_sin[i]),
+    ]
+}
+
 /// Products of the columns of the design matrix and the residuals with each other. Those of two harmonics follow from sums
 /// over one: 2 cos kφ cos lφ = cos (k − l)φ + cos (k + l)φ.
 fn gram(samples: &Rows<'_>, middle: f64, parameters: &[f64]) -> DMatrix<f64> {
     let count = parameters.len() / 2 - 1;
-    let size = parameters.len();
-    let (omega, length) = (parameters[1], 2 * count + 1);
-    // Sums of cos kφ, sin kφ, and those with the column of the rotation, with the residuals.
-    let parts = samples.parts(|range| {
-        let mut waves = vec![[0.0; 2]; length];
-        let mut beside = vec![[[0.0; 2]; 2]; count + 1];
-        let mut own = [0.0; 3];
-        let mut list = vec![(0.0, 1.0); length];
-        for (t, weight, target) in samples.some(range) {
-            let tau = t - middle;
-            let angle = omega * tau;
-            for (wave, next) in list[1..].iter_mut().zip(harmonics(angle)) {
-                *wave = next;
-            }
-            let (mut value, mut slope) = (parameters[0] + angle, 1.0);
-            let pairs = parameters[2..].chunks_exact(2).zip(&list[1..]);
-            for ((pair, (sin, cos)), k) in pairs.zip(1..) {
-                value += pair[0] * cos + pair[1] * sin;
-                slope += f64::from(k) * (pair[1] * cos - pair[0] * sin);
-            }
-            let square = weight * weight;
-            for (sum, (sin, cos)) in waves.iter_mut().zip(&list) {
-                sum[0] += square * cos;
-                sum[1] += square * sin;
-            }
-            let residual = target - weight * value;
-            let two = [square * tau * slope, weight * residual];
-            for (sum, (sin, cos)) in beside.iter_mut().zip(&list) {
-                for (sum, value) in sum.iter_mut().zip(two) {
-                    sum[0] += value * cos;
-                    sum[1] += value * sin;
-                }
-            }
-            own[0] += two[0] * tau * slope;
-            own[1] += two[1] * tau * slope;
-            own[2] += residual * residual;
-        }
-        (waves, beside, own)
-    });
+    let (size, length) = (parameters.len(), 2 * count + 1);
+    let parts = samples.parts(|range| Sums::of(samples, range, middle, parameters));
     let mut waves = vec![[0.0; 2]; length];
     let mut beside = vec![[[0.0; 2]; 2]; count + 1];
     let mut own = [0.0; 3];
     for part in parts {
-        let add = |sum: &mut [f64; 2], more: &[f64; 2]| (0..2).for_each(|i| sum[i] += more[i]);
-        waves.iter_mut().zip(&part.0).for_each(|(a, b)| add(a, b));
-        let pairs = beside.as_flattened_mut().iter_mut();
+        let add = |(sum, lanes): (&mut f64, &Lanes)| *sum += lanes.iter().sum::<f64>();
+        let pairs = waves.as_flattened_mut().iter_mut();
+        pairs.zip(part.waves.as_flattened()).for_each(add);
+        let pairs = beside.as_flattened_mut().as_flattened_mut().iter_mut();
         pairs
-            .zip(part.1.as_flattened())
-            .for_each(|(a, b)| add(a, b));
-        own.iter_mut().zip(part.2).for_each(|(a, b)| *a += b);
+            .zip(part.beside.as_flattened().as_flattened())
+            .for_each(add);
+        own.iter_mut().zip(&part.own).for_each(add);
     }
     // Harmonic of a column, and whether it is a sine.
     let harmonic = |column: usize| match column {

@@ -3,11 +3,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::condensed::Rows;
-use super::design::{columns, harmonics, solve, squares, value};
+use super::design::{columns, harmonics, solve, squares, value, values};
 use super::rotation::{most_harmonics, settle, supported, turns};
 use super::spread::Spread;
 use super::triangle::Triangle;
 use super::{Kind, Quality, Samples, Size, State, add_products};
+use crate::numeric::parallel;
 
 /// Harmonics with which the rotation is found first.
 const FEW: usize = 3;
@@ -159,6 +160,11 @@ impl Fourier {
     /// The curve at `t`.
     pub fn value(&self, t: f64) -> f64 {
         value(t - self.middle, &self.parameters)
+    }
+
+    /// The curve at many arguments.
+    pub fn values(&self, t: &[f64]) -> Vec<f64> {
+        parallel::lanes(t, |t| values(&t.map(|t| t - self.middle), &self.parameters))
     }
 
     /// The curve and its derivatives at `t`.

@@ -4,6 +4,7 @@ mod choice;
 mod condensed;
 mod curve;
 mod decay;
+mod dense;
 mod design;
 mod differences;
 mod fourier;

@@ -36,6 +36,12 @@ impl Grid {
         let piece = (at.max(0.0) as usize).min(self.pieces - 1);
         (piece, at - piece as f64)
     }
+
+    /// How many of rising arguments, from the first on, are in one piece.
+    pub fn in_one_piece(&self, t: &[f64]) -> usize {
+        let (piece, _) = self.place(t[0]);
+        t.partition_point(|t| self.place(*t).0 == piece)
+    }
 }
 
 /// The cardinal B-splines of a degree at place u of a piece (de Boor's recurrence on even knots).

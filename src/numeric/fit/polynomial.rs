@@ -6,6 +6,7 @@ use super::decay::Decay;
 use super::{Kind, MOST_IN_DOUBLE, Powers, Quality, Samples, Size, State, add_products};
 use crate::numeric::double_double::DoubleDouble;
 use crate::numeric::orthogonal::{self, Expansion};
+use crate::numeric::parallel;
 use crate::numeric::real::Real;
 
 /// The highest degree that is chosen from the samples; of so many that arithmetic is double, the lower one.
@@ -13,6 +14,9 @@ const MOST: [usize; 2] = [80, 40];
 
 /// Terms beyond the last one whose part in the error is estimated.
 const TAIL: usize = 4;
+
+/// Arguments for which it is evaluated at a time.
+const LANES: usize = 8;
 
 /// Near the ends of the samples the second derivative of an orthonormal term grows with this power of its degree, squared.
 const GROWTH: i32 = 8;
@@ -184,6 +188,25 @@ impl Polynomial {
         let mut sum = 0.0;
         self.terms(t, |j, q| sum += self.coefficients[j] * q);
         sum
+    }
+
+    /// The polynomial at many arguments, several of them side by side.
+    pub fn values(&self, t: &[f64]) -> Vec<f64> {
+        parallel::lanes::<LANES>(t, |t| {
+            let s = t.map(|t| (t - self.middle) / self.half);
+            let (mut before, mut now) = ([0.0; LANES], [self.inverses[0]; LANES]);
+            let mut sum = now.map(|q| self.coefficients[0] * q);
+            let terms = self.coefficients.iter().zip(&self.inverses).skip(1);
+            let recurrence = self.centres.iter().zip(&self.norms);
+            for ((coefficient, inverse), (centre, norm)) in terms.zip(recurrence) {
+                for lane in 0..LANES {
+                    let next = (s[lane] - centre) * now[lane] - norm * before[lane];
+                    (before[lane], now[lane]) = (now[lane], next * inverse);
+                    sum[lane] += coefficient * now[lane];
+                }
+            }
+            sum
+        })
     }
 
     /// The polynomial and its derivatives at `t`.

@@ -172,6 +172,10 @@ impl Spline {
         self.grid.start + self.grid.width * (piece as f64 + u)
     }
 
+    pub(super) fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
     /// Number of its pieces.
     pub fn pieces(&self) -> usize {
         self.grid.pieces

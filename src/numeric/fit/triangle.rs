@@ -70,8 +70,10 @@ impl Triangle {
 
     /// The least-squares solution; none for a singular matrix.
     pub fn solve(&mut self) -> Option<Vec<f64>> {
-        self.reduce();
         let n = self.size;
+        if self.filled > n + 1 {
+            self.reduce();
+        }
         let triangle = self.rows.view((0, 0), (n, n));
         let solution = triangle.solve_upper_triangular(&self.rows.view((0, n), (n, 1)))?;
         Some(solution.iter().copied().collect())

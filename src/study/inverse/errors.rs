@@ -68,12 +68,12 @@ impl Errors {
         (self.noise * self.pattern.widening).hypot(self.computed)
     }
 
-    /// The motion at a time, rad and s.
-    pub fn state(&self, curve: &Curve, t: f64) -> State {
-        let state = curve.state(t);
+    /// The motion at rising times, rad and s.
+    pub fn states(&self, curve: &Curve, t: &[f64]) -> Vec<State> {
+        let states = curve.states(t);
         match &self.missed {
-            Some(missed) => missed.beside(state, t),
-            None => state,
+            Some(missed) => missed.all_beside(states, t),
+            None => states,
         }
     }
 }

@@ -70,7 +70,9 @@ impl Fitted {
                 floor: floor.max(of_step(f64::EPSILON * largest(&theta))),
             };
             let curve = Curve::fit(&samples, kind, size)?;
-            let residuals = parallel::list(theta.len(), |i| theta[i] - curve.value(times[i]));
+            let mut residuals = curve.values(times);
+            let pairs = residuals.iter_mut().zip(&theta);
+            pairs.for_each(|(residual, theta)| *residual = theta - *residual);
             let computed = ROUNDED * f64::EPSILON * largest(&theta);
             let line =
                 |curve: &Curve, i: usize, more: f64| (theta[i] - curve.value(times[i]) - more, 1.0);
@@ -86,7 +88,7 @@ impl Fitted {
             floor,
         };
         let (curve, settled) = seen.fit(theta, kind, size)?;
-        let [slopes, target, residuals] = seen.lines(|i| curve.value(times[i]));
+        let [slopes, target, residuals] = seen.lines(&curve.values(times));
         let reached =
             (0..times.len()).fold(0.0f64, |most, i| most.max((target[i] - residuals[i]).abs()));
         let computed = ROUNDED * f64::EPSILON * largest(values).max(reached);
@@ -121,9 +123,9 @@ impl Fitted {
         }
     }
 
-    /// The motion at a time, rad and s.
-    pub fn state(&self, t: f64) -> State {
-        self.errors.state(&self.curve, t)
+    /// The motion at rising times, rad and s.
+    pub fn states(&self, t: &[f64]) -> Vec<State> {
+        self.errors.states(&self.curve, t)
     }
 
     /// Counts rounding of the measured values to steps that is not noise as an error of the curve, and not as noise.
@@ -139,9 +141,10 @@ impl Fitted {
             return Ok(());
         };
         let (curve, residuals) = (&self.curve, &self.residuals);
+        let theta = curve.values(samples.t);
         // Values before rounding, with the sign with which each counts.
         let exact = parallel::list(values.len(), |i| {
-            let sign = sensor.sign(values[i], || curve.value(samples.t[i]));
+            let sign = sensor.sign(values[i], || theta[i]);
             (values[i] - sign * residuals[i], sign)
         });
         let errors = rounding.errors(&exact);

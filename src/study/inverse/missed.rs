@@ -88,15 +88,21 @@ impl Missed {
         for t in t.iter().step_by(t.len().div_ceil(PLACES)) {
             let state = curve.state(*t);
             before += square(&state, sigma);
-            after += square(&missed.beside(state, *t), noise);
+            after += square(&missed.beside(state, &missed.curve.state(*t)), noise);
         }
         (after < before).then_some(missed)
     }
 
-    /// The state of the fit with what it misses as what may be wrong.
-    pub fn beside(&self, state: State, t: f64) -> State {
-        let missed = self.curve.state(t);
+    /// The states of the fit at rising times with what it misses as what may be wrong.
+    pub fn all_beside(&self, mut states: Vec<State>, t: &[f64]) -> Vec<State> {
+        for (state, missed) in states.iter_mut().zip(self.curve.states(t)) {
+            *state = self.beside(*state, &missed);
+        }
+        states
+    }
+
+    fn beside(&self, state: State, missed: &State) -> State {
         let left = LEFT + missed.value[0].abs();
-        state.wrong_by(&missed, self.noise, left)
+        state.wrong_by(missed, self.noise, left)
     }
 }

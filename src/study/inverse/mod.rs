@@ -2,6 +2,7 @@
 //! equation is read backwards.
 
 mod bands;
+mod course;
 mod errors;
 mod fitted;
 mod force;

@@ -120,11 +120,14 @@ impl Rows {
     ) -> Rows {
         let (times, elapsed) = (measurement.times(), measurement.elapsed());
         let linkage = backwards.equation.linkage();
-        let (rows, doubts) = parallel::pairs(times.len(), |i| {
-            let state = fitted.state(elapsed[i]);
-            let demand = backwards.demand(times[i], &state);
-            let row = InverseRow::new(times[i], &state, &demand);
-            (row, Doubt::new(&demand, linkage.r))
+        let (rows, doubts) = parallel::pairs_by(times.len(), |range| {
+            let (times, elapsed) = (&times[range.clone()], &elapsed[range]);
+            let states = times.iter().zip(fitted.states(elapsed));
+            states.map(|(t, state)| {
+                let demand = backwards.demand(*t, &state);
+                let row = InverseRow::new(*t, &state, &demand);
+                (row, Doubt::new(&demand, linkage.r))
+            })
         });
         let rocks = !linkage.limit_angles().is_empty();
         let torques = rows.iter().filter_map(|row| {

@@ -2,6 +2,7 @@
 //!
 //! Very many samples are condensed once: what the instrument shows is as smooth a function of time as the motion.
 
+use super::course::Course;
 use super::fitted::ROUNDED;
 use super::sensor::Sensor;
 use crate::numeric::chebyshev::largest;
@@ -11,8 +12,11 @@ use crate::numeric::parallel;
 /// Corrections after which a fit counts as not settling.
 const MOST: usize = 30;
 
-/// Rows that show how far a motion is from settled.
+/// Samples that show how far values reach.
 const PART: usize = 20_000;
+
+/// Samples of a turn from which on what the instrument shows of even motion is a polynomial in each block of them.
+const OF_TURN: f64 = 16_384.0;
 
 /// Times that samples get their signs and turns anew.
 const UNFOLDED: usize = 8;
@@ -23,8 +27,8 @@ const LAST_CHOICE: usize = 3;
 /// A fit is settled where further corrections would change it by less than this part of a standard error.
 const SETTLED: f64 = 1e-3;
 
-/// Way of a fit from the crank angles that the samples were unfolded to, rad, beyond which it fits other ones.
-const ASTRAY: f64 = 0.5 * std::f64::consts::PI;
+/// Change, in standard errors, from which on slow corrections are made longer.
+const SLOW: f64 = 10.0;
 
 /// Units of rounding below which corrections do not shrink any more.
 const NOTHING: f64 = 4.0;
@@ -46,7 +50,12 @@ impl Seen<'_> {
     /// The motion, from crank angles (rad) that are near, and whether it came to rest.
     pub fn fit(&self, theta: Vec<f64>, kind: Kind, size: Size) -> Result<(Curve, bool), String> {
         let computed = self.computed(&theta);
-        let mut unfolded = self.unfolded(|i| theta[i]);
+        let turns = largest(&theta) / std::f64::consts::TAU;
+        // What a polynomial cannot follow in a block it cannot follow anyway.
+        let dense = kind == Kind::Polynomial
+            && theta.len() as f64 > OF_TURN * turns
+            && self.sensor.linkage.limit_angles().is_empty();
+        let mut unfolded = self.unfolded(&theta);
         // Crank angles of samples do not tell the signs of values near zero: they are taken from a first motion.
         let mut first = self.sensor.folds();
         let mut near = Near::Samples(theta);
@@ -59,14 +68,22 @@ impl Seen<'_> {
                 floor: self.floor,
             };
             let rows = match in_blocks {
-                true => kind.rows(&samples, size, if first { f64::INFINITY } else { computed }),
+                true => kind.rows(
+                    &samples,
+                    size,
+                    if first || dense {
+                        f64::INFINITY
+                    } else {
+                        computed
+                    },
+                ),
                 false => Rows::from(&samples),
             };
             first &= rows.is_condensed();
             rounds += 1;
             let (curve, settled) = self.settle(&rows, &near, kind, size)?;
             near = if curve.is_seen_by(&rows) {
-                let again = self.unfolded(|i| curve.value(self.times[i]));
+                let again = self.unfolded(&curve.values(self.times));
                 if !first && (again == unfolded || rounds == UNFOLDED) {
                     return Ok((curve, settled));
                 }
@@ -91,10 +108,10 @@ impl Seen<'_> {
     }
 
     /// The values with their signs and turns about a motion.
-    fn unfolded(&self, theta: impl Fn(usize) -> f64 + Sync) -> Vec<f64> {
+    fn unfolded(&self, theta: &[f64]) -> Vec<f64> {
         parallel::list(self.times.len(), |i| {
             self.sensor
-                .unfolded(self.values[i], || self.sensor.shown(theta(i)).0)
+                .unfolded(self.values[i], || self.sensor.shown(theta[i]).0)
         })
     }
 
@@ -106,13 +123,9 @@ impl Seen<'_> {
         kind: Kind,
         size: Size,
     ) -> Result<(Curve, bool), String> {
-        let theta = |t: f64| near.at(self.times, t);
         let last_choice = near.last_choice(rows, self.sensor.folds());
-        let stride = 1 + rows.number() / PART;
-        let times: Vec<f64> = rows.iter().step_by(stride).map(|(t, _, _)| t).collect();
-        let mut before = parallel::list(times.len(), |i| theta(times[i]));
-        let read = before.clone();
-        let mut lines = self.linear(rows, theta);
+        let mut course = Course::new(rows, near.values(self.times, rows.arguments()));
+        let mut lines = self.linear(rows, &course.about);
         // Each correction evaluates the samples' lines anew, with other roundings.
         let reached = lines
             .iter()
@@ -127,29 +140,26 @@ impl Seen<'_> {
         let (mut round, mut change_before) = (0, 0.0);
         loop {
             // Once the motion is about right the choice of terms stays, so that it cannot go on alternating.
+            let anew = chosen.is_none() || Some(round) == last_choice;
             let curve = match chosen {
-                Some(curve) if Some(round) != last_choice => curve.again(&lines)?,
+                Some(curve) if !anew => curve.again(&lines)?,
                 _ => Curve::to(&lines, kind, size)?,
             };
             // Two motions are not held at a time.
             drop(lines);
-            let sigma = curve.quality().sigma;
-            let moved = parallel::list(times.len(), |i| {
-                let state = curve.state(times[i]);
-                let change = (state.value[0] - before[i]).abs();
-                let deviation = state.covariance[0].sqrt();
-                let error = sigma * deviation + state.rounding[0] + f64::MIN_POSITIVE;
-                let rounding = computed * deviation + state.rounding[0] + f64::MIN_POSITIVE;
-                (state.value[0], change / error, change / rounding)
-            });
-            let change = moved.iter().fold(0.0, |most, moved| moved.1.max(most));
-            let in_rounding = moved.iter().fold(0.0, |most, moved| moved.2.max(most));
-            lines = self.linear(rows, |t| curve.value(t));
-            if lines.iter().any(|(_, slope, _)| !slope.is_finite()) {
+            if anew || round == 0 {
+                course.look(&curve);
+            }
+            let found = curve.values(rows.arguments());
+            let [change, in_rounding] = course.change(&found, [curve.quality().sigma, computed]);
+            if !self.sensor.linkage.limit_angles().is_empty()
+                && found
+                    .iter()
+                    .any(|theta| !self.sensor.shown(*theta).1.is_finite())
+            {
                 return Err("the fit leaves the angles that the crank can take".to_owned());
             }
-            let far = |(moved, read): (&(f64, _, _), &f64)| (moved.0 - read).abs() > ASTRAY;
-            if moved.iter().zip(&read).any(far) {
+            if course.is_astray(&found) {
                 return Err("the fit goes astray, far off the crank angles of the samples: they hardly tell them, or it is not the fit for this motion".to_owned());
             }
             round += 1;
@@ -161,26 +171,29 @@ impl Seen<'_> {
             if settled && chosen_last || round == MOST {
                 return Ok((curve, settled || change < 1.0));
             }
+            course.go_on(
+                found,
+                chosen_last && change < SLOW && factor > FAST && round > 1,
+            );
+            lines = self.linear(rows, &course.about);
             change_before = change;
-            before = moved.into_iter().map(|moved| moved.0).collect();
             chosen = Some(curve);
         }
     }
 
     /// Rows about a motion, each a line in the crank angle.
-    fn linear<'r>(&self, rows: &'r Rows<'_>, theta: impl Fn(f64) -> f64 + Sync) -> Rows<'r> {
-        rows.linear(|t, value| {
-            let theta = theta(t);
-            let (shown, slope) = self.sensor.shown(theta);
-            [slope, value - shown + slope * theta]
+    fn linear<'r>(&self, rows: &'r Rows<'_>, theta: &[f64]) -> Rows<'r> {
+        rows.linear(|i, value| {
+            let (shown, slope) = self.sensor.shown(theta[i]);
+            [slope, value - shown + slope * theta[i]]
         })
     }
 
     /// The samples about a motion, each a line in the crank angle: slope and value at zero, with what they leave of the
     /// samples.
-    pub fn lines(&self, theta: impl Fn(usize) -> f64 + Sync) -> [Vec<f64>; 3] {
+    pub fn lines(&self, theta: &[f64]) -> [Vec<f64>; 3] {
         parallel::columns(self.times.len(), |i| {
-            let theta = theta(i);
+            let theta = theta[i];
             let (residual, slope) = self.sensor.residual(self.values[i], theta);
             [slope, residual + slope * theta, residual]
         })
@@ -199,14 +212,14 @@ enum Near {
 }
 
 impl Near {
-    /// The crank angle, rad.
-    fn at(&self, times: &[f64], t: f64) -> f64 {
+    /// Crank angles, rad, from those of samples.
+    fn values(&self, times: &[f64], t: &[f64]) -> Vec<f64> {
         match self {
-            Near::Samples(theta) => {
-                let at = times.partition_point(|time| *time < t);
+            Near::Samples(theta) => parallel::list(t.len(), |i| {
+                let at = times.partition_point(|time| *time < t[i]);
                 theta[at.min(theta.len() - 1)]
-            }
-            Near::Motion(curve) | Near::Curve(curve) => curve.value(t),
+            }),
+            Near::Motion(curve) | Near::Curve(curve) => curve.values(t),
         }
     }
 

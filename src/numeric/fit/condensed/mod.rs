@@ -138,14 +138,14 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// The problem of rows `weight`·f(y(t)) = `target`, linear in y: `line` gives slope and value at zero of f for an
-    /// argument and what f is to be there.
-    pub fn linear(&self, line: impl Fn(f64, f64) -> [f64; 2] + Sync) -> Rows<'_> {
+    /// The problem of rows `weight`·f(y(t)) = `target`, linear in y: `line` gives slope and value at zero of f for the place of
+    /// a row and what f is to be there.
+    pub fn linear(&self, line: impl Fn(usize, f64) -> [f64; 2] + Sync) -> Rows<'_> {
         let (weight, target) = parallel::pairs(self.number(), |i| {
-            let (t, weight, target) = self.row(i);
+            let (_, weight, target) = self.row(i);
             // What has no weight has no value.
             let value = if weight == 0.0 { 0.0 } else { target / weight };
-            let [slope, at_zero] = line(t, value);
+            let [slope, at_zero] = line(i, value);
             (weight * slope, weight * at_zero)
         });
         Rows {
@@ -238,6 +238,11 @@ impl<'a> Rows<'a> {
     /// Number of rows.
     pub fn number(&self) -> usize {
         self.t.len()
+    }
+
+    /// Arguments of all rows.
+    pub fn arguments(&self) -> &[f64] {
+        &self.t
     }
 
     /// Argument, weight and target of all rows.
