@@ -78,8 +78,7 @@ impl Spline {
         };
         let normal = Normal::new(rows, pieces);
         let choice = normal.choose().ok_or_else(failed)?;
-        let strength = normal.weaker(choice.strength, CUT_OFF);
-        let strength = supported(&normal, strength);
+        let strength = supported(&normal, normal.weaker(choice.strength, CUT_OFF));
         Spline::new(normal, [choice.strength, strength], choice.coefficients).ok_or_else(failed)
     }
 
