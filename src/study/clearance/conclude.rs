@@ -55,11 +55,12 @@ impl<const N: usize> Run<'_, N> {
             against.map(|t| MARGIN * (value(t) - value(&last)).abs() + rounding * size)
         };
         let reach = model.reach;
+        let struck = self.struck(&seen, f64::EPSILON * reach, last.t);
         let summary = self.summary(
             &seen,
             [work, lost],
             &last,
-            |value| error(value, reach),
+            |value, length| Some(error(value, reach / length)? + struck / length),
             horizon,
         );
         let ends_early = stopped.is_some();
@@ -125,12 +126,31 @@ impl<const N: usize> Run<'_, N> {
         }
     }
 
+    /// What an error of the gap (m) makes of the slider's place (m) by way of the impacts until time t, s. In the
+    /// deepest one of depth δ and force F, the energy 2Fδ/5 stopped the free bodies of mass m, v = √(4Fδ/5m), and sent
+    /// them back about as fast; the force is off by 3/2 of what the depth is, relatively, and so is 2v, until the
+    /// next impact sets them right.
+    fn struck(&self, seen: &Seen, gap: f64, t: f64) -> f64 {
+        let scene = &self.task.scene;
+        let slider = scene.slider.map_or(0.0, |slider| slider.mass);
+        let mass = match self.mechanism.clearance().joint {
+            Joint::WristPin => slider,
+            Joint::CrankPin => slider + scene.rod.map_or(0.0, |rod| rod.mass),
+        };
+        let (force, depth) = (seen.total.peak, seen.total.deepest);
+        if seen.separations == 0 || depth == 0.0 || mass == 0.0 {
+            return 0.0;
+        }
+        let change = 2.0 * (0.8 * force * depth / mass).sqrt();
+        1.5 * gap / depth * change * t / seen.separations as f64
+    }
+
     fn summary(
         &self,
         seen: &Seen,
         [work, lost]: [f64; 2],
         last: &LooseState,
-        error: impl Fn(fn(&LooseState) -> f64) -> Option<f64>,
+        error: impl Fn(fn(&LooseState) -> f64, f64) -> Option<f64>,
         horizon: Option<Horizon>,
     ) -> ClearanceSummary {
         let clearance = self.mechanism.clearance();
@@ -157,8 +177,8 @@ impl<const N: usize> Run<'_, N> {
                 x_m: last.x,
                 v_m_per_s: last.v,
                 phi_rad: phi(last.psi, self.task.scene.geometry.branch.sign()),
-                error_x_m: error(|s| s.x),
-                error_phi_rad: error(|s| s.psi),
+                error_x_m: error(|s| s.x, 1.0),
+                error_phi_rad: error(|s| s.psi, self.task.scene.geometry.rod),
             },
             horizon,
         }
