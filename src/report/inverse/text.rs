@@ -34,12 +34,13 @@ pub fn inverse(result: &Inverse, printed: Option<&AsPrinted>) -> String {
         facts.add(
             "no slider force",
             format_args!(
-                "t = {} to {} s, theta = {:.4} to {:.4} deg, {} rows: {}",
+                "t = {} to {} s, theta = {:.4} to {:.4} deg, {} row{}: {}",
                 band.from_s,
                 band.to_s,
                 band.from_theta_rad.to_degrees(),
                 band.to_theta_rad.to_degrees(),
                 band.rows,
+                if band.rows == 1 { "" } else { "s" },
                 band.reason
             ),
         );
