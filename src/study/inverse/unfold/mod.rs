@@ -102,11 +102,15 @@ const ROUNDING: f64 = 1e-14;
 fn record<'a>(sensor: &Sensor<'_>, measurement: &'a Measurement) -> Record<'a> {
     let (times, values) = (measurement.elapsed(), measurement.values());
     let least = ROUNDING * sensor.size();
+    let noise = match sensor.measured {
+        Measured::Gamma => noise::noise_of_gamma(sensor.linkage, times, values),
+        _ => noise::noise(times, values),
+    };
     let printed = of_step(measurement.resolution());
     Record {
         times,
         values,
-        noise: noise::noise(times, values).max(least),
+        noise: noise.max(least),
         rounding: noise::rounding(values).max(printed),
     }
 }

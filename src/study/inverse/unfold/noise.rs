@@ -1,6 +1,7 @@
 //! Noise of the measured values, from the values alone.
 
 use super::super::rounding::of_step;
+use crate::mechanism::Linkage;
 use crate::numeric::chebyshev::largest;
 use crate::numeric::parallel;
 
@@ -16,28 +17,51 @@ const EQUAL: f64 = 0.1;
 /// Standard deviation of the noise, from the differences between samples and the polynomials through their
 /// neighbours, to which a smooth motion hardly adds.
 pub(super) fn noise(times: &[f64], values: &[f64]) -> f64 {
-    let of = |count: usize| by(count, times, values);
+    least(times, values, |_| 1.0)
+}
+
+/// The same of crank-pin angles γ, rad, that bend at every fold: the distance from the crank pivot to the wrist pin,
+/// d² = r² + l² − 2 r l cos γ, is smooth there, and d d' = r l sin γ.
+pub(super) fn noise_of_gamma(linkage: &Linkage, times: &[f64], sizes: &[f64]) -> f64 {
+    let Linkage { r, l, .. } = *linkage;
+    let distances = parallel::list(sizes.len(), |i| {
+        let across = 2.0 * (0.5 * sizes[i]).sin();
+        ((l - r).powi(2) + r * l * across * across).sqrt()
+    });
+    let slope = |i: usize| r * l * sizes[i].sin() / distances[i].max(f64::MIN_POSITIVE);
+    least(times, &distances, slope).min(noise(times, sizes))
+}
+
+/// The least noise that any number of neighbours tells, of what has its values with these slopes.
+fn least(times: &[f64], values: &[f64], slope: impl Fn(usize) -> f64 + Sync) -> f64 {
+    let of = |count: usize| by(count, times, values, &slope);
     let list = NEIGHBOURS.into_iter().filter_map(of);
     list.reduce(f64::min).unwrap_or(0.0)
 }
 
-fn by(count: usize, times: &[f64], values: &[f64]) -> Option<f64> {
+fn by(
+    count: usize,
+    times: &[f64],
+    values: &[f64],
+    slope: &(impl Fn(usize) -> f64 + Sync),
+) -> Option<f64> {
     let around = count / 2;
     let inner = values.len().checked_sub(count).filter(|inner| *inner > 0)?;
     let every = (inner / ENOUGH).max(1);
     let mut rest = parallel::list(inner.div_ceil(every), |i| {
         let at = around + i * every;
         let others = || (at - around..=at + around).filter(move |j| *j != at);
-        let (mut sum, mut spread) = (values[at], 1.0);
+        let (mut sum, mut spread) = (values[at], slope(at).powi(2));
         for j in others() {
             let weights = others().filter(|k| *k != j);
             let weight: f64 = weights
                 .map(|k| (times[at] - times[k]) / (times[j] - times[k]))
                 .product();
             sum -= weight * values[j];
-            spread += weight * weight;
+            spread += (weight * slope(j)).powi(2);
         }
-        sum.abs() / spread.sqrt()
+        // All at a fold, where a distance tells nothing.
+        sum.abs() / spread.sqrt().max(f64::MIN_POSITIVE)
     });
     let middle = rest.len() / 2;
     Some(1.4826 * *rest.select_nth_unstable_by(middle, f64::total_cmp).1)
