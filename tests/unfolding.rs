@@ -293,6 +293,33 @@ fn few_samples_of_a_turn_are_enough_for_a_steady_motion() {
     }
 }
 
+/// With ten samples a turn the folds of a crank-pin angle are no noise: at the end of the samples at most is there a doubt.
+#[test]
+fn few_samples_of_many_uneven_turns_tell_them() {
+    const TURNS: f64 = 400.0;
+    let scene = scene(0.05, 0.15, 0.01, Branch::Right).start(0.3, 1.0);
+    for measured in BOTH {
+        let times: Vec<f64> = (0..=4000).map(|i| f64::from(i) / 4000.0).collect();
+        let values = times.iter().map(|t| {
+            let turned = TURNS * TAU * t;
+            shown(&scene, measured, 0.3 + turned + 0.3 * turned.sin()).abs()
+        });
+        let values = values.collect();
+        let measurement = Measurement::new(measured, times, values).expect("samples");
+        let options = InverseOptions {
+            fit: FitKind::Polynomial,
+            size: FitSize::Fixed(1),
+            ..InverseOptions::default()
+        };
+        let found = inverse(&scene, &measurement, &options).expect("a line");
+        let Inverse { summary, rows, .. } = &found;
+        let turns = (rows[rows.len() - 1].theta - rows[0].theta) / TAU;
+        assert!((turns - TURNS).abs() < 0.1, "{measured:?}: {turns} turns");
+        let doubt = summary.warnings.iter().find(|w| w.contains("choices"));
+        assert!(doubt.is_none(), "{measured:?}: {doubt:?}");
+    }
+}
+
 #[test]
 fn coarse_steps_of_an_instrument_do_not_mislead() {
     for step in [1e-4, 1e-3, 5e-3] {
