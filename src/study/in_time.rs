@@ -7,6 +7,7 @@ use super::log::Log;
 use super::row::RowSink;
 use super::simulate::Simulation;
 use super::summary::{Final, Solved, Summary};
+use super::swing::Swing;
 use super::task::Task;
 use super::watch::{Seen, Watch};
 use super::{curve, forward, stopped};
@@ -58,6 +59,7 @@ pub(super) fn run(
     watch.write_last_row(&last)?;
     let Watch {
         seen,
+        swing,
         log,
         recorded,
         ..
@@ -67,7 +69,9 @@ pub(super) fn run(
     let stopped = if seen.at_limit {
         Some(stopped::at_limit(&last))
     } else {
-        stopped::reason(finish, equation, motion.impossible(), &last, &task.extent)
+        let caught = swing.and_then(|swing| swing.why(last.end.t, |theta| theta));
+        caught
+            .or_else(|| stopped::reason(finish, equation, motion.impossible(), &last, &task.extent))
     };
     let mut warnings = Vec::new();
     let estimate = task.estimate(stopped.as_ref(), &mut warnings, || {
@@ -124,6 +128,7 @@ pub(super) fn watch<'a>(
         dead_centres: task.limits.dead_centres.len(),
         watched: dead_centres.chain(guards).collect(),
         turn_limit: task.extent.angle(),
+        swing: Swing::new(task, task.start()),
         log: Log::new(task, false),
         seen: Seen::default(),
         recorded: record.then(Vec::new),
@@ -165,7 +170,8 @@ pub(super) fn shortened(
         time::shortened(motion, step, t_end, settings, sink)
     };
     let mut t = t;
-    if let Some(limit) = watch.turn_limit.filter(|_| !watch.seen.at_limit) {
+    let at_turns = !watch.seen.at_limit && !watch.is_caught();
+    if let Some(limit) = watch.turn_limit.filter(|_| at_turns) {
         for _ in 0..3 {
             let end = until(t, &mut |_| false);
             let turned = watch.turned(&end, end.end.theta);

@@ -33,6 +33,7 @@ mod steady;
 mod stopped;
 mod summary;
 mod sweep;
+mod swing;
 mod task;
 mod watch;
 

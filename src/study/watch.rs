@@ -6,6 +6,7 @@ use super::log::Log;
 use super::row::{RowMaker, RowSink};
 use super::schedule::{Schedule, passed};
 use super::summary::Event;
+use super::swing::Swing;
 use crate::engine::events::{self, Crossing};
 use crate::engine::step::Step;
 use crate::engine::{Counted, time::Start};
@@ -26,6 +27,8 @@ pub(super) struct Watch<'a> {
     pub dead_centres: usize,
     /// The run ends when the crank has turned by this, rad.
     pub turn_limit: Option<f64>,
+    /// Its turning points, if they may show that it never does.
+    pub swing: Option<Swing>,
     pub log: Log,
     pub seen: Seen,
     /// Refined steps, if they are recorded.
@@ -35,7 +38,7 @@ pub(super) struct Watch<'a> {
 /// What was seen so far that ends the run.
 #[derive(Debug, Default)]
 pub(super) struct Seen {
-    /// When the turn limit or a limit of the motion was reached.
+    /// When the turn limit or a limit of the motion was reached, or the crank was caught.
     pub ends_at: Option<f64>,
     /// Whether it was a limit of the motion.
     pub at_limit: bool,
@@ -76,6 +79,11 @@ impl Watch<'_> {
         self.log.speed = events::follow_speed(step, self.motion, self.log.speed);
     }
 
+    /// Whether the crank swings to and fro for ever.
+    pub fn is_caught(&self) -> bool {
+        self.swing.is_some_and(|swing| swing.is_caught())
+    }
+
     pub fn turned(&self, step: &Step, theta: f64) -> f64 {
         step.angle(theta).minus(self.start.angle)
     }
@@ -98,7 +106,8 @@ impl Watch<'_> {
         let mut crossings = std::mem::take(&mut self.seen.crossings);
         events::crossings(step, &self.watched, &mut crossings);
         let rough = !step.is_refined();
-        if rough && !crossings.is_empty() && self.log.keeps_more() {
+        let wanted = self.log.keeps_more() || self.swing.is_some();
+        if rough && !crossings.is_empty() && wanted {
             step.refine(self.motion);
             events::crossings(step, &self.watched, &mut crossings);
         }
@@ -134,6 +143,13 @@ impl Watch<'_> {
                     Crossing::Turning => 0.0,
                 },
             });
+            if what == Crossing::Turning
+                && let Some(swing) = &mut self.swing
+                && swing.turns_at(step.angle(theta))
+            {
+                self.seen.ends_at = Some(t);
+                break;
+            }
         }
         self.seen.crossings = crossings;
     }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::home::Return;
 use super::leg::{After, Leg};
-use super::panel::{Panel, Tried, Uncertain};
+use super::panel::{DEGREE, Panel, Tried, Uncertain};
 use super::piece::{LONGEST, Piece, Turning, missing, next_end};
 use super::{Profile, Unserved};
 
@@ -30,6 +30,10 @@ const NEAR_REST: f64 = 1e-3;
 
 /// A turning point is off by less than this part of the last panel: linear in the force there.
 const SLIGHT: f64 = 1e-3;
+
+/// The energy that a panel uses up goes with the square of its first speed, a sum of so many additions, each rounded by
+/// half a unit: it is seen to so many units.
+const SEEN: f64 = DEGREE as f64;
 
 /// How a turning point was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -200,7 +204,8 @@ impl Builder<'_> {
         let force = self.profile.inertia_and_force(to).1;
         let missed = (self.kinetic - used) / force.abs();
         let told = f64::EPSILON * to.abs() < missed.abs()
-            && missed.abs() < SLIGHT * panel.piece.span().abs();
+            && missed.abs() < SLIGHT * panel.piece.span().abs()
+            && (self.kinetic - used).abs() > SEEN * f64::EPSILON * self.kinetic;
         told.then_some(to + self.begin.direction * missed)
     }
 

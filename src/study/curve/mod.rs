@@ -28,6 +28,7 @@ use super::row::RowSink;
 use super::simulate::Simulation;
 use super::stopped;
 use super::summary::{Final, Solved, Summary};
+use super::swing::Swing;
 use super::task::Task;
 use crate::engine::step::Step;
 use crate::engine::time::{Finish, Start};
@@ -67,6 +68,7 @@ pub(super) fn run(
         rows,
         schedule: task.schedule(),
         start: task.start(),
+        swing: Swing::new(task, start.angle),
         log: Log::new(task, false),
         recorded: record.then(Vec::new),
         error: None,
@@ -87,7 +89,11 @@ pub(super) fn run(
     watch.write_last_row(&arrived.last)?;
     let log = watch.log;
     let wall_s = log.wall_s(begun);
-    let stopped = why(task, &arrived, &constrained);
+    let crank = |q| curve.crank_angle(q);
+    let caught = watch
+        .swing
+        .and_then(|swing| swing.why(arrived.last.end.t, crank));
+    let stopped = caught.or_else(|| why(task, &arrived, &constrained));
     let mut warnings = warnings(task);
     let second = || estimate(&follow, &arrived);
     let estimate = task.estimate(stopped.as_ref(), &mut warnings, second);

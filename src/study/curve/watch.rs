@@ -14,6 +14,7 @@ use crate::study::log::Log;
 use crate::study::row::{Row, RowSink};
 use crate::study::schedule::{Schedule, passed};
 use crate::study::summary::Event;
+use crate::study::swing::Swing;
 
 /// Follows a run.
 pub(in crate::study) struct CurveWatch<'a> {
@@ -23,6 +24,8 @@ pub(in crate::study) struct CurveWatch<'a> {
     pub schedule: Schedule,
     /// Crank angle of the start.
     pub start: Angle,
+    /// Turning points of the coordinate, if they may show that the crank never completes its turns.
+    pub swing: Option<Swing>,
     pub log: Log,
     pub recorded: Option<Vec<Step>>,
     pub error: Option<Error>,
@@ -55,10 +58,15 @@ impl Observer for CurveWatch<'_> {
             step.refine(&motion);
             recorded.push(step);
         }
-        false
+        self.swing.is_some_and(|swing| swing.is_caught())
     }
 
     fn event(&mut self, kind: &'static str, t: f64, angle: Angle, speed: f64) {
+        if kind == "turning-point"
+            && let Some(swing) = &mut self.swing
+        {
+            swing.turns_at(angle);
+        }
         let curve = self.equation.curve();
         self.log.event(|| Event {
             kind,

@@ -63,9 +63,10 @@ pub(super) fn run(
     let mut notes = Notes::new(task, &looked_at, rows, record);
     let mut arrived = course.run(first.map(|first| first.driving), &mut notes)?;
     arrived.evaluations += places;
+    let caught = notes.caught(&arrived);
     let log = notes.finish(&arrived)?;
     let wall_s = wall_s + log.wall_s(begun);
-    let stopped = stopped(task, &arrived);
+    let stopped = caught.or_else(|| stopped(task, &arrived));
     let mut warnings = Vec::new();
     let second = || estimate(task, &course, &arrived);
     let estimated = task.estimate(stopped.as_ref(), &mut warnings, second);

@@ -42,6 +42,11 @@ impl<'a> Notes<'a> {
         }
     }
 
+    /// Why the run ended, if the crank is caught.
+    pub fn caught(&self, arrived: &Arrived) -> Option<String> {
+        self.watch.swing?.why(arrived.now.t, |theta| theta)
+    }
+
     /// The log, with the row of the end.
     pub fn finish(mut self, arrived: &Arrived) -> Result<Log, Error> {
         if let Some(error) = self.watch.seen.error.take() {
@@ -77,6 +82,7 @@ impl Notes<'_> {
             rows: &mut *self.watch.rows,
             schedule: task.schedule(),
             start: task.start(),
+            swing: self.watch.swing,
             log,
             recorded: None,
             error: None,
@@ -84,6 +90,7 @@ impl Notes<'_> {
         };
         work(&mut watch);
         self.watch.log = watch.log;
+        self.watch.swing = watch.swing;
     }
 }
 

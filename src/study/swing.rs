@@ -1,0 +1,96 @@
+//! Whether a crank that swings to and fro will ever do anything else.
+//!
+//! Without loads in time the motion is a path in the plane of angle and speed, and paths do not cross where the state
+//! says what follows. From turning point to turning point each arc of one direction lies inside or outside the one
+//! before it in that direction: turning points on one side move inwards for ever or outwards for ever. One that lies
+//! inside an earlier one encloses all that follows (Andronov, Vitt & Khaikin, Theory of Oscillators, on the sequence
+//! function). Where it suffices that the state says what follows, and not what was before, friction is no exception:
+//! paths may join.
+
+use super::task::Task;
+use crate::numeric::angle::Angle;
+use crate::scene::{Extent, Variable};
+
+/// A turning point is inside another one by this part of the swing at least: far more than a run in time is off.
+const CLEARLY: f64 = 1e-3;
+/// With friction a crank that is caught may turn so many times more: mostly it comes to rest, which says more.
+const UNTIL_REST: u32 = 200;
+
+/// The turning points of a run that ends after a number of turns.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Swing {
+    /// Whether no load takes or gives energy: then the swing from one turning point to another repeats.
+    conserves: bool,
+    /// The start, or a turning point,
+    from: Angle,
+    /// the turning point after it,
+    to: Option<Angle>,
+    /// and the last one.
+    last: Angle,
+    /// The angles between which it swings for ever.
+    caught: Option<[Angle; 2]>,
+    /// Turning points for which it may go on when it is caught.
+    patience: u32,
+    /// Turns that it then never completes.
+    turns: f64,
+}
+
+impl Swing {
+    /// None if the run has a last time, or the loads depend on the time. `start`: of the coordinate.
+    pub fn new(task: &Task<'_>, start: Angle) -> Option<Swing> {
+        let reads = task.equation().loads().reads();
+        let Extent::Revolutions(turns) = task.extent else {
+            return None;
+        };
+        if reads.has(Variable::T) {
+            return None;
+        }
+        let of_speed = reads.has(Variable::Omega) || reads.has(Variable::V);
+        let rubs = task.scene.reduced().friction.is_some();
+        Some(Swing {
+            conserves: !of_speed && !rubs,
+            from: start,
+            to: None,
+            last: start,
+            caught: None,
+            patience: if rubs { UNTIL_REST } else { 0 },
+            turns,
+        })
+    }
+
+    /// Takes a turning point; whether the run may end there, as the motion stays between it and the one before.
+    pub fn turns_at(&mut self, at: Angle) -> bool {
+        let before = std::mem::replace(&mut self.last, at);
+        let Some(to) = self.to else {
+            self.to = Some(at).filter(|_| at != self.from);
+            return false;
+        };
+        let width = to.minus(self.from);
+        let is_beside_to = at.minus(before) * width > 0.0;
+        let inside = match is_beside_to {
+            true => to.minus(at) / width,
+            false => at.minus(self.from) / width,
+        };
+        if self.conserves || (CLEARLY..=1.0).contains(&inside) {
+            self.caught = (self.patience == 0).then_some([before, at]);
+            self.patience = self.patience.saturating_sub(1);
+        }
+        if inside < 0.0 {
+            (self.from, self.to) = (before, Some(at));
+        }
+        self.caught.is_some()
+    }
+
+    pub fn is_caught(&self) -> bool {
+        self.caught.is_some()
+    }
+
+    /// Why the run ends at this time (s), in words; `crank`: crank angle of the coordinate.
+    pub fn why(&self, t: f64, crank: impl Fn(Angle) -> Angle) -> Option<String> {
+        let [from, to] = self.caught?.map(|at| crank(at).radians());
+        let turns = self.turns;
+        Some(format!(
+            "the crank swings to and fro and does not complete {turns} turns: it stays between theta = {from} rad and {to} rad; stopped at t = {t} s; give a duration instead"
+        ))
+    }
+}

@@ -1,0 +1,180 @@
+//! A crank that swings in a well is told so before its turns are waited for in vain, and one that will leave the well
+//! is not: against a physical pendulum in its own words.
+
+use std::f64::consts::TAU;
+
+use slider_crank::plan::Method;
+use slider_crank::scene::{Crank, Expression, Friction, Gravity, Load, Scene, Slider};
+use slider_crank::study::{Options, Summary, simulate};
+
+const INERTIA: f64 = 1e-3;
+/// Weight times its distance from the crank's axis, N m.
+const WEIGHT: f64 = 9.80665 * 0.02;
+
+/// A crank alone: I θ'' = −W cos θ + τ(θ').
+fn pendulum(angle: f64, speed: f64, torque: &str) -> Scene {
+    Scene::new(0.05, 0.15)
+        .crank(Crank {
+            mass: 1.0,
+            cg: 0.02,
+            inertia: INERTIA,
+            ..Crank::default()
+        })
+        .gravity(Gravity::standard())
+        .torque(Load::Expression(
+            Expression::parse(torque).expect("a formula"),
+        ))
+        .start(angle, speed)
+        .revolutions(3.0)
+}
+
+fn run(scene: &Scene, method: Method) -> Summary {
+    let options = Options {
+        method,
+        max_evaluations: 1_000_000,
+        events_kept: 100_000,
+        ..Options::default()
+    };
+    simulate(scene, &options).expect("a run").summary
+}
+
+/// The classic Runge-Kutta method on the same pendulum: its turning points as (s, rad) until it has turned by three
+/// turns or the time is over, and its last state.
+fn swings(
+    state: (f64, f64),
+    torque: impl Fn(f64) -> f64,
+    until: f64,
+) -> (Vec<(f64, f64)>, (f64, f64)) {
+    const H: f64 = 1e-4;
+    let rate = |theta: f64, omega: f64| (torque(omega) - WEIGHT * theta.cos()) / INERTIA;
+    let (begin, (mut theta, mut omega), mut t) = (state.0, state, 0.0);
+    let mut turning = Vec::new();
+    while t < until && (theta - begin).abs() < 3.0 * TAU {
+        let k1 = (omega, rate(theta, omega));
+        let at = |k: (f64, f64), h: f64| (theta + h * k.0, omega + h * k.1);
+        let slope = |(theta, omega): (f64, f64)| (omega, rate(theta, omega));
+        let k2 = slope(at(k1, 0.5 * H));
+        let k3 = slope(at(k2, 0.5 * H));
+        let k4 = slope(at(k3, H));
+        let mean = |a: f64, b: f64, c: f64, d: f64| H / 6.0 * (a + 2.0 * (b + c) + d);
+        let next = omega + mean(k1.1, k2.1, k3.1, k4.1);
+        if omega * next < 0.0 {
+            let part = omega / (omega - next);
+            turning.push((t + part * H, theta + 0.5 * part * H * omega));
+        }
+        theta += mean(k1.0, k2.0, k3.0, k4.0);
+        (omega, t) = (next, t + H);
+    }
+    (turning, (t, theta))
+}
+
+fn assert_close(value: f64, exact: f64, within: f64) {
+    assert!((value - exact).abs() < within, "{value}, not {exact}");
+}
+
+/// The angles in "between theta = a rad and b rad".
+fn between(why: &str) -> [f64; 2] {
+    let (_, range) = why.split_once("between theta = ").expect("a range");
+    let mut words = range.split(' ');
+    let mut number = |skipped: usize| {
+        let word = words.nth(skipped).expect("a number");
+        word.parse().expect("a number")
+    };
+    [number(0), number(2)]
+}
+
+/// From rest in time; with a speed over the angle first, over the top once and then into a well.
+#[test]
+fn a_damped_crank_is_caught_where_its_swing_first_lies_inside_one_before() {
+    for (angle, speed, loss, methods) in [
+        (0.3, 0.0, 1e-3, [Method::Auto, Method::Dop853]),
+        (0.3, 0.0, 1e-5, [Method::Auto, Method::Time]),
+        (-1.2, 33.0, 1e-3, [Method::Auto, Method::Time]),
+        (2.9, -23.0, 8e-4, [Method::Auto, Method::Dopri5]),
+    ] {
+        let scene = pendulum(angle, speed, &format!("-{loss}*omega"));
+        let (turning, (_, last)) = swings((angle, speed), |omega| -loss * omega, 100.0);
+        assert!((last - angle).abs() < 3.0 * TAU, "it never completes them");
+        for method in methods {
+            let summary = run(&scene, method);
+            let why = summary.stopped.expect("a reason");
+            assert!(why.contains("does not complete 3 turns"), "{why}");
+            assert!(why.contains("give a duration instead"), "{why}");
+            let last = summary.last;
+            let known = turning.iter().position(|at| (at.0 - last.t_s).abs() < 1e-4);
+            let known = known.expect("it ends where it turns");
+            assert_close(last.theta_rad, turning[known].1, 1e-5);
+            let (one, other) = (turning[known - 1].1, turning[known].1);
+            let said = between(&why);
+            assert_close(said[0], one, 1e-5);
+            assert_close(said[1], other, 1e-5);
+            let (low, high) = (one.min(other), one.max(other));
+            let after = &turning[known + 1..];
+            assert!(after.len() > 20, "it goes on");
+            assert!(after.iter().all(|at| low < at.1 && at.1 < high));
+            assert!(summary.evaluations < 100_000, "{}", summary.evaluations);
+        }
+    }
+}
+
+/// Driven along its speed it swings further each time, and is over the top at last.
+#[test]
+fn a_crank_that_swings_ever_further_is_not_caught() {
+    let gain = 2e-4;
+    let scene = pendulum(-0.9, 0.0, &format!("{gain}*omega"));
+    let (turning, (t, _)) = swings((-0.9, 0.0), |omega| gain * omega, 100.0);
+    assert!(turning.len() > 5 && t < 99.0, "it completes them");
+    for method in [Method::Auto, Method::Dop853] {
+        let summary = run(&scene, method);
+        assert_eq!(summary.stopped, None);
+        assert_close(summary.last.t_s, t, 2e-4);
+    }
+}
+
+/// What waits for its time is not said to stay: pushed later on the crank turns.
+#[test]
+fn a_load_in_time_may_free_the_crank() {
+    let scene = pendulum(0.3, 0.0, "-0.001*omega + 0.4*step(t - 5)");
+    assert_eq!(run(&scene, Method::Auto).stopped, None);
+}
+
+/// Without loss one swing to and fro says it all, whichever method is asked for.
+#[test]
+fn a_swing_without_loss_is_told_by_integration_in_time() {
+    let scene = pendulum(0.3, 0.0, "0*theta");
+    for method in [Method::Time, Method::Dop853] {
+        let summary = run(&scene, method);
+        let why = summary.stopped.expect("a reason");
+        assert!(why.contains("does not complete 3 turns"), "{why}");
+        assert_close(summary.last.theta_rad, 0.3, 1e-9);
+    }
+}
+
+/// Next to no friction takes too long to bring the crank to rest; more of it does so soon, which is told instead.
+#[test]
+fn a_crank_with_friction_is_caught_or_comes_to_rest() {
+    let rubbing = |coefficient| {
+        let mut scene = pendulum(0.3, 0.0, "0*theta");
+        scene.slider = Some(Slider { mass: 0.1 });
+        scene.friction = Some(Friction {
+            coefficient,
+            static_coefficient: coefficient,
+        });
+        scene
+    };
+    let why = run(&rubbing(0.05), Method::Auto).stopped.expect("a reason");
+    assert!(why.contains("comes to rest"), "{why}");
+    let caught = run(&rubbing(1e-5), Method::Auto);
+    let said = between(&caught.stopped.expect("a reason"));
+    let long = run(&rubbing(1e-5).duration(2.0 * caught.last.t_s), Method::Auto);
+    let turning = long
+        .events
+        .iter()
+        .filter(|event| event.t_s > caught.last.t_s);
+    let mut turning = turning
+        .filter(|event| event.kind == "turning-point")
+        .peekable();
+    assert!(turning.peek().is_some());
+    let (low, high) = (said[0].min(said[1]), said[0].max(said[1]));
+    assert!(turning.all(|event| low < event.theta_rad && event.theta_rad < high));
+}
