@@ -8,6 +8,9 @@ use crate::study::{AsPrinted, FitSummary, ForceRange, Inverse};
 /// Rows of the table.
 const ROWS: usize = 16;
 
+/// Most times without a force that are listed.
+const MOST_BANDS: usize = 24;
+
 /// Summary and some rows, with the forces as Duarte et al. print them if given.
 pub fn inverse(result: &Inverse, printed: Option<&AsPrinted>) -> String {
     let summary = &result.summary;
@@ -30,7 +33,7 @@ pub fn inverse(result: &Inverse, printed: Option<&AsPrinted>) -> String {
         "95 % band",
         format_args!("+- {:.4} standard errors", summary.band_factor),
     );
-    for band in &summary.dead_centre_bands {
+    for band in summary.dead_centre_bands.iter().take(MOST_BANDS) {
         facts.add(
             "no slider force",
             format_args!(
@@ -43,6 +46,13 @@ pub fn inverse(result: &Inverse, printed: Option<&AsPrinted>) -> String {
                 if band.rows == 1 { "" } else { "s" },
                 band.reason
             ),
+        );
+    }
+    let more = summary.dead_centre_bands.len().saturating_sub(MOST_BANDS);
+    if more > 0 {
+        facts.add(
+            "no slider force",
+            format_args!("{more} more times; --json and near_dead_centre of the rows have all"),
         );
     }
     facts.warnings(&summary.warnings);
