@@ -1,6 +1,8 @@
 //! Motion with a loose joint, against integrations made elsewhere, Lagrange's equation by differences, energy,
 //! symmetry and limits.
 
+mod support;
+
 use std::path::Path;
 
 use proptest::prelude::*;
@@ -12,6 +14,7 @@ use slider_crank::scene::{
     Branch, Clearance, ContactLaw, Crank, Every, Friction, Gravity, Joint, Load, Rod, Scene, Slider,
 };
 use slider_crank::study::{Options, Row, Summary, simulate, simulate_rows};
+use support::machines::engine;
 
 fn data(name: &str) -> Scene {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("data");
@@ -26,24 +29,6 @@ fn steel(joint: Joint, radial: f64, bearing: f64, restitution: f64) -> Clearance
         restitution: Some(restitution),
         ..Clearance::new(joint, radial)
     }
-}
-
-/// An engine of no scene in `data`, with a crank that moves by itself.
-fn free(offset: f64) -> Scene {
-    Scene::new(0.05, 0.16)
-        .offset(offset)
-        .crank(Crank {
-            inertia: 4e-3,
-            ..Crank::default()
-        })
-        .rod(Rod {
-            mass: 0.4,
-            cg: 0.06,
-            inertia: 9e-4,
-            ..Rod::default()
-        })
-        .slider(Slider { mass: 0.3 })
-        .gravity(Gravity::standard())
 }
 
 fn run(scene: &Scene) -> Summary {
@@ -125,7 +110,7 @@ fn references() -> Vec<Reference> {
             theta: None,
         },
         Reference {
-            scene: loose(free(-0.01).branch(Branch::Left).start(0.7, -60.0), wrist)
+            scene: loose(engine(-0.01).branch(Branch::Left).start(0.7, -60.0), wrist)
                 .torque(Load::Constant(3.0)),
             end: 0.02,
             events: &[
@@ -143,7 +128,7 @@ fn references() -> Vec<Reference> {
             theta: Some(-0.4105786439080079),
         },
         Reference {
-            scene: loose(free(0.01).start(2.0, 80.0), crank).torque(Load::Constant(-2.0)),
+            scene: loose(engine(0.01).start(2.0, 80.0), crank).torque(Load::Constant(-2.0)),
             end: 0.012,
             events: &[
                 0.0014132975823878612,
@@ -297,7 +282,7 @@ fn energy_is_lost_in_impacts_and_nowhere_else() {
             };
             let scene = Scene {
                 clearance: Some(clearance),
-                ..free(0.01).start(0.3, 50.0).duration(0.1)
+                ..engine(0.01).start(0.3, 50.0).duration(0.1)
             };
             let summary = run(&scene);
             let lost = summary.clearance.expect("a loose joint").dissipated_j;
@@ -397,7 +382,7 @@ fn a_smaller_clearance_is_nearer_to_the_ideal_joint() {
                     eccentricity_angle: Some(0.0),
                     ..Clearance::new(joint, radial)
                 }),
-                ..free(0.01).constant_speed(0.3, 60.0).duration(0.1)
+                ..engine(0.01).constant_speed(0.3, 60.0).duration(0.1)
             })
         };
         let (coarse, fine) = (linked(1e-6), linked(1e-7));
@@ -407,7 +392,7 @@ fn a_smaller_clearance_is_nearer_to_the_ideal_joint() {
     for radial in [1e-3, 1e-4, 1e-5] {
         let scene = Scene {
             clearance: Some(steel(Joint::CrankPin, radial, 0.01, 0.9)),
-            ..free(0.01).constant_speed(0.3, 10.0).duration(0.7)
+            ..engine(0.01).constant_speed(0.3, 10.0).duration(0.7)
         };
         let deepest = run(&scene)
             .clearance
@@ -434,7 +419,7 @@ fn a_massless_link_keeps_its_length_and_the_energy() {
                 law: ContactLaw::MasslessLink,
                 ..Clearance::new(joint, 5e-4)
             }),
-            ..free(0.01).start(0.3, 50.0).duration(0.1)
+            ..engine(0.01).start(0.3, 50.0).duration(0.1)
         };
         let summary = run(&scene);
         assert!(
@@ -460,7 +445,7 @@ fn extremes_of_clearance_and_restitution_are_computed() {
         for (radial, restitution) in [(1e-9, 0.9), (5e-3, 0.9), (5e-4, 0.0), (5e-4, 1.0)] {
             let scene = Scene {
                 clearance: Some(steel(joint, radial, 0.01, restitution)),
-                ..free(0.01).constant_speed(0.3, 300.0).duration(0.02)
+                ..engine(0.01).constant_speed(0.3, 300.0).duration(0.02)
             };
             let summary = run(&scene);
             assert_eq!(summary.stopped, None);
@@ -486,7 +471,7 @@ fn a_journal_may_begin_at_the_wall() {
                 eccentricity_angle: Some(angle),
                 ..steel(joint, 2e-4, 0.01, 0.9)
             }),
-            ..free(0.01).start(0.3, 50.0).duration(0.01)
+            ..engine(0.01).start(0.3, 50.0).duration(0.01)
         };
         // On one side of the bearing the joint is loaded, on the other it is not.
         let mut at_start = Vec::new();
@@ -510,10 +495,10 @@ fn a_mechanism_turned_half_round_moves_the_same() {
             ..steel(Joint::CrankPin, 2e-4, 0.01, 0.9)
         })
     };
-    let mut upright = free(0.01).constant_speed(0.3, 60.0).duration(0.01);
+    let mut upright = engine(0.01).constant_speed(0.3, 60.0).duration(0.01);
     upright.gravity = None;
     let half = std::f64::consts::PI;
-    let mut turned = free(-0.01)
+    let mut turned = engine(-0.01)
         .branch(Branch::Left)
         .constant_speed(0.3 + half, 60.0)
         .duration(0.01);
@@ -571,7 +556,7 @@ fn a_journal_that_grazes_the_wall_in_a_long_flight_touches_it() {
         };
         let scene = Scene {
             clearance: Some(clearance),
-            ..free(-0.004)
+            ..engine(-0.004)
                 .constant_speed(0.25 * f64::from(start), 60.0)
                 .duration(0.03)
                 .output_every(Every::Time(2e-5))
@@ -588,7 +573,7 @@ fn a_journal_that_grazes_the_wall_in_a_long_flight_touches_it() {
 
 #[test]
 fn no_clearance_costs_nothing() {
-    let ideal = free(0.01).start(0.3, 50.0).duration(0.2);
+    let ideal = engine(0.01).start(0.3, 50.0).duration(0.2);
     let closed = Scene {
         clearance: Some(steel(Joint::CrankPin, 0.0, 0.01, 0.9)),
         ..ideal.clone()
@@ -625,7 +610,7 @@ fn what_cannot_be_computed_is_refused_with_the_reason() {
     let default = Options::default();
     let good = Scene {
         clearance: Some(steel(Joint::CrankPin, 2e-4, 0.01, 0.9)),
-        ..free(0.01).start(0.3, 50.0).duration(0.01)
+        ..engine(0.01).start(0.3, 50.0).duration(0.01)
     };
     let with = |change: fn(&mut Scene)| {
         let mut scene = good.clone();

@@ -1,10 +1,11 @@
 //! Coulomb friction at the guide of a mechanism with a loose joint: against an integration made elsewhere, Coulomb's
 //! law on the rows, energy, and a slider that flies.
 
-use slider_crank::scene::{
-    Branch, Clearance, Crank, Every, Friction, Gravity, Joint, Load, Rod, Scene, Slider,
-};
+mod support;
+
+use slider_crank::scene::{Branch, Clearance, Every, Friction, Joint, Load, Scene, Slider};
 use slider_crank::study::{Options, Row, Summary, simulate, simulate_rows};
+use support::machines::engine;
 
 const GRAVITY: f64 = 9.80665;
 const SLIDER: f64 = 0.3;
@@ -23,21 +24,9 @@ fn scene(joint: Joint, branch: Branch, offset: f64, [kinetic, at_rest]: [f64; 2]
             coefficient: kinetic,
             static_coefficient: at_rest,
         }),
-        ..Scene::new(0.05, 0.16)
-            .offset(offset)
+        ..engine(offset)
             .branch(branch)
-            .crank(Crank {
-                inertia: 4e-3,
-                ..Crank::default()
-            })
-            .rod(Rod {
-                mass: 0.4,
-                cg: 0.06,
-                inertia: 9e-4,
-                ..Rod::default()
-            })
             .slider(Slider { mass: SLIDER })
-            .gravity(Gravity::standard())
             .tolerance(1e-12)
     }
 }

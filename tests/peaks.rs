@@ -1,10 +1,13 @@
 //! The largest joint forces: formulas, rows that lie close, every engine, impacts.
 
+mod support;
+
 use slider_crank::plan::Method;
 use slider_crank::scene::{
-    Clearance, Crank, Every, Friction, Gravity, Joint, Load, Rod, Scene, Slider, Variables,
+    Clearance, Crank, Every, Friction, Joint, Load, Scene, Slider, Variables,
 };
 use slider_crank::study::{Options, Peaks, Row, Summary, simulate, simulate_rows};
+use support::machines;
 
 fn run(scene: &Scene, method: Method) -> (Summary, Vec<Row>) {
     let mut rows = Vec::new();
@@ -34,23 +37,14 @@ fn sizes(row: &Row) -> [f64; 5] {
     ]
 }
 
+/// An engine whose crank has weight as well.
 fn engine() -> Scene {
-    Scene::new(0.05, 0.16)
-        .offset(0.01)
-        .crank(Crank {
-            mass: 1.2,
-            cg: 0.01,
-            inertia: 4e-3,
-            ..Crank::default()
-        })
-        .rod(Rod {
-            mass: 0.4,
-            cg: 0.06,
-            inertia: 9e-4,
-            ..Rod::default()
-        })
-        .slider(Slider { mass: 0.3 })
-        .gravity(Gravity::standard())
+    machines::engine(0.01).crank(Crank {
+        mass: 1.2,
+        cg: 0.01,
+        inertia: 4e-3,
+        ..Crank::default()
+    })
 }
 
 /// A slider alone at constant crank speed: m r ω² (1 + r/l) at the outer dead centre.

@@ -3,7 +3,7 @@
 use super::Motion;
 use super::step::Step;
 use crate::numeric::angle::Angle;
-use crate::numeric::{dip, root};
+use crate::numeric::{dip, golden, root};
 
 /// A step is looked at in pieces of this travel, rad, but in at least so many and at most so many. Between them
 /// parabolas tell where a quantity may leave its sign and come back.
@@ -93,10 +93,9 @@ fn with_dips<const N: usize>(
     let largest = all.iter().fold(0.0f64, |m, (_, value)| m.max(value.abs()));
     for three in looks.windows(3).filter(|three| may_dip(three, index)) {
         let sign = three[1].values[index].signum();
-        let t = dip::least(|t| sign * value(t), three[0].t, three[2].t);
-        let lowest = value(t);
-        if sign * lowest < -NOISE * largest {
-            all.push((t, lowest));
+        let (t, beyond) = golden::largest(|t| -sign * value(t), three[0].t, three[2].t);
+        if beyond > NOISE * largest {
+            all.push((t, -sign * beyond));
         }
     }
     all.sort_by(|a, b| a.0.total_cmp(&b.0));

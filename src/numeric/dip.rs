@@ -25,16 +25,3 @@ pub fn may_dip(x: [f64; 3], y: [f64; 3]) -> bool {
     let gap = (x[1] - x[0]).max(x[2] - x[1]);
     y[0] + from * (slopes[0] + bend * on) < NEAR * bend * gap * gap
 }
-
-/// Place of the least value between `a` and `b`, by golden section.
-pub fn least(value: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
-    for _ in 0..50 {
-        let part = 0.618_033_988_75 * (b - a);
-        if value(b - part) < value(a + part) {
-            b = a + part;
-        } else {
-            a = b - part;
-        }
-    }
-    0.5 * (a + b)
-}

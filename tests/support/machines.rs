@@ -1,6 +1,6 @@
 //! Machines that several tests use.
 
-use slider_crank::scene::{Crank, Friction, InertiaAbout, Rod, Scene, Slider};
+use slider_crank::scene::{Crank, Friction, Gravity, InertiaAbout, Rod, Scene, Slider};
 
 use super::alike::branch;
 
@@ -66,4 +66,22 @@ pub fn rubbing(scene: Scene, coefficient: f64, static_coefficient: f64) -> Scene
         }),
         ..scene
     }
+}
+
+/// A small engine under its weight, with this offset (m).
+pub fn engine(offset: f64) -> Scene {
+    Scene::new(0.05, 0.16)
+        .offset(offset)
+        .crank(Crank {
+            inertia: 4e-3,
+            ..Crank::default()
+        })
+        .rod(Rod {
+            mass: 0.4,
+            cg: 0.06,
+            inertia: 9e-4,
+            ..Rod::default()
+        })
+        .slider(Slider { mass: 0.3 })
+        .gravity(Gravity::standard())
 }

@@ -5,7 +5,8 @@ use super::sweep::{Start, Swept};
 use super::{Driven, Switch};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MOST, Rule, Series, Values};
-use crate::numeric::dip::{least, may_dip};
+use crate::numeric::dip::may_dip;
+use crate::numeric::golden;
 use crate::numeric::root;
 
 /// The switch within this part of what it is the sum of has no sign.
@@ -132,8 +133,8 @@ fn first_below<P: Copy>(station: &Station<P>, values: &Values, noise: f64) -> Op
         {
             let series = series();
             let value = |x: f64| series.value(x);
-            let least = least(value, points[j - 1], points[j + 1]);
-            if value(least) < -noise && values[j - 1] > 0.0 {
+            let (least, depth) = golden::largest(|x| -value(x), points[j - 1], points[j + 1]);
+            if depth > noise && values[j - 1] > 0.0 {
                 return root::bracketed(value, points[j - 1], least);
             }
         }
