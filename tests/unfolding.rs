@@ -59,9 +59,14 @@ impl std::fmt::Debug for Motion<'_> {
 }
 
 impl Motion<'_> {
+    /// Sampled evenly.
     fn unfold(&self, scene: &Scene, measured: Measured) -> Found {
         let last = (self.samples - 1) as f64;
-        let times: Vec<f64> = (0..self.samples).map(|i| i as f64 / last).collect();
+        let times = (0..self.samples).map(|i| i as f64 / last).collect();
+        self.unfold_at(scene, measured, times)
+    }
+
+    fn unfold_at(&self, scene: &Scene, measured: Measured, times: Vec<f64>) -> Found {
         let theta: Vec<f64> = times.iter().map(|t| (self.theta)(*t)).collect();
         let size = match measured {
             Measured::X => scene.geometry.crank,
@@ -80,7 +85,7 @@ impl Motion<'_> {
             }
         });
         let values = values.collect();
-        let speed = ((self.theta)(1e-6) - theta[0]) * 1e6;
+        let speed = ((self.theta)(times[0] + 1e-6) - theta[0]) * 1e6;
         let scene = scene.clone().start(theta[0], speed);
         let measurement = Measurement::new(measured, times, values).expect("samples");
         let options = |fit: FitKind, size: FitSize| InverseOptions {
@@ -317,6 +322,37 @@ fn few_samples_of_many_uneven_turns_tell_them() {
         assert!((turns - TURNS).abs() < 0.1, "{measured:?}: {turns} turns");
         let doubt = summary.warnings.iter().find(|w| w.contains("choices"));
         assert!(doubt.is_none(), "{measured:?}: {doubt:?}");
+    }
+}
+
+/// Of samples at random times the longest wait may be just at a fold, from which the value is far before and after.
+#[test]
+fn turns_sampled_at_random_times_are_told() {
+    let mut random = Random(6_364_136_223_846_793_005);
+    for case in 0..40 {
+        let (start, turns, swing) = (
+            TAU * random.even(),
+            2.0 + 5.0 * random.even(),
+            0.3 * random.even(),
+        );
+        let theta = move |t: f64| start + TAU * turns * t + swing * (5.0 * turns * t).sin();
+        let samples = ([100.0, 150.0, 250.0][case % 3] * turns) as usize;
+        let mut times: Vec<f64> = (0..samples).map(|_| random.even()).collect();
+        times.sort_by(f64::total_cmp);
+        let motion = Motion {
+            theta: &theta,
+            samples,
+            noise: [0.0, 1e-4][case % 2],
+            step: 0.0,
+        };
+        let scene = scene(0.05, 0.15, 0.02 * random.even(), Branch::Right);
+        for measured in BOTH {
+            let found = motion.unfold_at(&scene, measured, times.clone());
+            assert!(
+                matches!(found, Found::Right),
+                "{case}, {measured:?}, {motion:?}: {found:?}"
+            );
+        }
     }
 }
 

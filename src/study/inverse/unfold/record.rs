@@ -16,6 +16,9 @@ pub(super) struct Record<'a> {
 /// Standard deviations between a value and a fold that may be one.
 const FAR: f64 = 10.0;
 
+/// Factor by which a value may change more between samples than at the rates seen.
+const MARGIN: f64 = 2.0;
+
 /// Fewer that a turning point may be from the next one, and part of the range of all values that is enough.
 const LESS: f64 = 6.0;
 const CHANGE: f64 = 0.2;
@@ -38,9 +41,29 @@ impl Record<'_> {
 
     /// Whether the motion may have been at a fold near a sample, between samples too.
     pub fn reaches(&self, at: usize, fold: f64) -> bool {
-        let around = self.values[at.saturating_sub(2)..(at + 3).min(self.values.len())].windows(2);
-        let step = around.map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max);
-        (self.values[at] - fold).abs() <= FAR * (self.noise + self.rounding) + 2.0 * step
+        let noise = FAR * (self.noise + self.rounding);
+        (self.values[at] - fold).abs() <= noise + self.nearby(at)
+    }
+
+    /// How far from the value of a sample the motion may have been between it and those next to it, at the rates around
+    /// it, with a margin: of uneven samples the longest time may be just there.
+    pub fn nearby(&self, at: usize) -> f64 {
+        let around = at.saturating_sub(2)..(at + 3).min(self.values.len());
+        let time = |i: usize, j: usize| (self.times[i] - self.times[j]).abs();
+        let change = |i: usize, j: usize| (self.values[i] - self.values[j]).abs();
+        let (mut step, mut rate) = (0.0f64, 0.0f64);
+        for i in around.clone() {
+            for j in i + 1..around.end {
+                let beyond_noise = (change(i, j) - FAR * self.noise).max(0.0);
+                rate = rate.max(beyond_noise / time(i, j));
+            }
+            if i > around.start {
+                step = step.max(change(i - 1, i));
+            }
+        }
+        let next = [at.saturating_sub(1), (at + 1).min(self.last())];
+        let longest = next.map(|i| time(i, at)).into_iter().fold(0.0, f64::max);
+        MARGIN * step.max(rate * longest)
     }
 
     /// The value at a sample from as many on either side of it, with its standard deviation.

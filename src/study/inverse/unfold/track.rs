@@ -107,10 +107,7 @@ impl Motion<'_> {
     /// Lets the first or last sample be where three next to it lead: past a fold that is between samples.
     fn mend(&self, theta: &mut [f64], [at, a, b, c]: [usize; 4], stroke: Stroke) {
         let values = self.record.values;
-        let step = 2.0
-            * (values[at] - values[a])
-                .abs()
-                .max((values[a] - values[b]).abs());
+        let step = self.record.nearby(at);
         let folds = [true, false].map(|above| self.strokes.fold(values[at], above));
         let is_near = |fold: &Fold| (values[at] - fold.value).abs() <= step;
         let Some(fold) = folds.into_iter().flatten().find(is_near) else {
