@@ -387,6 +387,35 @@ fn angles_reduced_to_one_turn_are_continued() {
     );
 }
 
+/// A sensor whose scale is a little long, with noise, shows more than one turn.
+#[test]
+fn angles_reduced_to_a_little_more_than_one_turn_are_continued() {
+    let mut random = Random(1_442_695_040_888_963_407);
+    let times: Vec<f64> = (0..4000).map(|i| 5e-4 * f64::from(i)).collect();
+    let reduced = times
+        .iter()
+        .map(|t| 1.002 * (0.5 + 12.0 * t).rem_euclid(TAU) + 0.01 * random.normal())
+        .collect();
+    let motion = Measurement::new(Measured::Theta, times, reduced).expect("samples");
+    let found = inverse(&pump(), &motion, &InverseOptions::default()).expect("an inversion");
+    let turns = found.summary.data.revolutions;
+    assert!((turns - 24.0 / TAU).abs() < 0.05, "{turns} turns");
+}
+
+#[test]
+fn an_angle_that_jumps_is_named() {
+    let times: Vec<f64> = (0..200).map(|i| 0.01 * f64::from(i)).collect();
+    let reset = |t: &f64| 12.0 * t - if *t < 1.195 { 0.0 } else { 2.0 * TAU };
+    let values = times.iter().map(reset).collect();
+    let motion = Measurement::new(Measured::Theta, times, values).expect("samples");
+    let found = inverse(&pump(), &motion, &InverseOptions::default()).expect("an inversion");
+    let said = &found.summary.warnings[0];
+    assert!(
+        said.contains("theta jumps once, by -12.446") && said.contains("at sample 121"),
+        "{said}"
+    );
+}
+
 #[test]
 fn at_a_dead_centre_the_force_is_empty_and_the_torque_is_not() {
     let times: Vec<f64> = (0..=100).map(|i| 0.01 * f64::from(i)).collect();

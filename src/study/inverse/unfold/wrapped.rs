@@ -7,6 +7,12 @@ use crate::error::Error;
 use crate::mechanism::Linkage;
 use crate::scene::Measurement;
 
+/// Part of a turn within which angles are that were reduced to one: noise and the scale of a sensor go beyond it.
+const ONE_TURN: f64 = 1.05;
+
+/// How many times as fast as usual the crank is where the angle jumps by more than half a turn.
+const JUMP: f64 = 10.0;
+
 /// A measured crank angle as it is, or continued over the turns if it was reduced to one.
 pub(super) fn unwrap(linkage: &Linkage, measurement: &Measurement) -> Result<Unfolded, Error> {
     let values = measurement.values();
@@ -18,7 +24,7 @@ pub(super) fn unwrap(linkage: &Linkage, measurement: &Measurement) -> Result<Unf
     let jumps = values.windows(2).any(|w| (w[1] - w[0]).abs() > PI);
     let mut warnings = Vec::new();
     let mut theta = values.to_vec();
-    if jumps && most - least <= TAU * (1.0 + 1e-6) {
+    if jumps && most - least <= TAU * ONE_TURN {
         let mut turns = 0.0;
         let mut doubtful = None;
         for i in 1..values.len() {
@@ -39,6 +45,8 @@ pub(super) fn unwrap(linkage: &Linkage, measurement: &Measurement) -> Result<Unf
                 "sample more often, or give theta without reducing it to one turn",
             ));
         }
+    } else if jumps {
+        warnings.extend(jumping(measurement));
     }
     let unreachable = |(sample, theta): (usize, &f64)| {
         (!linkage.pose(*theta).exists()).then(|| {
@@ -63,4 +71,26 @@ pub(super) fn unwrap(linkage: &Linkage, measurement: &Measurement) -> Result<Unf
         return Err(measurement.problems(list).into());
     }
     Ok(Unfolded { theta, warnings })
+}
+
+/// What is said of an angle that jumps, as where a counter of turns was reset.
+fn jumping(measurement: &Measurement) -> Option<String> {
+    let (times, values) = (measurement.elapsed(), measurement.values());
+    let step = |i: usize| values[i] - values[i - 1];
+    let speed = |i: usize| step(i).abs() / (times[i] - times[i - 1]);
+    let mut speeds: Vec<f64> = (1..values.len()).map(speed).collect();
+    let middle = speeds.len() / 2;
+    let usual = *speeds.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let jumps = |i: &usize| step(*i).abs() > PI && speed(*i) > JUMP * usual;
+    let count = (1..values.len()).filter(jumps).count();
+    let first = (1..values.len()).find(jumps)?;
+    Some(format!(
+        "theta jumps {}, by {} at {}: more than half a turn, more than {JUMP} times as fast as usual; it is taken as it is",
+        match count {
+            1 => "once".to_owned(),
+            _ => format!("{count} times, first"),
+        },
+        measurement.shown(step(first)),
+        measurement.place(first),
+    ))
 }
