@@ -325,6 +325,34 @@ fn few_samples_of_many_uneven_turns_tell_them() {
     }
 }
 
+/// In a gap of more than half a turn dead centres are passed unseen; one of a quarter does no harm.
+#[test]
+fn a_gap_in_which_turns_may_be_lost_is_named() {
+    let scene = plain().start(0.3, 30.0);
+    for (gap, lost) in [(0.25, false), (0.6, true), (1.3, true)] {
+        let all = (0..600).map(|i| 1e-3 * f64::from(i));
+        let times: Vec<f64> = all
+            .filter(|t| *t < 0.25 || *t > 0.25 + gap * TAU / 30.0)
+            .collect();
+        for measured in [Measured::Theta, Measured::X, Measured::Gamma] {
+            let value = |t: &f64| match measured {
+                Measured::Theta => (0.3 + 30.0 * t) % TAU,
+                Measured::X => shown(&scene, measured, 0.3 + 30.0 * t),
+                Measured::Gamma => shown(&scene, measured, 0.3 + 30.0 * t).abs(),
+            };
+            let values = times.iter().map(value).collect();
+            let measurement = Measurement::new(measured, times.clone(), values).expect("samples");
+            let found = inverse(&scene, &measurement, &InverseOptions::default());
+            let warnings = found.expect("an inversion").summary.warnings;
+            let said = warnings
+                .iter()
+                .find(|w| w.contains("how far the crank turns"));
+            assert_eq!(said.is_some(), lost, "{measured:?}, {gap}: {warnings:?}");
+            assert!(said.is_none_or(|w| w.contains("sample 251 ")), "{said:?}");
+        }
+    }
+}
+
 /// Of samples at random times the longest wait may be just at a fold, from which the value is far before and after.
 #[test]
 fn turns_sampled_at_random_times_are_told() {

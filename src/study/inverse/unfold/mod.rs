@@ -7,6 +7,7 @@
 
 mod branches;
 mod evidence;
+mod gaps;
 mod noise;
 mod record;
 mod start;
@@ -156,6 +157,7 @@ fn warnings(
             "{text}: the smoother motion is taken, and all after it depends on that"
         ));
     }
+    warnings.extend(gaps::too_far(measurement, theta));
     Ok(warnings)
 }
 

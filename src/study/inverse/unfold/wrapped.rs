@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::Unfolded;
+use super::{Unfolded, gaps};
 use crate::error::Error;
 use crate::mechanism::Linkage;
 use crate::scene::Measurement;
@@ -45,6 +45,7 @@ pub(super) fn unwrap(linkage: &Linkage, measurement: &Measurement) -> Result<Unf
                 "sample more often, or give theta without reducing it to one turn",
             ));
         }
+        warnings.extend(gaps::too_far(measurement, &theta));
     } else if jumps {
         warnings.extend(jumping(measurement));
     }
