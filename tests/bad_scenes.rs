@@ -232,7 +232,7 @@ fn a_file_that_is_not_there_and_a_folder_are_named() {
 
 #[test]
 fn a_wrong_scene_is_the_users_to_change() {
-    let error = Scene::load(&folder().join("several-problems.toml")).expect_err("a bad scene");
+    let error = Scene::load(folder().join("several-problems.toml")).expect_err("a bad scene");
     assert_eq!(error.exit_status(), 2);
 }
 

@@ -18,7 +18,7 @@ use support::machines::engine;
 
 fn data(name: &str) -> Scene {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("data");
-    Scene::load(&folder.join(name)).expect("a scene of data/")
+    Scene::load(folder.join(name)).expect("a scene of data/")
 }
 
 fn steel(joint: Joint, radial: f64, bearing: f64, restitution: f64) -> Clearance {

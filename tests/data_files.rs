@@ -95,6 +95,18 @@ fn time_stamps_finer_than_a_double_are_told_apart() {
     );
 }
 
+/// A delimiter inside quotes separates no cells.
+#[test]
+fn a_cell_behind_quotes_is_found() {
+    let text = "note,t [s],theta [rad]\n\"slow, at first\",0,0.1\n\"then, faster\",0.1,fast\n";
+    let wrong = Measurement::parse(Path::new("data.csv"), text.to_owned(), &Reading::default());
+    let wrong = wrong.expect_err("a word").to_string();
+    assert!(
+        wrong.contains("`fast` is not a number") && wrong.contains("data.csv:3:20"),
+        "{wrong}"
+    );
+}
+
 /// x of a crank of 50 mm and a rod of 150 mm in line, as a sensor shows it that ends at these values, m.
 fn clipped(range: [f64; 2], step: f64) -> Measurement {
     let times: Vec<f64> = (0..600).map(|i| 1e-3 * f64::from(i)).collect();

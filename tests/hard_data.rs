@@ -41,7 +41,7 @@ fn force([theta, omega, alpha]: [f64; 3]) -> f64 {
 }
 
 fn inverted(measurement: &Measurement) -> Inverse {
-    let scene = Scene::load(&hard("12-polynomial.toml")).expect("a scene");
+    let scene = Scene::load(hard("12-polynomial.toml")).expect("a scene");
     inverse(&scene, measurement, &InverseOptions::default()).expect("an inversion")
 }
 
@@ -54,7 +54,7 @@ fn errors(found: &Inverse) -> Vec<f64> {
 
 #[test]
 fn a_polynomial_on_ill_scaled_time_gives_its_force() {
-    let motion = Measurement::load(&hard("12-polynomial.csv"), &Reading::default());
+    let motion = Measurement::load(hard("12-polynomial.csv"), &Reading::default());
     let found = inverted(&motion.expect("samples"));
     assert!(found.summary.fit.degree >= 10);
     assert!((found.summary.fit.sigma / 1e-4 - 1.0).abs() < 0.15);

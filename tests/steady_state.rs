@@ -176,7 +176,7 @@ fn a_torque_that_varies_over_the_angle() {
 #[test]
 fn the_motor_driven_pump_agrees_with_scipy() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/data/motor-and-losses.toml");
-    let found = steady(&Scene::load(file.as_ref()).unwrap());
+    let found = steady(&Scene::load(file).unwrap());
     assert!((found.omega_rad_per_s.value / 98.246_838_379_917_1 - 1.0).abs() < 1e-12);
     assert!((found.period_s.value / 0.064_244_052_574_139_12 - 1.0).abs() < 1e-12);
 }

@@ -52,7 +52,7 @@ impl Scene {
     ///
     /// # Errors
     /// [`Error::Read`] if the file cannot be read, [`Error::Scene`] if it is not a scene.
-    pub fn load(file: &Path) -> Result<Scene, Error> {
-        Ok(Draft::load(file)?.scene()?)
+    pub fn load(file: impl AsRef<Path>) -> Result<Scene, Error> {
+        Ok(Draft::load(file.as_ref())?.scene()?)
     }
 }

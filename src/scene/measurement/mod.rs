@@ -139,7 +139,8 @@ impl Measurement {
     ///
     /// # Errors
     /// [`Error::Read`] if the file cannot be read, [`Error::Scene`] with all that is wrong with it.
-    pub fn load(file: &Path, reading: &Reading) -> Result<Measurement, Error> {
+    pub fn load(file: impl AsRef<Path>, reading: &Reading) -> Result<Measurement, Error> {
+        let file = file.as_ref();
         let bytes = if file == Path::new("-") {
             let mut bytes = Vec::new();
             std::io::Read::read_to_end(&mut std::io::stdin(), &mut bytes).map(|_| bytes)

@@ -108,8 +108,13 @@ pub(super) fn line_at(text: &str, end: usize) -> Range<usize> {
 /// cell.
 pub(super) fn cell(text: &str, end: usize, delimiter: u8, column: usize) -> Range<usize> {
     let line = line_at(text, end);
+    let mut quoted = false;
+    let separates = |c: char| {
+        quoted ^= c == '"';
+        !quoted && c == char::from(delimiter)
+    };
     let mut start = line.start;
-    for (index, piece) in text[line.clone()].split(char::from(delimiter)).enumerate() {
+    for (index, piece) in text[line.clone()].split(separates).enumerate() {
         if index == column {
             let blank = piece.len() - piece.trim_start().len();
             let length = piece.trim().len();

@@ -89,7 +89,7 @@ pub struct FitSummary {
     pub widening: f64,
 }
 
-/// Smallest and largest value and the largest standard error.
+/// Smallest and largest value, and the median of the standard errors.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ForceRange {
     /// N or N m

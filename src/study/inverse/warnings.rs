@@ -23,7 +23,7 @@ pub(super) fn of_scene(scene: &Scene, options: &InverseOptions) -> Vec<String> {
         "the scene has forces on the slider: slider_force_n is the whole force on it, with those of the scene in it (--beside-forces takes them off)"
     });
     let friction = reduced.friction.map(|_| {
-        "the scene has friction at the guide: slider_force_n and crank_torque_nm are what acts beside it; where the slider is at rest or turns round the force is left empty"
+        "the scene has friction at the guide: slider_force_n and crank_torque_nm are what acts beside it; where the slider is at rest or turns round the force is left empty, and the torque is the middle of what friction allows"
     });
     forces
         .into_iter()
