@@ -10,7 +10,8 @@ use slider_crank::scene::{
     Branch, Crank, Gravity, Load, Measured, Measurement, Scene, Slider, Variables,
 };
 use slider_crank::study::{
-    AsPrinted, FitKind, FitSize, Inverse, InverseOptions, Options, Simulation, inverse, simulate,
+    AsPrinted, FitKind, FitSize, FitSummary, Inverse, InverseOptions, Options, Simulation, inverse,
+    simulate,
 };
 
 fn pump() -> Scene {
@@ -385,6 +386,27 @@ fn angles_reduced_to_one_turn_are_continued() {
             .iter()
             .any(|w| w.contains("reduced to one turn"))
     );
+}
+
+/// Its error is told by splines through fewer samples, not by what few residuals leave.
+#[test]
+fn samples_are_not_few_for_a_spline_that_goes_through_them() {
+    let times: Vec<f64> = (0..200).map(|i| 0.01 * f64::from(i)).collect();
+    let angles = times.iter().map(|t| 0.5 + 12.0 * t + 0.3 * (7.0 * t).sin());
+    let angles = angles.collect();
+    let motion = Measurement::new(Measured::Theta, times, angles).expect("samples");
+    let few = |fit: FitKind, size: FitSize| {
+        let options = InverseOptions {
+            size,
+            ..fitted(fit)
+        };
+        let found = inverse(&pump(), &motion, &options).expect("an inversion");
+        let FitSummary { parameters, .. } = found.summary.fit;
+        assert!(3.0 * parameters > 200.0, "{fit:?}: {parameters} parameters");
+        found.summary.warnings.iter().any(|w| w.contains("are few"))
+    };
+    assert!(!few(FitKind::Spline, FitSize::Auto));
+    assert!(few(FitKind::Polynomial, FitSize::Fixed(80)));
 }
 
 /// A sensor whose scale is a little long, with noise, shows more than one turn.

@@ -9,6 +9,8 @@ use crate::numeric::fit::{Curve, Samples, State};
 #[derive(Debug)]
 pub(super) struct Errors {
     pub pattern: Pattern,
+    /// Whether the curve goes through its samples, and curves through fewer of them tell its error.
+    pub through: bool,
     /// Standard deviation of a sample by noise alone: rounding that is not noise is in the curve's errors.
     noise: f64,
     /// Standard deviation of a sample that was computed.
@@ -36,6 +38,7 @@ impl Errors {
         let through = curve.compare(samples);
         let mut errors = Errors {
             pattern,
+            through,
             noise: curve.quality().sigma,
             computed,
             free: (rows - quality.parameters).max(1.0),

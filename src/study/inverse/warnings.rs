@@ -46,7 +46,7 @@ pub(super) fn of_fit(
         );
     }
     let rows = measurement.len() as f64;
-    if rows < 3.0 * quality.parameters {
+    if rows < 3.0 * quality.parameters && !fitted.errors.through {
         warnings.push(format!(
             "{rows} samples are few for a fit of {} parameters: its error is hardly known",
             quality.parameters.round()

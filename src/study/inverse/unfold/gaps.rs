@@ -16,9 +16,7 @@ const BESIDE: usize = 8;
 /// What is said of gaps in which the crank, at the speed beside them, turns that far. `theta`, rad, are the unfolded samples.
 pub(super) fn too_far(measurement: &Measurement, theta: &[f64]) -> Option<String> {
     let times = measurement.elapsed();
-    let mut steps: Vec<f64> = times.windows(2).map(|w| w[1] - w[0]).collect();
-    let middle = steps.len() / 2;
-    let usual = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let usual = median(times.windows(2).map(|w| w[1] - w[0]));
     let last = theta.len() - 1;
     let speed = |from: usize, to: usize| {
         let time = times[to] - times[from];
@@ -47,4 +45,11 @@ pub(super) fn too_far(measurement: &Measurement, theta: &[f64]) -> Option<String
         measurement.times()[first],
         turn(first) / TAU,
     ))
+}
+
+/// The median of at least one number.
+pub(super) fn median(list: impl Iterator<Item = f64>) -> f64 {
+    let mut list: Vec<f64> = list.collect();
+    let middle = list.len() / 2;
+    *list.select_nth_unstable_by(middle, f64::total_cmp).1
 }

@@ -79,9 +79,7 @@ fn jumping(measurement: &Measurement) -> Option<String> {
     let (times, values) = (measurement.elapsed(), measurement.values());
     let step = |i: usize| values[i] - values[i - 1];
     let speed = |i: usize| step(i).abs() / (times[i] - times[i - 1]);
-    let mut speeds: Vec<f64> = (1..values.len()).map(speed).collect();
-    let middle = speeds.len() / 2;
-    let usual = *speeds.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let usual = gaps::median((1..values.len()).map(speed));
     let jumps = |i: &usize| step(*i).abs() > PI && speed(*i) > JUMP * usual;
     let count = (1..values.len()).filter(jumps).count();
     let first = (1..values.len()).find(jumps)?;
