@@ -12,6 +12,9 @@ pub(in crate::scene) struct Header {
     pub unit: String,
 }
 
+/// Names of columns that may be written with a letter.
+const GREEK: [(&str, &str); 3] = [("θ", "theta"), ("γ", "gamma"), ("ω", "omega")];
+
 /// Splits a column header.
 pub(in crate::scene) fn split(text: &str) -> Header {
     let text = text.trim().trim_start_matches('\u{feff}');
@@ -33,8 +36,10 @@ pub(in crate::scene) fn split(text: &str) -> Header {
 }
 
 fn header(name: &str, unit: &str) -> Header {
+    let name = name.trim_matches([' ', '/', '_']).to_lowercase();
+    let letter = GREEK.iter().find(|letter| letter.0 == name);
     Header {
-        name: name.trim_matches([' ', '/', '_']).to_lowercase(),
+        name: letter.map_or(name.as_str(), |letter| letter.1).to_owned(),
         unit: unit.trim().to_owned(),
     }
 }
@@ -88,6 +93,7 @@ mod tests {
             ("omega/(rad/s)", "omega", "rad/s"),
             ("\u{feff}theta[deg]", "theta", "deg"),
             ("x", "x", ""),
+            ("θ (degrees)", "theta", "degrees"),
         ] {
             assert_eq!(split(text), header(name, unit), "{text}");
         }

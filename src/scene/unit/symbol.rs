@@ -113,6 +113,20 @@ const UNITS: &[Unit] = &[
     ),
 ];
 
+/// Names that instruments write in the place of symbols.
+const NAMES: &[(&str, &str)] = &[
+    ("sec", "s"),
+    ("second", "s"),
+    ("seconds", "s"),
+    ("minutes", "min"),
+    ("degree", "deg"),
+    ("degrees", "deg"),
+    ("radian", "rad"),
+    ("radians", "rad"),
+    ("revs", "rev"),
+    ("turns", "turn"),
+];
+
 const PREFIXES: &[(&str, i32)] = &[
     ("G", 9),
     ("M", 6),
@@ -129,7 +143,11 @@ const PREFIXES: &[(&str, i32)] = &[
 ];
 
 fn symbol(name: &str) -> Option<Factor> {
-    let find = |name: &str| UNITS.iter().find(|unit| unit.0 == name);
+    let find = |name: &str| {
+        let named = NAMES.iter().find(|entry| entry.0 == name);
+        let symbol = named.map_or(name, |entry| entry.1);
+        UNITS.iter().find(|unit| unit.0 == symbol)
+    };
     let make = |unit: &Unit, ten: i32| Factor {
         numerator: unit.1,
         denominator: unit.2,
