@@ -409,6 +409,23 @@ fn rounded_samples() {
     case.is_covered(FitKind::Fourier, Noise::Steps(2e-3), 8, random);
 }
 
+/// Samples about a step apart lie at about the same place of their steps for long: a polynomial that follows their errors
+/// must not take them for alike.
+#[test]
+fn samples_a_step_apart() {
+    for (seed, rows) in [(1300, 150), (1301, 300), (1302, 1000)] {
+        let random = &mut Random::new(seed);
+        let draft = Draft {
+            path: 0.2 * TAU,
+            ..turns(random, 1.0)
+        };
+        let case = Case::new(&draft, Measured::Theta, rows, 0.0, random);
+        let way = (case.shown[rows - 1] - case.shown[0]).abs();
+        let steps = Noise::Steps(way / rows as f64);
+        case.is_covered(FitKind::Polynomial, steps, 20, random);
+    }
+}
+
 /// Motor against a force that grows with the speed: the crank speeds up, and harmonics of a steady rotation cannot follow.
 fn speeding_up(random: &mut Random) -> Draft {
     let c = random.within(1.0, 3.0);

@@ -2,6 +2,7 @@
 
 use super::condensed::Rows;
 use super::dense;
+use super::outstanding::{Dependent, outstanding};
 use super::pieces::DEGREE;
 use super::{Fourier, MOST_IN_DOUBLE, Polynomial, Quality, Samples, Size, Spline, State};
 use crate::numeric::parallel;
@@ -147,16 +148,23 @@ impl Curve {
         rows.blocks().is_none_or(|blocks| waves <= blocks as f64)
     }
 
-    /// Counts what errors of the targets make of the curve as what may be wrong with it: each list holds one error for
-    /// each sample, and they are independent of each other.
+    /// Counts errors of the targets, which depend on each other, as what may be wrong with the curve.
     ///
     /// # Errors
     /// A text that says why the samples do not serve.
-    pub fn admit(&mut self, samples: &Samples<'_>, errors: &[Vec<f64>]) -> Result<(), String> {
+    pub fn admit(&mut self, samples: &Samples<'_>, errors: Dependent<'_>) -> Result<(), String> {
+        let left = match self {
+            Curve::Polynomial(polynomial) => {
+                polynomial.left(samples, outstanding(polynomial, samples, errors))
+            }
+            Curve::Spline(_) | Curve::Fourier(_) => samples.left(&self.values(samples.t)),
+        };
+        let all: Vec<usize> = (0..left.len()).collect();
+        let errors = errors(&all, &left);
         match self {
-            Curve::Polynomial(polynomial) => polynomial.admit(samples, errors),
-            Curve::Spline(spline) => spline.admit(samples, errors)?,
-            Curve::Fourier(fourier) => fourier.admit(samples, errors),
+            Curve::Polynomial(polynomial) => polynomial.admit(samples, &errors),
+            Curve::Spline(spline) => spline.admit(samples, &errors)?,
+            Curve::Fourier(fourier) => fourier.admit(samples, &errors),
         }
         Ok(())
     }

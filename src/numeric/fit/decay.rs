@@ -78,6 +78,11 @@ impl Decay {
         Decay { noise, mixture }
     }
 
+    /// Variance that noise gives a coefficient.
+    pub fn noise(&self) -> f64 {
+        self.noise
+    }
+
     /// Variance of a coefficient of term k.
     pub fn variance(&self, k: usize) -> f64 {
         let one = |[weight, level, fall]: &[f64; 3]| weight * (level - fall * k as f64).exp();

@@ -8,6 +8,7 @@ mod dense;
 mod design;
 mod differences;
 mod fourier;
+mod outstanding;
 mod penalized;
 mod pieces;
 mod polynomial;
@@ -23,6 +24,7 @@ mod triangle;
 pub use condensed::Rows;
 pub use curve::{Curve, Kind};
 pub use fourier::Fourier;
+pub use outstanding::Dependent;
 pub use polynomial::Polynomial;
 pub use powers::Powers;
 pub use spline::Spline;
@@ -50,6 +52,12 @@ impl Samples<'_> {
     /// Standard deviation of targets that were computed: a computed motion goes on with the errors of its largest values.
     fn computed(&self) -> f64 {
         2.0 * f64::EPSILON * largest(self.target)
+    }
+
+    /// What a curve of these values leaves of the targets.
+    fn left(&self, values: &[f64]) -> Vec<f64> {
+        let weight = |i: usize| self.weight.map_or(1.0, |weight| weight[i]);
+        parallel::list(values.len(), |i| self.target[i] - weight(i) * values[i])
     }
 
     /// Products of the terms of a curve, which are given for an argument one after the other with their numbers, with lists

@@ -31,6 +31,10 @@ pub struct Polynomial {
     /// One over each norm.
     inverses: Vec<f64>,
     coefficients: Vec<f64>,
+    /// Coefficients of terms that were looked at and left out.
+    left_out: Vec<f64>,
+    /// Variance that noise gives each of all these.
+    noise: f64,
     /// Variances of the coefficients of the terms that follow.
     tail: Vec<f64>,
     /// Coefficients that errors of the samples amount to.
@@ -82,6 +86,7 @@ impl Polynomial {
             };
             (degree, decay)
         };
+        let numbers = |values: &[T]| values.iter().map(|v| v.value()).collect::<Vec<f64>>();
         let left = T::from(samples.left);
         let all = |squares: &[T]| squares.iter().map(|s| *s + left).collect::<Vec<T>>();
         let (t, weight, target) = samples.columns();
@@ -99,12 +104,12 @@ impl Polynomial {
         let beyond = degree + 1..found.coefficients.len().min(degree + 1 + TAIL);
         let tail = decay.beyond(beyond, GROWTH);
         let (centres, norms) = (found.centres.clone(), found.norms.clone());
+        let left_out = numbers(&found.coefficients[degree + 1..]);
         found.truncate(degree);
         let parameters = found.coefficients.len();
         let supported = best(rows, 1, 1, &found.squares, least);
         let squares = found.squares[parameters - 1].value();
         let free = (rows - parameters).max(1) as f64;
-        let numbers = |values: &[T]| values.iter().map(|v| v.value()).collect::<Vec<f64>>();
         let convert = |values: &[T]| {
             values
                 .iter()
@@ -127,6 +132,8 @@ impl Polynomial {
             norms: numbers(&norms),
             tail,
             errors: Vec::new(),
+            left_out,
+            noise: decay.noise(),
             coefficients: numbers(&found.coefficients),
             quality: Quality {
                 squares,
@@ -143,15 +150,31 @@ impl Polynomial {
     /// Counts what errors of the samples make of the polynomial as what may be wrong with it.
     pub(super) fn admit(&mut self, samples: &Samples<'_>, errors: &[Vec<f64>]) {
         let size = self.coefficients.len();
-        self.errors = samples.products(size, errors, |t, take| self.terms(t, take));
+        let terms = |t: f64, take: &mut dyn FnMut(usize, f64)| self.terms(size, t, take);
+        self.errors = samples.products(size, errors, terms);
     }
 
-    /// The orthonormal terms at `t`, one after the other.
-    fn terms(&self, t: f64, mut take: impl FnMut(usize, f64)) {
+    /// Variance that noise gives the coefficient of a term, and the coefficients of all terms that were looked at.
+    pub(super) fn all_terms(&self) -> (f64, Vec<f64>) {
+        let all = [&self.coefficients[..], &self.left_out].concat();
+        (self.noise, all)
+    }
+
+    /// What the first terms leave of samples.
+    pub(super) fn left(&self, samples: &Samples<'_>, terms: usize) -> Vec<f64> {
+        samples.left(&parallel::list(samples.t.len(), |i| {
+            let mut sum = 0.0;
+            self.terms(terms, samples.t[i], |j, q| sum += self.coefficients[j] * q);
+            sum
+        }))
+    }
+
+    /// The first orthonormal terms at `t`, one after the other.
+    pub(super) fn terms(&self, count: usize, t: f64, mut take: impl FnMut(usize, f64)) {
         let s = (t - self.middle) / self.half;
         let (mut before, mut now) = (0.0, self.inverses[0]);
         take(0, now);
-        for j in 1..self.coefficients.len() {
+        for j in 1..count {
             let next = (s - self.centres[j - 1]) * now - self.norms[j - 1] * before;
             (before, now) = (now, next * self.inverses[j]);
             take(j, now);
@@ -186,7 +209,8 @@ impl Polynomial {
     /// The polynomial at `t`.
     pub fn value(&self, t: f64) -> f64 {
         let mut sum = 0.0;
-        self.terms(t, |j, q| sum += self.coefficients[j] * q);
+        let terms = self.coefficients.len();
+        self.terms(terms, t, |j, q| sum += self.coefficients[j] * q);
         sum
     }
 

@@ -140,15 +140,16 @@ impl Fitted {
         let Some(rounding) = Rounding::of(step, values.len(), self.left(), parameters) else {
             return Ok(());
         };
-        let (curve, residuals) = (&self.curve, &self.residuals);
-        let theta = curve.values(samples.t);
-        // Values before rounding, with the sign with which each counts.
-        let exact = parallel::list(values.len(), |i| {
-            let sign = sensor.sign(values[i], || theta[i]);
-            (values[i] - sign * residuals[i], sign)
-        });
-        let errors = rounding.errors(&exact);
-        self.curve.admit(samples, &errors)?;
+        let theta = self.curve.values(samples.t);
+        self.curve.admit(samples, &|chosen, left| {
+            // Values before rounding, with the sign with which each counts.
+            let exact = parallel::list(chosen.len(), |k| {
+                let i = chosen[k];
+                let sign = sensor.sign(values[i], || theta[i]);
+                (values[i] - sign * left[k], sign)
+            });
+            rounding.errors(&exact)
+        })?;
         self.errors.without(&rounding);
         Ok(())
     }
