@@ -28,6 +28,13 @@ const BACK: usize = 4;
 /// are polynomials.
 const ENDS: f64 = 20.0;
 
+/// Power of the likelihood by which levels and falls are weighed: sizes of terms beside each other are not independent, and
+/// tell less than as many that are.
+const WEIGHT: f64 = 0.6;
+
+/// Logarithm of the part of the largest weight below which a series is left out.
+const NEGLIGIBLE: f64 = 12.0;
+
 /// Falls that are weighed, from a quarter of the mean one to e^8 for each term.
 const FALLS: i32 = 12;
 
@@ -69,8 +76,8 @@ impl Decay {
         let cost = 0.5 * each * window.iter().map(ends).sum::<f64>() + ENDS;
         mixture.push([cost, f64::NEG_INFINITY, 0.0]);
         let least = mixture.iter().fold(f64::INFINITY, |m, part| m.min(part[0]));
-        mixture.retain(|part| part[0] < least + 12.0);
-        let weight = |cost: f64| (least - cost).exp();
+        mixture.retain(|part| WEIGHT * (part[0] - least) < NEGLIGIBLE);
+        let weight = |cost: f64| (WEIGHT * (least - cost)).exp();
         let sum: f64 = mixture.iter().map(|part| weight(part[0])).sum();
         for part in &mut mixture {
             part[0] = weight(part[0]) / sum;

@@ -1,7 +1,7 @@
 //! What a curve misses of a motion that it cannot follow: a spline through its residuals, where these are a smooth curve.
 
 use super::pattern::Pattern;
-use crate::numeric::fit::{Curve, Kind, Samples, Size, State};
+use crate::numeric::fit::{Curve, Kind, Rows, Samples, Size, State};
 
 /// Correlation of each residual with the next from which residuals are taken for a curve and not for noise.
 const SMOOTH: f64 = 0.7;
@@ -50,6 +50,15 @@ impl Missed {
         let steps = last.min(MOST);
         let chosen: Vec<usize> = (0..=steps).map(|i| i * last / steps).collect();
         let t: Vec<f64> = chosen.iter().map(|i| samples.t[*i]).collect();
+        let part = |list: &[f64]| -> Vec<f64> { chosen.iter().map(|i| list[*i]).collect() };
+        let (target, weight) = (part(samples.target), samples.weight.map(part));
+        let motion = Samples {
+            t: &t,
+            target: &target,
+            weight: weight.as_deref(),
+            floor: samples.floor,
+        };
+        let motion = Curve::fit(&motion, Kind::Spline, Size::Auto).ok()?;
         let rounds = if samples.weight.is_some() { ROUNDS } else { 1 };
         let (mut found, mut follows) = (None, false);
         for _ in 0..rounds {
@@ -66,7 +75,7 @@ impl Missed {
                 weight: Some(&weight),
                 floor: samples.floor,
             };
-            let mut spline = Curve::fit(&left, Kind::Spline, Size::Auto).ok()?;
+            let mut spline = freer(&motion, &left)?;
             let squares: f64 = target.iter().map(|r| r * r).sum();
             follows = spline.quality().squares <= NOISY * squares;
             if follows {
@@ -105,4 +114,17 @@ impl Missed {
         let left = LEFT + missed.value[0].abs();
         state.wrong_by(missed, self.noise, left)
     }
+}
+
+/// The spline through what is left of samples, as free as one through all of the motion (`motion`) at least: of waves that
+/// noise hides in the residuals these tell nothing.
+fn freer(motion: &Curve, left: &Samples<'_>) -> Option<Curve> {
+    let alike = motion.again(&Rows::from(left)).ok()?;
+    let own = Curve::fit(left, Kind::Spline, Size::Auto).ok()?;
+    let parameters = |curve: &Curve| curve.quality().parameters;
+    Some(if parameters(&alike) > parameters(&own) {
+        alike
+    } else {
+        own
+    })
 }
