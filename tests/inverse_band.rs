@@ -480,6 +480,34 @@ fn motions_that_a_fit_misses() {
     }
 }
 
+/// A rotation whose speed drifts a little: noise hides the fast waves of what harmonics miss, whose accelerations are large.
+#[test]
+fn drifting_rotation_with_noise() {
+    let random = &mut Random::new(1400);
+    let body = Crank {
+        inertia: 2.5e-3,
+        ..Crank::default()
+    };
+    let scene = Scene::new(0.045, 0.102)
+        .offset(0.0024)
+        .branch(Branch::Left)
+        .crank(body)
+        .slider(Slider { mass: 0.6 })
+        .start(1.33, -40.0);
+    let draft = Draft {
+        scene,
+        force: Arc::new(|now| 2.5 * (3.0 * now.theta + 6.0).sin()),
+        reads: Variables::THETA,
+        path: 10.4 * TAU,
+    };
+    let case = Case::new(&draft, Measured::Theta, 900, 0.0, random);
+    for noise in [2e-6, 2e-5] {
+        let found = case.coverage(FitKind::Fourier, Noise::Normal(noise), 4, random);
+        let is_right = found.share >= 0.9 && (0.3..=1.5).contains(&found.error);
+        assert!(is_right, "{noise}: {found:?}");
+    }
+}
+
 /// Few samples of few steps: where in a step a value lies is hardly known from a fit that follows the steps.
 #[test]
 fn few_samples_rounded() {
