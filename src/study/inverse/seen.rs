@@ -18,6 +18,9 @@ const PART: usize = 20_000;
 /// Samples of a turn from which on what the instrument shows of even motion is a polynomial in each block of them.
 const OF_TURN: f64 = 16_384.0;
 
+/// Samples of a turn from which on blocks of them show a first motion.
+const OF_FIRST: f64 = 512.0;
+
 /// Times that samples get their signs and turns anew.
 const UNFOLDED: usize = 8;
 
@@ -57,7 +60,7 @@ impl Seen<'_> {
             && self.sensor.linkage.limit_angles().is_empty();
         let mut unfolded = self.unfolded(&theta);
         // Crank angles of samples do not tell the signs of values near zero: they are taken from a first motion.
-        let mut first = self.sensor.folds();
+        let mut first = self.sensor.folds() && theta.len() as f64 > OF_FIRST * turns;
         let mut near = Near::Samples(theta);
         let (mut in_blocks, mut rounds) = (true, 0);
         loop {
