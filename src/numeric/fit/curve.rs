@@ -138,6 +138,17 @@ impl Curve {
         }
     }
 
+    /// The same, and whether its errors are its own: those of a spline take most of the time, and stay as they are.
+    ///
+    /// # Errors
+    /// A text that says why the samples do not serve.
+    pub fn moved(self, rows: &Rows<'_>) -> Result<(Curve, bool), String> {
+        match self {
+            Curve::Spline(spline) => Ok((Curve::Spline(spline.moved(rows)?), false)),
+            other => Ok((other.again(rows)?, true)),
+        }
+    }
+
     /// Whether blocks of samples are narrow enough for what the curve does in one.
     pub fn is_seen_by(&self, rows: &Rows<'_>) -> bool {
         let waves = match self {

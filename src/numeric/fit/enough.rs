@@ -139,7 +139,10 @@ impl Search {
             let serves = |level: &&Rows<'_>| level.blocks().is_none_or(|blocks| blocks >= pieces);
             let level = levels.iter().rev().find(serves).unwrap_or(rows);
             let normal = Normal::new(level, pieces);
-            let choice = normal.choose()?;
+            let Some(choice) = normal.choose() else {
+                // More than the samples determine.
+                break;
+            };
             if best
                 .as_ref()
                 .is_none_or(|best| choice.cost < best.best.cost)

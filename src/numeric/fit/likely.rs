@@ -78,9 +78,9 @@ impl Left {
             || rows.are_digits(self.squares + rows.left, 0.0)
     }
 
-    /// Whether it is no more than computed samples are off.
+    /// Whether it is no more than computed samples are off that were not rounded to steps.
     pub fn is_computed(&self, rows: &Rows<'_>) -> bool {
-        rows.are_digits(self.squares + rows.left, rows.computed)
+        rows.floor <= rows.computed && rows.are_digits(self.squares + rows.left, rows.computed)
     }
 }
 

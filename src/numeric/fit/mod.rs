@@ -2,6 +2,7 @@
 
 mod choice;
 mod condensed;
+mod covariance;
 mod curve;
 mod decay;
 mod dense;

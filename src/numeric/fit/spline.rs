@@ -8,19 +8,16 @@
 //! the penalty bends away of a curve that is as rough as is likely. What it bends away of this one is added.
 
 use super::condensed::Rows;
+use super::covariance::Spread;
 use super::enough::{Enough, FEWEST, goes_through};
 use super::penalized::Normal;
 use super::pieces::{DEGREE, Grid, Piecewise, basis};
 use super::support::supported;
 use super::{DIAGONAL, Kind, Quality, Samples, Size, State, add_products, differences, refinement};
 use crate::numeric::banded::{Banded, DIAGONALS};
-use crate::numeric::parallel;
 
 /// Cut-off frequency of the fit for one of the most likely penalty.
 const CUT_OFF: f64 = std::f64::consts::SQRT_2;
-
-/// Step in the logarithm of the penalty for derivatives by it.
-const STEP: f64 = 0.05;
 
 const FAILED: &str = "the samples do not determine a spline";
 
@@ -100,6 +97,27 @@ impl Spline {
         let strengths = [self.likely, self.strength];
         let spline = Spline::new(normal, strengths, self.curve.coefficients.clone());
         spline.ok_or_else(|| FAILED.to_owned())
+    }
+
+    /// The same but for its errors, which stay those of this one.
+    ///
+    /// # Errors
+    /// A text that says why the samples do not serve.
+    pub fn moved(mut self, rows: &Rows<'_>) -> Result<Spline, String> {
+        let normal = Normal::new(rows, self.curve.grid.pieces);
+        let Some(factor) = normal.factor(self.strength) else {
+            return self.again(rows);
+        };
+        let near = std::mem::take(&mut self.curve.coefficients);
+        self.curve.coefficients = normal.solve(self.strength, &factor, near);
+        let (squares, _) = normal.residuals(&self.curve.coefficients);
+        let quality = &mut self.quality;
+        if quality.squares > 0.0 {
+            quality.sigma *= (squares / quality.squares).sqrt();
+            quality.sigma = quality.sigma.max(quality.floor);
+        }
+        quality.squares = squares;
+        Ok(self)
     }
 
     /// A spline under the last of two penalties, the first of which is the likely one, from coefficients that are near.
@@ -245,39 +263,5 @@ impl Spline {
             }
         }
         state
-    }
-}
-
-/// A⁻¹ and the mean products of the errors of the coefficients, inside the band.
-struct Spread {
-    inverse: Banded,
-    covariance: Banded,
-}
-
-impl Spread {
-    /// For samples of unit variance and curves as rough as the likely penalty has them.
-    ///
-    /// With N the normal matrix and P the penalty of strength s, A = N + sP, noise gives A⁻¹ N A⁻¹, and the roughness
-    /// s² A⁻¹ P A⁻¹ over the likely strength. The two matrices come from A⁻¹ and its derivative by ln s, −s A⁻¹ P A⁻¹.
-    fn of(normal: &Normal<'_>, [likely, strength]: [f64; 2], factor: &Banded) -> Spread {
-        let found = parallel::map([0.0, -STEP, STEP].into_iter(), |step| match step {
-            0.0 => Some(factor.inverse_band()),
-            _ => Some(normal.factor(strength * step.exp())?.inverse_band()),
-        });
-        let mut found = found.into_iter();
-        let mut next = || found.next().flatten();
-        let inverse = next().unwrap_or_else(|| factor.inverse_band());
-        let covariance = match (next(), next()) {
-            (Some(weaker), Some(stronger)) => {
-                let part = (1.0 - strength / likely) * 0.5 / STEP;
-                inverse.plus(part, &stronger).plus(-part, &weaker)
-            }
-            // As if the fit had the likely penalty.
-            _ => inverse.clone(),
-        };
-        Spread {
-            inverse,
-            covariance,
-        }
     }
 }

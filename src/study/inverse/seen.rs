@@ -144,9 +144,9 @@ impl Seen<'_> {
         loop {
             // Once the motion is about right the choice of terms stays, so that it cannot go on alternating.
             let anew = chosen.is_none() || Some(round) == last_choice;
-            let curve = match chosen {
-                Some(curve) if !anew => curve.again(&lines)?,
-                _ => Curve::to(&lines, kind, size)?,
+            let (curve, complete) = match chosen {
+                Some(curve) if !anew => curve.moved(&lines)?,
+                _ => (Curve::to(&lines, kind, size)?, true),
             };
             // Two motions are not held at a time.
             drop(lines);
@@ -172,6 +172,10 @@ impl Seen<'_> {
             let settled = more < SETTLED || in_rounding < NOTHING;
             let chosen_last = last_choice.is_none_or(|last| round > last);
             if settled && chosen_last || round == MOST {
+                let curve = match complete {
+                    true => curve,
+                    false => curve.again(&self.linear(rows, &found))?,
+                };
                 return Ok((curve, settled || change < 1.0));
             }
             course.go_on(
