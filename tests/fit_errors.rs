@@ -156,3 +156,57 @@ fn splines_that_are_hardly_more_than_polynomials() {
         assert!(is_right, "{noise:e}: {share} {error}");
     }
 }
+
+/// The angle of uneven rotation, and its derivatives.
+fn turning(t: f64, turns: f64) -> [f64; 3] {
+    let rate = TAU * turns;
+    let (sin, cos) = (rate * t).sin_cos();
+    [
+        rate * t + 0.03 * sin,
+        rate * (1.0 + 0.03 * cos),
+        -0.03 * rate * rate * sin,
+    ]
+}
+
+/// Long records of many turns, whose pieces are told from a part of them: errors are what is said of them, and rows of
+/// which nothing but digits is left are not followed one by one.
+#[test]
+fn splines_of_many_turns() {
+    let count = 60_000;
+    for (turns, noise, most) in [(200.0, 0.0, 30_000), (1000.0, 1e-4, count)] {
+        let random = &mut Random(5);
+        let t: Vec<f64> = (0..count).map(|i| i as f64 / count as f64).collect();
+        let value = |t: &f64| turning(*t, turns)[0] + noise * random.normal();
+        let target: Vec<f64> = t.iter().map(value).collect();
+        let samples = Samples {
+            t: &t,
+            target: &target,
+            weight: None,
+            floor: f64::EPSILON * TAU * turns / 12f64.sqrt(),
+        };
+        let mut curve = Curve::fit(&samples, Kind::Spline, Size::Auto).expect("a spline");
+        curve.compare(&samples);
+        assert!(curve.size() < most, "{} pieces", curve.size());
+        // Computed angles are off by their rounding.
+        let sigma = curve.quality().sigma.hypot(f64::EPSILON * TAU * turns);
+        for k in 0..3 {
+            let mut gradient = [0.0; 3];
+            gradient[k] = 1.0;
+            let (mut inside, mut places) = (0, 0);
+            for i in (500..count - 500).step_by(101) {
+                let state = curve.state(t[i]);
+                let variance = sigma * sigma * state.variance(&gradient) + state.bias_of(&gradient);
+                let error = (state.value[k] - turning(t[i], turns)[k]).abs();
+                let said = 1.96 * variance.sqrt() + state.rounding_of(&gradient);
+                places += 1;
+                inside += i32::from(error <= said);
+            }
+            let share = f64::from(inside) / f64::from(places);
+            assert!(share >= 0.9, "{turns} turns, derivative {k}: {share}");
+            assert!(
+                noise == 0.0 || share <= 0.99,
+                "{turns} turns, derivative {k}: {share}"
+            );
+        }
+    }
+}

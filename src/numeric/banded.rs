@@ -18,6 +18,12 @@ impl Banded {
         self.0.len()
     }
 
+    /// Row i of the lower triangle, from the diagonal back.
+    #[inline(always)]
+    pub fn row(&self, i: usize) -> &[f64; DIAGONALS] {
+        &self.0[i]
+    }
+
     /// The element of row i and column j of a symmetric matrix, which must be inside the band.
     pub fn get(&self, i: usize, j: usize) -> f64 {
         let (i, j) = (i.max(j), i.min(j));
@@ -27,6 +33,13 @@ impl Banded {
     /// Adds to the element of row i and column j ≤ i.
     pub fn add(&mut self, i: usize, j: usize, value: f64) {
         self.0[i][i - j] += value;
+    }
+
+    /// Adds a smaller matrix to the rows and columns from `first` on.
+    pub fn add_from(&mut self, first: usize, part: &Banded) {
+        for (sum, part) in self.0[first..].iter_mut().zip(&part.0) {
+            sum.iter_mut().zip(part).for_each(|(sum, p)| *sum += p);
+        }
     }
 
     /// This matrix plus `factor` times another.
@@ -65,8 +78,8 @@ impl Banded {
     }
 
     /// The factor L of this matrix = L Lᵀ (Cholesky); none if it is not positive definite.
-    pub fn cholesky(&self) -> Option<Banded> {
-        let mut l = self.clone();
+    pub fn cholesky(self) -> Option<Banded> {
+        let mut l = self;
         for i in 0..l.size() {
             for k in (0..DIAGONALS.min(i + 1)).rev() {
                 let j = i - k;
@@ -176,7 +189,7 @@ mod tests {
                 full[(i - k, i)] = value;
             }
         }
-        let factor = banded.cholesky().expect("positive definite");
+        let factor = banded.clone().cholesky().expect("positive definite");
         let inverse = full.clone().try_inverse().expect("regular");
         let found = factor.inverse_band();
         for i in 0..size {

@@ -76,7 +76,8 @@ impl Curve {
         };
         let rows = kind.rows(samples, size, computed);
         let curve = Curve::to(&rows, kind, size)?;
-        if curve.is_seen_by(&rows) {
+        let wants_more = matches!(&curve, Curve::Spline(spline) if spline.wants_more());
+        if curve.is_seen_by(&rows) && !wants_more {
             return Ok(curve);
         }
         Curve::to(&Rows::from(samples), kind, size)
@@ -135,6 +136,17 @@ impl Curve {
             }
             Curve::Spline(spline) => spline.again(rows).map(Curve::Spline),
             Curve::Fourier(fourier) => fourier.again(rows).map(Curve::Fourier),
+        }
+    }
+
+    /// The same, and whether its errors are its own: those of a spline take most of the time, and stay as they are.
+    ///
+    /// # Errors
+    /// A text that says why the samples do not serve.
+    pub fn moved(self, rows: &Rows<'_>) -> Result<(Curve, bool), String> {
+        match self {
+            Curve::Spline(spline) => Ok((Curve::Spline(spline.moved(rows)?), false)),
+            other => Ok((other.again(rows)?, true)),
         }
     }
 

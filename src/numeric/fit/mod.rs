@@ -2,12 +2,15 @@
 
 mod choice;
 mod condensed;
+mod covariance;
 mod curve;
 mod decay;
 mod dense;
 mod design;
 mod differences;
+mod enough;
 mod fourier;
+mod likely;
 mod outstanding;
 mod penalized;
 mod pieces;
@@ -19,6 +22,7 @@ mod roughness;
 mod spline;
 mod spread;
 mod support;
+mod sweep;
 mod triangle;
 
 pub use condensed::Rows;
@@ -45,13 +49,16 @@ pub struct Samples<'a> {
     pub floor: f64,
 }
 
+/// Units of rounding to which targets that were computed are right.
+const COMPUTED: f64 = 2.0;
+
 /// Samples whose products are formed at a time.
 const TOGETHER: usize = 1 << 14;
 
 impl Samples<'_> {
     /// Standard deviation of targets that were computed: a computed motion goes on with the errors of its largest values.
     fn computed(&self) -> f64 {
-        2.0 * f64::EPSILON * largest(self.target)
+        COMPUTED * f64::EPSILON * largest(self.target)
     }
 
     /// What a curve of these values leaves of the targets.

@@ -1,5 +1,7 @@
 //! B-splines of degree 7 over evenly spaced knots.
 
+use std::ops::Range;
+
 use super::condensed::Rows;
 use crate::numeric::banded::DIAGONALS;
 
@@ -37,6 +39,36 @@ impl Grid {
         (piece, at - piece as f64)
     }
 
+    /// The coefficients that rows have to do with.
+    pub fn touched(&self, rows: &Rows<'_>, range: &Range<usize>) -> Range<usize> {
+        let t = &rows.arguments()[range.clone()];
+        let [first, last] = [t[0], t[t.len() - 1]].map(|t| self.place(t).0);
+        first..last + DIAGONALS
+    }
+
+    /// The argument at a place, from 0 to 1, in a piece.
+    pub fn argument(&self, piece: usize, u: f64) -> f64 {
+        self.start + self.width * (piece as f64 + u)
+    }
+
+    /// The piece at `t`, and its B-splines and their derivatives there.
+    pub fn bases(&self, t: f64) -> (usize, [[f64; DIAGONALS]; 3]) {
+        let (piece, u) = self.place(t);
+        let per = 1.0 / self.width;
+        let [lowest, lower, value] = last_bases(u);
+        let at = |list: &[f64; DIAGONALS], i: usize, back: usize| {
+            if i >= back { list[i - back] } else { 0.0 }
+        };
+        let bases: [[f64; DIAGONALS]; 3] = [
+            value,
+            std::array::from_fn(|i| per * (at(&lower, i, 1) - lower[i])),
+            std::array::from_fn(|i| {
+                per * per * (at(&lowest, i, 2) - 2.0 * at(&lowest, i, 1) + lowest[i])
+            }),
+        ];
+        (piece, bases)
+    }
+
     /// How many of rising arguments, from the first on, are in one piece.
     pub fn in_one_piece(&self, t: &[f64]) -> usize {
         let (piece, _) = self.place(t[0]);
@@ -56,7 +88,7 @@ pub(super) fn basis(degree: usize, u: f64) -> [f64; DIAGONALS] {
 }
 
 /// The same of the last three degrees up to [`DEGREE`].
-pub(super) fn last_bases(u: f64) -> [[f64; DIAGONALS]; 3] {
+fn last_bases(u: f64) -> [[f64; DIAGONALS]; 3] {
     let lowest = basis(DEGREE - 2, u);
     let lower = raised(lowest, DEGREE - 1, u);
     [lowest, lower, raised(lower, DEGREE, u)]
@@ -74,4 +106,29 @@ fn raised(mut b: [f64; DIAGONALS], d: usize, u: f64) -> [f64; DIAGONALS] {
     }
     b[d] = saved;
     b
+}
+
+/// A spline over such knots.
+#[derive(Clone, Debug)]
+pub(super) struct Piecewise {
+    pub grid: Grid,
+    /// Coefficients of the B-splines.
+    pub coefficients: Vec<f64>,
+}
+
+impl Piecewise {
+    /// The spline at `t`.
+    pub fn value(&self, t: f64) -> f64 {
+        let (piece, u) = self.grid.place(t);
+        let basis = basis(DEGREE, u);
+        let terms = basis.iter().zip(&self.coefficients[piece..]);
+        terms.fold(0.0, |sum, (b, c)| sum + b * c)
+    }
+
+    /// The spline and its derivatives at `t`.
+    pub fn derivatives(&self, t: f64) -> [f64; 3] {
+        let (piece, bases) = self.grid.bases(t);
+        let part = &self.coefficients[piece..piece + DIAGONALS];
+        bases.map(|basis| basis.iter().zip(part).map(|(b, c)| b * c).sum())
+    }
 }

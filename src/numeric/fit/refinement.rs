@@ -7,8 +7,9 @@
 use std::borrow::Cow;
 
 use super::condensed::{MANY, Rows};
-use super::pieces::DEGREE;
+use super::pieces::{DEGREE, Piecewise};
 use super::{Samples, Size, Spline};
+use crate::numeric::parallel;
 
 /// Least factor by which the error is taken to be smaller than the difference that was made by doubling the samples.
 const LEAST: f64 = 1.0 / 64.0;
@@ -78,31 +79,28 @@ impl<'a> Few<'a> {
 }
 
 /// Errors of angle, speed and acceleration for each piece of a spline; none for too few samples.
-pub(super) fn errors(spline: &Spline, few: &Few<'_>) -> Option<Vec<[f64; 3]>> {
+pub(super) fn errors(spline: &Piecewise, few: &Few<'_>) -> Option<Vec<[f64; 3]>> {
     let samples = few.samples();
     let coarser = |by: usize| match few.many {
         true => {
-            let size = Size::Fixed(spline.pieces().div_ceil(by));
-            Spline::to(&Rows::from(&samples), size).ok()
+            let (rows, pieces) = (Rows::from(&samples), spline.grid.pieces.div_ceil(by));
+            let chosen = || Spline::to(&rows, Size::Fixed(pieces)).ok();
+            Spline::through(&rows, pieces).or_else(|| chosen().map(Spline::into_curve))
         }
-        false => through_fewer(&samples, spline.pieces(), by),
+        false => through_fewer(&samples, spline.grid.pieces, by),
     };
     let (half, quarter) = (coarser(2)?, coarser(4)?);
-    let pieces = 0..spline.pieces();
-    let differences: Vec<[[[f64; 3]; PLACES.len()]; 2]> = pieces
-        .clone()
-        .map(|piece| {
-            let mut found = [[[0.0; 3]; PLACES.len()]; 2];
-            for (place, u) in PLACES.into_iter().enumerate() {
-                let t = spline.argument(piece, u);
-                let [fine, middle, coarse] =
-                    [spline, &half, &quarter].map(|spline| spline.derivatives(t));
-                found[0][place] = std::array::from_fn(|k| middle[k] - fine[k]);
-                found[1][place] = std::array::from_fn(|k| coarse[k] - middle[k]);
-            }
-            found
-        })
-        .collect();
+    let differences = parallel::list(spline.grid.pieces, |piece| {
+        let mut found = [[[0.0; 3]; PLACES.len()]; 2];
+        for (place, u) in PLACES.into_iter().enumerate() {
+            let t = spline.grid.argument(piece, u);
+            let [fine, middle, coarse] =
+                [spline, &half, &quarter].map(|spline| spline.derivatives(t));
+            found[0][place] = std::array::from_fn(|k| middle[k] - fine[k]);
+            found[1][place] = std::array::from_fn(|k| coarse[k] - middle[k]);
+        }
+        found
+    });
     let mean = |piece: usize, level: usize, k: usize| {
         let from = piece.saturating_sub(BESIDE[level]);
         let to = (piece + BESIDE[level] + 1).min(differences.len());
@@ -110,7 +108,7 @@ pub(super) fn errors(spline: &Spline, few: &Few<'_>) -> Option<Vec<[f64; 3]>> {
         let squares: f64 = around.map(|d| d[k] * d[k]).sum();
         (squares / (PLACES.len() * (to - from)) as f64).sqrt()
     };
-    let error = |piece: usize| {
+    let error = |piece: usize| -> [f64; 3] {
         std::array::from_fn(|k| {
             let [last, before] = [0, 1].map(|level| mean(piece, level, k));
             // Towards the ends errors grow fast.
@@ -122,11 +120,11 @@ pub(super) fn errors(spline: &Spline, few: &Few<'_>) -> Option<Vec<[f64; 3]>> {
             last * factor.clamp(least, 1.0)
         })
     };
-    Some(pieces.map(error).collect())
+    Some(parallel::list(spline.grid.pieces, error))
 }
 
 /// A spline through each sample of a stride, the first and the last one among them.
-fn through_fewer(samples: &Samples<'_>, pieces: usize, stride: usize) -> Option<Spline> {
+fn through_fewer(samples: &Samples<'_>, pieces: usize, stride: usize) -> Option<Piecewise> {
     let part = |list: &[f64]| -> Vec<f64> {
         let last = list.len() - 1;
         let steps = last.div_ceil(stride);
@@ -143,5 +141,6 @@ fn through_fewer(samples: &Samples<'_>, pieces: usize, stride: usize) -> Option<
         weight: weight.as_deref(),
         floor: samples.floor,
     };
-    Spline::fit(&part, Size::Fixed(most.min(pieces.div_ceil(stride)))).ok()
+    let spline = Spline::fit(&part, Size::Fixed(most.min(pieces.div_ceil(stride))));
+    spline.ok().map(Spline::into_curve)
 }

@@ -8,44 +8,35 @@
 //! the penalty bends away of a curve that is as rough as is likely. What it bends away of this one is added.
 
 use super::condensed::Rows;
+use super::covariance::Spread;
+use super::enough::{Enough, FEWEST, goes_through};
 use super::penalized::Normal;
-use super::pieces::{DEGREE, Grid, basis, last_bases};
+use super::pieces::{DEGREE, Grid, Piecewise, basis};
 use super::support::supported;
 use super::{DIAGONAL, Kind, Quality, Samples, Size, State, add_products, differences, refinement};
 use crate::numeric::banded::{Banded, DIAGONALS};
 
-/// Pieces for each one that the samples ask for, so that the penalty and not the pieces decide how smooth it is.
-const FINER: usize = 4;
-
 /// Cut-off frequency of the fit for one of the most likely penalty.
 const CUT_OFF: f64 = std::f64::consts::SQRT_2;
-
-/// Penalties up to this many times the weakest one let a spline go through the samples.
-const THROUGH: f64 = 64.0;
-
-/// Step in the logarithm of the penalty for derivatives by it.
-const STEP: f64 = 0.05;
-
-/// Fewest pieces that are tried.
-const FEWEST: usize = 4;
 
 const FAILED: &str = "the samples do not determine a spline";
 
 /// A fitted smoothing spline.
 #[derive(Clone, Debug)]
 pub struct Spline {
-    grid: Grid,
+    curve: Piecewise,
     /// Strength of the most likely penalty.
     likely: f64,
     /// Strength of the penalty of the fit.
     strength: f64,
-    coefficients: Vec<f64>,
     /// Band of the covariance of the coefficients, for samples of unit variance.
     covariance: Banded,
     /// Coefficients of what may be wrong beside noise: of what the penalty has bent away, and of errors of the samples.
     errors: Vec<Vec<f64>>,
     /// Whether its penalty is so weak that it goes through the samples.
     through: bool,
+    /// Whether the samples ask for more pieces than the rows allow.
+    wants_more: bool,
     /// What it and its derivatives may be off between such samples, for each piece.
     between: Vec<[f64; 3]>,
     quality: Quality,
@@ -72,14 +63,29 @@ impl Spline {
     /// Fits a smoothing spline to rows.
     pub(super) fn to(rows: &Rows<'_>, size: Size) -> Result<Spline, String> {
         let failed = || FAILED.to_owned();
-        let pieces = match size {
-            Size::Fixed(pieces) => pieces,
-            Size::Auto => enough_pieces(rows).ok_or_else(failed)?,
+        let enough = match size {
+            Size::Fixed(pieces) => Enough::just(pieces),
+            Size::Auto => Enough::of(rows).ok_or_else(failed)?,
         };
-        let normal = Normal::new(rows, pieces);
-        let choice = normal.choose().ok_or_else(failed)?;
+        let (normal, choice) = enough.choose(rows).ok_or_else(failed)?;
         let strength = supported(&normal, normal.weaker(choice.strength, CUT_OFF));
-        Spline::new(normal, [choice.strength, strength], choice.coefficients).ok_or_else(failed)
+        let strengths = [choice.strength, strength];
+        let spline = Spline::new(normal, strengths, choice.coefficients).ok_or_else(failed)?;
+        Ok(Spline {
+            wants_more: enough.more,
+            ..spline
+        })
+    }
+
+    /// The spline under the weakest penalty alone.
+    pub(super) fn through(rows: &Rows<'_>, pieces: usize) -> Option<Piecewise> {
+        let normal = Normal::new(rows, pieces);
+        let weakest = normal.weakest();
+        let zeros = vec![0.0; normal.grid.size()];
+        Some(Piecewise {
+            grid: normal.grid,
+            coefficients: normal.solve(weakest, &normal.factor(weakest)?, zeros),
+        })
     }
 
     /// A spline with as many pieces under the same penalty.
@@ -87,10 +93,31 @@ impl Spline {
     /// # Errors
     /// A text that says why the samples do not serve.
     pub fn again(&self, rows: &Rows<'_>) -> Result<Spline, String> {
-        let normal = Normal::new(rows, self.grid.pieces);
+        let normal = Normal::new(rows, self.curve.grid.pieces);
         let strengths = [self.likely, self.strength];
-        let spline = Spline::new(normal, strengths, self.coefficients.clone());
+        let spline = Spline::new(normal, strengths, self.curve.coefficients.clone());
         spline.ok_or_else(|| FAILED.to_owned())
+    }
+
+    /// The same but for its errors, which stay those of this one.
+    ///
+    /// # Errors
+    /// A text that says why the samples do not serve.
+    pub fn moved(mut self, rows: &Rows<'_>) -> Result<Spline, String> {
+        let normal = Normal::new(rows, self.curve.grid.pieces);
+        let Some(factor) = normal.factor(self.strength) else {
+            return self.again(rows);
+        };
+        let near = std::mem::take(&mut self.curve.coefficients);
+        self.curve.coefficients = normal.solve(self.strength, &factor, near);
+        let (squares, _) = normal.residuals(&self.curve.coefficients);
+        let quality = &mut self.quality;
+        if quality.squares > 0.0 {
+            quality.sigma *= (squares / quality.squares).sqrt();
+            quality.sigma = quality.sigma.max(quality.floor);
+        }
+        quality.squares = squares;
+        Ok(self)
     }
 
     /// A spline under the last of two penalties, the first of which is the likely one, from coefficients that are near.
@@ -100,25 +127,29 @@ impl Spline {
             Some(factor) => (strength, factor),
             None => (likely, normal.factor(likely)?),
         };
-        let coefficients = normal.solve(strength, &factor, near);
-        let inverse = factor.inverse_band();
-        let (squares, _) = normal.residuals(&coefficients);
+        let about = normal.about(normal.solve(strength, &factor, near));
+        let variance = about.variance(likely)?;
+        let (squares, coefficients) = (about.squares, about.near);
+        let spread = Spread::of(&normal, [likely, strength], &factor);
         Some(Spline {
             quality: Quality {
                 squares,
-                parameters: inverse.trace_of_product(&normal.matrix),
-                sigma: normal.variance(likely, &coefficients)?.sqrt(),
+                parameters: spread.inverse.trace_of_product(&normal.matrix),
+                sigma: variance.sqrt(),
                 floor: normal.floor(),
             },
             condition: factor.diagonal_ratio(),
-            through: strength <= THROUGH * normal.weakest(),
+            through: goes_through(&normal, strength),
+            wants_more: false,
             between: Vec::new(),
             errors: vec![normal.bent_away(strength, &factor, &coefficients)],
-            covariance: covariance(&normal, [likely, strength], inverse),
-            grid: normal.grid,
+            covariance: spread.covariance,
             likely,
             strength,
-            coefficients,
+            curve: Piecewise {
+                grid: normal.grid,
+                coefficients,
+            },
         })
     }
 
@@ -128,12 +159,12 @@ impl Spline {
         samples: &Samples<'_>,
         errors: &[Vec<f64>],
     ) -> Result<(), String> {
-        let size = Size::Fixed(self.grid.pieces);
+        let size = Size::Fixed(self.curve.grid.pieces);
         let rows = Kind::Spline.rows(samples, size, samples.computed());
-        let normal = Normal::new(&rows, self.grid.pieces);
+        let normal = Normal::new(&rows, self.curve.grid.pieces);
         let factor = normal.factor(self.strength).ok_or(FAILED)?;
-        let right = samples.products(self.grid.size(), errors, |t, take| {
-            let (piece, u) = self.grid.place(t);
+        let right = samples.products(self.curve.grid.size(), errors, |t, take| {
+            let (piece, u) = self.curve.grid.place(t);
             let basis = basis(DEGREE, u).into_iter();
             basis
                 .zip(piece..)
@@ -148,15 +179,15 @@ impl Spline {
     /// their noise from their differences; whether it has done so.
     pub(super) fn compare(&mut self, samples: &Samples<'_>) -> bool {
         let judged = self.through.then(|| {
-            let few = refinement::Few::of(samples, self.grid.pieces);
+            let few = refinement::Few::of(samples, self.curve.grid.pieces);
             let rows = Rows::from(&few.samples());
-            let normal = Normal::new(&rows, self.grid.pieces);
-            let inverse = normal.factor(self.strength)?.inverse_band();
+            let normal = Normal::new(&rows, self.curve.grid.pieces);
+            let factor = normal.factor(self.strength)?;
             let noise = differences::noise(samples)?;
-            let between = refinement::errors(self, &few)?;
+            let between = refinement::errors(&self.curve, &few)?;
             // Not as rough as a likely curve: by noise alone.
-            let covariance = covariance(&normal, [f64::INFINITY, self.strength], inverse);
-            Some((covariance, noise, between))
+            let spread = Spread::of(&normal, [f64::INFINITY, self.strength], &factor);
+            Some((spread.covariance, noise, between))
         });
         let Some((covariance, noise, between)) = judged.flatten() else {
             return false;
@@ -166,18 +197,22 @@ impl Spline {
         true
     }
 
-    /// The argument at a place, from 0 to 1, in a piece.
-    pub(super) fn argument(&self, piece: usize, u: f64) -> f64 {
-        self.grid.start + self.grid.width * (piece as f64 + u)
+    pub(super) fn grid(&self) -> &Grid {
+        &self.curve.grid
     }
 
-    pub(super) fn grid(&self) -> &Grid {
-        &self.grid
+    pub(super) fn into_curve(self) -> Piecewise {
+        self.curve
     }
 
     /// Number of its pieces.
     pub fn pieces(&self) -> usize {
-        self.grid.pieces
+        self.curve.grid.pieces
+    }
+
+    /// Whether the samples ask for more pieces than the rows allow.
+    pub(super) fn wants_more(&self) -> bool {
+        self.wants_more
     }
 
     /// What it leaves of the samples.
@@ -189,49 +224,21 @@ impl Spline {
     /// to the smallest pivot of their equations.
     pub fn coefficients(&self) -> (Vec<f64>, Vec<f64>, f64) {
         let error = |i| self.covariance.get(i, i).sqrt();
-        let errors = (0..self.coefficients.len()).map(error).collect();
-        (self.coefficients.clone(), errors, self.condition)
+        let errors = (0..self.curve.coefficients.len()).map(error).collect();
+        (self.curve.coefficients.clone(), errors, self.condition)
     }
 
     /// The spline at `t`.
     pub fn value(&self, t: f64) -> f64 {
-        let (piece, u) = self.grid.place(t);
-        let basis = basis(DEGREE, u);
-        let terms = basis.iter().zip(&self.coefficients[piece..]);
-        terms.fold(0.0, |sum, (b, c)| sum + b * c)
-    }
-
-    /// The B-splines and their derivatives at `t`, and its piece.
-    fn bases(&self, t: f64) -> (usize, [[f64; DIAGONALS]; 3]) {
-        let (piece, u) = self.grid.place(t);
-        let per = 1.0 / self.grid.width;
-        let [lowest, lower, value] = last_bases(u);
-        let at = |list: &[f64; DIAGONALS], i: usize, back: usize| {
-            if i >= back { list[i - back] } else { 0.0 }
-        };
-        let bases: [[f64; DIAGONALS]; 3] = [
-            value,
-            std::array::from_fn(|i| per * (at(&lower, i, 1) - lower[i])),
-            std::array::from_fn(|i| {
-                per * per * (at(&lowest, i, 2) - 2.0 * at(&lowest, i, 1) + lowest[i])
-            }),
-        ];
-        (piece, bases)
-    }
-
-    /// The spline and its derivatives at `t`, alone.
-    pub(super) fn derivatives(&self, t: f64) -> [f64; 3] {
-        let (piece, bases) = self.bases(t);
-        let part = &self.coefficients[piece..piece + DIAGONALS];
-        bases.map(|basis| basis.iter().zip(part).map(|(b, c)| b * c).sum())
+        self.curve.value(t)
     }
 
     /// The spline and its derivatives at `t`.
     pub fn state(&self, t: f64) -> State {
-        let (piece, bases) = self.bases(t);
+        let (piece, bases) = self.curve.grid.bases(t);
         let mut state = State::default();
         for (k, basis) in bases.iter().enumerate() {
-            for (b, c) in basis.iter().zip(&self.coefficients[piece..]) {
+            for (b, c) in basis.iter().zip(&self.curve.coefficients[piece..]) {
                 state.value[k] += b * c;
                 state.rounding[k] += 2.0 * f64::EPSILON * (b * c).abs();
             }
@@ -257,44 +264,4 @@ impl Spline {
         }
         state
     }
-}
-
-/// Number of pieces that the samples ask for, none if they determine no spline.
-fn enough_pieces(rows: &Rows<'_>) -> Option<usize> {
-    let most = rows.count.saturating_sub(DEGREE + 1).max(1);
-    // Knots inside a block would be lost; what narrow blocks leave is noise.
-    let most = rows.blocks().map_or(most, |blocks| blocks.min(most));
-    let levels = rows.levels(FEWEST);
-    let (mut pieces, mut worse) = (FEWEST.min(most), 0);
-    let mut best: Option<(f64, usize, bool)> = None;
-    while pieces <= most && (worse < 2 || best.is_some_and(|best| !best.2)) {
-        let serves = |level: &&Rows<'_>| level.blocks().is_none_or(|blocks| blocks >= pieces);
-        let level = levels.iter().rev().find(serves).unwrap_or(rows);
-        let choice = Normal::new(level, pieces).choose()?;
-        if best.is_none_or(|best| choice.cost < best.0) {
-            let follows = choice.follows(rows);
-            best = Some((choice.cost, pieces, follows));
-            worse = 0;
-        } else {
-            worse += 1;
-        }
-        pieces *= 2;
-    }
-    let enough = best?.1;
-    Some((FINER * enough).min(most).max(enough))
-}
-
-/// Mean products of the errors of the coefficients, for samples of unit variance and curves as rough as the likely
-/// penalty has them.
-///
-/// With N the normal matrix and P the penalty of strength s, A = N + sP, noise gives A⁻¹ N A⁻¹, and the roughness
-/// s² A⁻¹ P A⁻¹ over the likely strength. The two matrices come from A⁻¹ and its derivative by ln s, −s A⁻¹ P A⁻¹.
-fn covariance(normal: &Normal<'_>, [likely, strength]: [f64; 2], inverse: Banded) -> Banded {
-    let beside = |step: f64| Some(normal.factor(strength * step.exp())?.inverse_band());
-    let (Some(weaker), Some(stronger)) = (beside(-STEP), beside(STEP)) else {
-        // As if the fit had the likely penalty.
-        return inverse;
-    };
-    let part = (1.0 - strength / likely) * 0.5 / STEP;
-    inverse.plus(part, &stronger).plus(-part, &weaker)
 }

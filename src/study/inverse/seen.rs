@@ -18,6 +18,9 @@ const PART: usize = 20_000;
 /// Samples of a turn from which on what the instrument shows of even motion is a polynomial in each block of them.
 const OF_TURN: f64 = 16_384.0;
 
+/// Samples of a turn from which on blocks of them show a first motion.
+const OF_FIRST: f64 = 512.0;
+
 /// Times that samples get their signs and turns anew.
 const UNFOLDED: usize = 8;
 
@@ -57,7 +60,7 @@ impl Seen<'_> {
             && self.sensor.linkage.limit_angles().is_empty();
         let mut unfolded = self.unfolded(&theta);
         // Crank angles of samples do not tell the signs of values near zero: they are taken from a first motion.
-        let mut first = self.sensor.folds();
+        let mut first = self.sensor.folds() && theta.len() as f64 > OF_FIRST * turns;
         let mut near = Near::Samples(theta);
         let (mut in_blocks, mut rounds) = (true, 0);
         loop {
@@ -141,9 +144,9 @@ impl Seen<'_> {
         loop {
             // Once the motion is about right the choice of terms stays, so that it cannot go on alternating.
             let anew = chosen.is_none() || Some(round) == last_choice;
-            let curve = match chosen {
-                Some(curve) if !anew => curve.again(&lines)?,
-                _ => Curve::to(&lines, kind, size)?,
+            let (curve, complete) = match chosen {
+                Some(curve) if !anew => curve.moved(&lines)?,
+                _ => (Curve::to(&lines, kind, size)?, true),
             };
             // Two motions are not held at a time.
             drop(lines);
@@ -169,6 +172,10 @@ impl Seen<'_> {
             let settled = more < SETTLED || in_rounding < NOTHING;
             let chosen_last = last_choice.is_none_or(|last| round > last);
             if settled && chosen_last || round == MOST {
+                let curve = match complete {
+                    true => curve,
+                    false => curve.again(&self.linear(rows, &found))?,
+                };
                 return Ok((curve, settled || change < 1.0));
             }
             course.go_on(

@@ -6,12 +6,13 @@
 //! solution, same covariance, and the squares that no such curve can take away are known.
 
 mod nodes;
+mod views;
 
 use std::borrow::Cow;
 use std::ops::Range;
 
-use super::Samples;
 use super::pieces::DEGREE;
+use super::{COMPUTED, Samples};
 use crate::numeric::parallel;
 use nodes::Part;
 
@@ -48,6 +49,8 @@ pub struct Rows<'a> {
     weight: Option<Cow<'a, [f64]>>,
     /// Standard deviation of a target that is due to its digits alone.
     pub(super) floor: f64,
+    /// The same of one that was computed.
+    pub(super) computed: f64,
     /// First and last argument of the samples.
     pub(super) span: [f64; 2],
     /// Number of samples.
@@ -65,6 +68,7 @@ impl<'a> From<&Samples<'a>> for Rows<'a> {
             target: samples.target.into(),
             weight: samples.weight.map(Cow::from),
             floor: samples.floor,
+            computed: samples.computed(),
             span: [samples.t[0], samples.t[samples.t.len() - 1]],
             count: samples.t.len(),
             left: 0.0,
@@ -108,19 +112,6 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// These rows, and the same in ever fewer blocks as long as there are at least so many. For curves that are polynomials
-    /// of degree NODES − 1 in each block they are the same problem.
-    pub(super) fn levels(&self, fewest: usize) -> Vec<Rows<'_>> {
-        let mut levels = vec![self.borrowed()];
-        while let Some(last) = levels.last()
-            && last.ends.len() >= 2 * fewest
-            && let Some(wide) = last.halved()
-        {
-            levels.push(wide);
-        }
-        levels
-    }
-
     /// The same rows in half as many blocks; none for an odd number of them.
     fn halved(&self) -> Option<Rows<'static>> {
         let pairs = self.ends.chunks_exact(2).map(|pair| pair[1]);
@@ -148,7 +139,10 @@ impl<'a> Rows<'a> {
             let [slope, at_zero] = line(i, value);
             (weight * slope, weight * at_zero)
         });
+        let reached = |i: usize| (target[i] / self.row(i).1).abs();
+        let reached = (0..target.len()).map(reached).fold(0.0, f64::max);
         Rows {
+            computed: self.computed.max(COMPUTED * f64::EPSILON * reached),
             target: target.into(),
             weight: Some(weight.into()),
             ..self.borrowed()
@@ -184,6 +178,7 @@ impl<'a> Rows<'a> {
             target: nodes().into(),
             weight: Some(nodes().into()),
             floor: self.floor,
+            computed: self.computed,
             span: self.span,
             count: self.count,
             left: self.left,

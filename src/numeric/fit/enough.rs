@@ -1,0 +1,169 @@
+//! The number of pieces of a spline that samples ask for: that of the largest restricted likelihood among those that each
+//! have twice as many as the one before.
+
+use super::condensed::Rows;
+use super::likely::Choice;
+use super::penalized::Normal;
+use super::pieces::DEGREE;
+use super::roughness::ORDER;
+
+/// Fewest pieces that are tried.
+pub(super) const FEWEST: usize = 4;
+
+/// Pieces for each one that the samples ask for, so that the penalty and not the pieces decide how smooth it is.
+const FINER: usize = 4;
+
+/// The same where pieces are dear, and where nothing but digits is left.
+const LITTLE_FINER: usize = 2;
+
+/// Penalties up to this many times the weakest one let a spline go through the samples.
+const THROUGH: f64 = 64.0;
+
+/// Parts of a long record of which the one in the middle shows what the whole one asks for, and its fewest rows.
+const PARTS: usize = 16;
+const OF_PART: usize = 1 << 14;
+
+/// Rows of the fewest pieces that are tried of such a part: blocks as narrow do not show its motion.
+const WIDE: usize = 256;
+
+/// What samples ask for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Enough {
+    pub pieces: usize,
+    /// Logarithm of the likely penalty relative to the mean pivot, if it is about known.
+    pub likely: Option<f64>,
+    /// Whether it is the most that the blocks of the rows allow, and they ask for more.
+    pub more: bool,
+    /// Whether pieces are to be doubled until they leave noise.
+    pub until_noise: bool,
+}
+
+/// Whether a spline goes through the samples of a normal matrix.
+pub(super) fn goes_through(normal: &Normal<'_>, strength: f64) -> bool {
+    strength <= THROUGH * normal.weakest()
+}
+
+impl Enough {
+    /// So many pieces.
+    pub fn just(pieces: usize) -> Enough {
+        Enough {
+            pieces,
+            likely: None,
+            more: false,
+            until_noise: false,
+        }
+    }
+
+    /// What rows ask for; none if they determine no spline.
+    pub fn of(rows: &Rows<'_>) -> Option<Enough> {
+        let most = rows.count.saturating_sub(DEGREE + 1).max(1);
+        // Knots inside a block would be lost; what narrow blocks leave is noise.
+        let most = rows.blocks().map_or(most, |blocks| blocks.min(most));
+        if rows.is_very_many() && !rows.is_condensed() {
+            return Enough::of_part(rows, most);
+        }
+        let found = Search::new(rows, FEWEST, most)?;
+        let finer = if found.digits { LITTLE_FINER } else { FINER };
+        let pieces = found.best.grid.pieces;
+        Some(Enough {
+            more: rows.is_condensed() && !found.digits && 2 * pieces > most,
+            ..Enough::just((finer * pieces).min(most).max(pieces))
+        })
+    }
+
+    /// The same, as a part of the rows has it.
+    fn of_part(rows: &Rows<'_>, most: usize) -> Option<Enough> {
+        let part = rows.middle((rows.number() / PARTS).max(OF_PART));
+        let from = (part.number() / WIDE).max(1);
+        let found = Search::new(&part, from, part.number() - DEGREE - 1)?;
+        let whole = found.best.grid.pieces as f64 * (rows.span[1] - rows.span[0])
+            / (part.span[1] - part.span[0]);
+        let enough = Enough {
+            pieces: whole.round() as usize,
+            likely: Some(found.best.relative),
+            more: false,
+            until_noise: found.is_noise || found.digits,
+        };
+        let finer = if found.digits { 1 } else { LITTLE_FINER };
+        Some(enough.finer(finer, most))
+    }
+
+    /// The sums for them with the likely penalty.
+    pub fn choose<'a>(mut self, rows: &'a Rows<'a>) -> Option<(Normal<'a>, Choice)> {
+        let most = rows.count.saturating_sub(DEGREE + 1);
+        loop {
+            let normal = Normal::new(rows, self.pieces);
+            let near = self.likely.map(|likely| normal.choose_near(likely));
+            let choice = near.unwrap_or_else(|| normal.choose())?;
+            if !self.until_noise || 2 * self.pieces > most {
+                return Some((normal, choice));
+            }
+            let left = choice.left(rows);
+            if left.is_noise(rows) || left.is_computed(rows) {
+                return Some((normal, choice));
+            }
+            self = self.finer(2, most);
+        }
+    }
+
+    /// With so many times as many pieces, but not more than `most`.
+    fn finer(self, by: usize, most: usize) -> Enough {
+        let pieces = (by * self.pieces).min(most).max(1);
+        // Of the same roughness: it is that of differences over widths, to the power of the order.
+        let per_doubling = 2.0 * ORDER as f64;
+        let doublings = (pieces as f64 / self.pieces as f64).ln();
+        Enough {
+            pieces,
+            likely: self.likely.map(|l| l + per_doubling * doublings),
+            ..self
+        }
+    }
+}
+
+/// The best of numbers of pieces.
+struct Search {
+    best: Choice,
+    /// Whether what it leaves looks like noise.
+    is_noise: bool,
+    /// Whether it goes through the samples, and leaves nothing but digits.
+    digits: bool,
+}
+
+impl Search {
+    fn new(rows: &Rows<'_>, from: usize, most: usize) -> Option<Search> {
+        let levels = rows.levels(from);
+        let mut pieces = from.min(most);
+        let mut best: Option<Search> = None;
+        let mut worse = 0;
+        while pieces <= most && (worse < 2 || best.as_ref().is_some_and(|best| !best.is_noise)) {
+            let serves = |level: &&Rows<'_>| level.blocks().is_none_or(|blocks| blocks >= pieces);
+            let level = levels.iter().rev().find(serves).unwrap_or(rows);
+            let normal = Normal::new(level, pieces);
+            let Some(choice) = normal.choose() else {
+                // More than the samples determine.
+                break;
+            };
+            if best
+                .as_ref()
+                .is_none_or(|best| choice.cost < best.best.cost)
+            {
+                let left = choice.left(rows);
+                let through = goes_through(&normal, choice.strength);
+                let found = Search {
+                    is_noise: left.is_noise(rows),
+                    digits: through && left.is_computed(rows),
+                    best: choice,
+                };
+                if found.digits {
+                    return Some(found);
+                }
+                best = Some(found);
+                worse = 0;
+            } else {
+                worse += 1;
+            }
+            pieces *= 2;
+        }
+        best
+    }
+}
