@@ -8,6 +8,7 @@ mod dense;
 mod design;
 mod differences;
 mod fourier;
+mod gram;
 mod penalized;
 mod pieces;
 mod polynomial;
@@ -19,6 +20,7 @@ mod spline;
 mod spread;
 mod support;
 mod triangle;
+mod turn;
 
 pub use condensed::Rows;
 pub use curve::{Curve, Kind};
