@@ -384,6 +384,35 @@ fn turns_sampled_at_random_times_are_told() {
     }
 }
 
+/// Four samples from fold to fold of an uneven motion tell hardly any choice: that is seen before all are looked at.
+#[test]
+fn very_many_turns_in_doubt_are_refused_by_some_of_them() {
+    const TURNS: f64 = 6000.0;
+    let scene = scene(0.05, 0.15, 0.01, Branch::Right).start(0.3, 1.0);
+    for measured in BOTH {
+        let times: Vec<f64> = (0..48_000).map(|i| f64::from(i) / 48_000.0).collect();
+        let values = times.iter().map(|t| {
+            let turned = TURNS * TAU * t;
+            let ripple = 0.5 * (0.7 * turned).sin() + 0.5 * (1.31 * turned).sin();
+            shown(&scene, measured, 0.3 + turned + ripple).abs()
+        });
+        let values = values.collect();
+        let measurement = Measurement::new(measured, times, values).expect("samples");
+        let refused = inverse(&scene, &measurement, &InverseOptions::default());
+        let refused = refused.expect_err("doubts").to_string();
+        let choices = refused.split_once("of ").and_then(|(_, rest)| {
+            let (all, rest) = rest.split_once(" choices that were looked at, ")?;
+            let (doubts, _) = rest.split_once(" of the motion")?;
+            Some((all.parse::<usize>().ok()?, doubts.parse::<usize>().ok()?))
+        });
+        let (all, doubts) = choices.expect("choices");
+        assert!(
+            all < 2 * TURNS as usize / 8 && 2 * doubts >= all,
+            "{refused}"
+        );
+    }
+}
+
 #[test]
 fn coarse_steps_of_an_instrument_do_not_mislead() {
     for step in [1e-4, 1e-3, 5e-3] {

@@ -60,7 +60,7 @@ pub enum Curve {
     /// A smoothing spline.
     Spline(Spline),
     /// Steady rotation with harmonics.
-    Fourier(Fourier),
+    Fourier(Box<Fourier>),
 }
 
 impl Curve {
@@ -103,7 +103,7 @@ impl Curve {
         match kind {
             Kind::Polynomial => Ok(Curve::Polynomial(Polynomial::to(rows, size))),
             Kind::Spline => Spline::to(rows, size).map(Curve::Spline),
-            Kind::Fourier => Fourier::to(rows, size).map(Curve::Fourier),
+            Kind::Fourier => Fourier::to(rows, size).map(|fit| Curve::Fourier(Box::new(fit))),
         }
     }
 
@@ -135,7 +135,7 @@ impl Curve {
                 Curve::to(rows, Kind::Polynomial, Size::Fixed(polynomial.degree()))
             }
             Curve::Spline(spline) => spline.again(rows).map(Curve::Spline),
-            Curve::Fourier(fourier) => fourier.again(rows).map(Curve::Fourier),
+            Curve::Fourier(fourier) => fourier.again(rows).map(|fit| Curve::Fourier(Box::new(fit))),
         }
     }
 

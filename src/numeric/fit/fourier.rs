@@ -3,10 +3,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::condensed::Rows;
-use super::design::{columns, harmonics, solve, squares, value, values};
+use super::design::{solve, squares};
+use super::gram::products;
 use super::rotation::{most_harmonics, settle, supported, turns};
 use super::spread::Spread;
 use super::triangle::Triangle;
+use super::turn::{Periodic, Waves};
 use super::{Kind, Quality, Samples, Size, State, add_products};
 use crate::numeric::parallel;
 
@@ -22,6 +24,10 @@ pub struct Fourier {
     middle: f64,
     /// c, Ω, a_1, b_1, a_2, b_2, ...
     parameters: Vec<f64>,
+    /// The harmonics with three derivatives in time.
+    waves: Periodic<4>,
+    /// Sums of the sizes of harmonics and their derivatives.
+    sizes: [f64; 3],
     triangle: Triangle,
     spread: Spread,
     /// Variances of the coefficients of the harmonics that follow.
@@ -107,6 +113,13 @@ impl Fourier {
         parameters.iter_mut().zip(&step).for_each(|(p, s)| *p += s);
         let squares = squares(samples, middle, &parameters);
         let free = (samples.count - parameters.len()).max(1) as f64;
+        let waves = waves(&parameters);
+        let size = |derivative: usize| {
+            waves
+                .iter()
+                .map(|[a, b]| a[derivative].hypot(b[derivative]))
+                .sum()
+        };
         Ok(Fourier {
             middle,
             quality: Quality {
@@ -115,7 +128,9 @@ impl Fourier {
                 sigma: (squares / free).sqrt().max(samples.floor),
                 floor: samples.floor,
             },
-            spread: Spread::new(&triangle.covariance(), parameters[1]),
+            sizes: std::array::from_fn(size),
+            waves: Periodic::new(waves, samples.count),
+            spread: Spread::new(&triangle.covariance(), parameters[1], samples.count),
             parameters,
             triangle,
             tail,
@@ -125,19 +140,14 @@ impl Fourier {
 
     /// Counts what errors of the samples make of the parameters as what may be wrong with them.
     pub(super) fn admit(&mut self, samples: &Samples<'_>, errors: &[Vec<f64>]) {
-        let right = samples.products(self.parameters.len(), errors, |t, take| {
-            let mut list = Vec::with_capacity(self.parameters.len());
-            columns(t - self.middle, &self.parameters, &mut list);
-            let columns = list.iter().enumerate();
-            columns.for_each(|(term, column)| take(term, column[0]));
-        });
         let size = self.parameters.len();
         let mut sum = DMatrix::zeros(size, size);
-        for right in &right {
-            let error = DVector::from(self.triangle.normal_solve(right));
+        for errors in errors {
+            let right = products(samples, self.middle, &self.parameters, errors);
+            let error = DVector::from(self.triangle.normal_solve(&right));
             sum += &error * error.transpose();
         }
-        self.errors = Some(Spread::new(&sum, self.parameters[1]));
+        self.errors = Some(Spread::new(&sum, self.parameters[1], samples.t.len()));
     }
 
     /// Number of harmonics.
@@ -159,45 +169,63 @@ impl Fourier {
 
     /// The curve at `t`.
     pub fn value(&self, t: f64) -> f64 {
-        value(t - self.middle, &self.parameters)
+        let angle = self.parameters[1] * (t - self.middle);
+        self.parameters[0] + angle + self.waves.at(angle)[0]
     }
 
     /// The curve at many arguments.
     pub fn values(&self, t: &[f64]) -> Vec<f64> {
-        parallel::lanes(t, |t| values(&t.map(|t| t - self.middle), &self.parameters))
+        parallel::list(t.len(), |i| self.value(t[i]))
     }
 
     /// The curve and its derivatives at `t`.
     pub fn state(&self, t: f64) -> State {
-        let mut list = Vec::with_capacity(self.parameters.len());
-        let value = columns(t - self.middle, &self.parameters, &mut list);
+        let (omega, tau) = (self.parameters[1], t - self.middle);
+        let angle = omega * tau;
+        let [wave, first, second, third] = self.waves.at(angle);
+        let speed = omega + first;
+        // Derivatives by the speed of rotation.
+        let rotation = [
+            tau * speed,
+            speed + tau * second,
+            2.0 * second + tau * third,
+        ];
+        let by_omega = rotation.map(|value| value / omega);
+        let constant = self.parameters[0];
         let mut state = State {
-            value: [value[0], value[1], value[2]],
+            value: [constant + angle + wave, speed, second],
+            covariance: self.spread.at(angle, &by_omega),
             ..State::default()
         };
-        for (column, parameter) in list.iter().zip(&self.parameters) {
-            for (rounding, value) in state.rounding.iter_mut().zip(column) {
-                *rounding += 4.0 * f64::EPSILON * (value * parameter).abs();
-            }
+        let sizes = self.sizes.iter().zip(&rotation);
+        for (rounding, (size, rotation)) in state.rounding.iter_mut().zip(sizes) {
+            *rounding = 4.0 * f64::EPSILON * (size + rotation.abs());
         }
-        let angle = self.parameters[1] * (t - self.middle);
-        state.covariance = self.spread.at(angle, &list);
+        state.rounding[0] += 4.0 * f64::EPSILON * constant.abs();
         if let Some(errors) = &self.errors {
-            state.bias = errors.at(angle, &list);
+            state.bias = errors.at(angle, &by_omega);
         }
-        let (omega, tau) = (self.parameters[1], t - self.middle);
-        let beyond = harmonics(omega * tau).zip(1..).skip(self.harmonics());
-        for (variance, ((sin, cos), k)) in self.tail.iter().zip(beyond) {
-            let rate = omega * f64::from(k);
-            let squared = rate * rate;
-            let waves = [
-                [cos, -rate * sin, -squared * cos],
-                [sin, rate * cos, -squared * sin],
-            ];
-            for wave in &waves {
-                add_products(&mut state.bias, wave, *variance);
-            }
+        for (variance, k) in self.tail.iter().zip(self.harmonics() + 1..) {
+            // Cosine and sine of the same variance add the same everywhere.
+            let rate = omega * k as f64;
+            add_products(&mut state.bias, &[1.0, 0.0, -rate * rate], *variance);
+            add_products(&mut state.bias, &[0.0, rate, 0.0], *variance);
         }
         state
     }
+}
+
+/// The harmonics of a curve with three derivatives in time.
+fn waves(parameters: &[f64]) -> Waves<4> {
+    let mut waves = vec![[[0.0; 4]; 2]];
+    for (pair, k) in parameters[2..].chunks_exact(2).zip(1..) {
+        let [a, b] = [pair[0], pair[1]];
+        let rate = parameters[1] * f64::from(k);
+        let [first, second, third] = [rate, -rate * rate, -rate * rate * rate];
+        waves.push([
+            [a, first * b, second * a, third * b],
+            [b, -first * a, second * b, -third * a],
+        ]);
+    }
+    waves
 }

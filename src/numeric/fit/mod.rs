@@ -10,6 +10,7 @@ mod design;
 mod differences;
 mod enough;
 mod fourier;
+mod gram;
 mod likely;
 mod outstanding;
 mod penalized;
@@ -24,6 +25,7 @@ mod spread;
 mod support;
 mod sweep;
 mod triangle;
+mod turn;
 
 pub use condensed::Rows;
 pub use curve::{Curve, Kind};

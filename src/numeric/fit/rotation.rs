@@ -24,6 +24,14 @@ const ROUNDS: usize = 40;
 /// A step that gains less than this part of what noise gives a parameter settles a fit.
 const SETTLED: f64 = 1e-8;
 
+/// Part of all squares that is not worth a step, and part of what a step should gain that it gains at least, if that is not
+/// rounding.
+const NOTHING: f64 = 1e-6;
+const HARDLY: f64 = 0.5;
+
+/// The least part of a step that is tried.
+const LEAST_PART: f64 = 1e-3;
+
 const UNSETTLED: &str = "the fit by rotation and harmonics does not settle";
 
 /// Turns in a span at a speed.
@@ -106,37 +114,39 @@ pub(super) fn settle(
     let count = parameters.len() / 2 - 1;
     let samples = serving(levels, parameters, count);
     let free = (samples.count - parameters.len()).max(1) as f64;
+    let rounding = rounding(samples, middle, parameters);
     let mut before = squares(samples, middle, parameters);
     for _ in 0..ROUNDS {
         let (triangle, step) = solve(samples, middle, parameters, count)?;
         let sums = triangle.squares(&[]);
+        let gain = sums[0] - sums[sums.len() - 1];
         let noise = (before / free).max(samples.floor * samples.floor);
         // What the step should gain, in units of what one parameter gains from noise.
-        if sums[0] - sums[sums.len() - 1] <= SETTLED * noise {
+        if gain <= SETTLED * noise {
             return Ok(());
         }
+        let is_rounding = gain < (NOTHING * before).max(rounding);
         let mut part = 1.0;
-        let (next, after) = loop {
+        loop {
             let moved = parameters.iter().zip(&step).map(|(p, s)| p + part * s);
             let moved: Vec<f64> = moved.collect();
             let after = squares(samples, middle, &moved);
-            if after < before || part < 1e-3 {
-                break (moved, after);
+            let gained = before - after;
+            if gained > 0.0 {
+                (*parameters, before) = (moved, after);
+                if is_rounding && gained < HARDLY * gain {
+                    return Ok(());
+                }
+                break;
+            }
+            if is_rounding {
+                return Ok(());
+            }
+            if part < LEAST_PART {
+                return Err(UNSETTLED.to_owned());
             }
             part *= 0.5;
-        };
-        if after >= before {
-            // At rounding there is nothing left to gain.
-            let gain = sums[0] - sums[sums.len() - 1];
-            let none = gain < 1e-6 * before || gain < rounding(samples, middle, parameters);
-            return if none {
-                Ok(())
-            } else {
-                Err(UNSETTLED.to_owned())
-            };
         }
-        *parameters = next;
-        before = after;
     }
     Err(UNSETTLED.to_owned())
 }

@@ -3,7 +3,7 @@
 
 use nalgebra::DMatrix;
 
-use super::design::{Jet, combined, harmonics};
+use super::turn::{Periodic, Waves};
 
 /// Covariance of value and two derivatives, rows of the lower triangle.
 type Covariance = [f64; 6];
@@ -11,20 +11,23 @@ type Covariance = [f64; 6];
 /// The covariance of the parameters c, Ω, a_1, b_1, a_2, b_2, ... as the curve needs it.
 #[derive(Clone, Debug)]
 pub(super) struct Spread {
-    /// Factors of cos mφ and sin mφ, m = 0, 1, 2, ..., in what constant and harmonics give.
-    waves: Vec<[Covariance; 2]>,
-    /// Covariances of Ω with the parameters; with itself apart.
-    beside: Vec<f64>,
+    /// What constant and harmonics give of the covariance, and covariances of Ω with what they give of value and derivatives.
+    waves: Periodic<9>,
+    /// Variance of Ω.
     own: f64,
 }
 
 impl Spread {
-    /// From the covariance of the parameters at a speed Ω.
-    pub fn new(covariance: &DMatrix<f64>, omega: f64) -> Spread {
+    /// From the covariance of the parameters at a speed Ω, for about so many arguments.
+    pub fn new(covariance: &DMatrix<f64>, omega: f64, arguments: usize) -> Spread {
         let size = covariance.nrows();
-        let mut waves = vec![[[0.0; 6]; 2]; size - 1];
+        let mut waves: Waves<9> = vec![[[0.0; 9]; 2]; size - 1];
         let trigonometric = || (0..size).filter(|column| *column != 1);
         for i in trigonometric() {
+            for derivative in 0..3 {
+                let (k, sine, factor) = wave(i, derivative, omega);
+                waves[k][usize::from(sine)][6 + derivative] += covariance[(i, 1)] * factor;
+            }
             for j in trigonometric() {
                 let mut entry = 0;
                 for first in 0..3 {
@@ -50,21 +53,16 @@ impl Spread {
                 }
             }
         }
-        let mut beside: Vec<f64> = covariance.column(1).iter().copied().collect();
-        let own = std::mem::take(&mut beside[1]);
-        Spread { waves, beside, own }
+        Spread {
+            waves: Periodic::new(waves, arguments),
+            own: covariance[(1, 1)],
+        }
     }
 
-    /// The covariance at an angle Ωτ, where the derivatives by the parameters are given.
-    pub fn at(&self, angle: f64, columns: &[Jet]) -> Covariance {
-        let [steady, _] = self.waves[0];
-        let mut sum = steady;
-        for ([cosine, sine], (sin, cos)) in self.waves[1..].iter().zip(harmonics(angle)) {
-            for entry in 0..6 {
-                sum[entry] += cos * cosine[entry] + sin * sine[entry];
-            }
-        }
-        let (rotation, others) = (columns[1], combined(&self.beside, columns));
+    /// The covariance at an angle Ωτ, where the derivatives of value and derivatives by Ω are given.
+    pub fn at(&self, angle: f64, rotation: &[f64; 3]) -> Covariance {
+        let [sums @ .., a, b, c] = self.waves.at(angle);
+        let (mut sum, others): (Covariance, _) = (sums, [a, b, c]);
         let mut entry = 0;
         for i in 0..3 {
             for j in 0..=i {

@@ -100,6 +100,11 @@ impl Evidence {
         self.is_plain() || self.explained && self.passes.abs() > 4.0 * ENOUGH
     }
 
+    /// Whether a motion clearly passes, and leaves nothing but noise.
+    pub fn is_clear_passage(&self) -> bool {
+        self.explained && self.passes > 0.0 && self.is_clear()
+    }
+
     fn between(back: &[Misfit], past: &[Misfit], count: usize) -> Evidence {
         let samples = count as f64;
         let free = |misfit: &Misfit| samples - misfit.degree as f64 - 1.0;

@@ -14,6 +14,7 @@ mod start;
 mod steady;
 mod strokes;
 mod track;
+mod trial;
 mod turnings;
 mod visit;
 mod window;
@@ -28,6 +29,7 @@ use record::Record;
 use start::Start;
 use strokes::Strokes;
 use track::Track;
+use trial::Trial;
 use visit::Motion;
 
 /// Continuous crank angles, one for each sample, and what was decided on the way.
@@ -48,11 +50,19 @@ pub(super) fn unfold(
     if sensor.measured == Measured::Theta {
         return wrapped::unwrap(sensor.linkage, measurement);
     }
-    let record = record(sensor, measurement);
+    let mut record = record(sensor, measurement);
     possible(sensor, measurement, &record)?;
     let strokes = Strokes::new(sensor);
-    let [plain, at_ends] = record.thresholds();
-    let turnings = turnings::turnings(record.values, plain, at_ends);
+    let mut turnings = turnings::turnings(&record);
+    if sensor.measured == Measured::X {
+        let motion = Motion {
+            record,
+            strokes: &strokes,
+            turnings: &turnings,
+        };
+        record.noise = noise::noise_of_x(&motion);
+        turnings = turnings::turnings(&record);
+    }
     let few = record.values.len() < FEWEST * turnings.len();
     let motion = Motion {
         record,
@@ -63,6 +73,11 @@ pub(super) fn unfold(
     let tracks = if few {
         Vec::new()
     } else {
+        if let Some(trial) = Trial::in_vain(&motion) {
+            let Trial { doubts, visits, .. } = trial;
+            let what = format!("of {visits} choices that were looked at, {doubts}");
+            return Err(cannot_be_told(&what, &place(measurement, trial.first)));
+        }
         let passed = steady::passed(&motion);
         parallel::map(first.into_iter(), |stroke| {
             Track::new(&motion, &passed, stroke)
@@ -139,26 +154,43 @@ fn warnings(
         visits,
     } = &taken.track;
     if let Some(first) = doubts.first() {
-        let text = format!(
-            "{} of the motion past or back from a dead centre cannot be told from the samples, the first near {} (t = {} s, theta = {:.4} rad)",
-            if doubts.len() == 1 {
-                "one choice".to_owned()
-            } else {
-                format!("{} choices", doubts.len())
-            },
-            measurement.place(*first),
-            measurement.times()[*first],
+        let count = match doubts.len() {
+            1 => "one choice".to_owned(),
+            count => format!("{count} choices"),
+        };
+        let place = format!(
+            "{}, theta = {:.4} rad",
+            place(measurement, *first),
             theta[*first]
         );
         if doubts.len() > MANY && PART * doubts.len() >= *visits {
-            return Err(Error::refused(text, "sample more often, or measure theta"));
+            return Err(cannot_be_told(&count, &place));
         }
         warnings.push(format!(
-            "{text}: the smoother motion is taken, and all after it depends on that"
+            "{}: the smoother motion is taken, and all after it depends on that",
+            doubt(&count, &place)
         ));
     }
     warnings.extend(gaps::too_far(measurement, theta));
     Ok(warnings)
+}
+
+fn place(measurement: &Measurement, sample: usize) -> String {
+    format!(
+        "{} (t = {} s",
+        measurement.place(sample),
+        measurement.times()[sample]
+    )
+}
+
+fn doubt(choices: &str, place: &str) -> String {
+    format!(
+        "{choices} of the motion past or back from a dead centre cannot be told from the samples, the first near {place})"
+    )
+}
+
+fn cannot_be_told(choices: &str, place: &str) -> Error {
+    Error::refused(doubt(choices, place), "sample more often, or measure theta")
 }
 
 /// Part of the stroke, or rad, by which noise may take a value beyond what is possible.

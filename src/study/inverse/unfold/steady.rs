@@ -2,7 +2,7 @@
 //!
 //! If the crank passes all folds of a stretch, its angle is one polynomial there; if it went back from any, it would bend.
 
-use super::evidence::{Evidence, is_simpler};
+use super::evidence::{ENOUGH, Evidence, is_simpler};
 use super::strokes::Stroke;
 use super::visit::Motion;
 use super::window::Window;
@@ -13,6 +13,9 @@ const AROUND: usize = 2;
 
 /// Between even turning points the times are alike to this factor: the crank is about as fast at all of them.
 const ALIKE: f64 = 2.0;
+
+/// Part of the evidence that decides that is enough between even turning points.
+const EVEN: f64 = 0.75;
 
 /// Which turning points are passed without doubt, whatever the stroke on which the motion begins: strokes of a crank that
 /// turns fully are mirror images.
@@ -33,7 +36,10 @@ pub(super) fn passed(motion: &Motion<'_>) -> Vec<bool> {
         if even && passes(motion, from + 1, &along, even) {
             return [true; AROUND];
         }
-        std::array::from_fn(|k| passes(motion, from + k, &along, false))
+        std::array::from_fn(|k| {
+            let k = from + k;
+            passes(motion, k, &along, even) || passes_alone(motion, k, &along, even)
+        })
     });
     parts.into_iter().flatten().take(count).collect()
 }
@@ -69,6 +75,26 @@ fn passes(motion: &Motion<'_>, k: usize, along: &[Stroke], even: bool) -> bool {
     let range = motion.between(k, AROUND);
     let window = Window::new(motion, (at, fold), back, range);
     Evidence::at_first_sight(&window).is_some_and(|(evidence, [back, past])| {
-        evidence.tells_a_passage() || even && is_simpler(&past, &back)
+        // Of even turning points a motion tells several alike, without being explained.
+        let tells =
+            || is_simpler(&past, &back) || !evidence.explained && evidence.passes > EVEN * ENOUGH;
+        evidence.tells_a_passage() || even && tells()
     })
+}
+
+/// The same told from the way to the turning points next to it alone: one polynomial may follow a turn of an uneven motion, if not
+/// two.
+fn passes_alone(motion: &Motion<'_>, k: usize, along: &[Stroke], even: bool) -> bool {
+    let Some(fold) = (k < motion.turnings.len())
+        .then(|| motion.fold(k))
+        .flatten()
+    else {
+        return false;
+    };
+    let (back, range) = (|_| along[k], motion.between(k, 1));
+    let window = Window::new(motion, (motion.turnings[k].at, fold), back, range);
+    let rough = Evidence::at_first_sight(&window);
+    let tells =
+        |(rough, _): (Evidence, _)| rough.tells_a_passage() || even && rough.is_clear_passage();
+    rough.is_some_and(tells) || motion.evidence(k, fold, back, range).is_clear_passage()
 }

@@ -1,5 +1,7 @@
 //! Where the measured value turns back: there alone a motion can change strokes.
 
+use super::record::Record;
+
 /// A sample with a largest or smallest value.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Turning {
@@ -10,7 +12,9 @@ pub(super) struct Turning {
 
 /// The largest and smallest values between which the value changes by more than a threshold, or by more than a lower
 /// one before the first of them and after the last.
-pub(super) fn turnings(values: &[f64], threshold: f64, at_ends: f64) -> Vec<Turning> {
+pub(super) fn turnings(record: &Record<'_>) -> Vec<Turning> {
+    let values = record.values;
+    let [threshold, at_ends] = record.thresholds();
     let mut found = Vec::new();
     let (mut least, mut most) = (0, 0);
     // Whether the value is on its way up, once that is known.

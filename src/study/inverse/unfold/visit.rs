@@ -126,6 +126,25 @@ impl Motion<'_> {
         back: impl Fn(usize) -> Stroke,
         ranges: impl Iterator<Item = [usize; 2]>,
     ) -> (bool, bool) {
+        let mut list = Vec::new();
+        for range in ranges {
+            let one = self.evidence(k, fold, &back, range);
+            list.push(one);
+            if one.is_clear() {
+                break;
+            }
+        }
+        verdict(&list)
+    }
+
+    /// What a range of samples tells of a passage, where a motion that goes `back` has these strokes.
+    pub fn evidence(
+        &self,
+        k: usize,
+        fold: Fold,
+        back: impl Fn(usize) -> Stroke,
+        range: [usize; 2],
+    ) -> Evidence {
         let at = self.turnings[k].at;
         let at_fold = self.strokes.angles(fold.value)[back(at)];
         let linkage = self.strokes.linkage_at(fold, at_fold);
@@ -133,16 +152,8 @@ impl Motion<'_> {
             linkage: &linkage,
             measured: self.strokes.sensor.measured,
         };
-        let mut list = Vec::new();
-        for range in ranges {
-            let window = Window::new(self, (at, fold), &back, range);
-            let one = Evidence::of(&window, &sensor);
-            list.push(one);
-            if one.is_clear() {
-                break;
-            }
-        }
-        verdict(&list)
+        let window = Window::new(self, (at, fold), back, range);
+        Evidence::of(&window, &sensor)
     }
 }
 
