@@ -107,6 +107,9 @@ impl Leg {
             if attempts > MOST_ATTEMPTS {
                 return Err(Unserved::TooLong);
             }
+            if builder.leg.len() > 0 && profile.is_spent() {
+                break;
+            }
             builder.panel(tolerance)?;
             if builder.is_home() {
                 builder.turn(until, most_turns);

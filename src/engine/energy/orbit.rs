@@ -75,7 +75,7 @@ impl Orbit {
                 tolerance,
             };
             later = Gains::new(&course, FIRST_TURNS, forward.duration, until)?;
-            if later.is_none() {
+            if later.is_none() && !profile.is_spent() {
                 forward = leg(direction, until, f64::INFINITY)?;
             }
         }
@@ -267,20 +267,21 @@ impl Orbit {
 
     /// How long it is known, s: for ever if it repeats.
     pub fn length(&self) -> f64 {
-        match self.period() {
-            Some(_) => f64::INFINITY,
-            None => {
-                let later = self.later.as_ref();
-                later.map_or(self.forward.duration.0, |later| later.end())
-            }
+        let there = self.forward.duration.0;
+        match (self.period(), &self.backward, &self.later) {
+            (Some(_), _, _) => f64::INFINITY,
+            (None, _, Some(later)) => later.end(),
+            (None, Some(back), None) => 2.0 * there + back.duration.0,
+            (None, None, None) if self.turns_back() => 2.0 * there,
+            (None, None, None) => there,
         }
     }
 
-    /// Largest kinetic energy at the ends of panels, J.
-    pub fn largest_kinetic(&self) -> f64 {
+    /// Largest kinetic energy at the ends of panels until a time (s), J.
+    pub fn largest_kinetic(&self, until: f64) -> f64 {
         let back = self.backward.as_ref().map_or(0.0, Leg::largest_kinetic);
         let later = self.later.as_ref();
-        let later = later.map_or(0.0, |later| later.largest_kinetic());
+        let later = later.map_or(0.0, |later| later.largest_kinetic(until));
         self.forward.largest_kinetic().max(back).max(later)
     }
 
