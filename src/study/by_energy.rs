@@ -38,6 +38,7 @@ pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, 
         let rests = speed == 0.0 || orbit.turns_back();
         let rounding = if rests { ROUNDING_AT_REST } else { ROUNDING };
         let mut error = late_by(task, last, end, orbit.time_error(end) + rounding * end);
+        error.theta_rad = error.theta_rad.hypot(orbit.misplaced(end));
         error.omega_rad_per_s += off_the_energy(task, (&orbit, end), last, work);
         (error, None)
     });

@@ -179,7 +179,7 @@ impl Orbit {
     }
 
     /// Number of whole periods before t, and the time that is left.
-    fn split(&self, t: f64) -> (f64, f64) {
+    pub(super) fn split(&self, t: f64) -> (f64, f64) {
         match self.period() {
             Some((period, rest)) if t > period => {
                 let count = (t / period).floor();
@@ -237,24 +237,6 @@ impl Orbit {
             let later = self.later.as_ref()?;
             later.time_of_turn(radians, self.start.rest, self.direction)
         })
-    }
-
-    /// How far a time may be off, s: by the tails of the series and the rounding of energies.
-    pub fn time_error(&self, until: f64) -> f64 {
-        let (back, later) = (self.backward.as_ref(), self.later.as_ref());
-        let error = self.forward.error
-            + back.map_or(0.0, |leg| leg.error)
-            + later.map_or(0.0, |later| later.error());
-        let duration = later.map_or(self.forward.duration.0, |later| later.end())
-            + back.map_or(0.0, |leg| leg.duration.0);
-        let left_out = back.map_or(0.0, |leg| leg.left_out);
-        error / duration * until + self.forward.left_out.max(left_out)
-    }
-
-    /// What the series leave out of the speed, relative to it.
-    pub fn speed_error(&self) -> f64 {
-        let back = self.backward.as_ref().map_or(0.0, |leg| leg.tail);
-        self.forward.tail.max(back)
     }
 
     /// Its last leg.
