@@ -46,6 +46,20 @@ impl Error {
         }
     }
 
+    /// A refusal with what else is known, each on a line of its own.
+    pub fn with_notes(self, notes: &[String]) -> Error {
+        match self {
+            Error::Refused { what, mut help } => {
+                for note in notes {
+                    help.push_str("\nnote: ");
+                    help.push_str(note);
+                }
+                Error::Refused { what, help }
+            }
+            other => other,
+        }
+    }
+
     /// Exit status of the program: 2 for what the user must change, 1 for the rest.
     pub fn exit_status(&self) -> u8 {
         match self {

@@ -41,6 +41,7 @@ fn steps_take_no_memory() {
             method: Stepper::Picard,
             tolerance: 1e-10,
             t_end,
+            way: f64::INFINITY,
             max_evaluations: u64::MAX,
             work_unit: 1.0,
         };

@@ -131,6 +131,45 @@ fn a_crank_that_swings_ever_further_is_not_caught() {
     }
 }
 
+/// As a clock that is wound up: the swing grows to one that lasts, from which the torque takes as much as it gives.
+#[test]
+fn a_swing_that_grows_to_one_that_lasts_is_caught() {
+    let torque =
+        |gain: f64, fast: f64| move |omega: f64| gain * omega * (1.0 - (omega / fast).powi(2));
+    for (gain, fast, methods) in [
+        (3e-4, 8.0, [Method::Auto, Method::Dop853]),
+        (2e-3, 5.0, [Method::Auto, Method::Time]),
+        (5e-5, 3.0, [Method::Auto, Method::Dopri5]),
+    ] {
+        let formula = format!("{gain}*omega*(1 - (omega/{fast})^2)");
+        let scene = pendulum(-1.5, 0.0, &formula);
+        let (turning, (_, last)) = swings((-1.5, 0.0), torque(gain, fast), 300.0);
+        assert!((last + 1.5).abs() < 3.0 * TAU, "it never completes them");
+        for method in methods {
+            let summary = run(&scene, method);
+            let why = summary.stopped.expect("a reason");
+            assert!(why.contains("does not complete 3 turns"), "{why}");
+            assert!(summary.evaluations < 200_000, "{}", summary.evaluations);
+            let said = between(&why);
+            let (low, high) = (said[0].min(said[1]), said[0].max(said[1]));
+            let after: Vec<_> = turning
+                .iter()
+                .filter(|at| at.0 > summary.last.t_s)
+                .collect();
+            assert!(after.len() > 20, "it goes on");
+            assert!(after.iter().all(|at| low < at.1 && at.1 < high), "{why}");
+        }
+    }
+    // What lasts here is beyond the top.
+    let (gain, fast) = (3e-4, 25.0);
+    let scene = pendulum(-1.5, 0.0, &format!("{gain}*omega*(1 - (omega/{fast})^2)"));
+    let (turning, (t, _)) = swings((-1.5, 0.0), torque(gain, fast), 100.0);
+    assert!(turning.len() > 20 && t < 99.0, "it completes them");
+    let summary = run(&scene, Method::Auto);
+    assert_eq!(summary.stopped, None);
+    assert_close(summary.last.t_s, t, 2e-4);
+}
+
 /// What waits for its time is not said to stay: pushed later on the crank turns.
 #[test]
 fn a_load_in_time_may_free_the_crank() {

@@ -176,6 +176,7 @@ fn settings(tolerance: f64, t_end: f64) -> Settings {
         method: Stepper::Picard,
         tolerance,
         t_end,
+        way: f64::INFINITY,
         max_evaluations: 1_000_000,
         work_unit: 1.0,
     }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::reading::ReadingArguments;
 use super::{Outcome, print, say, scene};
 use crate::error::Error;
 use crate::scene::{Measurement, Reading};
@@ -14,15 +15,18 @@ pub(super) struct Arguments {
     /// Scene file, or measured motion as a file ending in .csv; `-` for a scene from standard input; without it the
     /// built-in Duarte engine
     scene: Option<PathBuf>,
+    #[command(flatten)]
+    reading: ReadingArguments,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+    let reading = arguments.reading.reading();
     if let Some(file) = &arguments.scene
         && file
             .extension()
             .is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
     {
-        let motion = Measurement::load(file, &Reading::default())?;
+        let motion = Measurement::load(file, &reading)?;
         print(&format!(
             "{}: nothing is wrong with {} samples of {}\n",
             file.display(),
@@ -33,6 +37,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
             say(&format!("note: {note}"));
         }
         return Ok(Outcome::Done);
+    }
+    if reading != Reading::default() {
+        return Err(Error::refused(
+            "--column, --columns and --decimal say how measured motion is read, and this is a scene",
+            "give a file ending in .csv, or leave them out",
+        ));
     }
     let scene = scene(arguments.scene.as_ref())?;
     let name = match &arguments.scene {

@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::reading::ReadingArguments;
 use super::{Outcome, Streams, create, fill, is_standard};
 use crate::error::Error;
 use crate::report;
-use crate::scene::{Measured, Measurement, Reading};
+use crate::scene::Measurement;
 use crate::study::{self, AsPrinted, FitKind, FitSize, InverseOptions};
 
 /// Arguments of `inverse`.
@@ -25,15 +26,8 @@ pub(super) struct Arguments {
     /// samples
     #[arg(long, value_name = "NUMBER", default_value = "auto", value_parser = size, allow_hyphen_values = true)]
     degree: FitSize,
-    /// The measured column, where the file has several: theta, gamma or x
-    #[arg(long, value_name = "NAME")]
-    column: Option<Measured>,
-    /// What the columns of a file without header are, like "t [s],theta [deg]"
-    #[arg(long, value_name = "HEADER")]
-    columns: Option<String>,
-    /// What numbers have between units and tenths, point or comma; with comma, semicolons or tabs separate the columns
-    #[arg(long, value_name = "MARK", default_value = "point", value_parser = ["point", "comma"])]
-    decimal: String,
+    #[command(flatten)]
+    reading: ReadingArguments,
     /// Gives the force that acts beside the forces of the scene, not the whole force on the slider
     #[arg(long)]
     beside_forces: bool,
@@ -78,13 +72,8 @@ fn size(text: &str) -> Result<FitSize, String> {
 }
 
 fn measurement(arguments: &Arguments) -> Result<Measurement, Error> {
-    let reading = Reading {
-        columns: arguments.columns.clone(),
-        column: arguments.column,
-        decimal_comma: arguments.decimal == "comma",
-    };
     match (&arguments.scene, &arguments.data) {
-        (_, Some(data)) => Measurement::load(data, &reading),
+        (_, Some(data)) => Measurement::load(data, &arguments.reading.reading()),
         (None, None) => Ok(Measurement::duarte()),
         (Some(_), None) => Err(Error::refused(
             "inverse needs a scene and the data of a motion",
@@ -122,7 +111,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let out = create(arguments.out.as_ref())?;
     let residuals = create(arguments.residuals.as_ref())?;
     let plot = create(arguments.plot.as_ref())?;
-    let mut result = study::inverse(&scene, &measurement, &options)?;
+    // What is odd in the data may be why it is refused.
+    let mut result = study::inverse(&scene, &measurement, &options)
+        .map_err(|error| error.with_notes(measurement.notes()))?;
     let of_printed = printed.as_ref().and_then(AsPrinted::warning);
     result.summary.warnings.extend(of_printed);
     if let Some(output) = out {

@@ -5,6 +5,7 @@ mod explain;
 mod inverse;
 mod kinematics;
 mod precision;
+mod reading;
 mod reproduce;
 mod schema;
 mod simulate;

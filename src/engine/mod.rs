@@ -6,6 +6,7 @@ pub mod energy;
 pub mod events;
 pub mod guard;
 pub mod library;
+pub mod pace;
 pub mod picard;
 pub mod step;
 pub mod time;

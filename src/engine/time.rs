@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::library::{self, Call, Ended};
+use super::pace::{Ends, Pace};
 use super::picard;
 use super::step::{Node, Step};
 use super::{Counted, Motion};
@@ -26,10 +27,23 @@ pub struct Settings {
     pub tolerance: f64,
     /// Last time, s.
     pub t_end: f64,
+    /// How far (rad) the crank has to turn, if the run ends with that; else infinite.
+    pub way: f64,
     /// Most evaluations; the run ends there with [`Finish::WorkLimit`].
     pub max_evaluations: u64,
     /// Unit of work, J, in which its error is measured.
     pub work_unit: f64,
+}
+
+impl Settings {
+    /// Where a run ends.
+    pub fn ends(&self) -> Ends {
+        Ends {
+            t: self.t_end,
+            way: self.way,
+            evaluations: self.max_evaluations,
+        }
+    }
 }
 
 /// How a run ended.
@@ -43,6 +57,8 @@ pub enum Finish {
     WorkLimit,
     /// At the pace of the last steps it would be reached long before the end.
     WorkLimitAhead,
+    /// At the speed of the last turns it would be.
+    TooManyTurns,
     /// The step size became too small for the time to move on: a singularity.
     StepTooSmall,
     /// There is no acceleration at the start.
@@ -74,76 +90,30 @@ pub fn run(
     settings: &Settings,
     sink: &mut dyn FnMut(&Step) -> bool,
 ) -> (Finish, Step, u64) {
-    let mut pace = Pace::new(start.t, motion.evaluations(), settings);
-    let mut hopeless = false;
+    let mut pace = Pace::new(
+        start.t,
+        motion.evaluations(),
+        settings.ends(),
+        motion.depends_on_time(),
+    );
+    let mut hopeless = None;
     let watched = &mut |step: &Step| {
         if sink(step) {
             return true;
         }
         let travel = step.end.theta - step.start.theta;
         hopeless = pace.is_hopeless(motion.evaluations(), step.end.t, travel);
-        hopeless
+        hopeless.is_some()
     };
     let (finish, last, steps) = match settings.method {
         Method::Picard => picard::run(motion, start, settings, watched),
         Method::Library(method) => in_calls(motion, start, settings, method, watched),
     };
     let finish = match finish {
-        Finish::Stopped if hopeless => Finish::WorkLimitAhead,
+        Finish::Stopped => hopeless.unwrap_or(Finish::Stopped),
         other => other,
     };
     (finish, last, steps)
-}
-
-/// Evaluations over which a pace is taken.
-const WINDOW: u64 = 1_000_000;
-/// A run is given up if at its pace it needs more than the work limit by this factor, and moves by less than so much
-/// (rad) with each evaluation, in two windows in a row. A crank that spins fast and slows down later moves by more.
-const BEYOND: f64 = 5.0;
-const CRAWL: f64 = 1e-5;
-
-/// How fast a run proceeds.
-#[derive(Clone, Copy, Debug)]
-pub struct Pace {
-    t: f64,
-    evaluations: u64,
-    travel: f64,
-    settings: Settings,
-    slow: bool,
-}
-
-impl Pace {
-    /// Of a run that begins at this time (s), with so many evaluations before it.
-    pub fn new(t: f64, evaluations: u64, settings: &Settings) -> Pace {
-        Pace {
-            t,
-            evaluations,
-            travel: 0.0,
-            settings: *settings,
-            slow: false,
-        }
-    }
-
-    /// Whether the work limit will be reached long before the last time, as a run shows that has got to this time (s)
-    /// with so many evaluations in all, and moved by `travel` (rad) since it was last asked.
-    pub fn is_hopeless(&mut self, evaluations: u64, t: f64, travel: f64) -> bool {
-        let Settings {
-            t_end,
-            max_evaluations,
-            ..
-        } = self.settings;
-        self.travel += travel.abs();
-        let spent = (evaluations - self.evaluations) as f64;
-        if spent < WINDOW as f64 || t_end >= FAR {
-            return false;
-        }
-        let needed = (t_end - t) / (t - self.t) * spent;
-        let left = max_evaluations.saturating_sub(evaluations) as f64;
-        let slow = needed > BEYOND * left && self.travel < CRAWL * spent;
-        let was_slow = std::mem::replace(&mut self.slow, slow);
-        (self.t, self.evaluations, self.travel) = (t, evaluations, 0.0);
-        slow && was_slow
-    }
 }
 
 fn in_calls(

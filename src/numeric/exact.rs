@@ -7,6 +7,12 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - (sum - b_part)) + (b - b_part))
 }
 
+/// a·b as a rounded product and its rounding error.
+pub fn two_product(a: f64, b: f64) -> (f64, f64) {
+    let product = a * b;
+    (product, a.mul_add(b, -product))
+}
+
 /// a + b + c with one rounding at the end, also where the terms cancel.
 pub fn sum3(a: f64, b: f64, c: f64) -> f64 {
     let (ab, error_ab) = two_sum(a, b);

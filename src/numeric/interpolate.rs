@@ -2,6 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use super::angle::TAU_REST;
+use super::exact::two_product;
+
 /// How values between two rows are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
@@ -18,6 +21,8 @@ pub struct Curve {
     y: Vec<f64>,
     slope: Option<Vec<f64>>,
     period: Option<f64>,
+    /// What the period lacks of what is meant.
+    lacks: f64,
     spacing: f64,
 }
 
@@ -37,6 +42,7 @@ impl Curve {
             y,
             slope,
             period,
+            lacks: period.map_or(0.0, lacks),
             spacing,
         }
     }
@@ -93,7 +99,7 @@ impl Curve {
     pub fn value(&self, at: f64) -> f64 {
         let (low, high) = self.range();
         let at = match self.period {
-            Some(period) => low + reduced(at - low, period),
+            Some(period) => low + reduced(at - low, period, self.lacks),
             None if (low..=high).contains(&at) => at,
             None => return f64::NAN,
         };
@@ -123,13 +129,28 @@ impl Curve {
     }
 }
 
-/// at modulo period, in [0, period]; whole turns of 2 pi are taken off with the digits that TAU lacks.
-fn reduced(at: f64, period: f64) -> f64 {
-    /// 2 pi − TAU
-    const TAU_REST: f64 = 2.4492935982947064e-16;
-    let turns = (at / period).floor();
-    let rest = period / TAU * TAU_REST;
-    (at - turns * period - turns * rest).clamp(0.0, period)
+/// at modulo period, in [0, period]; `lacks`: [`lacks`] of the period.
+fn reduced(at: f64, period: f64, lacks: f64) -> f64 {
+    let count = (at / period).floor();
+    if count == 0.0 {
+        return at;
+    }
+    // Rounded once: what a product of its own rounds is the same for all angles of a period.
+    ((-count).mul_add(period, at) - count * lacks).clamp(0.0, period)
+}
+
+/// What the float of a period lacks, if that is a number of turns of 2π, or one of up to 720 equal parts of a turn.
+fn lacks(period: f64) -> f64 {
+    const MOST_PARTS: f64 = 720.0;
+    let turns = (period / TAU).round().max(1.0);
+    let parts = (TAU / period).round().max(1.0);
+    let whole = (turns * TAU - parts * period).abs() <= 4.0 * f64::EPSILON * turns * TAU;
+    if !whole || turns > MOST_PARTS || parts > MOST_PARTS {
+        return 0.0;
+    }
+    let (meant, rest) = two_product(turns, TAU);
+    let (given, lost) = two_product(parts, period);
+    ((meant - given) + (rest - lost) + turns * TAU_REST) / parts
 }
 
 /// Slopes of the monotone cubic: the weighted harmonic mean of Fritsch and Butland (SIAM J. Sci. Stat.
@@ -206,6 +227,40 @@ mod tests {
         (4.2, 3.0253333333333337),
         (5.0, 3.5),
     ];
+
+    /// 2π/3 less its float, from 40 digits of π; a period that is no part of a turn is what it is.
+    #[test]
+    fn what_the_float_of_a_period_lacks() {
+        assert_eq!(lacks(TAU), TAU_REST);
+        assert_eq!(lacks(2.0 * TAU), 2.0 * TAU_REST);
+        assert_eq!(lacks(0.5 * TAU), 0.5 * TAU_REST);
+        let third = lacks(2.0943951023931953);
+        assert!((third - 2.2967285655984442e-16).abs() < 1e-30, "{third:e}");
+        assert_eq!((lacks(4.269881), lacks(0.1)), (0.0, 0.0));
+    }
+
+    /// Up and down again like a tent, against whole numbers of 2⁻⁵⁰.
+    #[test]
+    fn periods_are_taken_off_without_rounding() {
+        let unit = 2f64.powi(-50);
+        let period = 4807406341574107u64;
+        let curve = Curve::new(
+            vec![0.0, period as f64 * unit * 0.5],
+            vec![0.0, period as f64 * unit * 0.5],
+            Interpolation::Linear,
+            Some(period as f64 * unit),
+        );
+        for at in [33.7, 17.3, 4.5, -0.1, -29.9, 9.0] {
+            let rest = ((at / unit) as i64).rem_euclid(period as i64);
+            let expected = rest as f64 / period as f64;
+            let expected = expected.min(1.0 - expected);
+            let value = curve.value(at) / (period as f64 * unit);
+            assert!(
+                (value - expected).abs() <= 2.5e-16,
+                "{at}: {value:e} {expected:e}"
+            );
+        }
+    }
 
     #[test]
     fn a_periodic_curve_closes_smoothly() {

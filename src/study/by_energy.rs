@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use super::over_angle::{Motion, energy_residual, late_by};
 use super::profile::Position;
+use super::stopped;
 use super::task::Task;
 use crate::engine::energy::{Orbit, Unserved};
 use crate::numeric::angle::Angle;
@@ -37,7 +38,8 @@ pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, 
         let rests = speed == 0.0 || orbit.turns_back();
         let rounding = if rests { ROUNDING_AT_REST } else { ROUNDING };
         let mut error = late_by(task, last, end, orbit.time_error(end) + rounding * end);
-        error.omega_rad_per_s += off_the_energy(task, &orbit, last, work);
+        error.theta_rad = error.theta_rad.hypot(orbit.misplaced(end));
+        error.omega_rad_per_s += off_the_energy(task, (&orbit, end), last, work);
         (error, None)
     });
     Ok(Motion {
@@ -54,10 +56,15 @@ pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, 
 
 /// How far the speed may be off that of its angle, rad/s: what the series leave out of it somewhere, or less if
 /// the energy of the state says so. The energies are right to their rounding.
-fn off_the_energy(task: &Task<'_>, orbit: &Orbit, last: (Angle, f64), work: f64) -> f64 {
+fn off_the_energy(
+    task: &Task<'_>,
+    (orbit, end): (&Orbit, f64),
+    last: (Angle, f64),
+    work: f64,
+) -> f64 {
     let (angle, omega) = last;
     let left_out = orbit.speed_error() * omega.abs();
-    let (residual, scale) = energy_residual(task, orbit, last, work);
+    let (residual, scale) = energy_residual(task, (orbit, end), last, work);
     let momentum = task.equation().terms(angle.rest).inertia.m * omega.abs();
     let seen = (1.5 * residual.abs() + f64::EPSILON * scale) / momentum;
     // Not a number at rest.
@@ -73,7 +80,13 @@ fn until_the_end(
     mut orbit_until: impl FnMut(f64) -> Result<Orbit, Unserved>,
 ) -> Result<Ended, Unserved> {
     let turns = match task.extent {
-        Extent::Duration(duration) => return Ok((orbit_until(duration)?, duration, None)),
+        Extent::Duration(duration) => {
+            let orbit = orbit_until(duration)?;
+            return Ok(match cut_short(&orbit, duration) {
+                Some((end, why)) => (orbit, end, Some(why)),
+                None => (orbit, duration, None),
+            });
+        }
         Extent::Revolutions(turns) => turns,
     };
     let radians = turns * TAU;
@@ -87,8 +100,9 @@ fn until_the_end(
     for _ in 0..60 {
         let orbit = orbit_until(until)?;
         let period = orbit.period().map(|period| period.0);
+        let known = period.unwrap_or(until.min(orbit.length()));
         let reached = if orbit.turns_back() {
-            time_of_way(task, &orbit, radians, period.unwrap_or(until))
+            time_of_way(task, &orbit, radians, known)
         } else {
             orbit.time_of_turn(radians)
         };
@@ -100,10 +114,22 @@ fn until_the_end(
                 );
                 return Ok((orbit, period, Some(why)));
             }
-            (None, None) => until *= 2.0,
+            (None, None) => match cut_short(&orbit, until) {
+                Some((end, why)) => return Ok((orbit, end, Some(why))),
+                None => until *= 2.0,
+            },
         }
     }
     Err(Unserved::TooLong)
+}
+
+/// Where (s) the work limit ends a motion that is wanted until a time (s), and why, if it does.
+fn cut_short(orbit: &Orbit, until: f64) -> Option<(f64, String)> {
+    let end = orbit.length();
+    (end < until).then(|| {
+        let (angle, omega) = orbit.state(end);
+        (end, stopped::work_limit(&stopped::place(end, angle, omega)))
+    })
 }
 
 /// When a motion that turns back is first so far (rad) from its start, either way.

@@ -153,6 +153,7 @@ pub(super) fn settings(task: &Task<'_>, equation: &Equation) -> Settings {
             Extent::Duration(duration) => duration,
             Extent::Revolutions(_) => FAR,
         },
+        way: task.extent.angle().unwrap_or(f64::INFINITY),
         max_evaluations: task.options.max_evaluations,
         work_unit: if unit > 0.0 { unit } else { 1.0 },
     }

@@ -7,6 +7,7 @@ mod clearance;
 mod closed_form;
 mod curve;
 mod drive;
+mod enclosed;
 mod explain;
 mod forces;
 mod forward;

@@ -38,7 +38,8 @@ pub(super) fn run(
     record: bool,
 ) -> Result<Simulation, Error> {
     let mut position = Position::new(task.equation(), &task.limits, task.start())
-        .with_friction(task.maker.sliding);
+        .with_friction(task.maker.sliding)
+        .with_limit(task.options.max_evaluations);
     if task.plan.engine == Engine::Energy && repeats_with_each_turn(task.scene) {
         position = position.with_turns_alike();
     }
@@ -51,13 +52,19 @@ pub(super) fn run(
             Err(Unsolved { why, .. }) => Err(why),
         },
         // Turns that differ and end at rest are many panels; the map from turn to turn is for them.
-        _ => by_energy::solve(task, &position).or_else(|why| {
-            if why == Unserved::TooLong && position.turns_are_alike() {
+        _ => match by_energy::solve(task, &position) {
+            Err(Unserved::TooLong) if position.turns_are_alike() => {
                 by_angle::solve(task, &position).map_err(|unsolved| unsolved.why)
-            } else {
-                Err(why)
             }
-        }),
+            Err(why) if hands_over(task, why) => match Plan::new(task.scene, Method::Angle) {
+                Ok(plan) => {
+                    task.plan = plan;
+                    return relay::run(task, &position, None, rows, record);
+                }
+                Err(_) => Err(why),
+            },
+            solved => solved,
+        },
     };
     match solved {
         Ok(motion) => finish(task, motion, rows),
@@ -102,7 +109,9 @@ pub(super) fn reason(unserved: Unserved) -> &'static str {
         }
         Unserved::NotSmooth => "a load is not smooth",
         Unserved::TooSlow => "the crank comes too near to rest",
-        Unserved::WorkLimit => "it takes more evaluations than the work limit allows",
+        Unserved::WorkLimit | Unserved::TooManyTurns => {
+            "it takes more evaluations than the work limit allows"
+        }
         Unserved::TooLong => "its turns differ from each other, and they are too many to be kept",
     }
 }
@@ -128,7 +137,7 @@ fn finish(task: &Task<'_>, motion: Motion, rows: &mut dyn RowSink) -> Result<Sim
         turned: angle.minus(task.start()),
         error_estimate: motion.estimate.map(|(error, _)| error),
         estimate_cost: motion.estimate.and_then(|(_, cost)| cost),
-        energy: energy_residual(task, orbit, motion.last, motion.work),
+        energy: energy_residual(task, (orbit, *end), motion.last, motion.work),
         evaluations: motion.evaluations,
         steps: orbit.panels() as u64,
         wall_s: motion.wall_s,
@@ -211,11 +220,11 @@ pub(super) fn speeds(
 /// The energy of the last state against that of the first and the work (J), J, and the largest energy.
 pub(super) fn energy_residual(
     task: &Task<'_>,
-    orbit: &Orbit,
+    (orbit, end): (&Orbit, f64),
     last: (Angle, f64),
     work: f64,
 ) -> (f64, f64) {
-    balance(task, last, work, orbit.largest_kinetic())
+    balance(task, last, work, orbit.largest_kinetic(end))
 }
 
 /// The same for a run whose largest kinetic energy is known, J.

@@ -26,6 +26,7 @@ pub(super) struct Position<'a> {
     /// Work of the loads in one turn, J, and its error, if they are the same in each.
     work_of_turn: Option<(f64, f64)>,
     evaluations: Cell<u64>,
+    most_evaluations: u64,
 }
 
 impl<'a> Position<'a> {
@@ -46,7 +47,14 @@ impl<'a> Position<'a> {
             repeats: loads.have_potential() && !loads.turn_the_crank(),
             work_of_turn: None,
             evaluations: Cell::new(0),
+            most_evaluations: u64::MAX,
         }
+    }
+
+    /// A motion made of its energy ends after so many positions.
+    pub fn with_limit(mut self, most_evaluations: u64) -> Position<'a> {
+        self.most_evaluations = most_evaluations;
+        self
     }
 
     /// With friction at the guide.
@@ -260,6 +268,10 @@ impl Profile for Position<'_> {
         let loads = self.equation.loads();
         let corner = loads.corner_out_of_step(from + apart + turns, to + turns)?;
         Some(corner - turns)
+    }
+
+    fn is_spent(&self) -> bool {
+        self.evaluations() >= self.most_evaluations
     }
 
     fn repeats(&self) -> bool {

@@ -24,6 +24,12 @@ pub(super) fn inside(reach: &[[f64; 2]], theta: f64) -> bool {
     reach.is_empty() || reach.iter().any(within)
 }
 
+/// A time (s) and its state (speed in rad/s) in words.
+pub(super) fn place(t: f64, angle: Angle, speed: f64) -> String {
+    let theta = angle.radians();
+    format!("at t = {t} s, theta = {theta} rad, omega = {speed} rad/s")
+}
+
 pub(super) fn work_limit(place: &str) -> String {
     format!(
         "the work limit of evaluations is reached: stopped {place}; raise --max-evaluations, shorten the run or loosen the tolerance"
@@ -36,6 +42,12 @@ pub(super) fn work_limit_ahead(place: &str) -> String {
     )
 }
 
+pub(super) fn too_many_turns(place: &str) -> String {
+    format!(
+        "the crank turns so often that the work limit of evaluations would be reached long before the end: stopped {place}; shorten the run or raise --max-evaluations"
+    )
+}
+
 /// Why a run ended before its time.
 pub(super) fn reason(
     finish: Finish,
@@ -45,12 +57,7 @@ pub(super) fn reason(
     extent: &Extent,
 ) -> Option<String> {
     let end = &last.end;
-    let place = format!(
-        "at t = {} s, theta = {} rad, omega = {} rad/s",
-        end.t,
-        last.angle(end.theta).radians(),
-        end.omega
-    );
+    let place = place(end.t, last.angle(end.theta), end.omega);
     match (finish, extent) {
         (Finish::AtEnd, Extent::Revolutions(turns)) if end.t >= FAR => Some(format!(
             "the crank does not complete {turns} turns: stopped {place}; give a duration instead"
@@ -58,6 +65,7 @@ pub(super) fn reason(
         (Finish::AtEnd | Finish::Stopped | Finish::NoStart, _) => None,
         (Finish::WorkLimit, _) => Some(work_limit(&place)),
         (Finish::WorkLimitAhead, _) => Some(work_limit_ahead(&place)),
+        (Finish::TooManyTurns, _) => Some(too_many_turns(&place)),
         (Finish::StepTooSmall, _) => {
             let (t, angle, speed) = impossible.unwrap_or((end.t, last.angle(end.theta), end.omega));
             Some(match equation.obstacle(t, angle, speed) {

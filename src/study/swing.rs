@@ -4,9 +4,11 @@
 //! says what follows. From turning point to turning point each arc of one direction lies inside or outside the one
 //! before it in that direction: turning points on one side move inwards for ever or outwards for ever. One that lies
 //! inside an earlier one encloses all that follows (Andronov, Vitt & Khaikin, Theory of Oscillators, on the sequence
-//! function). Where it suffices that the state says what follows, and not what was before, friction is no exception:
+//! function). Outwards they may lead to a swing of its own that is never left, as that of a clock: then one further out
+//! moves inwards, and encloses it. Where it suffices that the state says what follows, and not what was before, friction is no exception:
 //! paths may join.
 
+use super::enclosed::further_out;
 use super::task::Task;
 use crate::numeric::angle::Angle;
 use crate::scene::{Extent, Variable};
@@ -16,9 +18,16 @@ const CLEARLY: f64 = 1e-3;
 /// With friction a crank that is caught may turn so many times more: mostly it comes to rest, which says more.
 const UNTIL_REST: u32 = 200;
 
+/// Turning points after which a larger swing is tried first; then it is after twice as many.
+const FIRST_TRIAL: u64 = 6;
+
 /// The turning points of a run that ends after a number of turns.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Swing {
+    /// The last turning points, how many there were, and after how many a larger swing is tried.
+    recent: [Angle; 5],
+    count: u64,
+    trial: u64,
     /// Whether no load takes or gives energy: then the swing from one turning point to another repeats.
     conserves: bool,
     /// The start, or a turning point,
@@ -48,6 +57,9 @@ impl Swing {
         let of_speed = reads.has(Variable::Omega) || reads.has(Variable::V);
         let rubs = task.scene.reduced().friction.is_some();
         Some(Swing {
+            recent: [start; 5],
+            count: 0,
+            trial: FIRST_TRIAL,
             conserves: !of_speed && !rubs,
             from: start,
             to: None,
@@ -58,8 +70,13 @@ impl Swing {
         })
     }
 
-    /// Takes a turning point; whether the run may end there, as the motion stays between it and the one before.
-    pub fn turns_at(&mut self, at: Angle) -> bool {
+    /// Takes a turning point; whether the run may end there, as the motion stays between it and the one before, or inside
+    /// the swing that `enclosed` finds from rest at an angle further out.
+    pub fn turns_at(
+        &mut self,
+        at: Angle,
+        enclosed: impl FnOnce(Angle) -> Option<[Angle; 2]>,
+    ) -> bool {
         let before = std::mem::replace(&mut self.last, at);
         let Some(to) = self.to else {
             self.to = Some(at).filter(|_| at != self.from);
@@ -78,7 +95,23 @@ impl Swing {
         if inside < 0.0 {
             (self.from, self.to) = (before, Some(at));
         }
+        if self.caught.is_none() && self.patience == 0 {
+            self.caught = self.further_out(at).and_then(enclosed);
+        }
         self.caught.is_some()
+    }
+
+    /// Where to start a larger swing, if it is time to try one.
+    fn further_out(&mut self, at: Angle) -> Option<Angle> {
+        self.recent.rotate_left(1);
+        self.recent[4] = at;
+        self.count += 1;
+        if self.count < self.trial {
+            return None;
+        }
+        let from = further_out(&self.recent)?;
+        self.trial = 2 * self.count;
+        Some(from)
     }
 
     pub fn is_caught(&self) -> bool {

@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use super::enclosed::enclosed;
 use super::log::Log;
 use super::row::{RowMaker, RowSink};
 use super::schedule::{Schedule, passed};
@@ -130,6 +131,7 @@ impl Watch<'_> {
             {
                 continue;
             }
+            let (equation, at) = (self.maker.equation, step.angle(theta));
             self.log.event(|| Event {
                 kind: match what {
                     Crossing::Angle(_) if at_limit => "limit",
@@ -137,7 +139,7 @@ impl Watch<'_> {
                     Crossing::Turning => "turning-point",
                 },
                 t_s: t,
-                theta_rad: step.angle(theta).radians(),
+                theta_rad: at.radians(),
                 omega_rad_per_s: match what {
                     Crossing::Angle(_) => omega,
                     Crossing::Turning => 0.0,
@@ -145,7 +147,7 @@ impl Watch<'_> {
             });
             if what == Crossing::Turning
                 && let Some(swing) = &mut self.swing
-                && swing.turns_at(step.angle(theta))
+                && swing.turns_at(at, |from| enclosed(equation, from, at))
             {
                 self.seen.ends_at = Some(t);
                 break;

@@ -683,6 +683,39 @@ fn check_reads_data_files() {
         .fails(2, &["data.csv:6:6", "is not a number"]);
 }
 
+/// What reads the data for `inverse` reads them for `check`, and says of a scene that it is none.
+#[test]
+fn check_takes_the_options_of_reading() {
+    let folder = folder(&data("t [s];theta [rad]", &rows(";")).replace('.', ","));
+    folder
+        .run(&["check", "data.csv"])
+        .fails(2, &["decimal comma"]);
+    let said = folder.run(&["check", "data.csv", "--decimal", "comma"]);
+    assert!(said.done().stdout.contains("12 samples of theta"));
+    folder.write("bare.csv", &format!("{}\n", rows(",").join("\n")));
+    let columns = ["check", "bare.csv", "--columns", "t [s],theta [rad]"];
+    assert!(folder.run(&columns).done().stdout.contains("12 samples"));
+    folder
+        .run(&["check", "scene.toml", "--decimal", "comma"])
+        .fails(2, &["this is a scene"]);
+}
+
+/// A sensor at the end of its range is said to be there of a fit that is refused, too.
+#[test]
+fn a_refused_fit_says_what_is_odd_in_the_data() {
+    let row = |i: u32| {
+        let theta = 3.0 * (0.2 * f64::from(i)).sin();
+        format!("{},{:.4}", f64::from(i) / 100.0, theta.min(2.0))
+    };
+    let folder = folder(&data(
+        "t [s],theta [rad]",
+        &(0..32).map(row).collect::<Vec<_>>(),
+    ));
+    folder
+        .run(&["inverse", "scene.toml", "data.csv", "--degree", "60"])
+        .fails(2, &["\nnote: equal extreme values follow each other"]);
+}
+
 /// On the left branch every position of the right one is impossible, and said to be so.
 #[test]
 fn positions_of_the_other_branch() {

@@ -22,6 +22,9 @@ const SAFETY: f64 = 0.2;
 const BETWEEN_MARKS: f64 = 64.0;
 /// Most turns that are iterated.
 const MOST_TURNS: f64 = 2e9;
+/// After so many it is seen whether there are too many; turns that rise to a steady one before gain less by then, in the
+/// same measure.
+const WINDOW: f64 = 1e6;
 
 /// Turns that are run through one by one where the map ends, before another run takes over.
 const MOST_SINGLE_TURNS: f64 = 64.0;
@@ -125,6 +128,7 @@ impl<D: Driven> Way<'_, D> {
         let first = mark.turns;
         let mut known = mark;
         let mut before = mark;
+        let (mut seen, mut gained) = (0.0, f64::INFINITY);
         loop {
             let turn = match self.turns.turn(mark.kinetic) {
                 Some(turn) => turn,
@@ -160,8 +164,17 @@ impl<D: Driven> Way<'_, D> {
                 self.turns.marks.push(mark);
                 known = mark;
             }
-            if mark.turns - first > MOST_TURNS {
-                return (known, Some(Unserved::TooLong));
+            let done = mark.turns - first;
+            if done > MOST_TURNS {
+                return (known, Some(Unserved::WorkLimit));
+            }
+            if done >= seen {
+                // Turns that rise become shorter: more of them are left than this.
+                let rises = turn.gain > 0.0 && turn.gain >= gained * (1.0 - WINDOW / MOST_TURNS);
+                if rises && left > MOST_TURNS {
+                    return (known, Some(Unserved::TooManyTurns));
+                }
+                (seen, gained) = (seen + WINDOW, turn.gain);
             }
             self.rises = turn.gain > 0.0;
             self.lost = turn.gain.abs();
@@ -252,10 +265,12 @@ impl<D: Driven> Way<'_, D> {
         self.march.restart(mark.kinetic);
         self.march.gives_up = true;
         let most = match map_ended {
-            None | Some(Unserved::WorkLimit) => 1.0,
+            None | Some(Unserved::WorkLimit | Unserved::TooManyTurns) => 1.0,
             Some(_) => MOST_SINGLE_TURNS,
         };
-        if map_ended == Some(Unserved::WorkLimit) {
+        let limited =
+            map_ended.filter(|why| matches!(why, Unserved::WorkLimit | Unserved::TooManyTurns));
+        if limited.is_some() {
             self.march.most_evaluations = u64::MAX;
         }
         loop {
@@ -275,10 +290,7 @@ impl<D: Driven> Way<'_, D> {
             match map_ended {
                 _ if passed => return Ok(Ended::AtGoal(done.into())),
                 None if all => return Ok(Ended::AtGoal(done.into())),
-                Some(Unserved::WorkLimit) if all => {
-                    return Ok(Ended::Short(Unserved::WorkLimit));
-                }
-                Some(_) if all => return Ok(Ended::Short(Unserved::TooLong)),
+                Some(_) if all => return Ok(Ended::Short(limited.unwrap_or(Unserved::TooLong))),
                 _ => {}
             }
         }

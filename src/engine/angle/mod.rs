@@ -29,7 +29,8 @@ use std::f64::consts::TAU;
 
 use super::energy::leg::Leg;
 use super::energy::{Orbit, Unserved};
-use super::time::Start;
+use super::pace::{Ends, Pace};
+use super::time::{FAR, Start};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MOST, Values};
 pub use errors::Errors;
@@ -188,8 +189,13 @@ pub fn run<D: Driven>(
     march.gives_up = true;
     let reads_time = driven.is_driven() && driven.reads_time();
     let repeats = !reads_time && !march.has_switch();
+    let mut pace = pace(&march, goal, reads_time);
     let mut leg = Leg::open();
     loop {
+        let spent = march.evaluations;
+        if march.at_turn() && leg.len() > 0 && pace.is_hopeless(spent, march.t.0, TAU).is_some() {
+            return Ok(ended(march, leg, (start, speed), Unserved::TooManyTurns));
+        }
         if repeats && march.at_turn() && march.turns.abs() >= TURNS_BEFORE_MAP {
             return map::run(march, leg, start, speed, goal, resolution);
         }
@@ -201,20 +207,7 @@ pub fn run<D: Driven>(
         let Done { panel, spent, work } = match next {
             Ok(done) => done,
             Err(why) if leg.len() == 0 => return Err(why),
-            Err(why) => {
-                return Ok(Driving {
-                    short: leg.last_angle(start.turns).map(|angle| Short {
-                        why,
-                        angle,
-                        kinetic: march.kinetic,
-                    }),
-                    end: leg.duration.0,
-                    orbit: Orbit::one_way(start, speed, leg),
-                    work: march.work,
-                    errors: march.errors,
-                    evaluations: march.evaluations,
-                });
-            }
+            Err(why) => return Ok(ended(march, leg, (start, speed), why)),
         };
         let turned = (panel.piece.to - start.rest).abs() + panel.turns.abs() * TAU;
         leg.push(panel);
@@ -238,6 +231,41 @@ pub fn run<D: Driven>(
                 short: None,
             });
         }
+    }
+}
+
+/// What tells whether a run whose turns are run through one by one will reach its goal.
+fn pace<D: Driven>(march: &March<'_, D>, goal: Goal, reads_time: bool) -> Pace {
+    let (t, way) = match goal {
+        Goal::Time(until) => (until, f64::INFINITY),
+        Goal::Turned(way) => (FAR, way),
+    };
+    let ends = Ends {
+        t,
+        way,
+        evaluations: march.most_evaluations,
+    };
+    Pace::new(0.0, march.evaluations, ends, reads_time)
+}
+
+/// A run that ended before its goal, from an angle with a speed (rad/s).
+fn ended<D: Driven>(
+    march: March<'_, D>,
+    leg: Leg,
+    (start, speed): (Angle, f64),
+    why: Unserved,
+) -> Driving {
+    Driving {
+        short: leg.last_angle(start.turns).map(|angle| Short {
+            why,
+            angle,
+            kinetic: march.kinetic,
+        }),
+        end: leg.duration.0,
+        orbit: Orbit::one_way(start, speed, leg),
+        work: march.work,
+        errors: march.errors,
+        evaluations: march.evaluations,
     }
 }
 

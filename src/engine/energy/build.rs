@@ -54,6 +54,8 @@ struct Builder<'a> {
     whole_turn: f64,
     /// Kinetic energy that each turn gains, if it is the same in each, J.
     gain: Option<f64>,
+    /// How far that may be off, J.
+    gain_error: f64,
     home: Option<Return<'a>>,
     leg: Leg,
     /// Where the next panel begins, rad.
@@ -88,6 +90,7 @@ impl Leg {
             begin,
             whole_turn,
             gain: work.map(|(work, _)| begin.direction * work),
+            gain_error: work.map_or(0.0, |(_, error)| error),
             home: Return::new(profile, whole_turn, begin.kinetic),
             leg: Leg::open(),
             at: begin.start,
@@ -106,6 +109,9 @@ impl Leg {
             attempts += 1;
             if attempts > MOST_ATTEMPTS {
                 return Err(Unserved::TooLong);
+            }
+            if builder.leg.len() > 0 && profile.is_spent() {
+                break;
             }
             builder.panel(tolerance)?;
             if builder.is_home() {
@@ -240,7 +246,7 @@ impl Builder<'_> {
             self.leg.after = After::GoesOn;
         } else {
             self.at = start;
-            self.off = self.begin.off;
+            self.off = self.turns.mul_add(self.gain_error, self.begin.off);
             let gain = self.gain.unwrap_or_default();
             self.kinetic = gain.mul_add(self.turns, self.begin.kinetic);
         }

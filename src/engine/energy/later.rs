@@ -71,14 +71,14 @@ impl Later {
         }
     }
 
-    /// Largest kinetic energy, J.
-    pub fn largest_kinetic(&self) -> f64 {
+    /// Largest kinetic energy until a time (s), J.
+    pub fn largest_kinetic(&self, until: f64) -> f64 {
         match self {
             Later::Mapped(turns) => {
                 let marks = turns.marks.iter().map(|mark| mark.kinetic);
                 marks.fold(turns.last.largest_kinetic(), f64::max)
             }
-            Later::Gaining(gains) => gains.largest_kinetic(),
+            Later::Gaining(gains) => gains.largest_kinetic(until),
         }
     }
 }

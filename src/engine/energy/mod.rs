@@ -7,6 +7,7 @@
 //! makes dt/ds smooth. Where each turn gains the same work, the time of many turns is a sum in closed form.
 
 mod build;
+mod doubt;
 mod extreme;
 mod gains;
 mod home;
@@ -44,6 +45,9 @@ pub trait Profile {
     /// The nearest angle after `from` and before `to`, in either direction, at which a panel must end beside them.
     fn corner_between(&self, from: f64, to: f64) -> Option<f64>;
 
+    /// Whether as many positions were tabulated as the run may take: then it ends with the panels that it has.
+    fn is_spent(&self) -> bool;
+
     /// Whether everything repeats after a turn and no work is done in one.
     fn repeats(&self) -> bool;
 
@@ -61,6 +65,8 @@ pub enum Unserved {
     NotFinite,
     /// It takes more evaluations than are allowed.
     WorkLimit,
+    /// It would take more than are allowed long before its end, as it turns so often.
+    TooManyTurns,
     /// More panels than are kept: a long run whose turns differ from each other.
     TooLong,
     /// A load jumps, or has a corner that nobody announced.

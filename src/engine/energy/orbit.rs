@@ -75,7 +75,7 @@ impl Orbit {
                 tolerance,
             };
             later = Gains::new(&course, FIRST_TURNS, forward.duration, until)?;
-            if later.is_none() {
+            if later.is_none() && !profile.is_spent() {
                 forward = leg(direction, until, f64::INFINITY)?;
             }
         }
@@ -179,7 +179,7 @@ impl Orbit {
     }
 
     /// Number of whole periods before t, and the time that is left.
-    fn split(&self, t: f64) -> (f64, f64) {
+    pub(super) fn split(&self, t: f64) -> (f64, f64) {
         match self.period() {
             Some((period, rest)) if t > period => {
                 let count = (t / period).floor();
@@ -239,24 +239,6 @@ impl Orbit {
         })
     }
 
-    /// How far a time may be off, s: by the tails of the series and the rounding of energies.
-    pub fn time_error(&self, until: f64) -> f64 {
-        let (back, later) = (self.backward.as_ref(), self.later.as_ref());
-        let error = self.forward.error
-            + back.map_or(0.0, |leg| leg.error)
-            + later.map_or(0.0, |later| later.error());
-        let duration = later.map_or(self.forward.duration.0, |later| later.end())
-            + back.map_or(0.0, |leg| leg.duration.0);
-        let left_out = back.map_or(0.0, |leg| leg.left_out);
-        error / duration * until + self.forward.left_out.max(left_out)
-    }
-
-    /// What the series leave out of the speed, relative to it.
-    pub fn speed_error(&self) -> f64 {
-        let back = self.backward.as_ref().map_or(0.0, |leg| leg.tail);
-        self.forward.tail.max(back)
-    }
-
     /// Its last leg.
     pub(in crate::engine) fn last_leg(&self) -> &Leg {
         match self.later.as_deref() {
@@ -267,20 +249,21 @@ impl Orbit {
 
     /// How long it is known, s: for ever if it repeats.
     pub fn length(&self) -> f64 {
-        match self.period() {
-            Some(_) => f64::INFINITY,
-            None => {
-                let later = self.later.as_ref();
-                later.map_or(self.forward.duration.0, |later| later.end())
-            }
+        let there = self.forward.duration.0;
+        match (self.period(), &self.backward, &self.later) {
+            (Some(_), _, _) => f64::INFINITY,
+            (None, _, Some(later)) => later.end(),
+            (None, Some(back), None) => 2.0 * there + back.duration.0,
+            (None, None, None) if self.turns_back() => 2.0 * there,
+            (None, None, None) => there,
         }
     }
 
-    /// Largest kinetic energy at the ends of panels, J.
-    pub fn largest_kinetic(&self) -> f64 {
+    /// Largest kinetic energy at the ends of panels until a time (s), J.
+    pub fn largest_kinetic(&self, until: f64) -> f64 {
         let back = self.backward.as_ref().map_or(0.0, Leg::largest_kinetic);
         let later = self.later.as_ref();
-        let later = later.map_or(0.0, |later| later.largest_kinetic());
+        let later = later.map_or(0.0, |later| later.largest_kinetic(until));
         self.forward.largest_kinetic().max(back).max(later)
     }
 

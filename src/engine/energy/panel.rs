@@ -32,6 +32,8 @@ pub(in crate::engine) struct Panel {
     pub(super) extremes: [Extreme; 2],
     /// What its series of dt/dx leaves out, relative to the largest.
     pub tail: f64,
+    /// How far the turning point at its end may be off, rad.
+    pub misplaced: f64,
 }
 
 /// What is found when a panel is tried.
@@ -124,17 +126,11 @@ impl Panel {
             Turning::AtStart => 2.0 * piece.span().abs() * energy.mean_force(1.0),
             Turning::AtEnd => 0.0,
         };
-        Ok(Tried::Done(
-            Box::new(Panel::from_slopes(
-                piece,
-                rule,
-                &slopes,
-                slope,
-                shaken,
-                kinetic_at_end,
-            )),
-            steep.energy,
-        ))
+        let panel = Panel {
+            misplaced: steep.misplaced(&piece, off),
+            ..Panel::from_slopes(piece, rule, &slopes, slope, shaken, kinetic_at_end)
+        };
+        Ok(Tried::Done(Box::new(panel), steep.energy))
     }
 
     /// A panel from dt/dx at the points of a rule and its series, the relative error of dt/dx by rounding, and
@@ -162,6 +158,7 @@ impl Panel {
             kinetic_at_end,
             error: uncertain * duration.0,
             tail,
+            misplaced: 0.0,
         }
     }
 

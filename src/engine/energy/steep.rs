@@ -8,6 +8,10 @@ const AVERAGED: f64 = 0.18;
 /// Up to this ratio of the forces at its ends a panel is as under a constant one.
 const NEARLY_EVEN: f64 = 1.0 + 1e-6;
 
+/// Kinetic and potential energy are products of three factors each, all rounded, which moves a turning point even where
+/// their difference is exact.
+const FACTORS: f64 = 3.0;
+
 /// How steep the force is on a panel.
 pub(super) struct Steep {
     /// Force at the turning point, if there is one, N m,
@@ -40,6 +44,14 @@ impl Steep {
             rounding: place * (high - low) / piece.span().abs() + noise,
             place,
             energy: AVERAGED * place * (high - low) + noise * piece.span().abs(),
+        }
+    }
+
+    /// How far (rad) a turning point at the end may be off by the kinetic energy (J), and by the energies themselves.
+    pub fn misplaced(&self, piece: &Piece, off: f64) -> f64 {
+        match piece.turning {
+            Turning::AtEnd => (FACTORS * off / self.at_turn).min(piece.span().abs()),
+            _ => 0.0,
         }
     }
 

@@ -8,7 +8,10 @@ mod start;
 use std::f64::consts::TAU;
 
 use super::number::{apart, show};
-use super::{Every, Extent, Friction, Geometry, InertiaAbout, Problem, Rod, RodModel, Run, Scene};
+use super::{
+    Every, Extent, Friction, Geometry, InertiaAbout, Motion, MotionKind, Problem, Rod, RodModel,
+    Run, Scene,
+};
 use check::Check;
 
 /// Local error targets below this cannot be met in double precision.
@@ -57,10 +60,10 @@ pub(super) fn problems(scene: &Scene, known: &mut Vec<Problem>) {
     if let Some(clearance) = &scene.clearance {
         clearance::clearance(list, clearance);
     }
-    list.finite("motion.angle", scene.motion.angle);
+    start::angle(list, scene.motion.angle);
     list.finite("motion.speed", scene.motion.speed);
     start::reached(list, &scene.geometry, &scene.motion);
-    run(list, &scene.run);
+    run(list, &scene.run, &scene.motion);
 }
 
 fn geometry(list: &mut Check, geometry: &Geometry) {
@@ -132,9 +135,15 @@ fn friction(list: &mut Check, friction: &Friction) {
     }
 }
 
-/// Output rows of a run, as far as the scene tells; of rows over the crank angle at least those of one turn.
-fn rows(run: &Run) -> f64 {
+/// Output rows of a run, as far as the scene tells; of rows over the crank angle at least those of one turn, and at
+/// constant speed of all.
+fn rows(run: &Run, motion: &Motion) -> f64 {
     match (run.output_every, run.extent) {
+        (Some(Every::Angle(step)), Some(Extent::Duration(duration)))
+            if motion.kind == MotionKind::ConstantSpeed =>
+        {
+            (motion.speed.abs() * duration).max(TAU) / step
+        }
         (Some(Every::Time(step)), Some(Extent::Duration(duration))) => duration / step,
         (Some(Every::Angle(step)), Some(Extent::Revolutions(turns))) => turns * TAU / step,
         (Some(Every::Angle(step)), _) => TAU / step,
@@ -142,7 +151,7 @@ fn rows(run: &Run) -> f64 {
     }
 }
 
-fn run(list: &mut Check, run: &Run) {
+fn run(list: &mut Check, run: &Run, motion: &Motion) {
     match run.extent {
         Some(Extent::Duration(duration)) => list.not_negative("run.duration", duration, "s"),
         Some(Extent::Revolutions(turns)) => list.not_negative("run.revolutions", turns, ""),
@@ -153,7 +162,7 @@ fn run(list: &mut Check, run: &Run) {
         Some(Every::Angle(step)) => list.positive("run.output_every", step, "rad"),
         None => {}
     }
-    if list.sound(["run.output_every"]) && rows(run) > MOST_ROWS {
+    if list.sound(["run.output_every"]) && rows(run, motion) > MOST_ROWS {
         list.add(
             "run.output_every",
             format!("more than {MOST_ROWS} output rows would be written"),

@@ -10,6 +10,20 @@ pub(super) const LENGTHS: [&str; 3] = ["geometry.crank", "geometry.rod", "geomet
 /// The limits themselves are reached, also when rounding puts them outside by this part of the lengths.
 const ROUNDING: f64 = 1e-12;
 
+/// Larger angles, rad, are rounded by more than a hundredth of a degree.
+const LARGEST: f64 = 1e12;
+
+/// The crank angle at the start: its place in the turn is to be known.
+pub(super) fn angle(list: &mut Check, angle: f64) {
+    if list.finite("motion.angle", angle) && angle.abs() > LARGEST {
+        list.add(
+            "motion.angle",
+            format!("{angle:e} rad is so many turns that rounding hides the place in the last one"),
+            "give an angle below 1e12 rad",
+        );
+    }
+}
+
 /// The start must be an angle at which the rod reaches the guide. A scene that says nothing of its motion
 /// has no start: its kinematics can be asked for all the same.
 pub(super) fn reached(list: &mut Check, geometry: &Geometry, motion: &Motion) {

@@ -8,8 +8,9 @@ use super::phase::{
     sliding,
 };
 use crate::engine::guard::{self, Change, Watched};
+use crate::engine::pace::Pace;
 use crate::engine::step::{Node, Step};
-use crate::engine::time::{self, Finish, Pace, Settings, Start};
+use crate::engine::time::{self, Finish, Settings, Start};
 use crate::engine::{Counted, Motion};
 use crate::scene::Friction;
 
@@ -113,7 +114,8 @@ impl Run<'_, '_> {
 
     /// Pieces of sliding until the end.
     fn pieces(&mut self) -> Option<End> {
-        let mut pace = Pace::new(self.now.t, 0, &self.follow.settings);
+        let in_time = self.in_phase(Phase::Sticking).depends_on_time();
+        let mut pace = Pace::new(self.now.t, 0, self.follow.settings.ends(), in_time);
         loop {
             self.arrived.pieces += 1;
             let from = self.now.angle;
@@ -141,8 +143,9 @@ impl Run<'_, '_> {
             if spent >= self.follow.settings.max_evaluations {
                 return Some(End::Integrator(Finish::WorkLimit));
             }
-            if pace.is_hopeless(spent, self.now.t, self.now.angle.minus(from)) {
-                return Some(End::Integrator(Finish::WorkLimitAhead));
+            let travel = self.now.angle.minus(from);
+            if let Some(finish) = pace.is_hopeless(spent, self.now.t, travel) {
+                return Some(End::Integrator(finish));
             }
         }
     }

@@ -65,7 +65,7 @@ impl Observer for CurveWatch<'_> {
         if kind == "turning-point"
             && let Some(swing) = &mut self.swing
         {
-            swing.turns_at(angle);
+            swing.turns_at(angle, |_| None);
         }
         let curve = self.equation.curve();
         self.log.event(|| Event {

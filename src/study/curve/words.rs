@@ -32,6 +32,7 @@ pub(in crate::study) fn why(
         (End::Jam(why), _) => Some(format!("{why}: stopped {place}")),
         (End::Integrator(Finish::WorkLimit), _) => Some(stopped::work_limit(&place)),
         (End::Integrator(Finish::WorkLimitAhead), _) => Some(stopped::work_limit_ahead(&place)),
+        (End::Integrator(Finish::TooManyTurns), _) => Some(stopped::too_many_turns(&place)),
         (End::Integrator(_), _) => Some(singular(task, arrived, equation, &place)),
     }
 }

@@ -98,6 +98,10 @@ impl Pass<'_, '_> {
                         self.arrived.end = End::Integrator(Finish::WorkLimit);
                         return Ok(());
                     }
+                    Some(Unserved::TooManyTurns) => {
+                        self.arrived.end = End::Integrator(Finish::TooManyTurns);
+                        return Ok(());
+                    }
                     Some(Unserved::TooSlow) => {}
                     // What kept the angle from going on is not left behind with the speed.
                     Some(_) => turns = false,
@@ -159,7 +163,7 @@ impl Pass<'_, '_> {
         arrived.work += driving.work;
         arrived.steps += driving.orbit.panels() as u64;
         arrived.over_angle += 1;
-        let largest = driving.orbit.largest_kinetic();
+        let largest = driving.orbit.largest_kinetic(driving.end);
         arrived.largest_kinetic = arrived.largest_kinetic.max(largest);
         arrived.last = None;
         arrived.rubbed = None;

@@ -47,7 +47,7 @@ impl Gains {
             error: 0.0,
         };
         let mut mark = course.mark(done, t);
-        while gains.cells.len() < MOST_CELLS {
+        while gains.cells.len() < MOST_CELLS && !course.profile.is_spent() {
             let Some(cell) = course.cell(mark) else {
                 break;
             };
@@ -189,12 +189,10 @@ impl Gains {
         }
     }
 
-    /// Largest kinetic energy at the starts of turns, J.
-    pub fn largest_kinetic(&self) -> f64 {
-        let ends = self
-            .cells
-            .iter()
-            .flat_map(|cell| [0.0, cell.count].map(|turns| cell.kinetic(turns)));
-        ends.fold(0.0, f64::max)
+    /// Largest kinetic energy at the starts of turns until a time (s), J: it rises or falls from turn to turn.
+    pub fn largest_kinetic(&self, until: f64) -> f64 {
+        let last = self.cell(|mark| mark.until(until) >= 0.0);
+        let (turns, _) = last.turn_at(last.first.until(until));
+        self.cells[0].kinetic(0.0).max(last.kinetic(turns))
     }
 }
