@@ -235,7 +235,10 @@ mod tests {
         assert_eq!(lacks(2.0 * TAU), 2.0 * TAU_REST);
         assert_eq!(lacks(0.5 * TAU), 0.5 * TAU_REST);
         let third = lacks(2.0943951023931953);
-        assert!((third - 2.296_728_565_598_444e-16).abs() < 1e-30, "{third:e}");
+        assert!(
+            (third - 2.296_728_565_598_444e-16).abs() < 1e-30,
+            "{third:e}"
+        );
         assert_eq!((lacks(4.269881), lacks(0.1)), (0.0, 0.0));
     }
 

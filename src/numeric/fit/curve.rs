@@ -76,8 +76,7 @@ impl Curve {
         };
         let rows = kind.rows(samples, size, computed);
         let curve = Curve::to(&rows, kind, size)?;
-        let wants_more = matches!(&curve, Curve::Spline(spline) if spline.wants_more());
-        if curve.is_seen_by(&rows) && !wants_more {
+        if curve.is_seen_by(&rows) {
             return Ok(curve);
         }
         Curve::to(&Rows::from(samples), kind, size)
@@ -150,10 +149,11 @@ impl Curve {
         }
     }
 
-    /// Whether blocks of samples are narrow enough for what the curve does in one.
+    /// Whether blocks of samples are narrow enough for what the curve does in one, and for what the samples ask for.
     pub fn is_seen_by(&self, rows: &Rows<'_>) -> bool {
         let waves = match self {
             Curve::Polynomial(polynomial) => polynomial.degree().pow(2) as f64,
+            Curve::Spline(spline) if spline.wants_more() => f64::INFINITY,
             Curve::Spline(spline) => spline.pieces() as f64,
             Curve::Fourier(fourier) => return fourier.is_seen_by(rows),
         };

@@ -1,8 +1,10 @@
 //! The number of pieces of a spline that samples ask for: that of the largest restricted likelihood among those that each
 //! have twice as many as the one before.
 
+use std::ops::Range;
+
 use super::condensed::Rows;
-use super::likely::Choice;
+use super::likely::{Choice, Left};
 use super::penalized::Normal;
 use super::pieces::DEGREE;
 use super::roughness::ORDER;
@@ -25,6 +27,10 @@ const OF_PART: usize = 1 << 14;
 
 /// Rows of the fewest pieces that are tried of such a part: blocks as narrow do not show its motion.
 const WIDE: usize = 256;
+
+/// Gain in minus twice the logarithm of the likelihood below which such a part asks for no more pieces: a penalty on
+/// differences is not quite one on derivatives, and more pieces always gain a little.
+const SLIGHT: f64 = 16.0;
 
 /// What samples ask for.
 #[derive(Clone, Copy, Debug)]
@@ -62,7 +68,7 @@ impl Enough {
         if rows.is_very_many() && !rows.is_condensed() {
             return Enough::of_part(rows, most);
         }
-        let found = Search::new(rows, FEWEST, most)?;
+        let found = Search::new(rows, FEWEST..most, 0.0)?;
         let finer = if found.digits { LITTLE_FINER } else { FINER };
         let pieces = found.best.grid.pieces;
         Some(Enough {
@@ -75,7 +81,7 @@ impl Enough {
     fn of_part(rows: &Rows<'_>, most: usize) -> Option<Enough> {
         let part = rows.middle((rows.number() / PARTS).max(OF_PART));
         let from = (part.number() / WIDE).max(1);
-        let found = Search::new(&part, from, part.number() - DEGREE - 1)?;
+        let found = Search::new(&part, from..part.number() - DEGREE - 1, SLIGHT)?;
         let whole = found.best.grid.pieces as f64 * (rows.span[1] - rows.span[0])
             / (part.span[1] - part.span[0]);
         let enough = Enough {
@@ -91,16 +97,27 @@ impl Enough {
     /// The sums for them with the likely penalty.
     pub fn choose<'a>(mut self, rows: &'a Rows<'a>) -> Option<(Normal<'a>, Choice)> {
         let most = rows.count.saturating_sub(DEGREE + 1);
+        let mut before: Option<(Normal<'a>, Choice, Left)> = None;
         loop {
             let normal = Normal::new(rows, self.pieces);
             let near = self.likely.map(|likely| normal.choose_near(likely));
-            let choice = near.unwrap_or_else(|| normal.choose())?;
+            let Some(choice) = near.unwrap_or_else(|| normal.choose()) else {
+                // More than the samples determine.
+                return before.map(|(normal, choice, _)| (normal, choice));
+            };
             if !self.until_noise || 2 * self.pieces > most {
                 return Some((normal, choice));
             }
             let left = choice.left(rows);
             if left.is_noise(rows) || left.is_computed(rows) {
                 return Some((normal, choice));
+            }
+            match before {
+                // It is not for want of pieces.
+                Some((normal, choice, before)) if !left.is_much_less_than(&before) => {
+                    return Some((normal, choice));
+                }
+                _ => before = Some((normal, choice, left)),
             }
             self = self.finer(2, most);
         }
@@ -130,9 +147,11 @@ struct Search {
 }
 
 impl Search {
-    fn new(rows: &Rows<'_>, from: usize, most: usize) -> Option<Search> {
-        let levels = rows.levels(from);
-        let mut pieces = from.min(most);
+    /// Of numbers of pieces in a range, as long as they gain more than a slight amount.
+    fn new(rows: &Rows<'_>, range: Range<usize>, slight: f64) -> Option<Search> {
+        let most = range.end;
+        let levels = rows.levels(range.start);
+        let mut pieces = range.start.min(most);
         let mut best: Option<Search> = None;
         let mut worse = 0;
         while pieces <= most && (worse < 2 || best.as_ref().is_some_and(|best| !best.is_noise)) {
@@ -145,7 +164,7 @@ impl Search {
             };
             if best
                 .as_ref()
-                .is_none_or(|best| choice.cost < best.best.cost)
+                .is_none_or(|best| choice.cost < best.best.cost - slight)
             {
                 let left = choice.left(rows);
                 let through = goes_through(&normal, choice.strength);

@@ -78,6 +78,11 @@ impl Left {
             || rows.are_digits(self.squares + rows.left, 0.0)
     }
 
+    /// Whether its correlated part is less than half of that of another one.
+    pub fn is_much_less_than(&self, other: &Left) -> bool {
+        self.products < 0.5 * other.products
+    }
+
     /// Whether it is no more than computed samples are off that were not rounded to steps.
     pub fn is_computed(&self, rows: &Rows<'_>) -> bool {
         rows.floor <= rows.computed && rows.are_digits(self.squares + rows.left, rows.computed)

@@ -35,7 +35,7 @@ pub struct Spline {
     errors: Vec<Vec<f64>>,
     /// Whether its penalty is so weak that it goes through the samples.
     through: bool,
-    /// Whether the samples ask for more pieces than the rows allow.
+    /// Whether the samples ask for more pieces than blocks of them allowed.
     wants_more: bool,
     /// What it and its derivatives may be off between such samples, for each piece.
     between: Vec<[f64; 3]>,
@@ -96,7 +96,11 @@ impl Spline {
         let normal = Normal::new(rows, self.curve.grid.pieces);
         let strengths = [self.likely, self.strength];
         let spline = Spline::new(normal, strengths, self.curve.coefficients.clone());
-        spline.ok_or_else(|| FAILED.to_owned())
+        let spline = spline.ok_or_else(|| FAILED.to_owned())?;
+        Ok(Spline {
+            wants_more: self.wants_more,
+            ..spline
+        })
     }
 
     /// The same but for its errors, which stay those of this one.
@@ -210,7 +214,7 @@ impl Spline {
         self.curve.grid.pieces
     }
 
-    /// Whether the samples ask for more pieces than the rows allow.
+    /// Whether the samples ask for more pieces than blocks of them allowed.
     pub(super) fn wants_more(&self) -> bool {
         self.wants_more
     }
