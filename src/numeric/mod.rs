@@ -12,6 +12,7 @@ pub mod gauss;
 pub mod golden;
 pub mod interpolate;
 pub mod line_fit;
+pub mod median;
 pub mod orthogonal;
 pub mod parallel;
 pub mod real;

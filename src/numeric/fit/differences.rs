@@ -1,6 +1,7 @@
 //! Noise of samples from their differences: of high enough order they leave nothing of a smooth motion.
 
 use super::Samples;
+use crate::numeric::median::median;
 
 /// Orders of the differences.
 const ORDERS: std::ops::RangeInclusive<usize> = 4..=24;
@@ -29,10 +30,7 @@ pub(super) fn noise(samples: &Samples<'_>) -> Option<f64> {
         }
         let stride = windows.div_ceil(WINDOWS);
         let windows = all.windows(order + 1).step_by(stride);
-        let mut sizes: Vec<f64> = windows.map(difference).collect();
-        let middle = sizes.len() / 2;
-        let (_, median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
-        Some(*median / MEDIAN)
+        Some(median(windows.map(difference))? / MEDIAN)
     };
     ORDERS.step_by(2).filter_map(of_order).reduce(f64::min)
 }

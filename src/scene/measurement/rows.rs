@@ -2,6 +2,7 @@
 
 use super::saturated::saturated;
 use super::{LEAST_ROWS, Measured, Measurement};
+use crate::numeric::median::median;
 use crate::scene::number::{apart, computed, counted, show};
 use crate::scene::{Problem, Problems};
 
@@ -81,14 +82,13 @@ fn place(
 /// Steps of time far above the usual one.
 fn gaps(measurement: &Measurement) -> Option<String> {
     let times = measurement.elapsed();
-    let mut steps: Vec<f64> = times.windows(2).map(|w| w[1] - w[0]).collect();
+    let steps: Vec<f64> = times.windows(2).map(|w| w[1] - w[0]).collect();
     let ends = (f64::INFINITY, 0.0f64);
     let (least, most) = (steps.iter()).fold(ends, |(a, b), step| (a.min(*step), b.max(*step)));
     if most <= GAP * least {
         return None;
     }
-    let middle = steps.len() / 2;
-    let usual = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let usual = median(steps)?;
     let wide = |w: &[f64]| w[1] - w[0] > GAP * usual;
     let count = times.windows(2).filter(|w| wide(w)).count();
     let first = times.windows(2).position(wide)?;

@@ -1,6 +1,7 @@
 //! A sensor at the end of its range: it shows one largest or smallest value, sample after sample, of a motion that is fast.
 
 use super::Measurement;
+use crate::numeric::median::median;
 
 /// Fewest equal values in a row.
 const FEWEST: usize = 4;
@@ -28,8 +29,7 @@ pub(super) fn saturated(measurement: &Measurement) -> Option<String> {
     let mut steps: Vec<f64> = values.windows(2).map(|w| (w[1] - w[0]).abs()).collect();
     steps.retain(|step| *step > 0.0);
     let smallest = steps.iter().copied().reduce(f64::min)?;
-    let middle = steps.len() / 2;
-    let usual = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let usual = median(steps)?;
     let fast = |count: usize| {
         let n = count as f64;
         let turn = TURN * (n + 3.0) / (n * n) * smallest.max(measurement.resolution);

@@ -1,5 +1,6 @@
 //! Where the motion does not determine the slider force: near the dead centres, and at rest with friction.
 
+use crate::numeric::median::median;
 use serde::Serialize;
 
 use super::row::{Doubt, InverseRow};
@@ -62,12 +63,7 @@ impl BandRule {
     ) -> BandRule {
         let sizes = torques.clone().map(|(torque, _)| torque.abs());
         let largest = sizes.fold(0.0, f64::max);
-        let mut errors: Vec<f64> = torques.map(|(_, se)| se).collect();
-        let middle = errors.len() / 2;
-        let median = match errors.is_empty() {
-            true => 0.0,
-            false => *errors.select_nth_unstable_by(middle, f64::total_cmp).1,
-        };
+        let median = median(torques.map(|(_, se)| se)).unwrap_or(0.0);
         BandRule {
             half_width_max_n: largest.max(10.0 * factor * median) / r,
             arm_m: LONG_ARM * r,

@@ -1,5 +1,6 @@
 //! The result of an inverse computation in numbers.
 
+use crate::numeric::median::median;
 use serde::Serialize;
 
 use super::bands::{BandRule, DeadCentreBand};
@@ -117,14 +118,13 @@ impl ForceRange {
             }
             errors.push(value.2);
         }
-        let middle = errors.len() / 2;
         // Zero has no sign.
         Some(ForceRange {
             min: min.1 + 0.0,
             min_t_s: min.0,
             max: max.1 + 0.0,
             max_t_s: max.0,
-            median_se: *errors.select_nth_unstable_by(middle, f64::total_cmp).1,
+            median_se: median(errors)?,
         })
     }
 }

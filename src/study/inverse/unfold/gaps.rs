@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use crate::numeric::median::median;
 use crate::scene::Measurement;
 
 /// A time between samples that is so many times the usual one is a gap.
@@ -16,7 +17,7 @@ const BESIDE: usize = 8;
 /// What is said of gaps in which the crank, at the speed beside them, turns that far. `theta`, rad, are the unfolded samples.
 pub(super) fn too_far(measurement: &Measurement, theta: &[f64]) -> Option<String> {
     let times = measurement.elapsed();
-    let usual = median(times.windows(2).map(|w| w[1] - w[0]));
+    let usual = median(times.windows(2).map(|w| w[1] - w[0]))?;
     let last = theta.len() - 1;
     let speed = |from: usize, to: usize| {
         let time = times[to] - times[from];
@@ -45,11 +46,4 @@ pub(super) fn too_far(measurement: &Measurement, theta: &[f64]) -> Option<String
         measurement.times()[first],
         turn(first) / TAU,
     ))
-}
-
-/// The median of at least one number.
-pub(super) fn median(list: impl Iterator<Item = f64>) -> f64 {
-    let mut list: Vec<f64> = list.collect();
-    let middle = list.len() / 2;
-    *list.select_nth_unstable_by(middle, f64::total_cmp).1
 }

@@ -5,6 +5,7 @@ use super::track::Track;
 use super::visit::Motion;
 use crate::mechanism::Linkage;
 use crate::numeric::chebyshev::largest;
+use crate::numeric::median::median;
 use crate::numeric::parallel;
 
 /// Numbers of neighbours that are tried: a smooth motion adds the less the more there are, if samples are dense.
@@ -104,10 +105,11 @@ fn by(
         // Nothing is told by what is all at a fold of a distance, or some of it at one of an angle.
         (spread < f64::INFINITY).then_some(sum.abs() / spread.sqrt().max(f64::MIN_POSITIVE))
     });
-    let mut rest: Vec<f64> = rest.into_iter().flatten().collect();
-    let middle = rest.len() / 2;
+    let rest: Vec<f64> = rest.into_iter().flatten().collect();
     let is_told = FEWEST * rest.len() > inner.div_ceil(every);
-    is_told.then(|| 1.4826 * *rest.select_nth_unstable_by(middle, f64::total_cmp).1)
+    median(rest)
+        .filter(|_| is_told)
+        .map(|median| 1.4826 * median)
 }
 
 /// Standard deviation of what rounding does to values, if so many are equal that they were rounded. It is not noise:

@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::{Unfolded, gaps};
 use crate::error::Error;
 use crate::mechanism::Linkage;
+use crate::numeric::median::median;
 use crate::scene::Measurement;
 
 /// Part of a turn within which angles are that were reduced to one: noise and the scale of a sensor go beyond it.
@@ -79,7 +80,7 @@ fn jumping(measurement: &Measurement) -> Option<String> {
     let (times, values) = (measurement.elapsed(), measurement.values());
     let step = |i: usize| values[i] - values[i - 1];
     let speed = |i: usize| step(i).abs() / (times[i] - times[i - 1]);
-    let usual = gaps::median((1..values.len()).map(speed));
+    let usual = median((1..values.len()).map(speed))?;
     let jumps = |i: &usize| step(*i).abs() > PI && speed(*i) > JUMP * usual;
     let count = (1..values.len()).filter(jumps).count();
     let first = (1..values.len()).find(jumps)?;
