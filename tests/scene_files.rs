@@ -1099,6 +1099,7 @@ fn tables_as_instruments_and_spreadsheets_write_them() {
         "theta [deg]\ttorque [N m]\n0\t1\n90\t2\n180\t4\n",
         "theta [deg] , torque [N m]\r\n 0 , 1 \r\n90, 2\r\n180 ,4\r\n",
         "# measured on the bench\n# one turn; falling load\ntheta [deg],torque [N m]\n0,1\n# the middle\n90,2\n\n180,4",
+        "theta [deg],torque [N m]\n0,1\n  \n90,2\n180,4\n \n",
         "\u{feff}theta [deg],torque [N m]\n0,1\n90,2\n180,4\n",
         "\u{feff}# measured\ntheta [deg],torque [N m]\n0,1\n90,2\n180,4\n",
         "Theta (deg),Torque (Nm)\n0,1\n90,2\n180,4\n",

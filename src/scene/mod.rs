@@ -19,6 +19,7 @@ mod problem;
 mod read;
 mod schema;
 mod table;
+mod text;
 pub mod unit;
 mod validate;
 mod variable;

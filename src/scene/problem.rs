@@ -1,5 +1,6 @@
 //! What is wrong with a scene, and its display with the line of the file.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -97,7 +98,7 @@ impl Problems {
     }
 
     fn render_one(&self, problem: &Problem, renderer: &Renderer) -> String {
-        let title = Level::ERROR.primary_title(problem.what.as_str());
+        let title = Level::ERROR.primary_title(shortened(&problem.what));
         let help = Level::HELP.message(problem.help.as_str());
         let report = match (&self.file, &problem.span) {
             (Some(file), Some(span)) => title.element(
@@ -116,6 +117,21 @@ impl Problems {
         };
         renderer.render(&[report.element(help)])
     }
+}
+
+/// Longest message, in characters: one that is longer quotes a value as long as a file.
+const LONGEST: usize = 300;
+
+/// A message without the middle of what it quotes, if that is very long.
+fn shortened(text: &str) -> Cow<'_, str> {
+    let count = text.chars().count();
+    if count <= LONGEST {
+        return Cow::Borrowed(text);
+    }
+    let half = LONGEST / 2;
+    let start: String = text.chars().take(half).collect();
+    let end: String = text.chars().skip(count - half).collect();
+    Cow::Owned(format!("{start} ... {end}"))
 }
 
 /// The span widened to whole characters of the source, as the renderer needs it.

@@ -122,6 +122,15 @@ fn damaged_times_are_shown_with_line_and_column() {
 }
 
 #[test]
+fn a_value_as_long_as_a_file_is_not_shown_whole() {
+    let row = format!("0.04,{}", "1".repeat(100_000));
+    let folder = folder(&with_row(&row));
+    let outcome = folder.run(&["inverse", "scene.toml", "data.csv"]);
+    let said = outcome.fails(2, &["data.csv:6:6", "` is not a finite number"]);
+    assert!(said.stderr.len() < 2000, "{} bytes", said.stderr.len());
+}
+
+#[test]
 fn damaged_headers_are_shown() {
     for (header, words) in [
         (
@@ -161,6 +170,10 @@ fn damaged_headers_are_shown() {
             ["data.csv:1", "no column holds the time"],
         ),
         ("t [s],t [ms]", ["data.csv:1:7", "two columns `t`"]),
+        (
+            "\"t [s],theta [rad]",
+            ["data.csv:1:1", "a quote is not closed on its line"],
+        ),
         (
             "t [s] theta [rad]",
             ["data.csv:1", "separated by comma, semicolon or tab"],

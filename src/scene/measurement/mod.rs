@@ -8,11 +8,10 @@ mod read;
 mod rows;
 mod saturated;
 mod source;
-mod text;
 
 use std::path::Path;
 
-use super::{Problem, Problems};
+use super::{Problem, Problems, text};
 use crate::error::Error;
 use crate::scene::unit::Quantity;
 use rows::check_rows;
@@ -141,17 +140,10 @@ impl Measurement {
     /// [`Error::Read`] if the file cannot be read, [`Error::Scene`] with all that is wrong with it.
     pub fn load(file: impl AsRef<Path>, reading: &Reading) -> Result<Measurement, Error> {
         let file = file.as_ref();
-        let bytes = if file == Path::new("-") {
-            let mut bytes = Vec::new();
-            std::io::Read::read_to_end(&mut std::io::stdin(), &mut bytes).map(|_| bytes)
-        } else {
-            std::fs::read(file)
-        };
-        let bytes = bytes.map_err(|source| Error::Read {
-            file: file.to_owned(),
-            source,
+        let text = text::decoded(text::bytes(file)?).map_err(|what| {
+            let help = "save the data as plain CSV text in UTF-8";
+            Problems::in_file(file, "", vec![Problem::new("", what, help)])
         })?;
-        let text = text::text(file, bytes)?;
         Ok(Measurement::parse(file, text, reading)?)
     }
 

@@ -8,10 +8,10 @@ use super::columns::{Columns, columns, with_point};
 use super::digits::Digits;
 use super::plain;
 use super::source::{Records, Source, cell, line_at, no_value};
-use super::text::with_line_feeds;
 use super::{Measurement, Reading};
 use crate::scene::number::{self, counted};
-use crate::scene::table::pairs::delimiter;
+use crate::scene::table::pairs::{OPEN_QUOTE, delimiter, open_quote};
+use crate::scene::text::with_line_feeds;
 use crate::scene::{Problem, Problems};
 
 /// Problems that are listed; all are counted.
@@ -38,6 +38,9 @@ pub(super) fn measurement(
     if !records.next() {
         let help = "give rows of time and motion below a header, as `t [s],theta [deg]`";
         return Err(wrong("the file is empty", help));
+    }
+    if runs_on(&records.record) {
+        return Err(Problems::in_file(file, &text, vec![unclosed(&text, 0)]));
     }
     let (header, body) = match &reading.columns {
         Some(_) if columns(&records.record, reading).is_ok() => {
@@ -128,8 +131,8 @@ fn samples(
                 problems.push(problem);
             }
         };
-        if record.iter().any(|cell| cell.contains(&b'\n')) {
-            problems.push(open_quote(text, before));
+        if runs_on(record) {
+            problems.push(unclosed(text, before));
             break;
         }
         before = end;
@@ -199,19 +202,17 @@ fn without_values(text: &str, delimiter: u8) -> Vec<Problem> {
 }
 
 /// A value that goes on over the end of its line, in the record that begins at or after a byte.
-fn open_quote(text: &str, from: usize) -> Problem {
-    let mut start = from;
-    for line in text[from..].split_inclusive('\n') {
-        if let (Some(at), false) = (line.find('"'), line.starts_with('#')) {
-            start += at;
-            break;
-        }
-        start += line.len();
-    }
+fn unclosed(text: &str, from: usize) -> Problem {
+    let at = open_quote(text, from);
     let help = "write numbers without quotes, and each row on a line of its own";
-    let mut problem = Problem::new("quote", "a quote is not closed on its line", help);
-    problem.span = Some(start..start + 1);
+    let mut problem = Problem::new("quote", OPEN_QUOTE, help);
+    problem.span = Some(at..at + 1);
     problem
+}
+
+/// Whether a value of a record goes on over the end of its line.
+fn runs_on(record: &ByteRecord) -> bool {
+    record.iter().any(|cell| cell.contains(&b'\n'))
 }
 
 /// A number, or what is wrong with it and what would be right.

@@ -9,9 +9,9 @@ use super::pairs::Pairs;
 use super::rows::{Column, Rows, columns_error};
 use super::{Interpolation, Table, TableError};
 use crate::error::Error;
-use crate::scene::Variable;
 use crate::scene::number::counted;
 use crate::scene::unit::Quantity;
+use crate::scene::{Variable, text};
 
 impl Table {
     /// Reads a CSV file with a header that names both columns and their units.
@@ -23,12 +23,13 @@ impl Table {
         period: Option<f64>,
     ) -> Result<Table, TableError> {
         let name = file.display().to_string();
-        let text = std::fs::read_to_string(file).map_err(|e| TableError {
+        let bytes = std::fs::read(file).map_err(|e| TableError {
             key: "file",
             what: format!("`{name}` cannot be read: {e}"),
             help: "give the path of a CSV file, relative to the scene file".to_owned(),
         })?;
         let wrong = |what: String| columns_error(of, what);
+        let text = text::decoded(bytes).map_err(|what| wrong(format!("{name}: {what}")))?;
         let mut pairs = Pairs::new(&name, &text).map_err(wrong)?;
         let place = pairs.place(pairs.end());
         let columns =
@@ -59,16 +60,14 @@ impl Table {
 /// calibration.
 pub fn calibration_points(file: &Path) -> Result<Vec<(f64, f64)>, Error> {
     let name = file.display().to_string();
-    let text = std::fs::read_to_string(file).map_err(|source| Error::Read {
-        file: file.to_owned(),
-        source,
-    })?;
     let wrong = |what: String| {
         Error::refused(
             what,
             "the file has two columns, as `load [N],reading`, and a row for each load",
         )
     };
+    let text =
+        text::decoded(text::bytes(file)?).map_err(|what| wrong(format!("{name}: {what}")))?;
     let mut pairs = Pairs::new(&name, &text).map_err(wrong)?;
     let place = pairs.place(pairs.end());
     let header = pairs.header();

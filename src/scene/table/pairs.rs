@@ -26,13 +26,15 @@ impl<'a> Pairs<'a> {
             .flexible(true)
             .from_reader(text.as_bytes());
         let header = reader.headers().map_err(|e| e.to_string())?.clone();
-        Ok(Pairs {
+        let pairs = Pairs {
             name,
             text,
             reader,
             header,
             record: StringRecord::new(),
-        })
+        };
+        pairs.on_one_line(&pairs.header, 0)?;
+        Ok(pairs)
     }
 
     /// The cells of the header.
@@ -56,13 +58,47 @@ impl<'a> Pairs<'a> {
     /// # Errors
     /// What is wrong, with its place, as text.
     pub fn next(&mut self) -> Result<Option<(f64, f64)>, String> {
-        let read = self.reader.read_record(&mut self.record);
-        if !read.map_err(|e| e.to_string())? {
-            return Ok(None);
+        loop {
+            let before = self.end();
+            let read = self.reader.read_record(&mut self.record);
+            if !read.map_err(|e| e.to_string())? {
+                return Ok(None);
+            }
+            self.on_one_line(&self.record, before)?;
+            if self.record.iter().any(|cell| !cell.is_empty()) || self.record.len() > 1 {
+                break;
+            }
         }
         let point = point(&self.record).map_err(|what| format!("{}{what}", self.place(self.end())));
         point.map(Some)
     }
+
+    /// Whether the record that begins at or after a byte ends on its line.
+    fn on_one_line(&self, record: &StringRecord, from: u64) -> Result<(), String> {
+        if !record.iter().any(|cell| cell.contains('\n')) {
+            return Ok(());
+        }
+        let from = usize::try_from(from).unwrap_or(usize::MAX);
+        let at = open_quote(self.text, from);
+        let line = self.text[..at].matches('\n').count() + 1;
+        let name = self.name;
+        Err(format!("{name} line {line}: {OPEN_QUOTE}"))
+    }
+}
+
+/// What is wrong with a value that goes on over the end of its line.
+pub(in crate::scene) const OPEN_QUOTE: &str = "a quote is not closed on its line";
+
+/// The byte of the first quote at or after a byte, comments apart.
+pub(in crate::scene) fn open_quote(text: &str, from: usize) -> usize {
+    let mut start = from.min(text.len());
+    for line in text[start..].split_inclusive('\n') {
+        if let (Some(at), false) = (line.find('"'), line.starts_with('#')) {
+            return start + at;
+        }
+        start += line.len();
+    }
+    start
 }
 
 /// The number of the line that ends at or before a byte of the text, from 1.

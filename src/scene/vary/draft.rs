@@ -7,7 +7,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::{KeyPath, Varied};
 use crate::error::Error;
-use crate::scene::{DUARTE, Problem, Problems, Scene, read};
+use crate::scene::{DUARTE, Problem, Problems, Scene, read, text};
 
 /// A scene file whose values may be replaced before it is read.
 ///
@@ -37,16 +37,11 @@ impl Draft {
     /// Reads the text of a scene file; `-` is standard input.
     ///
     /// # Errors
-    /// [`Error::Read`].
+    /// [`Error::Read`] if the file cannot be read, [`Error::Scene`] if it is no text.
     pub fn load(file: &Path) -> Result<Draft, Error> {
-        let text = if file == Path::new("-") {
-            std::io::read_to_string(std::io::stdin())
-        } else {
-            std::fs::read_to_string(file)
-        };
-        let text = text.map_err(|source| Error::Read {
-            file: file.to_owned(),
-            source,
+        let text = text::decoded(text::bytes(file)?).map_err(|what| {
+            let help = "save the scene as plain text in UTF-8";
+            Problems::in_file(file, "", vec![Problem::new("", what, help)])
         })?;
         Ok(Draft::new(file, text))
     }

@@ -1,0 +1,73 @@
+//! Files of text: scenes, tables, data.
+
+use std::path::Path;
+
+use crate::error::Error;
+
+/// How files begin that are no plain text, and what they are.
+const NO_TEXT: [(&[u8], &str); 4] = [
+    (&[0xff, 0xfe], "UTF-16 text"),
+    (&[0xfe, 0xff], "UTF-16 text"),
+    (
+        b"PK\x03\x04",
+        "an archive, as workbooks of spreadsheets are",
+    ),
+    (&[0x1f, 0x8b], "compressed"),
+];
+
+/// What a file holds; `-` is standard input.
+///
+/// # Errors
+/// [`Error::Read`].
+pub(super) fn bytes(file: &Path) -> Result<Vec<u8>, Error> {
+    let read = if file == Path::new("-") {
+        let mut bytes = Vec::new();
+        std::io::Read::read_to_end(&mut std::io::stdin(), &mut bytes).map(|_| bytes)
+    } else {
+        std::fs::read(file)
+    };
+    read.map_err(|source| Error::Read {
+        file: file.to_owned(),
+        source,
+    })
+}
+
+/// The text that a file holds, or where it stops being one.
+pub(super) fn decoded(bytes: Vec<u8>) -> Result<String, String> {
+    if let Some((_, kind)) = NO_TEXT.iter().find(|(start, _)| bytes.starts_with(start)) {
+        return Err(format!("the file is {kind}"));
+    }
+    let (bytes, at) = match String::from_utf8(bytes) {
+        Ok(text) => match text.find('\0') {
+            None => return Ok(text),
+            Some(zero) => (text.into_bytes(), zero),
+        },
+        Err(error) => {
+            let (at, bytes) = (error.utf8_error().valid_up_to(), error.into_bytes());
+            let zero = bytes[..at].iter().position(|byte| *byte == 0);
+            (bytes, zero.unwrap_or(at))
+        }
+    };
+    let (line, column) = place(&bytes, at);
+    Err(match bytes[at] {
+        0 => format!("line {line}: the file is not text, it has a zero byte"),
+        byte => format!("line {line}, column {column}: the byte 0x{byte:02x} is not UTF-8 text"),
+    })
+}
+
+/// Line and column, both from 1, of a byte.
+fn place(bytes: &[u8], at: usize) -> (usize, usize) {
+    let before = &bytes[..at];
+    let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
+    let start = before.iter().rposition(|byte| *byte == b'\n');
+    (line, at - start.map_or(0, |end| end + 1) + 1)
+}
+
+/// A text whose lines end with line feeds, as those of old systems with carriage returns alone do not.
+pub(super) fn with_line_feeds(text: String) -> String {
+    if !text.contains('\n') && text.contains('\r') {
+        text.replace('\r', "\n")
+    } else {
+        text
+    }
+}
