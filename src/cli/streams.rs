@@ -130,7 +130,7 @@ fn place(path: &Path) -> PathBuf {
 
 /// Whether a path stands for standard input or output.
 pub(super) fn is_standard(path: Option<&PathBuf>) -> bool {
-    path.is_some_and(|path| path == Path::new("-"))
+    path.is_some_and(|path| report::is_standard_output(path))
 }
 
 /// The one place that talks to the user beside the results.

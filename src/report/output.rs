@@ -6,6 +6,38 @@ use std::path::{Path, PathBuf};
 use super::unfinished::Unfinished;
 use crate::error::Error;
 
+/// Names of standard output.
+const STANDARD: [&str; 2] = ["-", "/dev/stdout"];
+
+/// Folders of devices, and of files that are open already.
+const OPEN: [&str; 3] = ["/dev", "/dev/fd", "/proc/self/fd"];
+
+/// Whether a path stands for standard output.
+pub fn is_standard_output(path: &Path) -> bool {
+    STANDARD.iter().any(|name| path == Path::new(name))
+}
+
+/// Whether what is at a path is written as it is, and never replaced: a pipe, a device, a file that is open already.
+pub(super) fn is_stream(path: &Path) -> bool {
+    let open = |folder: &Path| OPEN.iter().any(|known| folder == Path::new(known));
+    let is_open = path.parent().is_some_and(open);
+    path.exists() && !path.is_dir() && (is_open || !path.is_file())
+}
+
+/// The file that a link leads to, for a link stays a link.
+fn followed(path: &Path) -> PathBuf {
+    std::fs::canonicalize(path)
+        .or_else(|_| std::fs::read_link(path).map(|to| folder(path).join(to)))
+        .unwrap_or_else(|_| path.to_owned())
+}
+
+fn folder(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
+}
+
 /// A stream of output. A file takes its name in [`Output::finish`].
 #[derive(Debug)]
 pub struct Output {
@@ -32,34 +64,28 @@ impl Output {
     /// [`Error::Write`].
     pub fn create(path: &Path) -> Result<Output, Error> {
         let target = path.display().to_string();
-        if path == Path::new("-") {
+        if is_standard_output(path) {
             return Ok(Output::standard());
         }
-        // A link stays a link: its target is written.
-        let linked = std::fs::canonicalize(path);
-        let path = linked.as_deref().unwrap_or(path);
-        let folder = match path.parent() {
-            Some(parent) if !parent.as_os_str().is_empty() => parent,
-            _ => Path::new("."),
-        };
         let failed = |source| Error::Write {
             target: target.clone(),
             source,
         };
+        if is_stream(path) {
+            let file = std::fs::File::options().append(true).open(path);
+            return Ok(Output {
+                stream: Stream::Device(BufWriter::new(file.map_err(failed)?)),
+                target,
+            });
+        }
+        let path = &followed(path);
+        let folder = folder(path);
         if !folder.is_dir() {
             let why = format!("the folder `{}` does not exist", folder.display());
             return Err(failed(io::Error::other(why)));
         }
         if path.is_dir() {
             return Err(failed(io::Error::other("it is a folder")));
-        }
-        if path.exists() && !path.is_file() {
-            // A pipe or a device is written to as it is.
-            let file = std::fs::File::options().write(true).open(path);
-            return Ok(Output {
-                stream: Stream::Device(BufWriter::new(file.map_err(failed)?)),
-                target,
-            });
         }
         let before = std::fs::metadata(path).ok();
         // Until it is complete its name means nothing to the user: the system's reason is given without it.

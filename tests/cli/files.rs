@@ -51,6 +51,24 @@ fn an_older_file_is_replaced() {
     assert!(!folder.read("rows.csv").contains("old"));
 }
 
+#[cfg(unix)]
+#[test]
+fn a_link_stays_a_link() {
+    let folder = Folder::with(&free(GOOD));
+    folder.write("there.csv", "old\n");
+    fs::create_dir(folder.path("results")).expect("a folder");
+    for target in ["there.csv", "results/new.csv"] {
+        let link = folder.path("link.csv");
+        std::os::unix::fs::symlink(target, &link).expect("a link");
+        folder
+            .run(&["simulate", "scene.toml", "--out", "link.csv"])
+            .done();
+        assert!(folder.read(target).starts_with("t_s,"), "{target}");
+        assert_eq!(fs::read_link(&link).expect("a link").to_str(), Some(target));
+        fs::remove_file(link).expect("no link");
+    }
+}
+
 #[test]
 fn a_missing_folder_is_named_and_not_made() {
     let folder = Folder::with(&free(GOOD));

@@ -217,6 +217,42 @@ fn an_output_that_cannot_be_written_is_an_error() {
     }
 }
 
+/// The names that the system gives to streams that are open lead to the files that hold them: these are added to.
+#[cfg(target_os = "linux")]
+#[test]
+fn files_that_are_open_already_are_not_replaced() {
+    let folder = Folder::with(&free(GOOD));
+    folder.write("log", "begun\n");
+    let added = |arguments: &[&str], errors: bool| {
+        let log = std::fs::OpenOptions::new()
+            .append(true)
+            .open(folder.path("log"))
+            .expect("a log");
+        let mut command = folder.command(arguments);
+        command.stdin(Stdio::null());
+        let (out, err) = match errors {
+            true => (Stdio::piped(), log.into()),
+            false => (log.into(), Stdio::piped()),
+        };
+        let child = command.stdout(out).stderr(err).spawn();
+        let output = child.expect("the program starts").wait_with_output();
+        let output = output.expect("an end");
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        let said = [output.stdout, output.stderr].concat();
+        (folder.read("log"), String::from_utf8(said).expect("UTF-8"))
+    };
+    let rows = "t_s,theta_rad";
+    let (log, said) = added(&["simulate", "scene.toml", "--out", "/dev/stdout"], false);
+    assert!(log.starts_with(&format!("begun\n{rows}")), "{log}");
+    assert!(said.contains("crank speed"), "{said}");
+    let (log, said) = added(&["simulate", "scene.toml", "--out", "/dev/stderr"], true);
+    assert_eq!(log.matches(rows).count(), 2, "{log}");
+    assert!(log.starts_with("begun\n") && said.contains("crank speed"));
+    folder
+        .run(&["simulate", "scene.toml", "--plot", "/dev/stdout"])
+        .fails(2, &["standard output", "help:"]);
+}
+
 #[test]
 fn nothing_is_written_onto_what_is_read_or_twice_to_one_file() {
     let scene = free(GOOD);

@@ -8,7 +8,8 @@ mod ranges;
 use std::ops::Range;
 use std::path::Path;
 
-use super::{Output, shortest_number};
+use super::output::{Output, is_standard_output, is_stream};
+use super::shortest_number;
 use crate::error::Error;
 use crate::study::{Design, Sweep};
 use growing::Growing;
@@ -56,7 +57,7 @@ impl<'a> SweepWriter<'a> {
         let mut kept = 0;
         let target = match path {
             None => Target::Nothing,
-            Some(path) if path == Path::new("-") || is_device(path) => {
+            Some(path) if is_standard_output(path) || is_stream(path) => {
                 let mut output = Output::create(path)?;
                 output.write(header.as_bytes())?;
                 Target::Stream(output)
@@ -128,11 +129,6 @@ impl<'a> SweepWriter<'a> {
             .tally
             .summary(self.sweep, &self.range, self.kept, wall_s))
     }
-}
-
-/// Whether a path is there and neither a file nor a folder: a pipe, a device.
-fn is_device(path: &Path) -> bool {
-    path.exists() && !path.is_file() && !path.is_dir()
 }
 
 fn row(sweep: &Sweep, design: &Design) -> Result<String, Error> {
