@@ -163,6 +163,9 @@ fn an_obstacle_says_why_there_is_no_acceleration() {
         obstacle(&slider_alone.clone().force(no_value.clone()), 0.6),
         Some(Obstacle::Load)
     );
+    let huge = Load::function(Variables::THETA, |_| 1e308);
+    let light = Scene::new(0.1, 0.3).slider(Slider { mass: 1e-3 });
+    assert_eq!(obstacle(&light.torque(huge), 0.1), Some(Obstacle::TooLarge));
     assert_eq!(
         obstacle(&slider_alone.torque(no_value), 0.6),
         Some(Obstacle::Load)

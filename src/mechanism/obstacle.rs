@@ -12,6 +12,8 @@ pub enum Obstacle {
     Load,
     /// M is zero.
     NoInertia,
+    /// Load or speed are so large that the acceleration has no value in double precision.
+    TooLarge,
 }
 
 impl Equation {
@@ -27,7 +29,12 @@ impl Equation {
             return Some(Obstacle::Load);
         }
         if !self.acceleration(t, theta, omega).is_finite() {
-            return Some(Obstacle::NoInertia);
+            let some = terms.inertia.m.is_normal();
+            return Some(if some {
+                Obstacle::TooLarge
+            } else {
+                Obstacle::NoInertia
+            });
         }
         None
     }

@@ -79,6 +79,9 @@ pub(super) fn reason(
                         "the effective inertia vanishes: stopped {place}; give the crank an inertia"
                     )
                 }
+                Some(Obstacle::TooLarge) => format!(
+                    "a load or the crank speed is too large to be computed with: stopped {place}"
+                ),
                 None if nearly_vanishes(equation, last) => format!(
                     "the effective inertia nearly vanishes and the speed grows without bound: stopped {place}; give the crank an inertia, or use method energy if the loads depend on the position alone"
                 ),
@@ -121,7 +124,11 @@ pub(super) fn no_start(equation: &Equation, start: Start, limits: &Limits) -> Er
             ),
             "check the range of its table or the domain of its formula",
         ),
-        _ => Error::refused(
+        Some(Obstacle::TooLarge) => Error::refused(
+            format!("a load is too large to be computed with at the start, theta = {theta} rad"),
+            "check the units of the loads, and what their formulas give",
+        ),
+        Some(Obstacle::NoInertia) => Error::refused(
             format!("the effective inertia vanishes at the start, theta = {theta} rad"),
             "give the crank an inertia, or start away from the dead centre",
         ),

@@ -136,7 +136,7 @@ pub struct Final {
     pub omega_rad_per_s: f64,
 }
 
-/// Bounds of the global error.
+/// Estimate of the global error, which is no bound.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ErrorEstimate {
     /// rad

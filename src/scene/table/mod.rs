@@ -120,6 +120,15 @@ impl Table {
         self.curve.points_between(low, high)
     }
 
+    /// The value farthest from zero, SI.
+    pub(super) fn largest(&self) -> f64 {
+        let values = self.curve.values().iter().copied();
+        values.fold(
+            0.0,
+            |most: f64, y| if y.abs() > most.abs() { y } else { most },
+        )
+    }
+
     pub(super) fn is_zero(&self) -> bool {
         self.curve.values().iter().all(|y| *y == 0.0)
     }

@@ -43,10 +43,19 @@ pub(super) fn load(list: &mut Check, field: &str, on_slider: bool, load: &Load) 
             list.not_negative(key("stiffness"), *stiffness, "N/m");
             list.finite(key("rest"), *rest);
         }
-        Load::Gas { area, ambient, .. } => {
+        Load::Gas {
+            pressure,
+            area,
+            ambient,
+            ..
+        } => {
+            list.finite(key("file"), pressure.largest());
             list.positive(key("area"), *area, "m2");
             list.not_negative(key("ambient"), *ambient, "Pa");
         }
-        Load::Table(_) | Load::Expression(_) | Load::Function { .. } => {}
+        Load::Table(table) => {
+            list.finite(key("file"), table.largest());
+        }
+        Load::Expression(_) | Load::Function { .. } => {}
     }
 }
