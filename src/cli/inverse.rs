@@ -8,7 +8,7 @@ use super::reading::ReadingArguments;
 use super::{Outcome, Streams, create, fill, is_standard};
 use crate::error::Error;
 use crate::report;
-use crate::scene::Measurement;
+use crate::scene::{Measurement, Reading};
 use crate::study::{self, AsPrinted, FitKind, FitSize, InverseOptions};
 
 /// Arguments of `inverse`.
@@ -72,8 +72,13 @@ fn size(text: &str) -> Result<FitSize, String> {
 }
 
 fn measurement(arguments: &Arguments) -> Result<Measurement, Error> {
+    let reading = arguments.reading.reading();
     match (&arguments.scene, &arguments.data) {
-        (_, Some(data)) => Measurement::load(data, &arguments.reading.reading()),
+        (_, Some(data)) => Measurement::load(data, &reading),
+        (None, None) if reading != Reading::default() => Err(Error::refused(
+            "--column, --columns and --decimal say how measured motion is read, and no file is given",
+            "slider-crank inverse SCENE DATA.csv",
+        )),
         (None, None) => Ok(Measurement::duarte()),
         (Some(_), None) => Err(Error::refused(
             "inverse needs a scene and the data of a motion",

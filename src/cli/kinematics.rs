@@ -19,7 +19,7 @@ pub(super) struct Arguments {
     /// Scene file, `-` for standard input; without it the built-in Duarte engine
     scene: Option<PathBuf>,
     /// Crank angle between rows, from 0 to 360 degrees inclusive
-    #[arg(long, value_name = "ANGLE", default_value = "1 deg", value_parser = positive_angle)]
+    #[arg(long, value_name = "ANGLE", default_value = "1 deg", value_parser = positive_angle, allow_hyphen_values = true)]
     every: f64,
     /// Writes the rows as CSV to this file, `-` for standard output
     #[arg(long, value_name = "FILE")]
@@ -37,10 +37,15 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "LENGTH", value_parser = any_length, allow_hyphen_values = true)]
     with_offset: Vec<f64>,
     /// Sizes crank and rod for this stroke, like "80 mm", at the scene's offset
-    #[arg(long, value_name = "LENGTH", value_parser = length, requires = "rod_ratio")]
+    #[arg(long, value_name = "LENGTH", value_parser = length, requires = "rod_ratio", allow_hyphen_values = true)]
     stroke: Option<f64>,
     /// Rod length over crank length for --stroke, like 1.6
-    #[arg(long, value_name = "NUMBER", requires = "stroke")]
+    #[arg(
+        long,
+        value_name = "NUMBER",
+        requires = "stroke",
+        allow_hyphen_values = true
+    )]
     rod_ratio: Option<f64>,
     /// Closes the loop by Newton-Raphson too, from this guess of the rod's angle seen from the slider, like "180 deg"
     #[arg(long, value_name = "ANGLE", value_parser = angle, allow_hyphen_values = true)]

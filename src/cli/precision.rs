@@ -17,7 +17,7 @@ pub(super) struct Arguments {
     /// Scene files, folders of scene files, `-` for standard input; without one the built-in Duarte engine
     scenes: Vec<PathBuf>,
     /// Tolerances, separated by commas; without it 1e-4 to 1e-13 in decades
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = tolerance)]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = tolerance, allow_hyphen_values = true)]
     tolerances: Vec<f64>,
     /// Writes the rows as CSV to this file, `-` for standard output
     #[arg(long, value_name = "FILE")]
@@ -32,7 +32,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "COUNT", default_value_t = PrecisionOptions::default().repeats, value_parser = clap::value_parser!(u32).range(1..))]
     repeats: u32,
     /// Most time for repeated runs of one scene, in seconds
-    #[arg(long, value_name = "SECONDS", default_value_t = PrecisionOptions::default().most_s, value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", default_value_t = PrecisionOptions::default().most_s, value_parser = seconds, allow_hyphen_values = true)]
     most_time: f64,
     /// Work limit: most evaluations of the equation in one run
     #[arg(long, value_name = "COUNT", default_value_t = PrecisionOptions::default().max_evaluations)]

@@ -37,7 +37,7 @@ pub(super) struct Arguments {
     #[arg(long, default_value = "auto")]
     method: Method,
     /// Local error target, in place of the scene's
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     tolerance: Option<f64>,
     /// Does without the error estimate, which takes a second run
     #[arg(long)]
@@ -46,7 +46,12 @@ pub(super) struct Arguments {
     #[arg(long)]
     steady_state: bool,
     /// Adds the flywheel for this coefficient of speed fluctuation in the steady state
-    #[arg(long, value_name = "NUMBER", requires = "steady_state")]
+    #[arg(
+        long,
+        value_name = "NUMBER",
+        requires = "steady_state",
+        allow_hyphen_values = true
+    )]
     fluctuation: Option<f64>,
     /// Work limit: most evaluations of the equation
     #[arg(long, value_name = "COUNT", default_value_t = Options::default().max_evaluations)]

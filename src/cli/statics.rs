@@ -25,7 +25,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "FORCE", value_parser = force, requires = "drum_radius", allow_hyphen_values = true)]
     weight: Option<f64>,
     /// Radius of the drum, like "27 mm"
-    #[arg(long, value_name = "LENGTH", value_parser = length, requires = "weight")]
+    #[arg(long, value_name = "LENGTH", value_parser = length, requires = "weight", allow_hyphen_values = true)]
     drum_radius: Option<f64>,
     /// Slider force in place of the scene's forces, like "-200 N"; the crank torque is sought
     #[arg(long, value_name = "FORCE", value_parser = force, allow_hyphen_values = true, conflicts_with_all = ["torque", "weight"])]
@@ -39,10 +39,10 @@ pub(super) struct Arguments {
     )]
     friction: Option<f64>,
     /// Tilt at which the slider begins to slide, like "45 deg": gives the friction coefficient
-    #[arg(long, value_name = "ANGLE", value_parser = tilt)]
+    #[arg(long, value_name = "ANGLE", value_parser = tilt, allow_hyphen_values = true)]
     tilt: Option<f64>,
     /// Crank angle between rows, from 0 to 360 degrees inclusive
-    #[arg(long, value_name = "ANGLE", default_value = "1 deg", value_parser = positive_angle)]
+    #[arg(long, value_name = "ANGLE", default_value = "1 deg", value_parser = positive_angle, allow_hyphen_values = true)]
     every: f64,
     /// Adds the velocity ratio and the angle at the crank pin to the rows
     #[arg(long)]

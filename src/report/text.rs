@@ -99,7 +99,11 @@ fn end(facts: &mut Facts, summary: &Summary) {
 }
 
 fn events(summary: &Summary) -> String {
-    let count = |kind: &str| summary.events.iter().filter(|e| e.kind == kind).count();
+    let counted = |kind: &str, noun: &str| {
+        let number = summary.events.iter().filter(|e| e.kind == kind).count();
+        let plural = if number == 1 { "" } else { "s" };
+        (number, format!("{number} {noun}{plural}"))
+    };
     if summary.clearance.is_some() {
         return format!(
             "{} dead centres, impacts and separations",
@@ -109,15 +113,13 @@ fn events(summary: &Summary) -> String {
     if summary.events_total > summary.events.len() as u64 {
         return format!("{} in all", summary.events_total);
     }
-    let mut text = format!(
-        "{} dead centres, {} turning points",
-        count("dead-centre"),
-        count("turning-point")
-    );
+    let (_, mut text) = counted("dead-centre", "dead centre");
+    let (_, turning_points) = counted("turning-point", "turning point");
+    let _ = write!(text, ", {turning_points}");
     for kind in ["limit", "stick", "slip", "rest"] {
-        let number = count(kind);
+        let (number, said) = counted(kind, kind);
         if number > 0 {
-            let _ = write!(text, ", {number} {kind}");
+            let _ = write!(text, ", {said}");
         }
     }
     text

@@ -125,6 +125,50 @@ fn angles_have_units() {
     }
 }
 
+/// A value below zero is refused for what it is, not taken for an option.
+#[test]
+fn values_below_zero_are_values() {
+    let folder = Folder::new();
+    for (arguments, words) in [
+        (&["kinematics", "--every", "-1 deg"][..], "must be positive"),
+        (&["statics", "--every", "-1 deg"], "must be positive"),
+        (&["statics", "--tilt", "-5 deg"], "from 0 to below 90"),
+        (
+            &["statics", "--weight", "1 N", "--drum-radius", "-2 mm"],
+            "must be positive",
+        ),
+        (
+            &["kinematics", "--stroke", "-8 mm", "--rod-ratio", "3"],
+            "must be positive",
+        ),
+        (
+            &["kinematics", "--stroke", "8 mm", "--rod-ratio", "-3"],
+            "a ratio above one",
+        ),
+        (&["simulate", "--tolerance", "-1"], "1e-14 to 0.1"),
+        (
+            &["simulate", "--steady-state", "--fluctuation", "-1"],
+            "between 0 and 2",
+        ),
+        (&["precision", "--tolerances", "-1"], "between 0 and 1"),
+    ] {
+        folder.run(arguments).fails(2, &[words]);
+    }
+}
+
+/// How a file is to be read says nothing where no file is read.
+#[test]
+fn reading_options_need_a_file() {
+    let folder = Folder::new();
+    for option in ["--column=x", "--columns=t [s],x [mm]", "--decimal=comma"] {
+        for command in ["inverse", "check"] {
+            folder
+                .run(&[command, option])
+                .fails(2, &["measured motion is read", "help:"]);
+        }
+    }
+}
+
 #[test]
 fn a_step_that_is_a_slip_of_the_unit_is_refused() {
     let folder = Folder::new();

@@ -26,7 +26,9 @@ fn a_dash_is_the_scene_on_standard_input() {
         folder
             .run_with_input(&[command, "-"], "[geometry]\n")
             .fails(2, &["crank", "rod"]);
-        folder.run(&[command, "-"]).fails(2, &["[geometry]"]);
+        folder
+            .run_with_input(&[command, "-"], "")
+            .fails(2, &["[geometry]"]);
     }
 }
 

@@ -231,6 +231,9 @@ fn the_parts_put_one_after_the_other_are_the_whole() {
     }
     let shown = run(&folder, &["--out", "-"]);
     assert_eq!((shown.code, shown.stdout), (Some(0), wanted));
+    // Of more parts than designs the first have none.
+    let none = run(&folder, &["--shard", "1/1000"]);
+    assert!(none.stdout.contains(", none of these"), "{none:?}");
     assert_eq!(
         folder.names(),
         ["part.csv", "scene.toml", "torque.csv", "whole.csv"]

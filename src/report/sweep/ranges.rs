@@ -163,9 +163,10 @@ pub fn sweep_text(summary: &SweepSummary) -> String {
         );
     }
     let [from, to] = summary.part;
-    let part = match to - (from - 1) == summary.designs {
-        true => String::new(),
-        false => format!(", of these {from} to {to}"),
+    let part = match to - (from - 1) {
+        0 => ", none of these".to_owned(),
+        count if count == summary.designs => String::new(),
+        _ => format!(", of these {from} to {to}"),
     };
     facts.add("designs", format_args!("{}{part}", summary.designs));
     for (status, count) in &summary.status {
