@@ -45,10 +45,12 @@ pub(super) fn facts(summary: &Summary) -> Facts {
         );
     }
     let (relative, residual) = (summary.energy_residual, summary.energy_residual_j);
-    facts.add(
-        "energy residual",
-        format_args!("{relative:.1e} of the largest energy ({residual:.1e} J)"),
-    );
+    if relative.is_finite() {
+        facts.add(
+            "energy residual",
+            format_args!("{relative:.1e} of the largest energy ({residual:.1e} J)"),
+        );
+    }
     let (evaluations, steps) = (summary.evaluations, summary.steps);
     let time = seconds(summary.wall_s);
     facts.add(

@@ -35,7 +35,11 @@ pub(super) fn run(task: &Task<'_>, rows: &mut dyn RowSink) -> Result<Simulation,
         speed,
         end,
     };
-    let torque = drive.torque_range();
+    // Towards a limit, or where the guide locks itself, torque and energy grow without bound.
+    let (torque, energy) = match blocked {
+        Some(_) => (None, (f64::NAN, f64::NAN)),
+        None => (Some(drive.torque_range()), drive.energy_residual()),
+    };
     let wall_s = begun.elapsed();
     write_rows(task, rows, start, speed, end, blocked.is_some())?;
     let solved = Solved {
@@ -49,10 +53,15 @@ pub(super) fn run(task: &Task<'_>, rows: &mut dyn RowSink) -> Result<Simulation,
             theta_rad: 2.0 * f64::EPSILON * last.radians().abs(),
             omega_rad_per_s: 0.0,
         }),
-        energy: drive.energy_residual(),
+        energy,
         wall_s: Duration::as_secs_f64(&wall_s),
         speed: (speed, speed),
-        driving_torque: torque,
+        driving_torque: torque.and_then(Result::ok),
+        warnings: torque
+            .and_then(Result::err)
+            .map(str::to_owned)
+            .into_iter()
+            .collect(),
         events,
         events_total,
         stopped: blocked.map(|t| {

@@ -23,6 +23,9 @@ pub(super) struct Drive<'a> {
 /// Turns of a run whose loads do not repeat that are looked at.
 const MOST_TURNS: f64 = 100.0;
 
+const NOT_FINITE: &str = "the range of the driving torque is not given: the torque has no finite value somewhere, as at a limit of the crank, outside a table of the scene or outside the domain of a formula";
+const TOO_LONG: &str = "the range of the driving torque is not given: the loads depend on the time or the crank angle, and the run has more than 100 turns";
+
 impl Drive<'_> {
     fn torque(&self, t: f64) -> f64 {
         let angle = self.start.plus(self.speed * t);
@@ -35,15 +38,19 @@ impl Drive<'_> {
     }
 
     /// Smallest, largest and mean driving torque: over one turn if every turn is the same and the run is
-    /// longer, else over the run. None where it is not finite, or too long to be looked at.
-    pub fn torque_range(&self) -> Option<TorqueRange> {
+    /// longer, else over the run.
+    ///
+    /// # Errors
+    /// Why it is not known, in words.
+    pub fn torque_range(&self) -> Result<TorqueRange, &'static str> {
         if self.speed == 0.0 {
             let torque = self.torque(0.0);
-            return torque.is_finite().then_some(TorqueRange {
+            let range = TorqueRange {
                 min_nm: torque,
                 max_nm: torque,
                 mean_nm: torque,
-            });
+            };
+            return torque.is_finite().then_some(range).ok_or(NOT_FINITE);
         }
         let turn = TAU / self.speed.abs();
         let reads = self.equation.loads().reads();
@@ -54,17 +61,17 @@ impl Drive<'_> {
             self.end
         };
         if span > MOST_TURNS * turn {
-            return None;
+            return Err(TOO_LONG);
         }
         let times = self.times(span);
         let torques: Vec<f64> = times.iter().map(|t| self.torque(*t)).collect();
         if !torques.iter().all(|torque| torque.is_finite()) {
-            return None;
+            return Err(NOT_FINITE);
         }
-        Some(TorqueRange {
+        Ok(TorqueRange {
             min_nm: -self.largest(&times, &torques, -1.0),
             max_nm: self.largest(&times, &torques, 1.0),
-            mean_nm: self.mean(span)?,
+            mean_nm: self.mean(span).ok_or(NOT_FINITE)?,
         })
     }
 

@@ -12,7 +12,7 @@ use crate::scene::Extent;
 
 pub(super) fn at_limit(last: &Step) -> String {
     format!(
-        "the crank reaches the limit of its motion, where the rod stands normal to the guide: stopped at t = {} s, theta = {} rad; this version does not pass it",
+        "the crank reaches the limit of its motion, where the rod stands normal to the guide: stopped at t = {} s, theta = {} rad; give the rod or the slider a mass, which carries it on",
         last.end.t,
         last.angle(last.end.theta).radians()
     )

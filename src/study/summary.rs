@@ -25,7 +25,7 @@ pub struct Summary {
     /// Estimate of the global error of the last state; none if it was not asked for or cannot be given.
     pub error_estimate: Option<ErrorEstimate>,
     /// Energy at the end minus energy at the start minus work of the loads, divided by the largest of the
-    /// energies that occur.
+    /// energies that occur; not finite for a prescribed speed that runs into a limit, where they grow without bound.
     pub energy_residual: f64,
     /// The same, J.
     pub energy_residual_j: f64,
@@ -105,7 +105,7 @@ impl Summary {
             last: solved.last,
             revolutions: solved.turned / std::f64::consts::TAU,
             error_estimate: solved.error_estimate,
-            energy_residual: if scale > 0.0 { residual / scale } else { 0.0 },
+            energy_residual: if scale == 0.0 { 0.0 } else { residual / scale },
             energy_residual_j: residual,
             evaluations: solved.evaluations,
             steps: solved.steps,

@@ -1,6 +1,6 @@
 //! Scenes and files that cannot be used: exit code 2, all problems with their lines, no result.
 
-use super::program::{Folder, free};
+use super::program::{Folder, driven, free};
 
 const COMMANDS: [&str; 4] = ["simulate", "kinematics", "explain", "check"];
 
@@ -89,6 +89,38 @@ fn a_table_that_cannot_be_read_is_named_with_the_line_that_asks_for_it() {
             .run(&[command, "scene.toml"])
             .fails(2, &["scene.toml:3:", "missing.csv"]);
     }
+}
+
+/// A formula or table need not have a value everywhere; where it has none, nothing is printed in its place.
+#[test]
+fn a_load_without_a_value_is_said() {
+    let load =
+        |formula: &str| format!("[[torque]]\nkind = \"expression\"\nvalue = \"{formula}\"\n");
+    let prescribed = driven("duration = \"1 s\"");
+    let folder = Folder::with(&format!("{}{prescribed}", load("sqrt(theta - 2)")));
+    let explain = |angle| folder.run(&["explain", "scene.toml", "--at", angle]);
+    explain("1 rad").fails(
+        2,
+        &["torque[1]", "no finite value", "theta = 1 rad", "help:"],
+    );
+    explain("3 rad").done();
+    for (command, words) in [
+        ("simulate", "the range of the driving torque is not given"),
+        ("statics", "a load has no finite value at some crank angles"),
+    ] {
+        let shown = folder.run(&[command, "scene.toml"]).done().stdout;
+        assert!(shown.contains(words), "{shown}");
+        assert!(!shown.contains("NaN"), "{shown}");
+    }
+    let always = Folder::with(&format!("{}{prescribed}", load("sqrt(theta + 1)")));
+    for command in ["simulate", "statics"] {
+        let shown = always.run(&[command, "scene.toml"]).done().stdout;
+        assert!(!shown.contains("warning"), "{shown}");
+    }
+    let long = driven("revolutions = 101");
+    let long = Folder::with(&format!("{}{long}", load("sin(theta)")));
+    let shown = long.run(&["simulate", "scene.toml"]).done().stdout;
+    assert!(shown.contains("more than 100 turns"), "{shown}");
 }
 
 #[test]

@@ -53,8 +53,8 @@ const FUNCTIONS_1: &[Function1] = &[
 
 const FUNCTIONS_2: &[Function2] = &[
     ("atan2", f64::atan2),
-    ("min", f64::min),
-    ("max", f64::max),
+    ("min", |a, b| both(a, b, f64::min)),
+    ("max", |a, b| both(a, b, f64::max)),
     ("mod", f64::rem_euclid),
 ];
 
@@ -67,7 +67,20 @@ fn sign(a: f64) -> f64 {
 }
 
 fn step(a: f64) -> f64 {
-    if a < 0.0 { 0.0 } else { 1.0 }
+    match a {
+        _ if a.is_nan() => a,
+        _ if a < 0.0 => 0.0,
+        _ => 1.0,
+    }
+}
+
+/// A value of two numbers, which is none where one of them is none.
+fn both(a: f64, b: f64, of: fn(f64, f64) -> f64) -> f64 {
+    if a.is_nan() || b.is_nan() {
+        f64::NAN
+    } else {
+        of(a, b)
+    }
 }
 
 /// An expression, compiled to postfix order; evaluation allocates nothing.
@@ -191,7 +204,7 @@ fn power(base: f64, exponent: f64) -> f64 {
     if exponent == 2.0 {
         base * base
     } else {
-        base.powf(exponent)
+        both(base, exponent, f64::powf)
     }
 }
 
@@ -235,6 +248,25 @@ mod tests {
         ] {
             let expression = Expression::parse(text).unwrap_or_else(|e| panic!("{text}: {e:?}"));
             assert_eq!(expression.value(&now), expected, "{text}");
+        }
+    }
+
+    /// What has no value anywhere inside has none as a whole.
+    #[test]
+    fn outside_a_domain_there_is_no_value() {
+        for text in [
+            "sqrt(-1)",
+            "max(0, sqrt(t - 1))",
+            "min(sqrt(t - 1), 0)",
+            "step(ln(-1))",
+            "sign(asin(2))",
+            "mod(1, 0)",
+            "sqrt(-1)^0",
+            "1^ln(-1)",
+            "0*ln(0)",
+        ] {
+            let value = Expression::parse(text).unwrap().value(&Instant::default());
+            assert!(value.is_nan(), "{text} = {value}");
         }
     }
 

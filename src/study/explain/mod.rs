@@ -83,7 +83,7 @@ const CONVENTIONS: [&str; 5] = [
 /// Explains a scene; `at` is a crank angle, rad.
 ///
 /// # Errors
-/// As [`Plan::new`]; [`Error::Refused`] for an angle the mechanism has not.
+/// As [`Plan::new`]; [`Error::Refused`] for an angle the mechanism has not, or at which a load has no value.
 pub fn explain(scene: &Scene, method: Method, at: Option<f64>) -> Result<Explanation, Error> {
     let plan = Plan::new(scene, method)?;
     let equation = Equation::new(scene);
@@ -124,8 +124,17 @@ fn terms_at(scene: &Scene, equation: &Equation, theta: f64) -> Result<TermsAt, E
     ] {
         for (i, load) in list.iter().enumerate() {
             let value = single(load, name == "force", &now);
+            let name = format!("{name}[{}]: {load}", i + 1);
+            if !value.is_finite() {
+                return Err(Error::refused(
+                    format!(
+                        "{name}: it has no finite value at theta = {theta} rad, omega = {omega} rad/s, t = 0"
+                    ),
+                    "give another angle, or check the range of its table or the domain of its formula",
+                ));
+            }
             loads.push(LoadAt {
-                name: format!("{name}[{}]: {load}", i + 1),
+                name,
                 value,
                 q_nm: value * arm,
             });
