@@ -2,9 +2,11 @@
 
 mod support;
 
+use std::f64::consts::TAU;
+
 use proptest::prelude::*;
 use slider_crank::mechanism::Linkage;
-use slider_crank::scene::{Load, Scene, Slider};
+use slider_crank::scene::{Load, Scene, Slider, Variables};
 use slider_crank::study::forces;
 use support::close;
 use support::newton::Parts;
@@ -69,4 +71,20 @@ fn the_first_order_approaches_the_exact_for_long_rods() {
 fn forces_need_a_speed() {
     let said = forces(&Scene::new(0.1, 0.3)).unwrap_err().to_string();
     assert!(said.contains("speed"), "{said}");
+}
+
+/// A crank alone is driven by what the load takes: from 0 to -2π N m along the rows of a turn, no more in another one.
+#[test]
+fn the_largest_torques_are_those_of_the_rows() {
+    let load = Load::function(Variables::THETA, |now| now.theta);
+    let scene = Scene::new(0.05, 0.15)
+        .offset(0.02)
+        .torque(load)
+        .constant_speed(0.0, 10.0);
+    let found = forces(&scene).unwrap();
+    let strokes = [found.outward.unwrap(), found.inward.unwrap()];
+    let largest = strokes.map(|stroke| stroke.max.value);
+    let least = strokes.map(|stroke| stroke.min.value);
+    close("largest", largest[0].max(largest[1]), 0.0, 1.0, 1e-15);
+    close("least", least[0].min(least[1]), -TAU, TAU, 1e-15);
 }

@@ -9,6 +9,7 @@ use proptest::prelude::*;
 use slider_crank::mechanism::{Linkage, Statics, drum_torque, friction_from_tilt};
 use slider_crank::scene::{
     Branch, Friction, Gravity, Interpolation, Load, RodModel, Scene, Slider, Table, Variable,
+    Variables,
 };
 use slider_crank::study::{StaticAnalysis, StaticsOptions, statics};
 use support::newton::Parts;
@@ -362,6 +363,35 @@ fn the_least_force_may_be_none() {
             [-1e-6, 1e-6].map(|by| result.row(found.theta_rad + by).balance.band.unwrap().value);
         assert!(around[0] * around[1] < 0.0, "{around:?}");
     }
+}
+
+/// Without weight the force is -torque/x': the least is where the rows of the turn say, though the torque is not the
+/// same a turn earlier.
+#[test]
+fn the_least_force_is_that_of_the_rows() {
+    let falling = Load::function(Variables::THETA, |now| 5.0 - now.theta);
+    let result = statics(
+        &Scene::new(0.05, 0.15).torque(falling),
+        &StaticsOptions::default(),
+    );
+    let result = result.unwrap();
+    let [first, second] = result.least.as_slice() else {
+        panic!("{:?}", result.least)
+    };
+    close("angle of no force", second.theta_rad, 5.0, 5.0, 1e-12);
+    assert_eq!(second.value, 0.0);
+    let row = |theta: f64| result.row(theta).balance.band.unwrap().value;
+    let least = (1..1800)
+        .map(|i| row(f64::from(i) * TAU / 3600.0))
+        .fold(f64::INFINITY, f64::min);
+    close("least of the first stroke", first.value, least, least, 1e-5);
+    close(
+        "at its angle",
+        first.value,
+        row(first.theta_rad),
+        least,
+        1e-15,
+    );
 }
 
 /// Outside its table a load has no value, and the equilibrium none.

@@ -147,7 +147,15 @@ impl ForceAnalysis {
     }
 
     fn extremes(&self, from: f64, to: f64) -> Option<StrokeTorque> {
-        let torque = |theta: f64| self.torque(theta);
+        // That of the rows, from 0 to 360 degrees: loads need not be the same in the next turn.
+        let torque = |theta: f64| {
+            self.torque(if theta == TAU {
+                TAU
+            } else {
+                theta.rem_euclid(TAU)
+            })
+        };
+        let seam = [0.0, TAU].into_iter().filter(|_| (from..to).contains(&TAU));
         let mut angles = vec![from, to];
         let grid = self.linkage().turn_grid();
         let inside = (-1..=2)
@@ -161,6 +169,7 @@ impl ForceAnalysis {
             .filter_map(|w| root::bracketed(slope, w[0], w[1]));
         let mut found: Vec<Located> = tops
             .chain([from, to])
+            .chain(seam)
             .map(|theta| Located {
                 value: torque(theta),
                 theta_rad: theta.rem_euclid(TAU) % TAU,

@@ -111,6 +111,16 @@ pub fn statics(scene: &Scene, options: &StaticsOptions) -> Result<StaticAnalysis
     if scene.clearance.is_some() {
         warnings.push("the clearance of the scene plays no part in the equilibrium".to_owned());
     }
+    let equation = statics.equation();
+    let without_value =
+        |theta: f64| linkage.pose(theta).exists() && !equation.load(0.0, theta, 0.0).is_finite();
+    let grid = linkage.turn_grid().into_iter();
+    if grid.map(|theta| theta.rem_euclid(TAU)).any(without_value) {
+        warnings.push(
+            "a load has no finite value at some crank angles, outside its table or the domain of its formula: their rows are left empty"
+                .to_owned(),
+        );
+    }
     let mut result = StaticAnalysis {
         scene: scene.title.clone().unwrap_or_default(),
         class: limits.class.name(),
@@ -175,9 +185,9 @@ impl StaticAnalysis {
         }
     }
 
-    /// Least magnitudes of a value over a turn.
+    /// Least magnitudes of a value over the turn from 0 to 360 degrees; loads need not be the same in the next one.
     fn least_of(&self, value: impl Fn(&Balance) -> Option<f64>) -> Vec<Located> {
-        let value = |theta: f64| value(&self.balance(theta)).unwrap_or(f64::NAN);
+        let value = |theta: f64| value(&self.balance(theta.rem_euclid(TAU))).unwrap_or(f64::NAN);
         let mut grid = self.statics.equation().linkage().turn_grid();
         grid.push(grid[0] + TAU + (grid[1] - grid[0]));
         let size: Vec<f64> = grid.iter().map(|theta| value(*theta).abs()).collect();
@@ -185,7 +195,10 @@ impl StaticAnalysis {
             .filter(|i| size[*i] < size[i - 1] && size[*i] <= size[i + 1])
             .filter_map(|i| {
                 let (a, b) = (grid[i - 1], grid[i + 1]);
-                let (value, theta) = match root::bracketed(value, a, b) {
+                // Between the end of the turn and its beginning a value may jump over zero.
+                let small = 1e-6 * size[i - 1].max(size[i + 1]);
+                let zero = root::bracketed(value, a, b);
+                let (value, theta) = match zero.filter(|theta| value(*theta).abs() <= small) {
                     Some(theta) => (0.0, theta),
                     None => {
                         let slope = |theta: f64| difference::slope(value, theta, 1e-3);
