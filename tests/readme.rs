@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use serde_json::Value;
+use slider_crank::scene::Expression;
 
 fn repository() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -126,6 +127,17 @@ fn the_table_of_commands_is_complete() {
         .map(|name| name.trim_matches('`').to_owned())
         .collect();
     assert_eq!(listed, commands());
+}
+
+#[test]
+fn every_function_of_formulas_is_named() {
+    let help = Expression::parse("none(1)").expect_err("no function").help;
+    let (_, functions) = help.split_once("functions ").expect("the functions");
+    let text = readme();
+    assert!(functions.split(", ").count() > 15, "{functions}");
+    for function in functions.split(", ") {
+        assert!(text.contains(&format!("`{function}`")), "{function}");
+    }
 }
 
 /// Numbers agree to a millionth, so that the last digits may depend on the machine.
