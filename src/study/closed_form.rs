@@ -204,7 +204,9 @@ fn write_rows(
     let every = task.scene.run.output_every;
     let scene = || Schedule::new(every, Extent::Duration(end));
     let schedule = match task.looked_at.unwrap_or_else(scene) {
-        Schedule::Angles { step } if speed != 0.0 => Schedule::Times {
+        // A crank at rest passes no angles: its first state and its last are the rows.
+        Schedule::Angles { .. } if speed == 0.0 => Schedule::Times { step: end, end },
+        Schedule::Angles { step } => Schedule::Times {
             step: step / speed.abs(),
             end,
         },

@@ -54,6 +54,15 @@ fn a_run_has_500_rows_unless_said_otherwise() {
     }
 }
 
+/// A crank that is held passes no angles, and has its first and its last row.
+#[test]
+fn a_crank_at_rest_has_rows_at_both_ends() {
+    let scene = driven("duration = \"1 s\"\noutput_every = \"1 deg\"");
+    let folder = Folder::with(&scene.replace("10 rad/s", "0 rad/s"));
+    let (_, rows) = folder.simulated(&[]);
+    assert_eq!(rows.column("t_s"), [0.0, 1.0]);
+}
+
 #[test]
 fn rows_are_due_at_multiples_of_the_time_step_and_at_both_ends() {
     for way in WAYS {
