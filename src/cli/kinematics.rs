@@ -73,14 +73,17 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         say(&format!("sized: crank {crank} m, rod {rod} m"));
     }
     let result = study::one_turn(&scene, &arguments.options())?;
-    if let Some(output) = create(arguments.out.as_ref())? {
+    let (out, plot) = (
+        create(arguments.out.as_ref())?,
+        create(arguments.plot.as_ref())?,
+    );
+    if let Some(output) = out {
         let mut writer = TurnWriter::new(output, &result)?;
         for row in result.rows(arguments.every) {
             writer.row(&row)?;
         }
         writer.finish()?;
     }
-    let plot = create(arguments.plot.as_ref())?;
     fill(plot, || report::turn_figure(&result))?;
     streams.show(&result, || report::turn(&result))?;
     Ok(Outcome::Done)

@@ -120,14 +120,17 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         &streams.scene(arguments.scene.as_ref())?,
         &arguments.options(),
     )?;
-    if let Some(output) = create(arguments.out.as_ref())? {
+    let (out, plot) = (
+        create(arguments.out.as_ref())?,
+        create(arguments.plot.as_ref())?,
+    );
+    if let Some(output) = out {
         let mut writer = StaticsWriter::new(output, &result, arguments.details)?;
         for row in result.rows(arguments.every) {
             writer.row(&row)?;
         }
         writer.finish()?;
     }
-    let plot = create(arguments.plot.as_ref())?;
     fill(plot, || report::statics_figure(&result))?;
     streams.show(&result, || report::statics(&result))?;
     Ok(Outcome::Done)

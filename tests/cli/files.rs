@@ -78,6 +78,14 @@ fn a_missing_folder_is_named_and_not_made() {
         // The name under which the file is written until it is complete means nothing to the user.
         assert!(!outcome.stderr.contains(".slider-crank-"), "{outcome:?}");
     }
+    // All outputs are opened before the first is written.
+    let outputs = ["--out", "rows.csv", "--plot", "missing/figure.svg"];
+    for command in ["simulate", "kinematics", "statics", "precision"] {
+        let arguments = [&[command, "scene.toml"], &outputs[..]].concat();
+        folder
+            .run(&arguments)
+            .fails(1, &["missing/figure.svg", "cannot be written"]);
+    }
     assert_eq!(folder.names(), ["scene.toml"]);
 }
 
