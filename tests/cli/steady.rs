@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::program::{Folder, PUMP, Rows, close, driven};
+use super::program::{Folder, PUMP, Rows, close, driven, free};
 
 const LOADS: &str = "\n[[torque]]\nkind = \"motor\"\nstall = \"6 N m\"\nno_load_speed = \"100 rad/s\"\n\
     \n[[force]]\nkind = \"viscous\"\ncoefficient = \"15 N s/m\"\n";
@@ -74,6 +74,14 @@ fn what_has_none_is_refused_and_nothing_is_written() {
         "rows.csv",
     ];
     folder.run(&arguments).fails(2, &["prescribes"]);
+    let load = "[[torque]]\nkind = \"expression\"\nvalue = \"2 - 0.1*theta\"\n";
+    folder.write(
+        "driven.toml",
+        &format!("{load}{}", free("duration = \"1 s\"")),
+    );
+    let words = ["over the crank angle", "repeat with each turn"];
+    let outcome = folder.run(&arguments).fails(2, &words);
+    assert!(!outcome.stderr.contains("--method"), "{outcome:?}");
     assert!(!folder.path("rows.csv").exists());
     folder
         .run(&["simulate", "--fluctuation", "0.02"])

@@ -54,7 +54,14 @@ pub(super) fn refuse_what_has_none(scene: &Scene) -> Result<(), Error> {
     if scene.motion.speed == 0.0 {
         turning.motion.speed = 1.0;
     }
-    Plan::new(&turning, Method::Angle).map(|_| ())
+    let plan = Plan::new(&turning, Method::Angle);
+    plan.map(|_| ()).map_err(|error| match error {
+        Error::Refused { what, .. } => Error::refused(
+            format!("a steady state is found over the crank angle, and {what}"),
+            "use loads that repeat with each turn, or simulate until the motion repeats",
+        ),
+        other => other,
+    })
 }
 
 /// Where the inertia vanishes the speed has no bound.
