@@ -8,7 +8,7 @@ use super::window::Window;
 use crate::numeric::orthogonal::{self, Expansion};
 
 /// Largest degree.
-const MOST: usize = 12;
+pub(super) const MOST: usize = 12;
 
 /// Squared standard errors that a degree d is to bring, over ln(1 + d).
 const DEGREE: f64 = 16.0;
@@ -153,14 +153,14 @@ pub(super) fn is_simpler(one: &Expansion<f64>, other: &Expansion<f64>) -> bool {
 
 /// What a polynomial leaves.
 #[derive(Clone, Copy, Debug)]
-struct Misfit {
-    degree: usize,
+pub(super) struct Misfit {
+    pub degree: usize,
     /// Sum of squares in squared standard errors.
-    squares: f64,
+    pub squares: f64,
 }
 
 impl Misfit {
-    fn cost(&self) -> f64 {
+    pub fn cost(&self) -> f64 {
         self.squares + DEGREE * (self.degree as f64).ln_1p()
     }
 }
@@ -169,11 +169,11 @@ fn least(list: &[Misfit], of: impl Fn(&Misfit) -> f64) -> f64 {
     list.iter().map(of).fold(f64::INFINITY, f64::min)
 }
 
-fn over(values: &[f64], weights: &[f64]) -> Vec<f64> {
+pub(super) fn over(values: &[f64], weights: &[f64]) -> Vec<f64> {
     values.iter().zip(weights).map(|(v, w)| v * w).collect()
 }
 
-fn fitted(t: &[f64], target: &[f64], weights: &[f64], most: usize) -> Expansion<f64> {
+pub(super) fn fitted(t: &[f64], target: &[f64], weights: &[f64], most: usize) -> Expansion<f64> {
     orthogonal::fit(t, target, Some(weights), |squares| squares.len() <= most)
 }
 
@@ -192,7 +192,7 @@ fn refined(window: &Window, sensor: &Sensor<'_>, fit: &Expansion<f64>) -> Vec<Mi
     let mut list = Vec::new();
     let mut best = f64::INFINITY;
     for degree in (1..fit.squares.len()).rev().step_by(2) {
-        let squares = measured(window, sensor, fit, degree);
+        let squares = solved(window, sensor, fit, degree).squares;
         let misfit = Misfit { degree, squares };
         list.push(misfit);
         // Lower degrees leave more.
@@ -204,8 +204,23 @@ fn refined(window: &Window, sensor: &Sensor<'_>, fit: &Expansion<f64>) -> Vec<Mi
     list
 }
 
-/// The sum of squares that a polynomial leaves in terms of what was measured (Gauss and Newton, with halved steps).
-fn measured(window: &Window, sensor: &Sensor<'_>, fit: &Expansion<f64>, degree: usize) -> f64 {
+/// A polynomial in terms of what was measured.
+#[derive(Debug)]
+pub(super) struct Solved {
+    /// Sum of squares in squared standard errors.
+    pub squares: f64,
+    /// Its angles, rad, and how fast what is measured changes with them, in standard errors.
+    pub angles: Vec<f64>,
+    pub slopes: Vec<f64>,
+}
+
+/// The polynomial of a degree that leaves least in terms of what was measured (Gauss and Newton, with halved steps).
+pub(super) fn solved(
+    window: &Window,
+    sensor: &Sensor<'_>,
+    fit: &Expansion<f64>,
+    degree: usize,
+) -> Solved {
     let rows = |angles: &[f64]| -> (Vec<f64>, Vec<f64>) {
         let shown = angles.iter().zip(&window.shown);
         let rows = shown.map(|(angle, (value, noise))| {
@@ -242,7 +257,11 @@ fn measured(window: &Window, sensor: &Sensor<'_>, fit: &Expansion<f64>, degree: 
             break;
         }
     }
-    least
+    Solved {
+        squares: least,
+        angles,
+        slopes,
+    }
 }
 
 /// A fit up to a degree at the given times.

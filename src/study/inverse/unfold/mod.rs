@@ -5,6 +5,7 @@
 //! turns back, and passes it or goes back. Either way the crank angle is continuous: what is taken is the motion that is
 //! smooth there. A crank angle that was reduced to one turn belongs to one in each turn.
 
+mod beginning;
 mod branches;
 mod evidence;
 mod gaps;
@@ -79,15 +80,10 @@ pub(super) fn unfold(
             return Err(cannot_be_told(&what, &place(measurement, trial.first)));
         }
         let passed = steady::passed(&motion);
-        parallel::map(first.into_iter(), |stroke| {
-            Track::new(&motion, &passed, stroke)
-        })
+        parallel::map(first.iter(), |stroke| Track::new(&motion, &passed, *stroke))
     };
-    // At a dead centre the crank angle is known to about √(2 noise/x'').
-    let blur = match sensor.measured {
-        Measured::X => 3.0 * (2.0 * record.noise / sensor.linkage.r).sqrt(),
-        _ => 8.0 * record.noise,
-    };
+    let blur = first.iter().map(|stroke| motion.blur(0, *stroke, BLUR));
+    let blur = blur.fold(0.0, f64::max);
     let Some(taken) = start::choose(record.times, tracks, start, blur) else {
         return Err(Error::refused(
             format!(
@@ -111,6 +107,9 @@ const FEWEST: usize = 3;
 /// Doubts that are too many, if they are this part of all choices.
 const MANY: usize = 7;
 const PART: usize = 2;
+
+/// Standard deviations by which noise may change the first sample.
+const BLUR: f64 = 9.0;
 
 /// Part of the size of values that is their rounding.
 const ROUNDING: f64 = 1e-14;
@@ -148,10 +147,16 @@ fn warnings(
             start.angle, start.speed
         ));
     }
+    if taken.unsure {
+        warnings.push(format!(
+            "the motion begins so slowly, or so near an end of the range of {name}, that angle and speed of the scene do not tell it from its mirror image: which one cannot be told, and all of it depends on that"
+        ));
+    }
     let Track {
         theta,
         doubts,
         visits,
+        ..
     } = &taken.track;
     if let Some(first) = doubts.first() {
         let count = match doubts.len() {

@@ -39,6 +39,11 @@ impl Record<'_> {
         [plain, plain.min(LESS * noise)]
     }
 
+    /// Whether a sample is at a fold, for all that noise tells.
+    pub fn is_at(&self, at: usize, fold: f64) -> bool {
+        (self.values[at] - fold).abs() <= FAR * (self.noise + self.rounding)
+    }
+
     /// Whether the motion may have been at a fold near a sample, between samples too.
     pub fn reaches(&self, at: usize, fold: f64) -> bool {
         let noise = FAR * (self.noise + self.rounding);

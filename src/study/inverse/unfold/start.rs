@@ -12,6 +12,8 @@ pub(super) struct Start {
     pub reason: &'static str,
     /// Whether angle and speed of the scene belong to different motions.
     pub contradicted: bool,
+    /// Whether neither is known of the motion well enough to tell it from its mirror image.
+    pub unsure: bool,
 }
 
 /// The scene's angle belongs to a motion that begins this near to it, rad...
@@ -68,9 +70,10 @@ pub(super) fn choose(
     } else {
         0.0
     };
-    let first = tracks
-        .iter()
-        .map(|(_, track)| first_motion(times, &track.theta, unseen));
+    let first = tracks.iter().map(|(_, track)| match track.beginning {
+        Some(beginning) if beginning.is_known() => beginning.speed,
+        _ => first_motion(times, &track.theta, unseen),
+    });
     let first: Vec<f64> = first.collect();
     let agrees = |i: &usize| sign * first[*i] >= 0.0;
     let by_speed = (0..tracks.len()).find(agrees).unwrap_or(0);
@@ -80,12 +83,19 @@ pub(super) fn choose(
         (_, true) => (by_speed, BY_SPEED),
         (false, false) => (by_speed, BY_NOTHING),
     };
+    let beginning = tracks[taken].1.beginning;
+    let unsure = match reason {
+        BY_SPEED => beginning.is_some_and(|beginning| beginning.is_either_way(start.speed)),
+        BY_NEARER_ANGLE => next - off(nearest) < 2.0 * blur,
+        _ => false,
+    };
     let contradicted = start.speed != 0.0 && plain && !agrees(&nearest);
     let (_, track) = tracks.swap_remove(taken);
     Some(Start {
         track,
         reason,
         contradicted,
+        unsure,
     })
 }
 

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use super::beginning::Beginning;
 use super::strokes::{Fold, Stroke};
 use super::visit::{Motion, Visit};
 use crate::numeric::parallel;
@@ -15,10 +16,12 @@ pub(super) struct Track {
     pub doubts: Vec<usize>,
     /// How often the motion comes to a fold.
     pub visits: usize,
+    /// How it begins, if that is known.
+    pub beginning: Option<Beginning>,
 }
 
-/// Standard deviations that a motion is to outweigh between the first or last samples.
-const STEP: f64 = 6.0;
+/// Part of a time between samples by which the next one is to be farther off, at an end of the record.
+const EVEN: f64 = 0.75;
 
 impl Track {
     /// The motion from a stroke on; at the turning points that it is known to have `passed` it is not looked at again.
@@ -53,6 +56,7 @@ impl Track {
             doubts: doubts.map(|k| motion.turnings[k].at).collect(),
             visits: visits.iter().flatten().count(),
             theta: motion.angles(&along),
+            beginning: motion.beginning(first),
         }
     }
 }
@@ -80,10 +84,10 @@ impl Motion<'_> {
             && theta.len() > 5
         {
             let end = theta.len() - 1;
-            self.mend(&mut theta, [end - 1, end - 2, end - 3, end - 4], *last);
-            self.mend(&mut theta, [end, end - 1, end - 2, end - 3], *last);
-            self.mend(&mut theta, [1, 2, 3, 4], along[0]);
-            self.mend(&mut theta, [0, 1, 2, 3], along[0]);
+            self.mend(&mut theta, end - 1, (0..end - 1).rev(), *last);
+            self.mend(&mut theta, end, (0..end).rev(), *last);
+            self.mend(&mut theta, 1, 2..=end, along[0]);
+            self.mend(&mut theta, 0, 1..=end, along[0]);
         }
         theta
     }
@@ -104,8 +108,15 @@ impl Motion<'_> {
         if off(from) <= off(to) { at + 1 } else { at }
     }
 
-    /// Lets the first or last sample be where three next to it lead: past a fold that is between samples.
-    fn mend(&self, theta: &mut [f64], [at, a, b, c]: [usize; 4], stroke: Stroke) {
+    /// Lets the first or last sample be where three of the others, from the next one on, lead: past a fold that is between
+    /// samples.
+    fn mend(
+        &self,
+        theta: &mut [f64],
+        at: usize,
+        others: impl Iterator<Item = usize>,
+        stroke: Stroke,
+    ) {
         let values = self.record.values;
         let step = self.record.nearby(at);
         let folds = [true, false].map(|above| self.strokes.fold(values[at], above));
@@ -113,26 +124,59 @@ impl Motion<'_> {
         let Some(fold) = folds.into_iter().flatten().find(is_near) else {
             return;
         };
-        if step < STEP * self.record.noise {
-            return;
-        }
-        let expected = self.foretold(at, &[a, b, c].map(|i| (i, theta[i])));
+        let others = self.apart(at, others);
+        let known: Vec<(usize, f64)> = others.iter().map(|i| (*i, theta[*i])).collect();
+        let expected = self.foretold(at, &known);
+        let weights = self.weights(at, &others);
+        let error: f64 = others
+            .iter()
+            .zip(weights)
+            .map(|(i, weight)| weight.abs() * self.blur(*i, stroke, 1.0))
+            .sum();
         let angles = self.strokes.angles(values[at]);
         let [one, other] =
             [stroke, stroke ^ fold.change].map(|stroke| in_turn(angles[stroke], expected));
         let is_near = (one - expected).abs() <= (other - expected).abs();
-        theta[at] = if is_near { one } else { other };
+        if error < 0.5 * (one - other).abs() {
+            theta[at] = if is_near { one } else { other };
+        }
+    }
+
+    /// Three samples whose times lead evenly to that of another one, of those from the next one on.
+    fn apart(&self, at: usize, others: impl Iterator<Item = usize>) -> Vec<usize> {
+        let far = |i: usize| (self.record.times[i] - self.record.times[at]).abs();
+        let mut list: Vec<usize> = Vec::new();
+        for i in others {
+            let is_even = |next: &usize| far(i) >= EVEN * (list.len() + 1) as f64 * far(*next);
+            if list.first().is_none_or(is_even) {
+                list.push(i);
+            }
+            if list.len() == 3 {
+                break;
+            }
+        }
+        list
     }
 
     /// The polynomial through the angles of some samples at another one.
     fn foretold(&self, at: usize, others: &[(usize, f64)]) -> f64 {
+        let samples: Vec<usize> = others.iter().map(|(i, _)| *i).collect();
+        let weights = self.weights(at, &samples);
+        others
+            .iter()
+            .zip(weights)
+            .map(|((_, angle), weight)| angle * weight)
+            .sum()
+    }
+
+    /// The weights of some samples in the polynomial through them at another one.
+    fn weights(&self, at: usize, samples: &[usize]) -> Vec<f64> {
         let t = |i: usize| self.record.times[i];
-        let part = |(i, angle): &(usize, f64)| {
-            let weights = others.iter().filter(|(j, _)| j != i);
-            let weights = weights.map(|(j, _)| (t(at) - t(*j)) / (t(*i) - t(*j)));
-            angle * weights.product::<f64>()
+        let weight = |i: &usize| {
+            let others = samples.iter().filter(|j| *j != i);
+            others.map(|j| (t(at) - t(*j)) / (t(*i) - t(*j))).product()
         };
-        others.iter().map(part).sum()
+        samples.iter().map(weight).collect()
     }
 }
 

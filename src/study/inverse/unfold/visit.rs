@@ -62,6 +62,16 @@ impl Motion<'_> {
         fold.filter(|fold| self.record.reaches(at, fold.value))
     }
 
+    /// By how much some standard deviations of noise change the angle of a sample on a stroke, rad.
+    pub fn blur(&self, at: usize, stroke: Stroke, deviations: f64) -> f64 {
+        let (value, noise) = self.record.value(at, 0);
+        let angle = |value: f64| self.strokes.angles(value)[stroke];
+        [-deviations, deviations]
+            .map(|by| turned_back(angle(value + by * noise) - angle(value)).abs())
+            .into_iter()
+            .fold(0.0, f64::max)
+    }
+
     /// Looks at a turning point to which the motion comes on a stroke.
     pub fn look(&self, k: usize, fold: Fold, stroke: Stroke) -> Visit {
         let at = self.turnings[k].at;
@@ -178,7 +188,7 @@ fn verdict(list: &[Evidence]) -> (bool, bool) {
 }
 
 /// The farthest sample on the way from one to another up to which all are inside.
-fn search(from: usize, to: usize, inside: impl Fn(usize) -> bool) -> usize {
+pub(super) fn search(from: usize, to: usize, inside: impl Fn(usize) -> bool) -> usize {
     if inside(to) {
         return to;
     }
