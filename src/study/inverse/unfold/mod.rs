@@ -82,7 +82,9 @@ pub(super) fn unfold(
         let passed = steady::passed(&motion);
         parallel::map(first.iter(), |stroke| Track::new(&motion, &passed, *stroke))
     };
-    let blur = first.iter().map(|stroke| motion.blur(0, *stroke, BLUR));
+    let blur = first
+        .iter()
+        .map(|stroke| motion.blur(record.values[0], *stroke, BLUR));
     let blur = blur.fold(0.0, f64::max);
     let Some(taken) = start::choose(record.times, tracks, start, blur) else {
         return Err(Error::refused(

@@ -21,7 +21,7 @@ pub(super) struct Track {
 }
 
 /// Part of a time between samples by which the next one is to be farther off, at an end of the record.
-const EVEN: f64 = 0.75;
+const EVEN: f64 = 0.6;
 
 impl Track {
     /// The motion from a stroke on; at the turning points that it is known to have `passed` it is not looked at again.
@@ -128,17 +128,16 @@ impl Motion<'_> {
         let known: Vec<(usize, f64)> = others.iter().map(|i| (*i, theta[*i])).collect();
         let expected = self.foretold(at, &known);
         let weights = self.weights(at, &others);
-        let error: f64 = others
+        let error = others
             .iter()
             .zip(weights)
-            .map(|(i, weight)| weight.abs() * self.blur(*i, stroke, 1.0))
-            .sum();
+            .map(|(i, weight)| weight * self.blur(values[*i], stroke, 1.0))
+            .fold(0.0, f64::hypot);
         let angles = self.strokes.angles(values[at]);
         let [one, other] =
             [stroke, stroke ^ fold.change].map(|stroke| in_turn(angles[stroke], expected));
-        let is_near = (one - expected).abs() <= (other - expected).abs();
-        if error < 0.5 * (one - other).abs() {
-            theta[at] = if is_near { one } else { other };
+        if (one - expected).abs() > (other - expected).abs() + error {
+            theta[at] = other;
         }
     }
 

@@ -11,6 +11,10 @@ use super::window::{Window, turned_back};
 /// from it.
 const FAR: [f64; 4] = [0.6, 1.2, 0.25, 2.0];
 
+/// Ways that are so short that noise may bend a motion, and how many times as long they are to be as noise blurs the fold.
+const NEAR: [f64; 2] = [0.1, 0.04];
+const SHARP: f64 = 20.0;
+
 /// Turning points on either side between which it is looked at if that does not decide.
 const WIDE: [usize; 3] = [2, 3, 1];
 
@@ -62,9 +66,9 @@ impl Motion<'_> {
         fold.filter(|fold| self.record.reaches(at, fold.value))
     }
 
-    /// By how much some standard deviations of noise change the angle of a sample on a stroke, rad.
-    pub fn blur(&self, at: usize, stroke: Stroke, deviations: f64) -> f64 {
-        let (value, noise) = self.record.value(at, 0);
+    /// By how much some standard deviations of noise change the angle of a value on a stroke, rad.
+    pub fn blur(&self, value: f64, stroke: Stroke, deviations: f64) -> f64 {
+        let noise = self.record.noise + self.record.rounding;
         let angle = |value: f64| self.strokes.angles(value)[stroke];
         [-deviations, deviations]
             .map(|by| turned_back(angle(value + by * noise) - angle(value)).abs())
@@ -80,8 +84,11 @@ impl Motion<'_> {
             turned_back(self.strokes.angles(self.record.values[i])[stroke] - at_fold).abs()
         };
         let between = self.between(k, 1);
+        let blur = self.blur(fold.value, stroke, 1.0);
+        let near = NEAR.into_iter().filter(|near| *near > SHARP * blur);
         let ranges = FAR
             .into_iter()
+            .chain(near)
             .map(|far| between.map(|end| search(at, end, |i| off(i) <= far)));
         let (passes, certain) = self.weigh(k, fold, |_| stroke, ranges);
         Visit {
