@@ -252,6 +252,69 @@ fn swings_across_a_dead_centre_pass_it() {
 }
 
 /// The crank almost stops once in each turn, at some place.
+/// The crank begins next to a dead centre, turns soon and goes the other way: the scene's speed is that of the first samples.
+#[test]
+fn a_crank_that_soon_turns_begins_with_the_sense_of_the_scene() {
+    let scene = scene(0.0138, 0.0309, 0.0007, Branch::Right);
+    for sense in [1.0, -1.0] {
+        for noise in [0.0, 1e-4, 1e-3] {
+            let theta = move |t: f64| sense * (0.005 + 6.5 * t - 36.8 * t * t);
+            let motion = Motion {
+                theta: &theta,
+                samples: 159,
+                noise,
+                step: 0.0,
+            };
+            if noise < 1e-3 {
+                is_right(&motion, &scene);
+            } else {
+                is_not_wrong(&motion, &scene);
+            }
+        }
+    }
+}
+
+/// From rest at a dead centre the crank may go either way: angle and speed of the scene are the same.
+#[test]
+fn a_rest_at_a_dead_centre_that_begins_a_record_is_in_doubt() {
+    for way in [1.0, -1.0] {
+        for noise in [1e-6, 1e-3] {
+            let theta = move |t: f64| PI + way * 3.0 * ease((t - 0.3) / 0.7);
+            let motion = Motion {
+                theta: &theta,
+                samples: 300,
+                noise,
+                step: 0.0,
+            };
+            for measured in BOTH {
+                let found = motion.unfold(&plain(), measured);
+                assert!(
+                    matches!(found, Found::Doubt(_)),
+                    "{measured:?}, {way}, {noise}: {found:?}"
+                );
+            }
+        }
+    }
+}
+
+/// Few samples beyond a dead centre, blurred by noise, do not bend a motion that is plain up to there.
+#[test]
+fn a_record_may_end_just_after_a_dead_centre() {
+    let step = 0.2;
+    for beyond in (0..16).map(|k| 0.25 * f64::from(k) * step) {
+        for dead_centre in [0.0, PI] {
+            let theta = move |t: f64| dead_centre + beyond - (1.0 - t) * 100.0 * step;
+            let motion = Motion {
+                theta: &theta,
+                samples: 101,
+                noise: 1e-4,
+                step: 0.0,
+            };
+            is_right(&motion, &plain());
+        }
+    }
+}
+
 #[test]
 fn a_crank_that_almost_stops_goes_on_or_is_in_doubt() {
     for slowest in [0.3, 0.1, 0.03] {
