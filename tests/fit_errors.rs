@@ -157,6 +157,31 @@ fn splines_that_are_hardly_more_than_polynomials() {
     }
 }
 
+/// Even rotation with a faint fast wave, and its second derivative.
+fn faint_wave(t: f64) -> [f64; 2] {
+    let sin = 0.015 * (40.0 * t + 0.4).sin();
+    [20.0 * t + sin, -1600.0 * sin]
+}
+
+/// The same with strong slow waves.
+fn faint_beside_strong(t: f64) -> [f64; 2] {
+    let slow = 0.3 * (7.0 * t).sin();
+    let [value, second] = faint_wave(t);
+    [value + slow, second - 49.0 * slow]
+}
+
+/// Noise hides a wave but from those who look for it: curves of a broad spectrum would be as smooth as if it were not there.
+#[test]
+fn splines_of_faint_waves() {
+    for curve in [faint_wave, faint_beside_strong] {
+        for noise in [0.02, 0.01, 1e-3] {
+            let (share, error) = second_derivatives(Kind::Spline, curve, noise, 30);
+            let is_right = (0.9..=0.99).contains(&share) && (0.6..=1.3).contains(&error);
+            assert!(is_right, "{noise:e}: {share} {error}");
+        }
+    }
+}
+
 /// The angle of uneven rotation, and its derivatives.
 fn turning(t: f64, turns: f64) -> [f64; 3] {
     let rate = TAU * turns;

@@ -6,8 +6,8 @@ use crate::numeric::real::Real;
 const PATIENCE: usize = 8;
 
 /// Information criterion of Akaike, corrected for small samples (Hurvich and Tsai, Biometrika 76 (1989) 297).
-fn criterion(rows: usize, parameters: usize, squares: f64) -> f64 {
-    let (n, p) = (rows as f64, parameters as f64 + 1.0);
+pub(super) fn criterion(n: f64, parameters: f64, squares: f64) -> f64 {
+    let p = parameters + 1.0;
     if n - p - 1.0 <= 0.0 {
         return f64::INFINITY;
     }
@@ -26,7 +26,8 @@ pub(super) fn best<T: Real>(
     let value = |i: usize| {
         let parameters = first + step * i;
         let left = least * rows.saturating_sub(parameters) as f64 / rows as f64;
-        criterion(rows, parameters, squares[i].value().max(left))
+        let squares = squares[i].value().max(left);
+        criterion(rows as f64, parameters as f64, squares)
     };
     (0..squares.len()).fold(0, |best, i| if value(i) < value(best) { i } else { best })
 }

@@ -36,7 +36,7 @@ pub(super) struct Choice {
     pub coefficients: Vec<f64>,
 }
 
-/// What a choice leaves of rows.
+/// What a spline leaves of rows.
 pub(super) struct Left {
     squares: f64,
     /// Sum of the products of each residual with the next.
@@ -46,9 +46,16 @@ pub(super) struct Left {
 impl Choice {
     /// What it leaves of rows.
     pub fn left(&self, rows: &Rows<'_>) -> Left {
+        Left::of(&self.grid, &self.coefficients, rows)
+    }
+}
+
+impl Left {
+    /// What the spline of these coefficients leaves of rows.
+    pub fn of(grid: &Grid, coefficients: &[f64], rows: &Rows<'_>) -> Left {
         let residual = |(t, weight, target): (f64, f64, f64)| {
-            let (piece, u) = self.grid.place(t);
-            let part = &self.coefficients[piece..piece + DIAGONALS];
+            let (piece, u) = grid.place(t);
+            let part = &coefficients[piece..piece + DIAGONALS];
             let value: f64 = basis(DEGREE, u).iter().zip(part).map(|(b, c)| b * c).sum();
             target - weight * value
         };
@@ -69,9 +76,6 @@ impl Choice {
             products: sum(1),
         }
     }
-}
-
-impl Left {
     /// Whether it looks like noise, hardly correlated, each with the next, or is that of the digits.
     pub fn is_noise(&self, rows: &Rows<'_>) -> bool {
         self.products <= 3.0 * self.squares / (rows.number() as f64).sqrt()

@@ -24,6 +24,7 @@ mod spline;
 mod spread;
 mod support;
 mod sweep;
+mod told;
 mod triangle;
 mod turn;
 

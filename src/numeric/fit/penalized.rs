@@ -14,6 +14,7 @@ pub(super) const WEAKEST: f64 = -15.0;
 const NOTHING: f64 = 0.1 * f64::EPSILON;
 
 /// Sums over the samples for one grid.
+#[derive(Clone)]
 pub(super) struct Normal<'a> {
     pub grid: Grid,
     samples: &'a Rows<'a>,
@@ -136,7 +137,7 @@ impl<'a> Normal<'a> {
 
 /// Sums about a solution that is near all those that are asked for, so that nothing cancels where the noise is small.
 pub(super) struct About<'n> {
-    normal: &'n Normal<'n>,
+    pub normal: &'n Normal<'n>,
     pub near: Vec<f64>,
     pub squares: f64,
     data: Vec<f64>,
@@ -147,14 +148,25 @@ impl About<'_> {
     /// Least sum of the squares of the residuals and of the penalty, whose strength belongs to the factor: sums of
     /// squares both, so that nothing cancels where the penalty is strong.
     pub fn penalized(&self, strength: f64, factor: &Banded) -> f64 {
+        let (step, squares) = self.step(strength, factor);
+        let moved: Vec<f64> = self.near.iter().zip(&step).map(|(c, s)| c + s).collect();
+        squares + strength * roughness(&moved)
+    }
+
+    /// Sum of the squares of the residuals under the same penalty.
+    pub fn squares_under(&self, strength: f64, factor: &Banded) -> f64 {
+        self.step(strength, factor).1
+    }
+
+    /// The way to the solution under the same penalty, and the sum of the squares of the residuals there.
+    fn step(&self, strength: f64, factor: &Banded) -> (Vec<f64>, f64) {
         let right = self.data.iter().zip(&self.pull);
         let step = factor.solve(&right.map(|(r, p)| r - strength * p).collect::<Vec<f64>>());
         let fitted = self.normal.matrix.times(&step);
         let change: f64 = (0..step.len())
             .map(|i| step[i] * (fitted[i] - 2.0 * self.data[i]))
             .sum();
-        let moved: Vec<f64> = self.near.iter().zip(&step).map(|(c, s)| c + s).collect();
-        (self.squares + change).max(0.0) + strength * roughness(&moved)
+        (step, (self.squares + change).max(0.0))
     }
 
     /// Variance of a sample if this strength of the penalty is the likely one.

@@ -3,7 +3,8 @@
 //!
 //! Number of pieces and penalty are those of the largest restricted likelihood. That penalty is for the curve itself; for
 //! its second derivative it is too strong wherever the motion is less even than the random curves that it stands for.
-//! The fit therefore has a weaker one, that cuts off at a frequency √2 times as high. Its error is that of the Bayesian
+//! The fit therefore has a weaker one, that cuts off at a frequency √2 times as high, and one that is weaker yet where it
+//! would foretell further samples as well. Its error is that of the Bayesian
 //! view (Wahba, J. R. Statist. Soc. B 45 (1983) 133; Nychka, J. Amer. Statist. Assoc. 83 (1988) 1134): noise, and what
 //! the penalty bends away of a curve that is as rough as is likely. What it bends away of this one is added.
 
@@ -13,6 +14,7 @@ use super::enough::{Enough, FEWEST, goes_through};
 use super::penalized::Normal;
 use super::pieces::{DEGREE, Grid, Piecewise, basis};
 use super::support::supported;
+use super::told::Told;
 use super::{DIAGONAL, Kind, Quality, Samples, Size, State, add_products, differences, refinement};
 use crate::numeric::banded::{Banded, DIAGONALS};
 
@@ -69,8 +71,12 @@ impl Spline {
         };
         let (normal, choice) = enough.choose(rows).ok_or_else(failed)?;
         let strength = supported(&normal, normal.weaker(choice.strength, CUT_OFF));
-        let strengths = [choice.strength, strength];
-        let spline = Spline::new(normal, strengths, choice.coefficients).ok_or_else(failed)?;
+        let likely = Told::likely(normal, choice, strength);
+        let told = match size {
+            Size::Fixed(_) => likely,
+            Size::Auto => Told::by(rows, likely),
+        };
+        let spline = Spline::new(told.normal, told.strengths, told.near).ok_or_else(failed)?;
         Ok(Spline {
             wants_more: enough.more,
             ..spline
