@@ -28,9 +28,9 @@ const OF_PART: usize = 1 << 14;
 /// Rows of the fewest pieces that are tried of such a part: blocks as narrow do not show its motion.
 const WIDE: usize = 256;
 
-/// Gain in minus twice the logarithm of the likelihood below which such a part asks for no more pieces: a penalty on
-/// differences is not quite one on derivatives, and more pieces always gain a little.
-const SLIGHT: f64 = 16.0;
+/// Gain in minus twice the logarithm of the likelihood, in all and for each piece more, below which such a part asks for no
+/// more pieces: a penalty on differences is not quite one on derivatives, and more pieces always gain a little.
+const SLIGHT: [f64; 2] = [16.0, 0.0625];
 
 /// What samples ask for.
 #[derive(Clone, Copy, Debug)]
@@ -68,7 +68,7 @@ impl Enough {
         if rows.is_very_many() && !rows.is_condensed() {
             return Enough::of_part(rows, most);
         }
-        let found = Search::new(rows, FEWEST..most, 0.0)?;
+        let found = Search::new(rows, FEWEST..most, [0.0; 2])?;
         let finer = if found.digits { LITTLE_FINER } else { FINER };
         let pieces = found.best.grid.pieces;
         Some(Enough {
@@ -147,8 +147,13 @@ struct Search {
 }
 
 impl Search {
+    /// The gain that so many pieces are to bring over the best ones.
+    fn slight(&self, pieces: usize, [in_all, of_piece]: [f64; 2]) -> f64 {
+        in_all + of_piece * (pieces - self.best.grid.pieces) as f64
+    }
+
     /// Of numbers of pieces in a range, as long as they gain more than a slight amount.
-    fn new(rows: &Rows<'_>, range: Range<usize>, slight: f64) -> Option<Search> {
+    fn new(rows: &Rows<'_>, range: Range<usize>, slight: [f64; 2]) -> Option<Search> {
         let most = range.end;
         let levels = rows.levels(range.start);
         let mut pieces = range.start.min(most);
@@ -164,7 +169,7 @@ impl Search {
             };
             if best
                 .as_ref()
-                .is_none_or(|best| choice.cost < best.best.cost - slight)
+                .is_none_or(|best| choice.cost < best.best.cost - best.slight(pieces, slight))
             {
                 let left = choice.left(rows);
                 let through = goes_through(&normal, choice.strength);
