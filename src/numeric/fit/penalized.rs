@@ -17,6 +17,9 @@ pub(super) const WEAKEST: f64 = -15.0;
 /// Part of the largest coefficient that is nothing beside its rounding.
 const NOTHING: f64 = 0.1 * f64::EPSILON;
 
+/// Part of a sum of squares below which a difference from it has lost its digits.
+const CANCELLED: f64 = 1e-8;
+
 /// Sums over the samples for one grid.
 pub(super) struct Normal<'a> {
     pub grid: Grid,
@@ -92,9 +95,13 @@ impl<'a> Normal<'a> {
         let right = self.data.iter().zip(pull(&self.near));
         let right: Vec<f64> = right.map(|(r, p)| r - strength * p).collect();
         let step = self.factor(strength)?.solve(&right);
-        let left = (self.squares + self.change(&step, &self.data)).max(0.0);
-        let moved = self.near.iter().zip(step).map(|(c, s)| c + s);
-        Some((moved.collect(), left))
+        let moved = self.near.iter().zip(&step).map(|(c, s)| c + s);
+        let moved: Vec<f64> = moved.collect();
+        let mut left = self.squares + self.change(&step, &self.data);
+        if left < CANCELLED * self.squares {
+            left = self.residuals(&moved).0;
+        }
+        Some((moved, left))
     }
 
     /// What a step changes of the sum of squares of the residuals, whose products with the splines are `data`.

@@ -21,6 +21,9 @@ const LEAST_AT_END: f64 = 1.0 / 8.0;
 /// Places in a piece at which splines are compared.
 const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
+/// Every so many of them are enough where there are very many samples.
+const STRIDE: usize = 2;
+
 /// Pieces on each side that count with each for the finer and the coarser difference.
 const BESIDE: [usize; 2] = [2, 4];
 
@@ -99,9 +102,12 @@ pub(super) fn errors(spline: &Piecewise, few: &Few<'_>) -> Option<Vec<[f64; 3]>>
         false => through_fewer(&samples, spline.grid.pieces, by),
     };
     let (half, quarter) = (coarser(2)?, coarser(4)?);
+    let places = PLACES
+        .into_iter()
+        .step_by(if few.many { STRIDE } else { 1 });
     let differences = parallel::list(spline.grid.pieces, |piece| {
         let mut found = Differences::default();
-        for u in PLACES {
+        for u in places.clone() {
             let t = spline.grid.argument(piece, u);
             let [fine, middle, coarse] =
                 [spline, &half, &quarter].map(|spline| spline.derivatives(t));
@@ -119,7 +125,7 @@ pub(super) fn errors(spline: &Piecewise, few: &Few<'_>) -> Option<Vec<[f64; 3]>>
         let to = (piece + BESIDE[level] + 1).min(differences.len());
         let around = differences[from..to].iter();
         let squares: f64 = around.map(|d| d.squares[level][k]).sum();
-        (squares / (PLACES.len() * (to - from)) as f64).sqrt()
+        (squares / (places.len() * (to - from)) as f64).sqrt()
     };
     let error = |piece: usize| -> [f64; 3] {
         std::array::from_fn(|k| {
