@@ -57,14 +57,9 @@ pub(super) fn sums<const N: usize>(
         for k in 1..DIAGONALS {
             let below = &mut next[(i + k) % DIAGONALS];
             let factor: [f64; N] = array::from_fn(|lane| row.entries[k][lane] * per_pivot[lane]);
-            for m in 0..DIAGONALS - k {
-                for lane in 0..N {
-                    below.entries[m][lane] -= factor[lane] * row.entries[k + m][lane];
-                }
-            }
-            for lane in 0..N {
-                below.right[lane] -= factor[lane] * row.right[lane];
-            }
+            let entries = below.entries.iter_mut().zip(&row.entries[k..]);
+            entries.for_each(|(entries, of)| take(entries, &factor, of));
+            take(&mut below.right, &factor, &row.right);
         }
         for lane in 0..N {
             squares[lane] += row.right[lane] * row.right[lane] * per_pivot[lane];
@@ -81,6 +76,14 @@ pub(super) fn sums<const N: usize>(
         log_determinant: logarithms[lane] + product[lane].ln(),
         square: squares[lane],
     })
+}
+
+/// Takes products from numbers, side by side.
+#[inline(always)]
+fn take<const N: usize>(from: &mut [f64; N], factor: &[f64; N], of: &[f64; N]) {
+    for ((from, factor), of) in from.iter_mut().zip(factor).zip(of) {
+        *from -= factor * of;
+    }
 }
 
 #[cfg(test)]
