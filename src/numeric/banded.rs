@@ -1,9 +1,9 @@
 //! Symmetric positive definite matrices with few diagonals.
 
-/// Diagonals of the lower triangle that are stored: the main one and seven below it.
+/// Diagonals that are stored: the main one and seven beside it.
 pub const DIAGONALS: usize = 8;
 
-/// The lower triangle of a symmetric matrix, or a lower triangular one: row i holds (i, i), (i, i−1), ...
+/// A symmetric matrix: row i holds (i, i), (i, i+1), ..., zeros beyond the last column.
 #[derive(Clone, Debug)]
 pub struct Banded(Vec<[f64; DIAGONALS]>);
 
@@ -18,21 +18,33 @@ impl Banded {
         self.0.len()
     }
 
-    /// Row i of the lower triangle, from the diagonal back.
+    /// Row i from the diagonal on.
     #[inline(always)]
     pub fn row(&self, i: usize) -> &[f64; DIAGONALS] {
         &self.0[i]
     }
 
-    /// The element of row i and column j of a symmetric matrix, which must be inside the band.
+    /// The element of row i and column j, which must be inside the band.
     pub fn get(&self, i: usize, j: usize) -> f64 {
-        let (i, j) = (i.max(j), i.min(j));
-        self.0[i][i - j]
+        let (i, j) = (i.min(j), i.max(j));
+        self.0[i][j - i]
     }
 
-    /// Adds to the element of row i and column j ≤ i.
+    /// Adds to the element of row i and column j ≥ i.
+    #[inline(always)]
     pub fn add(&mut self, i: usize, j: usize, value: f64) {
-        self.0[i][i - j] += value;
+        self.0[i][j - i] += value;
+    }
+
+    /// Adds the products of a vector with itself, times a factor, to the rows and columns from `first` on.
+    #[inline(always)]
+    pub fn add_products(&mut self, first: usize, factor: f64, x: &[f64; DIAGONALS]) {
+        for (i, row) in self.0[first..first + DIAGONALS].iter_mut().enumerate() {
+            let factor = factor * x[i];
+            for k in 0..DIAGONALS - i {
+                row[k] += factor * x[i + k];
+            }
+        }
     }
 
     /// Adds a smaller matrix to the rows and columns from `first` on.
@@ -42,121 +54,69 @@ impl Banded {
         }
     }
 
-    /// This matrix plus `factor` times another.
-    pub fn plus(&self, factor: f64, other: &Banded) -> Banded {
-        let rows = self.0.iter().zip(&other.0);
-        Banded(
-            rows.map(|(a, b)| std::array::from_fn(|k| a[k] + factor * b[k]))
-                .collect(),
-        )
+    /// Adds another matrix times a factor.
+    pub fn add_times(&mut self, factor: f64, other: &Banded) {
+        for (sum, other) in self.0.iter_mut().zip(&other.0) {
+            sum.iter_mut()
+                .zip(other)
+                .for_each(|(sum, o)| *sum += factor * o);
+        }
     }
 
-    /// This symmetric matrix times a vector.
+    /// This matrix plus `factor` times the one of the given rows.
+    pub fn plus(&self, factor: f64, row: impl Fn(usize) -> [f64; DIAGONALS]) -> Banded {
+        let rows = self.0.iter().enumerate().map(|(i, a)| {
+            let b = row(i);
+            std::array::from_fn(|k| a[k] + factor * b[k])
+        });
+        Banded(rows.collect())
+    }
+
+    /// This matrix times a vector.
     pub fn times(&self, x: &[f64]) -> Vec<f64> {
-        let mut y = vec![0.0; x.len()];
+        let mut y = Vec::with_capacity(x.len());
+        // What the rows before add to the next ones.
+        let mut ahead = [0.0; DIAGONALS];
         for (i, row) in self.0.iter().enumerate() {
-            y[i] += row[0] * x[i];
-            for (k, value) in row.iter().enumerate().take(i + 1).skip(1) {
-                y[i] += value * x[i - k];
-                y[i - k] += value * x[i];
+            let right = row.iter().zip(&x[i..]);
+            y.push(ahead[0] + right.map(|(a, x)| a * x).sum::<f64>());
+            for k in 1..DIAGONALS {
+                ahead[k - 1] = ahead[k] + row[k] * x[i];
             }
         }
         y
     }
 
-    /// The block of this symmetric matrix that begins at row and column `from`, as wide as the band, times a vector.
+    /// The block of this matrix that begins at row and column `from`, as wide as the band, times a vector.
     pub fn times_part(&self, from: usize, x: &[f64; DIAGONALS]) -> [f64; DIAGONALS] {
         let mut y = [0.0; DIAGONALS];
         for (i, row) in self.0[from..from + DIAGONALS].iter().enumerate() {
             y[i] += row[0] * x[i];
-            for k in 1..=i {
-                y[i] += row[k] * x[i - k];
-                y[i - k] += row[k] * x[i];
+            for k in 1..DIAGONALS - i {
+                y[i] += row[k] * x[i + k];
+                y[i + k] += row[k] * x[i];
             }
         }
         y
     }
 
-    /// The factor L of this matrix = L Lᵀ (Cholesky); none if it is not positive definite.
-    pub fn cholesky(self) -> Option<Banded> {
-        let mut l = self;
-        for i in 0..l.size() {
-            for k in (0..DIAGONALS.min(i + 1)).rev() {
-                let j = i - k;
-                let mut sum = l.0[i][k];
-                for m in k + 1..DIAGONALS.min(i + 1) {
-                    if m - k < DIAGONALS {
-                        sum -= l.0[i][m] * l.0[j][m - k];
-                    }
-                }
-                l.0[i][k] = if k > 0 {
-                    sum / l.0[j][0]
-                } else if sum > 0.0 {
-                    sum.sqrt()
-                } else {
-                    return None;
-                };
+    /// The factors of this matrix = L D Lᵀ (Cholesky, without square roots); none if it is not positive definite.
+    pub fn cholesky(self) -> Option<Factors> {
+        let Banded(mut rows) = self;
+        for j in 0..rows.len() {
+            let rest = &mut rows[j..];
+            let positive = match rest.first_chunk_mut::<DIAGONALS>() {
+                Some(window) => eliminate(window),
+                None => eliminate(rest),
+            };
+            if !positive {
+                return None;
             }
         }
-        Some(l)
+        Some(Factors(rows))
     }
 
-    /// Solves L Lᵀ x = b for this factor L.
-    pub fn solve(&self, b: &[f64]) -> Vec<f64> {
-        let mut x = b.to_vec();
-        for i in 0..x.len() {
-            for k in 1..DIAGONALS.min(i + 1) {
-                x[i] -= self.0[i][k] * x[i - k];
-            }
-            x[i] /= self.0[i][0];
-        }
-        for i in (0..x.len()).rev() {
-            x[i] /= self.0[i][0];
-            for k in 1..DIAGONALS.min(i + 1) {
-                x[i - k] -= self.0[i][k] * x[i];
-            }
-        }
-        x
-    }
-
-    /// Logarithm of the determinant of L Lᵀ for this factor L.
-    pub fn log_determinant(&self) -> f64 {
-        2.0 * self.0.iter().map(|row| row[0].ln()).sum::<f64>()
-    }
-
-    /// Largest over smallest diagonal element.
-    pub fn diagonal_ratio(&self) -> f64 {
-        let (least, most) = self.0.iter().fold((f64::INFINITY, 0.0f64), |(a, b), row| {
-            (a.min(row[0]), b.max(row[0]))
-        });
-        most / least
-    }
-
-    /// The elements of (L Lᵀ)⁻¹ inside the band, for this factor L, from its last row upwards (Takahashi, Fagan and Chin
-    /// 1973; Hutchinson and de Hoog, Numer. Math. 47 (1985) 99).
-    pub fn inverse_band(&self) -> Banded {
-        let size = self.size();
-        let mut inverse = Banded::new(size);
-        for i in (0..size).rev() {
-            let below = (size - 1 - i).min(DIAGONALS - 1);
-            let diagonal = self.0[i][0];
-            for j in (i..=i + below).rev() {
-                let mut sum = 0.0;
-                for k in i + 1..=i + below {
-                    sum -= self.0[k][k - i] * inverse.get(k, j);
-                }
-                let value = if j == i {
-                    (1.0 / diagonal + sum) / diagonal
-                } else {
-                    sum / diagonal
-                };
-                inverse.0[j][j - i] = value;
-            }
-        }
-        inverse
-    }
-
-    /// Trace of the product of this symmetric matrix with another.
+    /// Trace of the product of this matrix with another.
     pub fn trace_of_product(&self, other: &Banded) -> f64 {
         let row = |(a, b): (&[f64; DIAGONALS], &[f64; DIAGONALS])| {
             let off: f64 = (1..DIAGONALS).map(|k| a[k] * b[k]).sum();
@@ -164,6 +124,97 @@ impl Banded {
         };
         self.0.iter().zip(&other.0).map(row).sum()
     }
+}
+
+/// Takes the first of these rows from those after it and puts its factors in its place; whether its pivot is positive.
+#[inline(always)]
+fn eliminate(rows: &mut [[f64; DIAGONALS]]) -> bool {
+    let row = rows[0];
+    let per_pivot = 1.0 / row[0];
+    rows[0] = row.map(|entry| entry * per_pivot);
+    rows[0][0] = per_pivot;
+    let factors = rows[0];
+    for (k, below) in rows.iter_mut().enumerate().skip(1) {
+        for m in 0..DIAGONALS - k {
+            below[m] -= factors[k] * row[k + m];
+        }
+    }
+    row[0] > 0.0
+}
+
+/// Factors of a symmetric matrix L D Lᵀ: row i holds one over the i-th pivot, and the i-th column of L below its diagonal,
+/// which is 1.
+#[derive(Clone, Debug)]
+pub struct Factors(Vec<[f64; DIAGONALS]>);
+
+impl Factors {
+    /// Solves L D Lᵀ x = b.
+    pub fn solve(&self, b: &[f64]) -> Vec<f64> {
+        let mut x = b.to_vec();
+        // What the entries before take from the next ones.
+        let mut ahead = [0.0; DIAGONALS];
+        for (x, row) in x.iter_mut().zip(&self.0) {
+            *x -= ahead[0];
+            for k in 1..DIAGONALS {
+                ahead[k - 1] = ahead[k] + row[k] * *x;
+            }
+        }
+        let mut after = [0.0; DIAGONALS];
+        for (x, row) in x.iter_mut().zip(&self.0).rev() {
+            let mut sum = *x * row[0];
+            // The one that was found last comes last.
+            for k in (1..DIAGONALS).rev() {
+                sum -= row[k] * after[k];
+                after[k] = after[k - 1];
+            }
+            (after[1], *x) = (sum, sum);
+        }
+        x
+    }
+
+    /// Logarithm of the determinant.
+    pub fn log_determinant(&self) -> f64 {
+        -self.0.iter().map(|row| row[0].ln()).sum::<f64>()
+    }
+
+    /// Square root of the largest pivot over the smallest.
+    pub fn diagonal_ratio(&self) -> f64 {
+        let (least, most) = self.0.iter().fold((f64::INFINITY, 0.0f64), |(a, b), row| {
+            (a.min(row[0]), b.max(row[0]))
+        });
+        (most / least).sqrt()
+    }
+
+    /// The elements of (L D Lᵀ)⁻¹ inside the band, from the last row upwards (Takahashi, Fagan and Chin 1973; Hutchinson and
+    /// de Hoog, Numer. Math. 47 (1985) 99).
+    pub fn inverse_band(&self) -> Banded {
+        let mut inverse = Banded::new(self.0.len());
+        for (i, row) in self.0.iter().enumerate().rev() {
+            let rest = &mut inverse.0[i..];
+            match rest.first_chunk_mut::<DIAGONALS>() {
+                Some(window) => invert(row, window),
+                None => invert(row, rest),
+            }
+        }
+        inverse
+    }
+}
+
+/// Puts a row of the inverse before those after it.
+#[inline(always)]
+fn invert(row: &[f64; DIAGONALS], inverse: &mut [[f64; DIAGONALS]]) {
+    let mut found = [0.0; DIAGONALS];
+    for (m, below) in inverse.iter().enumerate().skip(1) {
+        let mut sum = row[m] * below[0];
+        for k in 1..DIAGONALS - m {
+            sum += row[m + k] * below[k];
+            found[m + k] -= row[m] * below[k];
+        }
+        found[m] -= sum;
+    }
+    let off: f64 = (1..DIAGONALS).map(|k| row[k] * found[k]).sum();
+    found[0] = row[0] - off;
+    inverse[0] = found;
 }
 
 #[cfg(test)]
@@ -178,23 +229,23 @@ mod tests {
         let mut banded = Banded::new(size);
         let mut full = DMatrix::zeros(size, size);
         for i in 0..size {
-            for k in 0..DIAGONALS.min(i + 1) {
+            for k in 0..DIAGONALS.min(size - i) {
                 let value = if k == 0 {
                     9.0
                 } else {
                     ((i * 7 + k * 3) % 5) as f64 / 4.0 - 0.5
                 };
-                banded.add(i, i - k, value);
-                full[(i, i - k)] = value;
-                full[(i - k, i)] = value;
+                banded.add(i, i + k, value);
+                full[(i, i + k)] = value;
+                full[(i + k, i)] = value;
             }
         }
         let factor = banded.clone().cholesky().expect("positive definite");
         let inverse = full.clone().try_inverse().expect("regular");
         let found = factor.inverse_band();
         for i in 0..size {
-            for k in 0..DIAGONALS.min(i + 1) {
-                assert!((found.get(i, i - k) - inverse[(i, i - k)]).abs() < 1e-14);
+            for k in 0..DIAGONALS.min(size - i) {
+                assert!((found.get(i + k, i) - inverse[(i + k, i)]).abs() < 1e-14);
             }
         }
         let part = full.fixed_view::<DIAGONALS, DIAGONALS>(3, 3);

@@ -21,16 +21,21 @@ const LITTLE_FINER: usize = 2;
 /// Penalties up to this many times the weakest one let a spline go through the samples.
 const THROUGH: f64 = 64.0;
 
-/// Parts of a long record of which the one in the middle shows what the whole one asks for, and its fewest rows.
+/// Parts of a long record of which one shows what the whole one asks for, and its fewest rows.
 const PARTS: usize = 16;
 const OF_PART: usize = 1 << 14;
+
+/// Times as far as in the middle part that the curve goes in one that is taken instead of it, and rows at either end of a
+/// part that tell where it is.
+const FARTHER: f64 = 2.0;
+const AT_END: usize = 64;
 
 /// Rows of the fewest pieces that are tried of such a part: blocks as narrow do not show its motion.
 const WIDE: usize = 256;
 
-/// Gain in minus twice the logarithm of the likelihood below which such a part asks for no more pieces: a penalty on
-/// differences is not quite one on derivatives, and more pieces always gain a little.
-const SLIGHT: f64 = 16.0;
+/// Gain in minus twice the logarithm of the likelihood, in all and for each piece more, below which such a part asks for no
+/// more pieces: a penalty on differences is not quite one on derivatives, and more pieces always gain a little.
+const SLIGHT: [f64; 2] = [16.0, 0.0625];
 
 /// What samples ask for.
 #[derive(Clone, Copy, Debug)]
@@ -68,7 +73,7 @@ impl Enough {
         if rows.is_very_many() && !rows.is_condensed() {
             return Enough::of_part(rows, most);
         }
-        let found = Search::new(rows, FEWEST..most, 0.0)?;
+        let found = Search::new(rows, FEWEST..most, [0.0; 2])?;
         let finer = if found.digits { LITTLE_FINER } else { FINER };
         let pieces = found.best.grid.pieces;
         Some(Enough {
@@ -79,7 +84,7 @@ impl Enough {
 
     /// The same, as a part of the rows has it.
     fn of_part(rows: &Rows<'_>, most: usize) -> Option<Enough> {
-        let part = rows.middle((rows.number() / PARTS).max(OF_PART));
+        let part = telling(rows);
         let from = (part.number() / WIDE).max(1);
         let found = Search::new(&part, from..part.number() - DEGREE - 1, SLIGHT)?;
         let whole = found.best.grid.pieces as f64 * (rows.span[1] - rows.span[0])
@@ -137,6 +142,30 @@ impl Enough {
     }
 }
 
+/// The part in the middle of a record, or the one in which the curve goes farthest, if that is much farther: a machine may
+/// rest for a while.
+fn telling<'a>(rows: &'a Rows<'_>) -> Rows<'a> {
+    let number = (rows.number() / PARTS).max(OF_PART).min(rows.number());
+    let last = rows.number() - number;
+    let place = |from: usize| {
+        let some = rows.some(from..from + AT_END);
+        let sums = some.fold([0.0; 2], |[value, square], (_, weight, target)| {
+            [value + weight * target, square + weight * weight]
+        });
+        sums[0] / sums[1]
+    };
+    let way = |from: usize| {
+        let way = (place(from + number - AT_END) - place(from)).abs();
+        if way.is_finite() { way } else { 0.0 }
+    };
+    let starts = (0..PARTS).map(|part| part * last / (PARTS - 1));
+    let farthest = starts.max_by(|a, b| way(*a).total_cmp(&way(*b)));
+    let middle = last / 2;
+    let from = farthest.filter(|farthest| way(*farthest) > FARTHER * way(middle));
+    let from = from.unwrap_or(middle);
+    rows.part(from..from + number)
+}
+
 /// The best of numbers of pieces.
 struct Search {
     best: Choice,
@@ -147,8 +176,13 @@ struct Search {
 }
 
 impl Search {
+    /// The gain that so many pieces are to bring over the best ones.
+    fn slight(&self, pieces: usize, [in_all, of_piece]: [f64; 2]) -> f64 {
+        in_all + of_piece * (pieces - self.best.grid.pieces) as f64
+    }
+
     /// Of numbers of pieces in a range, as long as they gain more than a slight amount.
-    fn new(rows: &Rows<'_>, range: Range<usize>, slight: f64) -> Option<Search> {
+    fn new(rows: &Rows<'_>, range: Range<usize>, slight: [f64; 2]) -> Option<Search> {
         let most = range.end;
         let levels = rows.levels(range.start);
         let mut pieces = range.start.min(most);
@@ -164,7 +198,7 @@ impl Search {
             };
             if best
                 .as_ref()
-                .is_none_or(|best| choice.cost < best.best.cost - slight)
+                .is_none_or(|best| choice.cost < best.best.cost - best.slight(pieces, slight))
             {
                 let left = choice.left(rows);
                 let through = goes_through(&normal, choice.strength);
@@ -184,5 +218,28 @@ impl Search {
             pieces *= 2;
         }
         best
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numeric::fit::Samples;
+
+    /// A record that rests in the middle is told by a part in which it does not, a steady one by its middle.
+    #[test]
+    fn a_part_that_moves_is_telling() {
+        let t: Vec<f64> = (0..90_000).map(f64::from).collect();
+        let rests: Vec<f64> = t.iter().map(|t| t.min(3e4) + (t - 6e4).max(0.0)).collect();
+        for (target, moves) in [(&rests, true), (&t, false)] {
+            let rows = Rows::from(&Samples {
+                t: &t,
+                target,
+                weight: None,
+                floor: 0.0,
+            });
+            let [first, last] = telling(&rows).span;
+            assert_eq!(last <= 3e4 || first >= 6e4, moves, "{first} to {last}");
+        }
     }
 }

@@ -4,7 +4,7 @@ use std::array;
 
 use super::condensed::Rows;
 use super::penalized::{Normal, WEAKEST};
-use super::pieces::{DEGREE, Grid, basis};
+use super::pieces::{Grid, basis};
 use super::roughness::ORDER;
 use crate::numeric::banded::DIAGONALS;
 use crate::numeric::parallel;
@@ -56,7 +56,7 @@ impl Left {
         let residual = |(t, weight, target): (f64, f64, f64)| {
             let (piece, u) = grid.place(t);
             let part = &coefficients[piece..piece + DIAGONALS];
-            let value: f64 = basis(DEGREE, u).iter().zip(part).map(|(b, c)| b * c).sum();
+            let value: f64 = basis(u).iter().zip(part).map(|(b, c)| b * c).sum();
             target - weight * value
         };
         let parts = rows.parts(|range| {
@@ -98,7 +98,7 @@ impl Normal<'_> {
     pub fn choose(&self) -> Option<Choice> {
         let pivot = self.mean_pivot();
         let weak = 1e-7 * pivot;
-        let near = self.solve(weak, &self.factor(weak)?, vec![0.0; self.grid.size()]);
+        let near = self.solve(weak, &self.factor(weak)?);
         let about = self.about(near);
         let cost = |log_strength: f64| {
             let strength = pivot * log_strength.exp();
@@ -122,7 +122,7 @@ impl Normal<'_> {
             cost: least,
             strength,
             relative,
-            coefficients: self.solve(strength, &self.factor(strength)?, about.near),
+            coefficients: self.solve_from(strength, &self.factor(strength)?, about.near),
         })
     }
 
@@ -133,11 +133,15 @@ impl Normal<'_> {
     pub fn choose_near(&self, guess: f64) -> Option<Choice> {
         let pivot = self.mean_pivot();
         let mut guess = guess.clamp(WEAKEST, STRONGEST);
-        let mut near = vec![0.0; self.grid.size()];
+        let mut near = None;
         for _ in 0..MOST {
             let strength = pivot * guess.exp();
-            near = self.solve(strength, &self.factor(strength)?, near);
-            let about = self.about(near);
+            let factor = self.factor(strength)?;
+            let solution = match near.take() {
+                Some(near) => self.solve_from(strength, &factor, near),
+                None => self.solve(strength, &factor),
+            };
+            let about = self.about(solution);
             let costs = |places: [f64; 4]| {
                 let strengths = places.map(|place| pivot * place.exp());
                 let found = about.alike(&strengths);
@@ -158,7 +162,7 @@ impl Normal<'_> {
                     coefficients: about.near,
                 });
             }
-            (guess, near) = (relative, about.near);
+            (guess, near) = (relative, Some(about.near));
         }
         None
     }

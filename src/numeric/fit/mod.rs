@@ -22,6 +22,7 @@ mod rotation;
 mod roughness;
 mod spline;
 mod spread;
+mod sums;
 mod support;
 mod sweep;
 mod told;

@@ -1,11 +1,15 @@
 //! Penalized least squares with B-splines.
 
+use std::array;
+
 use super::condensed::Rows;
-use super::pieces::{DEGREE, Grid, basis};
-use super::roughness::{ORDER, penalty, pull, roughness};
-use super::sweep::sums;
-use crate::numeric::banded::{Banded, DIAGONALS};
+use super::pieces::Grid;
+use super::roughness::{ORDER, Penalty, pull, roughness};
+use super::sums::Sums;
+use super::sweep::{Factored, sums};
+use crate::numeric::banded::{Banded, Factors};
 use crate::numeric::chebyshev::largest;
+use crate::numeric::parallel;
 
 /// Logarithm of the weakest penalty, relative to the mean pivot.
 pub(super) const WEAKEST: f64 = -15.0;
@@ -13,86 +17,61 @@ pub(super) const WEAKEST: f64 = -15.0;
 /// Part of the largest coefficient that is nothing beside its rounding.
 const NOTHING: f64 = 0.1 * f64::EPSILON;
 
+/// Part of a sum of squares below which a difference from it has lost its digits.
+const CANCELLED: f64 = 1e-8;
+
 /// Sums over the samples for one grid.
 #[derive(Clone)]
 pub(super) struct Normal<'a> {
     pub grid: Grid,
     samples: &'a Rows<'a>,
     pub matrix: Banded,
-    penalty: Banded,
+    penalty: Penalty,
     /// Logarithm of the product of the penalty's nonzero eigenvalues.
     pub log_penalty: f64,
+    /// Coefficients that are near, and the squares of the residuals that they leave and Bᵀ times these.
+    near: Vec<f64>,
+    squares: f64,
+    data: Vec<f64>,
 }
 
 impl<'a> Normal<'a> {
     pub fn new(samples: &'a Rows<'a>, pieces: usize) -> Normal<'a> {
+        let nothing = vec![0.0; Grid::new(samples, pieces).size()];
+        Normal::next_to(samples, pieces, nothing)
+    }
+
+    /// The sums about coefficients that are near.
+    pub fn next_to(samples: &'a Rows<'a>, pieces: usize, near: Vec<f64>) -> Normal<'a> {
         let grid = Grid::new(samples, pieces);
-        let parts = samples.parts(|range| {
-            let touched = grid.touched(samples, &range);
-            let (first, mut matrix) = (touched.start, Banded::new(touched.len()));
-            for (t, weight, _) in samples.some(range) {
-                let (piece, u) = grid.place(t);
-                let b = basis(DEGREE, u);
-                let weight = weight * weight;
-                let from = piece - first;
-                for row in 0..DIAGONALS {
-                    for column in 0..=row {
-                        matrix.add(from + row, from + column, weight * b[row] * b[column]);
-                    }
-                }
-            }
-            Some((first, matrix))
-        });
-        let mut matrix = Banded::new(grid.size());
-        for (first, part) in parts.into_iter().flatten() {
-            matrix.add_from(first, &part);
-        }
-        let (penalty, log_penalty) = penalty(grid.size());
+        let sums = Sums::all::<true>(samples, &grid, &near);
+        let penalty = Penalty::new(grid.size());
         Normal {
             grid,
             samples,
-            matrix,
+            matrix: sums.matrix,
             penalty,
-            log_penalty,
+            log_penalty: penalty.log_determinant(),
+            near,
+            squares: sums.squares,
+            data: sums.right,
         }
     }
 
     /// Residuals of the samples, their sum of squares, and Bᵀ times them.
     pub fn residuals(&self, coefficients: &[f64]) -> (f64, Vec<f64>) {
-        let parts = self.samples.parts(|range| {
-            let touched = self.grid.touched(self.samples, &range);
-            let mut right = vec![0.0; touched.len()];
-            let mut squares = 0.0;
-            for (t, weight, target) in self.samples.some(range) {
-                let (piece, u) = self.grid.place(t);
-                let b = basis(DEGREE, u);
-                let part = &coefficients[piece..piece + DIAGONALS];
-                let value: f64 = b.iter().zip(part).map(|(b, c)| b * c).sum();
-                let residual = target - weight * value;
-                squares += residual * residual;
-                for (right, b) in right[piece - touched.start..].iter_mut().zip(b) {
-                    *right += weight * b * residual;
-                }
-            }
-            (squares, touched.start, right)
-        });
-        let mut right = vec![0.0; self.grid.size()];
-        let mut squares = self.samples.left;
-        for (of_part, first, part) in parts {
-            squares += of_part;
-            let sums = right[first..].iter_mut().zip(part);
-            sums.for_each(|(sum, r)| *sum += r);
-        }
-        (squares, right)
+        let sums = Sums::all::<false>(self.samples, &self.grid, coefficients);
+        (sums.squares, sums.right)
     }
 
     /// Cholesky's factor of the normal matrix with a penalty of this strength.
-    pub fn factor(&self, strength: f64) -> Option<Banded> {
-        self.matrix.plus(strength, &self.penalty).cholesky()
+    pub fn factor(&self, strength: f64) -> Option<Factors> {
+        let penalized = self.matrix.plus(strength, |i| self.penalty.row(i));
+        penalized.cholesky()
     }
 
     /// What the penalty has bent away of a solution, estimated by smoothing the solution's own pull once more.
-    pub fn bent_away(&self, strength: f64, factor: &Banded, coefficients: &[f64]) -> Vec<f64> {
+    pub fn bent_away(&self, strength: f64, factor: &Factors, coefficients: &[f64]) -> Vec<f64> {
         let pull = pull(coefficients);
         factor.solve(&pull.iter().map(|p| strength * p).collect::<Vec<f64>>())
     }
@@ -111,13 +90,51 @@ impl<'a> Normal<'a> {
         self.samples.floor
     }
 
-    /// Improves a solution for one strength of the penalty until rounding: each step is smaller than the one before by about
-    /// the same factor.
-    pub fn solve(&self, strength: f64, factor: &Banded, from: Vec<f64>) -> Vec<f64> {
-        let mut coefficients = from;
+    /// The solution for one strength of the penalty by one step from the coefficients that are near, and the squares of the
+    /// residuals that it leaves.
+    pub fn step(&self, strength: f64) -> Option<(Vec<f64>, f64)> {
+        let right = self.data.iter().zip(pull(&self.near));
+        let right: Vec<f64> = right.map(|(r, p)| r - strength * p).collect();
+        let step = self.factor(strength)?.solve(&right);
+        let moved = self.near.iter().zip(&step).map(|(c, s)| c + s);
+        let moved: Vec<f64> = moved.collect();
+        let mut left = self.squares + self.change(&step, &self.data);
+        if left < CANCELLED * self.squares {
+            left = self.residuals(&moved).0;
+        }
+        Some((moved, left))
+    }
+
+    /// What a step changes of the sum of squares of the residuals, whose products with the splines are `data`.
+    fn change(&self, step: &[f64], data: &[f64]) -> f64 {
+        let fitted = self.matrix.times(step);
+        let terms = step.iter().zip(&fitted).zip(data);
+        terms.map(|((s, fitted), d)| s * (fitted - 2.0 * d)).sum()
+    }
+
+    /// The solution for one strength of the penalty.
+    pub fn solve(&self, strength: f64, factor: &Factors) -> Vec<f64> {
+        self.improve(strength, factor, self.near.clone(), Some(self.data.clone()))
+    }
+
+    /// The same from coefficients that are nearer.
+    pub fn solve_from(&self, strength: f64, factor: &Factors, nearer: Vec<f64>) -> Vec<f64> {
+        self.improve(strength, factor, nearer, None)
+    }
+
+    /// Improves a solution until rounding: each step is smaller than the one before by about the same factor. Products of the
+    /// splines with its residuals may be known.
+    fn improve(
+        &self,
+        strength: f64,
+        factor: &Factors,
+        mut coefficients: Vec<f64>,
+        mut known: Option<Vec<f64>>,
+    ) -> Vec<f64> {
         let mut before = 0.0;
         for _ in 0..3 {
-            let (_, mut right) = self.residuals(&coefficients);
+            let known = known.take();
+            let mut right = known.unwrap_or_else(|| self.residuals(&coefficients).1);
             let pull = pull(&coefficients);
             right
                 .iter_mut()
@@ -126,7 +143,12 @@ impl<'a> Normal<'a> {
             let step = factor.solve(&right);
             let size = largest(&step);
             coefficients.iter_mut().zip(step).for_each(|(c, s)| *c += s);
-            if before > 0.0 && size * (size / before) < NOTHING * largest(&coefficients) {
+            let next = if before > 0.0 {
+                size * (size / before)
+            } else {
+                size
+            };
+            if next < NOTHING * largest(&coefficients) {
                 break;
             }
             before = size;
@@ -147,25 +169,22 @@ pub(super) struct About<'n> {
 impl About<'_> {
     /// Least sum of the squares of the residuals and of the penalty, whose strength belongs to the factor: sums of
     /// squares both, so that nothing cancels where the penalty is strong.
-    pub fn penalized(&self, strength: f64, factor: &Banded) -> f64 {
+    pub fn penalized(&self, strength: f64, factor: &Factors) -> f64 {
         let (step, squares) = self.step(strength, factor);
         let moved: Vec<f64> = self.near.iter().zip(&step).map(|(c, s)| c + s).collect();
         squares + strength * roughness(&moved)
     }
 
     /// Sum of the squares of the residuals under the same penalty.
-    pub fn squares_under(&self, strength: f64, factor: &Banded) -> f64 {
+    pub fn squares_under(&self, strength: f64, factor: &Factors) -> f64 {
         self.step(strength, factor).1
     }
 
     /// The way to the solution under the same penalty, and the sum of the squares of the residuals there.
-    fn step(&self, strength: f64, factor: &Banded) -> (Vec<f64>, f64) {
+    fn step(&self, strength: f64, factor: &Factors) -> (Vec<f64>, f64) {
         let right = self.data.iter().zip(&self.pull);
         let step = factor.solve(&right.map(|(r, p)| r - strength * p).collect::<Vec<f64>>());
-        let fitted = self.normal.matrix.times(&step);
-        let change: f64 = (0..step.len())
-            .map(|i| step[i] * (fitted[i] - 2.0 * self.data[i]))
-            .sum();
+        let change = self.normal.change(&step, &self.data);
         (step, (self.squares + change).max(0.0))
     }
 
@@ -177,14 +196,26 @@ impl About<'_> {
     }
 
     /// The same least sum, with the logarithm of the determinant, for strengths that are like the one whose solution is near.
-    pub fn alike<const N: usize>(&self, strengths: &[f64; N]) -> [[f64; 2]; N] {
+    pub fn alike(&self, strengths: &[f64; 4]) -> [[f64; 2]; 4] {
         let minus: Vec<f64> = self.pull.iter().map(|p| -p).collect();
-        let matrices = [&self.normal.matrix, &self.normal.penalty];
-        let sums = sums(matrices, [&self.data, &minus], strengths);
+        let Normal {
+            matrix, penalty, ..
+        } = self.normal;
+        let [first, second, third, fourth] = *strengths;
+        let pairs = [[first, second], [third, fourth]];
+        let found = parallel::map(pairs.iter(), |pair| {
+            sums(matrix, penalty, [&self.data, &minus], pair)
+        });
         let rough = roughness(&self.near);
-        std::array::from_fn(|i| {
-            let before = self.squares + strengths[i] * rough;
-            [before - sums[i].square, sums[i].log_determinant]
+        array::from_fn(|i| {
+            let Factored {
+                square,
+                log_determinant,
+            } = found[i / 2][i % 2];
+            [
+                self.squares + strengths[i] * rough - square,
+                log_determinant,
+            ]
         })
     }
 }

@@ -21,6 +21,9 @@ const LEAST_AT_END: f64 = 1.0 / 8.0;
 /// Places in a piece at which splines are compared.
 const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
+/// Every so many of them are enough where there are very many samples.
+const STRIDE: usize = 2;
+
 /// Pieces on each side that count with each for the finer and the coarser difference.
 const BESIDE: [usize; 2] = [2, 4];
 
@@ -78,6 +81,15 @@ impl<'a> Few<'a> {
     }
 }
 
+/// Differences of splines in a piece, for the curve and each derivative.
+#[derive(Clone, Copy, Debug, Default)]
+struct Differences {
+    /// Sums of squares, of the finer two splines and of the coarser two.
+    squares: [[f64; 3]; 2],
+    /// Size of the largest of the finer two.
+    largest: [f64; 3],
+}
+
 /// Errors of angle, speed and acceleration for each piece of a spline; none for too few samples.
 pub(super) fn errors(spline: &Piecewise, few: &Few<'_>) -> Option<Vec<[f64; 3]>> {
     let samples = few.samples();
@@ -90,30 +102,36 @@ pub(super) fn errors(spline: &Piecewise, few: &Few<'_>) -> Option<Vec<[f64; 3]>>
         false => through_fewer(&samples, spline.grid.pieces, by),
     };
     let (half, quarter) = (coarser(2)?, coarser(4)?);
+    let places = PLACES
+        .into_iter()
+        .step_by(if few.many { STRIDE } else { 1 });
     let differences = parallel::list(spline.grid.pieces, |piece| {
-        let mut found = [[[0.0; 3]; PLACES.len()]; 2];
-        for (place, u) in PLACES.into_iter().enumerate() {
+        let mut found = Differences::default();
+        for u in places.clone() {
             let t = spline.grid.argument(piece, u);
             let [fine, middle, coarse] =
                 [spline, &half, &quarter].map(|spline| spline.derivatives(t));
-            found[0][place] = std::array::from_fn(|k| middle[k] - fine[k]);
-            found[1][place] = std::array::from_fn(|k| coarse[k] - middle[k]);
+            for k in 0..3 {
+                let [last, before] = [middle[k] - fine[k], coarse[k] - middle[k]];
+                found.squares[0][k] += last * last;
+                found.squares[1][k] += before * before;
+                found.largest[k] = found.largest[k].max(last.abs());
+            }
         }
         found
     });
     let mean = |piece: usize, level: usize, k: usize| {
         let from = piece.saturating_sub(BESIDE[level]);
         let to = (piece + BESIDE[level] + 1).min(differences.len());
-        let around = differences[from..to].iter().flat_map(|d| &d[level]);
-        let squares: f64 = around.map(|d| d[k] * d[k]).sum();
-        (squares / (PLACES.len() * (to - from)) as f64).sqrt()
+        let around = differences[from..to].iter();
+        let squares: f64 = around.map(|d| d.squares[level][k]).sum();
+        (squares / (places.len() * (to - from)) as f64).sqrt()
     };
     let error = |piece: usize| -> [f64; 3] {
         std::array::from_fn(|k| {
             let [last, before] = [0, 1].map(|level| mean(piece, level, k));
             // Towards the ends errors grow fast.
-            let here = differences[piece][0].iter().map(|d| d[k].abs());
-            let last = here.fold(last, f64::max);
+            let last = last.max(differences[piece].largest[k]);
             let factor = if before > 0.0 { last / before } else { 1.0 };
             let from_end = piece.min(differences.len() - 1 - piece);
             let least = if from_end < 2 { LEAST_AT_END } else { LEAST };

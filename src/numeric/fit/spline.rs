@@ -12,7 +12,7 @@ use super::condensed::Rows;
 use super::covariance::Spread;
 use super::enough::{Enough, FEWEST, goes_through};
 use super::penalized::Normal;
-use super::pieces::{DEGREE, Grid, Piecewise, basis};
+use super::pieces::{Grid, Piecewise, basis};
 use super::support::supported;
 use super::told::Told;
 use super::{DIAGONAL, Kind, Quality, Samples, Size, State, add_products, differences, refinement};
@@ -76,7 +76,8 @@ impl Spline {
             Size::Fixed(_) => likely,
             Size::Auto => Told::by(rows, likely),
         };
-        let spline = Spline::new(told.normal, told.strengths, told.near).ok_or_else(failed)?;
+        let spline =
+            Spline::new(told.normal, told.strengths, Some(told.near)).ok_or_else(failed)?;
         Ok(Spline {
             wants_more: enough.more,
             ..spline
@@ -87,10 +88,9 @@ impl Spline {
     pub(super) fn through(rows: &Rows<'_>, pieces: usize) -> Option<Piecewise> {
         let normal = Normal::new(rows, pieces);
         let weakest = normal.weakest();
-        let zeros = vec![0.0; normal.grid.size()];
         Some(Piecewise {
             grid: normal.grid,
-            coefficients: normal.solve(weakest, &normal.factor(weakest)?, zeros),
+            coefficients: normal.solve(weakest, &normal.factor(weakest)?),
         })
     }
 
@@ -99,9 +99,10 @@ impl Spline {
     /// # Errors
     /// A text that says why the samples do not serve.
     pub fn again(&self, rows: &Rows<'_>) -> Result<Spline, String> {
-        let normal = Normal::new(rows, self.curve.grid.pieces);
+        let near = self.curve.coefficients.clone();
+        let normal = Normal::next_to(rows, self.curve.grid.pieces, near);
         let strengths = [self.likely, self.strength];
-        let spline = Spline::new(normal, strengths, self.curve.coefficients.clone());
+        let spline = Spline::new(normal, strengths, None);
         let spline = spline.ok_or_else(|| FAILED.to_owned())?;
         Ok(Spline {
             wants_more: self.wants_more,
@@ -114,13 +115,12 @@ impl Spline {
     /// # Errors
     /// A text that says why the samples do not serve.
     pub fn moved(mut self, rows: &Rows<'_>) -> Result<Spline, String> {
-        let normal = Normal::new(rows, self.curve.grid.pieces);
-        let Some(factor) = normal.factor(self.strength) else {
+        let near = self.curve.coefficients.clone();
+        let normal = Normal::next_to(rows, self.curve.grid.pieces, near);
+        let Some((moved, squares)) = normal.step(self.strength) else {
             return self.again(rows);
         };
-        let near = std::mem::take(&mut self.curve.coefficients);
-        self.curve.coefficients = normal.solve(self.strength, &factor, near);
-        let (squares, _) = normal.residuals(&self.curve.coefficients);
+        self.curve.coefficients = moved;
         let quality = &mut self.quality;
         if quality.squares > 0.0 {
             quality.sigma *= (squares / quality.squares).sqrt();
@@ -130,21 +130,30 @@ impl Spline {
         Ok(self)
     }
 
-    /// A spline under the last of two penalties, the first of which is the likely one, from coefficients that are near.
-    fn new(normal: Normal<'_>, [likely, strength]: [f64; 2], near: Vec<f64>) -> Option<Spline> {
+    /// A spline under the last of two penalties, the first of which is the likely one, from coefficients that are nearer
+    /// than those that the sums are about.
+    fn new(
+        normal: Normal<'_>,
+        [likely, strength]: [f64; 2],
+        nearer: Option<Vec<f64>>,
+    ) -> Option<Spline> {
         // Samples that hardly tell the angle may need the likely penalty.
         let (strength, factor) = match normal.factor(strength) {
             Some(factor) => (strength, factor),
             None => (likely, normal.factor(likely)?),
         };
-        let about = normal.about(normal.solve(strength, &factor, near));
+        let solution = match nearer {
+            Some(nearer) => normal.solve_from(strength, &factor, nearer),
+            None => normal.solve(strength, &factor),
+        };
+        let about = normal.about(solution);
         let variance = about.variance(likely)?;
         let (squares, coefficients) = (about.squares, about.near);
         let spread = Spread::of(&normal, [likely, strength], &factor);
         Some(Spline {
             quality: Quality {
                 squares,
-                parameters: spread.inverse.trace_of_product(&normal.matrix),
+                parameters: spread.parameters,
                 sigma: variance.sqrt(),
                 floor: normal.floor(),
             },
@@ -175,7 +184,7 @@ impl Spline {
         let factor = normal.factor(self.strength).ok_or(FAILED)?;
         let right = samples.products(self.curve.grid.size(), errors, |t, take| {
             let (piece, u) = self.curve.grid.place(t);
-            let basis = basis(DEGREE, u).into_iter();
+            let basis = basis(u).into_iter();
             basis
                 .zip(piece..)
                 .for_each(|(value, term)| take(term, value));

@@ -3,81 +3,67 @@
 
 use std::array;
 
+use super::roughness::Penalty;
 use crate::numeric::banded::{Banded, DIAGONALS};
 
 /// Rows after which the product of the pivots is taken for its logarithm.
 const TOGETHER: usize = 4;
 
 /// What a factorization of A + sP = L D Lᵀ tells.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Sums {
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Factored {
     /// Logarithm of the determinant.
     pub log_determinant: f64,
     /// gᵀ (A + sP)⁻¹ g for a vector g = a + s b.
     pub square: f64,
 }
 
-/// A row of L, of which an entry k places before the diagonal is the k-th, and what L takes from a vector g there.
+/// A row of A + sP from the diagonal on and the entry of g there, less what the rows before it take.
 #[derive(Clone, Copy)]
 struct Row<const N: usize> {
     entries: [[f64; N]; DIAGONALS],
-    per_pivot: [f64; N],
-    taken: [f64; N],
+    right: [f64; N],
 }
 
 /// The sums for each strength; not a number where the matrix is not positive definite.
 pub(super) fn sums<const N: usize>(
-    [matrix, penalty]: [&Banded; 2],
+    matrix: &Banded,
+    penalty: &Penalty,
     [a, b]: [&[f64]; 2],
     strengths: &[f64; N],
-) -> [Sums; N] {
+) -> [Factored; N] {
     let zero = Row {
         entries: [[0.0; N]; DIAGONALS],
-        per_pivot: [0.0; N],
-        taken: [0.0; N],
+        right: [0.0; N],
     };
-    // The last rows, each at its number modulo their count.
-    let mut last = [zero; DIAGONALS];
+    let given = |i: usize| {
+        if i >= matrix.size() {
+            return zero;
+        }
+        let (of_matrix, of_penalty) = (matrix.row(i), penalty.row(i));
+        Row {
+            entries: array::from_fn(|k| strengths.map(|s| of_matrix[k] + s * of_penalty[k])),
+            right: strengths.map(|s| a[i] + s * b[i]),
+        }
+    };
+    // The next rows, each at its number modulo their count.
+    let mut next: [Row<N>; DIAGONALS] = array::from_fn(given);
     let (mut logarithms, mut squares, mut product) = ([0.0; N], [0.0; N], [1.0; N]);
     for i in 0..matrix.size() {
-        let (of_matrix, of_penalty) = (matrix.row(i), penalty.row(i));
-        let mut sum: [[f64; N]; DIAGONALS] = array::from_fn(|k| {
-            array::from_fn(|lane| of_matrix[k] + strengths[lane] * of_penalty[k])
-        });
-        let mut entries = [[0.0; N]; DIAGONALS];
-        let mut taken: [f64; N] = array::from_fn(|lane| a[i] + strengths[lane] * b[i]);
-        // From the farthest column on; rows before the first one are zero.
-        for k in (1..DIAGONALS).rev() {
-            let above = &last[i.wrapping_sub(k) % DIAGONALS];
-            for lane in 0..N {
-                entries[k][lane] = sum[k][lane] * above.per_pivot[lane];
-            }
-            // Row i − k of L has its entries for the columns nearer to the diagonal in those after it.
-            for nearer in 0..k {
-                let other = &last[i.wrapping_sub(nearer) % DIAGONALS];
-                let factor = if nearer == 0 {
-                    &entries[k]
-                } else {
-                    &other.entries[k - nearer]
-                };
-                for lane in 0..N {
-                    sum[nearer][lane] -= sum[k][lane] * factor[lane];
-                }
-            }
-            for lane in 0..N {
-                taken[lane] -= entries[k][lane] * above.taken[lane];
-            }
+        let row = next[i % DIAGONALS];
+        next[i % DIAGONALS] = given(i + DIAGONALS);
+        let pivot = row.entries[0].map(|pivot| if pivot > 0.0 { pivot } else { f64::NAN });
+        let per_pivot = pivot.map(|pivot| 1.0 / pivot);
+        for k in 1..DIAGONALS {
+            let below = &mut next[(i + k) % DIAGONALS];
+            let factor: [f64; N] = array::from_fn(|lane| row.entries[k][lane] * per_pivot[lane]);
+            let entries = below.entries.iter_mut().zip(&row.entries[k..]);
+            entries.for_each(|(entries, of)| take(entries, &factor, of));
+            take(&mut below.right, &factor, &row.right);
         }
-        let mut per_pivot = [0.0; N];
         for lane in 0..N {
-            let pivot = if sum[0][lane] > 0.0 {
-                sum[0][lane]
-            } else {
-                f64::NAN
-            };
-            per_pivot[lane] = 1.0 / pivot;
-            squares[lane] += taken[lane] * taken[lane] * per_pivot[lane];
-            product[lane] *= pivot;
+            squares[lane] += row.right[lane] * row.right[lane] * per_pivot[lane];
+            product[lane] *= pivot[lane];
         }
         if i % TOGETHER == TOGETHER - 1 {
             for lane in 0..N {
@@ -85,22 +71,24 @@ pub(super) fn sums<const N: usize>(
                 product[lane] = 1.0;
             }
         }
-        last[i % DIAGONALS] = Row {
-            entries,
-            per_pivot,
-            taken,
-        };
     }
-    array::from_fn(|lane| Sums {
+    array::from_fn(|lane| Factored {
         log_determinant: logarithms[lane] + product[lane].ln(),
         square: squares[lane],
     })
 }
 
+/// Takes products from numbers, side by side.
+#[inline(always)]
+fn take<const N: usize>(from: &mut [f64; N], factor: &[f64; N], of: &[f64; N]) {
+    for ((from, factor), of) in from.iter_mut().zip(factor).zip(of) {
+        *from -= factor * of;
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numeric::fit::roughness::penalty;
 
     /// As the factors themselves have them, and not a number where there is none.
     #[test]
@@ -108,19 +96,19 @@ mod tests {
         let size = 37;
         let mut matrix = Banded::new(size);
         for i in 0..size {
-            for k in 0..DIAGONALS.min(i + 1) {
+            for k in 0..DIAGONALS.min(size - i) {
                 let value = ((i * 7 + k * 3) % 5) as f64 / 4.0 - 0.5;
-                matrix.add(i, i - k, if k == 0 { 9.0 } else { value });
+                matrix.add(i, i + k, if k == 0 { 9.0 } else { value });
             }
         }
-        let (penalty, _) = penalty(size);
+        let penalty = Penalty::new(size);
         let a: Vec<f64> = (0..size).map(|i| (i as f64).sin()).collect();
         let b: Vec<f64> = (0..size).map(|i| (2.0 * i as f64).cos()).collect();
         let strengths = [1e-6, 0.3, 1e4, -1.0];
-        let found = sums([&matrix, &penalty], [&a, &b], &strengths);
+        let found = sums(&matrix, &penalty, [&a, &b], &strengths);
         for (strength, found) in strengths.into_iter().zip(found).take(3) {
             let factor = matrix
-                .plus(strength, &penalty)
+                .plus(strength, |i| penalty.row(i))
                 .cholesky()
                 .expect("positive definite");
             let g: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a + strength * b).collect();

@@ -75,7 +75,7 @@ impl<'a> Told<'a> {
         let (told, value) = foretelling(&about, strength, patience);
         let near = self
             .normal
-            .solve(told, &self.normal.factor(told)?, about.near);
+            .solve_from(told, &self.normal.factor(told)?, about.near);
         Some(Told {
             normal: self.normal.clone(),
             strengths: [likely.min(likely / strength * told), told],
@@ -100,8 +100,7 @@ impl<'a> Told<'a> {
                 let same =
                     (more as f64 / pieces).powi(2 * ORDER as i32) * normal.mean_pivot() / pivot;
                 let strengths = self.strengths.map(|strength| strength * same);
-                let zeros = vec![0.0; normal.grid.size()];
-                let near = normal.solve(strengths[1], &normal.factor(strengths[1])?, zeros);
+                let near = normal.solve(strengths[1], &normal.factor(strengths[1])?);
                 let started = Told {
                     normal,
                     strengths,

@@ -30,6 +30,9 @@ const LAST_CHOICE: usize = 3;
 /// A fit is settled where further corrections would change it by less than this part of a standard error.
 const SETTLED: f64 = 1e-3;
 
+/// Change, in standard errors, below which a motion is right.
+const RIGHT: f64 = 1.0;
+
 /// Change, in standard errors, from which on slow corrections are made longer.
 const SLOW: f64 = 10.0;
 
@@ -84,20 +87,24 @@ impl Seen<'_> {
             };
             first &= rows.is_condensed();
             rounds += 1;
-            let (curve, settled) = self.settle(&rows, &near, kind, size)?;
-            near = if curve.is_seen_by(&rows) {
-                let again = self.unfolded(&curve.values(self.times));
-                if !first && (again == unfolded || rounds == UNFOLDED) {
-                    return Ok((curve, settled));
+            let found = self.settle(&rows, &near, kind, size)?;
+            near = if found.curve.is_seen_by(&rows) {
+                let again = self.sensor.folds().then(|| {
+                    let theta = found.curve.values(self.times);
+                    self.unfolded(&theta)
+                });
+                let changed = again.filter(|again| *again != unfolded);
+                if !first && (changed.is_none() || rounds == UNFOLDED) {
+                    return self.complete(&rows, found);
                 }
-                unfolded = again;
+                unfolded = changed.unwrap_or(unfolded);
                 match first {
-                    true => Near::Motion(curve),
-                    false => Near::Curve(curve),
+                    true => Near::Motion(found.curve),
+                    false => Near::Curve(found.curve, found.factor),
                 }
             } else {
                 in_blocks = false;
-                Near::Motion(curve)
+                Near::Motion(found.curve)
             };
             first = false;
         }
@@ -118,15 +125,25 @@ impl Seen<'_> {
         })
     }
 
-    /// Corrects a motion until it fits: the curve, and whether it came to rest.
+    /// A motion that fits, with its errors, and whether it came to rest.
+    fn complete(&self, rows: &Rows<'_>, found: Found) -> Result<(Curve, bool), String> {
+        if found.complete {
+            return Ok((found.curve, found.settled));
+        }
+        let about = found.curve.values(rows.arguments());
+        let curve = found.curve.again(&self.linear(rows, &about))?;
+        Ok((curve, found.settled))
+    }
+
+    /// Corrects a motion until it fits.
     fn settle(
         &self,
         rows: &Rows<'_>,
         near: &Near,
         kind: Kind,
         size: Size,
-    ) -> Result<(Curve, bool), String> {
-        let last_choice = near.last_choice(rows, self.sensor.folds());
+    ) -> Result<Found, String> {
+        let mut last_choice = near.last_choice(rows, self.sensor.folds());
         let mut course = Course::new(rows, near.values(self.times, rows.arguments()));
         let mut lines = self.linear(rows, &course.about);
         // Each correction evaluates the samples' lines anew, with other roundings.
@@ -136,9 +153,9 @@ impl Seen<'_> {
             .map(|(line, row)| line.2 / row.1);
         let reached = reached.fold(0.0f64, |most, value| most.max(value.abs()));
         let computed = ROUNDED * f64::EPSILON * largest(self.values).max(reached);
-        let mut chosen = match near {
-            Near::Curve(curve) => Some(curve.clone()),
-            _ => None,
+        let (mut chosen, factor_before) = match near {
+            Near::Curve(curve, factor) => (Some(curve.clone()), *factor),
+            _ => (None, f64::INFINITY),
         };
         let (mut round, mut change_before) = (0, 0.0);
         loop {
@@ -165,18 +182,28 @@ impl Seen<'_> {
             if course.is_astray(&found) {
                 return Err("the fit goes astray, far off the crank angles of the samples: they hardly tell them, or it is not the fit for this motion".to_owned());
             }
-            round += 1;
             // Corrections shrink by about the same factor, or ever faster.
-            let factor = change / change_before;
+            let factor = match round {
+                0 => factor_before,
+                _ => change / change_before,
+            };
+            // Terms that were chosen about a motion that is right stay; others are chosen anew as soon as it is.
+            last_choice = match round {
+                0 if change < RIGHT => last_choice.min(Some(0)),
+                _ if change * factor.min(1.0) < RIGHT => last_choice.min(Some(round + 1)),
+                _ => last_choice,
+            };
+            round += 1;
             let more = change * if factor < FAST { factor } else { 1.0 };
             let settled = more < SETTLED || in_rounding < NOTHING;
             let chosen_last = last_choice.is_none_or(|last| round > last);
             if settled && chosen_last || round == MOST {
-                let curve = match complete {
-                    true => curve,
-                    false => curve.again(&self.linear(rows, &found))?,
-                };
-                return Ok((curve, settled || change < 1.0));
+                return Ok(Found {
+                    curve,
+                    complete,
+                    settled: settled || change < 1.0,
+                    factor,
+                });
             }
             course.go_on(
                 found,
@@ -214,8 +241,20 @@ enum Near {
     Samples(Vec<f64>),
     /// A motion that is about right.
     Motion(Curve),
-    /// One whose terms are to stay.
-    Curve(Curve),
+    /// One whose terms are to stay, and the factor by which corrections shrink.
+    Curve(Curve, f64),
+}
+
+/// A motion that fits.
+#[derive(Debug)]
+struct Found {
+    curve: Curve,
+    /// Whether its errors are its own.
+    complete: bool,
+    /// Whether it came to rest.
+    settled: bool,
+    /// The factor by which corrections shrank.
+    factor: f64,
 }
 
 impl Near {
@@ -226,7 +265,7 @@ impl Near {
                 let at = times.partition_point(|time| *time < t[i]);
                 theta[at.min(theta.len() - 1)]
             }),
-            Near::Motion(curve) | Near::Curve(curve) => curve.values(t),
+            Near::Motion(curve) | Near::Curve(curve, _) => curve.values(t),
         }
     }
 
@@ -238,7 +277,7 @@ impl Near {
             Near::Samples(_) if rows.is_condensed() => Some(usize::from(!folds)),
             Near::Samples(_) => Some(LAST_CHOICE),
             Near::Motion(_) => Some(0),
-            Near::Curve(_) => None,
+            Near::Curve(..) => None,
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Rows that stand for others, or for some of them.
 
+use std::ops::Range;
+
 use super::Rows;
 
 impl Rows<'_> {
@@ -16,18 +18,15 @@ impl Rows<'_> {
         levels
     }
 
-    /// So many rows in the middle of samples as they are.
-    pub(in crate::numeric::fit) fn middle(&self, number: usize) -> Rows<'_> {
-        let number = number.min(self.number());
-        let from = (self.number() - number) / 2;
-        let range = from..from + number;
+    /// Some rows of samples as they are.
+    pub(in crate::numeric::fit) fn part(&self, range: Range<usize>) -> Rows<'_> {
         let t = &self.t[range.clone()];
         Rows {
             t: t.into(),
             target: self.target[range.clone()].into(),
             weight: self.weight.as_ref().map(|weight| weight[range].into()),
-            span: [t[0], t[number - 1]],
-            count: number,
+            span: [t[0], t[t.len() - 1]],
+            count: t.len(),
             left: 0.0,
             ends: Vec::new(),
             ..*self

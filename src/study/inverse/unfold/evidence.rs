@@ -109,7 +109,7 @@ impl Evidence {
         let samples = count as f64;
         let free = |misfit: &Misfit| samples - misfit.degree as f64 - 1.0;
         let most = back.iter().chain(past).map(|m| m.degree).max().unwrap_or(0);
-        let noise = 1.0 + NOISE * (2.0 / samples).sqrt();
+        let noise = most_noise(samples);
         let explains = |m: &&Misfit| m.squares < noise * free(m);
         let simplest = back
             .iter()
@@ -149,6 +149,18 @@ pub(super) fn is_simpler(one: &Expansion<f64>, other: &Expansion<f64>) -> bool {
         (Some(left), Some(others)) => *others > (FAR_LESS * left).max(PLAIN * ENOUGH),
         _ => false,
     }
+}
+
+/// Whether a polynomial through a window leaves nothing but noise, with all of its degrees.
+pub(super) fn leaves_noise(fit: &Expansion<f64>, window: &Window) -> bool {
+    let samples = window.t.len() as f64;
+    let left = fit.squares.last();
+    left.is_some_and(|left| *left < most_noise(samples) * (samples - fit.squares.len() as f64))
+}
+
+/// The most that noise leaves of so many samples, for each degree of freedom.
+fn most_noise(samples: f64) -> f64 {
+    1.0 + NOISE * (2.0 / samples).sqrt()
 }
 
 /// What a polynomial leaves.

@@ -2,7 +2,7 @@
 //!
 //! If the crank passes all folds of a stretch, its angle is one polynomial there; if it went back from any, it would bend.
 
-use super::evidence::{ENOUGH, Evidence, is_simpler};
+use super::evidence::{ENOUGH, Evidence, is_simpler, leaves_noise};
 use super::strokes::Stroke;
 use super::visit::Motion;
 use super::window::Window;
@@ -16,6 +16,9 @@ const ALIKE: f64 = 2.0;
 
 /// Part of the evidence that decides that is enough between even turning points.
 const EVEN: f64 = 0.75;
+
+/// The same if the motion that passes leaves nothing but noise.
+const NOISE: f64 = 0.5;
 
 /// Which turning points are passed without doubt, whatever the stroke on which the motion begins: strokes of a crank that
 /// turns fully are mirror images.
@@ -76,8 +79,13 @@ fn passes(motion: &Motion<'_>, k: usize, along: &[Stroke], even: bool) -> bool {
     let window = Window::new(motion, (at, fold), back, range);
     Evidence::at_first_sight(&window).is_some_and(|(evidence, [back, past])| {
         // Of even turning points a motion tells several alike, without being explained.
+        let enough = if leaves_noise(&past, &window) {
+            NOISE
+        } else {
+            EVEN
+        };
         let tells =
-            || is_simpler(&past, &back) || !evidence.explained && evidence.passes > EVEN * ENOUGH;
+            || is_simpler(&past, &back) || !evidence.explained && evidence.passes > enough * ENOUGH;
         evidence.tells_a_passage() || even && tells()
     })
 }
