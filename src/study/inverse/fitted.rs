@@ -153,7 +153,7 @@ impl Fitted {
         if let Some(rounding) = passages.round(&mut fitted.curve, left)? {
             fitted.errors.without(&rounding);
         }
-        fitted.passages = Some(passages.len());
+        fitted.passages = Some(passages.number());
         Ok(fitted)
     }
 
