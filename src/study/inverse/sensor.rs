@@ -50,7 +50,7 @@ impl Sensor<'_> {
         (self.unfolded(value, || shown) - shown, slope)
     }
 
-    /// The crank angle between two others, rad, at which a value is shown.
+    /// The crank angle between two others, rad, at which a value is shown: that of the middle of what is shown at these.
     pub fn between(&self, value: f64, [from, to]: [f64; 2]) -> Option<f64> {
         let middle = 0.5 * (from + to);
         let candidates = match self.measured {

@@ -56,6 +56,9 @@ impl Passages {
         theta: &[f64],
         width: f64,
     ) -> Option<Passages> {
+        if width <= 0.0 {
+            return None;
+        }
         let found = crossings::passages(sensor, [times, values, theta], width)?;
         if found.len() < FEWEST {
             return None;
@@ -85,7 +88,12 @@ impl Passages {
         // Beyond the first and the last passage the steps themselves hold the curve.
         let end = |i: usize| {
             let growth = sensor.shown(theta[i]).1.abs();
-            [times[i], theta[i], unit / width * growth]
+            let weight = unit / width * growth;
+            [
+                times[i],
+                theta[i],
+                if weight.is_finite() { weight } else { 0.0 },
+            ]
         };
         rows.insert(0, end(0));
         rows.push(end(times.len() - 1));
