@@ -1,5 +1,6 @@
 //! Where a motion goes from one step of its samples to the next.
 
+use crate::numeric::median::median;
 use crate::study::inverse::sensor::Sensor;
 
 /// Fewest samples for each change from step to step, on average.
@@ -13,6 +14,10 @@ const GAP: f64 = 1.5;
 
 /// Part of the passages that noise may blur.
 const BLURRED: f64 = 0.02;
+
+/// Times the usual distance of passages from which on they are far apart, and the most samples between two of these.
+const FAR: f64 = 3.0;
+const MOST: usize = 32;
 
 /// A passage over the border between two steps.
 #[derive(Clone, Copy, Debug)]
@@ -139,4 +144,28 @@ pub(super) fn speeds(passages: &[Passage]) -> Vec<f64> {
         ways.sum::<f64>() / (around[around.len() - 1].t - around[0].t)
     };
     (0..passages.len()).map(speed).collect()
+}
+
+/// Samples between passages that are far apart, about as close as passages are elsewhere, and the first and last one: they
+/// hold a curve within their steps. The passages have their times first.
+pub(super) fn far_between(times: &[f64], passages: &[[f64; 3]]) -> Option<Vec<usize>> {
+    let last = times.len() - 1;
+    let usual = median(passages.windows(2).map(|pair| pair[1][0] - pair[0][0]))?;
+    let mut found = vec![0];
+    let mut from = times[0];
+    for to in passages.iter().map(|row| row[0]).chain([times[last]]) {
+        let far = to - from > FAR * usual;
+        let parts = if far {
+            ((to - from) / usual) as usize
+        } else {
+            1
+        };
+        let places =
+            (1..parts.min(MOST)).map(|k| from + (to - from) * k as f64 / parts.min(MOST) as f64);
+        found.extend(places.map(|t| times.partition_point(|time| *time < t)));
+        from = to;
+    }
+    found.push(last);
+    found.dedup();
+    Some(found)
 }

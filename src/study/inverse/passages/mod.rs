@@ -25,6 +25,9 @@ const FEWEST: usize = 64;
 /// Part of the passages that may have more than one change of steps before that tells noise.
 const FEW: f64 = 0.02;
 
+/// Distance of crank angles whose difference tells how the slope changes, rad.
+const NEAR: f64 = 1e-3;
+
 /// Halvings in the search for the noise.
 const HALVINGS: usize = 60;
 
@@ -34,7 +37,7 @@ const ALIKE: f64 = 1e-3;
 /// Passages of a motion from one step to the next.
 #[derive(Debug)]
 pub(super) struct Passages {
-    /// Times, s; the first and the last are those of the samples.
+    /// Times, s: those of passages, and of a few samples where these are far apart and at the ends.
     t: Vec<f64>,
     /// Crank angle, rad, times the weight.
     target: Vec<f64>,
@@ -42,6 +45,8 @@ pub(super) struct Passages {
     weight: Vec<f64>,
     /// What the median of the times between the samples is of the crank angle, rad.
     step: f64,
+    /// How many are passages.
+    number: usize,
     /// Time from sample to sample if they are even, s.
     even: Option<f64>,
 }
@@ -85,18 +90,14 @@ impl Passages {
             .zip(weight)
             .map(|([t, theta], w)| [t, theta, w])
             .collect();
-        // Beyond the first and the last passage the steps themselves hold the curve.
-        let end = |i: usize| {
-            let growth = sensor.shown(theta[i]).1.abs();
-            let weight = unit / width * growth;
-            [
-                times[i],
-                theta[i],
-                if weight.is_finite() { weight } else { 0.0 },
-            ]
-        };
-        rows.insert(0, end(0));
-        rows.push(end(times.len() - 1));
+        let number = rows.len();
+        let between = crossings::far_between(times, &rows)?;
+        rows.extend(between.into_iter().map(|i| {
+            let weight = unit / within(sensor, theta[i], width);
+            let weight = if weight.is_finite() { weight } else { 0.0 };
+            [times[i], theta[i], weight]
+        }));
+        rows.sort_by(|a, b| a[0].total_cmp(&b[0]));
         Some(Passages {
             t: rows.iter().map(|[t, ..]| *t).collect(),
             target: rows
@@ -105,14 +106,15 @@ impl Passages {
                 .collect(),
             weight: rows.iter().map(|[.., weight]| *weight).collect(),
             step: unit,
+            number,
             // Noise spreads passages over the times of samples.
             even: even(times).filter(|_| noise == 0.0),
         })
     }
 
-    /// How many they are, beside the ends of the samples.
+    /// How many passages they are.
     pub fn number(&self) -> usize {
-        self.t.len() - 2
+        self.number
     }
 
     /// As samples of the crank angle.
@@ -198,6 +200,15 @@ fn noise(changes: f64, growths: &[f64]) -> f64 {
 /// from sample to sample: 1/12 of a sample's time squared without noise, s/√π of it with much.
 fn widened(s: f64) -> f64 {
     1.0f64.hypot(12.0 / PI.sqrt() * s)
+}
+
+/// How far a crank angle, rad, may be off that was read from a value rounded to steps of a width: at a fold a small change of
+/// the value is a large one of the angle.
+fn within(sensor: &Sensor<'_>, theta: f64, width: f64) -> f64 {
+    let slope = |theta: f64| sensor.shown(theta).1;
+    let bend = (slope(theta + NEAR) - slope(theta - NEAR)).abs() / (2.0 * NEAR);
+    let slope = slope(theta).abs();
+    2.0 * width / (slope + (slope * slope + 2.0 * bend * width).sqrt())
 }
 
 /// The time from sample to sample, s, if it is the same throughout.
