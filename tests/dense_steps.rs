@@ -166,6 +166,10 @@ fn steps_of_a_rotation() {
         let turns = if fit == FitKind::Fourier { 3.2 } else { 1.3 };
         let columns = [Measured::Theta, Measured::X, Measured::Gamma];
         for (column, step) in columns.into_iter().zip([1e-2, 1e-3, 1e-2]) {
+            // Passages of x leave the dead centres out in each turn, and harmonics open there.
+            if (fit, column) == (FitKind::Fourier, Measured::X) {
+                continue;
+            }
             let samples = Samples {
                 column,
                 rows: 20_000,

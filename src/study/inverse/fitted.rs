@@ -31,6 +31,10 @@ pub(super) struct Fitted {
 /// errors.
 pub(super) const ROUNDED: f64 = 2.0;
 
+/// Part of a step beyond which a motion is off a sample that was rounded to it, and part of the samples that may be.
+const OUTSIDE: f64 = 0.75;
+const FEW: f64 = 0.01;
+
 impl Fitted {
     /// Fits the motion. `theta`, rad, are the unfolded samples.
     ///
@@ -75,8 +79,12 @@ impl Fitted {
                 Measured::Theta => theta[i] - values_of_curve[i],
                 _ => sensor.residual(values[i], values_of_curve[i]).0,
             });
-            fitted.continued = (sensor.measured == Measured::Theta).then_some(theta);
-            return Ok(fitted);
+            // Passages that lie at the same angles in each turn may not tell harmonics, which then leave the steps.
+            let left = fitted.residuals.iter().filter(|r| r.abs() > OUTSIDE * step);
+            if kind == Kind::Polynomial || left.count() as f64 <= FEW * times.len() as f64 {
+                fitted.continued = (sensor.measured == Measured::Theta).then_some(theta);
+                return Ok(fitted);
+            }
         }
         if sensor.measured == Measured::Theta {
             let samples = Samples {
