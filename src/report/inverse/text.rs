@@ -67,6 +67,11 @@ fn fit(facts: &mut Facts, fit: &FitSummary, unit: &str) {
         "fit",
         format_args!("{kind}, degree {degree}, {parameters:.4} parameters"),
     );
+    if let Some(passages) = fit.passages {
+        let what =
+            "times of going from one step of the samples to the next, which lie densely in each";
+        facts.add("  fitted to", format_args!("{passages} {what}"));
+    }
     if kind != "spline" {
         let errors = fit.standard_errors.iter();
         for (power, (c, e)) in fit.coefficients.iter().zip(errors).enumerate() {

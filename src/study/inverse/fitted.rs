@@ -1,6 +1,7 @@
 //! The fit of θ(t), in terms of what was measured.
 
 use super::errors::Errors;
+use super::passages::Passages;
 use super::rounding::{Rounding, common_step, of_step};
 use super::seen::Seen;
 use super::sensor::Sensor;
@@ -20,11 +21,19 @@ pub(super) struct Fitted {
     pub settled: bool,
     /// A measured crank angle, continued over the turns, rad.
     continued: Option<Vec<f64>>,
+    /// Standard deviation of a measured value that is due to its digits alone, rad or m.
+    pub floor: f64,
+    /// Passages from step to step that were fitted instead of the samples, if so.
+    pub passages: Option<usize>,
 }
 
 /// Units of rounding to which samples without noise are right, that were computed: a computed motion goes on with its
 /// errors.
 pub(super) const ROUNDED: f64 = 2.0;
+
+/// Part of a step beyond which a motion is off a sample that was rounded to it, and part of the samples that may be.
+const OUTSIDE: f64 = 0.75;
+const FEW: f64 = 0.01;
 
 impl Fitted {
     /// Fits the motion. `theta`, rad, are the unfolded samples.
@@ -61,6 +70,22 @@ impl Fitted {
     ) -> Result<Fitted, String> {
         let (times, values) = (measurement.elapsed(), measurement.values());
         let floor = of_step(step.max(f64::EPSILON * largest(values)));
+        if let Some(passages) = Passages::of(sensor, times, values, &theta, step)
+            && let Ok(mut fitted) = Fitted::of_passages(&passages, kind, size)
+        {
+            fitted.floor = floor;
+            let values_of_curve = fitted.curve.values(times);
+            fitted.residuals = parallel::list(times.len(), |i| match sensor.measured {
+                Measured::Theta => theta[i] - values_of_curve[i],
+                _ => sensor.residual(values[i], values_of_curve[i]).0,
+            });
+            // Passages that lie at the same angles in each turn may not tell harmonics, which then leave the steps.
+            let left = fitted.residuals.iter().filter(|r| r.abs() > OUTSIDE * step);
+            if kind == Kind::Polynomial || left.count() as f64 <= FEW * times.len() as f64 {
+                fitted.continued = (sensor.measured == Measured::Theta).then_some(theta);
+                return Ok(fitted);
+            }
+        }
         if sensor.measured == Measured::Theta {
             let samples = Samples {
                 t: times,
@@ -120,7 +145,24 @@ impl Fitted {
             residuals,
             settled: true,
             continued: None,
+            floor: samples.floor,
+            passages: None,
         }
+    }
+
+    /// Fits the motion to passages from step to step; what it leaves are residuals of these.
+    fn of_passages(passages: &Passages, kind: Kind, size: Size) -> Result<Fitted, String> {
+        let (curve, left) = passages.fit(kind, size)?;
+        let samples = passages.samples();
+        let computed = ROUNDED * f64::EPSILON * largest(samples.target);
+        let line = |curve: &Curve, i: usize, more: f64| passages.line(curve, i, more);
+        let mut fitted = Fitted::of(curve, left, &samples, computed, line);
+        let left = fitted.left();
+        if let Some(rounding) = passages.round(&mut fitted.curve, left)? {
+            fitted.errors.without(&rounding);
+        }
+        fitted.passages = Some(passages.number());
+        Ok(fitted)
     }
 
     /// The motion at rising times, rad and s.
@@ -156,9 +198,9 @@ impl Fitted {
 
     /// Standard deviation of what the fit leaves of the samples.
     pub fn left(&self) -> f64 {
-        let quality = self.curve.quality();
-        let free = self.residuals.len() as f64 - quality.parameters;
-        (quality.squares / free.max(1.0)).sqrt()
+        let squares: f64 = self.residuals.iter().map(|r| r * r).sum();
+        let free = self.residuals.len() as f64 - self.curve.quality().parameters;
+        (squares / free.max(1.0)).sqrt()
     }
 
     /// What was measured; a crank angle continued over the turns.

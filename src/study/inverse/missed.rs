@@ -32,7 +32,7 @@ pub(super) struct Missed {
 
 impl Missed {
     /// The curve that residuals with a pattern show; none where the fit, for samples of the standard deviation `sigma`,
-    /// already tells more of its errors.
+    /// tells more of its errors, and errors as large.
     ///
     /// `line` gives what a sample leaves beside the fit with so much more of the crank angle, rad, and by how much the
     /// measured value grows with the latter.
@@ -93,13 +93,15 @@ impl Missed {
         let square = |state: &State, sigma: f64| {
             sigma * sigma * state.variance(&acceleration) + state.bias_of(&acceleration)
         };
-        let (mut before, mut after) = (0.0, 0.0);
+        let (mut before, mut after, mut seen) = (0.0, 0.0, 0.0);
         for t in t.iter().step_by(t.len().div_ceil(PLACES)) {
             let state = curve.state(*t);
             before += square(&state, sigma);
-            after += square(&missed.beside(state, &missed.curve.state(*t)), noise);
+            let more = missed.curve.state(*t);
+            seen += more.value[2] * more.value[2];
+            after += square(&missed.beside(state, &more), noise);
         }
-        (after < before).then_some(missed)
+        (after < before || seen > before).then_some(missed)
     }
 
     /// The states of the fit at rising times with what it misses as what may be wrong.

@@ -50,6 +50,21 @@ impl Sensor<'_> {
         (self.unfolded(value, || shown) - shown, slope)
     }
 
+    /// The crank angle between two others, rad, at which a value is shown: that of the middle of what is shown at these.
+    pub fn between(&self, value: f64, [from, to]: [f64; 2]) -> Option<f64> {
+        let middle = 0.5 * (from + to);
+        let candidates = match self.measured {
+            Measured::Theta => return Some(middle),
+            Measured::X => self.linkage.angles_of_x(value),
+            Measured::Gamma => self.linkage.angles_of_gamma(value),
+        };
+        let in_turn = |angle: &f64| angle + ((middle - angle) / TAU).round() * TAU;
+        let angles = candidates.angles().iter().map(in_turn);
+        let off = |angle: &f64| (angle - middle).abs();
+        let nearest = angles.min_by(|a, b| off(a).total_cmp(&off(b)))?;
+        (off(&nearest) <= 0.5 * (to - from).abs()).then_some(nearest)
+    }
+
     /// A value with the sign and turn next to what the instrument shows: values of a smooth motion are smooth then.
     pub fn unfolded(&self, value: f64, shown: impl FnOnce() -> f64) -> f64 {
         if !self.folds() {

@@ -70,6 +70,9 @@ pub struct FitSummary {
     pub coefficients: Vec<Option<f64>>,
     /// Their standard errors, for residuals that are noise.
     pub standard_errors: Vec<Option<f64>>,
+    /// Passages from one step of the samples to the next that the curve was fitted to; none if it was fitted to the samples
+    /// themselves.
+    pub passages: Option<usize>,
     /// 1 − squares of the residuals over squares about the mean, of what was measured.
     pub r_squared: f64,
     /// Root mean square of the residuals, rad or m.
@@ -82,7 +85,7 @@ pub struct FitSummary {
     pub parameters: f64,
     /// `double-double` or `double`.
     pub arithmetic: &'static str,
-    /// Correlation of each residual with the next.
+    /// Correlation of each residual with the next, of those that the curve was fitted to.
     pub residual_lag_one: f64,
     /// Runs of one sign among the residuals, in standard deviations from what noise has.
     pub residual_runs: f64,
@@ -199,6 +202,7 @@ impl FitSummary {
                 .map(|(c, e)| finite(c + e).and(finite(e * quality.sigma)))
                 .collect(),
             coefficients: coefficients.into_iter().map(finite).collect(),
+            passages: fitted.passages,
             r_squared: if about > 0.0 {
                 1.0 - squares / about
             } else {
@@ -206,7 +210,10 @@ impl FitSummary {
             },
             rms: (squares / n).sqrt(),
             condition: finite(condition),
-            sigma: quality.sigma,
+            sigma: match fitted.passages {
+                Some(_) => fitted.left().max(fitted.floor),
+                None => quality.sigma,
+            },
             parameters: quality.parameters,
             arithmetic: match &fitted.curve {
                 Curve::Polynomial(polynomial) if polynomial.extended() => "double-double",

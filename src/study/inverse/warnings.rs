@@ -45,10 +45,14 @@ pub(super) fn of_fit(
             "the fit did not settle: the motion between the samples is not certain".to_owned(),
         );
     }
-    let rows = measurement.len() as f64;
+    let rows = fitted.passages.unwrap_or(measurement.len()) as f64;
     if rows < 3.0 * quality.parameters && !fitted.errors.through {
         warnings.push(format!(
-            "{rows} samples are few for a fit of {} parameters: its error is hardly known",
+            "{rows} {} are few for a fit of {} parameters: its error is hardly known",
+            match fitted.passages {
+                Some(_) => "passages from step to step",
+                None => "samples",
+            },
             quality.parameters.round()
         ));
     }
@@ -97,7 +101,7 @@ fn outliers(fitted: &Fitted, measurement: &Measurement) -> Option<String> {
     }
     let measured = fitted.measured(measurement).iter();
     let largest = measured.fold(0.0, |most: f64, value| most.max(value.abs()));
-    let least = quality.floor.max(ROUNDED * f64::EPSILON * largest).powi(2);
+    let least = fitted.floor.max(ROUNDED * f64::EPSILON * largest).powi(2);
     let squares: f64 = fitted.residuals.iter().map(|r| r * r).sum();
     let far = |residual: &f64| {
         let square = residual * residual;
