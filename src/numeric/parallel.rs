@@ -53,6 +53,16 @@ pub fn list<T: Copy + Default + Send>(length: usize, f: impl Fn(usize) -> T + Sy
     list
 }
 
+/// The largest size of `f(0)`, `f(1)`, ... up to this number; what is not a number has none.
+pub fn largest(number: usize, f: impl Fn(usize) -> f64 + Sync) -> f64 {
+    let piece = |piece: usize| {
+        let end = number.min((piece + 1) * PIECE);
+        (piece * PIECE..end).fold(0.0, |most: f64, i| most.max(f(i).abs()))
+    };
+    let pieces = map(0..number.div_ceil(PIECE), piece);
+    pieces.into_iter().fold(0.0, f64::max)
+}
+
 /// The list of what `f` gives for numbers, of which it takes several side by side; the last ones may be repeated.
 pub fn lanes<const N: usize>(
     numbers: &[f64],

@@ -70,21 +70,13 @@ impl Fitted {
     ) -> Result<Fitted, String> {
         let (times, values) = (measurement.elapsed(), measurement.values());
         let floor = of_step(step.max(f64::EPSILON * largest(values)));
-        if let Some(passages) = Passages::of(sensor, times, values, &theta, step)
-            && let Ok(mut fitted) = Fitted::of_passages(&passages, kind, size)
-        {
-            fitted.floor = floor;
-            let values_of_curve = fitted.curve.values(times);
-            fitted.residuals = parallel::list(times.len(), |i| match sensor.measured {
-                Measured::Theta => theta[i] - values_of_curve[i],
-                _ => sensor.residual(values[i], values_of_curve[i]).0,
-            });
-            // Passages that lie at the same angles in each turn may not tell harmonics, which then leave the steps.
-            let left = fitted.residuals.iter().filter(|r| r.abs() > OUTSIDE * step);
-            if kind == Kind::Polynomial || left.count() as f64 <= FEW * times.len() as f64 {
-                fitted.continued = (sensor.measured == Measured::Theta).then_some(theta);
-                return Ok(fitted);
-            }
+        let by_passages = Passages::of(sensor, times, values, &theta, step)
+            .and_then(|passages| Fitted::of_passages(&passages, kind, size).ok())
+            .map(|fitted| fitted.beside(sensor, times, [values, &theta], floor))
+            .filter(|fitted| kind == Kind::Polynomial || fitted.stays_in_steps(step));
+        if let Some(mut fitted) = by_passages {
+            fitted.continued = (sensor.measured == Measured::Theta).then_some(theta);
+            return Ok(fitted);
         }
         if sensor.measured == Measured::Theta {
             let samples = Samples {
@@ -148,6 +140,33 @@ impl Fitted {
             floor: samples.floor,
             passages: None,
         }
+    }
+
+    /// With the residuals of samples, for crank angles that belong to them.
+    fn beside(
+        self,
+        sensor: &Sensor<'_>,
+        times: &[f64],
+        [values, theta]: [&[f64]; 2],
+        floor: f64,
+    ) -> Fitted {
+        let found = self.curve.values(times);
+        let residuals = parallel::list(times.len(), |i| match sensor.measured {
+            Measured::Theta => theta[i] - found[i],
+            _ => sensor.residual(values[i], found[i]).0,
+        });
+        Fitted {
+            residuals,
+            floor,
+            ..self
+        }
+    }
+
+    /// Whether hardly any sample is outside its step: passages that lie at the same angles in each turn may not tell
+    /// harmonics, which then leave the steps.
+    fn stays_in_steps(&self, step: f64) -> bool {
+        let outside = self.residuals.iter().filter(|r| r.abs() > OUTSIDE * step);
+        outside.count() as f64 <= FEW * self.residuals.len() as f64
     }
 
     /// Fits the motion to passages from step to step; what it leaves are residuals of these.

@@ -7,7 +7,7 @@ use crate::numeric::fit::{Curve, Kind, Rows, Samples, Size, State};
 const SMOOTH: f64 = 0.7;
 
 /// Part of the squares of residuals that a spline may leave: noise hides derivatives of what it does not follow.
-const NOISY: f64 = 0.05;
+const NOISY: f64 = 0.01;
 
 /// Part of what is missed of angle, speed and acceleration that is left where these make up for each other; where much of
 /// the angle (rad) is missed the equation bends, and more is left.

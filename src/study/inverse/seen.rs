@@ -147,11 +147,7 @@ impl Seen<'_> {
         let mut course = Course::new(rows, near.values(self.times, rows.arguments()));
         let mut lines = self.linear(rows, &course.about);
         // Each correction evaluates the samples' lines anew, with other roundings.
-        let reached = lines
-            .iter()
-            .zip(rows.iter())
-            .map(|(line, row)| line.2 / row.1);
-        let reached = reached.fold(0.0f64, |most, value| most.max(value.abs()));
+        let reached = rows.reached(&lines);
         let computed = ROUNDED * f64::EPSILON * largest(self.values).max(reached);
         let (mut chosen, factor_before) = match near {
             Near::Curve(curve, factor) => (Some(curve.clone()), *factor),

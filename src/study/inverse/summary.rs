@@ -1,12 +1,13 @@
 //! The result of an inverse computation in numbers.
 
-use crate::numeric::median::median;
 use serde::Serialize;
 
 use super::bands::{BandRule, DeadCentreBand};
 use super::fitted::Fitted;
 use super::row::{InverseRow, Rows};
 use crate::numeric::fit::Curve;
+use crate::numeric::median::median;
+use crate::numeric::parallel;
 use crate::plan::Plan;
 use crate::scene::{Measurement, Scene};
 
@@ -108,8 +109,11 @@ pub struct ForceRange {
     pub median_se: f64,
 }
 
+/// Time, s, with a force or torque and its standard error, N or N m.
+type Estimate = (f64, f64, f64);
+
 impl ForceRange {
-    fn of(mut values: impl Iterator<Item = (f64, f64, f64)>) -> Option<ForceRange> {
+    fn of(mut values: impl Iterator<Item = Estimate>) -> Option<ForceRange> {
         let first = values.next()?;
         let (mut min, mut max, mut errors) = (first, first, vec![first.2]);
         for value in values {
@@ -142,8 +146,12 @@ impl InverseSummary {
         (beside_forces, band_factor): (bool, f64),
         warnings: Vec<String>,
     ) -> InverseSummary {
-        let force = |row: &InverseRow| Some((row.t, row.slider_force?, row.slider_force_se?));
-        let torque = |row: &InverseRow| Some((row.t, row.crank_torque?, row.crank_torque_se?));
+        let of: [fn(&InverseRow) -> Option<Estimate>; 2] = [
+            |row| Some((row.t, row.slider_force?, row.slider_force_se?)),
+            |row| Some((row.t, row.crank_torque?, row.crank_torque_se?)),
+        ];
+        let range = |of| ForceRange::of(found.rows.iter().filter_map(of));
+        let ranges = parallel::map(of.into_iter(), range);
         let nothing = ForceRange {
             min: 0.0,
             min_t_s: 0.0,
@@ -158,8 +166,8 @@ impl InverseSummary {
             fit: FitSummary::new(fitted, measurement),
             beside_forces,
             band_factor,
-            slider_force: ForceRange::of(found.rows.iter().filter_map(force)),
-            crank_torque: ForceRange::of(found.rows.iter().filter_map(torque)).unwrap_or(nothing),
+            slider_force: ranges[0],
+            crank_torque: ranges[1].unwrap_or(nothing),
             dead_centre_bands: found.bands.clone(),
             dead_centre_rule: found.rule,
             warnings,

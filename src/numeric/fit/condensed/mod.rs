@@ -139,14 +139,21 @@ impl<'a> Rows<'a> {
             let [slope, at_zero] = line(i, value);
             (weight * slope, weight * at_zero)
         });
-        let reached = |i: usize| (target[i] / self.row(i).1).abs();
-        let reached = (0..target.len()).map(reached).fold(0.0, f64::max);
-        Rows {
-            computed: self.computed.max(COMPUTED * f64::EPSILON * reached),
+        let lines = Rows {
             target: target.into(),
             weight: Some(weight.into()),
             ..self.borrowed()
+        };
+        let computed = COMPUTED * f64::EPSILON * self.reached(&lines);
+        Rows {
+            computed: self.computed.max(computed),
+            ..lines
         }
+    }
+
+    /// The largest size of the values at zero of lines that stand for these rows.
+    pub fn reached(&self, lines: &Rows<'_>) -> f64 {
+        parallel::largest(self.number(), |i| lines.target[i] / self.row(i).1)
     }
 
     /// Number of blocks; none for samples as they are.
