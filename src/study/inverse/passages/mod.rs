@@ -14,9 +14,10 @@ use std::f64::consts::PI;
 
 use super::rounding::{Rounding, of_step};
 use super::sensor::Sensor;
+use crate::numeric::chebyshev::largest;
 use crate::numeric::fit::{Curve, Kind, Samples, Size};
 use crate::numeric::median::median;
-use crate::numeric::parallel;
+use crate::numeric::{parallel, root};
 use crossings::{Passage, speeds};
 
 /// Fewest passages that are fitted.
@@ -27,9 +28,6 @@ const FEW: f64 = 0.02;
 
 /// Distance of crank angles whose difference tells how the slope changes, rad.
 const NEAR: f64 = 1e-3;
-
-/// Halvings in the search for the noise.
-const HALVINGS: usize = 60;
 
 /// Part of the time from sample to sample by which even times may be off.
 const ALIKE: f64 = 1e-3;
@@ -184,16 +182,8 @@ fn noise(changes: f64, growths: &[f64]) -> f64 {
             .map(|growth| 1.0f64.hypot(rate * noise / growth))
             .sum()
     };
-    let (mut low, mut high) = (0.0, changes * growths.iter().copied().fold(0.0, f64::max));
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if expected(middle) < changes {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    low
+    let most = changes * largest(growths);
+    root::bracketed(|noise| expected(noise) - changes, 0.0, most).unwrap_or(most)
 }
 
 /// Variance of the time of a passage beside that by times of samples alone, for noise of so many times what the value grows
