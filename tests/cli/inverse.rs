@@ -484,6 +484,27 @@ fn figures_show_the_bulk_of_the_forces_and_those_of_the_paper() {
 }
 
 #[test]
+fn dead_centres_are_marked_over_all_of_many_turns() {
+    let row = |i: u32| {
+        let turned = 0.0628 * f64::from(i);
+        format!(
+            "{},{:.2}",
+            0.001 * f64::from(i),
+            turned + 0.1 * turned.sin()
+        )
+    };
+    let rows: Vec<String> = (0..6000).map(row).collect();
+    let folder = folder(&data("t [s],theta [rad]", &rows));
+    let spline = ["--fit", "spline", "--plot", "turns.svg", "--json"];
+    let arguments = [&["inverse", "scene.toml", "data.csv"], &spline[..]].concat();
+    let bands = folder.run(&arguments).done().json();
+    let bands = bands["dead_centre_bands"].as_array().expect("a list").len();
+    assert!(bands > 80, "{bands}");
+    let marks = format!("not determined, one in {}", bands.div_ceil(40));
+    assert!(folder.read("turns.svg").contains(&marks), "{marks}");
+}
+
+#[test]
 fn times_far_from_zero_are_noted() {
     let rows = |start: f64| -> Vec<String> {
         let row = |i: u32| {
@@ -597,7 +618,7 @@ fn options_that_go_wrong() {
             &["--degree", "11"],
             "12 samples are too few for 12 parameters",
         ),
-        (&["--fit", "fourier"], "more than one turn"),
+        (&["--fit", "fourier"], "needs 1.2 turns of steady rotation"),
         (&["--column", "y"], "none of theta, gamma and x"),
         (&["--residuals", "-"], "write them to files"),
         (&["--json", "--out", "-"], "both the rows and the JSON"),

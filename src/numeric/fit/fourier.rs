@@ -18,6 +18,9 @@ const FEW: usize = 3;
 /// Fewest blocks that are taken for a rotation that is not known yet.
 const FEWEST_BLOCKS: usize = 256;
 
+/// Fewest turns that tell harmonics from a rotation.
+const LEAST_TURNS: f64 = 1.2;
+
 /// A fitted steady rotation with harmonics.
 #[derive(Clone, Debug)]
 pub struct Fourier {
@@ -75,9 +78,9 @@ impl Fourier {
         let rounds = if size == Size::Auto { 3 } else { 2 };
         for _ in 0..rounds {
             let turns = turns(parameters[1], rows.span);
-            if turns < 1.2 {
+            if turns < LEAST_TURNS {
                 return Err(format!(
-                    "a fit by rotation and harmonics needs more than one turn in one sense, here are {turns:.2}"
+                    "a fit by rotation and harmonics needs {LEAST_TURNS} turns of steady rotation, here are {turns:.2}"
                 ));
             }
             let (count, beyond) = supported(&levels, middle, &parameters, size)?;

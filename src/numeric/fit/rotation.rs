@@ -32,7 +32,8 @@ const HARDLY: f64 = 0.5;
 /// The least part of a step that is tried.
 const LEAST_PART: f64 = 1e-3;
 
-const UNSETTLED: &str = "the fit by rotation and harmonics does not settle";
+const UNSETTLED: &str =
+    "the fit by rotation and harmonics, which is for steady speeds, does not settle";
 
 /// Turns in a span at a speed.
 pub(super) fn turns(speed: f64, [first, last]: [f64; 2]) -> f64 {

@@ -135,8 +135,10 @@ fn forces(result: &Inverse, printed: Option<&AsPrinted>) -> Figure {
             .line("energies of the paper", line(&force(0)))
             .dashed("(9) as printed", line(&force(1)));
     }
-    for band in summary.dead_centre_bands.iter().take(MARKS) {
-        figure = figure.vertical_mark(0.5 * (band.from_s + band.to_s), "not determined");
+    let few = stride(summary.dead_centre_bands.len(), MARKS);
+    for band in summary.dead_centre_bands.iter().step_by(few) {
+        let label = one_in(few, "not determined");
+        figure = figure.vertical_mark(0.5 * (band.from_s + band.to_s), label);
     }
     figure
 }
