@@ -63,13 +63,16 @@ impl Banded {
         }
     }
 
-    /// This matrix plus `factor` times the one of the given rows.
-    pub fn plus(&self, factor: f64, row: impl Fn(usize) -> [f64; DIAGONALS]) -> Banded {
-        let rows = self.0.iter().enumerate().map(|(i, a)| {
+    /// The rows of this matrix plus `factor` times the one of the given rows.
+    pub fn plus(
+        &self,
+        factor: f64,
+        row: impl Fn(usize) -> [f64; DIAGONALS],
+    ) -> impl ExactSizeIterator<Item = [f64; DIAGONALS]> {
+        self.0.iter().enumerate().map(move |(i, a)| {
             let b = row(i);
             std::array::from_fn(|k| a[k] + factor * b[k])
-        });
-        Banded(rows.collect())
+        })
     }
 
     /// This matrix times a vector.
@@ -100,22 +103,6 @@ impl Banded {
         y
     }
 
-    /// The factors of this matrix = L D Lᵀ (Cholesky, without square roots); none if it is not positive definite.
-    pub fn cholesky(self) -> Option<Factors> {
-        let Banded(mut rows) = self;
-        for j in 0..rows.len() {
-            let rest = &mut rows[j..];
-            let positive = match rest.first_chunk_mut::<DIAGONALS>() {
-                Some(window) => eliminate(window),
-                None => eliminate(rest),
-            };
-            if !positive {
-                return None;
-            }
-        }
-        Some(Factors(rows))
-    }
-
     /// Trace of the product of this matrix with another.
     pub fn trace_of_product(&self, other: &Banded) -> f64 {
         let row = |(a, b): (&[f64; DIAGONALS], &[f64; DIAGONALS])| {
@@ -142,12 +129,37 @@ fn eliminate(rows: &mut [[f64; DIAGONALS]]) -> bool {
     row[0] > 0.0
 }
 
+impl FromIterator<[f64; DIAGONALS]> for Banded {
+    fn from_iter<I: IntoIterator<Item = [f64; DIAGONALS]>>(rows: I) -> Banded {
+        Banded(rows.into_iter().collect())
+    }
+}
+
 /// Factors of a symmetric matrix L D Lᵀ: row i holds one over the i-th pivot, and the i-th column of L below its diagonal,
 /// which is 1.
 #[derive(Clone, Debug)]
 pub struct Factors(Vec<[f64; DIAGONALS]>);
 
 impl Factors {
+    /// The factors of a matrix of these rows = L D Lᵀ (Cholesky, without square roots); none if it is not positive definite.
+    pub fn of(mut matrix: impl ExactSizeIterator<Item = [f64; DIAGONALS]>) -> Option<Factors> {
+        let size = matrix.len();
+        let mut rows = Vec::with_capacity(size);
+        for j in 0..size {
+            // No sooner than they are needed: what was just made is at hand.
+            rows.extend(matrix.by_ref().take(j + DIAGONALS - rows.len()));
+            let rest = &mut rows[j..];
+            let positive = match rest.first_chunk_mut::<DIAGONALS>() {
+                Some(window) => eliminate(window),
+                None => eliminate(rest),
+            };
+            if !positive {
+                return None;
+            }
+        }
+        Some(Factors(rows))
+    }
+
     /// Solves L D Lᵀ x = b.
     pub fn solve(&self, b: &[f64]) -> Vec<f64> {
         let mut x = b.to_vec();
@@ -187,24 +199,25 @@ impl Factors {
 
     /// The elements of (L D Lᵀ)⁻¹ inside the band, from the last row upwards (Takahashi, Fagan and Chin 1973; Hutchinson and
     /// de Hoog, Numer. Math. 47 (1985) 99).
-    pub fn inverse_band(&self) -> Banded {
-        let mut inverse = Banded::new(self.0.len());
-        for (i, row) in self.0.iter().enumerate().rev() {
-            let rest = &mut inverse.0[i..];
+    pub fn inverse_band(self) -> Banded {
+        let Factors(mut rows) = self;
+        for i in (0..rows.len()).rev() {
+            let rest = &mut rows[i..];
             match rest.first_chunk_mut::<DIAGONALS>() {
-                Some(window) => invert(row, window),
-                None => invert(row, rest),
+                Some(window) => invert(window),
+                None => invert(rest),
             }
         }
-        inverse
+        Banded(rows)
     }
 }
 
-/// Puts a row of the inverse before those after it.
+/// Puts a row of the inverse in the place of its factors, before those after it.
 #[inline(always)]
-fn invert(row: &[f64; DIAGONALS], inverse: &mut [[f64; DIAGONALS]]) {
+fn invert(rows: &mut [[f64; DIAGONALS]]) {
+    let row = rows[0];
     let mut found = [0.0; DIAGONALS];
-    for (m, below) in inverse.iter().enumerate().skip(1) {
+    for (m, below) in rows.iter().enumerate().skip(1) {
         let mut sum = row[m] * below[0];
         for k in 1..DIAGONALS - m {
             sum += row[m + k] * below[k];
@@ -214,7 +227,7 @@ fn invert(row: &[f64; DIAGONALS], inverse: &mut [[f64; DIAGONALS]]) {
     }
     let off: f64 = (1..DIAGONALS).map(|k| row[k] * found[k]).sum();
     found[0] = row[0] - off;
-    inverse[0] = found;
+    rows[0] = found;
 }
 
 #[cfg(test)]
@@ -240,9 +253,9 @@ mod tests {
                 full[(i + k, i)] = value;
             }
         }
-        let factor = banded.clone().cholesky().expect("positive definite");
+        let factor = Factors::of(banded.0.iter().copied()).expect("positive definite");
         let inverse = full.clone().try_inverse().expect("regular");
-        let found = factor.inverse_band();
+        let found = factor.clone().inverse_band();
         for i in 0..size {
             for k in 0..DIAGONALS.min(size - i) {
                 assert!((found.get(i + k, i) - inverse[(i + k, i)]).abs() < 1e-14);

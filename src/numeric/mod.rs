@@ -11,6 +11,7 @@ pub mod fit;
 pub mod gauss;
 pub mod golden;
 pub mod interpolate;
+pub mod leading;
 pub mod line_fit;
 pub mod median;
 pub mod orthogonal;

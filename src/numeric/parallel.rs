@@ -1,6 +1,7 @@
 //! Long lists on all cores, the same to the last bit whatever their number.
 
 use std::ops::Range;
+use std::panic::resume_unwind;
 use std::sync::{Mutex, OnceLock, PoisonError};
 use std::thread;
 
@@ -29,6 +30,18 @@ pub fn each<J>(jobs: impl ExactSizeIterator<Item = J> + Send, work: impl Fn(J) +
         }
         worker();
     });
+}
+
+/// What two jobs give that are done side by side.
+pub fn both<A: Send, B>(one: impl FnOnce() -> A + Send, other: impl FnOnce() -> B) -> (A, B) {
+    thread::scope(|scope| {
+        let one = scope.spawn(one);
+        let other = other();
+        match one.join() {
+            Ok(one) => (one, other),
+            Err(panic) => resume_unwind(panic),
+        }
+    })
 }
 
 /// What each job gives, in their order.

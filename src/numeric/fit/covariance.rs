@@ -29,12 +29,12 @@ impl Spread {
             &steps
         };
         let found = parallel::map(steps.iter(), |step| match *step {
-            0.0 => Some(factors.inverse_band()),
+            0.0 => Some(factors.clone().inverse_band()),
             step => Some(normal.factor(strength * step.exp())?.inverse_band()),
         });
         let mut found = found.into_iter();
         let mut next = || found.next().flatten();
-        let mut covariance = next().unwrap_or_else(|| factors.inverse_band());
+        let mut covariance = next().unwrap_or_else(|| factors.clone().inverse_band());
         let parameters = covariance.trace_of_product(&normal.matrix);
         // As if the fit had the likely penalty, if these fail.
         if let (Some(weaker), Some(stronger)) = (next(), next()) {

@@ -66,8 +66,7 @@ impl<'a> Normal<'a> {
 
     /// Cholesky's factor of the normal matrix with a penalty of this strength.
     pub fn factor(&self, strength: f64) -> Option<Factors> {
-        let penalized = self.matrix.plus(strength, |i| self.penalty.row(i));
-        penalized.cholesky()
+        Factors::of(self.matrix.plus(strength, |i| self.penalty.row(i)))
     }
 
     /// What the penalty has bent away of a solution, estimated by smoothing the solution's own pull once more.

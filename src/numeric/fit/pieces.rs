@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use super::condensed::Rows;
 use crate::numeric::banded::DIAGONALS;
+use crate::numeric::leading::leading;
 
 /// Degree of the pieces.
 pub(super) const DEGREE: usize = 7;
@@ -64,7 +65,7 @@ impl Grid {
     /// How many of rising arguments, from the first on, are in one piece.
     pub fn in_one_piece(&self, t: &[f64]) -> usize {
         let (piece, _) = self.place(t[0]);
-        t.partition_point(|t| self.place(*t).0 == piece)
+        leading(t, |t| self.place(*t).0 == piece)
     }
 }
 

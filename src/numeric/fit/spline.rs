@@ -17,6 +17,7 @@ use super::support::supported;
 use super::told::Told;
 use super::{DIAGONAL, Kind, Quality, Samples, Size, State, add_products, differences, refinement};
 use crate::numeric::banded::{Banded, DIAGONALS};
+use crate::numeric::parallel;
 
 /// Cut-off frequency of the fit for one of the most likely penalty.
 const CUT_OFF: f64 = std::f64::consts::SQRT_2;
@@ -147,9 +148,12 @@ impl Spline {
             None => normal.solve(strength, &factor),
         };
         let about = normal.about(solution);
-        let variance = about.variance(likely)?;
+        let (variance, spread) = parallel::both(
+            || about.variance(likely),
+            || Spread::of(&normal, [likely, strength], &factor),
+        );
+        let variance = variance?;
         let (squares, coefficients) = (about.squares, about.near);
-        let spread = Spread::of(&normal, [likely, strength], &factor);
         Some(Spline {
             quality: Quality {
                 squares,

@@ -129,7 +129,10 @@ fn foretelling(about: &About<'_>, strength: f64, patience: usize) -> (f64, f64) 
         let Some(factor) = normal.factor(tried) else {
             break;
         };
-        let parameters = factor.inverse_band().trace_of_product(&normal.matrix);
+        let parameters = factor
+            .clone()
+            .inverse_band()
+            .trace_of_product(&normal.matrix);
         if parameters > PART * count {
             break;
         }

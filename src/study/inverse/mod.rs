@@ -9,6 +9,7 @@ mod force;
 mod guide;
 mod limit;
 mod missed;
+mod near;
 mod passages;
 mod pattern;
 mod printed;

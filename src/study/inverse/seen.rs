@@ -2,8 +2,11 @@
 //!
 //! Very many samples are condensed once: what the instrument shows is as smooth a function of time as the motion.
 
+use std::f64::consts::{PI, TAU};
+
 use super::course::Course;
 use super::fitted::ROUNDED;
+use super::near::Near;
 use super::sensor::Sensor;
 use crate::numeric::chebyshev::largest;
 use crate::numeric::fit::{Curve, Kind, Rows, Samples, Size};
@@ -21,17 +24,20 @@ const OF_TURN: f64 = 16_384.0;
 /// Samples of a turn from which on blocks of them show a first motion.
 const OF_FIRST: f64 = 512.0;
 
+/// Times what is left of lines that may be left of samples.
+const AS_A_LINE: f64 = 2.0;
+
 /// Times that samples get their signs and turns anew.
 const UNFOLDED: usize = 8;
-
-/// The correction before which the terms are chosen again, when the motion is about right.
-const LAST_CHOICE: usize = 3;
 
 /// A fit is settled where further corrections would change it by less than this part of a standard error.
 const SETTLED: f64 = 1e-3;
 
 /// Change, in standard errors, below which a motion is right.
 const RIGHT: f64 = 1.0;
+
+/// Change, in standard errors, by lines about a better motion, up to which the terms of very many samples stay.
+const SLIGHT: f64 = 3.0;
 
 /// Change, in standard errors, from which on slow corrections are made longer.
 const SLOW: f64 = 10.0;
@@ -56,7 +62,7 @@ impl Seen<'_> {
     /// The motion, from crank angles (rad) that are near, and whether it came to rest.
     pub fn fit(&self, theta: Vec<f64>, kind: Kind, size: Size) -> Result<(Curve, bool), String> {
         let computed = self.computed(&theta);
-        let turns = largest(&theta) / std::f64::consts::TAU;
+        let turns = largest(&theta) / TAU;
         // What a polynomial cannot follow in a block it cannot follow anyway.
         let dense = kind == Kind::Polynomial
             && theta.len() as f64 > OF_TURN * turns
@@ -89,10 +95,8 @@ impl Seen<'_> {
             rounds += 1;
             let found = self.settle(&rows, &near, kind, size)?;
             near = if found.curve.is_seen_by(&rows) {
-                let again = self.sensor.folds().then(|| {
-                    let theta = found.curve.values(self.times);
-                    self.unfolded(&theta)
-                });
+                let folds = self.sensor.folds();
+                let again = folds.then(|| self.unfolded_again(&found.curve, &unfolded));
                 let changed = again.filter(|again| *again != unfolded);
                 if !first && (changed.is_none() || rounds == UNFOLDED) {
                     return self.complete(&rows, found);
@@ -125,6 +129,20 @@ impl Seen<'_> {
         })
     }
 
+    /// The same about a curve that was fitted to values with other ones: those that are farther from the folds than all
+    /// that it leaves keep theirs.
+    fn unfolded_again(&self, curve: &Curve, before: &[f64]) -> Vec<f64> {
+        let left = AS_A_LINE * curve.quality().squares.sqrt();
+        parallel::list(self.times.len(), |i| {
+            let value = self.values[i];
+            if value.min(PI - value) > left {
+                return before[i];
+            }
+            let theta = curve.value(self.times[i]);
+            self.sensor.unfolded(value, || self.sensor.shown(theta).0)
+        })
+    }
+
     /// A motion that fits, with its errors, and whether it came to rest.
     fn complete(&self, rows: &Rows<'_>, found: Found) -> Result<(Curve, bool), String> {
         if found.complete {
@@ -144,7 +162,7 @@ impl Seen<'_> {
         size: Size,
     ) -> Result<Found, String> {
         let mut last_choice = near.last_choice(rows, self.sensor.folds());
-        let mut course = Course::new(rows, near.values(self.times, rows.arguments()));
+        let mut course = Course::new(rows, near.values(self.times, rows));
         let mut lines = self.linear(rows, &course.about);
         // Each correction evaluates the samples' lines anew, with other roundings.
         let reached = rows.reached(&lines);
@@ -153,11 +171,16 @@ impl Seen<'_> {
             Near::Curve(curve, factor) => (Some(curve.clone()), *factor),
             _ => (None, f64::INFINITY),
         };
+        // The choice of a spline's terms is dear where samples are very many.
+        let keeps = kind == Kind::Spline && rows.is_very_many();
         let (mut round, mut change_before) = (0, 0.0);
+        // What is to be the last correction gives the motion its errors at once.
+        let mut last = matches!(near, Near::Curve(..)) && to_come(RIGHT, factor_before) < SETTLED;
         loop {
             // Once the motion is about right the choice of terms stays, so that it cannot go on alternating.
             let anew = chosen.is_none() || Some(round) == last_choice;
             let (curve, complete) = match chosen {
+                Some(curve) if !anew && last => (curve.again(&lines)?, true),
                 Some(curve) if !anew => curve.moved(&lines)?,
                 _ => (Curve::to(&lines, kind, size)?, true),
             };
@@ -186,12 +209,12 @@ impl Seen<'_> {
             // Terms that were chosen about a motion that is right stay; others are chosen anew as soon as it is.
             last_choice = match round {
                 0 if change < RIGHT => last_choice.min(Some(0)),
+                1 if change < SLIGHT && keeps => last_choice.min(Some(0)),
                 _ if change * factor.min(1.0) < RIGHT => last_choice.min(Some(round + 1)),
                 _ => last_choice,
             };
             round += 1;
-            let more = change * if factor < FAST { factor } else { 1.0 };
-            let settled = more < SETTLED || in_rounding < NOTHING;
+            let settled = to_come(change, factor) < SETTLED || in_rounding < NOTHING;
             let chosen_last = last_choice.is_none_or(|last| round > last);
             if settled && chosen_last || round == MOST {
                 return Ok(Found {
@@ -206,6 +229,7 @@ impl Seen<'_> {
                 chosen_last && change < SLOW && factor > FAST && round > 1,
             );
             lines = self.linear(rows, &course.about);
+            last = chosen_last && to_come(change * factor, factor) < SETTLED;
             change_before = change;
             chosen = Some(curve);
         }
@@ -230,15 +254,9 @@ impl Seen<'_> {
     }
 }
 
-/// A motion from which another is begun.
-#[derive(Debug)]
-enum Near {
-    /// Crank angles of the samples, rad.
-    Samples(Vec<f64>),
-    /// A motion that is about right.
-    Motion(Curve),
-    /// One whose terms are to stay, and the factor by which corrections shrink.
-    Curve(Curve, f64),
+/// The change that is to come after one, in standard errors, as corrections shrink by a factor.
+fn to_come(change: f64, factor: f64) -> f64 {
+    change * if factor < FAST { factor } else { 1.0 }
 }
 
 /// A motion that fits.
@@ -251,29 +269,4 @@ struct Found {
     settled: bool,
     /// The factor by which corrections shrank.
     factor: f64,
-}
-
-impl Near {
-    /// Crank angles, rad, from those of samples.
-    fn values(&self, times: &[f64], t: &[f64]) -> Vec<f64> {
-        match self {
-            Near::Samples(theta) => parallel::list(t.len(), |i| {
-                let at = times.partition_point(|time| *time < t[i]);
-                theta[at.min(theta.len() - 1)]
-            }),
-            Near::Motion(curve) | Near::Curve(curve, _) => curve.values(t),
-        }
-    }
-
-    /// The correction before which the terms are chosen for the last time: in blocks of samples the motion is about right
-    /// at once.
-    fn last_choice(&self, rows: &Rows<'_>, folds: bool) -> Option<usize> {
-        match self {
-            // The signs of folded values come anew after that, and the terms with them.
-            Near::Samples(_) if rows.is_condensed() => Some(usize::from(!folds)),
-            Near::Samples(_) => Some(LAST_CHOICE),
-            Near::Motion(_) => Some(0),
-            Near::Curve(..) => None,
-        }
-    }
 }

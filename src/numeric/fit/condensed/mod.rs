@@ -13,6 +13,7 @@ use std::ops::Range;
 
 use super::pieces::DEGREE;
 use super::{COMPUTED, Samples};
+use crate::numeric::leading::leading;
 use crate::numeric::parallel;
 use nodes::Part;
 
@@ -98,7 +99,7 @@ impl<'a> Rows<'a> {
         let mut end = 0;
         let ends = (1..=blocks).map(|block| {
             let limit = first + width * block as f64;
-            end += samples.t[end..].partition_point(|t| *t < limit);
+            end += leading(&samples.t[end..], |t| *t < limit);
             if block < blocks { end } else { samples.t.len() }
         });
         let narrow = all.condensed(&ends.collect::<Vec<usize>>());
@@ -258,7 +259,7 @@ impl<'a> Rows<'a> {
     }
 
     /// Whether they stand for very many samples.
-    pub(super) fn is_very_many(&self) -> bool {
+    pub fn is_very_many(&self) -> bool {
         self.count >= MANY
     }
 
