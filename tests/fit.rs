@@ -242,6 +242,32 @@ fn harmonics_that_are_there() {
     }
 }
 
+/// Ten samples in each turn, always at the same angles, tell four harmonics; further ones are those four again.
+#[test]
+fn harmonics_at_the_same_angles_of_each_turn() {
+    let motion = |turns: f64| {
+        let phi = std::f64::consts::TAU * turns;
+        0.3 + phi + 0.02 * (phi + 0.4).sin() + 0.006 * (2.0 * phi + 1.0).sin()
+    };
+    let noise = |i: i64| 1e-4 * ((i * i % 100_003 * 7919 % 1009) as f64 / 1009.0 - 0.5);
+    for rows in [4000, 60_000] {
+        let t: Vec<f64> = (0..rows).map(|i| i as f64 / 10.0).collect();
+        let y: Vec<f64> = (0..rows)
+            .map(|i| motion(t[i as usize]) + noise(i))
+            .collect();
+        let samples = samples(&t, &y);
+        let fit = Fourier::fit(&samples, Size::Auto).expect("a fit");
+        assert!(fit.harmonics() <= 4, "{} harmonics", fit.harmonics());
+        // Noise of 2.9e-5 over a tenth of the parameters of the samples: less than 2e-6.
+        for turns in [1.23, 77.04, 198.77, 399.0] {
+            let off = fit.value(turns) - motion(turns);
+            assert!(off.abs() < 1e-5, "{rows} rows, {turns} turns: off by {off}");
+        }
+        let more = Fourier::fit(&samples, Size::Fixed(5)).expect_err("too many");
+        assert!(more.contains("no more than 4 harmonics"), "{more}");
+    }
+}
+
 /// A spline has no penalty on a cubic.
 #[test]
 fn a_cubic_is_a_spline() {

@@ -5,6 +5,8 @@ use super::gram::gram;
 use super::triangle::Triangle;
 use super::turn::{Periodic, Waves, harmonics};
 
+pub(super) const UNTOLD: &str = "the samples do not determine rotation and harmonics";
+
 /// The periodic part of the curve and its derivative by the angle, as factors of cosines and sines.
 pub(super) fn curve(parameters: &[f64]) -> Waves<2> {
     let mut waves = vec![[[0.0; 2]; 2]];
@@ -53,27 +55,44 @@ pub(super) fn solve(
     parameters: &[f64],
     count: usize,
 ) -> Result<(Triangle, Vec<f64>), String> {
-    let mut extended = parameters.to_vec();
-    extended.resize(2 + 2 * count, 0.0);
-    let quick = samples.is_very_many().then(|| {
-        let gram = gram(samples, middle, &extended);
-        Triangle::of_gram(&gram)
-    });
-    let mut triangle = quick.flatten().unwrap_or_else(|| {
-        let mut triangle = Triangle::new(extended.len());
-        let mut list = Vec::new();
-        for (t, weight, target) in samples.iter() {
-            let value = columns(t - middle, &extended, &mut list);
-            let residual = target - weight * value;
-            triangle.add(list.iter().map(|column| weight * column), residual);
-        }
-        triangle
-    });
+    let extended = extended(parameters, count);
+    let quick = samples.is_very_many();
+    let quick = quick.then(|| Triangle::of_gram(&gram(samples, middle, &extended)));
+    let quick = quick.filter(|triangle| triangle.size() == extended.len());
+    let mut triangle = quick.unwrap_or_else(|| by_rows(samples, middle, &extended));
     let step = triangle.solve();
     match step {
         Some(step) if step.iter().all(|s| s.is_finite()) => Ok((triangle, step)),
-        _ => Err("the samples do not determine rotation and harmonics".to_owned()),
+        _ => Err(UNTOLD.to_owned()),
     }
+}
+
+/// The triangle of the design matrix at these parameters, extended by zeros to as many columns of `count` harmonics as the
+/// samples tell apart: at the same angles in each turn they tell few.
+pub(super) fn told(samples: &Rows<'_>, middle: f64, parameters: &[f64], count: usize) -> Triangle {
+    let extended = extended(parameters, count);
+    match samples.is_very_many() {
+        true => Triangle::of_gram(&gram(samples, middle, &extended)),
+        false => by_rows(samples, middle, &extended).told(),
+    }
+}
+
+fn extended(parameters: &[f64], count: usize) -> Vec<f64> {
+    let mut extended = parameters.to_vec();
+    extended.resize(2 + 2 * count, 0.0);
+    extended
+}
+
+/// The triangle of all columns, from the rows one after the other.
+fn by_rows(samples: &Rows<'_>, middle: f64, parameters: &[f64]) -> Triangle {
+    let mut triangle = Triangle::new(parameters.len());
+    let mut list = Vec::new();
+    for (t, weight, target) in samples.iter() {
+        let value = columns(t - middle, parameters, &mut list);
+        let residual = target - weight * value;
+        triangle.add(list.iter().map(|column| weight * column), residual);
+    }
+    triangle
 }
 
 /// What rounding may add to the sum of squares.

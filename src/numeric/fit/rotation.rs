@@ -4,7 +4,7 @@ use super::Size;
 use super::choice::{best, undecided};
 use super::condensed::Rows;
 use super::decay::Decay;
-use super::design::{rounding, solve, squares};
+use super::design::{UNTOLD, rounding, solve, squares, told};
 
 /// Most harmonics that are chosen from the samples.
 const MOST: usize = 64;
@@ -65,7 +65,7 @@ pub(super) fn supported(
 ) -> Result<(usize, Vec<f64>), String> {
     let rows = levels[0].count;
     let least = rows as f64 * levels[0].floor.powi(2);
-    let most = most_harmonics(&levels[0]);
+    let mut most = most_harmonics(&levels[0]);
     let mut tried = match size {
         Size::Fixed(count) => (count + 2).min(most.max(count)),
         Size::Auto => 4.min(most),
@@ -74,13 +74,28 @@ pub(super) fn supported(
         let samples = serving(levels, parameters, tried);
         // About the motion so far, not to lose small harmonics in the rounding of large ones.
         let known = &parameters[..parameters.len().min(2 + 2 * tried)];
-        let (triangle, _) = solve(samples, middle, known, tried)?;
+        let triangle = told(samples, middle, known, tried);
+        let Some(columns) = triangle.size().checked_sub(2) else {
+            return Err(UNTOLD.to_owned());
+        };
+        if columns < 2 * tried {
+            (most, tried) = (columns / 2, columns / 2);
+        }
+        if let Size::Fixed(count) = size
+            && count > tried
+        {
+            return Err(format!(
+                "the samples are at so few angles of a turn that they tell no more than {tried} harmonics"
+            ));
+        }
         let mut harmonics = known.to_vec();
+        harmonics.truncate(2 + 2 * tried);
         harmonics[..2].fill(0.0);
         let squares = triangle
             .squares(&harmonics)
             .into_iter()
             .skip(2)
+            .take(2 * tried + 1)
             .map(|s| samples.left + s);
         let squares: Vec<f64> = squares.collect();
         // Both parameters of a harmonic come together.
