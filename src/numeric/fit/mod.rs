@@ -66,7 +66,7 @@ impl Samples<'_> {
     }
 
     /// What a curve of these values leaves of the targets.
-    fn left(&self, values: &[f64]) -> Vec<f64> {
+    pub fn left(&self, values: &[f64]) -> Vec<f64> {
         let weight = |i: usize| self.weight.map_or(1.0, |weight| weight[i]);
         parallel::list(values.len(), |i| self.target[i] - weight(i) * values[i])
     }
@@ -149,6 +149,18 @@ impl State {
             self.bias[entry] += (left * value).powi(2);
         }
         self
+    }
+
+    /// This curve where it and its derivatives may be off by these amounts together.
+    pub fn off_by(mut self, amounts: &[f64; 3]) -> State {
+        add_products(&mut self.bias, amounts, 1.0);
+        self
+    }
+
+    /// This curve where its arguments may be stretched by such a part.
+    pub fn stretched(self, part: f64) -> State {
+        let [_, first, second] = self.value;
+        self.off_by(&[0.0, part * first, 2.0 * part * second])
     }
 
     /// What rounding may have done to a combination of the three.

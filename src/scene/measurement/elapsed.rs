@@ -23,6 +23,7 @@ impl Measurement {
     pub(super) fn count_from_first_row(&mut self) {
         if self.lost().is_some() {
             self.elapsed = self.since_first_row();
+            self.origin = self.elapsed.as_ref().map_or(0.0, |_| self.times[0]);
         }
     }
 

@@ -3,6 +3,7 @@
 mod columns;
 mod digits;
 mod elapsed;
+mod even;
 mod plain;
 mod read;
 mod rows;
@@ -88,8 +89,12 @@ pub struct Reading {
 pub struct Measurement {
     measured: Measured,
     times: Vec<f64>,
-    /// Times since the first row, s, where the times themselves have lost digits.
+    /// Times since `origin`, s, where the times themselves have lost digits.
     elapsed: Option<Vec<f64>>,
+    /// s
+    origin: f64,
+    /// Part by which the time between samples may be off that are taken as even.
+    spacing: f64,
     values: Vec<f64>,
     resolution: f64,
     notes: Vec<String>,
@@ -118,6 +123,8 @@ impl Measurement {
             measured,
             times,
             elapsed: None,
+            origin: 0.0,
+            spacing: 0.0,
             values,
             resolution: 0.0,
             notes: Vec::new(),
@@ -173,12 +180,14 @@ impl Measurement {
         self.elapsed.as_deref().unwrap_or(&self.times)
     }
 
-    /// The time from which times for a fit count, s: that of the first row, or 0.
+    /// The time from which times for a fit count, s: that of the first row where times lose digits, or 0.
     pub fn origin(&self) -> f64 {
-        match self.elapsed {
-            Some(_) => self.times[0],
-            None => 0.0,
-        }
+        self.origin
+    }
+
+    /// Part by which times for a fit may be stretched: that to which rounded times tell the time between even samples.
+    pub fn time_uncertainty(&self) -> f64 {
+        self.spacing
     }
 
     /// Measured values, rad or m.

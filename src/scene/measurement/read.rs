@@ -73,6 +73,8 @@ pub(super) fn measurement(
         measured: columns.measured,
         times,
         elapsed: None,
+        origin: 0.0,
+        spacing: 0.0,
         values,
         resolution,
         notes: columns.note.into_iter().collect(),

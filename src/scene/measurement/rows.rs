@@ -53,8 +53,10 @@ pub(super) fn check_rows(measurement: &mut Measurement) -> Result<(), Problems> 
         problems.push(problem);
     }
     if problems.is_empty() {
+        let spaced = measurement.space_evenly();
         let notes = [gaps, far_from_zero, saturated].map(|noted| noted(measurement));
-        measurement.notes.extend(notes.into_iter().flatten());
+        let notes = notes.into_iter().chain([spaced]).flatten();
+        measurement.notes.extend(notes);
         return Ok(());
     }
     Err(match &measurement.source {
@@ -113,7 +115,7 @@ fn far_from_zero(measurement: &Measurement) -> Option<String> {
     let step = (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
     if measurement.elapsed.is_some() {
         return Some(format!(
-            "times so far from zero are counted from the first row, in decimal: the coefficients of the fit refer to the time since t = {} s, which as t_s in the rows is rounded to {} s",
+            "times so far from zero are counted from the first row: the coefficients of the fit refer to the time since t = {} s, which as t_s in the rows is rounded to {} s",
             measurement.origin(),
             computed(known)
         ));

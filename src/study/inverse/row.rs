@@ -124,6 +124,7 @@ impl Rows {
             let (times, elapsed) = (&times[range.clone()], &elapsed[range]);
             let states = times.iter().zip(fitted.states(elapsed));
             states.map(|(t, state)| {
+                let state = state.stretched(measurement.time_uncertainty());
                 let demand = backwards.demand(*t, &state);
                 let row = InverseRow::new(*t, &state, &demand);
                 (row, Doubt::new(&demand, linkage.r))
