@@ -586,3 +586,18 @@ fn the_table_of_forces_is_right() {
     }
     assert!(lines.next().is_none());
 }
+
+/// Fifteen turns from rest in 201 samples: the polynomial of the highest degree that these allow goes through most of them, and
+/// is off by thousands of millions of newtons between those at the ends.
+#[test]
+fn a_polynomial_that_does_not_follow_the_motion_is_refused() {
+    let times: Vec<f64> = (0..=200).map(|i| 0.01 * f64::from(i)).collect();
+    let faster = |t: f64| 7.5 * TAU / 2.0 * t * t;
+    let angle = |t: f64| faster(t) + 0.05 * faster(t).sin();
+    let theta = times.iter().map(|t| angle(*t)).collect();
+    let motion = Measurement::new(Measured::Theta, times, theta).expect("samples");
+    let refused = inverse(&pump(), &motion, &InverseOptions::default()).expect_err("no fit");
+    let message = refused.to_string();
+    assert!(message.contains("--fit spline"), "{message}");
+    assert!(inverse(&pump(), &motion, &fitted(FitKind::Spline)).is_ok());
+}

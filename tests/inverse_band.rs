@@ -501,7 +501,7 @@ fn drifting_rotation_with_noise() {
         path: 10.4 * TAU,
     };
     let case = Case::new(&draft, Measured::Theta, 900, 0.0, random);
-    for noise in [2e-6, 2e-5] {
+    for noise in [2e-6, 2e-5, 2e-4, 2e-3] {
         let found = case.coverage(FitKind::Fourier, Noise::Normal(noise), 4, random);
         let is_right = found.share >= 0.9 && (0.3..=1.5).contains(&found.error);
         assert!(is_right, "{noise}: {found:?}");

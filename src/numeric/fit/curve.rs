@@ -130,9 +130,7 @@ impl Curve {
     /// A text that says why the samples do not serve.
     pub fn again(&self, rows: &Rows<'_>) -> Result<Curve, String> {
         match self {
-            Curve::Polynomial(polynomial) => {
-                Curve::to(rows, Kind::Polynomial, Size::Fixed(polynomial.degree()))
-            }
+            Curve::Polynomial(polynomial) => Ok(Curve::Polynomial(polynomial.again(rows))),
             Curve::Spline(spline) => spline.again(rows).map(Curve::Spline),
             Curve::Fourier(fourier) => fourier.again(rows).map(|fit| Curve::Fourier(Box::new(fit))),
         }
@@ -158,6 +156,14 @@ impl Curve {
             Curve::Fourier(fourier) => return fourier.is_seen_by(rows),
         };
         rows.blocks().is_none_or(|blocks| waves <= blocks as f64)
+    }
+
+    /// Whether the samples support more terms than were allowed.
+    pub fn is_cut_short(&self) -> bool {
+        match self {
+            Curve::Polynomial(polynomial) => polynomial.is_cut_short(),
+            Curve::Spline(_) | Curve::Fourier(_) => false,
+        }
     }
 
     /// Counts errors of the targets, which depend on each other, as what may be wrong with the curve.
@@ -199,7 +205,24 @@ impl Curve {
         }
     }
 
-    /// The same at rising arguments, to rounding.
+    /// Its values alone.
+    pub fn derivatives(&self, t: f64) -> [f64; 3] {
+        match self {
+            Curve::Spline(spline) => spline.derivatives(t),
+            other => other.state(t).value,
+        }
+    }
+
+    /// How often a sample counts in the curve at the next one, for samples this far apart, in all: a slow curve is about
+    /// the same there.
+    pub fn shared(&self, step: f64) -> f64 {
+        match self {
+            Curve::Fourier(fourier) => fourier.shared(step),
+            other => other.quality().parameters,
+        }
+    }
+
+    /// The states at rising arguments, to rounding.
     pub fn states(&self, t: &[f64]) -> Vec<State> {
         let mut states = Vec::with_capacity(t.len());
         let smooth = |t: &[f64]| match self {

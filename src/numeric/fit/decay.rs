@@ -7,6 +7,8 @@
 
 use std::ops::Range;
 
+use crate::numeric::real::Real;
+
 /// Variances of the coefficients of a series, as a mixture of geometric series.
 #[derive(Clone, Debug)]
 pub(super) struct Decay {
@@ -85,6 +87,19 @@ impl Decay {
         Decay { noise, mixture }
     }
 
+    /// The same of an expansion, from the sums of squared residuals with one term, two terms, ...; `least` is what is left
+    /// of noise at least.
+    pub fn of_sums<T: Real>(rows: usize, sums: &[T], supported: usize, least: f64) -> Decay {
+        let last = sums[sums.len() - 1].value();
+        let free = rows.saturating_sub(sums.len()).max(1) as f64;
+        let noise = (last / free).max(least / rows as f64);
+        // The constant term tells nothing.
+        let mut terms = vec![0.0];
+        let steps = sums.windows(2).map(|pair| (pair[0] - pair[1]).value());
+        terms.extend(steps.map(|step| step.max(0.0)));
+        Decay::of(&terms, 1.0, noise, supported.max(1))
+    }
+
     /// Variance that noise gives a coefficient.
     pub fn noise(&self) -> f64 {
         self.noise
@@ -107,24 +122,24 @@ impl Decay {
     }
 
     /// The first number of terms, from `supported` to `most`, that leaves out little of the second derivative, to which
-    /// term k adds in proportion to k^`power`.
-    pub fn enough(&self, supported: usize, most: usize, power: i32) -> usize {
+    /// term k adds in proportion to k^`power`; none if all of them leave out more.
+    pub fn enough(&self, supported: usize, most: usize, power: i32) -> Option<usize> {
         let size = |k: usize| (k as f64).powi(power);
         let mut known: f64 = (1..=supported).map(|k| self.noise * size(k)).sum();
         let variances: Vec<f64> = (supported..most.max(supported) + FAR + 1)
             .map(|k| self.variance(k))
             .collect();
-        for last in supported..most {
+        for last in supported..=most {
             let left: f64 = variances[last - supported + 1..][..FAR]
                 .iter()
                 .zip(last + 1..)
                 .map(|(variance, k)| variance * size(k))
                 .sum();
             if left <= SLIGHT * known {
-                return last;
+                return Some(last);
             }
             known += self.noise * size(last + 1);
         }
-        most
+        None
     }
 }

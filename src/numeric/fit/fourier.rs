@@ -158,6 +158,13 @@ impl Fourier {
         self.parameters.len() / 2 - 1
     }
 
+    /// How often samples this far apart count in the curve at the next one, in all: each harmonic with both its terms, as
+    /// much as it goes on alike.
+    pub(super) fn shared(&self, step: f64) -> f64 {
+        let alike = |k: usize| (k as f64 * self.parameters[1] * step).cos();
+        2.0 + (1..=self.harmonics()).map(|k| 2.0 * alike(k)).sum::<f64>()
+    }
+
     /// What it leaves of the samples.
     pub fn quality(&self) -> Quality {
         self.quality

@@ -43,6 +43,8 @@ pub struct Polynomial {
     powers: Powers,
     extended: bool,
     supported: usize,
+    /// Whether the highest degree that may be chosen leaves out more than little.
+    cut_short: bool,
 }
 
 impl Polynomial {
@@ -79,10 +81,10 @@ impl Polynomial {
         };
         let enough = |squares: &[T]| {
             let supported = best(rows, 1, 1, squares, least);
-            let decay = decay(rows, squares, supported, least);
+            let decay = Decay::of_sums(rows, squares, supported, least);
             let degree = match size {
                 Size::Auto => decay.enough(supported, most, GROWTH),
-                Size::Fixed(degree) => degree,
+                Size::Fixed(degree) => Some(degree),
             };
             (degree, decay)
         };
@@ -95,12 +97,13 @@ impl Polynomial {
             squares.len() <= most
                 && (!automatic
                     || undecided(rows, 1, 1, squares, least)
-                    || squares.len() <= enough(squares).0)
+                    || squares.len() <= enough(squares).0.unwrap_or(most))
                 || squares.len() > most && squares.len() <= most + TAIL
         });
         found.squares = all(&found.squares);
         let (degree, decay) = enough(&found.squares);
-        let degree = degree.min(found.coefficients.len() - 1);
+        let cut_short = degree.is_none();
+        let degree = degree.unwrap_or(most).min(found.coefficients.len() - 1);
         let beyond = degree + 1..found.coefficients.len().min(degree + 1 + TAIL);
         let tail = decay.beyond(beyond, GROWTH);
         let (centres, norms) = (found.centres.clone(), found.norms.clone());
@@ -144,6 +147,15 @@ impl Polynomial {
             powers,
             extended: T::ROUNDING < f64::EPSILON,
             supported,
+            cut_short,
+        }
+    }
+
+    /// One of the same degree.
+    pub(super) fn again(&self, rows: &Rows<'_>) -> Polynomial {
+        Polynomial {
+            cut_short: self.cut_short,
+            ..Polynomial::to(rows, Size::Fixed(self.degree()))
         }
     }
 
@@ -189,6 +201,11 @@ impl Polynomial {
     /// The degree up to which the samples support its terms.
     pub fn supported_degree(&self) -> usize {
         self.supported
+    }
+
+    /// Whether the samples support more terms than were allowed.
+    pub(super) fn is_cut_short(&self) -> bool {
+        self.cut_short
     }
 
     /// What it leaves of the samples.
@@ -279,19 +296,4 @@ impl Polynomial {
         }
         state
     }
-}
-
-/// How the coefficients of an expansion fall off, from its sums of squared residuals.
-fn decay<T: Real>(rows: usize, squares: &[T], supported: usize, least: f64) -> Decay {
-    let last = squares.len() - 1;
-    let free = rows.saturating_sub(squares.len()).max(1) as f64;
-    let noise = (squares[last].value() / free).max(least / rows as f64);
-    // The constant term tells nothing.
-    let mut terms = vec![0.0];
-    terms.extend(
-        squares
-            .windows(2)
-            .map(|pair| (pair[0] - pair[1]).value().max(0.0)),
-    );
-    Decay::of(&terms, 1.0, noise, supported.max(1))
 }

@@ -112,7 +112,7 @@ pub(super) fn supported(
         let decay = Decay::of(&terms, 2.0, noise, found.max(1));
         let count = match size {
             Size::Fixed(count) => count,
-            Size::Auto => decay.enough(found, most, GROWTH),
+            Size::Auto => decay.enough(found, most, GROWTH).unwrap_or(most),
         };
         let weights: f64 = samples.iter().map(|(_, weight, _)| weight * weight).sum();
         let beyond = count + 1..count + 1 + TAIL;

@@ -256,6 +256,11 @@ impl Spline {
         self.curve.value(t)
     }
 
+    /// The spline and its derivatives at `t`, without their errors.
+    pub fn derivatives(&self, t: f64) -> [f64; 3] {
+        self.curve.derivatives(t)
+    }
+
     /// The spline and its derivatives at `t`.
     pub fn state(&self, t: f64) -> State {
         let (piece, bases) = self.curve.grid.bases(t);

@@ -33,7 +33,7 @@ impl Errors {
     ) -> Errors {
         let quality = curve.quality();
         let known = quality.floor.max(computed);
-        let pattern = Pattern::of(residuals, quality.parameters, known);
+        let pattern = Pattern::of(residuals, curve, samples.t, known);
         let rows = residuals.len() as f64;
         let through = curve.compare(samples);
         let mut errors = Errors {

@@ -60,6 +60,24 @@ impl Fitted {
         Fitted::to(sensor, measurement, theta, (kind, size), digits)
     }
 
+    /// This fit, if it follows the motion.
+    ///
+    /// # Errors
+    /// A text that says by how much it does not, where more terms were not allowed.
+    pub fn following(self) -> Result<Fitted, String> {
+        let missed = self.errors.missed.as_ref();
+        let missed = missed.filter(|missed| self.curve.is_cut_short() && missed.is_most());
+        let Some(missed) = missed else {
+            return Ok(self);
+        };
+        Err(format!(
+            "a polynomial of degree {}, the highest that is chosen for {} samples, does not follow the motion, but --fit spline may: it is off by {:.1e} times the acceleration",
+            self.curve.degree(),
+            self.residuals.len(),
+            missed.part
+        ))
+    }
+
     /// Fits the motion to values rounded to steps.
     fn to(
         sensor: &Sensor<'_>,

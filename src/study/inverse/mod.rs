@@ -120,6 +120,7 @@ pub fn inverse(
         options.fit,
         options.size,
     );
+    let fitted = fitted.and_then(Fitted::following);
     let fitted = fitted.map_err(|what| limit::unfit(sensor.linkage, what, &unfolded.warnings))?;
     let backwards = Backwards {
         equation: &equation,

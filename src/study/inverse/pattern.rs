@@ -1,5 +1,7 @@
 //! Whether residuals look like noise.
 
+use crate::numeric::fit::Curve;
+
 /// What the order of the residuals tells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Pattern {
@@ -17,10 +19,11 @@ pub(super) struct Pattern {
 const CLEAR: f64 = 4.0;
 
 impl Pattern {
-    /// Reads the residuals of a fit that is worth this many parameters; those within what samples and curve are
-    /// known to, of standard deviation `floor`, tell nothing about the fit.
-    pub fn of(residuals: &[f64], parameters: f64, floor: f64) -> Pattern {
+    /// Reads the residuals that a curve leaves of samples at rising times; those within what samples and curve are known
+    /// to, of standard deviation `floor`, tell nothing about the fit.
+    pub fn of(residuals: &[f64], curve: &Curve, times: &[f64], floor: f64) -> Pattern {
         let n = residuals.len() as f64;
+        let parameters = curve.quality().parameters;
         let square: f64 = residuals.iter().map(|r| r * r).sum();
         if square == 0.0 || residuals.len() < 4 {
             return Pattern {
@@ -34,8 +37,9 @@ impl Pattern {
         let neighbours = residuals.iter().zip(&residuals[1..]);
         let lag_one = neighbours.map(|(a, b)| a * b).sum::<f64>() / square;
         let runs = runs(residuals);
-        // Residuals of noise are correlated by about −(parameters)/n through the fit itself.
-        let deviations = (lag_one + parameters / n) * n.sqrt();
+        // Residuals of noise are correlated by about −shared/n through the fit itself.
+        let shared = curve.shared((times[times.len() - 1] - times[0]) / (n - 1.0));
+        let deviations = (lag_one + shared / n) * n.sqrt();
         let mut widening = 1.0;
         if shown && (deviations > CLEAR || runs < -CLEAR) {
             let time = correlation_time(residuals);
