@@ -15,6 +15,9 @@ const SMOOTH: f64 = 0.7;
 /// less than 0.001.
 const LEFT: f64 = 0.1;
 
+/// Part of the squares of residuals that is much where a spline leaves it of them in a pattern: a tenth of their size.
+const MUCH: f64 = 0.01;
+
 /// Most residuals that are looked at.
 const MOST: usize = 2000;
 
@@ -167,11 +170,17 @@ impl Missed {
     }
 }
 
-/// Standard deviation of a sample beside a spline; none for one that leaves residuals with a pattern as well.
+/// Standard deviation of a sample beside a spline, widened where what that leaves has a pattern; none where it leaves much of
+/// the samples as well.
 fn noise_beside(spline: &mut Curve, samples: &Samples<'_>) -> Option<f64> {
     let through = spline.compare(samples);
     let quality = spline.quality();
+    if through {
+        return Some(quality.sigma);
+    }
     let residuals = samples.left(&spline.values(samples.t));
     let pattern = Pattern::of(&residuals, spline, samples.t, quality.floor);
-    (through || !pattern.clear).then_some(quality.sigma)
+    let squares: f64 = samples.target.iter().map(|target| target * target).sum();
+    let follows = !pattern.clear || quality.squares <= MUCH * squares;
+    follows.then_some(quality.sigma * pattern.widening)
 }
