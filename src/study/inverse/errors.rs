@@ -3,7 +3,11 @@
 use super::missed::Missed;
 use super::pattern::Pattern;
 use super::rounding::Rounding;
-use crate::numeric::fit::{Curve, Samples, State};
+use crate::numeric::fit::{Curve, Kind, Samples, State};
+use std::f64::consts::TAU;
+
+/// Part of what samples may be off that were computed which no residuals show.
+const PART: f64 = 0.2;
 
 /// What is known of the errors of a fitted motion, beside what the curve knows of its own.
 #[derive(Debug)]
@@ -36,11 +40,15 @@ impl Errors {
         let pattern = Pattern::of(residuals, quality.parameters, known);
         let rows = residuals.len() as f64;
         let through = curve.compare(samples);
+        let repeated = match curve.kind() {
+            Kind::Fourier => turns(curve, samples.t).max(1.0).sqrt(),
+            Kind::Polynomial | Kind::Spline => 1.0,
+        };
         let mut errors = Errors {
             pattern,
             through,
             noise: curve.quality().sigma,
-            computed,
+            computed: PART * computed * repeated,
             free: (rows - quality.parameters).max(1.0),
             missed: None,
         };
@@ -79,4 +87,10 @@ impl Errors {
             None => states,
         }
     }
+}
+
+/// Turns from the first to the last of these times.
+pub(super) fn turns(curve: &Curve, t: &[f64]) -> f64 {
+    let [first, last] = [t[0], t[t.len() - 1]].map(|t| curve.value(t));
+    (last - first).abs() / TAU
 }

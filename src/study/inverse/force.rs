@@ -48,6 +48,9 @@ const STEP_COS: f64 = 1.0 - 0.5 * STEP * STEP;
 /// differences.
 pub(super) const NEAR_LIMIT: f64 = 0.3;
 
+/// Part of the largest rounding that is its standard deviation: roundings of many terms seldom add up.
+const RARE: f64 = 0.25;
+
 impl Backwards<'_> {
     /// Torque that the scene's loads exert at a state.
     fn known(&self, t: f64, theta: f64, omega: f64, terms: &Terms) -> f64 {
@@ -147,7 +150,7 @@ impl Backwards<'_> {
     /// Standard error of a combination of angle, speed and acceleration, with what else rounding adds.
     fn error(&self, state: &State, gradient: &[f64; 3], more: f64) -> f64 {
         let noise = self.sigma * self.sigma * state.variance(gradient);
-        let rounding = state.rounding_of(gradient) + more;
+        let rounding = RARE * state.rounding_of(gradient) + more;
         (noise + state.bias_of(gradient) + rounding * rounding).sqrt()
     }
 

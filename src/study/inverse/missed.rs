@@ -1,5 +1,6 @@
 //! What a curve misses of a motion that it cannot follow: a spline through its residuals, where these are a smooth curve.
 
+use super::errors::turns;
 use super::pattern::Pattern;
 use crate::numeric::fit::{Curve, Kind, Rows, Samples, Size, State};
 
@@ -12,6 +13,9 @@ const NOISY: f64 = 0.01;
 /// Part of what is missed of angle, speed and acceleration that is left where these make up for each other; where much of
 /// the angle (rad) is missed the equation bends, and more is left.
 const LEFT: f64 = 0.1;
+
+/// Samples of a wave of the last harmonic below which waves beyond it look slower than they are.
+const OF_WAVE: f64 = 8.0;
 
 /// Most residuals that are looked at.
 const MOST: usize = 2000;
@@ -44,6 +48,10 @@ impl Missed {
         sigma: f64,
     ) -> Option<Missed> {
         if !pattern.clear || pattern.lag_one < SMOOTH || curve.kind() == Kind::Spline {
+            return None;
+        }
+        let rows = samples.t.len() as f64;
+        if curve.kind() == Kind::Fourier && OF_WAVE * waves(curve, samples.t) > rows {
             return None;
         }
         let last = samples.t.len() - 1;
@@ -116,6 +124,11 @@ impl Missed {
         let left = LEFT + missed.value[0].abs();
         state.wrong_by(missed, self.noise, left)
     }
+}
+
+/// Waves of the last harmonic from the first to the last of these times.
+fn waves(curve: &Curve, t: &[f64]) -> f64 {
+    curve.size() as f64 * turns(curve, t)
 }
 
 /// The spline through what is left of samples, as free as one through all of the motion (`motion`) at least: of waves that

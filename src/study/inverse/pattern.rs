@@ -31,6 +31,7 @@ impl Pattern {
             };
         }
         let shown = square > n * (1.5 * floor).powi(2);
+        let free = (n - parameters).max(1.0);
         let neighbours = residuals.iter().zip(&residuals[1..]);
         let lag_one = neighbours.map(|(a, b)| a * b).sum::<f64>() / square;
         let runs = runs(residuals);
@@ -39,17 +40,41 @@ impl Pattern {
         let mut widening = 1.0;
         if shown && (deviations > CLEAR || runs < -CLEAR) {
             let time = correlation_time(residuals);
-            let free = (n - parameters).max(1.0);
             widening = (time * n / free).sqrt().max(1.0);
         }
         Pattern {
             lag_one,
             runs,
-            widening,
             clear: widening > 1.0,
+            widening: if shown {
+                widening
+            } else {
+                in_waves(residuals, parameters, square / free)
+            },
         }
     }
 }
+
+/// By how much more residuals of this variance vary in waves as long as the fit just follows than noise does: errors of a
+/// computed motion are smooth over its steps.
+fn in_waves(residuals: &[f64], parameters: f64, variance: f64) -> f64 {
+    let n = residuals.len() as f64;
+    let length = (n / (BLOCKS * parameters)) as usize;
+    if length < 2 {
+        return 1.0;
+    }
+    let sums = residuals.chunks_exact(length).map(|some| some.iter().sum());
+    let squares: f64 = sums.map(|sum: f64| sum * sum).sum();
+    let blocks = residuals.len() / length;
+    // The fit itself takes its part of the sums.
+    let free = blocks as f64 - parameters;
+    (squares / (free * length as f64 * variance))
+        .sqrt()
+        .max(1.0)
+}
+
+/// Blocks of residuals for each parameter.
+const BLOCKS: f64 = 2.0;
 
 /// Lags that are summed before neighbours are taken together.
 const LAGS: usize = 64;
