@@ -35,6 +35,8 @@ pub(super) struct Backwards<'a> {
     pub sigma: f64,
     /// The guide, if it has friction.
     pub guide: Option<&'a Guide>,
+    /// Part of the terms of the equation to which they are known where noise hides nothing.
+    pub exact: f64,
 }
 
 /// Step in the crank angle (rad) for derivatives of the terms: they are right to about 1e-9.
@@ -101,7 +103,7 @@ impl Backwards<'_> {
             + (terms.inertia.half_dm * omega * omega).abs()
             + terms.dv.abs()
             + known.abs();
-        let rounding = 8.0 * f64::EPSILON * size;
+        let rounding = self.exact.max(8.0 * f64::EPSILON) * size;
         let error = |gradient: &[f64; 3], more: f64| self.error(state, gradient, more);
         let (arm, bend) = (terms.pose.dx, terms.pose.d2x);
         let force = torque / arm;

@@ -17,6 +17,9 @@ const LEFT: f64 = 0.1;
 /// Samples of a wave of the last harmonic below which waves beyond it look slower than they are.
 const OF_WAVE: f64 = 8.0;
 
+/// Part of an error of one sample that a curve follows, beyond which its residual hardly shows what is missed.
+const FOLLOWED: f64 = 0.5;
+
 /// Most residuals that are looked at.
 const MOST: usize = 2000;
 
@@ -30,6 +33,8 @@ const PLACES: usize = 500;
 #[derive(Debug)]
 pub(super) struct Missed {
     curve: Curve,
+    /// Times between which residuals show what is missed: at the ends of the samples a polynomial follows each of them.
+    shown: [f64; 2],
     /// Standard deviation of a sample by noise beside that curve.
     pub noise: f64,
 }
@@ -93,8 +98,13 @@ impl Missed {
         }
         let spline = found.filter(|_| follows)?;
         let noise = spline.quality().sigma;
+        let follows = |i: &usize| {
+            let weight = samples.weight.map_or(1.0, |weight| weight[*i]);
+            weight * weight * curve.state(samples.t[*i]).covariance[0] > FOLLOWED
+        };
         let missed = Missed {
             curve: spline,
+            shown: inner(&chosen, follows).map(|i| samples.t[i]),
             noise,
         };
         let acceleration = [0.0, 0.0, 1.0];
@@ -102,28 +112,47 @@ impl Missed {
             sigma * sigma * state.variance(&acceleration) + state.bias_of(&acceleration)
         };
         let (mut before, mut after, mut seen) = (0.0, 0.0, 0.0);
-        for t in t.iter().step_by(t.len().div_ceil(PLACES)) {
+        let places = t.iter().step_by(t.len().div_ceil(PLACES));
+        for t in places.filter(|t| missed.shows(**t)) {
             let state = curve.state(*t);
             before += square(&state, sigma);
             let more = missed.curve.state(*t);
             seen += more.value[2] * more.value[2];
-            after += square(&missed.beside(state, &more), noise);
+            after += square(&missed.beside(*t, state, &more), noise);
         }
         (after < before || seen > before).then_some(missed)
     }
 
     /// The states of the fit at rising times with what it misses as what may be wrong.
     pub fn all_beside(&self, mut states: Vec<State>, t: &[f64]) -> Vec<State> {
-        for (state, missed) in states.iter_mut().zip(self.curve.states(t)) {
-            *state = self.beside(*state, &missed);
+        for ((state, missed), t) in states.iter_mut().zip(self.curve.states(t)).zip(t) {
+            *state = self.beside(*t, *state, &missed);
         }
         states
     }
 
-    fn beside(&self, state: State, missed: &State) -> State {
-        let left = LEFT + missed.value[0].abs();
-        state.wrong_by(missed, self.noise, left)
+    fn shows(&self, t: f64) -> bool {
+        let [first, last] = self.shown;
+        first < t && t < last
     }
+
+    fn beside(&self, t: f64, state: State, missed: &State) -> State {
+        let left = LEFT + missed.value[0].abs();
+        let mut found = state.wrong_by(missed, self.noise, left);
+        if !self.shows(t) {
+            let pairs = found.bias.iter_mut().zip(state.bias);
+            pairs.for_each(|(found, own)| *found += own);
+        }
+        found
+    }
+}
+
+/// The first and the last of these samples between which no sample of either half is followed.
+fn inner(samples: &[usize], follows: impl Fn(&usize) -> bool) -> [usize; 2] {
+    let (before, after) = samples.split_at(samples.len() / 2);
+    let first = before.iter().rev().find(|i| follows(i));
+    let last = after.iter().find(|i| follows(i));
+    [first.or(samples.first()), last.or(samples.last())].map(|i| i.copied().unwrap_or(0))
 }
 
 /// Waves of the last harmonic from the first to the last of these times.

@@ -11,6 +11,8 @@ pub(super) struct Pattern {
     pub widening: f64,
     /// Whether the residuals have a pattern, and are more than the digits of the samples.
     pub clear: bool,
+    /// Whether the residuals are more than the digits of the samples.
+    pub shown: bool,
 }
 
 /// Standard deviations beyond which a pattern is one.
@@ -28,10 +30,10 @@ impl Pattern {
                 runs: 0.0,
                 widening: 1.0,
                 clear: false,
+                shown: false,
             };
         }
         let shown = square > n * (1.5 * floor).powi(2);
-        let free = (n - parameters).max(1.0);
         let neighbours = residuals.iter().zip(&residuals[1..]);
         let lag_one = neighbours.map(|(a, b)| a * b).sum::<f64>() / square;
         let runs = runs(residuals);
@@ -40,37 +42,34 @@ impl Pattern {
         let mut widening = 1.0;
         if shown && (deviations > CLEAR || runs < -CLEAR) {
             let time = correlation_time(residuals);
+            let free = (n - parameters).max(1.0);
             widening = (time * n / free).sqrt().max(1.0);
         }
         Pattern {
             lag_one,
             runs,
             clear: widening > 1.0,
-            widening: if shown {
-                widening
-            } else {
-                in_waves(residuals, parameters, square / free)
-            },
+            shown,
+            widening,
         }
     }
 }
 
-/// By how much more residuals of this variance vary in waves as long as the fit just follows than noise does: errors of a
-/// computed motion are smooth over its steps.
-fn in_waves(residuals: &[f64], parameters: f64, variance: f64) -> f64 {
+/// By how much more residuals of a fit of so many parameters vary in waves about as long as the fit just follows than noise
+/// does; at least 1.
+pub(super) fn in_waves(residuals: &[f64], parameters: f64) -> f64 {
     let n = residuals.len() as f64;
+    let square: f64 = residuals.iter().map(|r| r * r).sum();
     let length = (n / (BLOCKS * parameters)) as usize;
-    if length < 2 {
+    if square == 0.0 || length < 2 {
         return 1.0;
     }
     let sums = residuals.chunks_exact(length).map(|some| some.iter().sum());
     let squares: f64 = sums.map(|sum: f64| sum * sum).sum();
-    let blocks = residuals.len() / length;
-    // The fit itself takes its part of the sums.
-    let free = blocks as f64 - parameters;
-    (squares / (free * length as f64 * variance))
-        .sqrt()
-        .max(1.0)
+    // The fit takes its part of the sums, and of the residuals.
+    let blocks = (residuals.len() / length) as f64;
+    let in_blocks = squares / ((blocks - parameters) * length as f64);
+    (in_blocks * (n - parameters) / square).sqrt().max(1.0)
 }
 
 /// Blocks of residuals for each parameter.
