@@ -14,8 +14,11 @@ const NOISY: f64 = 0.01;
 /// the angle (rad) is missed the equation bends, and more is left.
 const LEFT: f64 = 0.1;
 
-/// Samples of a wave of the last harmonic below which waves beyond it look slower than they are.
-const OF_WAVE: f64 = 8.0;
+/// Samples of a wave of the last harmonic below which waves beyond it look slower than they are, and below which some do.
+const OF_WAVE: [f64; 2] = [2.0, 8.0];
+
+/// Part of the variance of the acceleration from which on waves are taken for noise where some look slower than they are.
+const UNSEEN: f64 = 0.1;
 
 /// Part of an error of one sample that a curve follows, beyond which its residual hardly shows what is missed.
 const FOLLOWED: f64 = 0.5;
@@ -55,8 +58,8 @@ impl Missed {
         if !pattern.clear || pattern.lag_one < SMOOTH || curve.kind() == Kind::Spline {
             return None;
         }
-        let rows = samples.t.len() as f64;
-        if curve.kind() == Kind::Fourier && OF_WAVE * waves(curve, samples.t) > rows {
+        let of_wave = of_wave(curve, samples.t);
+        if of_wave < OF_WAVE[0] {
             return None;
         }
         let last = samples.t.len() - 1;
@@ -111,7 +114,7 @@ impl Missed {
         let square = |state: &State, sigma: f64| {
             sigma * sigma * state.variance(&acceleration) + state.bias_of(&acceleration)
         };
-        let (mut before, mut after, mut seen) = (0.0, 0.0, 0.0);
+        let (mut before, mut after, mut seen, mut noisy) = (0.0, 0.0, 0.0, 0.0);
         let places = t.iter().step_by(t.len().div_ceil(PLACES));
         for t in places.filter(|t| missed.shows(**t)) {
             let state = curve.state(*t);
@@ -119,6 +122,10 @@ impl Missed {
             let more = missed.curve.state(*t);
             seen += more.value[2] * more.value[2];
             after += square(&missed.beside(*t, state, &more), noise);
+            noisy += noise * noise * state.variance(&acceleration);
+        }
+        if of_wave < OF_WAVE[1] && noisy > UNSEEN * after {
+            return None;
         }
         (after < before || seen > before).then_some(missed)
     }
@@ -155,9 +162,12 @@ fn inner(samples: &[usize], follows: impl Fn(&usize) -> bool) -> [usize; 2] {
     [first.or(samples.first()), last.or(samples.last())].map(|i| i.copied().unwrap_or(0))
 }
 
-/// Waves of the last harmonic from the first to the last of these times.
-fn waves(curve: &Curve, t: &[f64]) -> f64 {
-    curve.size() as f64 * turns(curve, t)
+/// Samples at these times for each wave of the last harmonic; a polynomial is followed closer by any number of samples.
+fn of_wave(curve: &Curve, t: &[f64]) -> f64 {
+    match curve.kind() {
+        Kind::Fourier => t.len() as f64 / (curve.size().max(1) as f64 * turns(curve, t)),
+        Kind::Polynomial | Kind::Spline => f64::INFINITY,
+    }
 }
 
 /// The spline through what is left of samples, as free as one through all of the motion (`motion`) at least: of waves that
