@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 /// Part of the terms of the equation to which a computed motion is right, as a standard deviation: it obeys an equation that
 /// was approximated, and to a tolerance of 1e-10 for each step.
-const EXACT: f64 = 2e-12;
+const EXACT: f64 = 1.5e-12;
 
 /// Part of what samples may be off that were computed which no residuals show.
 const PART: f64 = 0.2;

@@ -51,7 +51,7 @@ const STEP_COS: f64 = 1.0 - 0.5 * STEP * STEP;
 pub(super) const NEAR_LIMIT: f64 = 0.3;
 
 /// Part of the largest rounding that is its standard deviation: roundings of many terms seldom add up.
-const RARE: f64 = 0.25;
+const RARE: f64 = 0.5;
 
 impl Backwards<'_> {
     /// Torque that the scene's loads exert at a state.
