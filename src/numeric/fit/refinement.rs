@@ -94,11 +94,7 @@ struct Differences {
 pub(super) fn errors(spline: &Piecewise, few: &Few<'_>) -> Option<Vec<[f64; 3]>> {
     let samples = few.samples();
     let coarser = |by: usize| match few.many {
-        true => {
-            let (rows, pieces) = (Rows::from(&samples), spline.grid.pieces.div_ceil(by));
-            let chosen = || Spline::to(&rows, Size::Fixed(pieces)).ok();
-            Spline::through(&rows, pieces).or_else(|| chosen().map(Spline::into_curve))
-        }
+        true => interpolating(&samples, spline.grid.pieces.div_ceil(by)),
         false => through_fewer(&samples, spline.grid.pieces, by),
     };
     let (half, quarter) = (coarser(2)?, coarser(4)?);
@@ -159,6 +155,13 @@ fn through_fewer(samples: &Samples<'_>, pieces: usize, stride: usize) -> Option<
         weight: weight.as_deref(),
         floor: samples.floor,
     };
-    let spline = Spline::fit(&part, Size::Fixed(most.min(pieces.div_ceil(stride))));
-    spline.ok().map(Spline::into_curve)
+    interpolating(&part, most.min(pieces.div_ceil(stride)))
+}
+
+/// A spline of so many pieces that is as free as any; if samples do not determine that, with the penalty that they ask for,
+/// which bends it away where it is smooth for what it does not follow elsewhere.
+fn interpolating(samples: &Samples<'_>, pieces: usize) -> Option<Piecewise> {
+    let rows = Rows::from(samples);
+    let chosen = || Spline::to(&rows, Size::Fixed(pieces)).ok();
+    Spline::through(&rows, pieces).or_else(|| chosen().map(Spline::into_curve))
 }

@@ -1,9 +1,17 @@
 //! What a fit, its residuals and rounding tell of the errors of a motion.
 
 use super::missed::Missed;
-use super::pattern::Pattern;
+use super::pattern::{Pattern, in_waves};
 use super::rounding::Rounding;
-use crate::numeric::fit::{Curve, Samples, State};
+use crate::numeric::fit::{Curve, Kind, Samples, State};
+use std::f64::consts::TAU;
+
+/// Part of the terms of the equation to which a computed motion is right, as a standard deviation: it obeys an equation that
+/// was approximated, and to a tolerance of 1e-10 for each step.
+const EXACT: f64 = 1.5e-12;
+
+/// Part of what samples may be off that were computed which no residuals show.
+const PART: f64 = 0.2;
 
 /// What is known of the errors of a fitted motion, beside what the curve knows of its own.
 #[derive(Debug)]
@@ -15,6 +23,8 @@ pub(super) struct Errors {
     noise: f64,
     /// Standard deviation of a sample that was computed.
     computed: f64,
+    /// Part of the terms of the equation to which the motion that samples show is known, if they were computed.
+    pub exact: f64,
     /// Degrees of freedom of the noise.
     pub free: f64,
     /// What the curve misses of the motion, if its residuals show it.
@@ -33,14 +43,24 @@ impl Errors {
     ) -> Errors {
         let quality = curve.quality();
         let known = quality.floor.max(computed);
-        let pattern = Pattern::of(residuals, curve, samples.t, known);
+        let mut pattern = Pattern::of(residuals, curve, samples.t, known);
+        // Nothing but rounding is left of samples that no file or instrument has rounded.
+        let is_exact = !pattern.shown && quality.floor <= computed;
+        if is_exact {
+            pattern.widening = in_waves(residuals, quality.parameters);
+        }
         let rows = residuals.len() as f64;
         let through = curve.compare(samples);
+        let repeated = match curve.kind() {
+            Kind::Fourier => turns(curve, samples.t).max(1.0).sqrt(),
+            Kind::Polynomial | Kind::Spline => 1.0,
+        };
         let mut errors = Errors {
             pattern,
             through,
             noise: curve.quality().sigma,
-            computed,
+            computed: PART * computed * repeated,
+            exact: if is_exact { EXACT } else { 0.0 },
             free: (rows - quality.parameters).max(1.0),
             missed: None,
         };
@@ -79,4 +99,10 @@ impl Errors {
             None => states,
         }
     }
+}
+
+/// Turns from the first to the last of these times.
+pub(super) fn turns(curve: &Curve, t: &[f64]) -> f64 {
+    let [first, last] = [t[0], t[t.len() - 1]].map(|t| curve.value(t));
+    (last - first).abs() / TAU
 }

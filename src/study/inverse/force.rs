@@ -35,6 +35,8 @@ pub(super) struct Backwards<'a> {
     pub sigma: f64,
     /// The guide, if it has friction.
     pub guide: Option<&'a Guide>,
+    /// Part of the terms of the equation to which they are known where noise hides nothing.
+    pub exact: f64,
 }
 
 /// Step in the crank angle (rad) for derivatives of the terms: they are right to about 1e-9.
@@ -47,6 +49,9 @@ const STEP_COS: f64 = 1.0 - 0.5 * STEP * STEP;
 /// cos φ below which force and torque are curved enough over the uncertainty of the crank angle to ask for their second
 /// differences.
 pub(super) const NEAR_LIMIT: f64 = 0.3;
+
+/// Part of the largest rounding that is its standard deviation: roundings of many terms seldom add up.
+const RARE: f64 = 0.5;
 
 impl Backwards<'_> {
     /// Torque that the scene's loads exert at a state.
@@ -98,7 +103,7 @@ impl Backwards<'_> {
             + (terms.inertia.half_dm * omega * omega).abs()
             + terms.dv.abs()
             + known.abs();
-        let rounding = 8.0 * f64::EPSILON * size;
+        let rounding = self.exact.max(8.0 * f64::EPSILON) * size;
         let error = |gradient: &[f64; 3], more: f64| self.error(state, gradient, more);
         let (arm, bend) = (terms.pose.dx, terms.pose.d2x);
         let force = torque / arm;
@@ -147,7 +152,7 @@ impl Backwards<'_> {
     /// Standard error of a combination of angle, speed and acceleration, with what else rounding adds.
     fn error(&self, state: &State, gradient: &[f64; 3], more: f64) -> f64 {
         let noise = self.sigma * self.sigma * state.variance(gradient);
-        let rounding = state.rounding_of(gradient) + more;
+        let rounding = RARE * state.rounding_of(gradient) + more;
         (noise + state.bias_of(gradient) + rounding * rounding).sqrt()
     }
 

@@ -127,6 +127,7 @@ pub fn inverse(
         beside_forces: options.beside_forces,
         sigma: fitted.errors.sigma(),
         guide: guide.as_ref(),
+        exact: fitted.errors.exact,
     };
     let factor = student::half_band(fitted.errors.free);
     let found = Rows::new(&backwards, &fitted, measurement, factor);

@@ -13,6 +13,8 @@ pub(super) struct Pattern {
     pub widening: f64,
     /// Whether the residuals have a pattern, and are more than the digits of the samples.
     pub clear: bool,
+    /// Whether the residuals are more than the digits of the samples.
+    pub shown: bool,
 }
 
 /// Standard deviations beyond which a pattern is one.
@@ -31,6 +33,7 @@ impl Pattern {
                 runs: 0.0,
                 widening: 1.0,
                 clear: false,
+                shown: false,
             };
         }
         let shown = square > n * (1.5 * floor).powi(2);
@@ -49,11 +52,32 @@ impl Pattern {
         Pattern {
             lag_one,
             runs,
-            widening,
             clear: widening > 1.0,
+            shown,
+            widening,
         }
     }
 }
+
+/// By how much more residuals of a fit of so many parameters vary in waves about as long as the fit just follows than noise
+/// does; at least 1.
+pub(super) fn in_waves(residuals: &[f64], parameters: f64) -> f64 {
+    let n = residuals.len() as f64;
+    let square: f64 = residuals.iter().map(|r| r * r).sum();
+    let length = (n / (BLOCKS * parameters)) as usize;
+    if square == 0.0 || length < 2 {
+        return 1.0;
+    }
+    let sums = residuals.chunks_exact(length).map(|some| some.iter().sum());
+    let squares: f64 = sums.map(|sum: f64| sum * sum).sum();
+    // The fit takes its part of the sums, and of the residuals.
+    let blocks = (residuals.len() / length) as f64;
+    let in_blocks = squares / ((blocks - parameters) * length as f64);
+    (in_blocks * (n - parameters) / square).sqrt().max(1.0)
+}
+
+/// Blocks of residuals for each parameter.
+const BLOCKS: f64 = 2.0;
 
 /// Lags that are summed before neighbours are taken together.
 const LAGS: usize = 64;
