@@ -12,6 +12,9 @@ const BLOCKS: usize = 48;
 const AT_FOLD: f64 = 2.0;
 const CLEAR: f64 = 20.0;
 
+/// Standard deviations of noise within which a size next to its fold loses the sign of it: averaged it is still off by one.
+const FOLDED: f64 = 2.0;
+
 /// Blocks of samples around a turning point.
 #[derive(Debug, Default)]
 pub(super) struct Window {
@@ -61,6 +64,12 @@ impl Window {
         for at in (0..count).map(place) {
             // Not over the fold, where a size has a bend.
             let (value, noise) = record.value(at, around.min(at.abs_diff(turning)));
+            let noise = match strokes.sensor.folds()
+                && (value - fold.value).abs() < FOLDED * record.noise
+            {
+                true => noise.max(record.noise),
+                false => noise,
+            };
             let (angles, stroke) = (strokes.angles(value), along(at));
             let error = [value - noise, value + noise]
                 .map(|value| turned_back(strokes.angles(value)[stroke] - angles[stroke]).abs());
