@@ -14,6 +14,7 @@ mod record;
 mod start;
 mod steady;
 mod strokes;
+mod touching;
 mod track;
 mod trial;
 mod turnings;

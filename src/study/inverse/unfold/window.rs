@@ -32,6 +32,8 @@ pub(super) struct Window {
     pub error: Vec<f64>,
     /// Blocks that are not at the fold, before it and after it.
     pub clear: [usize; 2],
+    /// The first block after the turning point.
+    pub after: usize,
 }
 
 impl Window {
@@ -83,13 +85,14 @@ impl Window {
                 .push(error[0].max(error[1]) + 4.0 * f64::EPSILON);
         }
         let after = (0..count).find(|k| place(*k) > turning);
-        window.part(past, &either, after.unwrap_or(count));
+        window.after = after.unwrap_or(count);
+        window.part(past, &either);
         window
     }
 
-    /// Lets the motions part at the fold, which is before a block. Samples at other turning points may be on `either` stroke.
-    fn part(&mut self, mut past: Vec<f64>, either: &[bool], after: usize) {
-        let count = past.len();
+    /// Lets the motions part at the fold, which is before the first block after the turning point. Samples at other turning points may be on `either` stroke.
+    fn part(&mut self, mut past: Vec<f64>, either: &[bool]) {
+        let (count, after) = (past.len(), self.after);
         outward(&mut self.back, self.at_fold, after);
         outward(&mut past, self.at_fold, after);
         let lean = |k: usize| 0.5 * (self.back[k] - past[k]).abs();
