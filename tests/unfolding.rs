@@ -380,20 +380,18 @@ fn a_stop_at_a_dead_centre_is_in_doubt() {
                 let short = 1.2 * (1.0 - (TAU * (t - 0.5)).cos());
                 dead_centre + if t < 0.5 { -short } else { way * short }
             };
-            for noise in [1e-5, 1e-3] {
-                let motion = Motion {
-                    theta: &theta,
-                    samples: 801,
-                    noise,
-                    step: 0.0,
-                };
-                for measured in BOTH {
-                    let found = motion.unfold(&plain(), measured);
-                    assert!(
-                        matches!(found, Found::Doubt(_)),
-                        "{measured:?}, {way}, {noise}: {found:?}"
-                    );
-                }
+            let motion = Motion {
+                theta: &theta,
+                samples: 801,
+                noise: 1e-4,
+                step: 0.0,
+            };
+            for measured in BOTH {
+                let found = motion.unfold(&plain(), measured);
+                assert!(
+                    matches!(found, Found::Doubt(_)),
+                    "{measured:?}, {way}: {found:?}"
+                );
             }
         }
     }
@@ -411,7 +409,7 @@ fn a_long_rest_at_a_dead_centre_without_noise_is_in_doubt() {
     );
     let dead_centre = 0.8111948070534849;
     for draw in 1..=6 {
-        let mut random = Random(0x9E37_79B9_7F4A_7C15 * draw);
+        let mut random = Random(88_172_645_463_325_252 + draw);
         let theta = move |t: f64| {
             dead_centre + 0.836 * (1.0 - ease(t / 0.25)) - 3.7 * ease((t - 0.845) / 0.155)
         };
