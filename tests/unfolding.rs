@@ -251,7 +251,6 @@ fn swings_across_a_dead_centre_pass_it() {
     }
 }
 
-/// The crank almost stops once in each turn, at some place.
 /// The crank begins next to a dead centre, turns soon and goes the other way: the scene's speed is that of the first samples.
 #[test]
 fn a_crank_that_soon_turns_begins_with_the_sense_of_the_scene() {
@@ -297,6 +296,137 @@ fn a_rest_at_a_dead_centre_that_begins_a_record_is_in_doubt() {
     }
 }
 
+/// The first sample alone is before the dead centre: all others are beyond it. Noise of 1e-3 leaves that to a crank-pin angle.
+#[test]
+fn a_record_may_begin_just_before_a_dead_centre() {
+    for dead_centre in [0.0, PI] {
+        for sense in [1.0, -1.0] {
+            let theta = move |t: f64| dead_centre + sense * (1.8 * t - 3.2 * t * t - 0.032);
+            let motion = |noise: f64| Motion {
+                theta: &theta,
+                samples: 30,
+                noise,
+                step: 0.0,
+            };
+            is_not_wrong(&motion(1e-5), &plain());
+            let found = motion(1e-3).unfold(&plain(), Measured::Gamma);
+            assert!(!matches!(found, Found::Wrong), "{sense}: {found:?}");
+        }
+    }
+}
+
+/// At rest the difference quotient of the scene's speed is some rounding: its sign says nothing.
+#[test]
+fn a_speed_that_is_as_good_as_none_does_not_tell_how_a_record_begins() {
+    let scene = scene(0.0864, 0.4814, 0.0245, Branch::Left);
+    for (path, samples, noise) in [(30.0, 2400, 1e-3), (3.0, 300, 1e-3), (30.0, 2400, 1e-4)] {
+        for sense in [1.0, -1.0] {
+            let theta = move |t: f64| -3.0984 + sense * path * ease(t);
+            let motion = Motion {
+                theta: &theta,
+                samples,
+                noise,
+                step: 0.0,
+            };
+            let found = motion.unfold(&scene, Measured::X);
+            assert!(
+                matches!(found, Found::Doubt(_)),
+                "{sense}, {path}, {noise}: {found:?}"
+            );
+        }
+    }
+}
+
+/// Where the strokes are farther apart than noise blurs them the angle tells, whatever the sign of a speed that is none.
+#[test]
+fn the_angle_tells_how_a_record_begins_at_rest() {
+    let scene = scene(0.01725, 0.10825, 0.05176, Branch::Left);
+    for sense in [1.0, -1.0] {
+        let theta = move |t: f64| 3.7983 + sense * 2.5 * ease(t);
+        let motion = Motion {
+            theta: &theta,
+            samples: 6000,
+            noise: 3e-3,
+            step: 0.0,
+        };
+        let found = motion.unfold(&scene, Measured::X);
+        assert!(!matches!(found, Found::Wrong), "{sense}: {found:?}");
+    }
+}
+
+/// A scene that says nothing of how the motion begins leaves it to a rule, which is no knowledge.
+#[test]
+fn without_angle_and_speed_the_beginning_cannot_be_told() {
+    let scene = plain().start(0.0, 0.0);
+    let times: Vec<f64> = (0..200).map(|i| 1e-3 * f64::from(i)).collect();
+    for measured in BOTH {
+        let value = |t: &f64| shown(&scene, measured, 0.3 + 30.0 * t).abs();
+        let values = times.iter().map(value).collect();
+        let measurement = Measurement::new(measured, times.clone(), values).expect("samples");
+        let found = inverse(&scene, &measurement, &InverseOptions::default());
+        let warnings = found.expect("an inversion").summary.warnings;
+        let is_said = |said: &String| said.contains("which one it is cannot be told");
+        assert!(warnings.iter().any(is_said), "{measured:?}: {warnings:?}");
+    }
+}
+
+/// The crank stops just at a dead centre and goes on at once, with a jump of its acceleration. One that goes back has none there,
+/// and shows the same.
+#[test]
+fn a_stop_at_a_dead_centre_is_in_doubt() {
+    for dead_centre in [0.0, PI] {
+        for way in [1.0, -1.0] {
+            let theta = move |t: f64| {
+                let short = 1.2 * (1.0 - (TAU * (t - 0.5)).cos());
+                dead_centre + if t < 0.5 { -short } else { way * short }
+            };
+            let motion = Motion {
+                theta: &theta,
+                samples: 801,
+                noise: 1e-4,
+                step: 0.0,
+            };
+            for measured in BOTH {
+                let found = motion.unfold(&plain(), measured);
+                assert!(
+                    matches!(found, Found::Doubt(_)),
+                    "{measured:?}, {way}: {found:?}"
+                );
+            }
+        }
+    }
+}
+
+/// A long rest at a dead centre without noise, at uneven times: no polynomial follows that, and the one that misses less in one
+/// range of samples does not decide.
+#[test]
+fn a_long_rest_at_a_dead_centre_without_noise_is_in_doubt() {
+    let scene = scene(
+        0.04699911291015789,
+        0.056592150845861826,
+        0.006956012292161392,
+        Branch::Left,
+    );
+    let dead_centre = 0.8111948070534849;
+    for draw in 1..=6 {
+        let mut random = Random(88_172_645_463_325_252 + draw);
+        let theta = move |t: f64| {
+            dead_centre + 0.836 * (1.0 - ease(t / 0.25)) - 3.7 * ease((t - 0.845) / 0.155)
+        };
+        let samples = 25_000;
+        let even = (0..samples).map(|i| i as f64 + 0.6 * (random.even() - 0.5));
+        let times = even.map(|i| i / samples as f64).collect();
+        let motion = Motion {
+            theta: &theta,
+            samples,
+            noise: 0.0,
+            step: 0.0,
+        };
+        let found = motion.unfold_at(&scene, Measured::X, times);
+        assert!(!matches!(found, Found::Wrong), "{draw}: {found:?}");
+    }
+}
+
 /// Few samples beyond a dead centre, blurred by noise, do not bend a motion that is plain up to there.
 #[test]
 fn a_record_may_end_just_after_a_dead_centre() {
@@ -315,6 +445,7 @@ fn a_record_may_end_just_after_a_dead_centre() {
     }
 }
 
+/// The crank almost stops once in each turn, at some place.
 #[test]
 fn a_crank_that_almost_stops_goes_on_or_is_in_doubt() {
     for slowest in [0.3, 0.1, 0.03] {

@@ -18,6 +18,9 @@ const FEWEST: usize = 5;
 /// Standard errors that a speed is to have for its sense to be known.
 const KNOWN: f64 = 3.0;
 
+/// Standard deviations of noise that may take a size over its fold.
+const FOLDED: f64 = 4.0;
+
 /// Part of half the time over which a derivative is taken.
 const STEP: f64 = 1e-5;
 
@@ -38,16 +41,33 @@ impl Beginning {
         self.speed.abs() > KNOWN * self.error
     }
 
-    /// Whether a motion that begins with some speed, rad/s, may begin like this or the other way round: away from a fold one
-    /// at rest is known by where it goes.
+    /// Whether a motion that begins with some speed, rad/s, may begin like this or the other way round: the samples do not
+    /// tell less than their error from its opposite. Away from a fold one at rest is known by where it goes.
     pub fn is_either_way(&self, speed: f64) -> bool {
-        !self.is_known() && (self.at_fold || speed.abs() > self.error)
+        let slow = self.hides(speed);
+        if self.is_known() {
+            slow
+        } else {
+            self.at_fold || !slow
+        }
+    }
+
+    /// Whether a speed, rad/s, is less than the error.
+    pub fn hides(&self, speed: f64) -> bool {
+        speed.abs() < self.error
     }
 }
 
+const UNKNOWN: Beginning = Beginning {
+    speed: 0.0,
+    error: f64::INFINITY,
+    at_fold: true,
+};
+
 impl Motion<'_> {
-    /// How the motion begins on a stroke, if its samples are not too few to tell.
-    pub fn beginning(&self, stroke: Stroke) -> Option<Beginning> {
+    /// How the motion begins on a stroke, or past a fold on the way to it, if its samples are not too few to tell. So many of the
+    /// first ones are before the fold.
+    pub fn beginning(&self, stroke: Stroke, before: usize) -> Option<Beginning> {
         let Motion {
             record, strokes, ..
         } = self;
@@ -65,12 +85,23 @@ impl Motion<'_> {
         if to < FEWEST {
             return None;
         }
+        let to = self.before_noise_folds(to);
+        if to < FEWEST {
+            return Some(UNKNOWN);
+        }
         let linkage = strokes.linkage_at(fold, at_fold);
         let sensor = Sensor {
             linkage: &linkage,
             ..*strokes.sensor
         };
-        let window = Window::new(self, (0, fold), |_| stroke, [0, to]);
+        let along = |i: usize| {
+            if i < before {
+                stroke ^ fold.change
+            } else {
+                stroke
+            }
+        };
+        let window = Window::new(self, (0, fold), along, [0, to]);
         let half = 0.5 * (record.times[to] - record.times[0]);
         let (degree, solved) = simplest(&window, &sensor)?;
         let (speed, error) = speed(&window.t, degree, &solved, half);
@@ -79,6 +110,28 @@ impl Motion<'_> {
             error,
             at_fold: record.is_at(0, fold.value),
         })
+    }
+}
+
+impl Motion<'_> {
+    /// The last sample, up to one, before those that are so near to a fold of a size that noise may have turned them back.
+    fn before_noise_folds(&self, to: usize) -> usize {
+        let Motion {
+            record, strokes, ..
+        } = self;
+        let is_folded = |i: usize| {
+            let value = record.values[i];
+            let folds = [true, false].map(|above| strokes.fold(value, above));
+            let off = |fold: Fold| (value - fold.value).abs();
+            folds
+                .into_iter()
+                .flatten()
+                .any(|fold| off(fold) < FOLDED * record.noise)
+        };
+        match strokes.sensor.folds() {
+            true => (1..=to).rev().find(|i| !is_folded(*i)).unwrap_or(0),
+            false => to,
+        }
     }
 }
 

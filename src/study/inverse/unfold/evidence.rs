@@ -4,6 +4,7 @@
 //! nothing but noise; the other one has a bend at the fold, and needs a high degree if it gets there at all.
 
 use super::super::sensor::Sensor;
+use super::touching::stays_off;
 use super::window::Window;
 use crate::numeric::orthogonal::{self, Expansion};
 
@@ -48,6 +49,8 @@ pub(super) struct Evidence {
     pub passes: f64,
     /// Whether the better one leaves nothing but noise.
     pub explained: bool,
+    /// Whether a motion that goes back does so before the fold: one that comes to rest just there may as well pass it.
+    pub stays_off: bool,
 }
 
 impl Evidence {
@@ -56,11 +59,17 @@ impl Evidence {
         let Some((rough, fits)) = Evidence::at_first_sight(window) else {
             return Evidence::default();
         };
-        if rough.is_plain() {
-            return rough;
+        let evidence = if rough.is_plain() {
+            rough
+        } else {
+            let [back, past] = fits.each_ref().map(|fit| refined(window, sensor, fit));
+            Evidence::between(&back, &past, window.t.len())
+        };
+        let goes_back = evidence.explained && evidence.passes < 0.0;
+        Evidence {
+            stays_off: goes_back && stays_off(window, &fits[0]),
+            ..evidence
         }
-        let [back, past] = fits.map(|fit| refined(window, sensor, &fit));
-        Evidence::between(&back, &past, window.t.len())
     }
 
     /// What the crank angles of a window tell by themselves, and the polynomials through those that go back and that pass.
@@ -122,6 +131,7 @@ impl Evidence {
             let explained = Evidence {
                 passes: cost(back) - cost(past),
                 explained: true,
+                stays_off: false,
             };
             // Only what leaves half of the degrees to the other motion shows that it needs more, or what leaves it some that
             // by far are not enough.
@@ -133,7 +143,7 @@ impl Evidence {
         let left = |list: &[Misfit]| least(list, |m| m.squares / free(m));
         Evidence {
             passes: ENOUGH * (left(back) / left(past)).ln() / RATIO.ln(),
-            explained: false,
+            ..Evidence::default()
         }
     }
 }
@@ -177,7 +187,8 @@ impl Misfit {
     }
 }
 
-fn least(list: &[Misfit], of: impl Fn(&Misfit) -> f64) -> f64 {
+/// The least of what polynomials leave, in some measure.
+pub(super) fn least(list: &[Misfit], of: impl Fn(&Misfit) -> f64) -> f64 {
     list.iter().map(of).fold(f64::INFINITY, f64::min)
 }
 
@@ -190,7 +201,7 @@ pub(super) fn fitted(t: &[f64], target: &[f64], weights: &[f64], most: usize) ->
 }
 
 /// What the polynomials of each degree leave.
-fn misfits(fit: &Expansion<f64>) -> Vec<Misfit> {
+pub(super) fn misfits(fit: &Expansion<f64>) -> Vec<Misfit> {
     let list = fit.squares.iter().enumerate();
     list.map(|(degree, squares)| Misfit {
         degree,

@@ -14,6 +14,7 @@ mod record;
 mod start;
 mod steady;
 mod strokes;
+mod touching;
 mod track;
 mod trial;
 mod turnings;
@@ -111,7 +112,7 @@ const MANY: usize = 7;
 const PART: usize = 2;
 
 /// Standard deviations by which noise may change the first sample.
-const BLUR: f64 = 9.0;
+const BLUR: f64 = 12.0;
 
 /// Part of the size of values that is their rounding.
 const ROUNDING: f64 = 1e-14;
@@ -139,10 +140,11 @@ fn warnings(
     taken: &Start,
     start: &Begin,
 ) -> Result<Vec<String>, Error> {
-    let (name, reason) = (sensor.measured.name(), taken.reason);
-    let mut warnings = vec![format!(
-        "{name} does not tell a motion from the one on the other strokes: {reason}"
-    )];
+    let name = sensor.measured.name();
+    let mut warnings = Vec::new();
+    warnings.extend(taken.reason.map(|reason| {
+        format!("{name} does not tell a motion from the one on the other strokes: {reason}")
+    }));
     if taken.contradicted {
         warnings.push(format!(
             "angle and speed of the scene belong to different motions: the one that begins at {} rad moves off against the scene's speed of {} rad/s, its mirror image with it; let the scene have angle and speed of the first sample",

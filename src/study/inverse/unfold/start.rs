@@ -1,5 +1,6 @@
 //! Which of several motions that fit the samples alike begins like the scene.
 
+use super::beginning::Beginning;
 use super::noise::noise;
 use super::track::{Track, in_turn};
 use crate::scene::Motion;
@@ -8,8 +9,8 @@ use crate::scene::Motion;
 #[derive(Debug)]
 pub(super) struct Start {
     pub track: Track,
-    /// How it was chosen.
-    pub reason: &'static str,
+    /// How it was chosen, if there was a choice.
+    pub reason: Option<&'static str>,
     /// Whether angle and speed of the scene belong to different motions.
     pub contradicted: bool,
     /// Whether neither is known of the motion well enough to tell it from its mirror image.
@@ -23,6 +24,9 @@ const NEAR: f64 = 0.1;
 const FARTHER: f64 = 4.0;
 const EXACT: f64 = 0.02;
 
+/// Motions that begin less than so many blurs apart may be on either stroke: twice, and rounding.
+const BLURRED: f64 = 2.02;
+
 /// Sums of squares within this factor do not decide: the mirror image of a smooth motion is smooth as well, if less so
 /// where the direction of the wrist pin from the pivot changes fast.
 const ALIKE: f64 = 1e4;
@@ -34,16 +38,19 @@ const LITTLE: f64 = 1e-3;
 const EARLY: usize = 100;
 const NOISE: f64 = 10.0;
 
+/// Part of the speed of the first motion that is as good as rest.
+const SLOW: f64 = 0.01;
+
 const BY_ANGLE: &str = "the one that begins at the scene's angle is taken";
 const BY_NEARER_ANGLE: &str = "the one that begins nearer to the scene's angle is taken";
 const BY_SPEED: &str = "the one that begins with the sense of the scene's speed is taken";
-const BY_NOTHING: &str =
-    "the one that begins counter-clockwise is taken, as the scene has neither speed nor angle";
+const BY_NOTHING: &str = "the one that begins counter-clockwise is taken, but which one it is cannot be told, as the scene has neither speed nor angle";
 
 /// Chooses among motions, whose first angle is right to `blur`, rad.
 ///
 /// A motion may begin slowly and reverse at once, so an angle of the scene that is plainly that of one motion counts
-/// before the speed. Angle 0 does not, because scenes that say nothing have it.
+/// before the speed, and one that tells them apart before a speed that the samples do not tell from rest. Angle 0 does not,
+/// because scenes that say nothing have it.
 pub(super) fn choose(
     times: &[f64],
     tracks: Vec<Track>,
@@ -57,45 +64,51 @@ pub(super) fn choose(
     tracks.sort_by(|a, b| a.0.total_cmp(&b.0));
     let least = tracks.first()?.0;
     tracks.retain(|(rough, _)| *rough <= ALIKE * least + 1e-6);
-    let off = |i: usize| (in_turn(tracks[i].1.theta[0], start.angle) - start.angle).abs();
+    let tracks: Vec<Track> = tracks.into_iter().map(|(_, track)| track).collect();
+    let off = |i: usize| (in_turn(tracks[i].theta[0], start.angle) - start.angle).abs();
     let mut by_angle: Vec<usize> = (0..tracks.len()).collect();
     by_angle.sort_by(|a, b| off(*a).total_cmp(&off(*b)));
     let nearest = by_angle[0];
     let next = by_angle.get(1).map_or(f64::INFINITY, |i| off(*i));
-    let plain = off(nearest) <= NEAR && next > FARTHER * (off(nearest) + EXACT + blur);
+    let farther_than = |blur: f64| next > FARTHER * (off(nearest) + EXACT + blur);
+    let near = off(nearest) <= NEAR;
+    let plain = near && farther_than(blur);
+    let blurred = next - off(nearest) < BLURRED * blur;
     let sign = if start.speed < 0.0 { -1.0 } else { 1.0 };
     // Next to a fold the motion may begin on either stroke, unseen.
-    let unseen = if next - off(nearest) < 2.0 * blur {
-        2.0 * blur
-    } else {
-        0.0
-    };
-    let first = tracks.iter().map(|(_, track)| match track.beginning {
-        Some(beginning) if beginning.is_known() => beginning.speed,
-        _ => first_motion(times, &track.theta, unseen),
-    });
-    let first: Vec<f64> = first.collect();
-    let agrees = |i: &usize| sign * first[*i] >= 0.0;
-    let by_speed = (0..tracks.len()).find(agrees).unwrap_or(0);
+    let unseen = if blurred { BLURRED * blur } else { 0.0 };
+    let first = |track: &Track| First::of(times, track, start.speed, unseen);
+    let firsts: Vec<First> = tracks.iter().map(first).collect();
+    let agrees = |i: &usize| sign * firsts[*i].motion >= 0.0;
+    let agreeing: Vec<usize> = (0..tracks.len()).filter(agrees).collect();
+    let by_speed = agreeing.first().copied().unwrap_or(0);
+    // A speed tells what one motion alone begins with.
+    let is_other = |i: &usize| !tracks[*i].is_like(&tracks[by_speed]);
+    let told = !agreeing.is_empty() && !agreeing.iter().any(is_other);
+    let hidden = firsts.iter().any(|first| first.hides_speed);
     let (taken, reason) = match (start.angle != 0.0, start.speed != 0.0) {
         (true, false) => (nearest, BY_NEARER_ANGLE),
         (true, true) if plain => (nearest, BY_ANGLE),
+        (true, true) if near && !blurred && (hidden || !told) => (nearest, BY_NEARER_ANGLE),
         (_, true) => (by_speed, BY_SPEED),
         (false, false) => (by_speed, BY_NOTHING),
     };
-    let beginning = tracks[taken].1.beginning;
+    let by_both = near && !blurred && taken == nearest;
+    let is_unsure = |beginning: Beginning| beginning.is_either_way(start.speed);
+    let known = |beginning: Beginning| beginning.is_known();
+    let beginning = tracks[taken].beginning;
+    let disputed = taken != nearest && near && farther_than(0.0) && !beginning.is_some_and(known);
     let unsure = match reason {
-        BY_SPEED => beginning.is_some_and(|beginning| beginning.is_either_way(start.speed)),
-        BY_NEARER_ANGLE => next - off(nearest) < 2.0 * blur,
+        BY_SPEED => !by_both && (!told || disputed || beginning.is_some_and(is_unsure)),
+        BY_NEARER_ANGLE => blurred,
         _ => false,
     };
-    let contradicted = start.speed != 0.0 && plain && !agrees(&nearest);
-    let (_, track) = tracks.swap_remove(taken);
+    let several = tracks.iter().any(|track| !track.is_like(&tracks[taken]));
     Some(Start {
-        track,
-        reason,
-        contradicted,
-        unsure,
+        reason: several.then_some(reason),
+        contradicted: start.speed != 0.0 && plain && !agrees(&nearest),
+        unsure: tracks.len() > 1 && unsure,
+        track: tracks.into_iter().nth(taken)?,
     })
 }
 
@@ -110,12 +123,40 @@ fn roughness(theta: &[f64]) -> f64 {
     parts.windows(4).map(third).sum()
 }
 
-/// Where the motion goes first: by more than noise and what is `unseen`, or by a good part of all.
-fn first_motion(times: &[f64], theta: &[f64], unseen: f64) -> f64 {
+/// How a motion begins.
+#[derive(Clone, Copy, Debug)]
+struct First {
+    /// Its speed, rad/s, or where it goes, rad.
+    motion: f64,
+    /// Whether the speed of the scene is nothing against that, for all that the samples tell.
+    hides_speed: bool,
+}
+
+impl First {
+    fn of(times: &[f64], track: &Track, speed: f64, unseen: f64) -> First {
+        if let Some(beginning) = track.beginning.filter(Beginning::is_known) {
+            return First {
+                motion: beginning.speed,
+                hides_speed: beginning.hides(speed),
+            };
+        }
+        let (motion, time) = first_motion(times, &track.theta, unseen);
+        let hides = |beginning: Beginning| beginning.hides(speed);
+        First {
+            motion,
+            hides_speed: speed.abs() * time < SLOW * motion.abs()
+                || track.beginning.is_some_and(hides),
+        }
+    }
+}
+
+/// Where a motion goes first, rad: by more than noise and what is `unseen`, or by a good part of all; and the time until then, s.
+fn first_motion(times: &[f64], theta: &[f64], unseen: f64) -> (f64, f64) {
     let early = theta.len().min(EARLY);
     let noise = noise(&times[..early], &theta[..early]);
     let off = || theta.iter().map(|angle| angle - theta[0]);
     let most = off().fold(0.0f64, |most, off| most.max(off.abs()));
     let plain = (LITTLE + NOISE * noise + unseen).min(0.25 * most);
-    off().find(|off| off.abs() > plain).unwrap_or(0.0)
+    let first = off().zip(times).find(|(off, _)| off.abs() > plain);
+    first.map_or((0.0, 0.0), |(off, time)| (off, time - times[0]))
 }

@@ -23,6 +23,11 @@ pub(super) struct Track {
 /// Part of a time between samples by which the next one is to be farther off, at an end of the record.
 const EVEN: f64 = 0.6;
 
+/// Parts of two motions that are compared, how far apart the same ones are at most, rad, and part of them that may be farther.
+const PARTS: usize = 200;
+const SAME: f64 = 1e-6;
+const FEW: usize = 10;
+
 impl Track {
     /// The motion from a stroke on; at the turning points that it is known to have `passed` it is not looked at again.
     pub fn new(motion: &Motion<'_>, passed: &[bool], first: Stroke) -> Track {
@@ -52,18 +57,30 @@ impl Track {
         }
         let doubtful = |k: &usize| visits[*k].is_some_and(|visit| !visit.certain);
         let doubts = (0..count).filter(doubtful);
+        let (theta, before) = motion.angles(&along);
         Track {
+            theta,
             doubts: doubts.map(|k| motion.turnings[k].at).collect(),
             visits: visits.iter().flatten().count(),
-            theta: motion.angles(&along),
-            beginning: motion.beginning(first),
+            beginning: motion.beginning(first, before),
         }
     }
 }
 
+impl Track {
+    /// Whether another one is the same motion, but for few samples: both may begin on either stroke next to a fold.
+    pub fn is_like(&self, other: &Track) -> bool {
+        let step = (self.theta.len() / PARTS).max(1);
+        let pairs = || self.theta.iter().zip(&other.theta).step_by(step);
+        let differs = |pair: &(&f64, &f64)| (in_turn(*pair.1, *pair.0) - pair.0).abs() > SAME;
+        FEW * pairs().filter(differs).count() < pairs().count()
+    }
+}
+
 impl Motion<'_> {
-    /// The crank angle of each sample, with its turns, on the strokes between turning points.
-    fn angles(&self, along: &[Stroke]) -> Vec<f64> {
+    /// The crank angle of each sample, with its turns, on the strokes between turning points, and how many of the first ones
+    /// are on another stroke, before a fold that is between samples.
+    fn angles(&self, along: &[Stroke]) -> (Vec<f64>, usize) {
         let values = self.record.values;
         let changes: Vec<usize> = (0..self.turnings.len())
             .map(|k| self.change(self.turnings[k].at, [along[k], along[k + 1]]))
@@ -80,16 +97,18 @@ impl Motion<'_> {
             };
             theta[i] = in_turn(theta[i], expected);
         }
+        let mut before = 0;
         if let [.., last] = along
             && theta.len() > 5
         {
             let end = theta.len() - 1;
             self.mend(&mut theta, end - 1, (0..end - 1).rev(), *last);
             self.mend(&mut theta, end, (0..end).rev(), *last);
-            self.mend(&mut theta, 1, 2..=end, along[0]);
-            self.mend(&mut theta, 0, 1..=end, along[0]);
+            let second = self.mend(&mut theta, 1, 2..=end, along[0]);
+            let first = self.mend(&mut theta, 0, 1..=end, along[0]);
+            before = usize::from(first) + usize::from(first && second);
         }
-        theta
+        (theta, before)
     }
 
     /// The first sample on the stroke after a turning point, which itself may be on either.
@@ -109,20 +128,20 @@ impl Motion<'_> {
     }
 
     /// Lets the first or last sample be where three of the others, from the next one on, lead: past a fold that is between
-    /// samples.
+    /// samples. Whether it is there.
     fn mend(
         &self,
         theta: &mut [f64],
         at: usize,
         others: impl Iterator<Item = usize>,
         stroke: Stroke,
-    ) {
+    ) -> bool {
         let values = self.record.values;
         let step = self.record.nearby(at);
         let folds = [true, false].map(|above| self.strokes.fold(values[at], above));
         let is_near = |fold: &Fold| (values[at] - fold.value).abs() <= step;
         let Some(fold) = folds.into_iter().flatten().find(is_near) else {
-            return;
+            return false;
         };
         let others = self.apart(at, others);
         let known: Vec<(usize, f64)> = others.iter().map(|i| (*i, theta[*i])).collect();
@@ -136,9 +155,11 @@ impl Motion<'_> {
         let angles = self.strokes.angles(values[at]);
         let [one, other] =
             [stroke, stroke ^ fold.change].map(|stroke| in_turn(angles[stroke], expected));
-        if (one - expected).abs() > (other - expected).abs() + error {
+        let is_past = (one - expected).abs() > (other - expected).abs() + error;
+        if is_past {
             theta[at] = other;
         }
+        is_past
     }
 
     /// Three samples whose times lead evenly to that of another one, of those from the next one on.

@@ -21,6 +21,9 @@ const WIDE: [usize; 3] = [2, 3, 1];
 /// Part of the evidence that may be against what decides.
 const OPPOSED: f64 = 0.5;
 
+/// Part of the evidence that decides with which another range supports one that leaves more than noise.
+const SUPPORT: f64 = 0.125;
+
 /// A motion whose strokes are looked for.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Motion<'a> {
@@ -174,7 +177,8 @@ impl Motion<'_> {
     }
 }
 
-/// Whether a motion passes, and whether that is certain: what leaves nothing but noise counts before what leaves more.
+/// Whether a motion passes, and whether that is certain: what leaves nothing but noise counts before what leaves more, of which one
+/// range alone does not decide unless it is clear.
 fn verdict(list: &[Evidence]) -> (bool, bool) {
     let ends = |list: &mut dyn Iterator<Item = &Evidence>| {
         list.fold([0.0f64; 2], |[least, most], one| {
@@ -188,10 +192,14 @@ fn verdict(list: &[Evidence]) -> (bool, bool) {
     let passes = |[least, most]: [f64; 2]| least + most > 0.0;
     let good = ends(&mut list.iter().filter(|one| one.explained));
     if (good[0] + good[1]).abs() >= ENOUGH {
-        return (passes(good), decides(good));
+        let told = passes(good) || list.iter().any(|one| one.stays_off);
+        return (passes(good), decides(good) && told);
     }
     let all = ends(&mut list.iter());
-    (passes(all), decides(all))
+    let sign = (all[0] + all[1]).signum();
+    let supports = |one: &&Evidence| sign * one.passes > SUPPORT * ENOUGH;
+    let supported = list.iter().any(Evidence::is_clear) || list.iter().filter(supports).count() > 1;
+    (passes(all), decides(all) && supported)
 }
 
 /// The farthest sample on the way from one to another up to which all are inside.

@@ -12,6 +12,9 @@ const BLOCKS: usize = 48;
 const AT_FOLD: f64 = 2.0;
 const CLEAR: f64 = 20.0;
 
+/// Standard deviations of noise within which a size next to its fold loses the sign of it: averaged it is still off by one.
+const FOLDED: f64 = 2.0;
+
 /// Blocks of samples around a turning point.
 #[derive(Debug, Default)]
 pub(super) struct Window {
@@ -29,6 +32,8 @@ pub(super) struct Window {
     pub error: Vec<f64>,
     /// Blocks that are not at the fold, before it and after it.
     pub clear: [usize; 2],
+    /// The first block after the turning point.
+    pub after: usize,
 }
 
 impl Window {
@@ -61,6 +66,12 @@ impl Window {
         for at in (0..count).map(place) {
             // Not over the fold, where a size has a bend.
             let (value, noise) = record.value(at, around.min(at.abs_diff(turning)));
+            let noise = match strokes.sensor.folds()
+                && (value - fold.value).abs() < FOLDED * record.noise
+            {
+                true => noise.max(record.noise),
+                false => noise,
+            };
             let (angles, stroke) = (strokes.angles(value), along(at));
             let error = [value - noise, value + noise]
                 .map(|value| turned_back(strokes.angles(value)[stroke] - angles[stroke]).abs());
@@ -74,13 +85,14 @@ impl Window {
                 .push(error[0].max(error[1]) + 4.0 * f64::EPSILON);
         }
         let after = (0..count).find(|k| place(*k) > turning);
-        window.part(past, &either, after.unwrap_or(count));
+        window.after = after.unwrap_or(count);
+        window.part(past, &either);
         window
     }
 
-    /// Lets the motions part at the fold, which is before a block. Samples at other turning points may be on `either` stroke.
-    fn part(&mut self, mut past: Vec<f64>, either: &[bool], after: usize) {
-        let count = past.len();
+    /// Lets the motions part at the fold, which is before the first block after the turning point. Samples at other turning points may be on `either` stroke.
+    fn part(&mut self, mut past: Vec<f64>, either: &[bool]) {
+        let (count, after) = (past.len(), self.after);
         outward(&mut self.back, self.at_fold, after);
         outward(&mut past, self.at_fold, after);
         let lean = |k: usize| 0.5 * (self.back[k] - past[k]).abs();
