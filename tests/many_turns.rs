@@ -7,7 +7,7 @@ mod support;
 
 use std::f64::consts::{PI, TAU};
 
-use energy_integral::{EnergyIntegral, gauss_legendre};
+use energy_integral::{EnergyIntegral, fejer};
 use proptest::prelude::*;
 use slider_crank::plan::Method;
 use slider_crank::scene::{Gravity, Load, Scene, Variables};
@@ -46,7 +46,7 @@ impl EveryTurn {
         let start = scene.motion.angle;
         let step = TAU.copysign(scene.motion.speed) / f64::from(PANELS);
         let (m0, v0) = integral.m_and_v(start);
-        let rule = gauss_legendre(16);
+        let rule = fejer(32);
         let mut nodes = Vec::new();
         for panel in 0..PANELS {
             for (x, weight) in &rule {

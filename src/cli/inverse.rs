@@ -1,6 +1,6 @@
 //! `inverse`: slider force and crank torque from a measured motion.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -71,10 +71,29 @@ fn size(text: &str) -> Result<FitSize, String> {
     }
 }
 
+/// Whether a file that holds no motion is a scene: one begins with its lengths.
+fn is_scene(file: &Path) -> bool {
+    let text = std::fs::read_to_string(file).unwrap_or_default();
+    text.lines()
+        .any(|line| line.trim_start().starts_with("[geometry]"))
+}
+
 fn measurement(arguments: &Arguments) -> Result<Measurement, Error> {
     let reading = arguments.reading.reading();
     match (&arguments.scene, &arguments.data) {
-        (_, Some(data)) => Measurement::load(data, &reading),
+        (_, Some(data)) => Measurement::load(data, &reading).map_err(|error| {
+            if is_scene(data) {
+                Error::refused(
+                    format!(
+                        "{} is a scene, and stands where the data of a motion are expected",
+                        data.display()
+                    ),
+                    "the scene comes first: slider-crank inverse SCENE DATA.csv",
+                )
+            } else {
+                error
+            }
+        }),
         (None, None) if reading != Reading::default() => Err(Error::refused(
             "--column, --columns and --decimal say how measured motion is read, and no file is given",
             "slider-crank inverse SCENE DATA.csv",

@@ -23,6 +23,15 @@ pub(super) const ROUNDING: f64 = 2.5 * f64::EPSILON;
 /// What is stated is larger than the distance of two runs by this.
 pub(super) const MARGIN: f64 = 1.5;
 
+/// Evaluations of a second run for one of the first, and beside them.
+const MOST_EVALUATIONS: (u64, u64) = (20, 200_000);
+
+/// Most evaluations of the second run after a first one that took so many.
+pub(super) fn most_evaluations(first: u64) -> u64 {
+    let (factor, beside) = MOST_EVALUATIONS;
+    first.saturating_mul(factor).saturating_add(beside)
+}
+
 /// A task that is not solved over the angle alone.
 pub(super) struct Unsolved {
     pub why: Unserved,
@@ -65,15 +74,27 @@ pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, 
     }
     let estimate = if task.options.estimate {
         let begun = Instant::now();
-        let better = run(Goal::Time(driving.end), finer())?;
-        if let Some(short) = better.short {
-            return Err(handed(driving, short.why));
-        }
-        let cost = Cost {
-            evaluations: position.evaluations() - places + better.evaluations,
-            wall_s: begun.elapsed().as_secs_f64(),
+        let limited = Resolution {
+            most_evaluations: most_evaluations(places + driving.evaluations),
+            ..finer()
         };
-        Some((distance(task, &driving, &better), Some(cost)))
+        let unfinished = |why| matches!(why, Unserved::WorkLimit | Unserved::TooManyTurns);
+        let second = match run(Goal::Time(driving.end), limited) {
+            Err(unsolved) if unfinished(unsolved.why) => None,
+            solved => Some(solved?),
+        };
+        let better = match second.as_ref().and_then(|second| second.short) {
+            Some(short) if !unfinished(short.why) => return Err(handed(driving, short.why)),
+            Some(_) => None,
+            None => second,
+        };
+        better.map(|better| {
+            let cost = Cost {
+                evaluations: position.evaluations() - places + better.evaluations,
+                wall_s: begun.elapsed().as_secs_f64(),
+            };
+            (distance(task, &driving, &better), Some(cost))
+        })
     } else {
         None
     };
@@ -116,8 +137,11 @@ fn distance(task: &Task<'_>, driving: &Driving, better: &Driving) -> ErrorEstima
     let end = driving.end;
     let (a, b) = (driving.orbit.state(end), better.orbit.state(end));
     let floor = late_by(task, a, end, driving.errors.late + ROUNDING * end);
+    let momentum = task.equation().terms(a.0.rest).inertia.m * a.1.abs();
     ErrorEstimate {
         theta_rad: MARGIN * a.0.minus(b.0).abs() + floor.theta_rad,
-        omega_rad_per_s: MARGIN * (a.1 - b.1).abs() + floor.omega_rad_per_s,
+        omega_rad_per_s: MARGIN * (a.1 - b.1).abs()
+            + floor.omega_rad_per_s
+            + driving.errors.off / momentum,
     }
 }

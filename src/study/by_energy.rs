@@ -54,8 +54,8 @@ pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, 
     })
 }
 
-/// How far the speed may be off that of its angle, rad/s: what the series leave out of it somewhere, or less if
-/// the energy of the state says so. The energies are right to their rounding.
+/// How far the speed may be off that of its angle, rad/s: what the series leave out of it there, or less if
+/// the energy of the state says so. The energies are right to their rounding, and to that of the start.
 fn off_the_energy(
     task: &Task<'_>,
     (orbit, end): (&Orbit, f64),
@@ -63,12 +63,13 @@ fn off_the_energy(
     work: f64,
 ) -> f64 {
     let (angle, omega) = last;
-    let left_out = orbit.speed_error() * omega.abs();
+    let left_out = orbit.speed_error(end) * omega.abs();
     let (residual, scale) = energy_residual(task, (orbit, end), last, work);
     let momentum = task.equation().terms(angle.rest).inertia.m * omega.abs();
     let seen = (1.5 * residual.abs() + f64::EPSILON * scale) / momentum;
     // Not a number at rest.
-    left_out.min(seen)
+    let by_start = (orbit.energy_error() / momentum).min(omega.abs());
+    left_out.min(seen) + by_start
 }
 
 /// A motion, its last time, and why it does not complete its turns, if it does not.

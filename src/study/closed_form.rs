@@ -7,6 +7,7 @@ use super::drive::Drive;
 use super::row::RowSink;
 use super::schedule::Schedule;
 use super::simulate::Simulation;
+use super::stopped;
 use super::summary::{ErrorEstimate, Event, Final, Solved, Summary};
 use super::task::Task;
 use crate::error::Error;
@@ -128,11 +129,7 @@ pub(super) fn duration(extent: Extent, speed: f64) -> Result<f64, Error> {
     match extent {
         Extent::Duration(duration) => Ok(duration),
         Extent::Revolutions(turns) if speed != 0.0 => Ok(turns * TAU / speed.abs()),
-        Extent::Revolutions(0.0) => Ok(0.0),
-        Extent::Revolutions(turns) => Err(Error::refused(
-            format!("a crank at rest never completes {turns} turns"),
-            "give motion.speed, or run.duration",
-        )),
+        Extent::Revolutions(turns) => Err(stopped::never_turns(turns)),
     }
 }
 

@@ -41,6 +41,7 @@ pub(super) fn run(
     if !stopped::inside(&reach, start.angle.rest) {
         return Err(stopped::no_start(equation, start, &task.limits));
     }
+    stopped::refuse_balance(task.extent, start, &forward)?;
     // What rows and events cost is counted apart: it does not change how far a run goes.
     let looked_at = Counted::new(&forward);
     let mut watch = watch(task, &looked_at, rows, record);

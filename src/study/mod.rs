@@ -14,6 +14,7 @@ mod forward;
 mod in_time;
 mod inverse;
 mod kinematics;
+mod last_row;
 mod log;
 mod offsets;
 mod one_turn;

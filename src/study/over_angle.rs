@@ -7,7 +7,7 @@ use super::profile::Position;
 use super::row::RowSink;
 use super::simulate::Simulation;
 use super::summary::{Cost, ErrorEstimate, Final, Solved, Summary};
-use super::task::Task;
+use super::task::{NOT_ESTIMATED, Task};
 use super::{by_angle, by_energy, in_time, relay};
 use crate::engine::energy::{Orbit, Unserved};
 use crate::error::Error;
@@ -124,10 +124,12 @@ fn finish(task: &Task<'_>, motion: Motion, rows: &mut dyn RowSink) -> Result<Sim
         orbit,
         begin: 0.0,
         end: *end,
-        is_last: true,
     };
     write_rows(task, &mut log, &stretch, rows)?;
-    let (speed, warnings) = speeds(task, log.speed, omega);
+    let (speed, mut warnings) = speeds(task, log.speed, omega);
+    if task.options.estimate && motion.estimate.is_none() {
+        warnings.push(NOT_ESTIMATED.to_owned());
+    }
     let solved = Solved {
         last: Final {
             t_s: *end,

@@ -18,8 +18,6 @@ pub(super) struct Stretch<'a> {
     pub begin: f64,
     /// Last time of its own, s.
     pub end: f64,
-    /// Whether the run ends with it.
-    pub is_last: bool,
 }
 
 impl Stretch<'_> {
@@ -144,7 +142,7 @@ fn later_events(
     dead_centres.iter().map(passes).sum()
 }
 
-/// Rows of a stretch, but not that of its end; `next` is the index of the next row at a time.
+/// Rows that are due in a stretch; `next` is the index of the next row at a time.
 pub(super) fn write_rows(
     task: &Task<'_>,
     stretch: &Stretch<'_>,
@@ -183,12 +181,6 @@ fn each_angle(
     let Stretch { orbit, end, .. } = *stretch;
     let before = orbit.start().minus(task.start());
     let turned = |t: f64| orbit.state(t).0.minus(task.start());
-    // The end of the run is a row of its own.
-    let last = if stretch.is_last {
-        end * (1.0 - 1e-12)
-    } else {
-        f64::INFINITY
-    };
     let mut from = 0.0;
     let mut turnings = orbit.turning_times(end);
     turnings.push(end);
@@ -201,10 +193,7 @@ fn each_angle(
                 root::bracketed(|t| turned(t) - target, from, to)
             };
             // A turning point may fall short of its angle by rounding.
-            let t = t.unwrap_or(to);
-            if t < last {
-                write(t)?;
-            }
+            write(t.unwrap_or(to))?;
         }
         from = to;
     }

@@ -1,5 +1,6 @@
 //! Forward motion: scene -> mechanism -> plan -> engine -> trajectory.
 
+use super::last_row::LastRow;
 use super::row::{NoRows, RowMaker, RowSink};
 use super::schedule::Schedule;
 use super::sliding::Sliding;
@@ -9,7 +10,7 @@ use super::{clearance, closed_form, in_time, over_angle, peaks};
 use crate::error::Error;
 use crate::mechanism::{Constrained, Curve, Equation, Limits, Reactor};
 use crate::plan::{Engine, Method, Plan};
-use crate::scene::{MotionKind, Scene};
+use crate::scene::{Extent, MotionKind, Scene};
 use crate::trajectory::Trajectory;
 
 /// What is asked of a run beside what the scene says.
@@ -128,6 +129,10 @@ fn run_with_rows_at(
             "add [run] with duration = \"1 s\" or revolutions = 10",
         )
     })?;
+    let extent = match extent {
+        Extent::Revolutions(0.0) => Extent::Duration(0.0),
+        extent => extent,
+    };
     let reactor = options.reactions.then(|| Reactor::new(scene)).transpose()?;
     let equation = Equation::new(scene);
     let free = scene.motion.kind == MotionKind::Free;
@@ -147,12 +152,15 @@ fn run_with_rows_at(
             sliding: sliding.as_ref(),
         },
     };
-    match task.plan.engine {
-        Engine::ClosedForm => closed_form::run(&task, rows),
-        Engine::Energy | Engine::Angle => over_angle::run(&mut task, rows, record),
-        Engine::Contact => clearance::run(&task, rows, record),
-        Engine::Time => in_time::run(&task, rows, record),
-    }
+    let mut rows = LastRow::new(rows);
+    let run = match task.plan.engine {
+        Engine::ClosedForm => closed_form::run(&task, &mut rows),
+        Engine::Energy | Engine::Angle => over_angle::run(&mut task, &mut rows, record),
+        Engine::Contact => clearance::run(&task, &mut rows, record),
+        Engine::Time => in_time::run(&task, &mut rows, record),
+    }?;
+    rows.finish()?;
+    Ok(run)
 }
 
 /// The guide of a prescribed motion, if it has friction.

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::in_time::FAR;
+use crate::engine::Motion;
 use crate::engine::step::Step;
 use crate::engine::time::{Finish, Start};
 use crate::error::Error;
@@ -98,6 +99,48 @@ fn nearly_vanishes(equation: &Equation, last: &Step) -> bool {
     let inertia = |theta: f64| equation.terms(theta).inertia.m;
     let theta = last.end.theta;
     inertia(theta) < 1e-9 * inertia(theta + 1.0)
+}
+
+/// Why there is no run of a crank that stays at rest.
+pub(super) fn never_turns(turns: f64) -> Error {
+    Error::refused(
+        format!("a crank at rest never completes {turns} turns"),
+        "give motion.speed, or run.duration",
+    )
+}
+
+/// Refuses turns of a crank that starts at rest in a balance of forces that last.
+pub(super) fn refuse_balance(
+    extent: Extent,
+    start: Start,
+    motion: &dyn Motion,
+) -> Result<(), Error> {
+    let balanced = || {
+        start.speed == 0.0
+            && !motion.depends_on_time()
+            && motion.acceleration(start.t, start.angle, start.speed) == 0.0
+    };
+    match extent {
+        Extent::Revolutions(turns) if balanced() => Err(never_turns(turns)),
+        _ => Ok(()),
+    }
+}
+
+/// Refuses turns that a crank between limits, rad, can never make.
+pub(super) fn refuse_turns(reach: &[[f64; 2]], extent: Extent) -> Result<(), Error> {
+    let widest = reach
+        .iter()
+        .fold(0.0, |widest: f64, [from, to]| widest.max(to - from));
+    match extent {
+        Extent::Revolutions(turns) if widest > 0.0 && turns * TAU > widest => Err(Error::refused(
+            format!(
+                "run.revolutions: the crank cannot turn by more than {} deg between its limits and never completes {turns} turns",
+                widest.to_degrees()
+            ),
+            "give run.duration instead",
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// Why a run cannot begin.

@@ -9,6 +9,10 @@ use crate::numeric::angle::Angle;
 use crate::plan::Plan;
 use crate::scene::{Extent, Scene};
 
+/// What is said where the second run of an estimate does not get to the end within its share of work.
+pub(super) const NOT_ESTIMATED: &str =
+    "the error could not be estimated: the second, tighter run did not finish";
+
 /// A scene with all that its engine needs.
 pub(super) struct Task<'a> {
     pub scene: &'a Scene,
@@ -48,8 +52,7 @@ impl<'a> Task<'a> {
         }
         let estimate = second();
         if estimate.is_none() {
-            let why = "the error could not be estimated: the second, tighter run did not finish";
-            warnings.push(why.to_owned());
+            warnings.push(NOT_ESTIMATED.to_owned());
         }
         estimate
     }

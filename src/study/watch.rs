@@ -195,9 +195,7 @@ impl Watch<'_> {
                 let theta = step.start.theta + (k * spacing - self.turned(step, step.start.theta));
                 // A turning point may fall short of its angle by rounding.
                 let t = step.time_of_angle(theta, from, to).unwrap_or(to);
-                // The end is a row of its own.
-                let at_end = self.seen.ends_at.is_some() && t >= until * (1.0 - 1e-12);
-                if t <= until && !at_end {
+                if t <= until {
                     self.write_row(step, t)?;
                 }
             }

@@ -593,7 +593,14 @@ fn a_scene_that_is_forgotten_or_comes_second_is_said() {
     let forgotten = folder.run(&["inverse", "data.csv"]);
     forgotten.fails(2, &["needs a scene and the data of a motion"]);
     let swapped = folder.run(&["inverse", "data.csv", "scene.toml"]);
-    swapped.fails(2, &["scene.toml:2", "no column holds the time"]);
+    swapped.fails(
+        2,
+        &[
+            "scene.toml is a scene",
+            "the scene comes first",
+            "SCENE DATA.csv",
+        ],
+    );
     let text = folder
         .run(&["simulate", "data.csv"])
         .fails(2, &["not TOML"])

@@ -204,12 +204,12 @@ fn the_work_limit_counts_the_solution_only() {
 #[test]
 fn a_crank_that_never_completes_its_turns_says_so() {
     let at_rest = free("revolutions = 1").replace("10 rad/s", "0 rad/s");
-    stopped(&Folder::with(&at_rest), &[], "does not complete 1 turn");
     let driven = at_rest.replace("[motion]", "[motion]\nkind = \"constant-speed\"");
-    let folder = Folder::with(&driven);
-    folder
-        .run(&["simulate", "scene.toml"])
-        .fails(2, &["at rest", "1 turn", "help:"]);
+    for scene in [&at_rest, &driven] {
+        Folder::with(scene)
+            .run(&["simulate", "scene.toml"])
+            .fails(2, &["at rest", "1 turn", "help:"]);
+    }
 }
 
 /// The pendulum turns back for ever: it is told so, and not followed for ever.

@@ -18,7 +18,7 @@ impl EnergyIntegral {
         let mut integral = EnergyIntegral {
             scene: scene.clone(),
             energy: 0.0,
-            nodes: gauss_legendre(16),
+            nodes: fejer(24),
         };
         let (m, v) = integral.m_and_v(scene.motion.angle);
         integral.energy = 0.5 * m * scene.motion.speed.powi(2) + v;
@@ -132,22 +132,19 @@ impl EnergyIntegral {
     }
 }
 
-/// Nodes and weights of the Gauss-Legendre rule on [−1, 1], by Newton on the Legendre polynomial.
-pub fn gauss_legendre(n: u32) -> Vec<(f64, f64)> {
-    (1..=n)
+/// Nodes and weights of Fejér's first rule on [−1, 1], the interpolating one on the zeros of T_n (Davis and Rabinowitz,
+/// Methods of Numerical Integration, 2.5.5): exact for polynomials of lower degree than n.
+pub fn fejer(n: u32) -> Vec<(f64, f64)> {
+    let count = f64::from(n);
+    (0..n)
         .map(|i| {
-            let mut x = (std::f64::consts::PI * (f64::from(i) - 0.25) / (f64::from(n) + 0.5)).cos();
-            let mut slope = 1.0;
-            for _ in 0..100 {
-                let (mut p, mut before) = (x, 1.0);
-                for k in 2..=n {
-                    let k = f64::from(k);
-                    (p, before) = (((2.0 * k - 1.0) * x * p - (k - 1.0) * before) / k, p);
-                }
-                slope = f64::from(n) * (x * p - before) / (x * x - 1.0);
-                x -= p / slope;
-            }
-            (x, 2.0 / ((1.0 - x * x) * slope * slope))
+            let angle = std::f64::consts::PI * (f64::from(i) + 0.5) / count;
+            let term = |j: u32| {
+                let j = f64::from(j);
+                (2.0 * j * angle).cos() / (4.0 * j * j - 1.0)
+            };
+            let sum: f64 = (1..=n / 2).map(term).sum();
+            (angle.cos(), 2.0 / count * (1.0 - 2.0 * sum))
         })
         .collect()
 }

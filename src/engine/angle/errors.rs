@@ -16,10 +16,10 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// At the start, with this kinetic energy, J.
-    pub(super) fn at(kinetic: f64) -> Errors {
+    /// At the start, with this kinetic energy, which may be off beside its rounding, J.
+    pub(super) fn at(kinetic: f64, off: f64) -> Errors {
         Errors {
-            off: 0.5 * f64::EPSILON * kinetic,
+            off: off.hypot(0.5 * f64::EPSILON * kinetic),
             late: 0.0,
             kept: 1.0,
             early: 0.0,

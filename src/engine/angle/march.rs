@@ -7,6 +7,7 @@ use super::switch::{Side, side};
 use super::turn::stations;
 use super::{Driven, Resolution};
 use crate::engine::energy::Unserved;
+use crate::engine::energy::doubt::off_by_place;
 use crate::engine::energy::panel::Panel;
 use crate::engine::energy::piece::Piece;
 use crate::numeric::angle::Angle;
@@ -89,6 +90,12 @@ impl<'a, D: Driven> March<'a, D> {
         if kinetic == 0.0 {
             return Err(Unserved::TooSlow);
         }
+        let Station {
+            piece, rule, table, ..
+        } = &stations[0];
+        let beside = piece.angle(rule.points()[1]) - piece.from;
+        let [here, next, ..] = table.inertia;
+        let off = off_by_place(start.rest, kinetic, [here, next], beside);
         Ok(March {
             driven,
             fine,
@@ -101,7 +108,7 @@ impl<'a, D: Driven> March<'a, D> {
             t: (0.0, 0.0),
             kinetic,
             kinetic_low: 0.0,
-            errors: Errors::at(kinetic),
+            errors: Errors::at(kinetic, off),
             turns: 0.0,
             gain: 0.0,
             work: 0.0,
@@ -121,7 +128,7 @@ impl<'a, D: Driven> March<'a, D> {
         self.t = (0.0, 0.0);
         self.kinetic = kinetic;
         self.kinetic_low = 0.0;
-        self.errors = Errors::at(kinetic);
+        self.errors = Errors::at(kinetic, 0.0);
         self.fastest = kinetic;
         self.turns = 0.0;
         self.gain = 0.0;

@@ -2,6 +2,20 @@
 
 use super::Orbit;
 use super::leg::Leg;
+use super::panel::Panel;
+
+/// How far the kinetic energy (J) of a start may be off because its angle (rad) is rounded, J: next to a limit that is
+/// nearly reached the inertia is steep. `inertias`: there, and at an angle `beside` from it, rad.
+pub(in crate::engine) fn off_by_place(
+    theta: f64,
+    kinetic: f64,
+    inertias: [f64; 2],
+    beside: f64,
+) -> f64 {
+    let slope = (inertias[1] - inertias[0]) / (beside * inertias[0]);
+    let off = (0.5 * f64::EPSILON * theta * slope * kinetic).abs();
+    if off.is_finite() { off } else { 0.0 }
+}
 
 impl Orbit {
     /// How far a time may be off, s: by the tails of the series and the rounding of energies.
@@ -12,32 +26,50 @@ impl Orbit {
             + later.map_or(0.0, |later| later.error());
         let duration = later.map_or(self.forward.duration.0, |later| later.end())
             + back.map_or(0.0, |leg| leg.duration.0);
-        let left_out = back.map_or(0.0, |leg| leg.left_out);
-        error / duration * until + self.forward.left_out.max(left_out)
+        let left_out = match self.panel_at(until) {
+            Some(panel) => panel.left_out(),
+            None => self.forward.left_out,
+        };
+        error / duration * until + left_out
     }
 
-    /// What the series leave out of the speed, relative to it.
-    pub fn speed_error(&self) -> f64 {
-        let back = self.backward.as_ref().map_or(0.0, |leg| leg.tail);
-        self.forward.tail.max(back)
+    /// What the series leave out of the speed at a time (s), relative to it.
+    pub fn speed_error(&self, t: f64) -> f64 {
+        self.panel_at(t)
+            .map_or(self.forward.tail, |panel| panel.tail)
+    }
+
+    /// How far the kinetic energy of all states may be off because the angle of the start is rounded, J.
+    pub fn energy_error(&self) -> f64 {
+        self.off
     }
 
     /// How far the turning point next to the state at a time (s) may be off, rad, if the state is on a panel that ends
     /// there: where the crank is slow, its place is off by that, however exact the time.
     pub fn misplaced(&self, t: f64) -> f64 {
+        let there = self.panel_at(t).filter(|_| self.turns_back());
+        there.map_or(0.0, |panel| panel.misplaced)
+    }
+
+    /// The panel on which the state at a time (s) lies; none after the first turns of many.
+    fn panel_at(&self, t: f64) -> Option<&Panel> {
+        if self.later.is_some() && t > self.forward.duration.0 {
+            return None;
+        }
+        let (_, after) = self.split(t);
         if !self.turns_back() {
-            return 0.0;
+            return Some(self.forward.panel_at(after)?.0);
         }
         let there = 2.0 * self.forward.duration.0;
-        let (_, after) = self.split(t);
-        let to_and_fro = |leg: &Leg, since: f64| {
-            let since = since.min(2.0 * leg.duration.0 - since);
-            leg.panel_at(since)
-                .map_or(0.0, |(panel, _)| panel.misplaced)
-        };
         match &self.backward {
             Some(back) if after > there => to_and_fro(back, after - there),
             _ => to_and_fro(&self.forward, after % there),
         }
     }
+}
+
+/// The panel of a leg that is run through to and fro.
+fn to_and_fro(leg: &Leg, since: f64) -> Option<&Panel> {
+    let since = since.min(2.0 * leg.duration.0 - since);
+    leg.panel_at(since).map(|(panel, _)| panel)
 }

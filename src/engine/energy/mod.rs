@@ -7,7 +7,7 @@
 //! makes dt/ds smooth. Where each turn gains the same work, the time of many turns is a sum in closed form.
 
 mod build;
-mod doubt;
+pub(in crate::engine) mod doubt;
 mod extreme;
 mod gains;
 mod home;

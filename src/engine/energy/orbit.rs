@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::build::Begin;
+use super::doubt::off_by_place;
 use super::gains::{Course, Gains};
 use super::kinetic::at_start;
 use super::later::Later;
@@ -15,6 +16,9 @@ use crate::numeric::exact::two_sum;
 /// Turns that are computed one by one before the others are summed.
 const FIRST_TURNS: f64 = 16.0;
 
+/// From the next angle this far, rad, the slope of the inertia is taken.
+const BESIDE: f64 = 1e-8;
+
 /// A motion known from its energy: angle and speed at any time.
 #[derive(Clone, Debug)]
 pub struct Orbit {
@@ -24,6 +28,8 @@ pub struct Orbit {
     pub(super) speed: f64,
     /// Whether the start is a turning point.
     pub(super) from_rest: bool,
+    /// How far the kinetic energy of all states may be off because the angle of the start is rounded, J.
+    pub(super) off: f64,
     pub(super) forward: Leg,
     /// From the start the other way, for motions that turn back.
     pub(super) backward: Option<Leg>,
@@ -53,12 +59,14 @@ impl Orbit {
         } else {
             speed.signum()
         };
+        let beside = profile.inertia_and_force(theta + BESIDE).0;
+        let off = off_by_place(theta, kinetic, [inertia, beside], BESIDE);
         let leg = |direction: f64, until: f64, most_turns: f64| {
             let begin = Begin {
                 start: theta,
                 direction,
                 kinetic,
-                off: 0.0,
+                off,
             };
             Leg::build(profile, begin, until, tolerance, most_turns)
         };
@@ -72,6 +80,7 @@ impl Orbit {
                 kinetic,
                 gain: direction * work,
                 gain_error,
+                off,
                 tolerance,
             };
             later = Gains::new(&course, FIRST_TURNS, forward.duration, until)?;
@@ -92,6 +101,7 @@ impl Orbit {
             direction,
             speed,
             from_rest: kinetic == 0.0,
+            off,
             forward,
             backward,
             later: later.map(|gains| Box::new(Later::Gaining(gains))),
@@ -105,6 +115,7 @@ impl Orbit {
             direction: speed.signum(),
             speed,
             from_rest: false,
+            off: 0.0,
             forward: leg,
             backward: None,
             later: None,

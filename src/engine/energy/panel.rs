@@ -13,6 +13,9 @@ pub(super) const DEGREE: usize = chebyshev::MOST;
 /// Panels next to a balance are shorter than this, rad.
 const SHORT: f64 = 0.1;
 
+/// Inertia and force have a rounding of their own, which is this part of what is allowed at least.
+const LEAST_SEEN: f64 = 1e-3;
+
 /// A piece with its series.
 #[derive(Clone, Debug)]
 pub(in crate::engine) struct Panel {
@@ -75,7 +78,6 @@ impl Panel {
         }
         // Angles are rounded, which the series of a short panel sees as noise.
         let noise = 8.0 * f64::EPSILON * (1.0 + piece.from.abs() / piece.span().abs());
-        let accepted = tolerance.max(noise);
         let series = rule.series(&force);
         let energy = Energy {
             piece,
@@ -105,7 +107,8 @@ impl Panel {
         }
         let slope = rule.series(&slopes);
         let tail = slope.tail();
-        if tail > accepted {
+        let noise = noise * seen(&piece, energy.kinetic, &inertia, &force);
+        if tail > tolerance.max(noise) {
             return Ok(Tried::Unresolved);
         }
         // Only next to a balance, where panels are short, may forces be small differences of large ones.
@@ -240,6 +243,23 @@ impl Panel {
         let x = self.piece.variable(theta);
         (self.slope.integral().value(x), self.speed(x))
     }
+}
+
+/// How much of the rounding of angles dt/dx shows: all next to a turning point; elsewhere what of the inertia and of the
+/// kinetic energy (J, at the start) changes over the piece.
+fn seen(piece: &Piece, kinetic: f64, inertia: &Values, force: &Values) -> f64 {
+    if piece.turning != Turning::Nowhere {
+        return 1.0;
+    }
+    let change = |values: &Values| {
+        let none = (f64::INFINITY, f64::NEG_INFINITY);
+        let (low, high) = values
+            .iter()
+            .fold(none, |(low, high), v| (low.min(*v), high.max(*v)));
+        (high - low, high)
+    };
+    let ((lighter, inertia), (pushed, _)) = (change(inertia), change(force));
+    (lighter / inertia + pushed * piece.span().abs() / kinetic).clamp(LEAST_SEEN, 1.0)
 }
 
 /// What errors of the kinetic energy make of the duration of a panel, relative to it. `slopes` and `kinetic` are dt/dx

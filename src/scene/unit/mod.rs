@@ -43,14 +43,22 @@ pub fn parse(text: &str, quantity: Quantity) -> Result<f64, UnitError> {
     if measured.is(quantity) {
         return Ok(measured.value);
     }
-    Err(wrong(
-        if measured.unit.is_empty() {
-            format!("`{text}` has no unit")
-        } else {
-            format!("`{}` is not the unit of {}", measured.unit, quantity.name())
-        },
-        quantity,
-    ))
+    let unit = measured.unit;
+    let what = if unit.is_empty() {
+        format!("`{text}` has no unit")
+    } else if let Some(force) = of_pounds_force(unit, quantity) {
+        format!("in `{unit}` the pound is a mass: write `{force}` for the force")
+    } else {
+        format!("`{unit}` is not the unit of {}", quantity.name())
+    };
+    Err(wrong(what, quantity))
+}
+
+/// The unit with the pound as a force, if that makes it one of the quantity.
+fn of_pounds_force(unit: &str, quantity: Quantity) -> Option<String> {
+    let force = unit.replace("lbs", "lb").replace("lb", "lbf");
+    let factor = symbol::unit_factor(&force).ok()?;
+    quantity.accepts(factor.dimension).then_some(force)
 }
 
 /// Reads `text` as a time (s) or an angle (rad); a bare 0 is a time.
@@ -160,6 +168,19 @@ mod tests {
             ("2 Nm", Quantity::Torque, 2.0),
             ("10 bar", Quantity::Pressure, 1e6),
             ("1 lbf ft", Quantity::Torque, 1.3558179483314004),
+            ("2 N-m", Quantity::Torque, 2.0),
+            ("2 N.m", Quantity::Torque, 2.0),
+            ("1 lbf-ft", Quantity::Torque, 1.3558179483314004),
+            ("0.2 kg-m^2", Quantity::Inertia, 0.2),
+            ("0.2 kg-m2", Quantity::Inertia, 0.2),
+            ("0.2 kg.m²", Quantity::Inertia, 0.2),
+            ("0.2 kg*m**2", Quantity::Inertia, 0.2),
+            ("9.81 m-s-2", Quantity::Acceleration, 9.81),
+            ("60 rev/min", Quantity::AngularSpeed, 2.0 * PI),
+            ("60 r/min", Quantity::AngularSpeed, 2.0 * PI),
+            ("60 RPM", Quantity::AngularSpeed, 2.0 * PI),
+            ("2 inches", Quantity::Length, 0.0508),
+            ("2 lbs", Quantity::Mass, 0.90718474),
             ("10 lbf", Quantity::Force, 44.482216152605),
             ("1 lb", Quantity::Mass, 0.45359237),
             ("1 psi", Quantity::Pressure, 6894.757293168361),
@@ -204,9 +225,26 @@ mod tests {
             ("+-3 N", Quantity::Force),
             ("3− N", Quantity::Force),
             ("3 N−m", Quantity::Force),
+            ("3 N-", Quantity::Force),
+            ("3 m--1", Quantity::Length),
+            ("3 m-", Quantity::Length),
             ("", Quantity::Length),
         ] {
             assert!(parse(text, quantity).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_was_meant_is_said() {
+        for (text, quantity, what) in [
+            ("2 lb ft", Quantity::Torque, "`lbf ft`"),
+            ("2 in-lb", Quantity::Torque, "`in-lbf`"),
+            ("30 Deg", Quantity::Angle, "`deg` is"),
+            ("2 KG", Quantity::Mass, "`kg` is"),
+            ("3 1/min", Quantity::AngularSpeed, "200 rpm"),
+        ] {
+            let error = parse(text, quantity).unwrap_err().to_string();
+            assert!(error.contains(what), "{text}: {error}");
         }
     }
 }

@@ -113,9 +113,10 @@ const UNITS: &[Unit] = &[
     ),
 ];
 
-/// Names that instruments write in the place of symbols.
+/// Names that people and instruments write in the place of symbols.
 const NAMES: &[(&str, &str)] = &[
     ("sec", "s"),
+    ("secs", "s"),
     ("second", "s"),
     ("seconds", "s"),
     ("minutes", "min"),
@@ -125,6 +126,13 @@ const NAMES: &[(&str, &str)] = &[
     ("radians", "rad"),
     ("revs", "rev"),
     ("turns", "turn"),
+    ("r", "rev"),
+    ("RPM", "rpm"),
+    ("inch", "in"),
+    ("inches", "in"),
+    ("foot", "ft"),
+    ("feet", "ft"),
+    ("lbs", "lb"),
 ];
 
 const PREFIXES: &[(&str, i32)] = &[
@@ -164,7 +172,8 @@ fn symbol(name: &str) -> Option<Factor> {
     })
 }
 
-/// `unit := factor { (space | · | * | /) factor }`, `factor := symbol [^]integer | ( unit )`.
+/// `unit := factor { (space | · | * | . | - | /) factor }`, `factor := symbol [^]integer | ( unit )`. A hyphen before a
+/// digit is the sign of an exponent.
 pub(super) fn unit_factor(text: &str) -> Result<Factor, String> {
     let mut rest = text.trim();
     let (factor, left) = product(&mut rest)?;
@@ -193,7 +202,7 @@ fn product<'a>(rest: &mut &'a str) -> Result<(Factor, &'a str), String> {
             divide = true;
             *rest = after.trim_start();
         } else if !first {
-            let explicit = rest.strip_prefix(['*', '·', '⋅', '×']);
+            let explicit = rest.strip_prefix(['*', '·', '⋅', '×', '.', '-']);
             if divided {
                 return Err(format!(
                     "`{whole}` can be read in two ways: put what is divided by in brackets, as in `kg/(m s)`"
@@ -225,7 +234,11 @@ fn factor_of(rest: &mut &str) -> Result<Factor, String> {
     let name = &rest[..end];
     let base = symbol(name).ok_or_else(|| {
         let shown = if name.is_empty() { *rest } else { name };
-        format!("`{shown}` is not a known unit")
+        let small = name.to_lowercase();
+        match symbol(&small) {
+            Some(_) => format!("`{shown}` is not a known unit: `{small}` is"),
+            None => format!("`{shown}` is not a known unit"),
+        }
     })?;
     *rest = &rest[end..];
     let power = exponent(rest)?;
@@ -233,8 +246,15 @@ fn factor_of(rest: &mut &str) -> Result<Factor, String> {
 }
 
 fn exponent(rest: &mut &str) -> Result<i32, String> {
-    let caret = rest.strip_prefix('^');
+    let caret = rest.strip_prefix('^').or_else(|| rest.strip_prefix("**"));
     let text = caret.unwrap_or(rest);
+    let hyphen = |rest: &str| {
+        let after = rest.strip_prefix('-');
+        after.is_some_and(|after| !after.starts_with(|c: char| c.is_ascii_digit()))
+    };
+    if caret.is_none() && hyphen(text) {
+        return Ok(1);
+    }
     let mut digits = String::new();
     let mut length = 0;
     for c in text.chars() {

@@ -231,7 +231,7 @@ impl<const N: usize> Follow<'_, N> {
                 let (from, to) = (stretch.start[0], stretch.end[0]);
                 let way = |t: f64| turned(&stretch.at(t)) - k;
                 let t = root::bracketed(way, from, to).unwrap_or(to);
-                if t < until * (1.0 - 1e-12) {
+                if t <= until {
                     let s = self.model.state(&stretch.at(t));
                     self.write_row(&s, stretch.phase)?;
                 }

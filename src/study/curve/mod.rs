@@ -10,7 +10,6 @@ mod rest;
 mod watch;
 mod words;
 
-use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -35,7 +34,6 @@ use crate::engine::time::{Finish, Start};
 use crate::error::Error;
 use crate::mechanism::{Class, Constrained, Curve, Equation};
 use crate::numeric::angle::Angle;
-use crate::scene::Extent;
 use crate::trajectory::Trajectory;
 
 /// Whether a free motion in time is computed here.
@@ -62,6 +60,13 @@ pub(super) fn run(
         turn_limit: task.extent.angle(),
         turned_from: task.start(),
     };
+    if constrained.friction().is_none() {
+        let free = phase::InPhase {
+            equation: &constrained,
+            phase: Phase::Sliding { c: 0.0 },
+        };
+        stopped::refuse_balance(task.extent, start, &free)?;
+    }
     let mut watch = CurveWatch {
         equation: &constrained,
         reactor: task.maker.reactor.as_ref(),
@@ -158,7 +163,7 @@ fn on_curve(task: &Task<'_>) -> Result<(Constrained, Start), Error> {
             &task.limits,
         ));
     };
-    refuse_turns(task)?;
+    stopped::refuse_turns(&task.limits.reach, task.extent)?;
     let pace = speed / curve.place(q.rest).dtheta;
     if speed != 0.0 && pace.abs() > 1e12 * speed.abs() {
         return Err(Error::refused(
@@ -168,25 +173,6 @@ fn on_curve(task: &Task<'_>) -> Result<(Constrained, Start), Error> {
     }
     let pace = if speed == 0.0 { 0.0 } else { pace };
     Ok((Constrained::new(task.scene, curve), start(q, pace)))
-}
-
-/// Turns that a crank between limits can never make.
-fn refuse_turns(task: &Task<'_>) -> Result<(), Error> {
-    let widest = task
-        .limits
-        .reach
-        .iter()
-        .fold(0.0, |widest: f64, [from, to]| widest.max(to - from));
-    match task.extent {
-        Extent::Revolutions(turns) if widest > 0.0 && turns * TAU > widest => Err(Error::refused(
-            format!(
-                "run.revolutions: the crank cannot turn by more than {} deg between its limits and never completes {turns} turns",
-                widest.to_degrees()
-            ),
-            "give run.duration instead",
-        )),
-        _ => Ok(()),
-    }
 }
 
 fn crank_state(curve: &Curve, last: &Step) -> (Angle, f64) {

@@ -12,7 +12,7 @@ use crate::engine::time::{Settings, Start};
 use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::scene::Extent;
-use crate::study::by_angle::{MARGIN, ROUNDING, finer};
+use crate::study::by_angle::{MARGIN, ROUNDING, finer, most_evaluations};
 use crate::study::curve::{self, Noise};
 use crate::study::forward::{Forward, Rounding, tighter};
 use crate::study::over_angle::late_by;
@@ -22,9 +22,6 @@ use crate::study::task::Task;
 
 /// The second run is handed over at other places.
 const OTHER_WAIT: f64 = 1.4 * TAU;
-/// Evaluations of the second run for one of the first, and beside them.
-const MOST_EVALUATIONS: (u64, u64) = (20, 200_000);
-
 /// What is stated of rounding with friction, in standard deviations.
 const RUBBING_DEVIATIONS: f64 = 2.0;
 
@@ -137,7 +134,6 @@ pub(super) fn estimate(
     arrived: &Arrived,
 ) -> Option<(ErrorEstimate, Cost)> {
     let begun = Instant::now();
-    let (factor, beside) = MOST_EVALUATIONS;
     let end = arrived.now;
     let finer = Course {
         extent: Extent::Duration(end.t),
@@ -148,10 +144,7 @@ pub(super) fn estimate(
             ..course.settings
         },
         wait: OTHER_WAIT,
-        max_evaluations: arrived
-            .evaluations
-            .saturating_mul(factor)
-            .saturating_add(beside),
+        max_evaluations: most_evaluations(arrived.evaluations),
         ..*course
     };
     let forward = Forward(course.equation);

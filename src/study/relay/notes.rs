@@ -103,7 +103,6 @@ impl Observer for Notes<'_> {
             orbit: &driving.orbit,
             begin: from.t,
             end: driving.end,
-            is_last: driving.short.is_none(),
         };
         if rows.wants_rows() {
             let mut write = |t: f64, angle, omega| rows.row(&maker.row(t, angle, omega, None));

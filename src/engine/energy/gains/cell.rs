@@ -30,6 +30,8 @@ pub(in crate::engine::energy) struct Course<'a> {
     pub gain: f64,
     /// How far the gain may be off, J.
     pub gain_error: f64,
+    /// How far the kinetic energy at the start may be off beside its own rounding, J.
+    pub off: f64,
     /// Tail at which series end.
     pub tolerance: f64,
 }
@@ -41,7 +43,7 @@ impl Course<'_> {
 
     /// How far that may be off, J.
     pub fn off_after(&self, turns: f64) -> f64 {
-        f64::EPSILON * self.kinetic + turns * self.gain_error
+        self.off + f64::EPSILON * self.kinetic + turns * self.gain_error
     }
 
     pub fn mark(&self, turns: f64, t: (f64, f64)) -> Mark {
