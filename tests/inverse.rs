@@ -5,7 +5,7 @@ mod noise;
 use std::f64::consts::{PI, TAU};
 
 use noise::Random;
-use slider_crank::mechanism::Linkage;
+use slider_crank::mechanism::{Equation, Linkage};
 use slider_crank::scene::{
     Branch, Crank, Gravity, Load, Measured, Measurement, Scene, Slider, Variables,
 };
@@ -590,14 +590,43 @@ fn the_table_of_forces_is_right() {
 /// Fifteen turns from rest in 201 samples: the polynomial of the highest degree that these allow goes through most of them, and
 /// is off by thousands of millions of newtons between those at the ends.
 #[test]
-fn a_polynomial_that_does_not_follow_the_motion_is_refused() {
+fn rows_at_which_a_polynomial_does_not_follow_the_motion_are_left_empty() {
     let times: Vec<f64> = (0..=200).map(|i| 0.01 * f64::from(i)).collect();
     let faster = |t: f64| 7.5 * TAU / 2.0 * t * t;
     let angle = |t: f64| faster(t) + 0.05 * faster(t).sin();
     let theta = times.iter().map(|t| angle(*t)).collect();
     let motion = Measurement::new(Measured::Theta, times, theta).expect("samples");
-    let refused = inverse(&pump(), &motion, &InverseOptions::default()).expect_err("no fit");
-    let message = refused.to_string();
-    assert!(message.contains("--fit spline"), "{message}");
+    let found = inverse(&pump(), &motion, &InverseOptions::default()).expect("a polynomial");
+    let [first, last] = [&found.rows[0], &found.rows[200]];
+    for row in [first, last] {
+        assert_eq!((row.slider_force, row.crank_torque), (None, None));
+    }
+    let warnings = &found.summary.warnings;
+    let said = warnings.iter().find(|w| w.contains("misses more of the"));
+    assert!(
+        said.is_some_and(|w| w.contains("--fit spline")),
+        "{warnings:?}"
+    );
+    // The rest is within its band: its angle is prescribed, and so are speed and acceleration.
+    let equation = Equation::new(&pump());
+    let mut within = Vec::new();
+    for row in &found.rows {
+        let (Some(torque), Some(se)) = (row.crank_torque, row.crank_torque_se) else {
+            continue;
+        };
+        let (speed, acceleration) = (7.5 * TAU * row.t, 7.5 * TAU);
+        let phase = faster(row.t);
+        let omega = speed * (1.0 + 0.05 * phase.cos());
+        let alpha = acceleration * (1.0 + 0.05 * phase.cos()) - 0.05 * speed * speed * phase.sin();
+        let terms = equation.terms(angle(row.t));
+        let needed = equation.generalized_force(&terms, omega, alpha);
+        within.push(f64::from((torque - needed).abs() < 2.0 * se));
+    }
+    let part = within.iter().sum::<f64>() / within.len() as f64;
+    assert!(
+        within.len() > 100 && part > 0.9,
+        "{part} of {}",
+        within.len()
+    );
     assert!(inverse(&pump(), &motion, &fitted(FitKind::Spline)).is_ok());
 }

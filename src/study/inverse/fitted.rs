@@ -1,6 +1,7 @@
 //! The fit of θ(t), in terms of what was measured.
 
 use super::errors::Errors;
+use super::missed::Missed;
 use super::passages::Passages;
 use super::rounding::{Rounding, common_step, of_step};
 use super::seen::Seen;
@@ -58,24 +59,6 @@ impl Fitted {
             }
         }
         Fitted::to(sensor, measurement, theta, (kind, size), digits)
-    }
-
-    /// This fit, if it follows the motion.
-    ///
-    /// # Errors
-    /// A text that says by how much it does not, where more terms were not allowed.
-    pub fn following(self) -> Result<Fitted, String> {
-        let missed = self.errors.missed.as_ref();
-        let missed = missed.filter(|missed| self.curve.is_cut_short() && missed.is_most());
-        let Some(missed) = missed else {
-            return Ok(self);
-        };
-        Err(format!(
-            "a polynomial of degree {}, the highest that is chosen for {} samples, does not follow the motion, but --fit spline may: it is off by {:.1e} times the acceleration",
-            self.curve.degree(),
-            self.residuals.len(),
-            missed.part
-        ))
     }
 
     /// Fits the motion to values rounded to steps.
@@ -205,6 +188,14 @@ impl Fitted {
     /// The motion at rising times, rad and s.
     pub fn states(&self, t: &[f64]) -> Vec<State> {
         self.errors.states(&self.curve, t)
+    }
+
+    /// Whether the fit is known to follow the motion at a time, at which this is its state, at least as to the size of the
+    /// acceleration.
+    pub fn follows(&self, state: &State, t: f64) -> bool {
+        let missed = self.errors.missed.as_ref();
+        let is_lost = |missed: &Missed| missed.is_most(state, t);
+        !(self.curve.is_cut_short() && missed.is_some_and(is_lost))
     }
 
     /// Counts rounding of the measured values to steps that is not noise as an error of the curve, and not as noise.

@@ -30,6 +30,9 @@ const PLACES: usize = 500;
 /// Standard errors beyond which a difference is certain.
 const CERTAIN: f64 = 5.0;
 
+/// The acceleration, as a combination of angle, speed and acceleration.
+const ACCELERATION: [f64; 3] = [0.0, 0.0, 1.0];
+
 /// Residuals of a fit as a curve.
 #[derive(Debug)]
 pub(super) struct Missed {
@@ -38,8 +41,8 @@ pub(super) struct Missed {
     whole: Option<Curve>,
     /// Standard deviation of a sample by noise beside that curve.
     pub noise: f64,
-    /// The most that is missed for certain of the acceleration, over the root mean square of the acceleration.
-    pub part: f64,
+    /// Root mean square of the acceleration, rad/s².
+    acceleration: f64,
 }
 
 impl Missed {
@@ -91,29 +94,23 @@ impl Missed {
         }
         let (motion, mut missed) = found.filter(|_| settled)?;
         let (noise, is_own) = (missed.noise, missed.whole.is_none());
-        let acceleration = [0.0, 0.0, 1.0];
         let square = |state: &State, sigma: f64| {
-            sigma * sigma * state.variance(&acceleration) + state.bias_of(&acceleration)
+            sigma * sigma * state.variance(&ACCELERATION) + state.bias_of(&ACCELERATION)
         };
-        let [mut before, mut after, mut seen, mut all] = [0.0; 4];
-        let (mut places, mut certain) = (0.0, 0.0f64);
-        for t in t.iter().step_by(t.len().div_ceil(PLACES)) {
+        let places = || t.iter().step_by(t.len().div_ceil(PLACES));
+        let squares = places().map(|t| motion.derivatives(*t)[2].powi(2));
+        missed.acceleration = (squares.sum::<f64>() / places().count() as f64).sqrt();
+        let [mut before, mut after, mut seen] = [0.0; 3];
+        for t in places() {
             let state = curve.state(*t);
             before += square(&state, sigma);
-            let whole = motion.state(*t);
-            let off = whole.value[2] - state.value[2];
-            let by_noise = noise * noise * state.variance(&acceleration) + square(&whole, noise);
-            if off * off > CERTAIN * CERTAIN * by_noise {
-                certain = certain.max(off.abs());
-            }
             let more = missed.curve.state(*t);
+            let off = motion.derivatives(*t)[2] - state.value[2];
             seen += if is_own { more.value[2] } else { off }.powi(2);
-            all += whole.value[2].powi(2);
-            places += 1.0;
             after += square(&missed.beside(state, &more, *t), noise);
         }
-        missed.part = certain / (all / places).sqrt();
-        (after < before || seen > before || missed.is_most()).then_some(missed)
+        let is_lost = places().any(|t| missed.is_most(&curve.state(*t), *t));
+        (after < before || seen > before || is_lost).then_some(missed)
     }
 
     /// The spline through what is left of samples, as free as one through all of the motion at least: of waves that noise
@@ -130,7 +127,7 @@ impl Missed {
             curve,
             whole,
             noise,
-            part: 0.0,
+            acceleration: 0.0,
         })
     }
 
@@ -144,9 +141,14 @@ impl Missed {
         squares[1] <= LEFT * LEFT * squares[0]
     }
 
-    /// Whether more is missed than what there is.
-    pub fn is_most(&self) -> bool {
-        self.part > 1.0
+    /// Whether certainly more is missed of the acceleration of a state of the fit than there usually is.
+    pub fn is_most(&self, state: &State, t: f64) -> bool {
+        let off = match &self.whole {
+            Some(whole) => whole.derivatives(t)[2] - state.value[2],
+            None => self.curve.derivatives(t)[2],
+        };
+        let by_noise = CERTAIN * self.noise * state.variance(&ACCELERATION).sqrt();
+        off.abs() > self.acceleration.max(by_noise)
     }
 
     /// The states of the fit at rising times with what it misses as what may be wrong.

@@ -120,7 +120,6 @@ pub fn inverse(
         options.fit,
         options.size,
     );
-    let fitted = fitted.and_then(Fitted::following);
     let fitted = fitted.map_err(|what| limit::unfit(sensor.linkage, what, &unfolded.warnings))?;
     let backwards = Backwards {
         equation: &equation,
@@ -130,14 +129,17 @@ pub fn inverse(
         exact: fitted.errors.exact,
     };
     let factor = student::half_band(fitted.errors.free);
-    let found = Rows::new(&backwards, &fitted, measurement, factor);
+    let mut found = Rows::new(&backwards, &fitted, measurement, factor);
     reachable(measurement, &found)?;
+    let lost = warnings::of_lost(&fitted, &found)?;
     limit::keeps_clear(&backwards, &sensor, &fitted, measurement)?;
     let locked = finite(&backwards, measurement, &found.rows)?;
+    found.leave_out_lost();
     let mut warnings = measurement.notes().to_vec();
     warnings.extend(unfolded.warnings);
     warnings.extend(warnings::of_scene(scene, options));
     warnings.extend(locked);
+    warnings.extend(lost);
     warnings.extend(warnings::of_fit(&fitted, measurement, options));
     let summary = InverseSummary::new(
         scene,

@@ -22,7 +22,8 @@ pub struct InverseRow {
     pub slider_force: Option<f64>,
     /// Its standard error, N.
     pub slider_force_se: Option<f64>,
-    /// Torque on the crank that does the same as the slider force, N m; none where the guide locks itself against any.
+    /// Torque on the crank that does the same as the slider force, N m; none where the guide locks itself against any, or the
+    /// fit does not follow the motion.
     pub crank_torque: Option<f64>,
     /// Its standard error, N m.
     pub crank_torque_se: Option<f64>,
@@ -60,6 +61,8 @@ pub(super) struct Rows {
     pub rule: BandRule,
     /// The first sample whose crank angle the mechanism cannot take.
     pub unreachable: Option<usize>,
+    /// Samples at which the fit does not follow the motion.
+    pub lost: Vec<usize>,
 }
 
 /// What decides whether a row has a force.
@@ -75,10 +78,12 @@ pub(super) struct Doubt {
     pub near_limit: bool,
     /// Whether the friction of the guide is known.
     pub friction_known: bool,
+    /// Whether the fit follows the motion.
+    pub followed: bool,
 }
 
 impl Doubt {
-    fn new(demand: &Demand, r: f64) -> Doubt {
+    fn new(demand: &Demand, r: f64, followed: bool) -> Doubt {
         let arm = demand.arm.abs();
         Doubt {
             exists: arm.is_finite(),
@@ -87,6 +92,7 @@ impl Doubt {
             certain: arm > 5.0 * demand.arm_se,
             near_limit: demand.near_limit,
             friction_known: demand.friction_known,
+            followed,
         }
     }
 }
@@ -123,15 +129,17 @@ impl Rows {
         let (rows, doubts) = parallel::pairs_by(times.len(), |range| {
             let (times, elapsed) = (&times[range.clone()], &elapsed[range]);
             let states = times.iter().zip(fitted.states(elapsed));
-            states.map(|(t, state)| {
+            states.zip(elapsed).map(|((t, state), elapsed)| {
                 let state = state.stretched(measurement.time_uncertainty());
                 let demand = backwards.demand(*t, &state);
                 let row = InverseRow::new(*t, &state, &demand);
-                (row, Doubt::new(&demand, linkage.r))
+                let followed = fitted.follows(&state, *elapsed);
+                (row, Doubt::new(&demand, linkage.r, followed))
             })
         });
         let rocks = !linkage.limit_angles().is_empty();
-        let torques = rows.iter().filter_map(|row| {
+        let followed = rows.iter().zip(&doubts).filter(|(_, doubt)| doubt.followed);
+        let torques = followed.filter_map(|(row, _)| {
             // The lever arm grows without bound towards a limit, and the torque with it.
             let longer = if rocks {
                 (linkage.pose(row.theta).dx.abs() / linkage.r).max(1.0)
@@ -146,6 +154,7 @@ impl Rows {
             bands: Vec::new(),
             rule,
             unreachable: doubts.iter().position(|doubt| !doubt.exists),
+            lost: (0..doubts.len()).filter(|i| !doubts[*i].followed).collect(),
         };
         let mut before: Option<&str> = None;
         for (i, doubt) in doubts.iter().enumerate() {
@@ -161,6 +170,14 @@ impl Rows {
             before = reason;
         }
         found
+    }
+
+    /// Leaves out the torques at which the fit does not follow the motion, as the forces are.
+    pub fn leave_out_lost(&mut self) {
+        for i in &self.lost {
+            let row = &mut self.rows[*i];
+            (row.crank_torque, row.crank_torque_se) = (None, None);
+        }
     }
 
     fn extend_band(&mut self, t: f64, theta: f64, reason: &'static str, goes_on: bool) {

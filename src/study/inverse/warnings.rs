@@ -2,6 +2,8 @@
 
 use super::InverseOptions;
 use super::fitted::Fitted;
+use super::row::Rows;
+use crate::error::Error;
 use crate::numeric::fit::{Curve, Kind, Size};
 use crate::scene::{Measurement, Scene};
 
@@ -30,6 +32,31 @@ pub(super) fn of_scene(scene: &Scene, options: &InverseOptions) -> Vec<String> {
         .chain(friction)
         .map(str::to_owned)
         .collect()
+}
+
+/// What is to be known of samples at which the fit does not follow the motion.
+///
+/// # Errors
+/// Where it follows it nowhere.
+pub(super) fn of_lost(fitted: &Fitted, found: &Rows) -> Result<Option<String>, Error> {
+    let (lost, all) = (found.lost.len(), found.rows.len());
+    let what = |samples: String| {
+        format!(
+            "a polynomial of degree {}, the highest that is chosen for {all} samples, misses more of the acceleration than there usually is at {samples}",
+            fitted.curve.degree()
+        )
+    };
+    match lost {
+        0 => Ok(None),
+        _ if lost == all => Err(Error::refused(
+            what("all of them".to_owned()),
+            "--fit spline may follow the motion",
+        )),
+        _ => Ok(Some(format!(
+            "{}: force and torque are left empty there, and --fit spline may follow the motion",
+            what(format!("{lost} of them"))
+        ))),
+    }
 }
 
 /// What is to be known of the fit.
