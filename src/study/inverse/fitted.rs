@@ -206,6 +206,10 @@ impl Fitted {
         samples: &Samples<'_>,
         step: f64,
     ) -> Result<(), String> {
+        if self.curve.is_cut_short() && self.errors.missed.is_some() {
+            // The places of the values in the steps are not known by a fit that misses the motion.
+            return Ok(());
+        }
         let parameters = self.curve.quality().parameters;
         let Some(rounding) = Rounding::of(step, values.len(), self.left(), parameters) else {
             return Ok(());

@@ -18,8 +18,11 @@ const LEFT: f64 = 0.1;
 /// Part of the squares of residuals that is much where a spline leaves it of them in a pattern: a tenth of their size.
 const MUCH: f64 = 0.01;
 
-/// Most residuals that are looked at.
+/// Most residuals that are looked at where they have a pattern.
 const MOST: usize = 2000;
+
+/// Most where noise or rounding hides it: the time grows with them.
+const HIDDEN: usize = 100_000;
 
 /// Corrections of what is missed of a crank angle that was not measured itself.
 const ROUNDS: usize = 3;
@@ -59,12 +62,12 @@ impl Missed {
         sigma: f64,
     ) -> Option<Missed> {
         let last = samples.t.len() - 1;
-        // Some samples of more tell what is in the residuals of all, but less of what noise hides there.
-        let asked = pattern.clear || curve.is_cut_short() && last <= MOST;
+        let asked = pattern.clear || curve.is_cut_short() && last < HIDDEN;
         if curve.kind() == Kind::Spline || !asked {
             return None;
         }
-        let steps = last.min(MOST);
+        // What noise or rounding hides is told by all samples only.
+        let steps = if pattern.clear { last.min(MOST) } else { last };
         let chosen: Vec<usize> = (0..=steps).map(|i| i * last / steps).collect();
         let t: Vec<f64> = chosen.iter().map(|i| samples.t[*i]).collect();
         let rounds = if samples.weight.is_some() { ROUNDS } else { 1 };
