@@ -62,12 +62,11 @@ impl Evidence {
         let evidence = if rough.is_plain() {
             rough
         } else {
-            let [back, past] = fits.each_ref().map(|fit| refined(window, sensor, fit));
+            let [back, past] = fits.each_ref().map(|fit| refined(window, sensor, fit, |angle| (angle, 1.0)));
             Evidence::between(&back, &past, window.t.len())
         };
-        let goes_back = evidence.explained && evidence.passes < 0.0;
         Evidence {
-            stays_off: goes_back && stays_off(window, &fits[0]),
+            stays_off: evidence.passes < 0.0 && stays_off(window, sensor, &fits[0]),
             ..evidence
         }
     }
@@ -114,7 +113,7 @@ impl Evidence {
         self.explained && self.passes > 0.0 && self.is_clear()
     }
 
-    fn between(back: &[Misfit], past: &[Misfit], count: usize) -> Evidence {
+    pub fn between(back: &[Misfit], past: &[Misfit], count: usize) -> Evidence {
         let samples = count as f64;
         let free = |misfit: &Misfit| samples - misfit.degree as f64 - 1.0;
         let most = back.iter().chain(past).map(|m| m.degree).max().unwrap_or(0);
@@ -211,11 +210,18 @@ pub(super) fn misfits(fit: &Expansion<f64>) -> Vec<Misfit> {
 }
 
 /// What polynomials leave in terms of what was measured: near a fold a value tells the square of an angle, or its size.
-fn refined(window: &Window, sensor: &Sensor<'_>, fit: &Expansion<f64>) -> Vec<Misfit> {
+///
+/// `angle` has the angle off the fold of what the polynomial tells, and its derivative.
+pub(super) fn refined(
+    window: &Window,
+    sensor: &Sensor<'_>,
+    fit: &Expansion<f64>,
+    angle: impl Fn(f64) -> (f64, f64),
+) -> Vec<Misfit> {
     let mut list = Vec::new();
     let mut best = f64::INFINITY;
     for degree in (1..fit.squares.len()).rev().step_by(2) {
-        let squares = solved(window, sensor, fit, degree).squares;
+        let squares = solved(window, sensor, fit, degree, &angle).squares;
         let misfit = Misfit { degree, squares };
         list.push(misfit);
         // Lower degrees leave more.
@@ -243,12 +249,14 @@ pub(super) fn solved(
     sensor: &Sensor<'_>,
     fit: &Expansion<f64>,
     degree: usize,
+    angle: impl Fn(f64) -> (f64, f64),
 ) -> Solved {
-    let rows = |angles: &[f64]| -> (Vec<f64>, Vec<f64>) {
-        let shown = angles.iter().zip(&window.shown);
-        let rows = shown.map(|(angle, (value, noise))| {
+    let rows = |told: &[f64]| -> (Vec<f64>, Vec<f64>) {
+        let shown = told.iter().zip(&window.shown);
+        let rows = shown.map(|(told, (value, noise))| {
+            let (angle, change) = angle(*told);
             let (rest, slope) = sensor.residual(*value, window.at_fold + angle);
-            (rest / noise, slope / noise)
+            (rest / noise, slope * change / noise)
         });
         rows.unzip()
     };

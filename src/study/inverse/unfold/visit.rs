@@ -190,16 +190,16 @@ fn verdict(list: &[Evidence]) -> (bool, bool) {
         (least + most).abs() >= ENOUGH && opposed < OPPOSED * ENOUGH
     };
     let passes = |[least, most]: [f64; 2]| least + most > 0.0;
+    let stays_off = list.iter().any(|one| one.stays_off);
     let good = ends(&mut list.iter().filter(|one| one.explained));
     if (good[0] + good[1]).abs() >= ENOUGH {
-        let told = passes(good) || list.iter().any(|one| one.stays_off);
-        return (passes(good), decides(good) && told);
+        return (passes(good), decides(good) && (passes(good) || stays_off));
     }
     let all = ends(&mut list.iter());
     let sign = (all[0] + all[1]).signum();
     let supports = |one: &&Evidence| sign * one.passes > SUPPORT * ENOUGH;
     let supported = list.iter().any(Evidence::is_clear) || list.iter().filter(supports).count() > 1;
-    (passes(all), decides(all) && supported)
+    (passes(all), decides(all) && supported && (passes(all) || stays_off))
 }
 
 /// The farthest sample on the way from one to another up to which all are inside.

@@ -9,7 +9,7 @@ use super::visit::Motion;
 const BLOCKS: usize = 48;
 
 /// Standard errors within which an angle is at the fold, and beyond which it is certainly not.
-const AT_FOLD: f64 = 2.0;
+pub(super) const AT_FOLD: f64 = 2.0;
 const CLEAR: f64 = 20.0;
 
 /// Standard deviations of noise within which a size next to its fold loses the sign of it: averaged it is still off by one.
