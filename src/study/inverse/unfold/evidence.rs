@@ -62,7 +62,9 @@ impl Evidence {
         let evidence = if rough.is_plain() {
             rough
         } else {
-            let [back, past] = fits.each_ref().map(|fit| refined(window, sensor, fit, |angle| (angle, 1.0)));
+            let [back, past] = fits
+                .each_ref()
+                .map(|fit| refined(window, sensor, fit, |angle| (angle, 1.0)));
             Evidence::between(&back, &past, window.t.len())
         };
         Evidence {

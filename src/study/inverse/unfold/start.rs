@@ -57,59 +57,155 @@ pub(super) fn choose(
     start: &Motion,
     blur: f64,
 ) -> Option<Start> {
-    let mut tracks: Vec<(f64, Track)> = tracks
-        .into_iter()
-        .map(|track| (roughness(&track.theta), track))
-        .collect();
-    tracks.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let least = tracks.first()?.0;
-    tracks.retain(|(rough, _)| *rough <= ALIKE * least + 1e-6);
-    let tracks: Vec<Track> = tracks.into_iter().map(|(_, track)| track).collect();
-    let off = |i: usize| (in_turn(tracks[i].theta[0], start.angle) - start.angle).abs();
-    let mut by_angle: Vec<usize> = (0..tracks.len()).collect();
-    by_angle.sort_by(|a, b| off(*a).total_cmp(&off(*b)));
-    let nearest = by_angle[0];
-    let next = by_angle.get(1).map_or(f64::INFINITY, |i| off(*i));
-    let farther_than = |blur: f64| next > FARTHER * (off(nearest) + EXACT + blur);
-    let near = off(nearest) <= NEAR;
-    let plain = near && farther_than(blur);
-    let blurred = next - off(nearest) < BLURRED * blur;
-    let sign = if start.speed < 0.0 { -1.0 } else { 1.0 };
-    // Next to a fold the motion may begin on either stroke, unseen.
-    let unseen = if blurred { BLURRED * blur } else { 0.0 };
-    let first = |track: &Track| First::of(times, track, start.speed, unseen);
-    let firsts: Vec<First> = tracks.iter().map(first).collect();
-    let agrees = |i: &usize| sign * firsts[*i].motion >= 0.0;
-    let agreeing: Vec<usize> = (0..tracks.len()).filter(agrees).collect();
-    let by_speed = agreeing.first().copied().unwrap_or(0);
-    // A speed tells what one motion alone begins with.
-    let is_other = |i: &usize| !tracks[*i].is_like(&tracks[by_speed]);
-    let told = !agreeing.is_empty() && !agreeing.iter().any(is_other);
-    let hidden = firsts.iter().any(|first| first.hides_speed);
+    let tracks = smoothest(tracks);
+    let angle = ByAngle::of(&tracks, start.angle, blur)?;
+    let speed = BySpeed::of(times, &tracks, start.speed, angle.unseen());
     let (taken, reason) = match (start.angle != 0.0, start.speed != 0.0) {
-        (true, false) => (nearest, BY_NEARER_ANGLE),
-        (true, true) if plain => (nearest, BY_ANGLE),
-        (true, true) if near && !blurred && (hidden || !told) => (nearest, BY_NEARER_ANGLE),
-        (_, true) => (by_speed, BY_SPEED),
-        (false, false) => (by_speed, BY_NOTHING),
+        (true, false) => (angle.nearest, BY_NEARER_ANGLE),
+        (true, true) if angle.is_plain() => (angle.nearest, BY_ANGLE),
+        (true, true) if angle.is_told() && !speed.is_told_plainly() => {
+            (angle.nearest, BY_NEARER_ANGLE)
+        }
+        (_, true) => (speed.first, BY_SPEED),
+        (false, false) => (speed.first, BY_NOTHING),
     };
-    let by_both = near && !blurred && taken == nearest;
-    let is_unsure = |beginning: Beginning| beginning.is_either_way(start.speed);
-    let known = |beginning: Beginning| beginning.is_known();
-    let beginning = tracks[taken].beginning;
-    let disputed = taken != nearest && near && farther_than(0.0) && !beginning.is_some_and(known);
     let unsure = match reason {
-        BY_SPEED => !by_both && (!told || disputed || beginning.is_some_and(is_unsure)),
-        BY_NEARER_ANGLE => blurred,
+        BY_SPEED => speed.leaves_open(&angle, tracks[taken].beginning),
+        BY_NEARER_ANGLE => angle.is_blurred(),
         _ => false,
     };
     let several = tracks.iter().any(|track| !track.is_like(&tracks[taken]));
     Some(Start {
         reason: several.then_some(reason),
-        contradicted: start.speed != 0.0 && plain && !agrees(&nearest),
+        contradicted: start.speed != 0.0 && angle.is_plain() && !speed.agrees(angle.nearest),
         unsure: tracks.len() > 1 && unsure,
         track: tracks.into_iter().nth(taken)?,
     })
+}
+
+/// The motions that are about as smooth as the smoothest one, which is the first of them.
+fn smoothest(tracks: Vec<Track>) -> Vec<Track> {
+    let rough = |track: Track| (roughness(&track.theta), track);
+    let mut tracks: Vec<(f64, Track)> = tracks.into_iter().map(rough).collect();
+    tracks.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let least = tracks.first().map_or(0.0, |(rough, _)| *rough);
+    tracks.retain(|(rough, _)| *rough <= ALIKE * least + 1e-6);
+    tracks.into_iter().map(|(_, track)| track).collect()
+}
+
+/// What the angle of the scene tells.
+#[derive(Clone, Copy, Debug)]
+struct ByAngle {
+    /// The motion that begins nearest to it.
+    nearest: usize,
+    /// How far from it that one begins, and the next one, rad.
+    off: f64,
+    next: f64,
+    /// By how much noise may move a beginning, rad.
+    blur: f64,
+}
+
+impl ByAngle {
+    fn of(tracks: &[Track], angle: f64, blur: f64) -> Option<ByAngle> {
+        let off = |track: &Track| (in_turn(track.theta[0], angle) - angle).abs();
+        let mut by_angle: Vec<(f64, usize)> = tracks.iter().map(off).zip(0..).collect();
+        by_angle.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (off, nearest) = *by_angle.first()?;
+        let next = by_angle.get(1).map_or(f64::INFINITY, |(off, _)| *off);
+        Some(ByAngle {
+            nearest,
+            off,
+            next,
+            blur,
+        })
+    }
+
+    fn is_near(&self) -> bool {
+        self.off <= NEAR
+    }
+
+    fn next_is_farther(&self, blur: f64) -> bool {
+        self.next > FARTHER * (self.off + EXACT + blur)
+    }
+
+    /// Whether the angle is plainly that of one motion.
+    fn is_plain(&self) -> bool {
+        self.is_near() && self.next_is_farther(self.blur)
+    }
+
+    /// Whether the motions begin so near to each other that noise hides which one begins at the angle.
+    fn is_blurred(&self) -> bool {
+        self.next - self.off < BLURRED * self.blur
+    }
+
+    /// Whether the angle tells the motions apart.
+    fn is_told(&self) -> bool {
+        self.is_near() && !self.is_blurred()
+    }
+
+    /// How far, rad, a motion may go unseen: next to a fold it may begin on either stroke.
+    fn unseen(&self) -> f64 {
+        if self.is_blurred() {
+            BLURRED * self.blur
+        } else {
+            0.0
+        }
+    }
+}
+
+/// What the speed of the scene tells.
+#[derive(Debug)]
+struct BySpeed {
+    /// rad/s
+    speed: f64,
+    /// How the motions begin.
+    firsts: Vec<First>,
+    /// The smoothest motion that begins with the sense of the speed.
+    first: usize,
+    /// Whether it is the only one.
+    is_only: bool,
+}
+
+impl BySpeed {
+    fn of(times: &[f64], tracks: &[Track], speed: f64, unseen: f64) -> BySpeed {
+        let firsts = tracks.iter();
+        let firsts = firsts.map(|track| First::of(times, track, speed, unseen));
+        let mut found = BySpeed {
+            speed,
+            firsts: firsts.collect(),
+            first: 0,
+            is_only: false,
+        };
+        let agreeing: Vec<usize> = (0..tracks.len()).filter(|i| found.agrees(*i)).collect();
+        if let Some(first) = agreeing.first() {
+            found.first = *first;
+            found.is_only = agreeing.iter().all(|i| tracks[*i].is_like(&tracks[*first]));
+        }
+        found
+    }
+
+    /// Whether a motion begins with the sense of the speed.
+    fn agrees(&self, track: usize) -> bool {
+        let sign = if self.speed < 0.0 { -1.0 } else { 1.0 };
+        sign * self.firsts[track].motion >= 0.0
+    }
+
+    /// Whether one motion alone begins with the sense of the speed, which is more than the samples leave open.
+    fn is_told_plainly(&self) -> bool {
+        self.is_only && !self.firsts.iter().any(|first| first.hides_speed)
+    }
+
+    /// Whether the motion taken by the speed may be another one, for all that is known of how it begins.
+    fn leaves_open(&self, angle: &ByAngle, beginning: Option<Beginning>) -> bool {
+        let is_nearest = self.first == angle.nearest;
+        if is_nearest && angle.is_told() {
+            return false;
+        }
+        let is_known = beginning.is_some_and(|beginning| beginning.is_known());
+        let opposed = !is_nearest && angle.is_near() && angle.next_is_farther(0.0);
+        let either_way = |beginning: Beginning| beginning.is_either_way(self.speed);
+        !self.is_only || opposed && !is_known || beginning.is_some_and(either_way)
+    }
 }
 
 /// Parts of a motion for its roughness.

@@ -199,7 +199,10 @@ fn verdict(list: &[Evidence]) -> (bool, bool) {
     let sign = (all[0] + all[1]).signum();
     let supports = |one: &&Evidence| sign * one.passes > SUPPORT * ENOUGH;
     let supported = list.iter().any(Evidence::is_clear) || list.iter().filter(supports).count() > 1;
-    (passes(all), decides(all) && supported && (passes(all) || stays_off))
+    (
+        passes(all),
+        decides(all) && supported && (passes(all) || stays_off),
+    )
 }
 
 /// The farthest sample on the way from one to another up to which all are inside.
