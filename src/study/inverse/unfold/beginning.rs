@@ -5,7 +5,8 @@
 //! is not known.
 
 use super::super::sensor::Sensor;
-use super::evidence::{MOST, Misfit, Solved, fitted, over, solved};
+use super::evidence::{MOST, Misfit, fitted, over};
+use super::refined::{Solved, itself, solved};
 use super::strokes::{Fold, Stroke};
 use super::visit::{Motion, search};
 use super::window::{Window, turned_back};
@@ -140,12 +141,8 @@ fn simplest(window: &Window, sensor: &Sensor<'_>) -> Option<(usize, Solved)> {
     let weights: Vec<f64> = window.error.iter().map(|error| 1.0 / error).collect();
     let most = MOST.min(window.t.len() / 2);
     let fit = fitted(&window.t, &over(&window.back, &weights), &weights, most);
-    let solved = (1..fit.squares.len()).map(|degree| {
-        (
-            degree,
-            solved(window, sensor, &fit, degree, |angle| (angle, 1.0)),
-        )
-    });
+    let solved =
+        (1..fit.squares.len()).map(|degree| (degree, solved(window, sensor, &fit, degree, itself)));
     let cost = |(degree, solved): &(usize, Solved)| {
         let (degree, squares) = (*degree, solved.squares);
         Misfit { degree, squares }.cost()

@@ -4,6 +4,7 @@
 //! nothing but noise; the other one has a bend at the fold, and needs a high degree if it gets there at all.
 
 use super::super::sensor::Sensor;
+use super::refined::{itself, refined};
 use super::touching::stays_off;
 use super::window::Window;
 use crate::numeric::orthogonal::{self, Expansion};
@@ -39,9 +40,6 @@ const FAR_LESS: f64 = 100.0;
 const PLAIN: f64 = 50.0;
 const PLAIN_UNEXPLAINED: f64 = 1.5;
 
-/// Steps of Gauss and Newton.
-const STEPS: usize = 5;
-
 /// For or against a passage.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Evidence {
@@ -64,7 +62,7 @@ impl Evidence {
         } else {
             let [back, past] = fits
                 .each_ref()
-                .map(|fit| refined(window, sensor, fit, |angle| (angle, 1.0)));
+                .map(|fit| refined(window, sensor, fit, itself));
             Evidence::between(&back, &past, window.t.len())
         };
         Evidence {
@@ -209,95 +207,4 @@ pub(super) fn misfits(fit: &Expansion<f64>) -> Vec<Misfit> {
         squares: *squares,
     })
     .collect()
-}
-
-/// What polynomials leave in terms of what was measured: near a fold a value tells the square of an angle, or its size.
-///
-/// `angle` has the angle off the fold of what the polynomial tells, and its derivative.
-pub(super) fn refined(
-    window: &Window,
-    sensor: &Sensor<'_>,
-    fit: &Expansion<f64>,
-    angle: impl Fn(f64) -> (f64, f64),
-) -> Vec<Misfit> {
-    let mut list = Vec::new();
-    let mut best = f64::INFINITY;
-    for degree in (1..fit.squares.len()).rev().step_by(2) {
-        let squares = solved(window, sensor, fit, degree, &angle).squares;
-        let misfit = Misfit { degree, squares };
-        list.push(misfit);
-        // Lower degrees leave more.
-        if squares > best {
-            break;
-        }
-        best = best.min(misfit.cost());
-    }
-    list
-}
-
-/// A polynomial in terms of what was measured.
-#[derive(Debug)]
-pub(super) struct Solved {
-    /// Sum of squares in squared standard errors.
-    pub squares: f64,
-    /// Its angles, rad, and how fast what is measured changes with them, in standard errors.
-    pub angles: Vec<f64>,
-    pub slopes: Vec<f64>,
-}
-
-/// The polynomial of a degree that leaves least in terms of what was measured (Gauss and Newton, with halved steps).
-pub(super) fn solved(
-    window: &Window,
-    sensor: &Sensor<'_>,
-    fit: &Expansion<f64>,
-    degree: usize,
-    angle: impl Fn(f64) -> (f64, f64),
-) -> Solved {
-    let rows = |told: &[f64]| -> (Vec<f64>, Vec<f64>) {
-        let shown = told.iter().zip(&window.shown);
-        let rows = shown.map(|(told, (value, noise))| {
-            let (angle, change) = angle(*told);
-            let (rest, slope) = sensor.residual(*value, window.at_fold + angle);
-            (rest / noise, slope * change / noise)
-        });
-        rows.unzip()
-    };
-    let size = |rest: &[f64]| {
-        let sum: f64 = rest.iter().map(|r| r * r).sum();
-        if sum.is_nan() { f64::INFINITY } else { sum }
-    };
-    let mut angles = values(fit, degree, &window.t);
-    let (mut rest, mut slopes) = rows(&angles);
-    let mut least = size(&rest);
-    for _ in 0..STEPS {
-        let change = fitted(&window.t, &rest, &slopes, degree);
-        let change = values(&change, degree, &window.t);
-        let before = least;
-        for part in [1.0, 0.5, 0.25, 0.125] {
-            let next: Vec<f64> = angles
-                .iter()
-                .zip(&change)
-                .map(|(a, c)| a + part * c)
-                .collect();
-            let (next_rest, next_slopes) = rows(&next);
-            let sum = size(&next_rest);
-            if sum < least {
-                (angles, rest, slopes, least) = (next, next_rest, next_slopes, sum);
-                break;
-            }
-        }
-        if least > 0.99 * before {
-            break;
-        }
-    }
-    Solved {
-        squares: least,
-        angles,
-        slopes,
-    }
-}
-
-/// A fit up to a degree at the given times.
-fn values(fit: &Expansion<f64>, degree: usize, t: &[f64]) -> Vec<f64> {
-    t.iter().map(|t| fit.value(degree, *t)).collect()
 }

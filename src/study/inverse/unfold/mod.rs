@@ -11,6 +11,7 @@ mod evidence;
 mod gaps;
 mod noise;
 mod record;
+mod refined;
 mod start;
 mod steady;
 mod strokes;

@@ -2,23 +2,24 @@
 //! but for a jump of the acceleration.
 
 use super::super::sensor::Sensor;
-use super::evidence::{ENOUGH, Evidence, fitted, over, refined};
+use super::evidence::{ENOUGH, Evidence, fitted, over};
+use super::refined::{itself, refined};
 use super::window::{AT_FOLD, Window};
 use crate::numeric::orthogonal::Expansion;
 
 /// Whether a motion that goes back, as a fit has it, is told from one that comes to rest just at the fold. The angle off the fold
 /// is a square then, and its root a polynomial with a zero there.
 pub(super) fn stays_off(window: &Window, sensor: &Sensor<'_>, back: &Expansion<f64>) -> bool {
-    let count = window.t.len();
     let most = back.squares.len().saturating_sub(1);
     let side = window.back.iter().sum::<f64>().signum();
     let (roots, weights) = roots(window);
+    // The root of an angle of even degree is odd, and may need one degree more.
     let rough = fitted(&window.t, &over(&roots, &weights), &weights, most + 1);
     let touching = refined(window, sensor, &rough, |root| {
         (side * root * root, 2.0 * side * root)
     });
-    let back = refined(window, sensor, back, |angle| (angle, 1.0));
-    Evidence::between(&touching, &back, count).passes > ENOUGH
+    let back = refined(window, sensor, back, itself);
+    Evidence::between(&touching, &back, window.t.len()).passes > ENOUGH
 }
 
 /// The roots of the angles off the fold, negative before it, and their weights. Noise may have moved the turning point: the zero is
