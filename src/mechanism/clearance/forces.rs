@@ -7,6 +7,8 @@ use crate::numeric::angle::Angle;
 use crate::scene::{Instant, Joint};
 
 impl LooseMechanism {
+    /// What the loose joint does at an approach speed (m/s) of the impact and a depth (m), that of the state if none is given;
+    /// beside it the normal force, N, and the power that it takes, W.
     #[inline(always)]
     pub(super) fn contact(
         &self,
@@ -77,6 +79,7 @@ impl LooseMechanism {
         self.slider_mass + self.rod_mass
     }
 
+    /// The accelerations under what acts in the loose joint and at the guide.
     #[inline(always)]
     pub(super) fn accelerations(
         &self,
@@ -85,106 +88,13 @@ impl LooseMechanism {
         action: Action,
         rubbing: Rubbing,
     ) -> LooseRates {
-        let load = match &self.loads {
-            Some(loads) => loads.at(&Instant {
-                t: s.t,
-                theta: Angle {
-                    turns: self.turns,
-                    rest: s.theta,
-                }
-                .radians(),
-                omega: s.omega,
-                x: s.x,
-                v: s.v,
-            }),
-            None => LoadValue::default(),
+        let load = self.load(s);
+        // Moment on the crank beside the torque of the loads, N m.
+        let (mut rates, on_crank) = match self.joint {
+            Joint::CrankPin => self.loose_at_crank(s, f, &action, &load, rubbing),
+            Joint::WristPin => self.loose_at_slider(s, f, &action, &load, rubbing),
         };
-        let fx = action.force[0];
-        let [gx, gy] = self.gravity;
-        let (m, k, a) = (self.rod_mass, f.centre, f.crank_pin);
-        let (turn, spin) = (s.omega * s.omega, s.spin * s.spin);
-        let (l, axis) = (self.l, f.axis);
-        // Moment on the crank of gravity, and of what acts through its pin without the rod's inertia.
-        let weight = self.crank_weight[0] * a[0] - self.crank_weight[1] * a[1];
-        let mut rates = LooseRates {
-            on_rod: action.force,
-            ..LooseRates::default()
-        };
-        let on_crank;
-        match self.joint {
-            Joint::CrankPin => {
-                on_crank = weight - cross(a, action.force) + action.on_journal;
-                if !self.driven {
-                    rates.alpha = (load.torque + on_crank) / self.crank_inertia;
-                }
-                // Rows: slider and rod along x; moments about the wrist pin.
-                let mass = m + self.slider_mass;
-                let (along, moment) = (
-                    load.force + mass * gx + fx + m * spin * k[0],
-                    m * cross(k, self.gravity) - l * cross(axis, action.force) + action.on_rod,
-                );
-                let coupling = -m * k[1];
-                let determinant = mass * self.rod_inertia - coupling * coupling;
-                let moved = |along: f64| {
-                    [
-                        (self.rod_inertia * along - coupling * moment) / determinant,
-                        (mass * moment - coupling * along) / determinant,
-                    ]
-                };
-                let normal = |spin_rate: f64| {
-                    m * (k[0] * spin_rate - k[1] * spin) - mass * gy - action.force[1]
-                };
-                [rates.a, rates.spin_rate] = match rubbing {
-                    Rubbing::Never => moved(along),
-                    Rubbing::Slides(direction) => {
-                        let free = normal(moved(along)[1]);
-                        rates.guide = self.sliding(direction, free, self.guide_gain(f));
-                        moved(along + rates.guide.friction)
-                    }
-                    Rubbing::Sticks => {
-                        let spin_rate = moment / self.rod_inertia;
-                        rates.guide = GuideForces {
-                            normal: normal(spin_rate),
-                            friction: coupling * spin_rate - along,
-                        };
-                        [0.0, spin_rate]
-                    }
-                };
-            }
-            Joint::WristPin => {
-                let along = load.force - fx;
-                let normal = action.force[1] - self.slider_mass * gy;
-                rates.a = match rubbing {
-                    Rubbing::Never => along * self.per_slider_mass + gx,
-                    Rubbing::Slides(direction) => {
-                        rates.guide = self.sliding(direction, normal, 0.0);
-                        (along + rates.guide.friction) * self.per_slider_mass + gx
-                    }
-                    Rubbing::Sticks => {
-                        let friction = -(along + self.slider_mass * gx);
-                        rates.guide = GuideForces { normal, friction };
-                        0.0
-                    }
-                };
-                // Rows: moments about O with the rod's mass carried along; moments about the crank pin.
-                let together = m * dot(a, k);
-                let apart = m * cross(a, k);
-                let moment =
-                    m * cross(k, self.gravity) + l * cross(axis, action.force) + action.on_rod
-                        - turn * apart;
-                let pushed = weight + m * (a[0] * gy - a[1] * gx) + cross(a, action.force);
-                if self.driven {
-                    rates.spin_rate = moment * self.per_rod_inertia;
-                } else {
-                    let crank = self.crank_inertia + m * self.r * self.r;
-                    let torque = load.torque + pushed + spin * apart;
-                    let determinant = crank * self.rod_inertia - together * together;
-                    rates.alpha = (self.rod_inertia * torque - together * moment) / determinant;
-                    rates.spin_rate = (crank * moment - together * torque) / determinant;
-                }
-                on_crank = pushed + spin * apart - together * rates.spin_rate;
-            }
-        }
+        rates.on_rod = action.force;
         rates.power = load.force * s.v;
         if self.driven {
             rates.driving_torque = -on_crank - load.torque;
@@ -194,6 +104,128 @@ impl LooseMechanism {
         }
         rates.lost = -rates.guide.friction * s.v;
         rates
+    }
+
+    #[inline(always)]
+    fn load(&self, s: &LooseState) -> LoadValue {
+        let Some(loads) = &self.loads else {
+            return LoadValue::default();
+        };
+        let theta = Angle {
+            turns: self.turns,
+            rest: s.theta,
+        };
+        loads.at(&Instant {
+            t: s.t,
+            theta: theta.radians(),
+            omega: s.omega,
+            x: s.x,
+            v: s.v,
+        })
+    }
+
+    /// Moment of gravity on the crank, N m.
+    #[inline(always)]
+    fn weight_on_crank(&self, f: &Frame) -> f64 {
+        self.crank_weight[0] * f.crank_pin[0] - self.crank_weight[1] * f.crank_pin[1]
+    }
+
+    /// The crank by itself; slider and rod along x, and the moments of the rod about the wrist pin.
+    #[inline(always)]
+    fn loose_at_crank(
+        &self,
+        s: &LooseState,
+        f: &Frame,
+        action: &Action,
+        load: &LoadValue,
+        rubbing: Rubbing,
+    ) -> (LooseRates, f64) {
+        let mut rates = LooseRates::default();
+        let [gx, gy] = self.gravity;
+        let (m, k, spin) = (self.rod_mass, f.centre, s.spin * s.spin);
+        let on_crank =
+            self.weight_on_crank(f) - cross(f.crank_pin, action.force) + action.on_journal;
+        if !self.driven {
+            rates.alpha = (load.torque + on_crank) / self.crank_inertia;
+        }
+        let mass = m + self.slider_mass;
+        let along = load.force + mass * gx + action.force[0] + m * spin * k[0];
+        let moment =
+            m * cross(k, self.gravity) - self.l * cross(f.axis, action.force) + action.on_rod;
+        let coupling = -m * k[1];
+        let determinant = mass * self.rod_inertia - coupling * coupling;
+        let moved = |along: f64| {
+            [
+                (self.rod_inertia * along - coupling * moment) / determinant,
+                (mass * moment - coupling * along) / determinant,
+            ]
+        };
+        let normal =
+            |spin_rate: f64| m * (k[0] * spin_rate - k[1] * spin) - mass * gy - action.force[1];
+        [rates.a, rates.spin_rate] = match rubbing {
+            Rubbing::Never => moved(along),
+            Rubbing::Slides(direction) => {
+                let free = normal(moved(along)[1]);
+                rates.guide = self.sliding(direction, free, self.guide_gain(f));
+                moved(along + rates.guide.friction)
+            }
+            Rubbing::Sticks => {
+                let spin_rate = moment / self.rod_inertia;
+                rates.guide = GuideForces {
+                    normal: normal(spin_rate),
+                    friction: coupling * spin_rate - along,
+                };
+                [0.0, spin_rate]
+            }
+        };
+        (rates, on_crank)
+    }
+
+    /// The slider by itself; moments about O with the rod's mass carried along, and those about the crank pin.
+    #[inline(always)]
+    fn loose_at_slider(
+        &self,
+        s: &LooseState,
+        f: &Frame,
+        action: &Action,
+        load: &LoadValue,
+        rubbing: Rubbing,
+    ) -> (LooseRates, f64) {
+        let mut rates = LooseRates::default();
+        let [gx, gy] = self.gravity;
+        let (m, k, a) = (self.rod_mass, f.centre, f.crank_pin);
+        let (turn, spin) = (s.omega * s.omega, s.spin * s.spin);
+        let along = load.force - action.force[0];
+        let normal = action.force[1] - self.slider_mass * gy;
+        rates.a = match rubbing {
+            Rubbing::Never => along * self.per_slider_mass + gx,
+            Rubbing::Slides(direction) => {
+                rates.guide = self.sliding(direction, normal, 0.0);
+                (along + rates.guide.friction) * self.per_slider_mass + gx
+            }
+            Rubbing::Sticks => {
+                let friction = -(along + self.slider_mass * gx);
+                rates.guide = GuideForces { normal, friction };
+                0.0
+            }
+        };
+        let together = m * dot(a, k);
+        let apart = m * cross(a, k);
+        let moment =
+            m * cross(k, self.gravity) + self.l * cross(f.axis, action.force) + action.on_rod
+                - turn * apart;
+        let pushed = self.weight_on_crank(f) + m * (a[0] * gy - a[1] * gx) + cross(a, action.force);
+        if self.driven {
+            rates.spin_rate = moment * self.per_rod_inertia;
+        } else {
+            let crank = self.crank_inertia + m * self.r * self.r;
+            let torque = load.torque + pushed + spin * apart;
+            let determinant = crank * self.rod_inertia - together * together;
+            rates.alpha = (self.rod_inertia * torque - together * moment) / determinant;
+            rates.spin_rate = (crank * moment - together * torque) / determinant;
+        }
+        let on_crank = pushed + spin * apart - together * rates.spin_rate;
+        (rates, on_crank)
     }
 
     /// What one newton on the slider along the guide adds to the guide's normal force, N.

@@ -51,13 +51,10 @@ pub(super) struct Missed {
 impl Missed {
     /// The curve that residuals show which have a pattern, or are those of a fit that was to have more terms; none where the
     /// fit, for samples of the standard deviation `sigma`, tells more of its errors, and errors as large.
-    ///
-    /// `line` gives what a sample leaves beside the fit with so much more of the crank angle, rad, and by how much the
-    /// measured value grows with the latter.
     pub fn of(
         curve: &Curve,
         samples: &Samples<'_>,
-        line: &dyn Fn(usize, f64) -> (f64, f64),
+        line: &Line<'_>,
         pattern: &Pattern,
         sigma: f64,
     ) -> Option<Missed> {
@@ -68,52 +65,36 @@ impl Missed {
         }
         // What noise or rounding hides is told by all samples only.
         let steps = if pattern.clear { last.min(MOST) } else { last };
-        let chosen: Vec<usize> = (0..=steps).map(|i| i * last / steps).collect();
-        let t: Vec<f64> = chosen.iter().map(|i| samples.t[*i]).collect();
+        let looked = Looked::at(curve, samples, line, steps);
         let rounds = if samples.weight.is_some() { ROUNDS } else { 1 };
-        let mut found: Option<(Curve, Missed)> = None;
-        let mut settled = true;
-        for _ in 0..rounds {
-            let more = |t: f64| found.as_ref().map_or(0.0, |found| found.1.curve.value(t));
-            let lines = chosen.iter().zip(&t).map(|(i, t)| {
-                let more = more(*t);
-                let (residual, slope) = line(*i, more);
-                [slope, residual + slope * more, slope * curve.value(*t)]
-            });
-            let lines: Vec<[f64; 3]> = lines.collect();
-            let weight: Vec<f64> = lines.iter().map(|[slope, ..]| *slope).collect();
-            let fitted = |of: fn(&[f64; 3]) -> f64| -> Vec<f64> { lines.iter().map(of).collect() };
-            let (left, whole) = (fitted(|line| line[1]), fitted(|line| line[1] + line[2]));
-            let rows = |target| Samples {
-                t: &t,
-                target,
-                weight: Some(&weight),
-                floor: samples.floor,
-            };
-            let motion = Curve::fit(&rows(&whole), Kind::Spline, Size::Auto).ok()?;
-            let missed = Missed::beside_motion(&motion, &rows(&left), pattern)?;
-            settled = rounds == 1 || missed.is_alike(found.as_ref().map(|found| &found.1), &t);
-            found = Some((motion, missed));
-        }
-        let (motion, mut missed) = found.filter(|_| settled)?;
-        let (noise, is_own) = (missed.noise, missed.whole.is_none());
+        let (motion, mut missed) = looked.settled(pattern, rounds)?;
+        let every = looked.t.len().div_ceil(PLACES);
+        let places: Vec<f64> = looked.t.iter().step_by(every).copied().collect();
+        let squares = places.iter().map(|t| motion.derivatives(*t)[2].powi(2));
+        missed.acceleration = (squares.sum::<f64>() / places.len() as f64).sqrt();
+        missed.says_more(curve, sigma, &places).then_some(missed)
+    }
+
+    /// Whether, by the squares of the acceleration at these times, its stated errors are smaller with what is missed than without,
+    /// or more is missed than is stated without; or at one of them it is certainly wrong.
+    fn says_more(&self, curve: &Curve, sigma: f64, places: &[f64]) -> bool {
         let square = |state: &State, sigma: f64| {
             sigma * sigma * state.variance(&ACCELERATION) + state.bias_of(&ACCELERATION)
         };
-        let places = || t.iter().step_by(t.len().div_ceil(PLACES));
-        let squares = places().map(|t| motion.derivatives(*t)[2].powi(2));
-        missed.acceleration = (squares.sum::<f64>() / places().count() as f64).sqrt();
         let [mut before, mut after, mut seen] = [0.0; 3];
-        for t in places() {
+        for t in places {
             let state = curve.state(*t);
             before += square(&state, sigma);
-            let more = missed.curve.state(*t);
-            let off = motion.derivatives(*t)[2] - state.value[2];
-            seen += if is_own { more.value[2] } else { off }.powi(2);
-            after += square(&missed.beside(state, &more, *t), noise);
+            let more = self.curve.state(*t);
+            let off = match &self.whole {
+                Some(whole) => whole.derivatives(*t)[2] - state.value[2],
+                None => more.value[2],
+            };
+            seen += off.powi(2);
+            after += square(&self.beside(state, &more, *t), self.noise);
         }
-        let is_lost = places().any(|t| missed.is_most(&curve.state(*t), *t));
-        (after < before || seen > before || is_lost).then_some(missed)
+        let is_lost = || places.iter().any(|t| self.is_most(&curve.state(*t), *t));
+        after < before || seen > before || is_lost()
     }
 
     /// The spline through what is left of samples, as free as one through all of the motion at least: of waves that noise
@@ -172,6 +153,70 @@ impl Missed {
         });
         let state = state.wrong_by(missed, self.noise, left);
         hidden.map_or(state, |hidden| state.off_by(&hidden))
+    }
+}
+
+/// What a sample leaves beside the fit with so much more of the crank angle, rad, and by how much the measured value grows
+/// with the latter.
+type Line<'a> = dyn Fn(usize, f64) -> (f64, f64) + 'a;
+
+/// The samples of a fit that are looked at.
+struct Looked<'a> {
+    curve: &'a Curve,
+    line: &'a Line<'a>,
+    chosen: Vec<usize>,
+    /// Their times, s.
+    t: Vec<f64>,
+    floor: f64,
+}
+
+impl<'a> Looked<'a> {
+    /// The first one and so many more, evenly among all.
+    fn at(curve: &'a Curve, samples: &Samples<'_>, line: &'a Line<'a>, steps: usize) -> Looked<'a> {
+        let last = samples.t.len() - 1;
+        let chosen: Vec<usize> = (0..=steps).map(|i| i * last / steps).collect();
+        Looked {
+            curve,
+            line,
+            t: chosen.iter().map(|i| samples.t[*i]).collect(),
+            chosen,
+            floor: samples.floor,
+        }
+    }
+
+    /// The spline through all of the motion, and what the fit misses, once that has settled.
+    fn settled(&self, pattern: &Pattern, rounds: usize) -> Option<(Curve, Missed)> {
+        let mut found: Option<(Curve, Missed)> = None;
+        let mut settled = true;
+        for _ in 0..rounds {
+            let before = found.as_ref().map(|(_, missed)| missed);
+            let (motion, missed) = self.corrected(before, pattern)?;
+            settled = rounds == 1 || missed.is_alike(before, &self.t);
+            found = Some((motion, missed));
+        }
+        found.filter(|_| settled)
+    }
+
+    /// The same, with samples that are linear about what was found before.
+    fn corrected(&self, before: Option<&Missed>, pattern: &Pattern) -> Option<(Curve, Missed)> {
+        let lines = self.chosen.iter().zip(&self.t).map(|(i, t)| {
+            let more = before.map_or(0.0, |before| before.curve.value(*t));
+            let (residual, slope) = (self.line)(*i, more);
+            [slope, residual + slope * more, slope * self.curve.value(*t)]
+        });
+        let lines: Vec<[f64; 3]> = lines.collect();
+        let each = |of: fn(&[f64; 3]) -> f64| -> Vec<f64> { lines.iter().map(of).collect() };
+        let weight = each(|line| line[0]);
+        let (left, whole) = (each(|line| line[1]), each(|line| line[1] + line[2]));
+        let rows = |target| Samples {
+            t: &self.t,
+            target,
+            weight: Some(&weight),
+            floor: self.floor,
+        };
+        let motion = Curve::fit(&rows(&whole), Kind::Spline, Size::Auto).ok()?;
+        let missed = Missed::beside_motion(&motion, &rows(&left), pattern)?;
+        Some((motion, missed))
     }
 }
 

@@ -3,6 +3,7 @@
 use super::bands::{BandRule, DeadCentreBand, LONG_ARM, alike};
 use super::fitted::Fitted;
 use super::force::{Backwards, Demand};
+use crate::mechanism::Linkage;
 use crate::numeric::fit::State;
 use crate::numeric::parallel;
 use crate::scene::Measurement;
@@ -116,6 +117,46 @@ impl InverseRow {
     }
 }
 
+/// All rows with their forces, and what is in doubt of each.
+fn demanded(
+    backwards: &Backwards<'_>,
+    fitted: &Fitted,
+    measurement: &Measurement,
+) -> (Vec<InverseRow>, Vec<Doubt>) {
+    let (times, elapsed) = (measurement.times(), measurement.elapsed());
+    let r = backwards.equation.linkage().r;
+    parallel::pairs_by(times.len(), |range| {
+        let (times, elapsed) = (&times[range.clone()], &elapsed[range]);
+        let states = times.iter().zip(fitted.states(elapsed));
+        states.zip(elapsed).map(|((t, state), elapsed)| {
+            let state = state.stretched(measurement.time_uncertainty());
+            let demand = backwards.demand(*t, &state);
+            let row = InverseRow::new(*t, &state, &demand);
+            let followed = fitted.follows(&state, *elapsed);
+            (row, Doubt::new(&demand, r, followed))
+        })
+    })
+}
+
+/// Crank torques and their standard errors, N m, where the fit follows the motion, of a rocker over its lever arm where that is
+/// longer than the crank: it grows without bound towards a limit, and the torque with it.
+fn torques<'a>(
+    linkage: &'a Linkage,
+    rows: &'a [InverseRow],
+    doubts: &'a [Doubt],
+) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
+    let rocks = !linkage.limit_angles().is_empty();
+    let followed = rows.iter().zip(doubts).filter(|(_, doubt)| doubt.followed);
+    followed.filter_map(move |(row, _)| {
+        let longer = if rocks {
+            (linkage.pose(row.theta).dx.abs() / linkage.r).max(1.0)
+        } else {
+            1.0
+        };
+        Some((row.crank_torque? / longer, row.crank_torque_se? / longer))
+    })
+}
+
 impl Rows {
     /// The rows; half of a 95 % band is `factor` standard errors.
     pub fn new(
@@ -124,31 +165,9 @@ impl Rows {
         measurement: &Measurement,
         factor: f64,
     ) -> Rows {
-        let (times, elapsed) = (measurement.times(), measurement.elapsed());
         let linkage = backwards.equation.linkage();
-        let (rows, doubts) = parallel::pairs_by(times.len(), |range| {
-            let (times, elapsed) = (&times[range.clone()], &elapsed[range]);
-            let states = times.iter().zip(fitted.states(elapsed));
-            states.zip(elapsed).map(|((t, state), elapsed)| {
-                let state = state.stretched(measurement.time_uncertainty());
-                let demand = backwards.demand(*t, &state);
-                let row = InverseRow::new(*t, &state, &demand);
-                let followed = fitted.follows(&state, *elapsed);
-                (row, Doubt::new(&demand, linkage.r, followed))
-            })
-        });
-        let rocks = !linkage.limit_angles().is_empty();
-        let followed = rows.iter().zip(&doubts).filter(|(_, doubt)| doubt.followed);
-        let torques = followed.filter_map(|(row, _)| {
-            // The lever arm grows without bound towards a limit, and the torque with it.
-            let longer = if rocks {
-                (linkage.pose(row.theta).dx.abs() / linkage.r).max(1.0)
-            } else {
-                1.0
-            };
-            Some((row.crank_torque? / longer, row.crank_torque_se? / longer))
-        });
-        let rule = BandRule::new(linkage.r, torques, factor);
+        let (rows, doubts) = demanded(backwards, fitted, measurement);
+        let rule = BandRule::new(linkage.r, torques(linkage, &rows, &doubts), factor);
         let mut found = Rows {
             rows,
             bands: Vec::new(),
@@ -156,20 +175,25 @@ impl Rows {
             unreachable: doubts.iter().position(|doubt| !doubt.exists),
             lost: (0..doubts.len()).filter(|i| !doubts[*i].followed).collect(),
         };
+        found.leave_out_doubtful(&doubts, factor);
+        found
+    }
+
+    /// Leaves out the forces that are in doubt.
+    fn leave_out_doubtful(&mut self, doubts: &[Doubt], factor: f64) {
         let mut before: Option<&str> = None;
         for (i, doubt) in doubts.iter().enumerate() {
-            let row = &mut found.rows[i];
-            let reason = rule.reason(row, doubt, factor);
+            let row = &mut self.rows[i];
+            let reason = self.rule.reason(row, doubt, factor);
             if let Some(reason) = reason {
                 (row.slider_force, row.slider_force_se) = (None, None);
                 row.near_dead_centre = true;
                 let (t, theta) = (row.t, row.theta);
                 let goes_on = before.is_some_and(|before| alike(before, reason));
-                found.extend_band(t, theta, reason, goes_on);
+                self.extend_band(t, theta, reason, goes_on);
             }
             before = reason;
         }
-        found
     }
 
     /// Leaves out the torques at which the fit does not follow the motion, as the forces are.

@@ -2,26 +2,15 @@
 
 use super::super::entry::{Claim, formula};
 use super::equations::{TEST_ANGLE, printed};
+use super::on_bodies;
 use super::printed::{existing_acceleration, existing_torque};
 use super::{CRANK, CRANK_MASS, OFFSET, ROD, ROD_MASS, SLIDER_MASS, SPEED, engine};
 use crate::error::Error;
 use crate::mechanism::{EquivalentMasses, Limits, Linkage, size_from_stroke};
-use crate::scene::{RodModel, Scene};
-use crate::study::forces;
-
-/// The same engine with a rigid rod.
-fn rigid() -> Scene {
-    let mut scene = engine(OFFSET);
-    scene.rod = scene.rod.map(|rod| crate::scene::Rod {
-        model: RodModel::Rigid,
-        ..rod
-    });
-    scene
-}
 
 pub fn claims() -> Result<Vec<Claim>, Error> {
     let mut claims = masses();
-    claims.extend(forces_on_bodies()?);
+    claims.extend(on_bodies::claims()?);
     claims.extend(design()?);
     claims.extend(existing_model());
     Ok(claims)
@@ -70,144 +59,6 @@ fn masses() -> Vec<Claim> {
             CRANK_MASS * (0.25 + 1.0 / 12.0) * CRANK * CRANK,
         ),
     ]
-}
-
-fn forces_on_bodies() -> Result<Vec<Claim>, Error> {
-    let p = printed();
-    let pose = Linkage::new(&engine(OFFSET).geometry).pose(TEST_ANGLE);
-    let (acceleration, cos) = (pose.d2x * SPEED * SPEED, TEST_ANGLE.cos());
-    let two_mass = forces(&engine(OFFSET))?.row(TEST_ANGLE);
-    let whole = forces(&rigid())?.row(TEST_ANGLE).reactions;
-    // Tension of the massless rod between the two masses; the slider is free.
-    let slider_inertia = -p.m3 * acceleration;
-    let tension = slider_inertia / pose.cos_phi;
-    let (alpha, angle) = (p.alpha(), p.alpha() + TEST_ANGLE);
-    let mended = -p.m3 * p.acceleration_mended();
-    let left = EquivalentMasses::new(&engine(OFFSET)).rod_inertia_left_kg_m2;
-    let couple = left * p.rod_acceleration(1.0) / p.root(0.5);
-    let radial = p.crank_force();
-    let mended_tension = mended / alpha.cos();
-    Ok(vec![
-        formula(
-            "(38)",
-            "reaction at the crank centre along x",
-            "N",
-            -radial * cos,
-            whole.crank_bearing[0],
-        )
-        .only_if("m3 d2x/dt2 is added", -radial * cos - mended),
-        formula(
-            "(39)",
-            "reaction at the crank centre along y",
-            "N",
-            -radial * TEST_ANGLE.sin(),
-            whole.crank_bearing[1],
-        )
-        .only_if(
-            "-m3 d2x/dt2 tan alpha and the couple of the rod are added",
-            -radial * TEST_ANGLE.sin() + mended * alpha.tan() + couple,
-        ),
-        formula(
-            "(40)",
-            "tangential force at the crank pin",
-            "N",
-            p.tangential(),
-            two_mass.torque / CRANK,
-        )
-        .only_if(
-            "it is F_c sin(alpha + theta) with F_c = -m3 d2x/dt2 / cos alpha",
-            mended_tension * angle.sin(),
-        ),
-        formula(
-            "(41)",
-            "axial force of the rod, tension",
-            "N",
-            p.rod_force(),
-            tension,
-        )
-        .only_if("it is -m3 d2x/dt2 / cos alpha", mended_tension),
-        formula(
-            "(42a)",
-            "inertia force of the slider, a_s = d2s/dt2",
-            "N",
-            p.m3 * acceleration,
-            slider_inertia,
-        )
-        .only_if("a_s is d2x/dt2", mended),
-        formula(
-            "(42b)",
-            "inertia force of the slider",
-            "N",
-            p.slider_inertia(),
-            slider_inertia,
-        )
-        .only_if(
-            "e stands before sin theta and the third term is added",
-            mended,
-        ),
-        formula(
-            "(43)",
-            "horizontal force of the rod",
-            "N",
-            p.rod_force() * alpha.cos(),
-            slider_inertia,
-        )
-        .only_if("F_c is mended", mended_tension * alpha.cos()),
-        formula(
-            "(44)",
-            "vertical force of the rod",
-            "N",
-            p.rod_force() * alpha.sin(),
-            tension * pose.sin_phi,
-        )
-        .only_if("F_c is mended", mended_tension * alpha.sin()),
-        formula(
-            "(45)",
-            "sum of the forces on the free slider",
-            "N",
-            p.slider_inertia() + p.rod_force() * alpha.cos(),
-            0.0,
-        )
-        .only_if(
-            "it is F_Is - F_c cos alpha with both mended",
-            mended - mended_tension * alpha.cos(),
-        ),
-        formula(
-            "(46b)",
-            "sum of mass times acceleration along x, with (20) mended",
-            "N",
-            p.inertia(p.acceleration_mended()),
-            -two_mass.reactions.shaking[0],
-        )
-        .only_if("a_s is d2s/dt2", p.inertia(-p.acceleration_mended())),
-        formula(
-            "(47)",
-            "torque of the crank's own inertia at constant speed",
-            "N m",
-            p.crank_torque(),
-            0.0,
-        )
-        .cannot("a force through O has no moment about O"),
-        formula(
-            "(48)",
-            "driving torque, with (20) mended",
-            "N m",
-            p.torque(p.acceleration_mended()),
-            two_mass.torque,
-        )
-        .only_if(
-            "it is F_Is (x tan alpha - e)",
-            mended * (p.x() * alpha.tan() - OFFSET),
-        ),
-        formula(
-            "(48)",
-            "driving torque, with (20) as printed",
-            "N m",
-            p.torque(p.acceleration()),
-            two_mass.torque,
-        )
-        .cannot("(20), the lever arm and the mass m2 are wrong together"),
-    ])
 }
 
 fn design() -> Result<Vec<Claim>, Error> {

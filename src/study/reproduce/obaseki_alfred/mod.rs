@@ -3,6 +3,7 @@
 mod equations;
 mod figures;
 mod forces;
+mod on_bodies;
 mod printed;
 mod results;
 
