@@ -121,7 +121,7 @@ impl Step {
         (theta + bump, (dtheta + dbump) / h)
     }
 
-    /// The second derivative of the angle of [`Self::at`].
+    /// The second derivative of the angle of [`Self::at`], rad/s².
     pub fn acceleration_at(&self, t: f64) -> f64 {
         let h = self.length();
         let s = (t - self.start.t) / h;
@@ -236,12 +236,12 @@ impl Step {
         root::bracketed(|t| self.at(t).0 - theta, from, to)
     }
 
-    /// When the speed is extreme between `from` and `to`.
+    /// When the speed is extreme between `from` and `to`, s.
     pub fn time_of_extreme_speed(&self, from: f64, to: f64) -> Option<f64> {
         root::bracketed(|t| self.acceleration_at(t), from, to)
     }
 
-    /// When the speed vanishes between `from` and `to`.
+    /// When the speed vanishes between `from` and `to`, s.
     pub fn time_of_rest(&self, from: f64, to: f64) -> Option<f64> {
         root::bracketed(|t| self.at(t).1, from, to)
     }

@@ -65,7 +65,7 @@ impl Called {
     }
 }
 
-/// Value of one load, as a torque or as a force on the slider.
+/// Value of one load, as a torque (N m) or as a force on the slider (N).
 pub fn single(load: &Load, on_slider: bool, now: &Instant) -> f64 {
     match load {
         Load::Constant(value) => *value,

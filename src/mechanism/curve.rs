@@ -36,7 +36,7 @@ enum Chart {
     Rocker(Rocker),
 }
 
-/// A position, with two derivatives with respect to q (a dash).
+/// A position, with two derivatives with respect to q (a dash), which like θ and Φ is an angle in rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
     /// sin θ

@@ -14,7 +14,7 @@ pub struct Free {
     pub normal: f64,
     /// dq̈/dF = x'/M, rad/s² per N
     pub gain: f64,
-    /// κ = dN/dF
+    /// κ = dN/dF, dimensionless
     pub kappa: f64,
     /// Q − V', N m: what accelerates from rest
     pub(super) pull: f64,
@@ -30,12 +30,12 @@ pub struct Free {
     pub power: f64,
 }
 
-/// Forces of the guide on the slider, N.
+/// Forces of the guide on the slider.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Touch {
-    /// Along +y.
+    /// Along +y, N.
     pub normal: f64,
-    /// Along +x.
+    /// Along +x, N.
     pub friction: f64,
 }
 

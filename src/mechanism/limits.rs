@@ -79,7 +79,7 @@ pub struct Limits {
     pub advance: Option<f64>,
     /// Crank angle of the inward stroke, rad.
     pub retreat: Option<f64>,
-    /// Least transmission angle over a turn, or 0 if the crank cannot turn fully.
+    /// Least transmission angle over a turn, rad, or 0 if the crank cannot turn fully.
     pub transmission_min: f64,
     /// Reachable crank angles as [from, to], rad; empty: all.
     pub reach: Vec<[f64; 2]>,
@@ -88,7 +88,8 @@ pub struct Limits {
 /// At this cos φ the rod counts as normal to the guide: what follows has no digits in the crank angle.
 const NORMAL: f64 = 1e-3;
 
-/// Lengths that differ by less than this many units of rounding of the rod length count as equal.
+/// Lengths that differ by less than this part of crank and rod together count as equal: reading rod, crank and offset rounds
+/// their difference by ε of that at most, and by 3 ε where the unit is no power of ten of a metre, like an inch.
 const SAME: f64 = 4.0 * f64::EPSILON;
 
 impl Limits {

@@ -122,7 +122,7 @@ impl Loads {
         self.called().flat_map(corners).collect()
     }
 
-    /// The first of them after `from` on the way to `to`, in either direction.
+    /// The first of them, rad, after `from` on the way to `to`, in either direction.
     pub fn corner_out_of_step(&self, from: f64, to: f64) -> Option<f64> {
         let corners = self
             .called()

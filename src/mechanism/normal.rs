@@ -10,7 +10,7 @@ pub struct Normal {
     pub place: f64,
     /// 1/m
     pub torque: f64,
-    /// κ = dN/dF
+    /// κ = dN/dF, dimensionless
     pub force: f64,
     /// N s²/rad²
     pub square: f64,

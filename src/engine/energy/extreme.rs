@@ -21,17 +21,17 @@ pub(super) struct Extreme {
 }
 
 impl Panel {
-    /// Largest speed·sign among the points, where `sign` is +1 or −1, with |speed| for speed.
+    /// Largest speed·sign among the points, rad/s, where `sign` is +1 or −1, with |speed| for speed.
     pub fn extreme_at_points(&self, sign: f64) -> f64 {
         sign * self.extremes[usize::from(sign > 0.0)].speed
     }
 
-    /// A bound of it between the points.
+    /// A bound of it between the points, rad/s.
     pub fn extreme_bound(&self, sign: f64) -> f64 {
         self.extreme_at_points(sign) + self.extremes[usize::from(sign > 0.0)].step
     }
 
-    /// The same between the points.
+    /// The same between the points, rad/s.
     pub fn extreme(&self, sign: f64) -> f64 {
         let index = self.extremes[usize::from(sign > 0.0)].point;
         self.extreme_near(self.rule.points(), index, sign)

@@ -42,7 +42,7 @@ impl<'a> Return<'a> {
         (self.angle - theta).abs() <= NEAR
     }
 
-    /// Kinetic energy at an angle; none if it is too far away.
+    /// Kinetic energy, J, at an angle, rad; none if it is too far away.
     pub fn kinetic(&self, theta: f64) -> Option<f64> {
         let kinetic = self.is_near(theta).then(|| self.energy(theta))?;
         (kinetic.is_finite() && kinetic > 0.0).then_some(kinetic)
@@ -53,7 +53,7 @@ impl<'a> Return<'a> {
         f64::EPSILON * self.angle.abs() * self.force(self.angle).abs()
     }
 
-    /// The turning point near `guess`, after `at`; beyond it, at the rest, the force changes its sign.
+    /// The turning point near `guess`, after `at`, rad; beyond it, at the rest, the force changes its sign.
     pub fn turning_point(&self, at: f64, guess: f64) -> Option<f64> {
         if !self.is_near(guess) {
             return None;

@@ -120,7 +120,7 @@ impl Leg {
         })
     }
 
-    /// Time at which an angle is reached; none if it is not on the leg.
+    /// Time, s, at which an angle is reached; none if it is not on the leg.
     pub fn time_of(&self, angle: Angle) -> Option<f64> {
         let local = |panel: &Panel| Angle {
             turns: angle.turns - panel.turns,

@@ -10,7 +10,8 @@ use crate::numeric::chebyshev::{self, Rule, Series, Values};
 /// Degree of the series: half a turn of a usual engine is right to rounding.
 pub(super) const DEGREE: usize = chebyshev::MOST;
 
-/// Panels next to a balance are shorter than this, rad.
+/// Panels next to a balance are shorter than this, rad. Half or twice as much changes the stated errors of 200 random runs by
+/// 12 % at most.
 const SHORT: f64 = 0.1;
 
 /// Inertia and force have a rounding of their own, which is this part of what is allowed at least.
@@ -194,7 +195,7 @@ impl Panel {
         (self.piece.angle(x), self.speed(x))
     }
 
-    /// The variable x at a time after the start: Newton, kept inside its bracket.
+    /// The variable x, from −1 to 1, at a time (s) after the start: Newton, kept inside its bracket.
     pub fn position(&self, after: f64) -> f64 {
         let total = self.duration.0;
         if after <= 0.0 {
@@ -229,11 +230,12 @@ impl Panel {
         x
     }
 
+    /// Crank speed, rad/s.
     pub(super) fn speed(&self, x: f64) -> f64 {
         self.piece.stretch(x) / self.slope.value(x)
     }
 
-    /// Time after the start at which an angle of the panel is reached.
+    /// Time after the start, s, at which an angle (rad) of the panel is reached.
     pub fn time_of(&self, theta: f64) -> f64 {
         self.at(theta).0
     }

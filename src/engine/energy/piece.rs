@@ -24,6 +24,7 @@ pub(in crate::engine) struct Piece {
 }
 
 impl Piece {
+    /// Its length with sign, rad.
     pub fn span(&self) -> f64 {
         self.to - self.from
     }
@@ -42,6 +43,7 @@ impl Piece {
         [first, second]
     }
 
+    /// The angle, rad, at the variable x from −1 to 1.
     pub fn angle(&self, x: f64) -> f64 {
         match self.turning {
             Turning::Nowhere => self.from + 0.5 * (1.0 + x) * self.span(),
@@ -69,7 +71,7 @@ impl Piece {
         }
     }
 
-    /// The variable x of an angle of the piece.
+    /// The variable x of an angle (rad) of the piece.
     pub fn variable(&self, theta: f64) -> f64 {
         let share = ((theta - self.from) / self.span()).clamp(0.0, 1.0);
         match self.turning {

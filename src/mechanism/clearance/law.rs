@@ -9,7 +9,7 @@ use crate::scene::{Clearance, ContactLaw};
 pub struct NormalForce {
     /// K, N/m^1.5
     pub stiffness: f64,
-    /// D
+    /// D, dimensionless
     pub damping: f64,
 }
 

@@ -13,7 +13,8 @@ const PLAIN: f64 = 1e3 * f64::EPSILON;
 /// Part of the time from sample to sample above which a step may be one of the samples themselves.
 const COARSE: f64 = 0.5;
 
-/// Part of a step by which times that go on by multiples of it may be off.
+/// Part of a step by which times that go on by multiples of it may be off: the rounding of doubles is a thousandth of a step
+/// at most, and half a step would tell nothing.
 const ALIKE: f64 = 0.1;
 
 /// Fewest times that the longer and the shorter step occur: fewer may be those of a clock that was late.

@@ -27,13 +27,16 @@ pub(super) struct Extended {
 
 /// Mass, centre of gravity and central moment of inertia of a rod that moves as a body.
 pub(super) struct Rod {
+    /// kg
     pub mass: DoubleDouble,
+    /// Along the rod from the crank pin, and to the left of it, m.
     pub along: f64,
     pub left: f64,
+    /// kg m²
     pub inertia: DoubleDouble,
 }
 
-/// Position and velocity, for loads.
+/// Time (s), crank angle (rad) and speed (rad/s), for loads.
 pub(super) struct State {
     pub t: f64,
     pub theta: DoubleDouble,

@@ -16,9 +16,13 @@ use crate::scene::{Load, MotionKind, Scene, Variable};
 #[derive(Clone, Debug)]
 pub(super) struct Reference {
     pub what: String,
+    /// rad
     pub theta: DoubleDouble,
+    /// rad/s
     pub omega: DoubleDouble,
+    /// rad
     pub theta_error: f64,
+    /// rad/s
     pub omega_error: f64,
     /// The time (s) at which the equations end, if they do before the run.
     pub ends_at: Option<f64>,

@@ -38,10 +38,13 @@ pub(super) struct Extreme {
 pub(super) struct Found {
     pub start: Angle,
     pub orbit: Orbit,
+    /// Speed at the start, rad/s.
     pub speed: f64,
+    /// s
     pub period: f64,
     /// Least and largest speed.
     pub extremes: [Extreme; 2],
+    /// Deviation from it after a turn, by that before.
     pub multiplier: f64,
     pub multiplier_error: f64,
     /// What is left open of its energies, relative to them.
@@ -54,6 +57,7 @@ pub(super) struct Found {
 }
 
 impl Found {
+    /// Coefficient of fluctuation: the range of the speed, by its mean.
     pub fn fluctuation(&self) -> f64 {
         let [slow, fast] = self.extremes;
         (fast.omega - slow.omega).abs() * self.period / TAU

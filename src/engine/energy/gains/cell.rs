@@ -23,6 +23,7 @@ pub(in crate::engine::energy) struct Course<'a> {
     pub profile: &'a dyn Profile,
     /// rad
     pub start: f64,
+    /// Sign of the speed.
     pub direction: f64,
     /// Kinetic energy before the first turn, J.
     pub kinetic: f64,
