@@ -154,6 +154,16 @@ fn is_not_wrong(motion: &Motion<'_>, scene: &Scene) {
     }
 }
 
+fn is_in_doubt(motion: &Motion<'_>, scene: &Scene) {
+    for measured in BOTH {
+        let found = motion.unfold(scene, measured);
+        assert!(
+            matches!(found, Found::Doubt(_)),
+            "{measured:?}, {motion:?}: {found:?}"
+        );
+    }
+}
+
 /// From 0 to 1, at rest at both ends.
 fn ease(t: f64) -> f64 {
     let t = t.clamp(0.0, 1.0);
@@ -285,13 +295,7 @@ fn a_rest_at_a_dead_centre_that_begins_a_record_is_in_doubt() {
                 noise,
                 step: 0.0,
             };
-            for measured in BOTH {
-                let found = motion.unfold(&plain(), measured);
-                assert!(
-                    matches!(found, Found::Doubt(_)),
-                    "{measured:?}, {way}, {noise}: {found:?}"
-                );
-            }
+            is_in_doubt(&motion, &plain());
         }
     }
 }
@@ -389,13 +393,7 @@ fn a_stop_at_a_dead_centre_is_in_doubt() {
                     noise,
                     step: 0.0,
                 };
-                for measured in BOTH {
-                    let found = motion.unfold(&plain(), measured);
-                    assert!(
-                        matches!(found, Found::Doubt(_)),
-                        "{measured:?}, {way}, {noise}: {found:?}"
-                    );
-                }
+                is_in_doubt(&motion, &plain());
             }
         }
     }
