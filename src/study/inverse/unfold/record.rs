@@ -23,6 +23,10 @@ const MARGIN: f64 = 2.0;
 const LESS: f64 = 6.0;
 const CHANGE: f64 = 0.2;
 
+/// Standard deviations between what a parabola and one through half as many samples say, from which on it does not follow
+/// the motion.
+const BENT: f64 = 2.0;
+
 impl Record<'_> {
     pub fn last(&self) -> usize {
         self.values.len() - 1
@@ -71,14 +75,20 @@ impl Record<'_> {
         MARGIN * step.max(rate * longest)
     }
 
-    /// The value at a sample from as many on either side of it, with its standard deviation.
+    /// The value at a sample, from at most as many on either side of it as one parabola follows, with its standard deviation.
     pub fn value(&self, at: usize, around: usize) -> (f64, f64) {
         let around = around.min(at).min(self.last() - at);
         let range = at - around..at + around + 1;
         let found = (around >= 2)
             .then(|| smoothed(&self.times[range.clone()], &self.values[range], around))
             .flatten();
-        let (value, spread) = found.unwrap_or((self.values[at], 1.0));
+        let Some((value, spread)) = found else {
+            return (self.values[at], self.noise + self.rounding);
+        };
+        let fewer = self.value(at, around / 2);
+        if (value - fewer.0).abs() > BENT * fewer.1 {
+            return fewer;
+        }
         (value, self.noise * spread.sqrt() + self.rounding)
     }
 }
