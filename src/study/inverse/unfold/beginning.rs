@@ -6,7 +6,7 @@
 
 use super::super::sensor::Sensor;
 use super::evidence::{MOST, Misfit, fitted, over};
-use super::refined::{Solved, itself, solved};
+use super::refined::{Solved, solved};
 use super::strokes::{Fold, Stroke};
 use super::visit::{Motion, search};
 use super::window::{Window, turned_back};
@@ -142,7 +142,7 @@ fn simplest(window: &Window, sensor: &Sensor<'_>) -> Option<(usize, Solved)> {
     let most = MOST.min(window.t.len() / 2);
     let fit = fitted(&window.t, &over(&window.back, &weights), &weights, most);
     let solved =
-        (1..fit.squares.len()).map(|degree| (degree, solved(window, sensor, &fit, degree, itself)));
+        (1..fit.squares.len()).map(|degree| (degree, solved(window, sensor, &fit, degree)));
     let cost = |(degree, solved): &(usize, Solved)| {
         let (degree, squares) = (*degree, solved.squares);
         Misfit { degree, squares }.cost()

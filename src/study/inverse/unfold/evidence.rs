@@ -4,7 +4,7 @@
 //! nothing but noise; the other one has a bend at the fold, and needs a high degree if it gets there at all.
 
 use super::super::sensor::Sensor;
-use super::refined::{itself, refined};
+use super::refined::refined;
 use super::touching::stays_off;
 use super::window::Window;
 use crate::numeric::orthogonal::{self, Expansion};
@@ -60,9 +60,7 @@ impl Evidence {
         let evidence = if rough.is_plain() {
             rough
         } else {
-            let [back, past] = fits
-                .each_ref()
-                .map(|fit| refined(window, sensor, fit, itself));
+            let [back, past] = fits.each_ref().map(|fit| refined(window, sensor, fit));
             Evidence::between(&back, &past, window.t.len())
         };
         Evidence {

@@ -2,38 +2,56 @@
 //! but for a jump of the acceleration.
 
 use super::super::sensor::Sensor;
-use super::evidence::{ENOUGH, Evidence, fitted, over};
-use super::refined::{itself, refined};
-use super::window::{AT_FOLD, Window};
+use super::evidence::{ENOUGH, Evidence, Misfit, fitted};
+use super::refined::{STEPS, refined, rows, solved, sum, values};
+use super::window::Window;
+use crate::numeric::golden;
 use crate::numeric::orthogonal::Expansion;
 
-/// Whether a motion that goes back, as a fit has it, is told from one that comes to rest just at the fold. The angle off the fold
-/// is a square then, and its root a polynomial with a zero there.
+/// Whether a motion that goes back, as a fit has it, is told from one that touches the fold.
 pub(super) fn stays_off(window: &Window, sensor: &Sensor<'_>, back: &Expansion<f64>) -> bool {
-    let most = back.squares.len().saturating_sub(1);
-    let side = window.back.iter().sum::<f64>().signum();
-    let (roots, weights) = roots(window);
-    // The root of an angle of even degree is odd, and may need one degree more.
-    let rough = fitted(&window.t, &over(&roots, &weights), &weights, most + 1);
-    let touching = refined(window, sensor, &rough, |root| {
-        (side * root * root, 2.0 * side * root)
-    });
-    let back = refined(window, sensor, back, itself);
-    Evidence::between(&touching, &back, window.t.len()).passes > ENOUGH
+    let misfits = refined(window, sensor, back);
+    let simplest = misfits.iter().min_by(|a, b| a.cost().total_cmp(&b.cost()));
+    let Some(simplest) = simplest.filter(|simplest| simplest.degree > 1) else {
+        return false;
+    };
+    let degree = simplest.degree;
+    let angles = solved(window, sensor, back, degree).angles;
+    let squares = touching(window, sensor, angles, degree);
+    let touching = [Misfit { degree, squares }];
+    Evidence::between(&touching, &misfits, window.t.len()).passes > ENOUGH
 }
 
-/// The roots of the angles off the fold, negative before it, and their weights. Noise may have moved the turning point: the zero is
-/// in the middle of the blocks at the fold, which tell the root to be small, but not its sign.
-fn roots(window: &Window) -> (Vec<f64>, Vec<f64>) {
-    let count = window.t.len();
-    let zero = usize::midpoint(window.clear[0], count - window.clear[1]);
-    let root = |k: usize| {
-        let (angle, error) = (window.back[k].abs(), window.error[k]);
-        if angle < AT_FOLD * error {
-            return (0.0, 1.0 / (AT_FOLD * error).sqrt());
+/// What is left by the polynomial of a degree that touches the fold, from one that is near to it on, by steps of Gauss and Newton
+/// between polynomials that are zero where the last one was nearest to it.
+fn touching(window: &Window, sensor: &Sensor<'_>, mut angles: Vec<f64>, degree: usize) -> f64 {
+    let side = window.back.iter().sum::<f64>().signum();
+    let [from, to] = window.around_fold();
+    let mut least = f64::INFINITY;
+    for _ in 0..STEPS {
+        let even = vec![1.0; window.t.len()];
+        let near = fitted(&window.t, &angles, &even, degree);
+        let value = |t: f64| side * near.value(degree, t);
+        let (nearest, away) = golden::largest(|t| -value(t), from, to);
+        for angle in &mut angles {
+            *angle += side * away;
         }
-        let sign = if k < zero { -1.0 } else { 1.0 };
-        (sign * angle.sqrt(), 2.0 * angle.sqrt() / error)
-    };
-    (0..count).map(root).unzip()
+        let (rest, slopes) = rows(window, sensor, &angles);
+        least = least.min(sum(&rest));
+        let way: Vec<f64> = window.t.iter().map(|t| t - nearest).collect();
+        let weights: Vec<f64> = slopes
+            .iter()
+            .zip(&way)
+            .map(|(slope, way)| slope * way)
+            .collect();
+        let change = values(
+            &fitted(&window.t, &rest, &weights, degree - 1),
+            degree - 1,
+            &window.t,
+        );
+        for (angle, (change, way)) in angles.iter_mut().zip(change.iter().zip(&way)) {
+            *angle += change * way;
+        }
+    }
+    least
 }

@@ -9,7 +9,7 @@ use super::visit::Motion;
 const BLOCKS: usize = 48;
 
 /// Standard errors within which an angle is at the fold, and beyond which it is certainly not.
-pub(super) const AT_FOLD: f64 = 2.0;
+const AT_FOLD: f64 = 2.0;
 const CLEAR: f64 = 20.0;
 
 /// Standard deviations of noise within which a size next to its fold loses the sign of it: averaged it is still off by one.
@@ -88,6 +88,12 @@ impl Window {
         window.after = after.unwrap_or(count);
         window.part(past, &either);
         window
+    }
+
+    /// The times between which a motion is nearest to the fold, which noise may have moved: half of the way to the ends.
+    pub fn around_fold(&self) -> [f64; 2] {
+        let [before, after] = self.clear;
+        [self.t[before / 2], self.t[self.t.len() - 1 - after / 2]]
     }
 
     /// Lets the motions part at the fold, which is before the first block after the turning point. Samples at other turning points may be on `either` stroke.
