@@ -16,6 +16,9 @@ use crate::numeric::orthogonal::Expansion;
 const WAY: f64 = 1.2;
 const FEWEST: usize = 5;
 
+/// Way beyond a fold, rad, that is more than a fit in terms of what was measured mends.
+const UNSEEN: f64 = 0.1;
+
 /// Standard errors that a speed is to have for its sense to be known.
 const KNOWN: f64 = 3.0;
 
@@ -34,6 +37,8 @@ pub(super) struct Beginning {
     pub error: f64,
     /// Whether the motion may be at a fold.
     pub at_fold: bool,
+    /// Whether it turns beyond the fold, too near to it for a turning point to be seen.
+    pub turns_unseen: bool,
 }
 
 impl Beginning {
@@ -63,6 +68,7 @@ const UNKNOWN: Beginning = Beginning {
     speed: 0.0,
     error: f64::INFINITY,
     at_fold: true,
+    turns_unseen: false,
 };
 
 impl Motion<'_> {
@@ -106,10 +112,14 @@ impl Motion<'_> {
         let half = 0.5 * (record.times[to] - record.times[0]);
         let (degree, solved) = simplest(&window, &sensor)?;
         let (speed, error) = speed(&window.t, degree, &solved, half);
+        let side = window.back.iter().sum::<f64>().signum();
+        let beyond = solved.angles.iter().skip(before).map(|angle| -side * angle);
+        let at_fold = record.is_at(0, fold.value);
         Some(Beginning {
             speed,
             error,
-            at_fold: record.is_at(0, fold.value),
+            at_fold,
+            turns_unseen: at_fold && beyond.fold(0.0, f64::max) > UNSEEN,
         })
     }
 }

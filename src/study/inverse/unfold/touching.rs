@@ -17,8 +17,11 @@ pub(super) fn stays_off(window: &Window, sensor: &Sensor<'_>, back: &Expansion<f
     };
     let degree = simplest.degree;
     let angles = solved(window, sensor, back, degree).angles;
-    let squares = touching(window, sensor, angles, degree);
-    let touching = [Misfit { degree, squares }];
+    // What the degree does not reach may be just what moves the motion off the fold.
+    let touching = [degree, degree + 2].map(|degree| Misfit {
+        degree,
+        squares: touching(window, sensor, angles.clone(), degree),
+    });
     Evidence::between(&touching, &misfits, window.t.len()).passes > ENOUGH
 }
 

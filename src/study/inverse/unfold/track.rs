@@ -58,11 +58,14 @@ impl Track {
         let doubtful = |k: &usize| visits[*k].is_some_and(|visit| !visit.certain);
         let doubts = (0..count).filter(doubtful);
         let (theta, before) = motion.angles(&along);
+        let beginning = motion.beginning(first, before);
+        let unseen = beginning.filter(|beginning| beginning.turns_unseen);
+        let doubts = doubts.map(|k| motion.turnings[k].at);
         Track {
             theta,
-            doubts: doubts.map(|k| motion.turnings[k].at).collect(),
+            doubts: unseen.map(|_| 0).into_iter().chain(doubts).collect(),
             visits: visits.iter().flatten().count(),
-            beginning: motion.beginning(first, before),
+            beginning,
         }
     }
 }
