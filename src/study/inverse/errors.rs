@@ -3,8 +3,9 @@
 use super::missed::Missed;
 use super::pattern::{Pattern, in_waves};
 use super::rounding::Rounding;
+use super::waves::Waves;
 use crate::numeric::fit::{Curve, Kind, Samples, State};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Part of the terms of the equation to which a computed motion is right, as a standard deviation: it obeys an equation that
 /// was approximated, and to a tolerance of 1e-10 for each step.
@@ -29,6 +30,8 @@ pub(super) struct Errors {
     pub free: f64,
     /// What the curve misses of the motion, if its residuals show it.
     pub missed: Option<Missed>,
+    /// Waves in the residuals that the curve does not follow, in terms of the motion.
+    pub waves: Option<Waves>,
 }
 
 impl Errors {
@@ -63,6 +66,7 @@ impl Errors {
             exact: if is_exact { EXACT } else { 0.0 },
             free: (rows - quality.parameters).max(1.0),
             missed: None,
+            waves: None,
         };
         if through {
             // The residuals tell nothing; the noise is seen in differences that overlap.
@@ -75,6 +79,11 @@ impl Errors {
         if let Some(missed) = &errors.missed {
             errors.noise = missed.noise;
             errors.pattern.widening = 1.0;
+        }
+        // A spline through a pattern that is clear has its waves in it.
+        if errors.pattern.shown && (errors.missed.is_none() || !errors.pattern.clear) {
+            let followed = quality.parameters / rows * part_in_waves(curve.kind());
+            errors.waves = Waves::of(residuals, samples, followed);
         }
         errors
     }
@@ -93,11 +102,24 @@ impl Errors {
 
     /// The motion at rising times, rad and s.
     pub fn states(&self, curve: &Curve, t: &[f64]) -> Vec<State> {
-        let states = curve.states(t);
-        match &self.missed {
-            Some(missed) => missed.all_beside(states, t),
-            None => states,
+        let mut states = curve.states(t);
+        if let Some(missed) = &self.missed {
+            states = missed.all_beside(states, t);
         }
+        if let Some(waves) = &self.waves {
+            let all = states.iter_mut();
+            all.for_each(|state| *state = waves.beside(*state));
+        }
+        states
+    }
+}
+
+/// The waves that a curve follows all along, as a part of those of half as many as parameters. A polynomial has fewer in its
+/// middle than at its ends.
+fn part_in_waves(kind: Kind) -> f64 {
+    match kind {
+        Kind::Polynomial => 2.0 / PI,
+        Kind::Spline | Kind::Fourier => 1.0,
     }
 }
 

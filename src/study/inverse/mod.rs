@@ -20,6 +20,7 @@ mod sensor;
 mod summary;
 mod unfold;
 mod warnings;
+mod waves;
 
 pub use bands::{BandRule, DeadCentreBand};
 pub use printed::AsPrinted;

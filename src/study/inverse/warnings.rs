@@ -99,6 +99,12 @@ pub(super) fn of_fit(
             }
         ));
     }
+    warnings.extend(fitted.errors.waves.map(|waves| {
+        format!(
+            "the residuals have waves in them of about {:.1} samples, too fast for the fit: if the crank moves like that, or faster, the force has waves that the fit does not show; the standard errors have room for them",
+            waves.samples
+        )
+    }));
     warnings.extend(superfluous(fitted, options));
     if fitted.curve.coefficients().0.iter().any(|c| !c.is_finite()) {
         warnings.push("coefficients in plain time are left out where cancellation leaves no digits: let the time begin near 0".to_owned());
