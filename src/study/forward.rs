@@ -2,8 +2,9 @@
 
 use std::time::Instant;
 
-use super::spread::{Slopes, Spread};
+use super::spread::Spread;
 use super::summary::{Cost, ErrorEstimate};
+use super::transition::Slopes;
 use crate::engine::step::Step;
 use crate::engine::time::{self, Finish, Settings, Start};
 use crate::engine::{Batch, Counted, Motion};
@@ -177,9 +178,9 @@ impl Rounding {
         let travel = (end.theta - step.start.theta).abs();
         let same = travel < SAME * f64::EPSILON * end.theta.abs();
         let alike = if same { ALIKE } else { 1.0 };
-        let place = alike * ONE_ROUNDING * end.theta.abs() * slopes.by_angle;
+        let place = alike * ONE_ROUNDING * end.theta.abs() * slopes.by_angle();
         let mut size = end.alpha.abs();
-        if size < BALANCED * slopes.by_angle.abs() {
+        if size < BALANCED * slopes.by_angle().abs() {
             let angle = step.angle(end.theta);
             let inertia = equation.terms(end.theta).inertia.m;
             size = size.max(ALIKE * equation.size_of_terms(end.t, angle, end.omega) / inertia);
@@ -194,8 +195,8 @@ impl Rounding {
 
     /// What is stated of it, rad and rad/s. What it does to the run that is judged is seen in the distance of the two.
     pub fn stated(&self) -> [f64; 2] {
-        [self.spread.angle, self.spread.speed]
-            .map(|variance| DEVIATIONS * f64::EPSILON * variance.sqrt())
+        [self.spread.angle(), self.spread.speed()]
+            .map(|deviation| DEVIATIONS * f64::EPSILON * deviation)
     }
 }
 
