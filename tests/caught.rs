@@ -217,3 +217,33 @@ fn a_crank_with_friction_is_caught_or_comes_to_rest() {
     let (low, high) = (said[0].min(said[1]), said[0].max(said[1]));
     assert!(turning.all(|event| low < event.theta_rad && event.theta_rad < high));
 }
+
+/// Under a load in time nothing is certain: it ends when it has led nowhere for long, and not while it gets further.
+#[test]
+fn a_crank_under_a_load_in_time_is_waited_for_as_long_as_it_gets_further() {
+    let timed = |angle: f64, torque: &str| {
+        let options = Options {
+            max_evaluations: 20_000_000,
+            ..Options::default()
+        };
+        simulate(&pendulum(angle, 0.0, torque), &options)
+            .expect("a run")
+            .summary
+    };
+    // The torque dies away, and the swing stays what it is then; or it goes on, too weak to get the crank over the top.
+    for torque in ["0.01*exp(-t)", "0.02*sin(3*t) - 1e-4*omega"] {
+        let summary = timed(-1.0, torque);
+        let why = summary.stopped.expect("a reason");
+        assert!(why.contains("does not complete 3 turns"), "{why}");
+        assert!(why.contains("came no further"), "{why}");
+        assert!(summary.evaluations < 5_000_000, "{}", summary.evaluations);
+    }
+    // After 500 s, some 2000 turning points, a torque larger than the weight's sets in.
+    let summary = timed(-1.0, "0.2*(1 + tanh(t - 500))");
+    assert_eq!(summary.stopped, None);
+    assert!(
+        (495.0..510.0).contains(&summary.last.t_s),
+        "{}",
+        summary.last.t_s
+    );
+}

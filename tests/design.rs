@@ -152,13 +152,23 @@ fn mass_properties_of_gupta() {
         ],
         1e-12,
     );
-    for (length, mass) in [(140.0, 0.76547), (310.0, 1.56107)] {
-        let round = Shape::round_ended(length * mm, 30.0 * mm).plate(20.0 * mm, 7800.0);
-        close("round ends", round.mass, mass, mass, 1e-5);
-        // Ever more corners approach the round end.
-        let fine = Shape::polygon_ended(length * mm, 30.0 * mm, 20_000).plate(20.0 * mm, 7800.0);
-        close("inertia", fine.normal, round.normal, round.normal, 1e-7);
-        close("inertia", fine.along, round.along, round.along, 1e-7);
+    for (length, printed) in [(140.0, 0.76547), (310.0, 1.56107)] {
+        // Ever more corners approach a rectangle with two halves of a disc, whose centres lie 4r/(3 pi) further out.
+        let (l, r) = (length * mm, 15.0 * mm);
+        let (bar, disc) = (2.0 * r * l, PI * r * r);
+        let centre = 4.0 * r / (3.0 * PI);
+        let polar = bar * (l * l + 4.0 * r * r) / 12.0
+            + disc * (0.5 * r * r - centre * centre + (0.5 * l + centre).powi(2));
+        let lateral = bar * 4.0 * r * r / 12.0 + disc * 0.25 * r * r;
+        let per_area = 20.0 * mm * 7800.0;
+        let mass = per_area * (bar + disc);
+        close("round ends", mass, printed, printed, 1e-5);
+        let fine = Shape::polygon_ended(l, 2.0 * r, 20_000).plate(20.0 * mm, 7800.0);
+        let thick = mass * (20.0 * mm).powi(2) / 12.0;
+        let (normal, along) = (per_area * polar, per_area * lateral + thick);
+        close("mass", fine.mass, mass, mass, 1e-7);
+        close("inertia", fine.normal, normal, normal, 1e-7);
+        close("inertia", fine.along, along, along, 1e-7);
     }
 }
 

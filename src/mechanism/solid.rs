@@ -1,6 +1,6 @@
 //! Mass properties of plates: a flat shape, its depth and its density.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 /// A shape in the plane that is symmetric to both axes, as area and second moments about its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,22 +37,8 @@ impl Shape {
         }
     }
 
-    /// A link between two pins `length` apart with half-round ends of diameter `width`, m.
-    pub fn round_ended(length: f64, width: f64) -> Shape {
-        let (body, radius) = (Shape::rectangle(length, width), 0.5 * width);
-        // Both ends together are a disc, each half shifted by half the length from where it was.
-        let disc = PI * radius * radius;
-        let quarter = 0.25 * disc * radius * radius;
-        let first_moment = 4.0 / 3.0 * radius * radius * radius;
-        Shape {
-            area: body.area + disc,
-            along: body.along + quarter + first_moment * length + 0.25 * disc * length * length,
-            across: body.across + quarter,
-        }
-    }
-
-    /// The same link with each end drawn as half of a regular polygon of `corners` corners, an even number:
-    /// what drawing programs make of a round end.
+    /// A link between two pins `length` apart with half-round ends of diameter `width`, m, each drawn as half of a
+    /// regular polygon of `corners` corners, an even number: what drawing programs make of a round end.
     pub fn polygon_ended(length: f64, width: f64, corners: u32) -> Shape {
         let (half, radius) = (0.5 * length, 0.5 * width);
         let side = TAU / f64::from(corners);

@@ -2,8 +2,9 @@
 
 use std::time::Instant;
 
-use super::spread::{Slopes, Spread};
+use super::spread::Spread;
 use super::summary::{Cost, ErrorEstimate};
+use super::transition::Slopes;
 use crate::engine::step::Step;
 use crate::engine::time::{self, Finish, Settings, Start};
 use crate::engine::{Batch, Counted, Motion};
@@ -65,10 +66,7 @@ const TIGHTER: f64 = 50.0;
 const MARGIN: f64 = 1.5;
 /// Standard deviation of one rounding, in units of the last place.
 const ONE_ROUNDING: f64 = 0.3;
-/// Next to a balance the angle is the same float for a while, on the way of so many units in its last place; what
-/// several steps round in the same way adds up to this many times as much. Half or twice the way changes none of 200 random
-/// runs, half or twice the factor their stated errors by 4 % at most.
-const SAME: f64 = 32.0;
+/// Next to a balance several steps round in the same way, which adds up to this many times as much.
 const ALIKE: f64 = 2.0;
 /// The same of a step's mean acceleration: of a few units in each evaluation, averaged over the step.
 const EVALUATION: f64 = 1.0;
@@ -174,12 +172,9 @@ impl Rounding {
         let slopes = Slopes::of(motion, step);
         let transition = slopes.transition(step);
         let (h, end) = (step.length(), &step.end);
-        let travel = (end.theta - step.start.theta).abs();
-        let same = travel < SAME * f64::EPSILON * end.theta.abs();
-        let alike = if same { ALIKE } else { 1.0 };
-        let place = alike * ONE_ROUNDING * end.theta.abs() * slopes.by_angle;
+        let place = ONE_ROUNDING * end.theta.abs() * slopes.by_angle();
         let mut size = end.alpha.abs();
-        if size < BALANCED * slopes.by_angle.abs() {
+        if size < BALANCED * slopes.by_angle().abs() {
             let angle = step.angle(end.theta);
             let inertia = equation.terms(end.theta).inertia.m;
             size = size.max(ALIKE * equation.size_of_terms(end.t, angle, end.omega) / inertia);
@@ -194,8 +189,8 @@ impl Rounding {
 
     /// What is stated of it, rad and rad/s. What it does to the run that is judged is seen in the distance of the two.
     pub fn stated(&self) -> [f64; 2] {
-        [self.spread.angle, self.spread.speed]
-            .map(|variance| DEVIATIONS * f64::EPSILON * variance.sqrt())
+        [self.spread.angle(), self.spread.speed()]
+            .map(|deviation| DEVIATIONS * f64::EPSILON * deviation)
     }
 }
 

@@ -37,6 +37,7 @@ mod summary;
 mod sweep;
 mod swing;
 mod task;
+mod transition;
 mod watch;
 
 pub use crate::mechanism::{Length, Reactions, drum_torque, friction_from_tilt, size_from_stroke};

@@ -21,9 +21,15 @@ const UNTIL_REST: u32 = 200;
 /// Turning points after which a larger swing is tried first; then it is after twice as many.
 const FIRST_TRIAL: u64 = 6;
 
+/// Under loads in time anything may follow. So many turning points, and as many as there were before, that lead no
+/// further out are taken as an answer.
+const ENOUGH: u64 = 10_000;
+
 /// The turning points of a run that ends after a number of turns.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Swing {
+    /// Those furthest out, if the loads depend on the time.
+    furthest: Option<Furthest>,
     /// The last turning points, how many there were, and after how many a larger swing is tried.
     recent: [Angle; 5],
     count: u64,
@@ -45,18 +51,16 @@ pub(super) struct Swing {
 }
 
 impl Swing {
-    /// None if the run has a last time, or the loads depend on the time. `start`: of the coordinate.
+    /// None if the run has a last time. `start`: of the coordinate.
     pub fn new(task: &Task<'_>, start: Angle) -> Option<Swing> {
         let reads = task.equation().loads().reads();
         let Extent::Revolutions(turns) = task.extent else {
             return None;
         };
-        if reads.has(Variable::T) {
-            return None;
-        }
         let of_speed = reads.has(Variable::Omega) || reads.has(Variable::V);
         let rubs = task.scene.reduced().friction.is_some();
         Some(Swing {
+            furthest: reads.has(Variable::T).then(|| Furthest::new(start)),
             recent: [start; 5],
             count: 0,
             trial: FIRST_TRIAL,
@@ -77,6 +81,10 @@ impl Swing {
         at: Angle,
         enclosed: impl FnOnce(Angle) -> Option<[Angle; 2]>,
     ) -> bool {
+        if let Some(furthest) = &mut self.furthest {
+            self.caught = furthest.turns_at(at);
+            return self.caught.is_some();
+        }
         let before = std::mem::replace(&mut self.last, at);
         let Some(to) = self.to else {
             self.to = Some(at).filter(|_| at != self.from);
@@ -122,8 +130,49 @@ impl Swing {
     pub fn why(&self, t: f64, crank: impl Fn(Angle) -> Angle) -> Option<String> {
         let [from, to] = self.caught?.map(|at| crank(at).radians());
         let turns = self.turns;
+        if let Some(Furthest { since, .. }) = self.furthest {
+            return Some(format!(
+                "the crank swings to and fro and does not complete {turns} turns: in its last {since} turning points it came no further than theta = {from} rad and {to} rad; stopped at t = {t} s; loads in t may change that later: give a duration instead"
+            ));
+        }
         Some(format!(
             "the crank swings to and fro and does not complete {turns} turns: it stays between theta = {from} rad and {to} rad; stopped at t = {t} s; give a duration instead"
         ))
+    }
+}
+
+/// The turning points that are furthest out, while loads depend on the time.
+#[derive(Clone, Copy, Debug)]
+struct Furthest {
+    /// To both sides.
+    reach: [Angle; 2],
+    /// Turning points since one led further out, and before.
+    since: u64,
+    before: u64,
+}
+
+impl Furthest {
+    fn new(start: Angle) -> Furthest {
+        Furthest {
+            reach: [start; 2],
+            since: 0,
+            before: 0,
+        }
+    }
+
+    /// Takes a turning point; the reach, if it is taken as the last word.
+    fn turns_at(&mut self, at: Angle) -> Option<[Angle; 2]> {
+        let [low, high] = self.reach;
+        let clearly = CLEARLY * high.minus(low);
+        let (above, below) = (at.minus(high), low.minus(at));
+        if above.max(below) > clearly {
+            let side = usize::from(above > 0.0);
+            self.reach[side] = at;
+            self.before += self.since + 1;
+            self.since = 0;
+        } else {
+            self.since += 1;
+        }
+        (self.since >= ENOUGH.max(self.before)).then_some(self.reach)
     }
 }

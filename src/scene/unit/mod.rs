@@ -39,7 +39,10 @@ impl fmt::Display for UnitError {
 /// assert!(parse("47 kg", Quantity::Length).is_err());
 /// ```
 pub fn parse(text: &str, quantity: Quantity) -> Result<f64, UnitError> {
-    let measured = measure(text).map_err(|what| wrong(what, quantity))?;
+    let measured = measure(text).map_err(|what| match split(text) {
+        Ok((_, unit)) if !unit.is_empty() => wrong_unit(what, quantity),
+        _ => wrong(what, quantity),
+    })?;
     if measured.is(quantity) {
         return Ok(measured.value);
     }
@@ -51,7 +54,7 @@ pub fn parse(text: &str, quantity: Quantity) -> Result<f64, UnitError> {
     } else {
         format!("`{unit}` is not the unit of {}", quantity.name())
     };
-    Err(wrong(what, quantity))
+    Err(wrong_unit(what, quantity))
 }
 
 /// The unit with the pound as a force, if that makes it one of the quantity.
@@ -84,6 +87,16 @@ fn wrong(what: String, quantity: Quantity) -> UnitError {
         what,
         help: format!("write {} like {}", quantity.name(), quantity.examples()),
     }
+}
+
+/// With the units there are, where one symbol is enough.
+fn wrong_unit(what: String, quantity: Quantity) -> UnitError {
+    let mut error = wrong(what, quantity);
+    let symbols = quantity.symbols();
+    if !symbols.is_empty() {
+        error.help += &format!("; units: {}", symbols.join(", "));
+    }
+    error
 }
 
 /// A number with a unit, SI.
@@ -161,6 +174,10 @@ mod tests {
             ("30°", Quantity::Angle, PI / 6.0),
             ("30 degrees", Quantity::Angle, PI / 6.0),
             ("2 turns", Quantity::Angle, 4.0 * PI),
+            ("50 gon", Quantity::Angle, PI / 4.0),
+            ("100 mgon", Quantity::Angle, PI / 2000.0),
+            ("30 arcmin", Quantity::Angle, PI / 360.0),
+            ("1800 arcsec", Quantity::Angle, PI / 360.0),
             ("3 radians/sec", Quantity::AngularSpeed, 3.0),
             ("5 msec", Quantity::Time, 0.005),
             ("2 N*m", Quantity::Torque, 2.0),
@@ -242,6 +259,12 @@ mod tests {
             ("30 Deg", Quantity::Angle, "`deg` is"),
             ("2 KG", Quantity::Mass, "`kg` is"),
             ("3 1/min", Quantity::AngularSpeed, "200 rpm"),
+            (
+                "3 grads",
+                Quantity::Angle,
+                "deg, °, rev, turn, gon, arcmin, arcsec",
+            ),
+            ("3 s", Quantity::Angle, "units: rad, deg"),
         ] {
             let error = parse(text, quantity).unwrap_err().to_string();
             assert!(error.contains(what), "{text}: {error}");

@@ -1,6 +1,6 @@
 //! What the values of a scene measure.
 
-use super::symbol::Dimension;
+use super::symbol::{self, Dimension};
 
 /// What a value of a scene file measures; fixes the units it may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,6 +83,11 @@ impl Quantity {
             Self::Velocity => ("a velocity", [1, 0, -1, 0], "\"2 m/s\""),
             Self::Number => ("a number", [0; 4], "0.1, 1e-10"),
         }
+    }
+
+    /// Symbols of its units beside those made of several.
+    pub(super) fn symbols(self) -> Vec<&'static str> {
+        symbol::symbols(self.facts().1).collect()
     }
 
     /// The quantity in words, with its article.

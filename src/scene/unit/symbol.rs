@@ -76,6 +76,9 @@ const UNITS: &[Unit] = &[
     ("°", 1.0, 180.0, 0, 1, [0, 0, 0, 1], false),
     ("rev", 2.0, 1.0, 0, 1, [0, 0, 0, 1], false),
     ("turn", 2.0, 1.0, 0, 1, [0, 0, 0, 1], false),
+    ("gon", 1.0, 200.0, 0, 1, [0, 0, 0, 1], true),
+    ("arcmin", 1.0, 10_800.0, 0, 1, [0, 0, 0, 1], false),
+    ("arcsec", 1.0, 648_000.0, 0, 1, [0, 0, 0, 1], false),
     ("rpm", 1.0, 30.0, 0, 1, [0, 0, -1, 1], false),
     ("t", 1.0, 1.0, 3, 0, [0, 1, 0, 0], false),
     ("in", 254.0, 1.0, -4, 0, [1, 0, 0, 0], false),
@@ -149,6 +152,12 @@ const PREFIXES: &[(&str, i32)] = &[
     ("μ", -6),
     ("n", -9),
 ];
+
+/// The symbols of a dimension that have no prefix.
+pub(super) fn symbols(dimension: Dimension) -> impl Iterator<Item = &'static str> {
+    let of_it = UNITS.iter().filter(move |unit| unit.5 == dimension);
+    of_it.map(|unit| unit.0)
+}
 
 fn symbol(name: &str) -> Option<Factor> {
     let find = |name: &str| {

@@ -89,8 +89,8 @@ fn distance(
     // Both runs round; many short steps more often.
     let often = 1.0 + arrived.steps as f64 / best.steps.max(1) as f64;
     let unit = DEVIATIONS * f64::EPSILON * often.sqrt();
-    let angle = unit * noise.spread.angle.sqrt();
-    let speed = unit * noise.spread.speed.sqrt();
+    let angle = unit * noise.spread.angle();
+    let speed = unit * noise.spread.speed();
     let dtheta = place.dtheta.abs();
     let bend = if place.d2theta.is_finite() {
         (place.d2theta * end.omega).abs()

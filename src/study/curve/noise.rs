@@ -8,7 +8,8 @@ use crate::engine::Counted;
 use crate::engine::step::Step;
 use crate::mechanism::Constrained;
 use crate::numeric::angle::Angle;
-use crate::study::spread::{Slopes, Spread};
+use crate::study::spread::Spread;
+use crate::study::transition::Slopes;
 
 /// Rounding of one evaluation of the acceleration, in units of the last place.
 const EVALUATION: f64 = 8.0;
@@ -44,8 +45,7 @@ impl Observer for Noise<'_> {
     fn step(&mut self, step: &Step, phase: Phase) -> bool {
         if phase == Phase::Sticking {
             // What it is off in speed is lost at rest.
-            self.spread.speed = 0.0;
-            self.spread.both = 0.0;
+            self.spread = self.spread.with_speed_times(0.0);
             self.before = None;
             return false;
         }
@@ -53,9 +53,7 @@ impl Observer for Noise<'_> {
         let turned = start.omega == 0.0;
         if let Some((before, _)) = self.before.filter(|(before, _)| turned && *before != 0.0) {
             // Turned back later or sooner, under another friction than before.
-            let change = start.alpha / before;
-            self.spread.both *= change;
-            self.spread.speed *= change * change;
+            self.spread = self.spread.with_speed_times(start.alpha / before);
         }
         if turned || self.before.is_none_or(|(_, before)| before != phase) {
             // A piece begins at a rounded time.
@@ -73,7 +71,7 @@ impl Observer for Noise<'_> {
             .set(self.evaluations.get() + motion.evaluations());
         let transition = slopes.transition(step);
         // Accelerations from rounded angles.
-        let place = PLACE * end.theta.abs() * slopes.by_angle;
+        let place = PLACE * end.theta.abs() * slopes.by_angle();
         let within = place.abs() + EVALUATION * start.alpha.abs().max(end.alpha.abs());
         // States at the ends of the steps are rounded.
         let [angle, speed] = [1.0 + end.theta.abs(), end.omega.abs()].map(|size| 0.5 * size);

@@ -16,9 +16,10 @@ use crate::study::by_angle::{MARGIN, ROUNDING, finer, most_evaluations};
 use crate::study::curve::{self, Noise};
 use crate::study::forward::{Forward, Rounding, tighter};
 use crate::study::over_angle::late_by;
-use crate::study::spread::{Spread, Transition};
+use crate::study::spread::Spread;
 use crate::study::summary::{Cost, ErrorEstimate};
 use crate::study::task::Task;
+use crate::study::transition::Transition;
 
 /// The second run is handed over at other places.
 const OTHER_WAIT: f64 = 1.4 * TAU;
@@ -42,8 +43,8 @@ impl Shaken<'_> {
     /// Angle error and speed error, in rad and rad/s.
     fn noise(&self) -> [f64; 2] {
         match &self.rubbing {
-            Some(noise) => [noise.spread.angle, noise.spread.speed]
-                .map(|variance| RUBBING_DEVIATIONS * f64::EPSILON * variance.sqrt()),
+            Some(noise) => [noise.spread.angle(), noise.spread.speed()]
+                .map(|deviation| RUBBING_DEVIATIONS * f64::EPSILON * deviation),
             None => self.rounding.stated(),
         }
     }
