@@ -172,11 +172,17 @@ impl Polynomial {
         (self.noise, all)
     }
 
-    /// What the first terms leave of samples.
-    pub(super) fn left(&self, samples: &Samples<'_>, terms: usize) -> Vec<f64> {
+    /// What the first terms leave of samples, with coefficients less these.
+    pub(super) fn left(&self, samples: &Samples<'_>, less: &[f64]) -> Vec<f64> {
+        let coefficients: Vec<f64> = self
+            .coefficients
+            .iter()
+            .zip(less)
+            .map(|(c, l)| c - l)
+            .collect();
         samples.left(&parallel::list(samples.t.len(), |i| {
             let mut sum = 0.0;
-            self.terms(terms, samples.t[i], |j, q| sum += self.coefficients[j] * q);
+            self.terms(less.len(), samples.t[i], |j, q| sum += coefficients[j] * q);
             sum
         }))
     }

@@ -7,7 +7,7 @@ use super::rounding::{Rounding, common_step, of_step};
 use super::seen::Seen;
 use super::sensor::Sensor;
 use crate::numeric::chebyshev::largest;
-use crate::numeric::fit::{Curve, Kind, Samples, Size, State};
+use crate::numeric::fit::{Curve, Dependent, Kind, Samples, Size, State};
 use crate::numeric::parallel;
 use crate::scene::{Measured, Measurement};
 
@@ -215,15 +215,20 @@ impl Fitted {
             return Ok(());
         };
         let theta = self.curve.values(samples.t);
-        self.curve.admit(samples, &|chosen, left| {
+        let error = |place: usize, chosen: &[usize], left: &[f64]| {
             // Values before rounding, with the sign with which each counts.
             let exact = parallel::list(chosen.len(), |k| {
                 let i = chosen[k];
                 let sign = sensor.sign(values[i], || theta[i]);
                 (values[i] - sign * left[k], sign)
             });
-            rounding.errors(&exact)
-        })?;
+            rounding.error(place, &exact)
+        };
+        let errors = Dependent {
+            number: rounding.places(),
+            error: &error,
+        };
+        self.curve.admit(samples, errors)?;
         self.errors.without(&rounding);
         Ok(())
     }

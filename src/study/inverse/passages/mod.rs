@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 use super::rounding::{Rounding, of_step};
 use super::sensor::Sensor;
 use crate::numeric::chebyshev::largest;
-use crate::numeric::fit::{Curve, Kind, Samples, Size};
+use crate::numeric::fit::{Curve, Dependent, Kind, Samples, Size};
 use crate::numeric::median::median;
 use crate::numeric::{parallel, root};
 use crossings::{Passage, speeds};
@@ -155,14 +155,20 @@ impl Passages {
             return Ok(None);
         };
         let speeds: Vec<f64> = parallel::list(self.t.len(), |i| curve.state(self.t[i]).value[1]);
-        curve.admit(&self.samples(), &|chosen, left| {
+        let error = |place: usize, chosen: &[usize], left: &[f64]| {
             let exact = parallel::list(chosen.len(), |k| {
                 let i = chosen[k];
                 let sign = speeds[i].signum();
-                (self.step * (self.t[i] / period) + sign * left[k], sign)
+                // A time that is too late counts as an angle that is too small.
+                (self.step * (self.t[i] / period) + sign * left[k], -sign)
             });
-            rounding.errors(&exact)
-        })?;
+            rounding.error(place, &exact)
+        };
+        let errors = Dependent {
+            number: rounding.places(),
+            error: &error,
+        };
+        curve.admit(&self.samples(), errors)?;
         Ok(Some(rounding))
     }
 }
