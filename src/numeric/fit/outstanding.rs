@@ -6,14 +6,15 @@
 
 use super::dependent::{Dependent, Follows, Scattered};
 use super::{Polynomial, Samples};
+use crate::numeric::parallel;
 
 /// Standard deviations from which on a term stands out.
-pub(super) const OUT: f64 = 3.0;
+const OUT: f64 = 3.0;
 
 /// The first terms of a polynomial.
 pub(super) struct Terms<'a> {
     polynomial: &'a Polynomial,
-    number: usize,
+    coefficients: Vec<f64>,
 }
 
 impl Terms<'_> {
@@ -26,7 +27,10 @@ impl Terms<'_> {
         let some = Scattered::of(samples);
         let (noise, coefficients) = polynomial.all_terms();
         let size = coefficients.len();
-        let terms = |number: usize| Terms { polynomial, number };
+        let terms = |number: usize| Terms {
+            polynomial,
+            coefficients: coefficients[..number].to_vec(),
+        };
         let stands_out = |number: usize| {
             let left = terms(number).left(&some.samples(), &vec![0.0; number]);
             let errors = errors.beside(&some.chosen, &left);
@@ -55,18 +59,25 @@ impl Terms<'_> {
 
 impl Follows for Terms<'_> {
     fn size(&self) -> usize {
-        self.number
+        self.coefficients.len()
     }
 
     fn left(&self, samples: &Samples<'_>, less: &[f64]) -> Vec<f64> {
-        self.polynomial.left(samples, less)
+        let pairs = self.coefficients.iter().zip(less);
+        let coefficients: Vec<f64> = pairs.map(|(c, less)| c - less).collect();
+        samples.left(&parallel::list(samples.t.len(), |i| {
+            let mut sum = 0.0;
+            let take = |j: usize, term: f64| sum += coefficients[j] * term;
+            self.polynomial.terms(self.size(), samples.t[i], take);
+            sum
+        }))
     }
 
     fn followed(&self, samples: &Samples<'_>, errors: &[f64]) -> Vec<f64> {
-        let errors = [errors.to_vec()];
         let terms = |t: f64, take: &mut dyn FnMut(usize, f64)| {
-            self.polynomial.terms(self.number, t, take);
+            self.polynomial.terms(self.size(), t, take);
         };
-        samples.products(self.number, &errors, terms).concat()
+        let errors = [errors.to_vec()];
+        samples.products(self.size(), &errors, terms).concat()
     }
 }

@@ -172,21 +172,6 @@ impl Polynomial {
         (self.noise, all)
     }
 
-    /// What the first terms leave of samples, with coefficients less these.
-    pub(super) fn left(&self, samples: &Samples<'_>, less: &[f64]) -> Vec<f64> {
-        let coefficients: Vec<f64> = self
-            .coefficients
-            .iter()
-            .zip(less)
-            .map(|(c, l)| c - l)
-            .collect();
-        samples.left(&parallel::list(samples.t.len(), |i| {
-            let mut sum = 0.0;
-            self.terms(less.len(), samples.t[i], |j, q| sum += coefficients[j] * q);
-            sum
-        }))
-    }
-
     /// The first orthonormal terms at `t`, one after the other.
     pub(super) fn terms(&self, count: usize, t: f64, mut take: impl FnMut(usize, f64)) {
         let s = (t - self.middle) / self.half;

@@ -2,13 +2,15 @@
 
 use super::dependent::{Dependent, Follows, Scattered};
 use super::likely::STRONGEST;
-use super::outstanding::OUT;
 use super::penalized::Normal;
 use super::pieces::{Grid, Piecewise, basis};
 use super::spline::FAILED;
 use super::{Kind, Samples, Size, Spline};
 use crate::numeric::banded::Factors;
 use crate::numeric::parallel;
+
+/// Standard deviations from which on a spline stands out.
+const OUT: f64 = 2.0;
 
 /// Halvings in the search for a penalty.
 const HALVINGS: usize = 7;

@@ -70,7 +70,7 @@ impl Passages {
             (sensor.shown(passage.theta).1 * speed * passage.between).abs()
         };
         let mut known: Vec<(Passage, f64)> = found.iter().copied().zip(speeds(&found)).collect();
-        known.retain(|passage| growth(passage) > 0.0);
+        known.retain(|passage| growth(passage) > 0.0 && passage.1.is_finite());
         let growths: Vec<f64> = known.iter().map(growth).collect();
         let changes = known
             .iter()
