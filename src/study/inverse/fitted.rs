@@ -26,6 +26,8 @@ pub(super) struct Fitted {
     pub floor: f64,
     /// Passages from step to step that were fitted instead of the samples, if so.
     pub passages: Option<usize>,
+    /// What samples of an even motion go on by, rad or m: they may be exact, or rounded to steps of which this is a multiple.
+    pub even_step: Option<f64>,
 }
 
 /// Units of rounding to which samples without noise are right, that were computed: a computed motion goes on with its
@@ -49,7 +51,8 @@ impl Fitted {
         size: Size,
     ) -> Result<Fitted, String> {
         let digits = measurement.resolution();
-        if let Some(step) = common_step(measurement.values(), digits) {
+        let common = common_step(measurement.values(), digits);
+        if let Some(step) = common {
             let fitted = Fitted::to(sensor, measurement, theta.clone(), (kind, size), step);
             // Values on an even motion may have a common step without being rounded to it.
             if let Ok(fitted) = fitted
@@ -58,7 +61,11 @@ impl Fitted {
                 return Ok(fitted);
             }
         }
-        Fitted::to(sensor, measurement, theta, (kind, size), digits)
+        let fitted = Fitted::to(sensor, measurement, theta, (kind, size), digits)?;
+        Ok(Fitted {
+            even_step: common.filter(|_| sensor.measured == Measured::Theta),
+            ..fitted
+        })
     }
 
     /// Fits the motion to values rounded to steps.
@@ -140,6 +147,7 @@ impl Fitted {
             continued: None,
             floor: samples.floor,
             passages: None,
+            even_step: None,
         }
     }
 

@@ -83,6 +83,12 @@ pub(super) fn of_fit(
             quality.parameters.round()
         ));
     }
+    if let Some(step) = fitted.even_step {
+        warnings.push(format!(
+            "the samples go on by multiples of {}: the band takes them as exact, and does not hold what an instrument that rounds to steps hides of an even motion",
+            measurement.shown(step)
+        ));
+    }
     if fitted.errors.pattern.clear {
         warnings.push(format!(
             "the residuals are not noise (correlation of each with the next {:.2}, runs of one sign {:+.0} standard deviations): the fit misses part of the motion, or the samples are not independent; the standard errors {}, and {}",
