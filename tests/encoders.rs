@@ -107,3 +107,16 @@ fn a_swing_of_few_steps() {
     let share = covered(FitKind::Polynomial, 9000, swing);
     assert!(share >= 0.9, "{share}");
 }
+
+/// An even motion of whole steps from sample to sample shows nothing of the steps.
+#[test]
+fn an_even_motion_may_be_rounded() {
+    let whole = even(28.0);
+    let times: Vec<f64> = (0..80).map(|i| 1e-3 * f64::from(i)).collect();
+    let angles = times.iter().map(|t| whole(*t)[0]).collect();
+    let samples = Measurement::new(Measured::Theta, times, angles).expect("samples");
+    let found = inverse(&scene(), &samples, &InverseOptions::default()).expect("an inversion");
+    let warnings = &found.summary.warnings;
+    let said = |warning: &String| warning.contains("takes them as exact");
+    assert!(warnings.iter().any(said), "{warnings:#?}");
+}
