@@ -14,13 +14,16 @@ const MOST: usize = 20_000;
 /// less, with twice as many they change by a few per cent.
 const ROUNDS: usize = 8;
 
+/// One of several errors, for the samples of these numbers of which a motion leaves so much.
+type OneError<'a> = &'a dyn Fn(usize, &[usize], &[f64]) -> Vec<f64>;
+
 /// Errors that are as likely as each other.
 #[derive(Clone, Copy)]
 pub struct Dependent<'a> {
     /// How many they are.
     pub number: usize,
-    /// One of them, for the samples of these numbers of which a motion leaves so much.
-    pub error: &'a dyn Fn(usize, &[usize], &[f64]) -> Vec<f64>,
+    /// One of them.
+    pub error: OneError<'a>,
 }
 
 /// A curve whose parameters go with the samples almost as lines.
