@@ -107,6 +107,25 @@ fn even_samples_of_a_clock() {
     }
 }
 
+/// Uneven times that were rounded are said, exact ones are not.
+#[test]
+fn uneven_rounded_times_are_said() {
+    let time = |i: usize| PERIOD * (i as f64 + 0.3 * noise(i) / 3.0);
+    let exact = |t: f64| 0.4 + SPEED * t + 0.2 * (9.0 * t).sin();
+    let angles: Vec<f64> = (0..ROWS).map(|i| exact(time(i))).collect();
+    let rounded = |i: usize| (time(i) * 1e6).round() * 1e-6;
+    for (times, said) in [
+        ((0..ROWS).map(rounded).collect::<Vec<f64>>(), true),
+        ((0..ROWS).map(time).collect(), false),
+    ] {
+        let motion = Measurement::new(Measured::Theta, times, angles.clone()).expect("samples");
+        let found = inverse(&scene(), &motion, &InverseOptions::default()).expect("an inversion");
+        let warnings = &found.summary.warnings;
+        let of_times = |w: &String| w.contains("uneven and rounded");
+        assert_eq!(warnings.iter().any(of_times), said, "{warnings:#?}");
+    }
+}
+
 /// Times that are what they are stay so.
 #[test]
 fn other_times_are_left() {

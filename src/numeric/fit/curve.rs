@@ -2,7 +2,8 @@
 
 use super::condensed::Rows;
 use super::dense;
-use super::outstanding::{Dependent, outstanding};
+use super::dependent::Dependent;
+use super::outstanding::Terms;
 use super::pieces::DEGREE;
 use super::{Fourier, MOST_IN_DOUBLE, Polynomial, Quality, Samples, Size, Spline, State};
 use crate::numeric::parallel;
@@ -171,18 +172,17 @@ impl Curve {
     /// # Errors
     /// A text that says why the samples do not serve.
     pub fn admit(&mut self, samples: &Samples<'_>, errors: Dependent<'_>) -> Result<(), String> {
-        let left = match self {
-            Curve::Polynomial(polynomial) => {
-                polynomial.left(samples, outstanding(polynomial, samples, errors))
-            }
-            Curve::Spline(_) | Curve::Fourier(_) => samples.left(&self.values(samples.t)),
-        };
-        let all: Vec<usize> = (0..left.len()).collect();
-        let errors = errors(&all, &left);
         match self {
-            Curve::Polynomial(polynomial) => polynomial.admit(samples, &errors),
-            Curve::Spline(spline) => spline.admit(samples, &errors)?,
-            Curve::Fourier(fourier) => fourier.admit(samples, &errors),
+            Curve::Polynomial(polynomial) => {
+                let terms = Terms::outstanding(polynomial, samples, errors);
+                let errors = errors.beside_motions(&terms, samples);
+                polynomial.admit(samples, &errors);
+            }
+            Curve::Spline(spline) => spline.admit(samples, errors)?,
+            Curve::Fourier(fourier) => {
+                let errors = errors.beside_motions(&**fourier, samples);
+                fourier.admit(samples, &errors);
+            }
         }
         Ok(())
     }

@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::condensed::Rows;
+use super::dependent::Follows;
 use super::design::{solve, squares};
 use super::gram::products;
 use super::rotation::{most_harmonics, settle, supported, turns};
@@ -222,6 +223,31 @@ impl Fourier {
             add_products(&mut state.bias, &[0.0, rate, 0.0], *variance);
         }
         state
+    }
+}
+
+impl Follows for Fourier {
+    fn size(&self) -> usize {
+        self.parameters.len()
+    }
+
+    fn left(&self, samples: &Samples<'_>, less: &[f64]) -> Vec<f64> {
+        let parameters: Vec<f64> = self
+            .parameters
+            .iter()
+            .zip(less)
+            .map(|(p, l)| p - l)
+            .collect();
+        let waves = Periodic::new(waves(&parameters), samples.t.len());
+        samples.left(&parallel::list(samples.t.len(), |i| {
+            let angle = parameters[1] * (samples.t[i] - self.middle);
+            parameters[0] + angle + waves.at(angle)[0]
+        }))
+    }
+
+    fn followed(&self, samples: &Samples<'_>, errors: &[f64]) -> Vec<f64> {
+        let right = products(samples, self.middle, &self.parameters, errors);
+        self.triangle.normal_solve(&right)
     }
 }
 

@@ -10,7 +10,7 @@ use crate::numeric::banded::DIAGONALS;
 use crate::numeric::parallel;
 
 /// Logarithm of the strongest penalty, relative to the mean pivot: next to it a spline is a polynomial.
-const STRONGEST: f64 = 26.0;
+pub(super) const STRONGEST: f64 = 26.0;
 
 /// Costs that differ by this are of penalties about as likely: one standard deviation of the likely penalty.
 const ALIKE: f64 = 1.0;

@@ -172,15 +172,6 @@ impl Polynomial {
         (self.noise, all)
     }
 
-    /// What the first terms leave of samples.
-    pub(super) fn left(&self, samples: &Samples<'_>, terms: usize) -> Vec<f64> {
-        samples.left(&parallel::list(samples.t.len(), |i| {
-            let mut sum = 0.0;
-            self.terms(terms, samples.t[i], |j, q| sum += self.coefficients[j] * q);
-            sum
-        }))
-    }
-
     /// The first orthonormal terms at `t`, one after the other.
     pub(super) fn terms(&self, count: usize, t: f64, mut take: impl FnMut(usize, f64)) {
         let s = (t - self.middle) / self.half;

@@ -12,7 +12,7 @@ use super::condensed::Rows;
 use super::covariance::Spread;
 use super::enough::{Enough, FEWEST, goes_through};
 use super::penalized::Normal;
-use super::pieces::{Grid, Piecewise, basis};
+use super::pieces::{Grid, Piecewise};
 use super::support::supported;
 use super::told::Told;
 use super::{DIAGONAL, Kind, Quality, Samples, Size, State, add_products, differences, refinement};
@@ -22,27 +22,27 @@ use crate::numeric::parallel;
 /// Cut-off frequency of the fit for one of the most likely penalty.
 const CUT_OFF: f64 = std::f64::consts::SQRT_2;
 
-const FAILED: &str = "the samples do not determine a spline";
+pub(super) const FAILED: &str = "the samples do not determine a spline";
 
 /// A fitted smoothing spline.
 #[derive(Clone, Debug)]
 pub struct Spline {
-    curve: Piecewise,
+    pub(super) curve: Piecewise,
     /// Strength of the most likely penalty.
     likely: f64,
     /// Strength of the penalty of the fit.
-    strength: f64,
+    pub(super) strength: f64,
     /// Band of the covariance of the coefficients, for samples of unit variance.
-    covariance: Banded,
+    pub(super) covariance: Banded,
     /// Coefficients of what may be wrong beside noise: of what the penalty has bent away, and of errors of the samples.
-    errors: Vec<Vec<f64>>,
+    pub(super) errors: Vec<Vec<f64>>,
     /// Whether its penalty is so weak that it goes through the samples.
     through: bool,
     /// Whether the samples ask for more pieces than blocks of them allowed.
     wants_more: bool,
     /// What it and its derivatives may be off between such samples, for each piece.
     between: Vec<[f64; 3]>,
-    quality: Quality,
+    pub(super) quality: Quality,
     condition: f64,
 }
 
@@ -174,28 +174,6 @@ impl Spline {
                 coefficients,
             },
         })
-    }
-
-    /// Counts what errors of the samples make of the spline as what may be wrong with it.
-    pub(super) fn admit(
-        &mut self,
-        samples: &Samples<'_>,
-        errors: &[Vec<f64>],
-    ) -> Result<(), String> {
-        let size = Size::Fixed(self.curve.grid.pieces);
-        let rows = Kind::Spline.rows(samples, size, samples.computed());
-        let normal = Normal::new(&rows, self.curve.grid.pieces);
-        let factor = normal.factor(self.strength).ok_or(FAILED)?;
-        let right = samples.products(self.curve.grid.size(), errors, |t, take| {
-            let (piece, u) = self.curve.grid.place(t);
-            let basis = basis(u).into_iter();
-            basis
-                .zip(piece..)
-                .for_each(|(value, term)| take(term, value));
-        });
-        self.errors
-            .extend(right.iter().map(|right| factor.solve(right)));
-        Ok(())
     }
 
     /// Estimates the error of a spline that goes through its samples, if it does, from splines through fewer of them, and

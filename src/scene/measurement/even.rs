@@ -118,6 +118,8 @@ mod tests {
             (0.0, 1.0 / 3000.0, 1e-6),
             (0.2, 1.0 / 300.0, 1e-3),
             (0.0, 1.00002e-3, 1e-6),
+            // The first one is rounded by almost half a step.
+            (4e-7, 1.0 / 3000.0, 1e-6),
         ] {
             let times = rounded(start, period, step);
             let found = Even::of(&times).expect("even times");
@@ -145,5 +147,11 @@ mod tests {
         let mut slower = rounded(0.0, 1e-3, 1e-4);
         slower.extend(rounded(0.6, 1.3e-3, 1e-4));
         assert_eq!(Even::of(&slower), None);
+        // One that goes on by the same two multiples of a step.
+        let mut slower = rounded(0.0, 1.0002e-3, 1e-6);
+        slower.extend(rounded(0.500_1 + 1.0008e-3, 1.0008e-3, 1e-6));
+        assert_eq!(Even::of(&slower), None);
+        // Ones that may be times of some samples of more.
+        assert_eq!(Even::of(&rounded(0.0, 1.3, 1.0)), None);
     }
 }

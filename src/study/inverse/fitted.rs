@@ -7,7 +7,7 @@ use super::rounding::{Rounding, common_step, of_step};
 use super::seen::Seen;
 use super::sensor::Sensor;
 use crate::numeric::chebyshev::largest;
-use crate::numeric::fit::{Curve, Kind, Samples, Size, State};
+use crate::numeric::fit::{Curve, Dependent, Kind, Samples, Size, State};
 use crate::numeric::parallel;
 use crate::scene::{Measured, Measurement};
 
@@ -26,6 +26,8 @@ pub(super) struct Fitted {
     pub floor: f64,
     /// Passages from step to step that were fitted instead of the samples, if so.
     pub passages: Option<usize>,
+    /// What samples of an even motion go on by, rad or m: they may be exact, or rounded to steps of which this is a multiple.
+    pub even_step: Option<f64>,
 }
 
 /// Units of rounding to which samples without noise are right, that were computed: a computed motion goes on with its
@@ -49,7 +51,8 @@ impl Fitted {
         size: Size,
     ) -> Result<Fitted, String> {
         let digits = measurement.resolution();
-        if let Some(step) = common_step(measurement.values(), digits) {
+        let common = common_step(measurement.values(), digits);
+        if let Some(step) = common {
             let fitted = Fitted::to(sensor, measurement, theta.clone(), (kind, size), step);
             // Values on an even motion may have a common step without being rounded to it.
             if let Ok(fitted) = fitted
@@ -58,7 +61,11 @@ impl Fitted {
                 return Ok(fitted);
             }
         }
-        Fitted::to(sensor, measurement, theta, (kind, size), digits)
+        let fitted = Fitted::to(sensor, measurement, theta, (kind, size), digits)?;
+        Ok(Fitted {
+            even_step: common.filter(|_| sensor.measured == Measured::Theta),
+            ..fitted
+        })
     }
 
     /// Fits the motion to values rounded to steps.
@@ -140,6 +147,7 @@ impl Fitted {
             continued: None,
             floor: samples.floor,
             passages: None,
+            even_step: None,
         }
     }
 
@@ -215,15 +223,20 @@ impl Fitted {
             return Ok(());
         };
         let theta = self.curve.values(samples.t);
-        self.curve.admit(samples, &|chosen, left| {
+        let error = |place: usize, chosen: &[usize], left: &[f64]| {
             // Values before rounding, with the sign with which each counts.
             let exact = parallel::list(chosen.len(), |k| {
                 let i = chosen[k];
                 let sign = sensor.sign(values[i], || theta[i]);
                 (values[i] - sign * left[k], sign)
             });
-            rounding.errors(&exact)
-        })?;
+            rounding.error(place, &exact)
+        };
+        let errors = Dependent {
+            number: rounding.places(),
+            error: &error,
+        };
+        self.curve.admit(samples, errors)?;
         self.errors.without(&rounding);
         Ok(())
     }

@@ -65,21 +65,25 @@ impl Rounding {
             .sqrt()
     }
 
-    /// Independent errors whose products have the covariance of the terms, for the values before rounding, each with the
-    /// sign with which it counts.
-    pub fn errors(&self, exact: &[(f64, f64)]) -> Vec<Vec<f64>> {
-        let mut errors = Vec::with_capacity(2 * self.terms.len());
-        for (k, variance) in self.terms.iter().enumerate() {
-            let size = variance.sqrt();
-            let rate = TAU * (k + 1) as f64 / self.step;
-            let (cos, sin) = parallel::pairs(exact.len(), |i| {
-                let (value, sign) = exact[i];
-                let (sin, cos) = (rate * value).sin_cos();
-                (sign * size * cos, sign * size * sin)
-            });
-            errors.extend([cos, sin]);
-        }
-        errors
+    /// How many places of the steps stand for all of them: as many as tell the terms from each other.
+    pub fn places(&self) -> usize {
+        2 * self.terms.len() + 1
+    }
+
+    /// What rounding adds to values, each with the sign with which it counts, at one of the places of the steps.
+    pub fn error(&self, place: usize, exact: &[(f64, f64)]) -> Vec<f64> {
+        let sizes: Vec<f64> = self.terms.iter().map(|v| (2.0 * v).sqrt()).collect();
+        let moved = place as f64 / self.places() as f64;
+        parallel::list(exact.len(), |i| {
+            let (value, sign) = exact[i];
+            let (sin, cos) = (TAU * (value / self.step + moved)).sin_cos();
+            // Clenshaw's sum of sines.
+            let (mut sum, mut after) = (0.0, 0.0);
+            for size in sizes.iter().rev() {
+                (sum, after) = (size + 2.0 * cos * sum - after, sum);
+            }
+            sign * sin * sum
+        })
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::InverseOptions;
 use super::fitted::Fitted;
+use super::rounding::{common_step, of_step};
 use super::row::Rows;
 use crate::error::Error;
 use crate::numeric::fit::{Curve, Kind, Size};
@@ -12,6 +13,12 @@ const OUTLIER: f64 = 6.0;
 
 /// Fewest degrees of freedom of the others that tell their standard deviation well enough.
 const LEAST_FREE: f64 = 10.0;
+
+/// Part of the time between samples up to which a step of times is one of rounding.
+const WITHIN: f64 = 0.3;
+
+/// Part of what a fit leaves from which on it comes from rounded times.
+const PART: f64 = 0.5;
 
 /// Units of rounding to which a residual is computed.
 const ROUNDED: f64 = 4.0;
@@ -83,6 +90,13 @@ pub(super) fn of_fit(
             quality.parameters.round()
         ));
     }
+    if let Some(step) = fitted.even_step {
+        warnings.push(format!(
+            "the samples go on by multiples of {}: the band takes them as exact, and does not hold what an instrument that rounds to steps hides of an even motion",
+            measurement.shown(step)
+        ));
+    }
+    warnings.extend(rounded_times(fitted, measurement));
     if fitted.errors.pattern.clear {
         warnings.push(format!(
             "the residuals are not noise (correlation of each with the next {:.2}, runs of one sign {:+.0} standard deviations): the fit misses part of the motion, or the samples are not independent; the standard errors {}, and {}",
@@ -111,6 +125,28 @@ pub(super) fn of_fit(
     }
     warnings.extend(outliers(fitted, measurement));
     warnings
+}
+
+/// Uneven times that were rounded, where that is a large part of what the fit leaves: it is more where the measured values
+/// change fast, which the stated errors do not tell.
+fn rounded_times(fitted: &Fitted, measurement: &Measurement) -> Option<String> {
+    let (times, values) = (measurement.elapsed(), fitted.measured(measurement));
+    let step = common_step(times, 0.0)?;
+    let last = times.len() - 1;
+    // Times that are multiples of the usual one are those of a clock, with gaps.
+    if step > WITHIN * (times[last] - times[0]) / last as f64 {
+        return None;
+    }
+    let pairs = times.windows(2).zip(values.windows(2));
+    let rates = pairs.map(|(t, value)| ((value[1] - value[0]) / (t[1] - t[0])).powi(2));
+    let rate = (rates.sum::<f64>() / last as f64).sqrt();
+    (of_step(step) * rate > PART * fitted.left()).then(|| {
+        format!(
+            "the times are uneven and rounded to {} s, in which the measured values change by {}: the stated errors take that as noise that is the same everywhere, and may be too small by several times",
+            format_args!("{step:.1e}"),
+            measurement.shown(step * rate)
+        )
+    })
 }
 
 /// Terms of a polynomial of given degree that the samples do not support.

@@ -135,16 +135,23 @@ fn together(changes: &[Passage]) -> Passage {
     }
 }
 
-/// Speeds at passages, as their neighbours tell, rad/s.
+/// Speeds at passages, rad/s: those of the parabola through each and its neighbours, which a motion that turns back between
+/// two of them asks for.
 pub(super) fn speeds(passages: &[Passage]) -> Vec<f64> {
-    let speed = |i: usize| {
-        let around = &passages[i.saturating_sub(1)..passages.len().min(i + 2)];
-        let ways = around
-            .windows(2)
-            .map(|pair| (pair[1].theta - pair[0].theta).abs());
-        ways.sum::<f64>() / (around[around.len() - 1].t - around[0].t)
+    let last = passages.len() - 1;
+    let mean = |i: usize| {
+        let [from, to] = [passages[i], passages[i + 1]];
+        (to.theta - from.theta) / (to.t - from.t)
     };
-    (0..passages.len()).map(speed).collect()
+    let speed = |i: usize| match i {
+        0 => mean(0),
+        i if i == last => mean(last - 1),
+        i => {
+            let [before, after] = [i - 1, i].map(|k| passages[k + 1].t - passages[k].t);
+            (mean(i - 1) * after + mean(i) * before) / (before + after)
+        }
+    };
+    (0..=last).map(|i| speed(i).abs()).collect()
 }
 
 /// Samples between passages that are far apart, about as close as passages are elsewhere, and the first and last one: they

@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 use super::rounding::{Rounding, of_step};
 use super::sensor::Sensor;
 use crate::numeric::chebyshev::largest;
-use crate::numeric::fit::{Curve, Kind, Samples, Size};
+use crate::numeric::fit::{Curve, Dependent, Kind, Samples, Size};
 use crate::numeric::median::median;
 use crate::numeric::{parallel, root};
 use crossings::{Passage, speeds};
@@ -70,7 +70,7 @@ impl Passages {
             (sensor.shown(passage.theta).1 * speed * passage.between).abs()
         };
         let mut known: Vec<(Passage, f64)> = found.iter().copied().zip(speeds(&found)).collect();
-        known.retain(|passage| growth(passage) > 0.0);
+        known.retain(|passage| growth(passage) > 0.0 && passage.1.is_finite());
         let growths: Vec<f64> = known.iter().map(growth).collect();
         let changes = known
             .iter()
@@ -155,14 +155,20 @@ impl Passages {
             return Ok(None);
         };
         let speeds: Vec<f64> = parallel::list(self.t.len(), |i| curve.state(self.t[i]).value[1]);
-        curve.admit(&self.samples(), &|chosen, left| {
+        let error = |place: usize, chosen: &[usize], left: &[f64]| {
             let exact = parallel::list(chosen.len(), |k| {
                 let i = chosen[k];
                 let sign = speeds[i].signum();
-                (self.step * (self.t[i] / period) + sign * left[k], sign)
+                // A time that is too late counts as an angle that is too small.
+                (self.step * (self.t[i] / period) + sign * left[k], -sign)
             });
-            rounding.errors(&exact)
-        })?;
+            rounding.error(place, &exact)
+        };
+        let errors = Dependent {
+            number: rounding.places(),
+            error: &error,
+        };
+        curve.admit(&self.samples(), errors)?;
         Ok(Some(rounding))
     }
 }
