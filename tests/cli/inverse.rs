@@ -488,7 +488,7 @@ fn figures_show_the_bulk_of_the_forces_and_those_of_the_paper() {
 fn figures_of_a_motion_that_ends_at_a_dead_centre_have_the_same_time() {
     let row = |i: u32| {
         let t = f64::from(i) / 100.0;
-        format!("{t:.2},{:.3}", 3.14 - 2.14 * (1.0 - t).powi(3))
+        format!("{t:.2},{:.3}", 1.0 + 2.14 * (1.0 - (1.0 - t).powi(3)))
     };
     let rows: Vec<String> = (0..=100).map(row).collect();
     let folder = folder(&data("t [s],theta [rad]", &rows));
