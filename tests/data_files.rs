@@ -155,3 +155,101 @@ fn a_rest_is_no_end_of_a_range() {
         assert!(motion.notes().is_empty(), "{:?}", motion.notes());
     }
 }
+
+/// Rows of a file, the numbers with six decimals.
+fn plain_rows() -> Vec<String> {
+    let angle = |t: f64| 0.3 + 2.0 * t + t * t;
+    let row = |i: i32| (0.01 * f64::from(i), angle(0.01 * f64::from(i)));
+    let rows = (1..=40).map(row);
+    rows.map(|(t, theta)| format!("{t:.6},{theta:.6}"))
+        .collect()
+}
+
+/// A file that was cut off in a number says so; one that ends in a whole number does not, and the end of the last line makes
+/// any number a whole one.
+#[test]
+fn a_number_that_is_cut_short_is_noted() {
+    let whole = format!("t [s],theta [rad]\n{}", plain_rows().join("\n"));
+    let last = "1.260000";
+    assert!(whole.ends_with(last));
+    for (cut, expected) in [(0, false), (1, true), (4, true), (6, true), (7, true)] {
+        let text = &whole[..whole.len() - cut];
+        let notes = read(text).notes().join("\n");
+        let said = format!("its last number, {}, has fewer", &last[..last.len() - cut]);
+        assert_eq!(notes.contains(&said), expected, "{cut}: {notes}");
+        assert_eq!(read(&format!("{text}\n")).notes().join("\n"), "", "{cut}");
+    }
+    let noted: Vec<String> = plain_rows()
+        .iter()
+        .map(|row| format!("{row},0.123"))
+        .collect();
+    let text = format!("t [s],theta [rad],note [1]\n{}", noted.join("\n"));
+    let text = &text[..text.len() - ".123".len()];
+    assert_eq!(
+        read(text).notes().join("\n"),
+        "",
+        "of a column that is not used"
+    );
+}
+
+/// Samples without motion are taken, and said to be such.
+#[test]
+fn samples_that_are_all_equal_are_noted() {
+    let times: Vec<f64> = (0..40).map(f64::from).collect();
+    for (measured, value, shown) in [
+        (Measured::Theta, 0.5, "theta are 0.5 rad"),
+        (Measured::Gamma, 1.5, "gamma are 1.5 rad"),
+        (Measured::X, 0.15, "x are 0.15 m"),
+    ] {
+        let notes = |values: Vec<f64>| {
+            let motion = Measurement::new(measured, times.clone(), values);
+            motion.expect("samples").notes().join("\n")
+        };
+        let mut values = vec![value; 40];
+        let said = notes(values.clone());
+        assert!(said.contains(shown) && said.contains("no motion"), "{said}");
+        values[20] += 1e-9;
+        assert!(!notes(values).contains("no motion"));
+    }
+}
+
+/// Times whose unit is wrong leave no speed that is a number.
+#[test]
+fn times_too_close_to_each_other_are_refused() {
+    let rows = (1..=40).map(|i| format!("{i}e-310,0.{i:02}\n"));
+    let text = format!("t [s],theta [rad]\n{}", rows.collect::<String>());
+    let wrong = Measurement::parse(Path::new("data.csv"), text, &Reading::default());
+    let wrong = wrong.expect_err("an impossible unit").to_string();
+    for part in ["within 3.9e-309 s", "data.csv:41:1", "check their unit"] {
+        assert!(wrong.contains(part), "{wrong}");
+    }
+}
+
+/// Numbers with decimal commas between commas are said to need other separators.
+#[test]
+fn decimal_commas_between_commas_are_seen() {
+    let rows = plain_rows().join("\n").replace('.', ",");
+    let wrong = Measurement::parse(
+        Path::new("data.csv"),
+        format!("t [s],theta [rad]\n{rows}\n"),
+        &Reading::default(),
+    );
+    let wrong = wrong.expect_err("four values a row").to_string();
+    for part in [
+        "4 values where the header has 2",
+        "data.csv:2:1",
+        "have decimal commas",
+    ] {
+        assert!(wrong.contains(part), "{wrong}");
+    }
+}
+
+/// Blanks about a number are no part of it, those of a word processor neither.
+#[test]
+fn blanks_that_do_not_break_lines_are_blanks() {
+    let text = format!("t [s],theta [rad]\n{}\n", plain_rows().join("\n"));
+    let expected = read(&text);
+    let found = read(&text.replace(',', ",\u{a0}"));
+    assert_eq!(found.values(), expected.values());
+    assert_eq!(found.resolution(), expected.resolution());
+}

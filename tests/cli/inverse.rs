@@ -483,6 +483,30 @@ fn figures_show_the_bulk_of_the_forces_and_those_of_the_paper() {
     assert!(duarte.contains("(9) as printed") && !duarte.contains("cut off"));
 }
 
+/// All figures show the same time, also where the last samples, at a dead centre, have no force.
+#[test]
+fn figures_of_a_motion_that_ends_at_a_dead_centre_have_the_same_time() {
+    let row = |i: u32| {
+        let t = f64::from(i) / 100.0;
+        format!("{t:.2},{:.3}", 1.0 + 2.14 * (1.0 - (1.0 - t).powi(3)))
+    };
+    let rows: Vec<String> = (0..=100).map(row).collect();
+    let folder = folder(&data("t [s],theta [rad]", &rows));
+    let arguments = [
+        "inverse",
+        "scene.toml",
+        "data.csv",
+        "--plot",
+        "end.svg",
+        "--json",
+    ];
+    let summary = folder.run(&arguments).done().json();
+    let bands = summary["dead_centre_bands"].as_array().expect("a list");
+    assert_eq!(bands.last().expect("a band")["to_s"], 1.0);
+    let last_time = folder.read("end.svg").matches(">\n1.0\n<").count();
+    assert_eq!(last_time, 4);
+}
+
 #[test]
 fn dead_centres_are_marked_over_all_of_many_turns() {
     let row = |i: u32| {

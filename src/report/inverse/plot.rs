@@ -19,6 +19,9 @@ const PEAKS: f64 = 0.025;
 /// Part of the longest lever arm of a motion above which a force is in no such peak.
 const LONG_ARM: f64 = 0.1;
 
+/// Part of a range that is left free beside it.
+const MARGIN: f64 = 0.04;
+
 /// Data, fit, residuals, force and torque side by side, as SVG; with the forces as Duarte et al. print them if given.
 ///
 /// # Errors
@@ -33,8 +36,11 @@ pub fn inverse_figure(result: &Inverse, printed: Option<&AsPrinted>) -> Result<S
     panels(&result.summary.scene, &figures, 2)
 }
 
-fn time() -> Axis {
-    Axis::linear("time [s]")
+/// The time of all samples, whether or not they have a force.
+fn time(result: &Inverse) -> Axis {
+    let data = &result.summary.data;
+    let margin = MARGIN * (data.to_s - data.from_s);
+    Axis::linear("time [s]").range(data.from_s - margin, data.to_s + margin)
 }
 
 /// Name and unit of what was measured, and its size in SI.
@@ -67,7 +73,7 @@ fn motion(result: &Inverse) -> Figure {
     let fit = result.residuals.iter().step_by(many);
     Figure::new(
         format!("{name}: samples and {} fit", result.summary.fit.kind),
-        time(),
+        time(result),
         Axis::linear(format!("{name} [{unit}]")),
     )
     .points(
@@ -90,7 +96,7 @@ fn residuals(result: &Inverse) -> Figure {
     let label = "twice the standard deviation of a sample";
     Figure::new(
         "residuals",
-        time(),
+        time(result),
         Axis::linear(format!("measured minus fitted [{unit}]")),
     )
     .points(
@@ -124,7 +130,7 @@ fn forces(result: &Inverse, printed: Option<&AsPrinted>) -> Figure {
             |row: &Option<&InverseRow>| row.map_or((f64::NAN, f64::NAN), |r| (r.t, value(r)));
         rows.iter().map(point).collect()
     };
-    let mut figure = Figure::new(title, time(), axis)
+    let mut figure = Figure::new(title, time(result), axis)
         .band(&label, band(&rows, of))
         .line(&label, line(&|row| of(row, 0.0)));
     if let Some(printed) = printed {
@@ -155,7 +161,7 @@ fn torques(result: &Inverse) -> Figure {
     let line = rows.iter().flatten().map(|row| (row.t, of(row, 0.0)));
     Figure::new(
         "crank torque that does the same, with 95 % band",
-        time(),
+        time(result),
         Axis::linear("crank torque [N m]"),
     )
     .band(&label, band(&rows, of))
@@ -231,6 +237,6 @@ fn without_peaks(label: &str, forces: &[(f64, f64)]) -> (Axis, bool) {
         return (axis, false);
     }
     let (low, high) = (low.max(lowest), high.min(highest));
-    let margin = 0.04 * (high - low);
+    let margin = MARGIN * (high - low);
     (axis.range(low - margin, high + margin), true)
 }

@@ -88,7 +88,7 @@ impl Digits {
 }
 
 /// The power of ten of the last digit of a number, changed in sign.
-fn decimals_of(cell: &[u8]) -> i32 {
+pub(super) fn decimals_of(cell: &[u8]) -> i32 {
     let end = cell.iter().position(|b| matches!(b, b'e' | b'E'));
     let mantissa = &cell[..end.unwrap_or(cell.len())];
     let exponent = end.and_then(|at| std::str::from_utf8(&cell[at + 1..]).ok()?.parse().ok());

@@ -1,6 +1,7 @@
 //! Measured motion: time and crank angle, crank-pin angle or slider position, sample by sample.
 
 mod columns;
+mod cut_short;
 mod digits;
 mod elapsed;
 mod even;

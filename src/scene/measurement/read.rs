@@ -149,8 +149,13 @@ fn samples(
                 },
                 counted(columns.count, "column")
             );
-            let help = "give one value for each column; leave no quote open".to_owned();
-            wrong(None, "row", what, help);
+            let help = match delimiter {
+                b',' if record.len() > columns.count => {
+                    "give one value for each column; where numbers have decimal commas, separate the columns by semicolon or tab"
+                }
+                _ => "give one value for each column; leave no quote open",
+            };
+            wrong(None, "row", what, help.to_owned());
             continue;
         }
         let mut pair = [f64::NAN; 2];
@@ -163,7 +168,9 @@ fn samples(
         let [time, value] = pair;
         times.push(time * columns.time.factor);
         values.push(value * columns.value.factor);
-        let cell = std::str::from_utf8(&record[columns.at[1]]).unwrap_or_default();
+        let cell = std::str::from_utf8(&record[columns.at[1]])
+            .unwrap_or_default()
+            .trim();
         digits.take(
             value,
             with_point(cell, columns).unwrap_or_default().as_bytes(),
@@ -219,7 +226,7 @@ fn runs_on(record: &ByteRecord) -> bool {
 
 /// A number, or what is wrong with it and what would be right.
 fn parse(cell: &[u8], columns: &Columns) -> Result<f64, (String, String)> {
-    let whole = std::str::from_utf8(cell).unwrap_or_default();
+    let whole = std::str::from_utf8(cell).unwrap_or_default().trim();
     let Some(text) = with_point(whole, columns) else {
         return Err((
             format!("`{whole}` has a point where numbers have decimal commas"),

@@ -1,5 +1,6 @@
 //! Samples checked against each other.
 
+use super::cut_short::cut_short;
 use super::saturated::saturated;
 use super::{LEAST_ROWS, Measured, Measurement};
 use crate::numeric::median::median;
@@ -11,6 +12,9 @@ const GAP: f64 = 4.5;
 
 /// Larger values leave no digits for what is computed from them.
 const LARGEST: f64 = 1e12;
+
+/// No motion of a mechanism is over in a shorter time, s: powers of a rate of change have no range left.
+const SHORTEST: f64 = 1e-12;
 
 /// Says what is wrong with the samples, and notes gaps between them.
 pub(super) fn check_rows(measurement: &mut Measurement) -> Result<(), Problems> {
@@ -52,9 +56,11 @@ pub(super) fn check_rows(measurement: &mut Measurement) -> Result<(), Problems> 
         problem.span = measurement.source.as_ref().map(|s| end(&s.text));
         problems.push(problem);
     }
+    problems.extend(too_short(measurement).filter(|_| problems.is_empty()));
     if problems.is_empty() {
         let spaced = measurement.space_evenly();
-        let notes = [gaps, far_from_zero, saturated].map(|noted| noted(measurement));
+        let notes =
+            [gaps, far_from_zero, saturated, at_rest, cut_short].map(|noted| noted(measurement));
         let notes = notes.into_iter().chain([spaced]).flatten();
         measurement.notes.extend(notes);
         return Ok(());
@@ -79,6 +85,30 @@ fn place(
         None => problem.field = format!("{name}, sample {}", sample + 1),
     }
     problem
+}
+
+/// Times so close to each other that their unit is wrong.
+fn too_short(measurement: &Measurement) -> Option<Problem> {
+    let times = measurement.elapsed();
+    let (first, last) = (times.first()?, times.last()?);
+    (last - first < SHORTEST).then(|| {
+        let what = format!("all samples lie within {} s", show(last - first));
+        let help = format!("give times over more than {SHORTEST:e} s: check their unit");
+        place(measurement, times.len() - 1, "time", what, help)
+    })
+}
+
+/// Samples that are all equal.
+fn at_rest(measurement: &Measurement) -> Option<String> {
+    let first = *measurement.values.first()?;
+    let is_same = measurement.values.iter().all(|value| *value == first);
+    is_same.then(|| {
+        format!(
+            "all values of {} are {}: the samples show no motion, and force and torque are those that hold the crank at rest",
+            measurement.measured.name(),
+            measurement.shown(first)
+        )
+    })
 }
 
 /// Steps of time far above the usual one.

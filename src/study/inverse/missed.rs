@@ -44,6 +44,8 @@ pub(super) struct Missed {
     whole: Option<Curve>,
     /// Standard deviation of a sample by noise beside that curve.
     pub noise: f64,
+    /// Whether that curve leaves little of the residuals, or nothing but noise.
+    follows: bool,
     /// Root mean square of the acceleration, rad/s².
     acceleration: f64,
 }
@@ -106,11 +108,12 @@ impl Missed {
         let own = own.transpose().ok()?.filter(freer);
         let whole = own.is_none().then(|| motion.clone());
         let mut curve = own.unwrap_or(alike);
-        let noise = noise_beside(&mut curve, left)?;
+        let (noise, follows) = noise_beside(&mut curve, left);
         Some(Missed {
             curve,
             whole,
             noise,
+            follows,
             acceleration: 0.0,
         })
     }
@@ -194,7 +197,7 @@ impl<'a> Looked<'a> {
             settled = rounds == 1 || missed.is_alike(before, &self.t);
             found = Some((motion, missed));
         }
-        found.filter(|_| settled)
+        found.filter(|(_, missed)| settled && missed.follows)
     }
 
     /// The same, with samples that are linear about what was found before.
@@ -220,17 +223,17 @@ impl<'a> Looked<'a> {
     }
 }
 
-/// Standard deviation of a sample beside a spline, widened where what that leaves has a pattern; none where it leaves much of
-/// the samples as well.
-fn noise_beside(spline: &mut Curve, samples: &Samples<'_>) -> Option<f64> {
+/// Standard deviation of a sample beside a spline, widened where what that leaves has a pattern; and whether it follows the
+/// samples, other than one that leaves much of them as well.
+fn noise_beside(spline: &mut Curve, samples: &Samples<'_>) -> (f64, bool) {
     let through = spline.compare(samples);
     let quality = spline.quality();
     if through {
-        return Some(quality.sigma);
+        return (quality.sigma, true);
     }
     let residuals = samples.left(&spline.values(samples.t));
     let pattern = Pattern::of(&residuals, spline, samples.t, quality.floor);
     let squares: f64 = samples.target.iter().map(|target| target * target).sum();
     let follows = !pattern.clear || quality.squares <= MUCH * squares;
-    follows.then_some(quality.sigma * pattern.widening)
+    (quality.sigma * pattern.widening, follows)
 }
