@@ -8,6 +8,8 @@
 
 use std::array::from_fn;
 
+use nalgebra::Matrix3;
+
 use crate::engine::Motion;
 use crate::engine::step::Step;
 
@@ -18,8 +20,6 @@ const RULE: [(f64, f64); NODES] = [
     (0.5, 8.0 / 18.0),
     (0.887_298_334_620_741_7, 5.0 / 18.0),
 ];
-/// Terms of the series of an exponential: of a part of at most 1/8 they reach rounding.
-const TAYLOR: u32 = 12;
 
 /// Changes from which slopes of the acceleration are taken: of the angle, rad, of the speed, in parts of itself,
 /// and of the time, in parts of the step. The angle changes by no more than in the step, next to a limit the slope may be
@@ -31,14 +31,14 @@ const LATER: f64 = 1e-2;
 /// On a way this short, rad, the motion a little later is no guide: angle and speed are rounded.
 const SHORTEST: f64 = 1e-11;
 
+/// Nothing is known of a step of which an exponent is larger.
+const STEEPEST: f64 = 1e12;
+
 /// Where the time changes the motion by more than this part of it in a step, the one a little later is another one.
 const PUSHED: f64 = 0.3;
 
 /// A 2 by 2 matrix, row by row.
 pub(super) type Transition = [[f64; 2]; 2];
-
-type Matrix = [[f64; 3]; 3];
-const UNIT: Matrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// Slopes of the acceleration at the nodes of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -107,31 +107,28 @@ impl Slopes {
         let largest = self.by_time.iter().fold(0.0f64, |m, x| m.max(x.abs()));
         let unit = if largest > 0.0 { h * h * largest } else { 1.0 };
         // Of the angle, the speed in angles over h, and one.
-        let [first, middle, last]: [Matrix; NODES] = from_fn(|i| {
+        let [first, middle, last]: [Matrix3<f64>; NODES] = from_fn(|i| {
+            let (by_angle, by_speed) = (h * h * self.by_angle[i], h * self.by_speed[i]);
             let push = h * h * self.by_time[i] / unit;
-            let bend = [h * h * self.by_angle[i], h * self.by_speed[i], push];
-            [[0.0, 1.0, 0.0], bend, [0.0; 3]]
+            Matrix3::new(0.0, 1.0, 0.0, by_angle, by_speed, push, 0.0, 0.0, 0.0)
         });
-        let even = scaled(
-            10.0 / 3.0,
-            &combined([(1.0, &first), (-2.0, &middle), (1.0, &last)]),
-        );
-        let odd = scaled(
-            15f64.sqrt() / 3.0,
-            &combined([(1.0, &last), (-1.0, &first)]),
-        );
+        let even = (first - 2.0 * middle + last) * (10.0 / 3.0);
+        let odd = (last - first) * (15f64.sqrt() / 3.0);
         let inner = commutator(&middle, &odd);
-        let outer = commutator(&middle, &combined([(2.0, &even), (1.0, &inner)]));
-        let left = combined([(-20.0, &middle), (-1.0, &even), (1.0, &inner)]);
-        let right = combined([(1.0, &odd), (-1.0 / 60.0, &outer)]);
-        let mixed = commutator(&left, &right);
-        let end = exponential(&combined([
-            (1.0, &middle),
-            (1.0 / 12.0, &even),
-            (1.0 / 240.0, &mixed),
-        ]));
-        let transition = [[end[0][0], h * end[0][1]], [end[1][0] / h, end[1][1]]];
-        (transition, [unit * end[0][2], unit * end[1][2] / h])
+        let outer = commutator(&middle, &(2.0 * even + inner));
+        let mixed = commutator(&(inner - 20.0 * middle - even), &(odd - outer / 60.0));
+        let exponent = middle + even / 12.0 + mixed / 240.0;
+        let end = if exponent.iter().all(|entry| entry.abs() < STEEPEST) {
+            exponent.exp()
+        } else {
+            Matrix3::repeat(f64::NAN)
+        };
+        let transition = [
+            [end[(0, 0)], h * end[(0, 1)]],
+            [end[(1, 0)] / h, end[(1, 1)]],
+        ];
+        let pushed = [unit * end[(0, 2)], unit * end[(1, 2)] / h];
+        (transition, pushed)
     }
 
     /// The transition that takes `along` to `then`, with the right determinant; the rest as in another one. Speeds
@@ -169,35 +166,8 @@ fn mean(values: &[f64; NODES]) -> f64 {
     weighted.map(|((_, weight), value)| weight * value).sum()
 }
 
-/// exp of a matrix: Taylor's series of a small part of it, squared until it is the whole. No numbers if it is not finite.
-fn exponential(matrix: &Matrix) -> Matrix {
-    let size = matrix.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
-    if !size.is_finite() {
-        return [[f64::NAN; 3]; 3];
-    }
-    let halvings = (size.max(0.125).log2() + 3.0).ceil() as i32;
-    let part = scaled(0.5f64.powi(halvings), matrix);
-    let mut sum = UNIT;
-    for k in (1..=TAYLOR).rev() {
-        sum = combined([(1.0, &UNIT), (1.0 / f64::from(k), &product(&part, &sum))]);
-    }
-    (0..halvings).fold(sum, |whole, _| product(&whole, &whole))
-}
-
-fn product(x: &Matrix, y: &Matrix) -> Matrix {
-    from_fn(|i| from_fn(|j| (0..3).map(|k| x[i][k] * y[k][j]).sum()))
-}
-
-fn combined<const N: usize>(terms: [(f64, &Matrix); N]) -> Matrix {
-    from_fn(|i| from_fn(|j| terms.iter().map(|(factor, x)| factor * x[i][j]).sum()))
-}
-
-fn scaled(factor: f64, x: &Matrix) -> Matrix {
-    combined([(factor, x)])
-}
-
-fn commutator(x: &Matrix, y: &Matrix) -> Matrix {
-    combined([(1.0, &product(x, y)), (-1.0, &product(y, x))])
+fn commutator(x: &Matrix3<f64>, y: &Matrix3<f64>) -> Matrix3<f64> {
+    x * y - y * x
 }
 
 #[cfg(test)]
