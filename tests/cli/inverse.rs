@@ -418,7 +418,7 @@ fn a_sample_far_off_is_noted_even_among_few() {
             format!(
                 "{0:.2},{1:.6}",
                 0.01 * f64::from(i),
-                0.3 + 0.0301234 * f64::from(i)
+                0.3 + 0.0301234 * f64::from(i) + 1.7e-5 * f64::from(i * i)
             )
         })
         .collect();
