@@ -3,6 +3,7 @@
 use std::array;
 
 use super::condensed::Rows;
+use super::likely::STRONGEST;
 use super::pieces::Grid;
 use super::roughness::{ORDER, Penalty, pull, roughness};
 use super::sums::Sums;
@@ -250,5 +251,10 @@ impl Normal<'_> {
     /// The weakest penalty.
     pub fn weakest(&self) -> f64 {
         self.mean_pivot() * WEAKEST.exp()
+    }
+
+    /// The strongest penalty.
+    pub fn strongest(&self) -> f64 {
+        self.mean_pivot() * STRONGEST.exp()
     }
 }

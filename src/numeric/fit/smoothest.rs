@@ -1,7 +1,6 @@
 //! The smoothest spline from which another one does not stand out beside errors of samples that depend on each other.
 
 use super::dependent::{Dependent, Follows, Scattered};
-use super::likely::STRONGEST;
 use super::penalized::Normal;
 use super::pieces::{Grid, Piecewise, basis};
 use super::spline::FAILED;
@@ -72,7 +71,7 @@ impl Spline {
             (0..grid.pieces).any(|piece| self.is_beyond(piece, &errors))
         };
         let mut weak = self.strength.ln();
-        let mut strong = (normal.mean_pivot().ln() + STRONGEST).max(weak);
+        let mut strong = normal.strongest().ln().max(weak);
         let mut smoothest = None;
         for _ in 0..HALVINGS {
             let middle = 0.5 * (weak + strong);

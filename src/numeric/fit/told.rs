@@ -84,32 +84,41 @@ impl<'a> Told<'a> {
         })
     }
 
-    /// With as many pieces as leave noise, if any do with a criterion below this one.
-    fn finer(&self, rows: &'a Rows<'a>, least: f64) -> Option<Told<'a>> {
+    /// With the pieces that foretell best of those that leave noise, if any do with a criterion below this one. More are
+    /// taken where they certainly do better.
+    fn finer(&self, rows: &'a Rows<'a>, mut least: f64) -> Option<Told<'a>> {
         let most = rows
             .blocks()
             .unwrap_or(rows.count.saturating_sub(DEGREE + 1))
             .min(MOST);
-        let [pivot, pieces] = [self.normal.mean_pivot(), self.normal.grid.pieces as f64];
         let numbers = (0..).map(|doublings| self.normal.grid.pieces << doublings);
-        numbers
-            .take_while(|pieces| *pieces <= most)
-            .find_map(|more| {
-                let normal = Normal::new(rows, more);
-                // Of the same roughness: it is that of differences over widths.
-                let same =
-                    (more as f64 / pieces).powi(2 * ORDER as i32) * normal.mean_pivot() / pivot;
-                let strengths = self.strengths.map(|strength| strength * same);
-                let near = normal.solve(strengths[1], &normal.factor(strengths[1])?);
-                let started = Told {
-                    normal,
-                    strengths,
-                    near,
-                    value: self.value,
-                };
-                let told = started.foretelling(usize::MAX)?;
-                (told.value < least && told.leaves_noise(rows)).then_some(told)
-            })
+        let mut found = None;
+        for pieces in numbers.take_while(|pieces| *pieces <= most) {
+            let told = self.on(rows, pieces);
+            if let Some(told) = told.filter(|told| told.value < least && told.leaves_noise(rows)) {
+                least = told.value - SURE;
+                found = Some(told);
+            }
+        }
+        found
+    }
+
+    /// With the penalty that foretells best on so many pieces.
+    fn on(&self, rows: &'a Rows<'a>, pieces: usize) -> Option<Told<'a>> {
+        let normal = Normal::new(rows, pieces);
+        let finer = pieces as f64 / self.normal.grid.pieces as f64;
+        // Of the same roughness: it is that of differences over widths. A stronger penalty than the strongest one leaves no
+        // digits of the samples.
+        let same = finer.powi(2 * ORDER as i32) * normal.mean_pivot() / self.normal.mean_pivot();
+        let same = same.min(normal.strongest() / self.strengths[1]);
+        let weakest = normal.weakest();
+        let started = Told {
+            strengths: self.strengths.map(|strength| strength * same),
+            near: normal.solve(weakest, &normal.factor(weakest)?),
+            normal,
+            value: self.value,
+        };
+        started.foretelling(usize::MAX)
     }
 
     fn leaves_noise(&self, rows: &Rows<'_>) -> bool {
@@ -127,7 +136,8 @@ fn foretelling(about: &About<'_>, strength: f64, patience: usize) -> (f64, f64) 
     let (mut tried, mut worse) = (strength, 0);
     while worse < patience && tried >= normal.weakest() {
         let Some(factor) = normal.factor(tried) else {
-            break;
+            tried /= STEP;
+            continue;
         };
         let parameters = factor
             .clone()
@@ -151,4 +161,56 @@ fn foretelling(about: &About<'_>, strength: f64, patience: usize) -> (f64, f64) 
         best = (best / STEP).max(normal.weakest());
     }
     (best, least)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use crate::numeric::fit::{Samples, Size, Spline};
+
+    /// Steady rotation by 60 turns of 25 samples with two harmonics about as large as the noise, whose likely curve is a
+    /// straight line.
+    #[test]
+    fn harmonics_in_noise_are_followed() {
+        let mut state = 88_172_645_463_325_252u64;
+        let mut random = || {
+            // Xorshift.
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+        };
+        let (turns, rows, noise) = (60.0, 1500u32, 0.01);
+        let harmonics = [(1.0, 0.02), (3.0, 0.01)];
+        let t: Vec<f64> = (0..rows)
+            .map(|i| (f64::from(i) + 0.6 * random()) / f64::from(rows))
+            .collect();
+        let rate = turns * TAU;
+        let waves = |t: f64| -> f64 {
+            let of = |(k, size): (f64, f64)| size * (k * rate * t).sin();
+            harmonics.into_iter().map(of).sum()
+        };
+        for draw in 0..12 {
+            let angle = |t: &f64| {
+                let even: f64 = (0..12).map(|_| random()).sum();
+                rate * t + waves(*t) + noise * even
+            };
+            let angles: Vec<f64> = t.iter().map(angle).collect();
+            let samples = Samples {
+                t: &t,
+                target: &angles,
+                weight: None,
+                floor: 0.0,
+            };
+            let spline = Spline::fit(&samples, Size::Auto).expect("a spline");
+            let squares = t.iter().fold([0.0; 2], |[off, all], t| {
+                let waves = waves(*t);
+                let found = spline.value(*t) - rate * t;
+                [off + (found - waves).powi(2), all + waves.powi(2)]
+            });
+            let part = (squares[0] / squares[1]).sqrt();
+            assert!(part < 0.5, "{draw}: {part}");
+        }
+    }
 }

@@ -10,7 +10,7 @@ use crate::numeric::fit::{Samples, State};
 use crate::numeric::median::median;
 use crate::numeric::parallel;
 
-/// Samples of a stretch, and the most stretches.
+/// Samples of a stretch of many, and the most stretches.
 const LONG: usize = 512;
 const STRETCHES: usize = 16;
 
@@ -87,12 +87,17 @@ struct Stretches {
 }
 
 impl Stretches {
-    /// Of so many samples.
+    /// Of so many samples: few of them have all in theirs.
     fn of(rows: usize) -> Stretches {
-        let long = rows.min(LONG);
+        let number = (rows / LONG).max(1);
+        let long = if number > STRETCHES {
+            LONG
+        } else {
+            rows / number
+        };
         Stretches {
             long,
-            number: (rows / long).min(STRETCHES),
+            number: number.min(STRETCHES),
             last: rows - long,
         }
     }
@@ -157,17 +162,19 @@ impl Mean {
 mod tests {
     use super::*;
 
+    /// Even numbers from −0.5 to 0.5, by xorshift.
+    fn random(state: &mut u64) -> f64 {
+        *state ^= *state << 13;
+        *state ^= *state >> 7;
+        *state ^= *state << 17;
+        (*state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+    }
+
     /// A wave between two frequencies of the spectrum at uneven times, in noise of a quarter of its size.
     #[test]
     fn a_wave_has_its_size_and_that_of_its_derivatives() {
         let mut state = 88_172_645_463_325_252u64;
-        let mut random = || {
-            // Xorshift.
-            state ^= state << 13;
-            state ^= state >> 7;
-            state ^= state << 17;
-            (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
-        };
+        let mut random = || random(&mut state);
         for rows in [120u32, 1200, 12_000] {
             let t: Vec<f64> = (0..rows)
                 .map(|i| 0.01 * (f64::from(i) + 0.4 * random()))
@@ -192,6 +199,27 @@ mod tests {
                 assert!((0.8..=1.1).contains(&part), "{rows}, {power}: {part}");
             }
             assert!((found.samples - 2.87).abs() < 0.1, "{}", found.samples);
+        }
+    }
+
+    /// A wave of two fifths of the noise, which half of the samples would hardly show.
+    #[test]
+    fn few_samples_tell_all_of_a_wave() {
+        let mut state = 88_172_645_463_325_252u64;
+        let t: Vec<f64> = (0..1020u32).map(f64::from).collect();
+        let rate = 250.0 * TAU / 1020.0;
+        for draw in 0..8 {
+            let wave = t
+                .iter()
+                .map(|t| 0.07 * (rate * t).sin() + 0.6 * random(&mut state));
+            let wave: Vec<f64> = wave.collect();
+            let samples = Samples {
+                t: &t,
+                target: &wave,
+                weight: None,
+                floor: 0.0,
+            };
+            assert!(Waves::of(&wave, &samples, 0.05).is_some(), "{draw}");
         }
     }
 }
