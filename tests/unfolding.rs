@@ -512,6 +512,32 @@ fn a_long_rest_at_a_dead_centre_without_noise_is_in_doubt() {
     }
 }
 
+/// A rest at a dead centre in steps of an instrument that are finer than what any polynomial misses: what one range of samples tells
+/// is not enough.
+#[test]
+fn one_range_of_samples_that_no_motion_explains_does_not_decide() {
+    let (crank, rod, offset) = (0.3617710317036641, 1.7966982159614449, -0.13595664043886765);
+    let scene = scene(crank, rod, offset, Branch::Right);
+    let dead_centre = f64::asin(-offset / (crank + rod)) - TAU;
+    let part = |t: f64| ease((2.0 * t - 0.16423877697) / 0.67152244605);
+    let theta = |t: f64| {
+        let [to, from] = [part(t), part(t - 0.5)];
+        3.0212390740327892 * (1.0 - to) + dead_centre * (to - from) + 9.519668409941954 * from
+    };
+    for samples in [7500, 10_000, 15_000] {
+        let motion = Motion {
+            theta: &theta,
+            samples,
+            noise: 0.0,
+            step: 7.8425e-5,
+        };
+        let found = motion.unfold(&scene, Measured::X);
+        // A fit to the wrong motion may be refused.
+        let is_named = matches!(&found, Found::Doubt(said) if said.contains("cannot be told"));
+        assert!(is_named, "{samples}: {found:?}");
+    }
+}
+
 /// Few samples beyond a dead centre, blurred by noise, do not bend a motion that is plain up to there.
 #[test]
 fn a_record_may_end_just_after_a_dead_centre() {
