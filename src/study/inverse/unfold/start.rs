@@ -59,7 +59,7 @@ pub(super) fn choose(
 ) -> Option<Start> {
     let tracks = smoothest(tracks);
     let angle = ByAngle::of(&tracks, start.angle, blur)?;
-    let speed = BySpeed::of(times, &tracks, start.speed, angle.unseen());
+    let speed = BySpeed::of(times, &tracks, start.speed);
     let (taken, reason) = match (start.angle != 0.0, start.speed != 0.0) {
         (true, false) => (angle.nearest, BY_NEARER_ANGLE),
         (true, true) if angle.is_plain() => (angle.nearest, BY_ANGLE),
@@ -142,15 +142,6 @@ impl ByAngle {
     fn is_told(&self) -> bool {
         self.is_near() && !self.is_blurred()
     }
-
-    /// How far, rad, a motion may go unseen: next to a fold it may begin on either stroke.
-    fn unseen(&self) -> f64 {
-        if self.is_blurred() {
-            BLURRED * self.blur
-        } else {
-            0.0
-        }
-    }
 }
 
 /// What the speed of the scene tells.
@@ -167,9 +158,8 @@ struct BySpeed {
 }
 
 impl BySpeed {
-    fn of(times: &[f64], tracks: &[Track], speed: f64, unseen: f64) -> BySpeed {
-        let firsts = tracks.iter();
-        let firsts = firsts.map(|track| First::of(times, track, speed, unseen));
+    fn of(times: &[f64], tracks: &[Track], speed: f64) -> BySpeed {
+        let firsts = tracks.iter().map(|track| First::of(times, track, speed));
         let mut found = BySpeed {
             speed,
             firsts: firsts.collect(),
@@ -229,14 +219,14 @@ struct First {
 }
 
 impl First {
-    fn of(times: &[f64], track: &Track, speed: f64, unseen: f64) -> First {
+    fn of(times: &[f64], track: &Track, speed: f64) -> First {
         if let Some(beginning) = track.beginning.filter(Beginning::is_known) {
             return First {
                 motion: beginning.speed,
                 hides_speed: beginning.hides(speed),
             };
         }
-        let (motion, time) = first_motion(times, &track.theta, unseen);
+        let (motion, time) = first_motion(times, &track.theta);
         let hides = |beginning: Beginning| beginning.hides(speed);
         First {
             motion,
@@ -246,13 +236,13 @@ impl First {
     }
 }
 
-/// Where a motion goes first, rad: by more than noise and what is `unseen`, or by a good part of all; and the time until then, s.
-fn first_motion(times: &[f64], theta: &[f64], unseen: f64) -> (f64, f64) {
+/// Where a motion goes first, rad: by more than noise, or by a good part of all; and the time until then, s.
+fn first_motion(times: &[f64], theta: &[f64]) -> (f64, f64) {
     let early = theta.len().min(EARLY);
     let noise = noise(&times[..early], &theta[..early]);
     let off = || theta.iter().map(|angle| angle - theta[0]);
     let most = off().fold(0.0f64, |most, off| most.max(off.abs()));
-    let plain = (LITTLE + NOISE * noise + unseen).min(0.25 * most);
+    let plain = (LITTLE + NOISE * noise).min(0.25 * most);
     let first = off().zip(times).find(|(off, _)| off.abs() > plain);
     first.map_or((0.0, 0.0), |(off, time)| (off, time - times[0]))
 }
