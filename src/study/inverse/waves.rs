@@ -170,6 +170,17 @@ mod tests {
         (*state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
     }
 
+    /// Waves in residuals at these times.
+    fn found(residuals: &[f64], t: &[f64]) -> Option<Waves> {
+        let samples = Samples {
+            t,
+            target: residuals,
+            weight: None,
+            floor: 0.0,
+        };
+        Waves::of(residuals, &samples, 0.05)
+    }
+
     /// A wave between two frequencies of the spectrum at uneven times, in noise of a quarter of its size.
     #[test]
     fn a_wave_has_its_size_and_that_of_its_derivatives() {
@@ -186,14 +197,8 @@ mod tests {
                 .zip(&noise)
                 .map(|(t, noise)| (rate * t).sin() + noise);
             let wave: Vec<f64> = wave.collect();
-            let samples = Samples {
-                t: &t,
-                target: &wave,
-                weight: None,
-                floor: 0.0,
-            };
-            assert_eq!(Waves::of(&noise, &samples, 0.05), None, "{rows}");
-            let found = Waves::of(&wave, &samples, 0.05).expect("a wave");
+            assert_eq!(found(&noise, &t), None, "{rows}");
+            let found = found(&wave, &t).expect("a wave");
             for (power, size) in found.sizes.into_iter().enumerate() {
                 let part = size / (rate.powi(power as i32) * 0.5f64.sqrt());
                 assert!((0.8..=1.1).contains(&part), "{rows}, {power}: {part}");
@@ -213,13 +218,7 @@ mod tests {
                 .iter()
                 .map(|t| 0.07 * (rate * t).sin() + 0.6 * random(&mut state));
             let wave: Vec<f64> = wave.collect();
-            let samples = Samples {
-                t: &t,
-                target: &wave,
-                weight: None,
-                floor: 0.0,
-            };
-            assert!(Waves::of(&wave, &samples, 0.05).is_some(), "{draw}");
+            assert!(found(&wave, &t).is_some(), "{draw}");
         }
     }
 }
