@@ -15,6 +15,7 @@ mod measurement;
 mod motion;
 mod number;
 mod parts;
+mod places;
 mod problem;
 mod read;
 mod schema;
@@ -36,6 +37,7 @@ pub use load::Load;
 pub use measurement::{DUARTE_MOTION, Measured, Measurement, Reading};
 pub use motion::{Every, Extent, Motion, MotionKind, Run};
 pub use parts::{Branch, Friction, Geometry, Gravity};
+pub use places::Places;
 pub use problem::{Problem, Problems};
 pub use schema::schema;
 pub use table::{Interpolation, Table, calibration_points};
@@ -69,6 +71,8 @@ pub struct Scene {
     pub motion: Motion,
     /// How long, how fine, how exact.
     pub run: Run,
+    /// Where its keys stand, if it comes from a file.
+    pub places: Places,
 }
 
 impl Scene {
@@ -79,10 +83,18 @@ impl Scene {
     pub fn check(&self) -> Result<(), Problems> {
         let mut problems = Vec::new();
         validate::problems(self, &mut problems);
+        self.refused(problems)
+    }
+
+    /// What is wrong, with the places of the file the scene comes from.
+    ///
+    /// # Errors
+    /// [`Problems`] if there is anything.
+    pub fn refused(&self, problems: Vec<Problem>) -> Result<(), Problems> {
         if problems.is_empty() {
             Ok(())
         } else {
-            Err(Problems::in_code(problems))
+            Err(self.places.problems(problems))
         }
     }
 
