@@ -1,8 +1,6 @@
 //! `check` refuses what `simulate` refuses, and nothing else, in the same words: over the files of the repository, and
 //! over scenes made of them by leaving parts out and putting others in.
 
-mod support;
-
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::fs;
@@ -14,7 +12,8 @@ use slider_crank::error::Error;
 use slider_crank::plan;
 use slider_crank::scene::{Draft, Scene};
 use slider_crank::study::{Options, simulate};
-use support::random::cases;
+
+use crate::support::random::cases;
 
 const FOLDERS: [&str; 3] = ["data", "data/hard", "tests/bad"];
 
@@ -123,7 +122,8 @@ fn what_is_not_refused_begins() {
             (Err(problems), Some(Error::Scene(same))) => {
                 prop_assert_eq!(problems.to_string(), same.to_string());
                 not.set(not.get() + 1);
-                said.borrow_mut().extend(problems.list().iter().map(|problem| problem.field.clone()));
+                said.borrow_mut()
+                    .extend(problems.list().iter().map(|problem| problem.field.clone()));
             }
             (checked, ran) => prop_assert!(false, "{checked:?} against {ran:?}: {scene:#?}"),
         }
