@@ -7,6 +7,7 @@ mod called;
 mod clearance;
 mod constrained;
 mod curve;
+mod dry;
 mod equivalent;
 mod extremes;
 mod first_order;
@@ -38,6 +39,7 @@ pub use clearance::{
 };
 pub use constrained::{Across, Constrained};
 pub use curve::{Curve, Place};
+pub use dry::{Held, Sense};
 pub use equivalent::EquivalentMasses;
 pub use extremes::{Extreme, Extremes};
 pub use first_order::FirstOrder;

@@ -57,6 +57,8 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Cho
         Method::Auto | Method::Energy | Method::Angle => {
             if class == Class::ChangePoint {
                 change_point(method)
+            } else if loads.are_dry() {
+                dry(method)
             } else if scene.friction.is_some() {
                 rubbing::engine(method, scene, class)
             } else {
@@ -100,6 +102,22 @@ fn change_point(method: Method) -> Result<Choice, Error> {
             ),
             "use --method auto, time, dop853 or dopri5",
         ))
+    }
+}
+
+/// Loads that oppose motion turn round with the crank and with the slider.
+fn dry(method: Method) -> Result<Choice, Error> {
+    match method {
+        Method::Auto => Ok(Choice::in_time(
+            Stepper::Picard,
+            "a load opposes motion: integration in time, piece by piece between the places where crank or slider turn back or rest",
+        )),
+        _ => Err(Error::refused(
+            format!(
+                "method {method} cannot serve a load of kind \"dry\", which turns round with the motion"
+            ),
+            "use --method auto, time, dop853 or dopri5",
+        )),
     }
 }
 
