@@ -3,6 +3,7 @@
 //! The usual mathematical reading: `-x^2` is −(x²), `2^3^2` is 2⁹, `1e-3` is a number.
 
 mod parser;
+mod period;
 
 use std::fmt;
 
