@@ -9,6 +9,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use super::Variable;
+use crate::numeric::enclosure::{Enclosed, Interval};
 use crate::numeric::interpolate::Curve;
 pub use crate::numeric::interpolate::Interpolation;
 pub use file::calibration_points;
@@ -93,6 +94,11 @@ impl Table {
     /// The interpolated value, in SI; NaN outside a table that does not repeat.
     pub fn value(&self, at: f64) -> f64 {
         self.curve.value(at)
+    }
+
+    /// All its values over an interval, in SI.
+    pub fn enclose(&self, over: Interval) -> Enclosed {
+        self.curve.enclose(over)
     }
 
     /// First and last argument, in SI, of a table that does not repeat.
