@@ -5,7 +5,9 @@ mod symbol;
 
 use std::fmt;
 
-use super::{Every, number};
+#[cfg(feature = "cli")]
+use super::Every;
+use super::number;
 pub use quantity::Quantity;
 use symbol::Factor;
 
@@ -65,6 +67,7 @@ fn of_pounds_force(unit: &str, quantity: Quantity) -> Option<String> {
 }
 
 /// Reads `text` as a time (s) or an angle (rad); a bare 0 is a time.
+#[cfg(feature = "cli")]
 pub(super) fn time_or_angle(text: &str) -> Result<Every, UnitError> {
     let wrong = |what: String| UnitError {
         what,
