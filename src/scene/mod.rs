@@ -3,12 +3,15 @@
 //! A scene comes from a file ([`Scene::load`]) or from code ([`Scene::new`] and the methods that add
 //! parts). Either way [`Scene::check`] says all that is wrong with it.
 
+#[cfg(feature = "cli")]
 mod assemble;
 mod body;
 mod builder;
+#[cfg(feature = "cli")]
 mod builtin;
 mod clearance;
 mod expression;
+#[cfg(feature = "cli")]
 mod keys;
 mod load;
 mod measurement;
@@ -16,15 +19,21 @@ mod motion;
 mod number;
 mod parts;
 mod problem;
+#[cfg(feature = "cli")]
 mod read;
+#[cfg(feature = "cli")]
+mod render;
+#[cfg(feature = "cli")]
 mod schema;
 mod table;
 mod text;
 pub mod unit;
 mod validate;
 mod variable;
+#[cfg(feature = "cli")]
 mod vary;
 
+#[cfg(feature = "cli")]
 use builtin::DUARTE;
 
 use std::path::Path;
@@ -37,9 +46,11 @@ pub use measurement::{DUARTE_MOTION, Measured, Measurement, Reading};
 pub use motion::{Every, Extent, Motion, MotionKind, Run};
 pub use parts::{Branch, Friction, Geometry, Gravity};
 pub use problem::{Problem, Problems};
+#[cfg(feature = "cli")]
 pub use schema::schema;
 pub use table::{Interpolation, Table, calibration_points};
 pub use variable::{Instant, Variable, Variables};
+#[cfg(feature = "cli")]
 pub use vary::{Draft, Varied};
 
 /// A complete scene.

@@ -1,5 +1,7 @@
 //! Loads given by measured or designed values: two columns, interpolated.
 
+mod calibration;
+#[cfg(feature = "cli")]
 pub(super) mod file;
 pub(super) mod header;
 pub(super) mod pairs;
@@ -11,7 +13,7 @@ use std::path::{Path, PathBuf};
 use super::Variable;
 use crate::numeric::interpolate::Curve;
 pub use crate::numeric::interpolate::Interpolation;
-pub use file::calibration_points;
+pub use calibration::calibration_points;
 use rows::{Column, Rows};
 
 /// Values over one variable, SI and radians.
@@ -25,6 +27,7 @@ pub struct Table {
 
 /// Why a table of a scene file cannot be used.
 #[derive(Debug)]
+#[cfg_attr(not(feature = "cli"), allow(dead_code))]
 pub(super) struct TableError {
     /// The key of the load that is to be changed.
     pub key: &'static str,

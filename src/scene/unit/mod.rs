@@ -1,13 +1,17 @@
 //! Quantities as people type them: a number and a unit, exact factors, checked dimension.
 
 mod grammar;
+#[cfg(feature = "cli")]
 mod pattern;
 mod quantity;
 mod symbol;
 
 use std::fmt;
 
-use super::{Every, number};
+#[cfg(feature = "cli")]
+use super::Every;
+use super::number;
+#[cfg(feature = "cli")]
 pub(super) use pattern::pattern;
 pub use quantity::Quantity;
 use symbol::Factor;
@@ -68,6 +72,7 @@ fn of_pounds_force(unit: &str, quantity: Quantity) -> Option<String> {
 }
 
 /// Reads `text` as a time (s) or an angle (rad); a bare 0 is a time.
+#[cfg(feature = "cli")]
 pub(super) fn time_or_angle(text: &str) -> Result<Every, UnitError> {
     let wrong = |what: String| UnitError {
         what,
@@ -166,5 +171,5 @@ fn split(text: &str) -> Result<(String, &str), String> {
     Ok((digits, unit.trim()))
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "cli"))]
 mod tests;

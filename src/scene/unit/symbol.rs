@@ -176,6 +176,7 @@ pub(super) fn symbols(dimension: Dimension) -> impl Iterator<Item = &'static str
 }
 
 /// Every spelling of a unit of a dimension, as a regular expression.
+#[cfg(feature = "cli")]
 pub(super) fn spellings(dimension: Dimension) -> String {
     let prefixes: Vec<&str> = PREFIXES.iter().map(|prefix| prefix.0).collect();
     let prefixes = prefixes.join("|");
