@@ -78,8 +78,12 @@ impl Loads {
     /// Whether there are loads that may do something between nodes: formulas, and tables over another variable than the
     /// crank angle or time, whose rows are known.
     pub fn have_detail(&self) -> bool {
-        self.called()
-            .any(|load| matches!(load, Load::Expression(_) | Load::Table(_) | Load::Gas { .. }))
+        self.called().any(|load| {
+            matches!(
+                load,
+                Load::Expression(_) | Load::Table(_) | Load::Gas { .. }
+            )
+        })
     }
 
     /// What the generalized force (N m) of the loads does on a piece of a motion, and in an ellipse of this size around it.
