@@ -110,6 +110,14 @@ impl Loads {
         classes.into_iter().flat_map(Called::loads)
     }
 
+    /// The first load that has no finite value.
+    pub fn without_value(&self, now: &Instant) -> Option<&Load> {
+        let classes = [&self.placed, &self.timed, &self.mixed, &self.dry];
+        classes
+            .into_iter()
+            .find_map(|class| class.without_value(now))
+    }
+
     /// Whether there are loads that depend on speed or time otherwise than by damping.
     pub fn are_called(&self) -> bool {
         !(self.timed.is_empty() && self.mixed.is_empty() && self.dry.is_empty())

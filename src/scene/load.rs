@@ -182,6 +182,11 @@ impl Load {
         }
     }
 
+    /// Whether its values are those of a table.
+    pub fn is_tabulated(&self) -> bool {
+        self.table().is_some()
+    }
+
     /// Crank angles, rad, at which the load is not smooth, as far as a table says so. Those of one that keeps step with
     /// the turns are the same in each of them, or in each second one and so on, and whole turns do not count.
     pub fn angle_corners(&self) -> Vec<f64> {

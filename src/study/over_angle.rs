@@ -99,6 +99,9 @@ fn hands_over(task: &Task<'_>, why: Unserved) -> bool {
 fn why(task: &Task<'_>, unserved: Unserved) -> &'static str {
     match task.maker.sliding {
         Some(sliding) if sliding.jams() => "the slider jams in its guide at an angle of the turn",
+        _ if unserved == Unserved::NotFinite && task.limits.class != Class::RotatingCrank => {
+            "the mechanism reaches the limit of its motion"
+        }
         _ => reason(unserved),
     }
 }
@@ -107,9 +110,7 @@ fn why(task: &Task<'_>, unserved: Unserved) -> &'static str {
 pub(super) fn reason(unserved: Unserved) -> &'static str {
     match unserved {
         Unserved::Equilibrium => "it starts at rest without a force",
-        Unserved::NotFinite => {
-            "the mechanism reaches the limit of its motion, or a load has no value"
-        }
+        Unserved::NotFinite => "a load has no finite value on the way",
         Unserved::NotSmooth => "a load is not smooth",
         Unserved::TooSlow => "the crank comes too near to rest",
         Unserved::WorkLimit | Unserved::TooManyTurns => {

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::clearance::ClearanceSummary;
 use super::peaks::Peaks;
+use super::stalled;
 use super::steady::SteadyState;
 use super::task::Task;
 use crate::plan::Plan;
@@ -98,6 +99,8 @@ impl Summary {
                 "{total} events occurred; the first {kept} are listed"
             ));
         }
+        let stalled = || stalled::reason(task, &solved.last);
+        let stopped = solved.stopped.map(|why| stalled().unwrap_or(why));
         Summary {
             scene: task.scene.title.clone().unwrap_or_default(),
             engine: task.plan.engine.name().to_owned(),
@@ -120,7 +123,7 @@ impl Summary {
             events: solved.events,
             events_total: solved.events_total,
             warnings,
-            stopped: solved.stopped,
+            stopped,
         }
     }
 }
