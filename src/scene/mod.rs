@@ -10,6 +10,7 @@ mod builder;
 #[cfg(feature = "cli")]
 mod builtin;
 mod clearance;
+mod corners;
 mod expression;
 #[cfg(feature = "cli")]
 mod keys;

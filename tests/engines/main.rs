@@ -18,6 +18,7 @@ mod many_turns;
 mod ode_solvers_defects;
 mod peaks;
 mod precision;
+mod reasons;
 mod rockers;
 mod rows;
 mod stalling;
