@@ -103,7 +103,7 @@ impl Part {
 
     /// A function of it.
     fn called(self, function: usize) -> Part {
-        let (name, value) = FUNCTIONS_1[function];
+        let (name, value, _) = FUNCTIONS_1[function];
         let part = match name {
             "sin" | "cos" => self.wave(TAU),
             "tan" => self.wave(PI),

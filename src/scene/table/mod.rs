@@ -11,6 +11,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use super::{Period, Repeats, Variable, WhyNot};
+use crate::numeric::enclosure::{Enclosed, Interval};
 use crate::numeric::interpolate::Curve;
 pub use crate::numeric::interpolate::Interpolation;
 pub use calibration::calibration_points;
@@ -96,6 +97,11 @@ impl Table {
     /// The interpolated value, in SI; NaN outside a table that does not repeat.
     pub fn value(&self, at: f64) -> f64 {
         self.curve.value(at)
+    }
+
+    /// All its values over an interval, in SI.
+    pub fn enclose(&self, over: Interval) -> Enclosed {
+        self.curve.enclose(over)
     }
 
     /// First and last argument, in SI, of a table that does not repeat.
