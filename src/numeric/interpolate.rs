@@ -123,7 +123,10 @@ impl Curve {
     /// where no point lies inside.
     pub fn enclose(&self, over: Interval) -> Enclosed {
         let (low, high) = self.range();
-        let Interval { low: from, high: to } = over;
+        let Interval {
+            low: from,
+            high: to,
+        } = over;
         if to - from >= high - low {
             let all = self.y.iter().map(|y| Interval::point(*y));
             let inside = self.period.is_some() || low <= from && to <= high;

@@ -38,11 +38,15 @@ pub(super) fn run(
     rows: &mut dyn RowSink,
     record: bool,
 ) -> Result<Simulation, Error> {
-    let mut position = Position::new(task.equation(), &task.limits, task.start())
+    let speed = task.scene.motion.speed;
+    let mut position = Position::new(task.equation(), &task.limits, task.start(), speed)
         .with_friction(task.maker.sliding)
         .with_limit(task.options.max_evaluations);
-    if task.plan.engine == Engine::Energy && repeats_with_each_turn(task.scene) {
-        position = position.with_turns_alike();
+    if repeats_with_each_turn(task.scene) {
+        position = match task.plan.engine {
+            Engine::Energy => position.with_turns_alike(),
+            _ => position.with_marks_of_turn(),
+        };
     }
     let solved = match task.plan.engine {
         Engine::Angle => match by_angle::solve(task, &position) {

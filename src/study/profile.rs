@@ -3,12 +3,14 @@
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
+use super::marks::Marks;
 use super::sliding::{Grip, Sliding};
 use crate::engine::angle::{Driven, Table};
 use crate::engine::energy::Profile;
 use crate::mechanism::{Equation, Limits};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
+use crate::numeric::enclosure::{Detail, Reach};
 use crate::numeric::gauss;
 use crate::scene::Variable;
 
@@ -22,6 +24,9 @@ pub(super) struct Position<'a> {
     corners: Vec<f64>,
     /// Corners of loads alone.
     of_loads: Vec<f64>,
+    /// Corners and narrow parts of formulas.
+    marks: Marks<'a>,
+    marks_are_corners: bool,
     repeats: bool,
     /// Work of the loads in one turn, J, and its error, if they are the same in each.
     work_of_turn: Option<(f64, f64)>,
@@ -32,7 +37,7 @@ pub(super) struct Position<'a> {
 impl<'a> Position<'a> {
     /// Angles are those beside the whole turns of `start`. Panels end at the rows of tables over the crank angle, and
     /// may end at the dead centres, where the inertia of a mechanism without crank inertia has a corner.
-    pub fn new(equation: &'a Equation, limits: &Limits, start: Angle) -> Position<'a> {
+    pub fn new(equation: &'a Equation, limits: &Limits, start: Angle, speed: f64) -> Position<'a> {
         let loads = equation.loads();
         let dead_centres = limits.dead_centres.iter().map(|dc| dc.theta);
         let tables = loads.angle_corners().into_iter();
@@ -44,6 +49,8 @@ impl<'a> Position<'a> {
             turns: start.turns,
             corners,
             of_loads,
+            marks: Marks::new(equation, start, speed),
+            marks_are_corners: false,
             repeats: loads.have_potential() && !loads.turn_the_crank(),
             work_of_turn: None,
             evaluations: Cell::new(0),
@@ -63,16 +70,37 @@ impl<'a> Position<'a> {
         self
     }
 
-    /// For loads that depend on the position alone and are the same in each turn.
-    pub fn with_turns_alike(mut self) -> Position<'a> {
-        let torque = TAU * self.equation.loads().constant_torque();
-        let (mut work, mut size) = (torque, torque.abs());
-        if !self.equation.loads().have_potential() {
-            work += self.work_between(0.0, TAU);
-            size += gauss::composite(|theta| self.push(theta).abs(), 0.0, TAU, 64);
-        }
-        self.work_of_turn = Some((work, f64::EPSILON * size));
+    /// For loads over the crank angle that are the same in each turn: panels end in each where they have to.
+    pub fn with_marks_of_turn(mut self) -> Position<'a> {
+        let begin = self.turns * TAU;
+        let marks = self.marks.between(begin, begin + TAU).into_iter();
+        let marks: Vec<f64> = marks.map(|mark| mark - begin).collect();
+        let among = |angles: &[f64]| in_order(angles.iter().chain(&marks).copied());
+        (self.corners, self.of_loads) = (among(&self.corners), among(&self.of_loads));
+        self.marks_are_corners = true;
         self
+    }
+
+    /// The first mark of a formula after `from` on the way to `to`, in either direction, that is no corner of each turn.
+    fn mark(&self, from: f64, to: f64) -> Option<f64> {
+        let before = self.turns * TAU;
+        let mark = || self.marks.next(from + before, to + before);
+        (!self.marks_are_corners)
+            .then(mark)?
+            .map(|mark| mark - before)
+    }
+
+    /// For loads that depend on the position alone and are the same in each turn.
+    pub fn with_turns_alike(self) -> Position<'a> {
+        let mut alike = self.with_marks_of_turn();
+        let torque = TAU * alike.equation.loads().constant_torque();
+        let (mut work, mut size) = (torque, torque.abs());
+        if !alike.equation.loads().have_potential() {
+            work += alike.work_between(0.0, TAU);
+            size += gauss::composite(|theta| alike.push(theta).abs(), 0.0, TAU, 64);
+        }
+        alike.work_of_turn = Some((work, f64::EPSILON * size));
+        alike
     }
 
     /// Whether the loads depend on the position alone and are the same in each turn.
@@ -137,6 +165,10 @@ impl<'a> Position<'a> {
         let loads = self.equation.loads();
         let out_of_step = loads.corners_out_of_step(low + before, high + before);
         cuts.extend(out_of_step.iter().map(|corner| corner - before));
+        if !self.marks_are_corners {
+            let marks = self.marks.between(low + before, high + before);
+            cuts.extend(marks.iter().map(|mark| mark - before));
+        }
         cuts.push(high);
         cuts.sort_by(f64::total_cmp);
         let piece = |w: &[f64]| gauss::adaptive(&force, w[0], w[1], 0.0);
@@ -211,6 +243,15 @@ impl Driven for Position<'_> {
         load.over(place.at[1]) + place.grip.rubbed(load)
     }
 
+    fn has_detail(&self) -> bool {
+        self.is_driven() && self.equation.loads().have_detail()
+    }
+
+    fn detail(&self, reach: &Reach, ellipse: f64) -> Detail {
+        let (loads, linkage) = (self.equation.loads(), self.equation.linkage());
+        loads.detail_of_state(linkage, reach, ellipse)
+    }
+
     fn drive_switch(&self, place: &Spot, t: f64, angle: Angle, speed: f64) -> f64 {
         let load = self.equation.loads().of_state(t, angle, speed, place.at);
         place.grip.pressed(load)
@@ -266,8 +307,11 @@ impl Profile for Position<'_> {
         let apart = (to - from).signum() * 1e-12 * from.abs().max(1.0);
         let turns = self.turns * TAU;
         let loads = self.equation.loads();
-        let corner = loads.corner_out_of_step(from + apart + turns, to + turns)?;
-        Some(corner - turns)
+        let corner = loads.corner_out_of_step(from + apart + turns, to + turns);
+        let mark = self.mark(from + apart, to);
+        let first = |a: f64, b: f64| if (a < b) == (from < to) { a } else { b };
+        let corner = corner.map(|corner| corner - turns);
+        corner.into_iter().chain(mark).reduce(first)
     }
 
     fn is_spent(&self) -> bool {

@@ -36,7 +36,11 @@ impl Detail {
     pub fn of(function: Enclosed) -> Detail {
         let change = 2.0 * function.real.half();
         Detail {
-            change: if change.is_nan() { f64::INFINITY } else { change },
+            change: if change.is_nan() {
+                f64::INFINITY
+            } else {
+                change
+            },
             around: function
                 .plane
                 .map(|plane| plane.radius())
@@ -56,7 +60,11 @@ impl Detail {
     pub fn times(self, by: f64) -> Detail {
         let change = self.change * by;
         Detail {
-            change: if change.is_nan() { f64::INFINITY } else { change },
+            change: if change.is_nan() {
+                f64::INFINITY
+            } else {
+                change
+            },
             around: self
                 .around
                 .map(|around| around * by)

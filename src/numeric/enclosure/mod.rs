@@ -7,6 +7,7 @@
 
 mod detail;
 mod interval;
+mod partition;
 mod rectangle;
 
 use std::f64::consts::{FRAC_PI_2, LOG10_E, PI};
@@ -14,6 +15,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 pub use detail::{Detail, Reach, ellipse};
 pub use interval::Interval;
+pub use partition::{Wanted, partition};
 pub use rectangle::Rectangle;
 
 /// Values over an interval and around it.
@@ -46,8 +48,8 @@ impl Enclosed {
     /// A variable over an interval, and in the Bernstein ellipse of this size around it.
     pub fn variable(real: Interval, ellipse: f64) -> Enclosed {
         let (middle, half) = (real.middle(), real.half());
-        let [along, across] = [ellipse + 1.0 / ellipse, ellipse - 1.0 / ellipse]
-            .map(|axis| 0.5 * half * axis);
+        let [along, across] =
+            [ellipse + 1.0 / ellipse, ellipse - 1.0 / ellipse].map(|axis| 0.5 * half * axis);
         let plane = Rectangle {
             re: Interval::new(middle - along, middle + along),
             im: Interval::new(-across, across),
@@ -126,8 +128,7 @@ impl Enclosed {
 
     /// Tangents.
     pub fn tan(self) -> Enclosed {
-        let within_a_branch = self.real.high - self.real.low < PI
-            && !self.real.cos().contains(0.0);
+        let within_a_branch = self.real.high - self.real.low < PI && !self.real.cos().contains(0.0);
         if within_a_branch {
             self.rising(f64::tan, |z| Some(z.sin() * z.cos().reciprocal()?))
         } else {
@@ -325,10 +326,7 @@ macro_rules! part_by_part {
             fn $function(self, other: Enclosed) -> Enclosed {
                 Enclosed {
                     real: self.real.$function(other.real),
-                    plane: self
-                        .plane
-                        .zip(other.plane)
-                        .map(|(a, b)| a.$function(b)),
+                    plane: self.plane.zip(other.plane).map(|(a, b)| a.$function(b)),
                 }
             }
         }

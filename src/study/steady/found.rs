@@ -107,7 +107,8 @@ impl Seeker {
         if limits.dead_centres.iter().any(|dc| vanishes(dc.theta)) {
             return Err(unbounded());
         }
-        let position = Position::new(&self.equation, &limits, self.start);
+        let position = Position::new(&self.equation, &limits, self.start, self.speed);
+        let position = position.with_marks_of_turn();
         let resolution = Resolution {
             tail: TAIL,
             other,
