@@ -116,6 +116,12 @@ impl Loads {
         self.called().flat_map(Load::angle_corners).collect()
     }
 
+    /// Those between two, rad.
+    pub fn corners_between(&self, low: f64, high: f64) -> Vec<f64> {
+        let corners = |load: &Load| load.corners_between(low, high);
+        self.called().flat_map(corners).collect()
+    }
+
     /// Crank angles between two, rad, at which tables have rows that do not keep step with the turns.
     pub fn corners_out_of_step(&self, low: f64, high: f64) -> Vec<f64> {
         let corners = |load: &Load| load.corners_out_of_step(low, high);

@@ -20,11 +20,15 @@ pub(super) struct Position<'a> {
     sliding: Option<&'a Sliding>,
     /// Whole turns of the start, beside all angles: loads over theta need not be the same in each turn.
     turns: f64,
+    dead_centres: Vec<f64>,
     /// Dead centres and corners of loads.
     corners: Vec<f64>,
-    /// Corners of loads alone.
+    /// Turns after which the loads are the same again.
+    cycle: u32,
+    /// Corners of loads in a cycle, and these with its dead centres.
     of_loads: Vec<f64>,
-    /// Corners and narrow parts of formulas.
+    of_cycle: Vec<f64>,
+    /// Corners and narrow parts of formulas, where they are no corners of each turn.
     marks: Marks<'a>,
     marks_are_corners: bool,
     repeats: bool,
@@ -39,14 +43,17 @@ impl<'a> Position<'a> {
     /// may end at the dead centres, where the inertia of a mechanism without crank inertia has a corner.
     pub fn new(equation: &'a Equation, limits: &Limits, start: Angle, speed: f64) -> Position<'a> {
         let loads = equation.loads();
-        let dead_centres = limits.dead_centres.iter().map(|dc| dc.theta);
+        let dead_centres: Vec<f64> = limits.dead_centres.iter().map(|dc| dc.theta).collect();
         let tables = loads.angle_corners().into_iter();
         let of_loads = in_order(tables.map(|theta| theta.rem_euclid(TAU)));
-        let corners = in_order(dead_centres.chain(of_loads.iter().copied()));
+        let corners = in_order(dead_centres.iter().chain(&of_loads).copied());
         Position {
             equation,
             sliding: None,
             turns: start.turns,
+            dead_centres,
+            cycle: 1,
+            of_cycle: corners.clone(),
             corners,
             of_loads,
             marks: Marks::new(equation, start, speed),
@@ -70,14 +77,27 @@ impl<'a> Position<'a> {
         self
     }
 
-    /// For loads over the crank angle that are the same in each turn: panels end in each where they have to.
-    pub fn with_marks_of_turn(mut self) -> Position<'a> {
-        let begin = self.turns * TAU;
-        let marks = self.marks.between(begin, begin + TAU).into_iter();
-        let marks: Vec<f64> = marks.map(|mark| mark - begin).collect();
-        let among = |angles: &[f64]| in_order(angles.iter().chain(&marks).copied());
-        (self.corners, self.of_loads) = (among(&self.corners), among(&self.of_loads));
-        self.marks_are_corners = true;
+    /// For loads that are the same again after so many turns.
+    pub fn with_cycle(mut self, turns: u32) -> Position<'a> {
+        self.cycle = turns;
+        let length = f64::from(turns) * TAU;
+        let marks = self.marks.between(0.0, length);
+        if turns > 1 {
+            // Those at its start are its own.
+            let before = -1e-9;
+            let loads = self.equation.loads();
+            self.of_loads = loads.corners_between(before, length + before);
+        } else {
+            self.corners = in_order(self.corners.iter().chain(&marks).copied());
+            self.marks_are_corners = true;
+        }
+        self.of_loads = in_order(self.of_loads.iter().chain(&marks).copied());
+        let again = |turn: u32| {
+            let dead_centres = self.dead_centres.iter();
+            dead_centres.map(move |theta| theta + f64::from(turn) * TAU)
+        };
+        let all = (0..turns).flat_map(again);
+        self.of_cycle = in_order(all.chain(self.of_loads.iter().copied()));
         self
     }
 
@@ -91,16 +111,15 @@ impl<'a> Position<'a> {
     }
 
     /// For loads that depend on the position alone and are the same in each turn.
-    pub fn with_turns_alike(self) -> Position<'a> {
-        let mut alike = self.with_marks_of_turn();
-        let torque = TAU * alike.equation.loads().constant_torque();
+    pub fn with_turns_alike(mut self) -> Position<'a> {
+        let torque = TAU * self.equation.loads().constant_torque();
         let (mut work, mut size) = (torque, torque.abs());
-        if !alike.equation.loads().have_potential() {
-            work += alike.work_between(0.0, TAU);
-            size += gauss::composite(|theta| alike.push(theta).abs(), 0.0, TAU, 64);
+        if !self.equation.loads().have_potential() {
+            work += self.work_between(0.0, TAU);
+            size += gauss::composite(|theta| self.push(theta).abs(), 0.0, TAU, 64);
         }
-        alike.work_of_turn = Some((work, f64::EPSILON * size));
-        alike
+        self.work_of_turn = Some((work, f64::EPSILON * size));
+        self
     }
 
     /// Whether the loads depend on the position alone and are the same in each turn.
@@ -197,7 +216,13 @@ pub(super) struct Spot {
 impl Driven for Position<'_> {
     type Place = Spot;
 
-    fn tabulate(&self, angles: &Values, count: usize, side: f64, table: &mut Table<Spot>) {
+    fn tabulate(
+        &self,
+        turns: f64,
+        (angles, count): (&Values, usize),
+        side: f64,
+        table: &mut Table<Spot>,
+    ) {
         self.count(count);
         let loads = self.equation.loads();
         let driven = self.is_driven();
@@ -209,7 +234,13 @@ impl Driven for Position<'_> {
             table.inertia[i] = at.m[i];
             let (stored, placed) = (
                 loads.with_potential_at(x),
-                loads.of_place(self.angle(*angle), x),
+                loads.of_place(
+                    Angle {
+                        turns,
+                        rest: *angle,
+                    },
+                    x,
+                ),
             );
             table.force[i] = stored.over(dx) - at.dv[i];
             table.push[i] = placed.over(dx);
@@ -228,6 +259,10 @@ impl Driven for Position<'_> {
             let direction = (angles[count - 1] - angles[0]).signum();
             sliding.tabulate(angles, direction * side, loads, &of_place, table);
         }
+    }
+
+    fn cycle(&self) -> u32 {
+        self.cycle
     }
 
     fn is_driven(&self) -> bool {
@@ -260,13 +295,13 @@ impl Driven for Position<'_> {
     fn corners(&self) -> &[f64] {
         // Friction changes its sign at the dead centres.
         match self.sliding {
-            Some(_) => &self.corners,
+            Some(_) => &self.of_cycle,
             None => &self.of_loads,
         }
     }
 
     fn corners_if_light(&self) -> &[f64] {
-        &self.corners
+        &self.of_cycle
     }
 }
 

@@ -107,7 +107,8 @@ impl<D: Driven> Way for OnPanel<'_, D> {
         // The direction of the panel is that of its angles.
         angles[1] = self.station.piece.to;
         let side = self.station.side;
-        self.driven.tabulate(&angles, 2, side, &mut table);
+        let turns = self.station.turns;
+        self.driven.tabulate(turns, (&angles, 2), side, &mut table);
         let Some(place) = table.places.first() else {
             return 0.0;
         };

@@ -4,6 +4,7 @@
 
 mod enclosure;
 mod parser;
+mod period;
 
 use std::fmt;
 

@@ -10,7 +10,7 @@ pub(super) mod rows;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use super::Variable;
+use super::{Period, Repeats, Variable, WhyNot};
 use crate::numeric::enclosure::{Enclosed, Interval};
 use crate::numeric::interpolate::Curve;
 pub use crate::numeric::interpolate::Interpolation;
@@ -112,6 +112,12 @@ impl Table {
     /// The period (rad or s) of a table that repeats.
     pub fn period(&self) -> Option<f64> {
         self.curve.period()
+    }
+
+    /// Whether a table over the crank angle is the same again after some turns.
+    pub fn repeats(&self) -> Repeats {
+        let period = self.curve.period().ok_or(WhyNot::NoPeriod);
+        period.and_then(Period::of_angle).into()
     }
 
     /// The arguments of the rows.

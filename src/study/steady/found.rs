@@ -108,7 +108,7 @@ impl Seeker {
             return Err(unbounded());
         }
         let position = Position::new(&self.equation, &limits, self.start, self.speed);
-        let position = position.with_marks_of_turn();
+        let position = position.with_cycle(1);
         let resolution = Resolution {
             tail: TAIL,
             other,
