@@ -30,7 +30,7 @@ pub struct Look {
 /// A corner or a jump is found to so many halvings of the whole.
 const HALVINGS: i32 = 46;
 /// Part of what is allowed that each corner may leave.
-const AT_CORNER: f64 = 1.0 / 256.0;
+const AT_CORNER: f64 = 1e-4;
 /// Most pieces of one panel that are looked at.
 const MOST_PIECES: usize = 400;
 /// Ends that are left out where a corner is at an end, off by what its place is off.
@@ -53,7 +53,8 @@ pub fn hidden(way: &impl Way, look: Look) -> Option<Hidden> {
         return None;
     }
     for end in ENDS {
-        let little = |from: f64, to: f64| look.detail(way, from, to).change * end <= look.allowed;
+        let left = AT_CORNER * look.allowed;
+        let little = |from: f64, to: f64| look.detail(way, from, to).change * end <= left;
         let shown = needed(end, 1.0 - end).is_some_and(|needed| needed <= nodes);
         if shown && little(0.0, end) && little(1.0 - end, 1.0) {
             return None;
