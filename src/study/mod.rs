@@ -16,6 +16,7 @@ mod inverse;
 mod kinematics;
 mod last_row;
 mod log;
+mod marks;
 mod offsets;
 mod one_turn;
 mod over_angle;
