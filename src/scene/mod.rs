@@ -18,6 +18,8 @@ mod measurement;
 mod motion;
 mod number;
 mod parts;
+#[cfg(feature = "cli")]
+mod printable;
 mod problem;
 #[cfg(feature = "cli")]
 mod read;
@@ -45,6 +47,8 @@ pub use load::Load;
 pub use measurement::{DUARTE_MOTION, Measured, Measurement, Reading};
 pub use motion::{Every, Extent, Motion, MotionKind, Run};
 pub use parts::{Branch, Friction, Geometry, Gravity};
+#[cfg(feature = "cli")]
+pub use printable::printable;
 pub use problem::{Problem, Problems};
 #[cfg(feature = "cli")]
 pub use schema::schema;
