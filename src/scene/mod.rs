@@ -18,6 +18,8 @@ mod measurement;
 mod motion;
 mod number;
 mod parts;
+mod period;
+mod places;
 #[cfg(feature = "cli")]
 mod printable;
 mod problem;
@@ -47,6 +49,8 @@ pub use load::Load;
 pub use measurement::{DUARTE_MOTION, Measured, Measurement, Reading};
 pub use motion::{Every, Extent, Motion, MotionKind, Run};
 pub use parts::{Branch, Friction, Geometry, Gravity};
+pub use period::{Period, Repeats, WhyNot};
+pub use places::Places;
 #[cfg(feature = "cli")]
 pub use printable::printable;
 pub use problem::{Problem, Problems};
@@ -84,6 +88,8 @@ pub struct Scene {
     pub motion: Motion,
     /// How long, how fine, how exact.
     pub run: Run,
+    /// Where its keys stand, if it comes from a file.
+    pub places: Places,
 }
 
 impl Scene {
@@ -94,10 +100,18 @@ impl Scene {
     pub fn check(&self) -> Result<(), Problems> {
         let mut problems = Vec::new();
         validate::problems(self, &mut problems);
+        self.refused(problems)
+    }
+
+    /// What is wrong, with the places of the file the scene comes from.
+    ///
+    /// # Errors
+    /// [`Problems`] if there is anything.
+    pub fn refused(&self, problems: Vec<Problem>) -> Result<(), Problems> {
         if problems.is_empty() {
             Ok(())
         } else {
-            Err(Problems::in_code(problems))
+            Err(self.places.problems(problems))
         }
     }
 
