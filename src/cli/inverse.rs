@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::reading::ReadingArguments;
-use super::{Outcome, Streams, create, fill, is_standard};
+use super::{Outcome, Streams, check_ending, create, fill, is_standard};
 use crate::error::Error;
 use crate::report;
 use crate::scene::{Measurement, Reading};
@@ -122,6 +122,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     // First the data, whose lack tells a data file in the place of the scene.
     let measurement = measurement(arguments)?;
     let scene = streams.scene(arguments.scene.as_ref())?;
+    check_ending(arguments.plot.as_ref(), &["svg"])?;
     let options = InverseOptions {
         fit: arguments.fit,
         size: arguments.degree,
