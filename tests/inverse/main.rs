@@ -17,5 +17,6 @@ mod inverse_limits;
 mod measured_rows;
 mod missed;
 mod noise;
+mod polynomial;
 mod rounded_times;
 mod unfolding;
