@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::report::{Axis, Figure, panels};
-use crate::study::{AsPrinted, Inverse, InverseRow};
+use crate::inverse::{AsPrinted, Inverse, InverseRow};
 
 /// Points of a curve that a figure shows.
 const POINTS: usize = 2000;
