@@ -4,10 +4,11 @@
 mod support;
 
 use proptest::prelude::*;
+use slider_crank::inverse::{FitKind, InverseOptions, inverse};
 use slider_crank::scene::{
     Crank, Friction, Gravity, Load, Measured, Measurement, Rod, Scene, Slider, Variables,
 };
-use slider_crank::study::{FitKind, InverseOptions, Options, inverse, simulate};
+use slider_crank::study::{Options, simulate};
 use support::newton::Parts;
 use support::random::{cases, rotating_crank};
 
@@ -61,7 +62,7 @@ fn a_forward_run_gives_back_its_force() {
             .collect();
         let motion = Measurement::new(Measured::Theta, times, angles).expect("samples");
         let options = InverseOptions {
-            fit: FitKind::Spline,
+            fit: FitKind::Smoother,
             reactions: true,
             ..InverseOptions::default()
         };

@@ -8,8 +8,8 @@ use std::fmt::Write;
 use std::path::Path;
 
 use proptest::prelude::*;
+use slider_crank::inverse::{FitKind, Inverse, InverseOptions, inverse};
 use slider_crank::scene::{Crank, Gravity, Measured, Measurement, Reading, Rod, Scene, Slider};
-use slider_crank::study::{FitKind, Inverse, InverseOptions, inverse};
 use support::instrument::shown;
 use support::newton::Parts;
 use support::random::{cases, rotating_crank};
@@ -217,7 +217,7 @@ proptest! {
         let text = style.csv(measured, &samples);
         let read = Measurement::parse(Path::new("fuzz.csv"), text, &Reading::default());
         let read = read.expect("good data");
-        let options = InverseOptions { fit: FitKind::Spline, ..InverseOptions::default() };
+        let options = InverseOptions { fit: FitKind::Smoother, ..InverseOptions::default() };
         let found = match inverse(&scene, &read, &options) {
             Ok(found) => found,
             // What cannot be told is refused, with what would help.

@@ -7,9 +7,9 @@ use clap::Args;
 use super::reading::ReadingArguments;
 use super::{Outcome, Streams, create, fill, is_standard};
 use crate::error::Error;
+use crate::inverse::{self, AsPrinted, FitKind, FitSize, InverseOptions};
 use crate::report;
 use crate::scene::{Measurement, Reading};
-use crate::inverse::{self, AsPrinted, FitKind, FitSize, InverseOptions};
 
 /// Arguments of `inverse`.
 #[derive(Debug, Args)]

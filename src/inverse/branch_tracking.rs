@@ -54,7 +54,12 @@ pub(super) fn crank_angles(
         score(*a).total_cmp(&score(*b))
     });
     let tracks = tracker.tracks(&settings[best.unwrap_or(0)]);
-    chosen(tracks, motion, measurement, settings[best.unwrap_or(0)].sigma)
+    chosen(
+        tracks,
+        motion,
+        measurement,
+        settings[best.unwrap_or(0)].sigma,
+    )
 }
 
 /// Samples by which noise and agility are found.
@@ -84,7 +89,9 @@ fn reachable(sensor: &Sensor<'_>, measurement: &Measurement) -> Result<(), Error
             measurement.shown(values[i]),
             measurement.shown(excess(values[i]))
         );
-        let help = "check the lengths of the scene, the unit of the column, and from where it counts".to_owned();
+        let help =
+            "check the lengths of the scene, the unit of the column, and from where it counts"
+                .to_owned();
         (i, what, help)
     });
     Err(measurement.problems(list.collect()).into())
@@ -98,7 +105,10 @@ fn typical_speed(sensor: &Sensor<'_>, measurement: &Measurement) -> f64 {
     (0.5 * TAU * way / (2.0 * sensor.size()) / duration).max(1e-3 / duration)
 }
 
-/// The path that is taken: of those that are about as likely, one with the scene's sense of rotation.
+/// The path that is taken: of those that are about as likely, the one that begins like the scene.
+///
+/// A motion may begin slowly and reverse at once, so an angle of the scene that is plainly that of one path counts before
+/// the speed. Angle 0 does not, because scenes that say nothing have it.
 fn chosen(
     tracks: Vec<Track>,
     motion: &Motion,
@@ -107,19 +117,50 @@ fn chosen(
 ) -> Result<CrankAngles, Error> {
     let Some(likeliest) = tracks.first() else {
         return Err(Error::refused(
-            format!("no motion of the mechanism explains the samples of {}", measurement.measured().name()),
+            format!(
+                "no motion of the mechanism explains the samples of {}",
+                measurement.measured().name()
+            ),
             "check the lengths of the scene, and the unit and zero of the column",
         ));
     };
-    let with_sense = |track: &&Track| track.sense() * motion.speed > 0.0;
-    let alike = |track: &&Track| likeliest.score - track.score < CERTAIN;
-    let taken = tracks.iter().filter(alike).find(with_sense).unwrap_or(likeliest);
+    let name = measurement.measured().name();
+    let alike: Vec<&Track> = tracks
+        .iter()
+        .filter(|track| likeliest.score - track.score < CERTAIN)
+        .collect();
+    let off = |track: &Track| {
+        let off = track.theta[0] - motion.angle;
+        (off - (off / TAU).round() * TAU).abs()
+    };
+    let nearest = alike
+        .iter()
+        .copied()
+        .min_by(|a, b| off(a).total_cmp(&off(b)))
+        .unwrap_or(likeliest);
+    let rival = alike
+        .iter()
+        .filter(|track| track.mirrors(nearest))
+        .map(|track| off(track))
+        .fold(f64::INFINITY, f64::min);
+    let with_sense = alike
+        .iter()
+        .copied()
+        .find(|track| track.sense() * motion.speed > 0.0);
+    let by_angle = motion.angle != 0.0 && off(nearest) < NEAR && off(nearest) < 0.25 * rival;
+    let taken = match with_sense {
+        _ if by_angle => nearest,
+        Some(track) => track,
+        None if motion.speed == 0.0 && motion.angle != 0.0 => nearest,
+        None => likeliest,
+    };
     let mut warnings = Vec::new();
-    let other = tracks.iter().filter(alike).find(|track| track.sense() * taken.sense() < 0.0);
-    if other.is_some() && motion.speed == 0.0 {
-        warnings.push(format!(
-            "the samples of {} do not tell the sense of rotation, and the scene has no speed: one of two motions is taken", measurement.measured().name()
-        ));
+    if alike.iter().any(|track| track.mirrors(taken)) {
+        warnings.push(match (by_angle, motion.speed != 0.0) {
+            (true, _) => format!("{name} does not tell a motion from the one on the other strokes: the one that begins at the scene's angle is taken"),
+            (_, true) => format!("{name} does not tell a motion from the one on the other strokes: the one with the sense of the scene's speed is taken"),
+            _ => format!("{name} does not tell a motion from the one on the other strokes, and the scene has neither speed nor angle: which one it is cannot be told"),
+        });
     }
     if motion.speed != 0.0 && taken.sense() * motion.speed < 0.0 {
         warnings.push("the crank turns against the sense of the scene's [motion] speed".to_owned());
@@ -136,8 +177,15 @@ fn chosen(
             turns(doubtful)
         ));
     }
-    Ok(CrankAngles { theta: taken.theta.clone(), sigma, warnings })
+    Ok(CrankAngles {
+        theta: taken.theta.clone(),
+        sigma,
+        warnings,
+    })
 }
+
+/// The scene's angle belongs to a path that begins this near to it, rad, where others begin four times as far from it.
+const NEAR: f64 = 0.2;
 
 /// ln of a likelihood ratio below which the scene's sense of rotation decides.
 const CERTAIN: f64 = 30.0;
@@ -157,8 +205,16 @@ impl Track {
     /// Sense of rotation, of the first part of the path in which it turns by half a turn, or of all.
     fn sense(&self) -> f64 {
         let first = self.theta[0];
-        let far = self.theta.iter().find(|theta| (*theta - first).abs() > 0.25 * TAU);
+        let far = self
+            .theta
+            .iter()
+            .find(|theta| (*theta - first).abs() > 0.25 * TAU);
         (far.unwrap_or(&self.theta[self.theta.len() - 1]) - first).signum()
+    }
+
+    /// Whether another path is one on the other strokes.
+    fn mirrors(&self, other: &Track) -> bool {
+        self.sense() != other.sense()
     }
 }
 
@@ -233,7 +289,10 @@ impl Tracker<'_> {
                 at = links[at].before;
             }
             theta.reverse();
-            Track { theta, score: end.score }
+            Track {
+                theta,
+                score: end.score,
+            }
         };
         ends.iter().map(path).collect()
     }
@@ -272,7 +331,10 @@ impl Tracker<'_> {
         let linkage = self.sensor.linkage;
         let (candidates, excess) = match self.sensor.measured {
             Measured::X => (linkage.angles_of_x(value), linkage.excess_of_x(value)),
-            _ => (linkage.angles_of_gamma(value), linkage.excess_of_gamma(value)),
+            _ => (
+                linkage.angles_of_gamma(value),
+                linkage.excess_of_gamma(value),
+            ),
         };
         let sights = candidates.angles().iter().map(|theta| {
             let shown = self.sensor.shown(*theta);
@@ -288,7 +350,10 @@ impl Tracker<'_> {
     }
 
     fn begun(&self, sight: &Sight, links: &mut Vec<Link>) -> Hypothesis {
-        links.push(Link { theta: sight.theta, before: NOTHING });
+        links.push(Link {
+            theta: sight.theta,
+            before: NOTHING,
+        });
         let speed = 2.0 * self.speed;
         Hypothesis {
             mean: [sight.theta, 0.0, 0.0],
@@ -323,14 +388,23 @@ fn predicted(before: &Hypothesis, dt: f64, jerk: f64) -> Hypothesis {
         [q(3, 6.0), q(2, 2.0), q(1, 1.0)],
     ];
     Hypothesis {
-        mean: [theta + dt * (omega + 0.5 * dt * alpha), omega + dt * alpha, alpha],
+        mean: [
+            theta + dt * (omega + 0.5 * dt * alpha),
+            omega + dt * alpha,
+            alpha,
+        ],
         covariance: super::kalman::congruent(&transition, &before.covariance, &noise),
         ..*before
     }
 }
 
 /// A hypothesis with a sample taken in, in the turns in which it may be.
-fn extend(predicted: &Hypothesis, sight: &Sight, links: &mut Vec<Link>, list: &mut Vec<Hypothesis>) {
+fn extend(
+    predicted: &Hypothesis,
+    sight: &Sight,
+    links: &mut Vec<Link>,
+    list: &mut Vec<Hypothesis>,
+) {
     let nearest = ((predicted.mean[0] - sight.theta) / TAU).round();
     let spread = predicted.covariance[0][0] + sight.variance;
     let reach = if spread.sqrt() > 0.1 * TAU { 1 } else { 0 };
@@ -347,7 +421,11 @@ fn extend(predicted: &Hypothesis, sight: &Sight, links: &mut Vec<Link>, list: &m
         }
         // Outliers count as such, by the tails of Student's distribution with four degrees of freedom.
         let off = error * error / spread;
-        let tails = if off < 4.0 { 0.5 * off } else { 2.0 + 2.5 * (1.0 + (off - 4.0) / 4.0).ln() };
+        let tails = if off < 4.0 {
+            0.5 * off
+        } else {
+            2.0 + 2.5 * (1.0 + (off - 4.0) / 4.0).ln()
+        };
         found.score += sight.score - 0.5 * spread.ln() - tails;
         if off > 25.0 {
             // It moves the path no further than five standard deviations would.
@@ -357,7 +435,10 @@ fn extend(predicted: &Hypothesis, sight: &Sight, links: &mut Vec<Link>, list: &m
             }
             found.covariance = predicted.covariance;
         }
-        links.push(Link { theta: found.mean[0], before: predicted.last });
+        links.push(Link {
+            theta: found.mean[0],
+            before: predicted.last,
+        });
         found.last = links.len() - 1;
         list.push(found);
     }
@@ -370,10 +451,13 @@ fn prune(list: &mut Vec<Hypothesis>) {
     for k in 0..list.len() {
         let now = list[k];
         let agrees = |other: &Hypothesis| {
-            let [theta, omega, _] = std::array::from_fn(|i| (other.mean[i] - now.mean[i]).powi(2) / now.covariance[i][i]);
+            let [theta, omega, _] = std::array::from_fn(|i| {
+                (other.mean[i] - now.mean[i]).powi(2) / now.covariance[i][i]
+            });
             theta < 1.0 && omega < 1.0
         };
-        let drop = now.score < list[0].score - DROPPED || list[..kept].iter().any(agrees) || kept == MOST;
+        let drop =
+            now.score < list[0].score - DROPPED || list[..kept].iter().any(agrees) || kept == MOST;
         if !drop && now.score.is_finite() {
             list[kept] = now;
             kept += 1;

@@ -3,9 +3,10 @@
 use super::branch_tracking::CrankAngles;
 use super::measurement_model::Sensor;
 use super::motion_estimate::MotionEstimate;
+use super::outliers;
 use super::polynomial::Polynomial;
 use super::residual_tests::Whiteness;
-use super::smoother::{Estimate, Grid, KINEMATIC, MECHANICAL, Path, Problem, Record, Smoothed};
+use super::smoother::{Estimate, Grid, KINEMATIC, Path, Problem, Record, Smoothed};
 use super::state_space::Prior;
 use super::summary::{CandidateSummary, FitSummary};
 use super::{FitKind, FitSize, InverseOptions};
@@ -29,7 +30,12 @@ pub(super) struct Fitted {
     pub patterned: bool,
     /// Whether the iterations came to rest.
     pub settled: bool,
+    /// Least standard deviation of a sample, rad or m.
+    floor: f64,
 }
+
+/// Most rounds in which outliers are found.
+const OUTLIER_ROUNDS: usize = 6;
 
 /// Units of rounding of computed values.
 const COMPUTED: f64 = 2.0;
@@ -51,65 +57,91 @@ impl Fitted {
             _ => measurement.values().to_vec(),
         };
         let largest = values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-        let floor = (measurement.resolution() / 12f64.sqrt()).max(COMPUTED * f64::EPSILON * largest);
-        let polynomial = |degree| Polynomial::fit(measurement.elapsed(), &angles.theta, floor, degree);
+        let floor =
+            (measurement.resolution() / 12f64.sqrt()).max(COMPUTED * f64::EPSILON * largest);
+        let polynomial =
+            |degree| Polynomial::fit(measurement.elapsed(), &angles.theta, floor, degree);
         let degree = match options.size {
             FitSize::Auto => None,
             FitSize::Fixed(degree) => Some(degree),
         };
+        let of_polynomial = |polynomial: Polynomial, reason: &str| {
+            Fitted::of_polynomial(sensor, measurement, polynomial, values.clone(), reason)
+        };
         if options.fit == FitKind::Polynomial {
-            let polynomial = polynomial(degree)?;
-            return Ok(Fitted::of_polynomial(sensor, measurement, polynomial, values, "asked for"));
+            return Ok(of_polynomial(polynomial(degree)?, "it was asked for"));
         }
+        let simple = (options.fit == FitKind::Auto && is_simple(sensor, &angles.theta))
+            .then(|| supported_degree(measurement.elapsed(), &angles.theta, floor))
+            .and_then(|degree| polynomial(Some(degree)).ok())
+            .map(|polynomial| {
+                of_polynomial(polynomial, "within one turn it leaves nothing but noise")
+            })
+            .filter(|polynomial| !polynomial.patterned);
         let problem = Problem {
             record: Record {
                 sensor,
                 times: measurement.elapsed(),
                 weights: vec![1.0; values.len()],
-                values,
+                values: values.clone(),
                 floor,
                 origin: measurement.origin(),
             },
             grid: Grid::new(measurement.elapsed(), &angles.theta),
             equation,
         };
-        Ok(Fitted::smoothed(problem, &angles, measurement))
+        let smoothed = Fitted::smoothed(problem, &angles, measurement);
+        Ok(match simple {
+            Some(polynomial)
+                if smoothed.summary.outliers == 0
+                    && polynomial.information() <= smoothed.information() =>
+            {
+                polynomial
+            }
+            _ => smoothed,
+        })
     }
 
-    fn smoothed(problem: Problem<'_>, angles: &CrankAngles, measurement: &Measurement) -> Fitted {
+    /// Akaike's information criterion for few samples (Hurvich and Tsai, Biometrika 76 (1989) 297), σ one of the parameters;
+    /// of a smoother with what its parameters are worth (Hurvich, Simonoff and Tsai 1998).
+    fn information(&self) -> f64 {
+        let n = self.residuals.len() as f64;
+        let parameters = self.summary.parameters + 1.0;
+        let spread = self.summary.rms.max(self.floor);
+        2.0 * n * spread.ln() + 2.0 * parameters * n / (n - parameters - 1.0).max(1.0)
+    }
+
+    fn smoothed(
+        mut problem: Problem<'_>,
+        angles: &CrankAngles,
+        measurement: &Measurement,
+    ) -> Fitted {
         let first = straight(&problem, &angles.theta);
-        let kinematic = problem.kinematic(first, angles.sigma.max(problem.record.floor));
-        let mut candidates = vec![(KINEMATIC, kinematic.noise.likelihood)];
-        let again = problem.candidate(KINEMATIC, &kinematic);
-        candidates[0].1 = again.0.likelihood;
-        let tried = parallel::map(MECHANICAL.iter(), |prior| Some(problem.candidate(*prior, &kinematic)));
-        let mut best = None;
-        for (prior, found) in MECHANICAL.iter().zip(tried) {
-            let Some(found) = found else { continue };
-            candidates.push((*prior, found.0.likelihood));
-            if found.0.likelihood > again.0.likelihood
-                && best.as_ref().is_none_or(|(_, (noise, _, _)): &(Prior, (super::likelihood::Noise, _, _))| found.0.likelihood > noise.likelihood)
-            {
-                best = Some((*prior, found));
+        let sigma = angles.sigma.max(problem.record.floor);
+        let mut kinematic = problem.kinematic(first, sigma);
+        for _ in 0..OUTLIER_ROUNDS {
+            let Some(weights) = outliers::weights(&problem, &kinematic) else {
+                break;
+            };
+            let before = std::mem::replace(&mut problem.record.weights, weights);
+            let path = problem.path_of(KINEMATIC, &kinematic);
+            kinematic = problem.kinematic(path, kinematic.noise.sigma);
+            if outliers::alike(&before, &problem.record.weights) {
+                break;
             }
         }
-        let smoothed = match best {
-            Some((prior, (noise, scales, path))) => {
-                let found = problem.iterated(prior, noise, scales, path);
-                if found.settled { found } else { kinematic }
-            }
-            None => kinematic,
-        };
-        candidates.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let (smoothed, candidates) = problem.likeliest(kinematic);
         Fitted::of_smoother(&problem, smoothed, &candidates, measurement)
     }
 
-    fn of_smoother(problem: &Problem<'_>, smoothed: Smoothed, candidates: &[(Prior, f64)], measurement: &Measurement) -> Fitted {
+    fn of_smoother(
+        problem: &Problem<'_>,
+        smoothed: Smoothed,
+        candidates: &[(Prior, f64)],
+        measurement: &Measurement,
+    ) -> Fitted {
         let record = &problem.record;
-        let at = |i: usize| {
-            let node = problem.grid.first.partition_point(|first| *first <= i) - 1;
-            &smoothed.estimates[node]
-        };
+        let at = |i: usize| &smoothed.estimates[problem.node_of(i)];
         let motion = parallel::list(record.times.len(), |i| motion_of(at(i)));
         let sigma = smoothed.noise.sigma;
         let mut parameters = 0.0;
@@ -120,10 +152,13 @@ impl Fitted {
         let whiteness = Whiteness::of(smoothed.estimates.iter().map(|e| e.innovation));
         let prior = smoothed.prior;
         let mut fitted = Fitted::of_motion(record.sensor, motion, record.values.clone());
-        let list = candidates.iter().map(|(prior, likelihood)| CandidateSummary {
-            prior: prior.name(),
-            log_likelihood: *likelihood,
-        });
+        fitted.floor = record.floor;
+        let list = candidates
+            .iter()
+            .map(|(prior, likelihood)| CandidateSummary {
+                prior: prior.name(),
+                log_likelihood: *likelihood,
+            });
         fitted.free = (fitted.residuals.len() as f64 - parameters).max(1.0);
         fitted.patterned = whiteness.is_violated();
         fitted.settled = smoothed.settled;
@@ -137,6 +172,7 @@ impl Fitted {
             sigma,
             parameters,
             corner_hz: Some(smoothed.noise.corner / std::f64::consts::TAU),
+            outliers: record.weights.iter().filter(|w| **w < 0.5).count(),
             noise_correlation_s: smoothed.noise.correlated.map(|c| 1.0 / c.decay),
             residual_lag_one: whiteness.lag_one,
             residual_runs: whiteness.runs,
@@ -145,13 +181,21 @@ impl Fitted {
         fitted
     }
 
-    fn of_polynomial(sensor: Sensor<'_>, measurement: &Measurement, polynomial: Polynomial, values: Vec<f64>, reason: &str) -> Fitted {
+    fn of_polynomial(
+        sensor: Sensor<'_>,
+        measurement: &Measurement,
+        polynomial: Polynomial,
+        values: Vec<f64>,
+        reason: &str,
+    ) -> Fitted {
         let mut fitted = Fitted::of_motion(sensor, polynomial.motion, values);
+        fitted.floor = polynomial.floor;
         let whiteness = Whiteness::of(fitted.residuals.iter().copied());
         let finite = |value: &f64| value.is_finite().then_some(*value);
         let parameters = polynomial.degree as f64 + 1.0;
         fitted.free = (fitted.residuals.len() as f64 - parameters).max(1.0);
-        fitted.patterned = whiteness.is_violated();
+        // What rounding leaves has patterns of its own.
+        fitted.patterned = whiteness.is_violated() && fitted.summary.rms > polynomial.floor;
         fitted.summary = FitSummary {
             kind: "polynomial",
             reason: reason.to_owned(),
@@ -171,9 +215,13 @@ impl Fitted {
 
     /// Measured values and residuals of a motion.
     fn of_motion(sensor: Sensor<'_>, motion: Vec<MotionEstimate>, values: Vec<f64>) -> Fitted {
-        let residuals = parallel::list(values.len(), |i| sensor.residual(values[i], motion[i].value[0]).0);
+        let residuals = parallel::list(values.len(), |i| {
+            sensor.residual(values[i], motion[i].value[0]).0
+        });
         let measured = match sensor.measured {
-            Measured::Gamma => parallel::list(values.len(), |i| sensor.shown(motion[i].value[0]).value + residuals[i]),
+            Measured::Gamma => parallel::list(values.len(), |i| {
+                sensor.shown(motion[i].value[0]).value + residuals[i]
+            }),
             _ => values,
         };
         let n = residuals.len() as f64;
@@ -181,11 +229,24 @@ impl Fitted {
         let mean = measured.iter().sum::<f64>() / n;
         let about: f64 = measured.iter().map(|v| (v - mean) * (v - mean)).sum();
         let summary = FitSummary {
-            r_squared: if about > 0.0 { 1.0 - squares / about } else { 1.0 },
+            r_squared: if about > 0.0 {
+                1.0 - squares / about
+            } else {
+                1.0
+            },
             rms: (squares / n).sqrt(),
             ..FitSummary::default()
         };
-        Fitted { motion, measured, residuals, free: 1.0, summary, patterned: false, settled: true }
+        Fitted {
+            motion,
+            measured,
+            residuals,
+            free: 1.0,
+            summary,
+            patterned: false,
+            settled: true,
+            floor: 0.0,
+        }
     }
 }
 
@@ -195,6 +256,47 @@ fn motion_of(estimate: &Estimate) -> MotionEstimate {
         covariance: estimate.covariance,
         rounding: [f64::EPSILON * estimate.motion[0].abs(), 0.0, 0.0],
     }
+}
+
+/// Highest degree of a polynomial that is tried.
+const HIGHEST: usize = 12;
+
+/// Most samples by which a degree is chosen.
+const ENOUGH: usize = 2000;
+
+/// The degree of a polynomial that the samples support (Schwarz's criterion, Annals of Statistics 6 (1978) 461).
+fn supported_degree(t: &[f64], theta: &[f64], floor: f64) -> usize {
+    let stride = t.len().div_ceil(ENOUGH);
+    let some = |list: &[f64]| -> Vec<f64> { list.iter().step_by(stride).copied().collect() };
+    let (t, theta) = (some(t), some(theta));
+    let n = t.len() as f64;
+    let criterion = |degree: &usize| {
+        let fit = Polynomial::fit(&t, &theta, floor, Some(*degree)).ok()?;
+        let squares: f64 = fit
+            .motion
+            .iter()
+            .zip(&theta)
+            .map(|(state, theta)| (theta - state.value[0]).powi(2))
+            .sum();
+        let variance = (squares / n).max(floor * floor);
+        Some((n * variance.ln() + (*degree as f64 + 1.0) * n.ln(), *degree))
+    };
+    let found = (1..=HIGHEST.min(t.len().saturating_sub(3))).collect::<Vec<_>>();
+    let found = found
+        .iter()
+        .filter_map(criterion)
+        .min_by(|a, b| a.0.total_cmp(&b.0));
+    found.map_or(1, |(_, degree)| degree)
+}
+
+/// Whether a polynomial may serve: a crank angle that was measured within one turn.
+fn is_simple(sensor: Sensor<'_>, theta: &[f64]) -> bool {
+    let (least, most) = theta
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| {
+            (a.min(*v), b.max(*v))
+        });
+    sensor.measured == Measured::Theta && most - least <= std::f64::consts::TAU
 }
 
 /// A first path: of measured crank angles a straight line, else the angles with their slopes.
@@ -211,5 +313,8 @@ fn straight(problem: &Problem<'_>, theta: &[f64]) -> Path {
         let slope = (theta[next] - theta[next - 1]) / (b - a);
         [theta[next - 1] + slope * (t - a), slope, 0.0, 0.0]
     });
-    Path { states: states.collect(), variances: None }
+    Path {
+        states: states.collect(),
+        variances: None,
+    }
 }

@@ -148,7 +148,13 @@ impl Backwards<'_> {
 
     /// What is needed beside the friction of the guide. At rest that may be anything up to its limit: the torque is then
     /// the middle of what is possible, and its error has the rest in it.
-    fn beside_friction(&self, guide: &Guide, t: f64, state: &MotionEstimate, demand: Demand) -> Demand {
+    fn beside_friction(
+        &self,
+        guide: &Guide,
+        t: f64,
+        state: &MotionEstimate,
+        demand: Demand,
+    ) -> Demand {
         let omega = state.value[1];
         let friction_known = omega.abs() > 5.0 * self.error(state, &[0.0, 1.0, 0.0], 0.0);
         let forwards = (demand.arm * omega).signum();

@@ -111,11 +111,15 @@ impl<const N: usize> Gaussian<N> {
 /// The prediction error decomposition of the likelihood.
 pub(super) fn evidence<const N: usize>(model: &impl Model<N>) -> Evidence {
     let mut evidence = Evidence::default();
-    run(model, |_, _| (), |_, error, variance| {
-        evidence.squares += error * error / variance;
-        evidence.log_variances += variance.ln();
-        evidence.samples += 1;
-    });
+    run(
+        model,
+        |_, _| (),
+        |_, error, variance| {
+            evidence.squares += error * error / variance;
+            evidence.log_variances += variance.ln();
+            evidence.samples += 1;
+        },
+    );
     evidence
 }
 

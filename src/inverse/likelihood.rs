@@ -43,6 +43,8 @@ pub(super) struct Noise {
     /// Corner frequency of the smoother, rad/s: the noise of the process is q = ω_c^(2D) σ² h/(lever² slope²) for D
     /// integrations from the white noise to θ.
     pub corner: f64,
+    /// Corner frequency of a smoother of order one whose noise u has in it as well, rad/s; 0 without.
+    pub level: f64,
     /// First-order autoregression of the samples' noise.
     pub correlated: Option<Autoregression>,
     /// Standard deviation of a sample, rad or m.
@@ -83,6 +85,7 @@ impl Linear<'_> {
             observed: &stretch.observed,
             order: self.order,
             noise: self.scales.density(noise.corner, self.order),
+            level: self.scales.density(noise.level, 1),
             correlated: noise.correlated,
             spread: self.scales.spread(),
         }
@@ -103,19 +106,30 @@ impl Linear<'_> {
 
     /// Likelihood and σ for a corner frequency and a correlation.
     fn at(&self, corner: f64, correlated: Option<Autoregression>) -> Noise {
-        let mut noise = Noise {
+        self.evaluated(Noise {
             corner,
+            level: 0.0,
             correlated,
             sigma: 1.0,
             likelihood: f64::NEG_INFINITY,
-        };
+        })
+    }
+
+    /// Noise with its likelihood and its σ.
+    fn evaluated(&self, mut noise: Noise) -> Noise {
         let evidence = self.evidence(&noise);
         let dimension = 2 + self.order;
         let starts = (dimension * self.stretches.len()) as f64;
         let free = evidence.samples as f64 - starts;
-        noise.sigma = (evidence.squares / free.max(1.0)).sqrt().max(self.scales.floor);
+        noise.sigma = (evidence.squares / free.max(1.0))
+            .sqrt()
+            .max(self.scales.floor);
         let spread = self.scales.spread();
-        let Scales { lever, motion: [alpha, jerk], .. } = self.scales;
+        let Scales {
+            lever,
+            motion: [alpha, jerk],
+            ..
+        } = self.scales;
         // The spreads of θ and ω are the same for all priors.
         let prior = [1.0, 1.0, alpha / lever, jerk / lever];
         let start: f64 = (0..dimension).map(|k| (spread[k] / prior[k]).ln()).sum();
@@ -130,10 +144,44 @@ impl Linear<'_> {
 
     /// The largest likelihood over the corner frequency, from a first guess.
     pub fn maximised(&self, guess: f64, correlated: Option<Autoregression>) -> Noise {
-        let at = |log: f64| self.at(log.exp(), correlated);
+        self.over(guess, |corner| self.at(corner, correlated))
+    }
+
+    /// The largest likelihood over a corner frequency, from a first guess.
+    fn over(&self, guess: f64, at: impl Fn(f64) -> Noise) -> Noise {
         let lowest = (0.1 / self.scales.duration).ln();
         let highest = (30.0 / self.scales.spacing).ln();
-        climb(at, guess.ln().clamp(lowest, highest), [lowest, highest])
+        climb(
+            |log| at(log.exp()),
+            guess.ln().clamp(lowest, highest),
+            [lowest, highest],
+        )
+    }
+
+    /// The largest likelihood over both corner frequencies, that of the rate of u and that of u itself.
+    pub fn mixed(&self, from: &Noise) -> Noise {
+        let mut best = *from;
+        for _ in 0..ROUNDS {
+            let before = best;
+            let level = if best.level > 0.0 {
+                best.level
+            } else {
+                best.corner
+            };
+            best = better(
+                best,
+                self.over(level, |level| self.evaluated(Noise { level, ..before })),
+            );
+            let now = best;
+            best = better(
+                best,
+                self.over(now.corner, |corner| self.evaluated(Noise { corner, ..now })),
+            );
+            if best.likelihood - before.likelihood < 0.1 {
+                break;
+            }
+        }
+        best
     }
 
     /// The largest likelihood over corner frequencies all over the range.
@@ -148,9 +196,38 @@ impl Linear<'_> {
         self.maximised(guess, None)
     }
 
+    /// Noise of u itself beside that of its rate, as strong as the samples allow: the likelihood ratio to the likeliest is
+    /// that of one standard error. A prior that is too smooth has a band that does not hold what is less smooth.
+    pub fn with_level(&self, noise: &Noise) -> Noise {
+        let at = |level: f64| self.evaluated(Noise { level, ..*noise });
+        let mut best = noise.likelihood;
+        let mut low = *noise;
+        let mut high = None;
+        let mut level = noise.corner;
+        for _ in 0..LEVELS {
+            let found = at(level);
+            best = best.max(found.likelihood);
+            if found.likelihood > best - ALLOWED {
+                low = found;
+            } else {
+                high = Some(level);
+            }
+            level = match (high, low.level > 0.0) {
+                (None, _) => 2.0 * level,
+                (Some(high), false) => 0.5 * high,
+                (Some(high), true) if high < 1.2 * low.level => break,
+                (Some(high), true) => (high * low.level).sqrt(),
+            };
+        }
+        low
+    }
+
     /// The largest likelihood over the corner frequency, the correlation of the noise and its white part.
     pub fn correlated(&self, from: &Noise) -> Noise {
-        let mut best = Noise { likelihood: f64::NEG_INFINITY, ..*from };
+        let mut best = Noise {
+            likelihood: f64::NEG_INFINITY,
+            ..*from
+        };
         let guesses = [0.2, 1.0, 5.0].map(|steps| Autoregression {
             decay: 1.0 / (steps * self.scales.spacing),
             white: WHITE,
@@ -166,8 +243,19 @@ impl Linear<'_> {
             let Some(now) = best.correlated else { break };
             let corner = best.corner;
             let decay = now.decay.ln();
-            let range = [(0.01 / self.scales.duration).ln(), (5.0 / self.scales.spacing).ln()];
-            let by_decay = |log: f64| self.at(corner, Some(Autoregression { decay: log.exp(), ..now }));
+            let range = [
+                (0.01 / self.scales.duration).ln(),
+                (5.0 / self.scales.spacing).ln(),
+            ];
+            let by_decay = |log: f64| {
+                self.at(
+                    corner,
+                    Some(Autoregression {
+                        decay: log.exp(),
+                        ..now
+                    }),
+                )
+            };
             best = better(best, climb(by_decay, decay, range));
             let Some(now) = best.correlated else { break };
             best = better(best, self.maximised(best.corner, Some(now)));
@@ -178,6 +266,12 @@ impl Linear<'_> {
         best
     }
 }
+
+/// ln of the likelihood ratio that is allowed to more noise than is likeliest.
+const ALLOWED: f64 = 2.0;
+
+/// Most evaluations in the search for that noise.
+const LEVELS: usize = 12;
 
 /// White part of the variance of correlated noise.
 const WHITE: f64 = 0.02;
@@ -231,7 +325,9 @@ fn climb(at: impl Fn(f64) -> Noise, guess: f64, [lowest, highest]: [f64; 2]) -> 
         }
         points.push((top, at(top)));
     }
-    let best = points.into_iter().max_by(|a, b| a.1.likelihood.total_cmp(&b.1.likelihood));
+    let best = points
+        .into_iter()
+        .max_by(|a, b| a.1.likelihood.total_cmp(&b.1.likelihood));
     best.map_or_else(|| at(guess), |(_, noise)| noise)
 }
 
@@ -246,7 +342,11 @@ fn vertex(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> f64 {
     let curvature = (right - left) / (c.0 - a.0);
     if !curvature.is_finite() || curvature >= 0.0 {
         // No parabola: the middle of the wider side.
-        return if c.0 - b.0 > b.0 - a.0 { 0.5 * (b.0 + c.0) } else { 0.5 * (a.0 + b.0) };
+        return if c.0 - b.0 > b.0 - a.0 {
+            0.5 * (b.0 + c.0)
+        } else {
+            0.5 * (a.0 + b.0)
+        };
     }
     let top = 0.5 * (a.0 + b.0) - 0.5 * left / curvature;
     let margin = 0.1;

@@ -71,7 +71,9 @@ fn distance(limits: &[f64], theta: f64) -> f64 {
 /// Whether a limit lies between two states, as a change point may.
 fn passes(limits: &[f64], a: &MotionEstimate, b: &MotionEstimate) -> bool {
     let turn = |state: &MotionEstimate, limit: f64| ((state.value[0] - limit) / TAU).floor();
-    limits.iter().any(|limit| turn(a, *limit) != turn(b, *limit))
+    limits
+        .iter()
+        .any(|limit| turn(a, *limit) != turn(b, *limit))
 }
 
 /// The crank angle at which the motion turns back between two samples: the vertex of the parabola of the nearer one.
@@ -80,6 +82,12 @@ fn turning_angle(a: &MotionEstimate, b: &MotionEstimate) -> Option<f64> {
         let [theta, omega, alpha] = state.value;
         theta - 0.5 * omega * omega / alpha
     };
-    let nearer = if a.value[1].abs() < b.value[1].abs() { a } else { b };
-    (a.value[1] * b.value[1] < 0.0).then(|| vertex(nearer)).filter(|theta| theta.is_finite())
+    let nearer = if a.value[1].abs() < b.value[1].abs() {
+        a
+    } else {
+        b
+    };
+    (a.value[1] * b.value[1] < 0.0)
+        .then(|| vertex(nearer))
+        .filter(|theta| theta.is_finite())
 }

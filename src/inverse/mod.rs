@@ -13,6 +13,7 @@ mod likelihood;
 mod limit;
 mod measurement_model;
 mod motion_estimate;
+mod outliers;
 mod polynomial;
 mod residual_tests;
 mod row;

@@ -57,8 +57,15 @@ fn runs(list: &[f64]) -> f64 {
     let all = positive + negative;
     let expected = 1.0 + 2.0 * positive * negative / all;
     let variance = (expected - 1.0) * (expected - 2.0) / (all - 1.0);
-    let found = 1 + list.windows(2).filter(|w| (w[0] > 0.0) != (w[1] > 0.0)).count();
-    if variance > 0.0 { (found as f64 - expected) / variance.sqrt() } else { 0.0 }
+    let found = 1 + list
+        .windows(2)
+        .filter(|w| (w[0] > 0.0) != (w[1] > 0.0))
+        .count();
+    if variance > 0.0 {
+        (found as f64 - expected) / variance.sqrt()
+    } else {
+        0.0
+    }
 }
 
 #[cfg(test)]
@@ -69,7 +76,9 @@ mod tests {
     fn noise(count: usize) -> Vec<f64> {
         let mut state = 1u64;
         let mut next = || {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
             (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
         };
         (0..count).map(|_| next()).collect()

@@ -4,6 +4,7 @@
 use super::kalman;
 use super::likelihood::{Linear, Noise, Scales, Stretch};
 use super::measurement_model::Sensor;
+use super::residual_tests::Whiteness;
 use super::state_space::{Deviations, Motion, Observed, Prior, Rates, State, Unknown};
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
@@ -71,7 +72,9 @@ impl Grid {
             grid.times.push(*t);
             grid.first.push(i);
             let Some(next) = times.get(i + 1) else { break };
-            let parts = ((angles[i + 1] - angles[i]).abs() / LONGEST).ceil().clamp(1.0, 1e4);
+            let parts = ((angles[i + 1] - angles[i]).abs() / LONGEST)
+                .ceil()
+                .clamp(1.0, 1e4);
             for k in 1..parts as usize {
                 grid.times.push(t + (next - t) * k as f64 / parts);
                 grid.first.push(i + 1);
@@ -131,6 +134,11 @@ pub(super) struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
+    /// The node of a sample.
+    pub fn node_of(&self, sample: usize) -> usize {
+        self.grid.first.partition_point(|first| *first <= sample) - 1
+    }
+
     pub fn motion(&self, prior: Prior) -> Motion<'a> {
         Motion {
             equation: self.equation,
@@ -140,7 +148,13 @@ impl<'a> Problem<'a> {
     }
 
     /// The linear model of a stretch of nodes about a path.
-    fn stretch(&self, motion: &Motion<'_>, path: &Path, range: std::ops::Range<usize>, sigma: f64) -> Stretch {
+    fn stretch(
+        &self,
+        motion: &Motion<'_>,
+        path: &Path,
+        range: std::ops::Range<usize>,
+        sigma: f64,
+    ) -> Stretch {
         let times = &self.grid.times;
         let rates: Vec<Rates> = range
             .clone()
@@ -153,7 +167,10 @@ impl<'a> Problem<'a> {
         });
         Stretch {
             steps: steps.collect(),
-            observed: range.clone().map(|k| self.record.observed(&self.grid, path, k, sigma)).collect(),
+            observed: range
+                .clone()
+                .map(|k| self.record.observed(&self.grid, path, k, sigma))
+                .collect(),
         }
     }
 
@@ -167,13 +184,18 @@ impl<'a> Problem<'a> {
         }
         let length = MOST / PARTS;
         let begin = |part: usize| (nodes - length) * part / (PARTS - 1);
-        (0..PARTS).map(|part| begin(part)..begin(part) + length).collect()
+        (0..PARTS)
+            .map(|part| begin(part)..begin(part) + length)
+            .collect()
     }
 
     /// Stretches of the linear model for the estimate of hyper-parameters.
     pub fn stretches(&self, motion: &Motion<'_>, path: &Path, sigma: f64) -> Vec<Stretch> {
         let ranges = self.sampled();
-        ranges.into_iter().map(|range| self.stretch(motion, path, range, sigma)).collect()
+        ranges
+            .into_iter()
+            .map(|range| self.stretch(motion, path, range, sigma))
+            .collect()
     }
 
     /// Typical sizes along a path with a prior.
@@ -186,7 +208,11 @@ impl<'a> Problem<'a> {
         for k in (0..times.len()).step_by(stride) {
             let state = &path.states[k];
             let rates = motion.rates(times[k], state);
-            let tempo = if motion.prior.per_angle { state[1].abs() } else { 1.0 };
+            let tempo = if motion.prior.per_angle {
+                state[1].abs()
+            } else {
+                1.0
+            };
             if rates.by_unknown.is_finite() {
                 lever += rates.by_unknown * rates.by_unknown * tempo;
                 count += 1.0;
@@ -203,7 +229,13 @@ impl<'a> Problem<'a> {
     }
 
     /// The smoothed motion, in pieces side by side.
-    pub fn smoothed(&self, motion: &Motion<'_>, path: &Path, scales: Scales, noise: &Noise) -> Vec<Estimate> {
+    pub fn smoothed(
+        &self,
+        motion: &Motion<'_>,
+        path: &Path,
+        scales: Scales,
+        noise: &Noise,
+    ) -> Vec<Estimate> {
         let nodes = self.grid.len();
         let times = &self.grid.times;
         let shared = FORGOTTEN / noise.corner;
@@ -229,7 +261,14 @@ impl<'a> Problem<'a> {
         parallel::map(0..pieces, job).concat()
     }
 
-    fn estimates(&self, motion: &Motion<'_>, path: &Path, from: usize, model: &Deviations<'_>, noise: &Noise) -> Vec<Estimate> {
+    fn estimates(
+        &self,
+        motion: &Motion<'_>,
+        path: &Path,
+        from: usize,
+        model: &Deviations<'_>,
+        noise: &Noise,
+    ) -> Vec<Estimate> {
         match (model.order, model.correlated) {
             (1, None) => self.estimated::<3>(motion, path, from, model, noise),
             (1, Some(_)) | (2, None) => self.estimated::<4>(motion, path, from, model, noise),
@@ -237,29 +276,43 @@ impl<'a> Problem<'a> {
         }
     }
 
-    fn estimated<const N: usize>(&self, motion: &Motion<'_>, path: &Path, from: usize, model: &Deviations<'_>, noise: &Noise) -> Vec<Estimate> {
+    fn estimated<const N: usize>(
+        &self,
+        motion: &Motion<'_>,
+        path: &Path,
+        from: usize,
+        model: &Deviations<'_>,
+        noise: &Noise,
+    ) -> Vec<Estimate> {
         let (deviations, innovations) = kalman::smooth::<N>(model);
         let variance = noise.sigma * noise.sigma;
         let dimension = 2 + model.order;
-        let estimate = |(at, (deviation, innovation)): (usize, (&kalman::Gaussian<N>, &Option<f64>))| {
-            let mut state = path.states[from + at];
-            for k in 0..dimension {
-                state[k] += deviation.mean[k];
-            }
-            let rates = motion.rates(self.grid.times[from + at], &state);
-            let gradient = [rates.by_theta, rates.by_omega, rates.by_unknown];
-            let p = &deviation.covariance;
-            let across: [f64; 3] = std::array::from_fn(|i| (0..3).map(|k| p[i][k] * gradient[k]).sum::<f64>());
-            let own: f64 = (0..3).map(|k| gradient[k] * across[k]).sum();
-            let covariance = [p[0][0], p[0][1], p[1][1], across[0], across[1], own];
-            Estimate {
-                state,
-                motion: [state[0], state[1], rates.alpha],
-                covariance: covariance.map(|value| value * variance),
-                innovation: innovation.map_or(f64::NAN, |value| value / noise.sigma),
-            }
-        };
-        deviations.iter().zip(&innovations).enumerate().map(estimate).collect()
+        let estimate =
+            |(at, (deviation, innovation)): (usize, (&kalman::Gaussian<N>, &Option<f64>))| {
+                let mut state = path.states[from + at];
+                for k in 0..dimension {
+                    state[k] += deviation.mean[k];
+                }
+                let rates = motion.rates(self.grid.times[from + at], &state);
+                let gradient = [rates.by_theta, rates.by_omega, rates.by_unknown];
+                let p = &deviation.covariance;
+                let across: [f64; 3] =
+                    std::array::from_fn(|i| (0..3).map(|k| p[i][k] * gradient[k]).sum::<f64>());
+                let own: f64 = (0..3).map(|k| gradient[k] * across[k]).sum();
+                let covariance = [p[0][0], p[0][1], p[1][1], across[0], across[1], own];
+                Estimate {
+                    state,
+                    motion: [state[0], state[1], rates.alpha],
+                    covariance: covariance.map(|value| value * variance),
+                    innovation: innovation.map_or(f64::NAN, |value| value / noise.sigma),
+                }
+            };
+        deviations
+            .iter()
+            .zip(&innovations)
+            .enumerate()
+            .map(estimate)
+            .collect()
     }
 }
 
@@ -283,10 +336,26 @@ pub(super) const KINEMATIC: Prior = Prior {
 
 /// Priors through the equation of motion.
 pub(super) const MECHANICAL: [Prior; 4] = [
-    Prior { unknown: Unknown::Torque, order: 1, per_angle: false },
-    Prior { unknown: Unknown::Torque, order: 2, per_angle: false },
-    Prior { unknown: Unknown::Force, order: 1, per_angle: false },
-    Prior { unknown: Unknown::Force, order: 2, per_angle: false },
+    Prior {
+        unknown: Unknown::Torque,
+        order: 1,
+        per_angle: false,
+    },
+    Prior {
+        unknown: Unknown::Torque,
+        order: 2,
+        per_angle: false,
+    },
+    Prior {
+        unknown: Unknown::Force,
+        order: 1,
+        per_angle: false,
+    },
+    Prior {
+        unknown: Unknown::Force,
+        order: 2,
+        per_angle: false,
+    },
 ];
 
 /// Most iterations of Gauss and Newton.
@@ -301,7 +370,9 @@ impl Problem<'_> {
         let stride = path.states.len().div_ceil(1000);
         let slopes = path.states.iter().step_by(stride);
         let slopes = slopes.map(|state| self.record.sensor.shown(state[0]).slope.powi(2));
-        let (sum, count) = slopes.filter(|s| s.is_finite()).fold((0.0, 0.0), |(s, n), x| (s + x, n + 1.0));
+        let (sum, count) = slopes
+            .filter(|s| s.is_finite())
+            .fold((0.0, 0.0), |(s, n), x| (s + x, n + 1.0));
         (sum / f64::max(count, 1.0)).sqrt()
     }
 
@@ -317,9 +388,15 @@ impl Problem<'_> {
         for iteration in 0..ITERATIONS {
             let scales = self.scales(&motion, &path, slope, shape);
             let stretches = self.stretches(&motion, &path, sigma);
-            let linear = Linear { stretches: &stretches, order: 2, scales };
+            let linear = Linear {
+                stretches: &stretches,
+                order: 2,
+                scales,
+            };
             let noise = match &best {
-                Some(last) if iteration < 3 || is_linear => linear.maximised(last.noise.corner, None),
+                Some(last) if iteration < 3 || is_linear => {
+                    linear.maximised(last.noise.corner, None)
+                }
                 Some(last) => linear.maximised(last.noise.corner, None),
                 None => linear.anywhere(),
             };
@@ -328,18 +405,30 @@ impl Problem<'_> {
             sigma = noise.sigma;
             path = Path {
                 states: estimates.iter().map(|e| e.state).collect(),
-                variances: (!is_linear).then(|| estimates.iter().map(|e| e.covariance[0]).collect()),
+                variances: (!is_linear)
+                    .then(|| estimates.iter().map(|e| e.covariance[0]).collect()),
             };
-            let rms = |k: usize| (estimates.iter().map(|e| e.state[k].powi(2)).sum::<f64>() / estimates.len() as f64).sqrt();
+            let rms = |k: usize| {
+                (estimates.iter().map(|e| e.state[k].powi(2)).sum::<f64>() / estimates.len() as f64)
+                    .sqrt()
+            };
             shape = [rms(2).max(f64::MIN_POSITIVE), rms(3).max(f64::MIN_POSITIVE)];
             let settled = change < AT_REST || is_linear;
-            best = Some(Smoothed { prior: KINEMATIC, noise, scales, estimates, settled });
+            best = Some(Smoothed {
+                prior: KINEMATIC,
+                noise,
+                scales,
+                estimates,
+                settled,
+            });
             // A second pass takes what is lost to rounding about a straight line.
             if change < AT_REST || is_linear && iteration > 0 {
                 break;
             }
         }
-        let Some(mut found) = best else { unreachable!("at least one iteration") };
+        let Some(mut found) = best else {
+            unreachable!("at least one iteration")
+        };
         found.scales.motion = shape;
         found
     }
@@ -352,7 +441,8 @@ impl Problem<'_> {
             let terms = self.equation.terms(theta);
             let t = self.record.origin + self.grid.times[k];
             let known = self.equation.loads().value(t, theta, omega, &terms.pose);
-            let torque = self.equation.generalized_force(&terms, omega, alpha) - known.generalized(&terms.pose);
+            let torque = self.equation.generalized_force(&terms, omega, alpha)
+                - known.generalized(&terms.pose);
             let dx = terms.pose.dx;
             let unknown = match prior.unknown {
                 Unknown::Acceleration => alpha,
@@ -368,26 +458,113 @@ impl Problem<'_> {
         Path { states, variances }
     }
 
-    /// The likelihood of a prior along a path.
-    pub fn candidate(&self, prior: Prior, from: &Smoothed) -> (Noise, Scales, Path) {
+    /// A prior about a smoothed path.
+    fn candidate(&self, prior: Prior, from: &Smoothed, correlated: bool) -> Candidate {
         let motion = self.motion(prior);
         let path = self.path_of(prior, from);
         let scales = self.scales(&motion, &path, from.scales.slope, from.scales.motion);
         let stretches = self.stretches(&motion, &path, from.noise.sigma);
-        let linear = Linear { stretches: &stretches, order: prior.order, scales };
-        let noise = linear.maximised(from.noise.corner, None);
-        (noise, scales, path)
+        let linear = Linear {
+            stretches: &stretches,
+            order: prior.order,
+            scales,
+        };
+        let mut noise = linear.maximised(from.noise.corner, None);
+        if correlated {
+            let found = linear.correlated(&noise);
+            // Noise that leaves the path rougher than white noise does is motion.
+            let rougher = found.corner > noise.corner;
+            noise = if rougher { noise } else { found };
+        }
+        if std::env::var("MIX").is_ok() && prior.order == 2 {
+            noise = linear.mixed(&noise);
+        }
+        Candidate {
+            prior,
+            noise,
+            scales,
+            path,
+        }
+    }
+
+    /// The smoothed motion with the likeliest prior, and all that were tried with the ln of their likelihoods, the likeliest
+    /// first. Noise of the samples is correlated where the prediction errors say so, and the likelihood agrees.
+    pub fn likeliest(&self, kinematic: Smoothed) -> (Smoothed, Vec<(Prior, f64)>) {
+        let white = self.tried(&kinematic, false);
+        let Some(found) = self.first_settled(&white) else {
+            return (kinematic, listed(&white));
+        };
+        let innovations = found.estimates.iter().map(|e| e.innovation);
+        let is_noise = found.noise.sigma > 1.5 * self.record.floor;
+        if is_noise && Whiteness::of(innovations).is_violated() {
+            let correlated = self.tried(&kinematic, true);
+            // Two parameters more (Schwarz 1978).
+            let cost = (self.record.times.len() as f64).ln();
+            let gain = |tried: &[Candidate]| {
+                tried
+                    .first()
+                    .map_or(f64::NEG_INFINITY, |c| c.noise.likelihood)
+            };
+            if gain(&correlated) > gain(&white) + cost
+                && let Some(found) = self.first_settled(&correlated)
+            {
+                return (found, listed(&correlated));
+            }
+        }
+        (found, listed(&white))
+    }
+
+    /// All priors about a path, the likeliest first.
+    fn tried(&self, kinematic: &Smoothed, correlated: bool) -> Vec<Candidate> {
+        let priors: Vec<Prior> = std::iter::once(KINEMATIC).chain(MECHANICAL).collect();
+        let tried = parallel::map(priors.iter(), |prior| {
+            Some(self.candidate(*prior, kinematic, correlated))
+        });
+        let mut tried: Vec<_> = tried.into_iter().flatten().collect();
+        tried.sort_by(|a, b| b.noise.likelihood.total_cmp(&a.noise.likelihood));
+        tried
+    }
+
+    /// The smoothed motion with the first prior whose iterations come to rest.
+    fn first_settled(&self, tried: &[Candidate]) -> Option<Smoothed> {
+        let smoothed = tried.iter().map(|candidate| self.iterated(candidate));
+        smoothed.into_iter().find(|found| found.settled)
     }
 
     /// The smoothed motion with a prior, about paths that approach it.
-    pub fn iterated(&self, prior: Prior, mut noise: Noise, scales: Scales, mut path: Path) -> Smoothed {
+    fn iterated(&self, candidate: &Candidate) -> Smoothed {
+        let Candidate {
+            prior,
+            mut noise,
+            scales,
+            mut path,
+        } = candidate.clone();
         let motion = self.motion(prior);
-        let mut result = Smoothed { prior, noise, scales, estimates: Vec::new(), settled: false };
+        let mut result = Smoothed {
+            prior,
+            noise,
+            scales,
+            estimates: Vec::new(),
+            settled: false,
+        };
         for iteration in 0..ITERATIONS {
             if iteration > 0 {
                 let stretches = self.stretches(&motion, &path, noise.sigma);
-                let linear = Linear { stretches: &stretches, order: prior.order, scales };
-                noise = linear.maximised(noise.corner, noise.correlated);
+                let linear = Linear {
+                    stretches: &stretches,
+                    order: prior.order,
+                    scales,
+                };
+                if std::env::var("MIX").is_ok() && prior.order == 2 {
+                    if iteration < 3 {
+                        noise = linear.mixed(&noise);
+                    }
+                } else {
+                    noise = linear.maximised(noise.corner, noise.correlated);
+                    if prior.order == 2 && std::env::var("NOLEVEL").is_err() {
+                        noise = linear.with_level(&noise);
+                    }
+                }
             }
             let estimates = self.smoothed(&motion, &path, scales, &noise);
             let change = change(&estimates, &path);
@@ -408,11 +585,32 @@ impl Problem<'_> {
     }
 }
 
+/// A prior with its noise, about a path.
+#[derive(Clone, Debug)]
+struct Candidate {
+    prior: Prior,
+    noise: Noise,
+    scales: Scales,
+    path: Path,
+}
+
+fn listed(tried: &[Candidate]) -> Vec<(Prior, f64)> {
+    tried
+        .iter()
+        .map(|candidate| (candidate.prior, candidate.noise.likelihood))
+        .collect()
+}
+
 /// Root mean square change of the crank angles in their standard errors.
 fn change(estimates: &[Estimate], path: &Path) -> f64 {
-    let changes = estimates.iter().zip(&path.states).map(|(estimate, before)| {
-        let variance = estimate.covariance[0].max((1e-14 * estimate.state[0]).powi(2)).max(f64::MIN_POSITIVE);
-        (estimate.state[0] - before[0]).powi(2) / variance
-    });
+    let changes = estimates
+        .iter()
+        .zip(&path.states)
+        .map(|(estimate, before)| {
+            let variance = estimate.covariance[0]
+                .max((1e-14 * estimate.state[0]).powi(2))
+                .max(f64::MIN_POSITIVE);
+            (estimate.state[0] - before[0]).powi(2) / variance
+        });
     (changes.sum::<f64>() / estimates.len() as f64).sqrt()
 }

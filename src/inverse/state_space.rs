@@ -81,7 +81,8 @@ impl Motion<'_> {
             Unknown::Force => terms.pose.dx,
             _ => 1.0,
         };
-        let known = load.generalized(&terms.pose) - terms.dv - terms.inertia.half_dm * omega * omega;
+        let known =
+            load.generalized(&terms.pose) - terms.dv - terms.inertia.half_dm * omega * omega;
         let m = terms.inertia.m;
         [(known + arm * unknown) / m, arm / m]
     }
@@ -149,7 +150,12 @@ impl Motion<'_> {
         Linearised {
             h,
             top,
-            defect: [after[0] - b[0], after[1] - b[1], unknown - b[2], a[3] - b[3]],
+            defect: [
+                after[0] - b[0],
+                after[1] - b[1],
+                unknown - b[2],
+                a[3] - b[3],
+            ],
             lever,
             tempo: if self.prior.per_angle {
                 ((b[0] - a[0]) / h).abs()
@@ -223,6 +229,8 @@ pub(super) struct Deviations<'a> {
     pub order: usize,
     /// Spectral density of the process noise over σ².
     pub noise: f64,
+    /// Spectral density of white noise that u itself follows beside it, over σ².
+    pub level: f64,
     pub correlated: Option<Autoregression>,
     /// Standard deviations of θ, ω, u and u̇ before the first sample, in σ.
     pub spread: State,
@@ -332,12 +340,6 @@ impl Deviations<'_> {
     #[inline]
     fn add_noise<const N: usize>(&self, step: &Linearised, noise: &mut Matrix<N>) {
         let (h, b) = (step.h, step.lever);
-        // ψ_k = scale_k s^power_k
-        let (scales, powers) = if self.order == 2 {
-            ([b / 6.0, 0.5 * b, 1.0, 1.0], [3, 2, 1, 0])
-        } else {
-            ([0.5 * b, b, 1.0, 0.0], [2, 1, 0, 0])
-        };
         // hⁿ/n
         let mut integral = [0.0; 8];
         let mut power = 1.0;
@@ -345,11 +347,23 @@ impl Deviations<'_> {
             power *= h;
             *value = power / n as f64;
         }
-        let density = self.noise * step.tempo;
-        for i in 0..2 + self.order {
-            for j in 0..2 + self.order {
-                noise[i][j] =
-                    density * scales[i] * scales[j] * integral[powers[i] + powers[j] + 1];
+        // Responses of θ, ω, u, u̇ to an impulse a time s before: ψ_k = scale_k s^power_k.
+        let on_level = ([0.5 * b, b, 1.0, 0.0], [2, 1, 0, 0]);
+        let on_slope = ([b / 6.0, 0.5 * b, 1.0, 1.0], [3, 2, 1, 0]);
+        let mut add = |(scales, powers): ([f64; 4], [usize; 4]), density: f64| {
+            for i in 0..2 + self.order {
+                for j in 0..2 + self.order {
+                    let integral = integral[powers[i] + powers[j] + 1];
+                    noise[i][j] += density * step.tempo * scales[i] * scales[j] * integral;
+                }
+            }
+        };
+        if self.order == 1 {
+            add(on_level, self.noise);
+        } else {
+            add(on_slope, self.noise);
+            if self.level > 0.0 {
+                add(on_level, self.level);
             }
         }
     }
@@ -374,7 +388,11 @@ mod tests {
             observed: &[],
             order: 2,
             noise: 1.0,
-            correlated: Some(Autoregression { decay: 2.0, white: 0.1 }),
+            level: 0.5,
+            correlated: Some(Autoregression {
+                decay: 2.0,
+                white: 0.1,
+            }),
             spread: [1.0; 4],
         };
         let step: Step<5> = model.step(0);
@@ -391,7 +409,8 @@ mod tests {
         let (mut theta, mut omega) = (0.4, -0.2);
         let (count, h) = (10_000, 0.1);
         let dt = h / f64::from(count);
-        let rate = |theta: f64, omega: f64, t: f64| -2.0 * theta + 0.7 * omega + 1.7 * (1.0 + 2.0 * t);
+        let rate =
+            |theta: f64, omega: f64, t: f64| -2.0 * theta + 0.7 * omega + 1.7 * (1.0 + 2.0 * t);
         for k in 0..count {
             let t = f64::from(k) * dt;
             let half = omega + 0.5 * dt * rate(theta, omega, t);

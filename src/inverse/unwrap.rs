@@ -71,7 +71,11 @@ pub(super) fn unwrap(linkage: &Linkage, measurement: &Measurement) -> Result<Cra
     if !list.is_empty() {
         return Err(measurement.problems(list).into());
     }
-    Ok(CrankAngles { theta, sigma: 0.0, warnings })
+    Ok(CrankAngles {
+        theta,
+        sigma: 0.0,
+        warnings,
+    })
 }
 
 /// What is said of an angle that jumps, as where a counter of turns was reset.

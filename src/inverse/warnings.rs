@@ -28,7 +28,8 @@ pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> 
     let mut warnings = Vec::new();
     if !fitted.settled {
         warnings.push(
-            "the iterations did not settle: the motion between the samples is not certain".to_owned(),
+            "the iterations did not settle: the motion between the samples is not certain"
+                .to_owned(),
         );
     }
     let rows = measurement.len() as f64;

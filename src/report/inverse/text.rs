@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use crate::report::facts::Facts;
 use crate::inverse::{AsPrinted, FitSummary, ForceRange, Inverse};
+use crate::report::facts::Facts;
 
 /// Rows of the table.
 const ROWS: usize = 16;
