@@ -47,8 +47,12 @@
 //!   ([`scene::Measurement::load`]).
 //! - [`study::Sweep`] computes many designs; [`study::explain`] shows the equation, its terms and the plan.
 //!
+//! Without the default feature `cli` the library has neither the program nor scene files, sweeps and reports; scenes are
+//! then written in Rust.
+//!
 //! Everything is SI and radians, f64; conventions are those of [`mechanism::Linkage`].
 
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod engine;
 pub mod error;
@@ -56,11 +60,12 @@ pub mod inverse;
 pub mod mechanism;
 pub mod numeric;
 pub mod plan;
+#[cfg(feature = "cli")]
 pub mod report;
 pub mod scene;
 pub mod study;
 pub mod trajectory;
 
-#[cfg(doctest)]
+#[cfg(all(doctest, feature = "cli"))]
 #[doc = include_str!("../README.md")]
 struct Readme;

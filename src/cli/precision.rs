@@ -124,7 +124,7 @@ fn compare(
             say(&format!("{} of {}: {title}", number + 1, scenes.len()));
         }
         let result = match study::precision(scene, options) {
-            Err(error @ Error::Refused { .. }) if scenes.len() > 1 => {
+            Err(error @ (Error::Refused { .. } | Error::Scene(_))) if scenes.len() > 1 => {
                 Precision::refused(scene, &error)
             }
             result => result?,

@@ -3,28 +3,39 @@
 //! A scene comes from a file ([`Scene::load`]) or from code ([`Scene::new`] and the methods that add
 //! parts). Either way [`Scene::check`] says all that is wrong with it.
 
+#[cfg(feature = "cli")]
 mod assemble;
 mod body;
 mod builder;
+#[cfg(feature = "cli")]
 mod builtin;
 mod clearance;
 mod expression;
+#[cfg(feature = "cli")]
 mod keys;
 mod load;
 mod measurement;
 mod motion;
 mod number;
 mod parts;
+mod period;
+mod places;
 mod problem;
+#[cfg(feature = "cli")]
 mod read;
+#[cfg(feature = "cli")]
+mod render;
+#[cfg(feature = "cli")]
 mod schema;
 mod table;
 mod text;
 pub mod unit;
 mod validate;
 mod variable;
+#[cfg(feature = "cli")]
 mod vary;
 
+#[cfg(feature = "cli")]
 use builtin::DUARTE;
 
 use std::path::Path;
@@ -36,10 +47,14 @@ pub use load::Load;
 pub use measurement::{DUARTE_MOTION, Measured, Measurement, Reading};
 pub use motion::{Every, Extent, Motion, MotionKind, Run};
 pub use parts::{Branch, Friction, Geometry, Gravity};
+pub use period::{Period, Repeats, WhyNot};
+pub use places::Places;
 pub use problem::{Problem, Problems};
+#[cfg(feature = "cli")]
 pub use schema::schema;
 pub use table::{Interpolation, Table, calibration_points};
 pub use variable::{Instant, Variable, Variables};
+#[cfg(feature = "cli")]
 pub use vary::{Draft, Varied};
 
 /// A complete scene.
@@ -69,6 +84,8 @@ pub struct Scene {
     pub motion: Motion,
     /// How long, how fine, how exact.
     pub run: Run,
+    /// Where its keys stand, if it comes from a file.
+    pub places: Places,
 }
 
 impl Scene {
@@ -79,10 +96,18 @@ impl Scene {
     pub fn check(&self) -> Result<(), Problems> {
         let mut problems = Vec::new();
         validate::problems(self, &mut problems);
+        self.refused(problems)
+    }
+
+    /// What is wrong, with the places of the file the scene comes from.
+    ///
+    /// # Errors
+    /// [`Problems`] if there is anything.
+    pub fn refused(&self, problems: Vec<Problem>) -> Result<(), Problems> {
         if problems.is_empty() {
             Ok(())
         } else {
-            Err(Problems::in_code(problems))
+            Err(self.places.problems(problems))
         }
     }
 

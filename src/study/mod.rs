@@ -24,6 +24,7 @@ mod peaks;
 mod precision;
 mod profile;
 mod relay;
+#[cfg(feature = "cli")]
 mod reproduce;
 mod row;
 mod schedule;
@@ -34,6 +35,7 @@ mod statics;
 mod steady;
 mod stopped;
 mod summary;
+#[cfg(feature = "cli")]
 mod sweep;
 mod swing;
 mod task;
@@ -50,6 +52,7 @@ pub use offsets::{OffsetExtremes, offset_extremes};
 pub use one_turn::{LengthSlope, LoopCheck, OneTurn, TurnOptions, TurnRow, one_turn};
 pub use peaks::{Peak, Peaks};
 pub use precision::{Precision, PrecisionOptions, PrecisionRow, precision};
+#[cfg(feature = "cli")]
 pub use reproduce::{Drawing, Entry, Paper, Plot, Reproduction, Series, Style, Verdict, reproduce};
 pub use row::{LooseRow, NoRows, Row, RowSink};
 pub use simulate::{Options, Simulation, simulate, simulate_rows};
@@ -58,4 +61,5 @@ pub use steady::{
     Estimated, Flywheel, LoadWork, SpeedExtreme, SteadyOptions, SteadyState, steady_state,
 };
 pub use summary::{Cost, ErrorEstimate, Event, Final, Summary, TorqueRange};
+#[cfg(feature = "cli")]
 pub use sweep::{Design, Outcome, Sweep, SweepOptions};
