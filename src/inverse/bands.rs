@@ -36,7 +36,7 @@ pub struct BandRule {
 /// The lever arm, in cranks, below which the rule applies.
 pub(super) const LONG_ARM: f64 = 0.5;
 
-const RULE: &str = "within |x'| < r/2 the slider force is left empty where half of its 95 % band is wider than the largest crank torque of the motion (or ten times the median half-width of that torque's band, if larger) over the crank length, or where x' is less than five standard errors from zero; near the limit of a rocker (cos phi < 0.3) the width alone counts, and each torque of a rocker is divided by |x'| where that is longer than the crank; it is left empty too with friction where the crank speed is less than five standard errors from zero, and, with the torque, where a polynomial of the highest degree misses more of the acceleration than there usually is";
+const RULE: &str = "within |x'| < r/2 the slider force is left empty where half of its 95 % band is wider than the largest crank torque of the motion (or ten times the median half-width of that torque's band, if larger) over the crank length, or where x' is less than five standard errors from zero; near the limit of a rocker (cos phi < 0.3) the width alone counts, and each torque of a rocker is divided by |x'| where that is longer than the crank; it is left empty too with friction where the crank speed is less than five standard errors from zero";
 
 const NO_SIGN: &str = "the sign of the lever arm x' is not certain";
 const AT_LIMIT: &str =
@@ -48,14 +48,9 @@ const TOO_WIDE: &str =
 
 const TOO_WIDE_AT_LIMIT: &str = "the rod is nearly normal to the guide: the uncertainty of the motion makes that of the force wider than the force";
 
-const NOT_FOLLOWED: &str = "the fit misses more of the acceleration than there usually is";
-
-/// Whether samples beside each other are left empty by one cause: rest is another one than a dead centre, and so is a fit that
-/// does not follow.
+/// Whether samples beside each other are left empty by one cause: rest is another one than a dead centre.
 pub(super) fn alike(reason: &str, other: &str) -> bool {
-    [AT_REST, NOT_FOLLOWED]
-        .iter()
-        .all(|cause| (reason == *cause) == (other == *cause))
+    (reason == AT_REST) == (other == AT_REST)
 }
 
 impl BandRule {
@@ -86,9 +81,7 @@ impl BandRule {
         let [force, error] =
             [row.slider_force, row.slider_force_se].map(|value| value.unwrap_or(f64::NAN));
         let narrow = factor * error <= self.half_width_max_n;
-        if !doubt.followed {
-            Some(NOT_FOLLOWED)
-        } else if !force.is_finite() || !error.is_finite() {
+        if !force.is_finite() || !error.is_finite() {
             // At a dead centre itself the lever arm is zero.
             Some(if doubt.near_limit { AT_LIMIT } else { NO_SIGN })
         } else if !doubt.friction_known {

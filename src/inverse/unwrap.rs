@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::{Unfolded, gaps};
+use super::branch_tracking::CrankAngles;
 use crate::error::Error;
 use crate::mechanism::Linkage;
 use crate::numeric::median::median;
@@ -15,7 +15,7 @@ const ONE_TURN: f64 = 1.05;
 const JUMP: f64 = 10.0;
 
 /// A measured crank angle as it is, or continued over the turns if it was reduced to one.
-pub(super) fn unwrap(linkage: &Linkage, measurement: &Measurement) -> Result<Unfolded, Error> {
+pub(super) fn unwrap(linkage: &Linkage, measurement: &Measurement) -> Result<CrankAngles, Error> {
     let values = measurement.values();
     let (least, most) = values
         .iter()
@@ -46,7 +46,6 @@ pub(super) fn unwrap(linkage: &Linkage, measurement: &Measurement) -> Result<Unf
                 "sample more often, or give theta without reducing it to one turn",
             ));
         }
-        warnings.extend(gaps::too_far(measurement, &theta));
     } else if jumps {
         warnings.extend(jumping(measurement));
     }
@@ -72,7 +71,11 @@ pub(super) fn unwrap(linkage: &Linkage, measurement: &Measurement) -> Result<Unf
     if !list.is_empty() {
         return Err(measurement.problems(list).into());
     }
-    Ok(Unfolded { theta, warnings })
+    Ok(CrankAngles {
+        theta,
+        sigma: 0.0,
+        warnings,
+    })
 }
 
 /// What is said of an angle that jumps, as where a counter of turns was reset.

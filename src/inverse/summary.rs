@@ -5,7 +5,6 @@ use serde::Serialize;
 use super::bands::{BandRule, DeadCentreBand};
 use super::fitted::Fitted;
 use super::row::{InverseRow, Rows};
-use crate::numeric::fit::Curve;
 use crate::numeric::median::median;
 use crate::numeric::parallel;
 use crate::plan::Plan;
@@ -58,22 +57,24 @@ pub struct DataSummary {
 }
 
 /// What was fitted, and how well.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct FitSummary {
-    /// `polynomial`, `spline` or `fourier`.
+    /// `polynomial` or `smoother`.
     pub kind: &'static str,
-    /// Degree of the polynomial or of the spline's pieces, number of harmonics.
+    /// Why this kind was taken, in words.
+    pub reason: String,
+    /// What varies at random in the smoother's equation of motion; empty of a polynomial.
+    pub prior: &'static str,
+    /// Priors that were compared, the likeliest first.
+    pub candidates: Vec<CandidateSummary>,
+    /// Degree of the polynomial; of a smoother, that of the spline it is without mechanics.
     pub degree: usize,
     /// The time from which the coefficients count theirs, s; other than 0 where times so far from zero lose digits.
     pub time_origin_s: f64,
-    /// Of the powers 1, t, t², ... (t in s, angle in rad); of 1, t, cos, sin, cos 2, ... of the mean rotation; of the
-    /// B-splines. Null where plain time leaves no digits.
+    /// Of the powers 1, t, t², ... (t in s, angle in rad); empty of a smoother. Null where plain time leaves no digits.
     pub coefficients: Vec<Option<f64>>,
     /// Their standard errors, for residuals that are noise.
     pub standard_errors: Vec<Option<f64>>,
-    /// Passages from one step of the samples to the next that the curve was fitted to; none if it was fitted to the samples
-    /// themselves.
-    pub passages: Option<usize>,
     /// 1 − squares of the residuals over squares about the mean, of what was measured.
     pub r_squared: f64,
     /// Root mean square of the residuals, rad or m.
@@ -82,16 +83,27 @@ pub struct FitSummary {
     pub condition: Option<f64>,
     /// Standard deviation of a sample, rad or m: rms corrected for the parameters, at least what the digits allow.
     pub sigma: f64,
-    /// Number of parameters, or what they are worth under a penalty.
+    /// Number of parameters, of a smoother what they are worth.
     pub parameters: f64,
-    /// `double-double` or `double`.
-    pub arithmetic: &'static str,
-    /// Correlation of each residual with the next, of those that the curve was fitted to.
+    /// Corner frequency of the smoother, Hz: slower variations of the acceleration are followed.
+    pub corner_hz: Option<f64>,
+    /// Correlation time of the noise of the samples, s, where it is not white.
+    pub noise_correlation_s: Option<f64>,
+    /// Samples that hardly count because they are far off.
+    pub outliers: usize,
+    /// Correlation of each residual with the next; of a smoother, of each prediction error.
     pub residual_lag_one: f64,
-    /// Runs of one sign among the residuals, in standard deviations from what noise has.
+    /// Runs of one sign among them, in standard deviations from what noise has.
     pub residual_runs: f64,
-    /// Factor by which the standard errors of the rows are widened because the residuals have a pattern.
-    pub widening: f64,
+}
+
+/// A prior that was compared with others.
+#[derive(Clone, Debug, Serialize)]
+pub struct CandidateSummary {
+    /// What varies at random.
+    pub prior: &'static str,
+    /// ln of its marginal likelihood.
+    pub log_likelihood: f64,
 }
 
 /// Smallest and largest value, and the median of the standard errors.
@@ -163,7 +175,7 @@ impl InverseSummary {
             scene: scene.title.clone().unwrap_or_default(),
             plan,
             data: DataSummary::new(measurement, &found.rows),
-            fit: FitSummary::new(fitted, measurement),
+            fit: fitted.summary.clone(),
             beside_forces,
             band_factor,
             slider_force: ranges[0],
@@ -186,50 +198,6 @@ impl DataSummary {
             from_s: first.t,
             to_s: last.t,
             revolutions: (last.theta - first.theta) / std::f64::consts::TAU,
-        }
-    }
-}
-
-impl FitSummary {
-    fn new(fitted: &Fitted, measurement: &Measurement) -> FitSummary {
-        let quality = fitted.curve.quality();
-        let (coefficients, errors, condition) = fitted.curve.coefficients();
-        let finite = |value: f64| value.is_finite().then_some(value);
-        let n = fitted.residuals.len() as f64;
-        let squares: f64 = fitted.residuals.iter().map(|r| r * r).sum();
-        let measured = fitted.measured(measurement);
-        let mean = measured.iter().sum::<f64>() / n;
-        let about: f64 = measured.iter().map(|v| (v - mean) * (v - mean)).sum();
-        FitSummary {
-            kind: fitted.curve.kind().name(),
-            degree: fitted.curve.degree(),
-            time_origin_s: measurement.origin(),
-            standard_errors: coefficients
-                .iter()
-                .zip(&errors)
-                .map(|(c, e)| finite(c + e).and(finite(e * quality.sigma)))
-                .collect(),
-            coefficients: coefficients.into_iter().map(finite).collect(),
-            passages: fitted.passages,
-            r_squared: if about > 0.0 {
-                1.0 - squares / about
-            } else {
-                1.0
-            },
-            rms: (squares / n).sqrt(),
-            condition: finite(condition),
-            sigma: match fitted.passages {
-                Some(_) => fitted.left().max(fitted.floor),
-                None => quality.sigma,
-            },
-            parameters: quality.parameters,
-            arithmetic: match &fitted.curve {
-                Curve::Polynomial(polynomial) if polynomial.extended() => "double-double",
-                _ => "double",
-            },
-            residual_lag_one: fitted.errors.pattern.lag_one,
-            residual_runs: fitted.errors.pattern.runs,
-            widening: fitted.errors.pattern.widening,
         }
     }
 }

@@ -2,9 +2,9 @@
 
 use super::bands::{BandRule, DeadCentreBand, LONG_ARM, alike};
 use super::fitted::Fitted;
-use super::force::{Backwards, Demand};
+use super::inverse_dynamics::{Backwards, Demand};
+use super::motion_estimate::MotionEstimate;
 use crate::mechanism::Linkage;
-use crate::numeric::fit::State;
 use crate::numeric::parallel;
 use crate::scene::Measurement;
 
@@ -23,8 +23,7 @@ pub struct InverseRow {
     pub slider_force: Option<f64>,
     /// Its standard error, N.
     pub slider_force_se: Option<f64>,
-    /// Torque on the crank that does the same as the slider force, N m; none where the guide locks itself against any, or the
-    /// fit does not follow the motion.
+    /// Torque on the crank that does the same as the slider force, N m; none where the guide locks itself against any.
     pub crank_torque: Option<f64>,
     /// Its standard error, N m.
     pub crank_torque_se: Option<f64>,
@@ -45,10 +44,10 @@ pub struct Residual {
 
 impl Residual {
     pub(super) fn list(fitted: &Fitted, measurement: &Measurement) -> Vec<Residual> {
-        let (times, measured) = (measurement.times(), fitted.measured(measurement));
+        let times = measurement.times();
         parallel::list(times.len(), |i| Residual {
             t: times[i],
-            measured: measured[i],
+            measured: fitted.measured[i],
             residual: fitted.residuals[i],
         })
     }
@@ -62,8 +61,6 @@ pub(super) struct Rows {
     pub rule: BandRule,
     /// The first sample whose crank angle the mechanism cannot take.
     pub unreachable: Option<usize>,
-    /// Samples at which the fit does not follow the motion.
-    pub lost: Vec<usize>,
 }
 
 /// What decides whether a row has a force.
@@ -79,12 +76,10 @@ pub(super) struct Doubt {
     pub near_limit: bool,
     /// Whether the friction of the guide is known.
     pub friction_known: bool,
-    /// Whether the fit follows the motion.
-    pub followed: bool,
 }
 
 impl Doubt {
-    fn new(demand: &Demand, r: f64, followed: bool) -> Doubt {
+    fn new(demand: &Demand, r: f64) -> Doubt {
         let arm = demand.arm.abs();
         Doubt {
             exists: arm.is_finite(),
@@ -93,14 +88,13 @@ impl Doubt {
             certain: arm > 5.0 * demand.arm_se,
             near_limit: demand.near_limit,
             friction_known: demand.friction_known,
-            followed,
         }
     }
 }
 
 impl InverseRow {
     /// A row before it is decided whether it has a force.
-    fn new(t: f64, state: &State, demand: &Demand) -> InverseRow {
+    fn new(t: f64, state: &MotionEstimate, demand: &Demand) -> InverseRow {
         let [theta, omega, alpha] = state.value;
         let is_known = demand.torque.is_finite() && demand.torque_se.is_finite();
         InverseRow {
@@ -123,31 +117,24 @@ fn demanded(
     fitted: &Fitted,
     measurement: &Measurement,
 ) -> (Vec<InverseRow>, Vec<Doubt>) {
-    let (times, elapsed) = (measurement.times(), measurement.elapsed());
+    let times = measurement.times();
     let r = backwards.equation.linkage().r;
-    parallel::pairs_by(times.len(), |range| {
-        let (times, elapsed) = (&times[range.clone()], &elapsed[range]);
-        let states = times.iter().zip(fitted.states(elapsed));
-        states.zip(elapsed).map(|((t, state), elapsed)| {
-            let state = state.stretched(measurement.time_uncertainty());
-            let demand = backwards.demand(*t, &state);
-            let row = InverseRow::new(*t, &state, &demand);
-            let followed = fitted.follows(&state, *elapsed);
-            (row, Doubt::new(&demand, r, followed))
-        })
+    parallel::pairs(times.len(), |i| {
+        let state = fitted.motion[i].stretched(measurement.time_uncertainty());
+        let demand = backwards.demand(times[i], &state);
+        let row = InverseRow::new(times[i], &state, &demand);
+        (row, Doubt::new(&demand, r))
     })
 }
 
-/// Crank torques and their standard errors, N m, where the fit follows the motion, of a rocker over its lever arm where that is
+/// Crank torques and their standard errors, N m, of a rocker over its lever arm where that is
 /// longer than the crank: it grows without bound towards a limit, and the torque with it.
 fn torques<'a>(
     linkage: &'a Linkage,
     rows: &'a [InverseRow],
-    doubts: &'a [Doubt],
 ) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
     let rocks = !linkage.limit_angles().is_empty();
-    let followed = rows.iter().zip(doubts).filter(|(_, doubt)| doubt.followed);
-    followed.filter_map(move |(row, _)| {
+    rows.iter().filter_map(move |row| {
         let longer = if rocks {
             (linkage.pose(row.theta).dx.abs() / linkage.r).max(1.0)
         } else {
@@ -167,13 +154,12 @@ impl Rows {
     ) -> Rows {
         let linkage = backwards.equation.linkage();
         let (rows, doubts) = demanded(backwards, fitted, measurement);
-        let rule = BandRule::new(linkage.r, torques(linkage, &rows, &doubts), factor);
+        let rule = BandRule::new(linkage.r, torques(linkage, &rows), factor);
         let mut found = Rows {
             rows,
             bands: Vec::new(),
             rule,
             unreachable: doubts.iter().position(|doubt| !doubt.exists),
-            lost: (0..doubts.len()).filter(|i| !doubts[*i].followed).collect(),
         };
         found.leave_out_doubtful(&doubts, factor);
         found
@@ -193,14 +179,6 @@ impl Rows {
                 self.extend_band(t, theta, reason, goes_on);
             }
             before = reason;
-        }
-    }
-
-    /// Leaves out the torques at which the fit does not follow the motion, as the forces are.
-    pub fn leave_out_lost(&mut self) {
-        for i in &self.lost {
-            let row = &mut self.rows[*i];
-            (row.crank_torque, row.crank_torque_se) = (None, None);
         }
     }
 

@@ -1,8 +1,9 @@
-//! The equation read backwards along a fitted motion, with the uncertainty that follows from the fit's.
+//! Inverse dynamics: the equation read backwards along an estimated motion, with the standard errors that follow from its
+//! covariance.
 
 use super::guide::Guide;
+use super::motion_estimate::MotionEstimate;
 use crate::mechanism::{Equation, Pose, Terms};
-use crate::numeric::fit::State;
 
 /// Torque and lever arm at one sample.
 #[derive(Clone, Copy, Debug)]
@@ -31,12 +32,8 @@ pub(super) struct Backwards<'a> {
     pub equation: &'a Equation,
     /// Whether the forces of the scene act beside the one that is asked for.
     pub beside_forces: bool,
-    /// Standard deviation of the samples.
-    pub sigma: f64,
     /// The guide, if it has friction.
     pub guide: Option<&'a Guide>,
-    /// Part of the terms of the equation to which they are known where noise hides nothing.
-    pub exact: f64,
 }
 
 /// Step in the crank angle (rad) for derivatives of the terms: they are right to about 1e-9.
@@ -50,7 +47,7 @@ const STEP_COS: f64 = 1.0 - 0.5 * STEP * STEP;
 /// differences.
 pub(super) const NEAR_LIMIT: f64 = 0.3;
 
-/// Part of the largest rounding that is its standard deviation: roundings of many terms seldom add up.
+/// Part of the largest rounding of the terms that is its standard deviation.
 const RARE: f64 = 0.5;
 
 impl Backwards<'_> {
@@ -68,7 +65,7 @@ impl Backwards<'_> {
     }
 
     /// What one state of the motion needs.
-    pub fn demand(&self, t: f64, state: &State) -> Demand {
+    pub fn demand(&self, t: f64, state: &MotionEstimate) -> Demand {
         let [theta, omega, alpha] = state.value;
         let terms = self.equation.terms(theta);
         // One-sided at the limit of a rocker.
@@ -103,7 +100,7 @@ impl Backwards<'_> {
             + (terms.inertia.half_dm * omega * omega).abs()
             + terms.dv.abs()
             + known.abs();
-        let rounding = self.exact.max(8.0 * f64::EPSILON) * size;
+        let rounding = 8.0 * f64::EPSILON * size;
         let error = |gradient: &[f64; 3], more: f64| self.error(state, gradient, more);
         let (arm, bend) = (terms.pose.dx, terms.pose.d2x);
         let force = torque / arm;
@@ -115,7 +112,7 @@ impl Backwards<'_> {
         let r = self.equation.linkage().r;
         let near_limit = terms.pose.cos_phi < NEAR_LIMIT;
         let bent = if near_limit {
-            let spread = self.angle_error(state);
+            let spread = state.angle_error();
             let [before, after] = [theta - spread, theta + spread].map(|theta| {
                 let terms = self.equation.terms(theta);
                 let torque = needed(&terms) - self.known(t, theta, omega, &terms);
@@ -144,21 +141,20 @@ impl Backwards<'_> {
         }
     }
 
-    /// Standard error of the crank angle, rad.
-    pub fn angle_error(&self, state: &State) -> f64 {
-        self.error(state, &[1.0, 0.0, 0.0], 0.0)
-    }
-
     /// Standard error of a combination of angle, speed and acceleration, with what else rounding adds.
-    fn error(&self, state: &State, gradient: &[f64; 3], more: f64) -> f64 {
-        let noise = self.sigma * self.sigma * state.variance(gradient);
-        let rounding = RARE * state.rounding_of(gradient) + more;
-        (noise + state.bias_of(gradient) + rounding * rounding).sqrt()
+    fn error(&self, state: &MotionEstimate, gradient: &[f64; 3], more: f64) -> f64 {
+        (state.variance(gradient) + (RARE * more).powi(2)).sqrt()
     }
 
     /// What is needed beside the friction of the guide. At rest that may be anything up to its limit: the torque is then
     /// the middle of what is possible, and its error has the rest in it.
-    fn beside_friction(&self, guide: &Guide, t: f64, state: &State, demand: Demand) -> Demand {
+    fn beside_friction(
+        &self,
+        guide: &Guide,
+        t: f64,
+        state: &MotionEstimate,
+        demand: Demand,
+    ) -> Demand {
         let omega = state.value[1];
         let friction_known = omega.abs() > 5.0 * self.error(state, &[0.0, 1.0, 0.0], 0.0);
         let forwards = (demand.arm * omega).signum();

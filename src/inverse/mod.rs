@@ -1,50 +1,84 @@
-//! Slider force and crank torque from a measured motion: a fitted θ(t) is a prescribed motion, for which the
-//! equation is read backwards.
+//! Slider force and crank torque from a measured motion: samples and a scene go in, force and torque with their standard
+//! errors come out, by an iterated extended Kalman smoother whose model is the equation of motion (or by a polynomial), and by
+//! inverse dynamics along the motion that it gives.
 
+mod as_printed;
 mod bands;
-mod course;
-mod errors;
+mod branch_tracking;
 mod fitted;
-mod force;
 mod guide;
+mod inverse_dynamics;
+mod kalman;
+mod likelihood;
 mod limit;
-mod missed;
-mod near;
-mod passages;
-mod pattern;
-mod printed;
-mod rounding;
+mod measurement_model;
+mod motion_estimate;
+mod outliers;
+mod polynomial;
+mod residual_tests;
 mod row;
-mod seen;
-mod sensor;
+mod smoother;
+mod state_space;
 mod summary;
-mod unfold;
+mod unwrap;
 mod warnings;
-mod waves;
 
+pub use as_printed::AsPrinted;
 pub use bands::{BandRule, DeadCentreBand};
-pub use printed::AsPrinted;
 pub use row::{InverseRow, Residual};
-pub use summary::{DataSummary, FitSummary, ForceRange, InverseSummary};
+pub use summary::{CandidateSummary, DataSummary, FitSummary, ForceRange, InverseSummary};
 
 use self::fitted::Fitted;
-use self::force::Backwards;
 use self::guide::Guide;
+use self::inverse_dynamics::Backwards;
+use self::measurement_model::Sensor;
 use self::row::Rows;
-use self::sensor::Sensor;
 use crate::error::Error;
 use crate::mechanism::{Equation, Reactions, Reactor};
-pub use crate::numeric::fit::{Kind as FitKind, Size as FitSize};
 use crate::numeric::student;
 use crate::plan::{Method, Plan};
 use crate::scene::{Measurement, MotionKind, Scene};
 
+/// How the motion is estimated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FitKind {
+    /// A polynomial where it leaves nothing but noise within one turn, else the smoother.
+    Auto,
+    /// A polynomial of the crank angle over time.
+    Polynomial,
+    /// The iterated extended Kalman smoother.
+    Smoother,
+}
+
+impl FitKind {
+    /// All of them.
+    pub const ALL: [FitKind; 3] = [FitKind::Auto, FitKind::Polynomial, FitKind::Smoother];
+
+    /// Its name in options and outputs.
+    pub fn name(self) -> &'static str {
+        match self {
+            FitKind::Auto => "auto",
+            FitKind::Polynomial => "polynomial",
+            FitKind::Smoother => "smoother",
+        }
+    }
+}
+
+/// Degree of a polynomial.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FitSize {
+    /// The degree that the samples support.
+    Auto,
+    /// This degree.
+    Fixed(usize),
+}
+
 /// What is asked of an inverse computation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InverseOptions {
-    /// Kind of curve that is fitted to the motion.
+    /// How the motion is estimated.
     pub fit: FitKind,
-    /// Its degree, or number of harmonics.
+    /// Degree of a polynomial.
     pub size: FitSize,
     /// Joint forces for the rows.
     pub reactions: bool,
@@ -56,7 +90,7 @@ pub struct InverseOptions {
 impl Default for InverseOptions {
     fn default() -> InverseOptions {
         InverseOptions {
-            fit: FitKind::Polynomial,
+            fit: FitKind::Auto,
             size: FitSize::Auto,
             reactions: false,
             beside_forces: false,
@@ -84,7 +118,7 @@ pub struct Inverse {
 ///
 /// ```
 /// use slider_crank::scene::{Measured, Measurement, Scene, Slider};
-/// use slider_crank::study::{InverseOptions, inverse};
+/// use slider_crank::inverse::{InverseOptions, inverse};
 ///
 /// // A massless crank and rod of 50 and 150 mm, a slider of 2 kg, turned at 10 rad/s.
 /// let scene = Scene::new(0.05, 0.15).slider(Slider { mass: 2.0 });
@@ -113,35 +147,25 @@ pub fn inverse(
         linkage: equation.linkage(),
         measured: measurement.measured(),
     };
-    let unfolded = unfold::unfold(&sensor, measurement, &scene.motion)?;
-    let fitted = Fitted::new(
-        &sensor,
-        measurement,
-        unfolded.theta,
-        options.fit,
-        options.size,
-    );
-    let fitted = fitted.map_err(|what| limit::unfit(sensor.linkage, what, &unfolded.warnings))?;
+    let angles = branch_tracking::crank_angles(&sensor, measurement, &scene.motion)?;
+    let noted = angles.warnings.clone();
+    let fitted = Fitted::new(sensor, measurement, angles, &equation, options)
+        .map_err(|what| Error::refused(what, "give more samples, or another --fit or --degree"))?;
     let backwards = Backwards {
         equation: &equation,
         beside_forces: options.beside_forces,
-        sigma: fitted.errors.sigma(),
         guide: guide.as_ref(),
-        exact: fitted.errors.exact,
     };
-    let factor = student::half_band(fitted.errors.free);
-    let mut found = Rows::new(&backwards, &fitted, measurement, factor);
+    let factor = student::half_band(fitted.free);
+    let found = Rows::new(&backwards, &fitted, measurement, factor);
     reachable(measurement, &found)?;
-    let lost = warnings::of_lost(&fitted, &found)?;
-    limit::keeps_clear(&backwards, &sensor, &fitted, measurement)?;
+    limit::keeps_clear(equation.linkage(), &fitted.motion, measurement)?;
     let locked = finite(&backwards, measurement, &found.rows)?;
-    found.leave_out_lost();
     let mut warnings = measurement.notes().to_vec();
-    warnings.extend(unfolded.warnings);
+    warnings.extend(noted);
     warnings.extend(warnings::of_scene(scene, options));
     warnings.extend(locked);
-    warnings.extend(lost);
-    warnings.extend(warnings::of_fit(&fitted, measurement, options));
+    warnings.extend(warnings::of_fit(&fitted, measurement));
     let summary = InverseSummary::new(
         scene,
         plan,
@@ -199,7 +223,7 @@ fn plan(scene: &Scene) -> Result<Plan, Error> {
     let mut prescribed = scene.clone();
     prescribed.motion.kind = MotionKind::ConstantSpeed;
     let mut plan = Plan::new(&prescribed, Method::Auto)?;
-    plan.reason = "the crank motion is measured: nothing to integrate, the equation is read backwards along the fitted theta(t)".into();
+    plan.reason = "the crank motion is measured: nothing to integrate, the equation is read backwards along the estimated theta(t)".into();
     Ok(plan)
 }
 
