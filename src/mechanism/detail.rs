@@ -86,6 +86,11 @@ impl Around<'_> {
     }
 }
 
+/// The rows of other tables of the position are known as crank angles.
+fn is_over_x(load: &Load) -> bool {
+    matches!(load, Load::Table(table) if table.of() == Variable::X)
+}
+
 impl Loads {
     /// Whether there are loads that may do something between nodes: formulas, and tables over another variable than the
     /// crank angle or time, whose rows are known.
@@ -96,6 +101,12 @@ impl Loads {
                 Load::Expression(_) | Load::Table(_) | Load::Gas { .. } | Load::Dry(_)
             )
         })
+    }
+
+    /// Whether one of them depends on the position alone.
+    pub fn have_detail_of_place(&self) -> bool {
+        let mut placed = self.placed.loads();
+        placed.any(|load| matches!(load, Load::Expression(_)) || is_over_x(load))
     }
 
     /// What the generalized force (N m) of the loads does on a piece of a motion, and in an ellipse of this size around it.

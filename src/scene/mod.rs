@@ -21,6 +21,8 @@ mod number;
 mod parts;
 mod period;
 mod places;
+#[cfg(feature = "cli")]
+mod printable;
 mod problem;
 #[cfg(feature = "cli")]
 mod read;
@@ -50,6 +52,8 @@ pub use motion::{Every, Extent, Motion, MotionKind, Run};
 pub use parts::{Branch, Friction, Geometry, Gravity};
 pub use period::{Period, Repeats, WhyNot};
 pub use places::Places;
+#[cfg(feature = "cli")]
+pub use printable::printable;
 pub use problem::{Problem, Problems};
 #[cfg(feature = "cli")]
 pub use schema::schema;
