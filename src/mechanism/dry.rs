@@ -6,7 +6,14 @@
 use super::friction::Free;
 use super::{Across, Constrained, LoadValue, Loads, Place};
 use crate::numeric::angle::Angle;
+use crate::numeric::enclosure::{Interval, Reach};
 use crate::scene::Instant;
+
+/// Operations that round the value of a load.
+const ROUNDINGS: f64 = 64.0;
+
+/// Of the range of a load no ellipse around it is asked for.
+const SOME_ELLIPSE: f64 = 2.0;
 
 /// Signs of the speeds of crank and slider that dry loads oppose; zero: they are at rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -150,6 +157,40 @@ impl Constrained {
             free.push(terms, self.loads().dry(&now, sense), speed);
         }
         free
+    }
+
+    /// How much [`Held::margin`] changes at most between two times (s), as far as the loads are enclosed.
+    pub fn margin_change(&self, q: Angle, mu_static: f64, [from, to]: [f64; 2]) -> f64 {
+        if !self.curve().is_crank_angle() || !self.loads().have_detail() {
+            return 0.0;
+        }
+        let reach = Reach {
+            t: Interval::new(from, to),
+            angle: Interval::point(q.radians()),
+            speed: Interval::point(0.0),
+        };
+        let detail = self
+            .loads()
+            .detail(self.curve().linkage(), &reach, SOME_ELLIPSE);
+        let terms = self.across(q.rest);
+        let (arm, x_n) = (terms.place.dx.abs(), terms.x_n.abs());
+        // What changes Q by one changes the torque by one at most and the force by 1/x'.
+        let most = 1.0 + mu_static * (arm * terms.theta_n.abs() + 2.0 * x_n);
+        let change = (detail.change - self.rounding(&terms, q, from)).max(0.0) * most;
+        match self.loads().are_dry() {
+            true => change,
+            false if arm > 0.0 => change / arm,
+            false => 0.0,
+        }
+    }
+
+    /// What rounding leaves open of the generalized force of the loads at rest, N m.
+    fn rounding(&self, terms: &Across, q: Angle, t: f64) -> f64 {
+        let place = &terms.place;
+        let LoadValue { torque, force } = self.load(place, t, q, 0.0);
+        let most = self.loads().dry_magnitude(&self.instant(place, t, q, 0.0));
+        let size = torque.abs() + most.torque + (force.abs() + most.force) * place.dx.abs();
+        ROUNDINGS * f64::EPSILON * size
     }
 
     /// The mechanism at rest.

@@ -27,7 +27,7 @@ pub(super) fn reason(task: &Task<'_>, last: &Final) -> Option<String> {
         )
     });
     Some(format!(
-        "the crank stalled at theta = {theta} rad, {torques}{turns}: stopped at t = {t} s, omega = {speed} rad/s; give it more torque, or the run a duration that ends before"
+        "the crank stalled at theta = {theta} rad, {torques}{turns}: stopped at t = {t} s, omega = {speed} rad/s; give it more torque, or a duration instead"
     ))
 }
 

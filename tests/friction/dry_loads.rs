@@ -94,6 +94,37 @@ fn a_torque_in_time_tears_it_loose_at_the_edge_of_the_band() {
     ends_at(&run.summary, theta, omega, 1e-14);
 }
 
+/// A blow of 20 us at the crank, or at the slider that the guide holds, in two seconds of rest.
+#[test]
+fn a_blow_while_it_is_held_is_not_missed() {
+    let (at, width) = (0.7321, 2e-5);
+    let blow = |size: f64| formula(&format!("{size}*exp(-((t - {at})/{width})^2)"));
+    let edge = at - width * 3.0_f64.ln().sqrt();
+    let braked = wheel(0.02).torque(Load::dry(1.0)).torque(blow(3.0));
+    let mut rubbing = wheel(0.02)
+        .slider(Slider { mass: 0.5 })
+        .gravity(Gravity {
+            acceleration: 10.0,
+            ..Gravity::standard()
+        })
+        .force(blow(3.0))
+        .start(1.0, 0.0);
+    // Without a torque the rod carries nothing, and the guide holds 0.2 times 5 N.
+    rubbing.friction = Some(Friction {
+        coefficient: 0.2,
+        static_coefficient: 0.2,
+    });
+    for scene in [braked, rubbing] {
+        let summary = run(&scene.duration(2.0)).summary;
+        let slips = times(&summary, "slip");
+        assert!(
+            slips.len() == 1 && (slips[0] - edge).abs() < 1e-12,
+            "{slips:?} for {edge}"
+        );
+        assert_eq!(times(&summary, "rest").len(), 1);
+    }
+}
+
 /// Integrated by scipy's DOP853 at its tightest from reversal to dead centre to rest, with the equation written anew.
 #[test]
 fn a_crank_and_a_slider_that_rub_turn_back_at_different_places() {
