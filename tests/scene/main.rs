@@ -3,3 +3,5 @@
 mod bad_scenes;
 mod data_files;
 mod scene_files;
+#[path = "../support/seed.rs"]
+mod seed;
