@@ -18,7 +18,7 @@ use crate::study::{self, Length, TurnOptions};
 pub(super) struct Arguments {
     /// Scene file, `-` for standard input; without it the built-in Duarte engine
     scene: Option<PathBuf>,
-    /// Crank angle between rows, from 0 to 360 degrees inclusive
+    /// Crank angle between rows, from 0 to 360 degrees inclusive, with --forces to the end of the cycle of the loads
     #[arg(long, value_name = "ANGLE", default_value = "1 deg", value_parser = positive_angle, allow_hyphen_values = true)]
     every: f64,
     /// Writes the rows as CSV to this file, `-` for standard output

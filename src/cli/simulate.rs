@@ -42,7 +42,7 @@ pub(super) struct Arguments {
     /// Does without the error estimate, which takes a second run
     #[arg(long)]
     no_estimate: bool,
-    /// Starts the run in the periodic steady state, one turn if the scene gives no run, and adds its key figures
+    /// Starts the run in the periodic steady state, one cycle if the scene gives no run, and adds its key figures
     #[arg(long)]
     steady_state: bool,
     /// Adds the flywheel for this coefficient of speed fluctuation in the steady state

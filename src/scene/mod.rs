@@ -120,13 +120,7 @@ impl Scene {
     /// The files of the tables of its loads.
     pub fn table_files(&self) -> impl Iterator<Item = &Path> {
         let loads = self.torques.iter().chain(&self.forces);
-        loads.filter_map(|load| match load {
-            Load::Table(table)
-            | Load::Gas {
-                pressure: table, ..
-            } => table.file(),
-            _ => None,
-        })
+        loads.filter_map(Load::table).filter_map(Table::file)
     }
 
     /// The same scene without what has no strength: zero masses, zero loads, zero gravity.
