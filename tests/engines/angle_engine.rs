@@ -203,7 +203,7 @@ fn driven_mechanism() -> impl Strategy<Value = Scene> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 250, max_shrink_iters: 30, failure_persistence: None, rng_seed: proptest::test_runner::RngSeed::Fixed(1), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 250, max_shrink_iters: 30, failure_persistence: None, rng_seed: crate::support::seed::seed(1), ..ProptestConfig::default() })]
 
     #[test]
     fn angle_and_time_agree_to_their_stated_errors(scene in driven_mechanism()) {

@@ -60,7 +60,7 @@ fn mechanism() -> impl Strategy<Value = Scene> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, max_shrink_iters: 40, failure_persistence: None, rng_seed: proptest::test_runner::RngSeed::Fixed(1), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 200, max_shrink_iters: 40, failure_persistence: None, rng_seed: crate::support::seed::seed(1), ..ProptestConfig::default() })]
 
     #[test]
     fn a_free_spin_is_right_to_rounding_and_says_so(scene in mechanism()) {

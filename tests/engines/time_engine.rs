@@ -598,7 +598,7 @@ fn driven_mechanism() -> impl Strategy<Value = Scene> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 150, max_shrink_iters: 20, failure_persistence: None, rng_seed: proptest::test_runner::RngSeed::Fixed(7), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 150, max_shrink_iters: 20, failure_persistence: None, rng_seed: crate::support::seed::seed(7), ..ProptestConfig::default() })]
 
     #[test]
     fn own_stepper_and_dop853_agree(scene in driven_mechanism()) {

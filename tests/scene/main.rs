@@ -7,3 +7,5 @@ mod bad_scenes;
 mod data_files;
 mod refusals;
 mod scene_files;
+#[path = "../support/seed.rs"]
+mod seed;

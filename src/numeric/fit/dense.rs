@@ -129,7 +129,7 @@ impl<const N: usize> Block<N> {
             let allowed = at.iter().map(|at| at.slack[entry]);
             slack[entry] = allowed.fold(KNOWN * f64::EPSILON * largest(&values), f64::max);
             if values[..=DEGREE].iter().all(|value| *value == values[0]) {
-                let mut constant = [0.0; _];
+                let mut constant = array::from_fn(|_| 0.0);
                 constant[0] = values[0];
                 Series::new(0, constant)
             } else {
