@@ -123,7 +123,8 @@ fn what_is_not_refused_begins() {
             (Err(problems), Some(Error::Scene(same))) => {
                 prop_assert_eq!(problems.to_string(), same.to_string());
                 not.set(not.get() + 1);
-                said.borrow_mut().extend(problems.list().iter().map(|problem| problem.field.clone()));
+                said.borrow_mut()
+                    .extend(problems.list().iter().map(|problem| problem.field.clone()));
             }
             (checked, ran) => prop_assert!(false, "{checked:?} against {ran:?}: {scene:#?}"),
         }

@@ -17,13 +17,13 @@ pub struct Loads {
     /// −d force/d v, N s/m
     linear_damping: f64,
     /// Loads of the position alone, without a potential that is known.
-    placed: Called,
+    pub(super) placed: Called,
     /// Loads of the time alone.
-    timed: Called,
+    pub(super) timed: Called,
     /// All others.
-    mixed: Called,
+    pub(super) mixed: Called,
     reads: Variables,
-    on_slider: bool,
+    pub(super) on_slider: bool,
 }
 
 impl Loads {
@@ -101,7 +101,7 @@ impl Loads {
         }
     }
 
-    fn called(&self) -> impl Iterator<Item = &Load> {
+    pub(super) fn called(&self) -> impl Iterator<Item = &Load> {
         let classes = [&self.placed, &self.timed, &self.mixed];
         classes.into_iter().flat_map(Called::loads)
     }
@@ -114,6 +114,12 @@ impl Loads {
     /// Crank angles, rad, at which tables over the crank angle have their rows.
     pub fn angle_corners(&self) -> Vec<f64> {
         self.called().flat_map(Load::angle_corners).collect()
+    }
+
+    /// Those between two, rad.
+    pub fn corners_between(&self, low: f64, high: f64) -> Vec<f64> {
+        let corners = |load: &Load| load.corners_between(low, high);
+        self.called().flat_map(corners).collect()
     }
 
     /// Crank angles between two, rad, at which tables have rows that do not keep step with the turns.

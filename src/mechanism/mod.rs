@@ -7,6 +7,7 @@ mod called;
 mod clearance;
 mod constrained;
 mod curve;
+mod detail;
 mod equivalent;
 mod extremes;
 mod first_order;

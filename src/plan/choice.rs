@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::contact::contact;
-use super::periodic::repeats_with_each_turn;
+use super::cycle::{self, named};
 use super::{Engine, Method, Stepper, rubbing};
 use crate::error::Error;
 use crate::mechanism::{Class, Linkage, Loads};
@@ -117,15 +117,17 @@ fn over_angle(method: Method, loads: &Loads, scene: &Scene) -> Result<Choice, Er
             ),
             "use --method auto; energy needs loads of theta and x alone, tables over theta only, and formulas without step, sign, floor and mod",
         )),
-        _ if angle_serves(scene) => Ok(Choice::of(
-            Engine::Angle,
-            "the crank turns: its energy and the time over the crank angle; where it comes near to rest, integration in time takes over",
-        )),
-        Method::Angle => Err(Error::refused(
-            "method angle needs a crank that turns from the start, tables over theta only, formulas without step, sign, floor and mod, and loads over theta that repeat with each turn",
-            "use --method auto, time, dop853 or dopri5",
-        )),
-        _ => Ok(by_sweeps()),
+        _ => match why_not_angle(scene) {
+            None => Ok(Choice::of(
+                Engine::Angle,
+                "the crank turns: its energy and the time over the crank angle; where it comes near to rest, integration in time takes over",
+            )),
+            Some(why) if method == Method::Angle => Err(Error::refused(
+                format!("method angle cannot serve this scene: {why}"),
+                "use --method auto, time, dop853 or dopri5",
+            )),
+            Some(_) => Ok(by_sweeps()),
+        },
     }
 }
 
@@ -135,17 +137,35 @@ fn energy_serves(loads: &Loads, scene: &Scene) -> bool {
     loads.reads().or(position) == position && are_smooth(scene)
 }
 
-/// Whether the crank turns, the corners of the loads are known, and one table of a turn serves all turns.
-pub(super) fn angle_serves(scene: &Scene) -> bool {
-    scene.motion.speed != 0.0 && are_smooth(scene) && repeats_with_each_turn(scene)
+/// What keeps the crank angle from being the independent variable from the start: a crank at rest, a load whose corners
+/// are not known, or one without a cycle that could be tabulated.
+pub(super) fn why_not_angle(scene: &Scene) -> Option<String> {
+    if scene.motion.speed == 0.0 {
+        return Some("the crank starts at rest".to_owned());
+    }
+    let rough = named(scene).find_map(|load| {
+        let why = why_rough(load.load)?;
+        Some(format!("{} {why}", load.name))
+    });
+    rough.or_else(|| cycle::over_angle(scene).err())
 }
 
 /// Whether the corners of the loads are known as crank angles, if they have any.
 fn are_smooth(scene: &Scene) -> bool {
     let mut loads = scene.torques.iter().chain(&scene.forces);
-    loads.all(|load| match load {
-        Load::Table(table) => table.of() == Variable::Theta,
-        Load::Expression(expression) => !expression.jumps(),
-        _ => true,
-    })
+    loads.all(|load| why_rough(load).is_none())
+}
+
+/// Why the corners of a load are not known as crank angles.
+fn why_rough(load: &Load) -> Option<String> {
+    match load {
+        Load::Table(table) if table.of() != Variable::Theta => Some(format!(
+            "has its rows over {}, not over theta",
+            table.of().name()
+        )),
+        Load::Expression(expression) if expression.jumps() => {
+            Some("may jump: step, sign, floor or mod stands in it".to_owned())
+        }
+        _ => None,
+    }
 }

@@ -3,8 +3,8 @@
 
 mod choice;
 mod contact;
+mod cycle;
 mod method;
-mod periodic;
 mod refusal;
 mod rubbing;
 mod terms;
@@ -15,8 +15,9 @@ use serde::Serialize;
 
 use choice::choose;
 use contact::contact_state;
+pub(crate) use cycle::over_angle as cycle_over_angle;
+pub use cycle::{Cycle, LoadPeriod};
 pub use method::Method;
-pub(crate) use periodic::repeats_with_each_turn;
 use refusal::not_modelled;
 pub use refusal::refuse;
 use terms::terms;
@@ -100,6 +101,8 @@ pub struct Plan {
     pub coordinate: &'static str,
     /// What is integrated, in this order; empty: nothing.
     pub state: Vec<&'static str>,
+    /// After how many turns the loads are the same again.
+    pub cycle: Cycle,
     /// What is looked for during the run.
     pub events: Vec<&'static str>,
     /// Terms of the equation.
@@ -128,6 +131,7 @@ impl Plan {
             stepper: choice.stepper,
             coordinate: coordinate(choice.engine, &reduced, &linkage),
             state: state(choice.engine, &reduced, &loads),
+            cycle: Cycle::of(scene),
             events: events(choice.engine, &reduced),
             kept,
             left_out,

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt;
 use std::sync::Arc;
 
-use super::{Expression, Instant, Table, Variable, Variables};
+use super::{Expression, Instant, Period, Repeats, Table, Variable, Variables, WhyNot};
 
 type LoadFunction = Arc<dyn Fn(&Instant) -> f64 + Send + Sync>;
 
@@ -50,6 +50,9 @@ pub enum Load {
         reads: Variables,
         /// The function.
         function: LoadFunction,
+        /// After how much of a turn it is the same again, as far as it depends on the crank angle; none: it does not
+        /// repeat.
+        period: Option<Period>,
     },
 }
 
@@ -67,7 +70,49 @@ impl Load {
         Load::Function {
             reads,
             function: Arc::new(function),
+            period: None,
         }
+    }
+
+    /// Says of a load from a closure after how much of a turn it is the same again; a closure that reads the crank angle
+    /// and does not say it is not taken to repeat. Other loads know their period.
+    ///
+    /// ```
+    /// use slider_crank::scene::{Load, Period, Variables};
+    /// let cam = Load::function(Variables::THETA, |now| 3.0 * (0.5 * now.theta).sin()).with_period(Period::turns(2).unwrap());
+    /// ```
+    pub fn with_period(mut self, stated: Period) -> Load {
+        if let Load::Function { period, .. } = &mut self {
+            *period = Some(stated);
+        }
+        self
+    }
+
+    /// Whether it is the same again after some turns of the crank, time and crank speed being the same.
+    pub fn repeats(&self, on_slider: bool) -> Repeats {
+        let of_position = match self {
+            Load::Table(table)
+            | Load::Gas {
+                pressure: table, ..
+            } if table.of() == Variable::Theta => table.repeats(),
+            Load::Expression(expression) => return expression.repeats(),
+            Load::Function {
+                period: Some(period),
+                ..
+            } => Repeats::After(*period),
+            Load::Function { reads, .. } if reads.has(Variable::Theta) => {
+                Repeats::Never(WhyNot::Unstated)
+            }
+            _ => Repeats::Always,
+        };
+        let turns = !self
+            .reads(on_slider)
+            .disjoint(Variables::X.or(Variables::V));
+        of_position.with(if turns {
+            Repeats::After(Period::TURN)
+        } else {
+            Repeats::Always
+        })
     }
 
     /// The word for it in scene files.
@@ -111,6 +156,12 @@ impl Load {
             Some((table, Step::None)) => table.rows().to_vec(),
             Some((_, Step::Without)) | None => Vec::new(),
         }
+    }
+
+    /// All of them between two angles, rad.
+    pub fn corners_between(&self, low: f64, high: f64) -> Vec<f64> {
+        let table = self.angle_table();
+        table.map_or_else(Vec::new, |(table, _)| table.rows_between(low, high))
     }
 
     /// Those between two angles, rad, of a table that does not keep step with the turns.
@@ -189,29 +240,29 @@ enum Step {
     None,
     /// It is the same again after so many turns.
     With(f64),
-    /// It repeats, but turn and period are no multiples of each other.
+    /// It repeats, but not after whole turns, or it has too many rows.
     Without,
 }
 
 impl Step {
-    /// Periods that differ by less than this part of them are the same: 6.283185307 rad, as calculators show it, is a turn.
-    const SAME: f64 = 1e-9;
-
     /// More rows than this in a turn are found one by one, not listed.
     const MOST_ROWS: f64 = 1e5;
 
     fn of(table: &Table) -> Step {
-        let Some(period) = table.period() else {
+        if table.period().is_none() {
             return Step::None;
-        };
-        let whole = |ratio: f64| (ratio - ratio.round()).abs() <= Step::SAME * ratio;
-        let turns = period / TAU;
-        if turns > 0.5 && whole(turns) {
-            Step::With(turns.round())
-        } else if whole(1.0 / turns) && table.rows().len() as f64 <= Step::MOST_ROWS * turns {
-            Step::With(1.0)
-        } else {
-            Step::Without
+        }
+        match table.repeats() {
+            Repeats::After(period) => {
+                let turns = f64::from(period.whole_turns());
+                let periods = turns * TAU / period.radians();
+                if table.rows().len() as f64 * periods <= Step::MOST_ROWS * turns {
+                    Step::With(turns)
+                } else {
+                    Step::Without
+                }
+            }
+            _ => Step::Without,
         }
     }
 }

@@ -18,6 +18,7 @@ mod measurement;
 mod motion;
 mod number;
 mod parts;
+mod period;
 mod places;
 mod problem;
 #[cfg(feature = "cli")]
@@ -47,6 +48,7 @@ pub use load::Load;
 pub use measurement::{DUARTE_MOTION, Measured, Measurement, Reading};
 pub use motion::{Every, Extent, Motion, MotionKind, Run};
 pub use parts::{Branch, Friction, Geometry, Gravity};
+pub use period::{Period, Repeats, WhyNot};
 pub use places::Places;
 pub use problem::{Problem, Problems};
 #[cfg(feature = "cli")]

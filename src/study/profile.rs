@@ -18,10 +18,14 @@ pub(super) struct Position<'a> {
     sliding: Option<&'a Sliding>,
     /// Whole turns of the start, beside all angles: loads over theta need not be the same in each turn.
     turns: f64,
+    dead_centres: Vec<f64>,
     /// Dead centres and corners of loads.
     corners: Vec<f64>,
-    /// Corners of loads alone.
+    /// Turns after which the loads are the same again.
+    cycle: u32,
+    /// Corners of loads in a cycle, and these with its dead centres.
     of_loads: Vec<f64>,
+    of_cycle: Vec<f64>,
     repeats: bool,
     /// Work of the loads in one turn, J, and its error, if they are the same in each.
     work_of_turn: Option<(f64, f64)>,
@@ -34,14 +38,17 @@ impl<'a> Position<'a> {
     /// may end at the dead centres, where the inertia of a mechanism without crank inertia has a corner.
     pub fn new(equation: &'a Equation, limits: &Limits, start: Angle) -> Position<'a> {
         let loads = equation.loads();
-        let dead_centres = limits.dead_centres.iter().map(|dc| dc.theta);
+        let dead_centres: Vec<f64> = limits.dead_centres.iter().map(|dc| dc.theta).collect();
         let tables = loads.angle_corners().into_iter();
         let of_loads = in_order(tables.map(|theta| theta.rem_euclid(TAU)));
-        let corners = in_order(dead_centres.chain(of_loads.iter().copied()));
+        let corners = in_order(dead_centres.iter().chain(&of_loads).copied());
         Position {
             equation,
             sliding: None,
             turns: start.turns,
+            dead_centres,
+            cycle: 1,
+            of_cycle: corners.clone(),
             corners,
             of_loads,
             repeats: loads.have_potential() && !loads.turn_the_crank(),
@@ -60,6 +67,25 @@ impl<'a> Position<'a> {
     /// With friction at the guide.
     pub fn with_friction(mut self, sliding: Option<&'a Sliding>) -> Position<'a> {
         self.sliding = sliding;
+        self
+    }
+
+    /// For loads that are the same again after so many turns.
+    pub fn with_cycle(mut self, turns: u32) -> Position<'a> {
+        self.cycle = turns;
+        if turns > 1 {
+            // Those at its start are its own.
+            let before = -1e-9;
+            let loads = self.equation.loads();
+            let of_loads = loads.corners_between(before, f64::from(turns) * TAU + before);
+            self.of_loads = in_order(of_loads.into_iter());
+            let again = |turn: u32| {
+                let dead_centres = self.dead_centres.iter();
+                dead_centres.map(move |theta| theta + f64::from(turn) * TAU)
+            };
+            let all = (0..turns).flat_map(again);
+            self.of_cycle = in_order(all.chain(self.of_loads.iter().copied()));
+        }
         self
     }
 
@@ -165,7 +191,13 @@ pub(super) struct Spot {
 impl Driven for Position<'_> {
     type Place = Spot;
 
-    fn tabulate(&self, angles: &Values, count: usize, side: f64, table: &mut Table<Spot>) {
+    fn tabulate(
+        &self,
+        turns: f64,
+        (angles, count): (&Values, usize),
+        side: f64,
+        table: &mut Table<Spot>,
+    ) {
         self.count(count);
         let loads = self.equation.loads();
         let driven = self.is_driven();
@@ -177,7 +209,13 @@ impl Driven for Position<'_> {
             table.inertia[i] = at.m[i];
             let (stored, placed) = (
                 loads.with_potential_at(x),
-                loads.of_place(self.angle(*angle), x),
+                loads.of_place(
+                    Angle {
+                        turns,
+                        rest: *angle,
+                    },
+                    x,
+                ),
             );
             table.force[i] = stored.over(dx) - at.dv[i];
             table.push[i] = placed.over(dx);
@@ -196,6 +234,10 @@ impl Driven for Position<'_> {
             let direction = (angles[count - 1] - angles[0]).signum();
             sliding.tabulate(angles, direction * side, loads, &of_place, table);
         }
+    }
+
+    fn cycle(&self) -> u32 {
+        self.cycle
     }
 
     fn is_driven(&self) -> bool {
@@ -219,13 +261,13 @@ impl Driven for Position<'_> {
     fn corners(&self) -> &[f64] {
         // Friction changes its sign at the dead centres.
         match self.sliding {
-            Some(_) => &self.corners,
+            Some(_) => &self.of_cycle,
             None => &self.of_loads,
         }
     }
 
     fn corners_if_light(&self) -> &[f64] {
-        &self.corners
+        &self.of_cycle
     }
 }
 
