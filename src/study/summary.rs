@@ -1,5 +1,7 @@
 //! The result of a run in numbers.
 
+use std::f64::consts::TAU;
+
 use serde::Serialize;
 
 use super::clearance::ClearanceSummary;
@@ -8,6 +10,7 @@ use super::stalled;
 use super::steady::SteadyState;
 use super::task::Task;
 use crate::plan::Plan;
+use crate::scene::Extent;
 
 /// Summary of a run; its JSON is the object that `simulate --json` prints.
 #[derive(Clone, Debug, Serialize)]
@@ -91,6 +94,9 @@ pub(super) struct Solved {
 impl Summary {
     pub(super) fn new(task: &Task<'_>, solved: Solved) -> Summary {
         let (residual, scale) = solved.energy;
+        let stopped = solved
+            .stopped
+            .or_else(|| short_of(task.extent, &solved.last, solved.turned));
         let mut warnings = solved.warnings;
         let kept = solved.events.len();
         if kept > 0 && solved.events_total > kept as u64 {
@@ -106,7 +112,7 @@ impl Summary {
             engine: task.plan.engine.name().to_owned(),
             plan: task.plan.clone(),
             last: solved.last,
-            revolutions: solved.turned / std::f64::consts::TAU,
+            revolutions: solved.turned / TAU,
             error_estimate: solved.error_estimate,
             energy_residual: if scale == 0.0 { 0.0 } else { residual / scale },
             energy_residual_j: residual,
@@ -126,6 +132,24 @@ impl Summary {
             stopped,
         }
     }
+}
+
+/// What is said of a run that ended short of its goal, or without a state, though no engine told why.
+fn short_of(extent: Extent, last: &Final, turned: f64) -> Option<String> {
+    let (goal, reached) = match extent {
+        Extent::Duration(duration) => (duration, last.t_s),
+        Extent::Revolutions(turns) => (turns * TAU, turned.abs()),
+    };
+    // Half of all digits: far more than a goal is missed by in rounding.
+    let missed = goal - reached > f64::EPSILON.sqrt() * goal;
+    let state = [last.t_s, last.theta_rad, last.omega_rad_per_s, reached];
+    let is_state = state.iter().all(|number| number.is_finite());
+    (missed || !is_state).then(|| {
+        format!(
+            "the run ended before its goal: stopped at t = {} s, theta = {} rad, omega = {} rad/s; no engine gave a reason, which is a defect of this program",
+            last.t_s, last.theta_rad, last.omega_rad_per_s
+        )
+    })
 }
 
 /// A last state.
