@@ -105,11 +105,7 @@ impl<P: Copy> Station<P> {
 
     pub fn empty([from, to]: [f64; 2], rule: &'static Rule, side: f64) -> Station<P> {
         Station {
-            piece: Piece {
-                from,
-                to,
-                turning: Turning::Nowhere,
-            },
+            piece: Piece::between(from, to, Turning::Nowhere),
             rule,
             table: Table::default(),
             side,
