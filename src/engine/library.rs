@@ -22,6 +22,16 @@ pub enum Method {
     Dopri5,
 }
 
+impl Method {
+    /// The order of its steps.
+    pub fn order(self) -> usize {
+        match self {
+            Method::Dop853 => 8,
+            Method::Dopri5 => 5,
+        }
+    }
+}
+
 /// How one call ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ended {

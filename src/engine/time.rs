@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use super::library::{self, Call, Ended};
 use super::pace::{Ends, Pace};
 use super::picard;
+use super::sight::Proof;
 use super::step::{Node, Step};
 use super::{Counted, Motion};
 use crate::numeric::angle::Angle;
@@ -137,7 +138,13 @@ fn in_calls(
         return (Finish::NoStart, last, steps);
     }
     let mut first_step = 0.0;
+    let mut proof = Proof::new(motion, settings.tolerance, method.order());
+    let mut hidden = f64::INFINITY;
     loop {
+        if hidden <= node.t {
+            hidden = f64::INFINITY;
+        }
+        let mut is_hidden = false;
         let mut in_call = 0;
         let mut ended_by_sink = false;
         let left = settings
@@ -150,11 +157,15 @@ fn in_calls(
             tolerance: settings.tolerance,
             turns: angle.turns,
             start: node,
-            t_end: motion.next_corner(node.t).min(settings.t_end),
+            t_end: motion.next_corner(node.t).min(settings.t_end).min(hidden),
             first_step,
             max_steps: left.min(u64::from(u32::MAX)) as u32,
             work_unit: settings.work_unit,
             observer: &mut |step| {
+                if let Some(until) = proof.hides(step) {
+                    (hidden, is_hidden) = (until, true);
+                    return true;
+                }
                 last = *step;
                 in_call += 1;
                 ended_by_sink = sink(step);
@@ -163,21 +174,22 @@ fn in_calls(
         });
         steps += in_call as u64;
         let finish = match ended {
-            Ended::WorkLimit => Finish::WorkLimit,
-            Ended::StepTooSmall => Finish::StepTooSmall,
-            Ended::Stopped if ended_by_sink => Finish::Stopped,
-            Ended::AtEnd | Ended::Stopped if last.end.t >= settings.t_end => Finish::AtEnd,
-            Ended::AtEnd | Ended::Stopped => {
-                angle = last.angle(last.end.theta).reduced();
-                node = Node {
-                    theta: angle.rest,
-                    ..last.end
-                };
-                first_step = last.length();
-                continue;
-            }
+            Ended::WorkLimit => Some(Finish::WorkLimit),
+            Ended::StepTooSmall => Some(Finish::StepTooSmall),
+            Ended::Stopped if is_hidden => None,
+            Ended::Stopped if ended_by_sink => Some(Finish::Stopped),
+            Ended::AtEnd | Ended::Stopped if last.end.t >= settings.t_end => Some(Finish::AtEnd),
+            Ended::AtEnd | Ended::Stopped => None,
         };
-        return (finish, last, steps);
+        if let Some(finish) = finish {
+            return (finish, last, steps);
+        }
+        angle = last.angle(last.end.theta).reduced();
+        node = Node {
+            theta: angle.rest,
+            ..last.end
+        };
+        first_step = last.length();
     }
 }
 
