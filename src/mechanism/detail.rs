@@ -60,7 +60,19 @@ impl Around<'_> {
                 pressure.enclose(self.reach.angle) * Enclosed::point(*area)
             }
             Load::Expression(expression) => expression.enclose(|variable| self.variable(variable)),
+            // Its sign stays on a piece.
+            Load::Dry(magnitude) => self.magnitude(magnitude),
             _ => Enclosed::point(0.0),
+        }
+    }
+
+    /// A magnitude, which is over the size of a speed.
+    fn magnitude(&self, load: &Load) -> Enclosed {
+        match load {
+            Load::Table(table) if matches!(table.of(), Variable::Omega | Variable::V) => {
+                table.enclose(self.variable(table.of()).abs().real)
+            }
+            other => self.load(other),
         }
     }
 
@@ -91,7 +103,7 @@ impl Loads {
         self.called().any(|load| {
             matches!(
                 load,
-                Load::Expression(_) | Load::Table(_) | Load::Gas { .. }
+                Load::Expression(_) | Load::Table(_) | Load::Gas { .. } | Load::Dry(_)
             )
         })
     }
@@ -104,7 +116,7 @@ impl Loads {
 
     /// What the generalized force (N m) of the loads does on a piece of a motion, and in an ellipse of this size around it.
     pub fn detail(&self, linkage: &Linkage, reach: &Reach, ellipse: f64) -> Detail {
-        let classes = [&self.placed, &self.timed, &self.mixed];
+        let classes = [&self.placed, &self.timed, &self.mixed, &self.dry];
         self.detail_of(&classes, linkage, reach, ellipse)
     }
 
