@@ -99,9 +99,6 @@ pub(super) struct Solved {
 impl Summary {
     pub(super) fn new(task: &Task<'_>, solved: Solved) -> Summary {
         let (residual, scale) = solved.energy;
-        let stopped = solved
-            .stopped
-            .or_else(|| short_of(task.extent, &solved.last, solved.turned));
         let mut warnings = solved.warnings;
         let kept = solved.events.len();
         if kept > 0 && solved.events_total > kept as u64 {
@@ -110,8 +107,10 @@ impl Summary {
                 "{total} events occurred; the first {kept} are listed"
             ));
         }
-        let stalled = || stalled::reason(task, &solved.last);
-        let stopped = solved.stopped.map(|why| stalled().unwrap_or(why));
+        let stopped = solved
+            .stopped
+            .or_else(|| short_of(task.extent, &solved.last, solved.turned));
+        let stopped = stopped.map(|why| stalled::reason(task, &solved.last).unwrap_or(why));
         Summary {
             scene: task.scene.title.clone().unwrap_or_default(),
             engine: task.plan.engine.name().to_owned(),
