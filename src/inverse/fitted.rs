@@ -7,7 +7,7 @@ use super::outliers;
 use super::polynomial::Polynomial;
 use super::residual_tests::Whiteness;
 use super::smoother::{Estimate, Grid, KINEMATIC, Path, Problem, Record, Smoothed};
-use super::state_space::Prior;
+use super::state_space::{Prior, State};
 use super::summary::{CandidateSummary, FitSummary};
 use super::{FitKind, FitSize, InverseOptions};
 use crate::mechanism::Equation;
@@ -313,8 +313,53 @@ fn straight(problem: &Problem<'_>, theta: &[f64]) -> Path {
         let slope = (theta[next] - theta[next - 1]) / (b - a);
         [theta[next - 1] + slope * (t - a), slope, 0.0, 0.0]
     });
+    let mut states: Vec<State> = states.collect();
+    if record.sensor.measured == Measured::Theta {
+        // The prior of the start is narrow beside what samples without noise tell.
+        states[0] = cubic(&record.times[..4], &theta[..4]);
+    }
     Path {
-        states: states.collect(),
+        states,
         variances: None,
+    }
+}
+
+/// Value and three derivatives, at the first of four times, of the cubic through four values (Newton's divided differences).
+fn cubic(t: &[f64], values: &[f64]) -> State {
+    let mut table = [values[0], values[1], values[2], values[3]];
+    for order in 1..4 {
+        for k in (order..4).rev() {
+            table[k] = (table[k] - table[k - 1]) / (t[k] - t[k - order]);
+        }
+    }
+    let [b, c] = [t[0] - t[1], t[0] - t[2]];
+    let [value, first, second, third] = table;
+    [
+        value,
+        first + second * b + third * b * c,
+        2.0 * (second + third * (b + c)),
+        6.0 * third,
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::cubic;
+
+    #[test]
+    fn a_cubic_is_its_own() {
+        let t = [0.5, 0.7, 1.1, 1.2];
+        let values = t.map(|t: f64| 1.0 + 2.0 * t - 3.0 * t * t + 0.5 * t * t * t);
+        let found = cubic(&t, &values);
+        // At t = 0.5.
+        let expected = [
+            1.0 + 1.0 - 0.75 + 0.0625,
+            2.0 - 3.0 + 0.375,
+            -6.0 + 1.5,
+            3.0,
+        ];
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-12);
+        }
     }
 }

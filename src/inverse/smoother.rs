@@ -208,13 +208,8 @@ impl<'a> Problem<'a> {
         for k in (0..times.len()).step_by(stride) {
             let state = &path.states[k];
             let rates = motion.rates(times[k], state);
-            let tempo = if motion.prior.per_angle {
-                state[1].abs()
-            } else {
-                1.0
-            };
             if rates.by_unknown.is_finite() {
-                lever += rates.by_unknown * rates.by_unknown * tempo;
+                lever += rates.by_unknown * rates.by_unknown;
                 count += 1.0;
             }
         }
@@ -224,6 +219,7 @@ impl<'a> Problem<'a> {
             slope,
             lever: (lever / count).sqrt(),
             motion: shape,
+            speed: spread(path.states.iter().step_by(stride).map(|state| state[1])),
             floor: self.record.floor,
         }
     }
@@ -249,7 +245,7 @@ impl<'a> Problem<'a> {
             let stretch = self.stretch(motion, path, from..to, noise.sigma);
             let linear = Linear {
                 stretches: &[],
-                order: motion.prior.order,
+                prior: motion.prior,
                 scales,
             };
             let model = linear.deviations(&stretch, noise);
@@ -316,6 +312,20 @@ impl<'a> Problem<'a> {
     }
 }
 
+/// Standard deviation of numbers.
+fn spread(numbers: impl Iterator<Item = f64>) -> f64 {
+    let (mut count, mut mean, mut squares) = (0.0, 0.0, 0.0);
+    for number in numbers {
+        count += 1.0;
+        let off = number - mean;
+        mean += off / count;
+        squares += off * (number - mean);
+    }
+    (squares / f64::max(count, 1.0))
+        .sqrt()
+        .max(f64::MIN_POSITIVE)
+}
+
 /// A smoothed motion with its prior and noise.
 #[derive(Clone, Debug)]
 pub(super) struct Smoothed {
@@ -331,30 +341,35 @@ pub(super) struct Smoothed {
 pub(super) const KINEMATIC: Prior = Prior {
     unknown: Unknown::Acceleration,
     order: 2,
-    per_angle: false,
+    follows_speed: false,
 };
 
 /// Priors through the equation of motion.
-pub(super) const MECHANICAL: [Prior; 4] = [
+pub(super) const MECHANICAL: [Prior; 5] = [
+    Prior {
+        unknown: Unknown::Torque,
+        order: 2,
+        follows_speed: true,
+    },
     Prior {
         unknown: Unknown::Torque,
         order: 1,
-        per_angle: false,
+        follows_speed: false,
     },
     Prior {
         unknown: Unknown::Torque,
         order: 2,
-        per_angle: false,
+        follows_speed: false,
     },
     Prior {
         unknown: Unknown::Force,
         order: 1,
-        per_angle: false,
+        follows_speed: false,
     },
     Prior {
         unknown: Unknown::Force,
         order: 2,
-        per_angle: false,
+        follows_speed: false,
     },
 ];
 
@@ -387,18 +402,20 @@ impl Problem<'_> {
         let mut sigma = sigma;
         for iteration in 0..ITERATIONS {
             let scales = self.scales(&motion, &path, slope, shape);
-            let stretches = self.stretches(&motion, &path, sigma);
-            let linear = Linear {
-                stretches: &stretches,
-                order: 2,
-                scales,
-            };
             let noise = match &best {
-                Some(last) if iteration < 3 || is_linear => {
-                    linear.maximised(last.noise.corner, None)
+                Some(last) if iteration > 3 => last.noise,
+                last => {
+                    let stretches = self.stretches(&motion, &path, sigma);
+                    let linear = Linear {
+                        stretches: &stretches,
+                        prior: KINEMATIC,
+                        scales,
+                    };
+                    last.as_ref().map_or_else(
+                        || linear.anywhere(),
+                        |last| linear.maximised(last.noise.corner, None),
+                    )
                 }
-                Some(last) => linear.maximised(last.noise.corner, None),
-                None => linear.anywhere(),
             };
             let estimates = self.smoothed(&motion, &path, scales, &noise);
             let change = change(&estimates, &path);
@@ -466,7 +483,7 @@ impl Problem<'_> {
         let stretches = self.stretches(&motion, &path, from.noise.sigma);
         let linear = Linear {
             stretches: &stretches,
-            order: prior.order,
+            prior,
             scales,
         };
         let mut noise = linear.maximised(from.noise.corner, None);
@@ -475,9 +492,6 @@ impl Problem<'_> {
             // Noise that leaves the path rougher than white noise does is motion.
             let rougher = found.corner > noise.corner;
             noise = if rougher { noise } else { found };
-        }
-        if std::env::var("MIX").is_ok() && prior.order == 2 {
-            noise = linear.mixed(&noise);
         }
         Candidate {
             prior,
@@ -548,22 +562,17 @@ impl Problem<'_> {
             settled: false,
         };
         for iteration in 0..ITERATIONS {
-            if iteration > 0 {
+            // A path that has moved tells another noise, once.
+            if iteration == 1 {
                 let stretches = self.stretches(&motion, &path, noise.sigma);
                 let linear = Linear {
                     stretches: &stretches,
-                    order: prior.order,
+                    prior,
                     scales,
                 };
-                if std::env::var("MIX").is_ok() && prior.order == 2 {
-                    if iteration < 3 {
-                        noise = linear.mixed(&noise);
-                    }
-                } else {
-                    noise = linear.maximised(noise.corner, noise.correlated);
-                    if prior.order == 2 && std::env::var("NOLEVEL").is_err() {
-                        noise = linear.with_level(&noise);
-                    }
+                noise = linear.maximised(noise.corner, noise.correlated);
+                if prior.order == 2 && !prior.follows_speed {
+                    noise = linear.with_level(&noise);
                 }
             }
             let estimates = self.smoothed(&motion, &path, scales, &noise);
