@@ -3,7 +3,6 @@
 #[path = "../support/mod.rs"]
 mod support;
 
-mod fit;
 mod hard_data;
 mod inverse;
 mod inverse_friction;
@@ -11,3 +10,4 @@ mod inverse_fuzz;
 mod inverse_limits;
 mod measured_rows;
 mod noise;
+mod polynomial;

@@ -18,7 +18,7 @@ pub struct Powers {
 impl Powers {
     /// Converts an expansion over orthonormal polynomials, whose powers have huge coefficients of alternating
     /// sign where the arguments are far from zero: hence the extended precision.
-    pub(super) fn new(expansion: &Expansion<DoubleDouble>) -> Powers {
+    pub fn new(expansion: &Expansion<DoubleDouble>) -> Powers {
         let zero = DoubleDouble::default();
         let count = expansion.coefficients.len();
         let (middle, half) = (
