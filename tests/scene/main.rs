@@ -2,4 +2,5 @@
 
 mod bad_scenes;
 mod data_files;
+mod odd_files;
 mod scene_files;
