@@ -6,6 +6,7 @@ pub mod chebyshev;
 pub mod difference;
 pub mod dip;
 pub mod double_double;
+pub mod enclosure;
 pub mod exact;
 pub mod fit;
 pub mod gauss;

@@ -57,7 +57,8 @@ impl Problems {
         }
     }
 
-    pub(super) fn in_code(list: Vec<Problem>) -> Problems {
+    /// Problems of what does not come from a file.
+    pub fn in_code(list: Vec<Problem>) -> Problems {
         Problems {
             file: None,
             source: String::new(),

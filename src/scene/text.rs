@@ -59,8 +59,8 @@ pub(super) fn decoded(bytes: Vec<u8>) -> Result<String, String> {
 /// what is neither is Windows-1252, whose digits and letters without accents are those of all others.
 pub(super) fn decoded_from_any(bytes: Vec<u8>) -> Result<(String, Option<&'static str>), String> {
     let join: Option<fn([u8; 2]) -> u16> = match bytes[..] {
-        [0xfe, 0xff, ..] | [0, 1.., 0, 1.., ..] => Some(u16::from_be_bytes),
-        [0xff, 0xfe, ..] | [1.., 0, 1.., 0, ..] => Some(u16::from_le_bytes),
+        [0xfe, 0xff, ..] | [0, 1..=255, 0, 1..=255, ..] => Some(u16::from_be_bytes),
+        [0xff, 0xfe, ..] | [1..=255, 0, 1..=255, 0, ..] => Some(u16::from_le_bytes),
         _ => None,
     };
     if let Some(join) = join {

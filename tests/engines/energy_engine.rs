@@ -7,7 +7,7 @@ use crate::support::machines::{machine, weighted_crank};
 use proptest::prelude::*;
 use slider_crank::plan::Method;
 use slider_crank::scene::{
-    Crank, Gravity, InertiaAbout, Interpolation, Load, Rod, RodModel, Scene, Slider, Table,
+    Crank, Gravity, InertiaAbout, Interpolation, Load, Period, Rod, RodModel, Scene, Slider, Table,
     Variable, Variables,
 };
 use slider_crank::study::{Options, Simulation, simulate};
@@ -134,9 +134,10 @@ fn loaded() -> Vec<(&'static str, Scene)> {
         (
             "torque over theta",
             base.clone()
-                .torque(Load::function(Variables::THETA, |now| {
-                    0.4 * (3.0 * now.theta).cos() + 0.1
-                }))
+                .torque(
+                    Load::function(Variables::THETA, |now| 0.4 * (3.0 * now.theta).cos() + 0.1)
+                        .with_period(Period::TURN),
+                )
                 .start(0.3, 9.0),
         ),
         (

@@ -271,7 +271,7 @@ proptest! {
         for load in &mut turned.forces {
             *load = match load.clone() {
                 Load::Spring { stiffness, rest } => Load::Spring { stiffness, rest: -rest },
-                Load::Function { reads, function } => Load::function(reads, move |now: &Instant| -function(now)),
+                Load::Function { reads, function, .. } => Load::function(reads, move |now: &Instant| -function(now)),
                 other => other,
             };
         }
@@ -306,7 +306,7 @@ proptest! {
         for load in &mut other.forces {
             *load = match load.clone() {
                 Load::Spring { stiffness, rest } => Load::Spring { stiffness: stiffness * mass, rest: rest * length },
-                Load::Function { reads, function } => Load::function(reads, move |now: &Instant| function(now) * mass * length),
+                Load::Function { reads, function, .. } => Load::function(reads, move |now: &Instant| function(now) * mass * length),
                 load => load,
             };
         }

@@ -17,8 +17,8 @@ use crate::scene::{Problem, Problems, unit};
 
 const CLOSE_QUOTE: &str = "write numbers without quotes, and each row on a line of its own";
 
-/// Problems that are listed; all are counted.
-const MOST_LISTED: usize = 20;
+/// Problems of one kind that are listed; all are counted.
+pub(super) const MOST_LISTED: usize = 3;
 
 /// Bytes of a piece of text that a thread reads at a time, about.
 const PIECE: usize = 1 << 18;
@@ -195,10 +195,29 @@ fn samples(rows: &str, dialect: Dialect, columns: &Columns) -> Samples {
         all.values.extend(found.values);
         all.digits.join(&found.digits);
         all.wrong += found.wrong;
-        let room = MOST_LISTED - all.problems.len();
-        all.problems.extend(found.problems.into_iter().take(room));
+        for problem in found.problems {
+            list(&mut all.problems, problem);
+        }
     }
     all
+}
+
+/// Lists a problem, unless enough like it are listed.
+fn list(problems: &mut Vec<Problem>, problem: Problem) {
+    let alike = |other: &&Problem| other.field == problem.field && other.help == problem.help;
+    if problems.iter().filter(alike).count() < MOST_LISTED {
+        problems.push(problem);
+    }
+}
+
+/// How many problems there are beside those that are listed, if any.
+pub(super) fn more(count: usize, text: &str) -> Option<Problem> {
+    (count > 0).then(|| {
+        let what = format!("{} more like these", counted(count, "problem"));
+        let mut last = Problem::new("", what, "repair the data, or take the rows out");
+        last.span = Some(text.len()..text.len());
+        last
+    })
 }
 
 fn samples_of(rows: &str, piece: &str, dialect: Dialect, columns: &Columns) -> Samples {
@@ -216,11 +235,9 @@ fn samples_of(rows: &str, piece: &str, dialect: Dialect, columns: &Columns) -> S
         }
         let mut wrong = |field: &str, part: &str, what: String, help: &str| {
             samples.wrong += 1;
-            if samples.problems.len() < MOST_LISTED {
-                let mut problem = Problem::new(field, what, help);
-                problem.span = Some(span(rows, part));
-                samples.problems.push(problem);
-            }
+            let mut problem = Problem::new(field, what, help);
+            problem.span = Some(span(rows, part));
+            list(&mut samples.problems, problem);
         };
         if let Some(quote) = Dialect::open_quote(row) {
             wrong("quote", quote, OPEN_QUOTE.to_owned(), CLOSE_QUOTE);
@@ -281,15 +298,7 @@ impl Samples {
         {
             *span = span.start + rows..span.end + rows;
         }
-        if self.wrong > problems.len() {
-            let more = format!(
-                "{} more like these",
-                counted(self.wrong - problems.len(), "problem")
-            );
-            let mut last = Problem::new("", more, "repair the data, or take the rows out");
-            last.span = Some(text.len()..text.len());
-            problems.push(last);
-        }
+        problems.extend(more(self.wrong - problems.len(), text));
         Problems::in_file(file, text, problems)
     }
 }
