@@ -53,7 +53,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     }
     if reading != Reading::default() {
         return Err(Error::refused(
-            "--column, --columns and --decimal say how measured motion is read, and this is a scene",
+            "options such as --column, --time and --decimal say how measured motion is read, and this is a scene",
             "give a file ending in .csv, or leave them out",
         ));
     }
