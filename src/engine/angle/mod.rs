@@ -35,8 +35,8 @@ use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MOST, Values};
 pub use errors::Errors;
 use march::{Done, March};
-pub use one_turn::{Cycle, one_turn};
-pub use steady::{NoCycle, steady};
+pub use one_turn::{Cycle, Turns};
+pub use steady::{CycleMap, FixedPoint, NoCycle, fixed_point};
 
 /// What the engine needs of a mechanism.
 pub trait Driven {
