@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use slider_crank::mechanism::Equation;
 use slider_crank::plan::Method;
 use slider_crank::scene::{
-    Branch, Clearance, Crank, Friction, Gravity, Joint, Load, Period, Rod, Scene, Slider, Variables,
+    Branch, Clearance, Crank, Gravity, Joint, Load, Period, Rod, Scene, Slider, Variables,
 };
 use slider_crank::study::{Options, SteadyOptions, SteadyState, Summary, simulate, steady_state};
 

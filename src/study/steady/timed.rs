@@ -11,8 +11,8 @@ use crate::scene::{Extent, Scene};
 use crate::study::{NoRows, Options, Simulation, simulate, simulate_rows};
 
 /// Local error target, and that of another computation to compare with.
-const TOLERANCE: f64 = 1e-12;
-const OTHER: f64 = 1e-11;
+const TOLERANCE: f64 = 1e-14;
+const OTHER: f64 = 1e-13;
 
 /// Cycles in time.
 pub(super) struct Timed {
