@@ -117,9 +117,7 @@ pub(super) fn run(
 
 /// Whether a run that cannot begin over the angle may be served by it later.
 fn hands_over(task: &Task<'_>, why: Unserved) -> bool {
-    why == Unserved::TooSlow
-        && task.options.method == Method::Auto
-        && turns_fully(task)
+    why == Unserved::TooSlow && task.options.method == Method::Auto && turns_fully(task)
 }
 
 fn turns_fully(task: &Task<'_>) -> bool {

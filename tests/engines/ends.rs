@@ -1,7 +1,7 @@
 //! Where runs end: at their goal, or with the reason, and never with more work or rows than they are allowed.
 
-use crate::support::random::magnitude;
 use crate::support::random::cases;
+use crate::support::random::magnitude;
 use proptest::prelude::*;
 use slider_crank::plan::Method;
 use slider_crank::scene::{
@@ -65,7 +65,10 @@ fn a_crank_that_nearly_turns_fully_is_followed_past_its_limits() {
             (summary.last.theta_rad - theta).abs(),
             (summary.last.omega_rad_per_s - omega).abs(),
         ];
-        assert!(off[0] <= 3.0 * error.theta_rad && error.theta_rad < 1e-8, "{off:?} {error:?}");
+        assert!(
+            off[0] <= 3.0 * error.theta_rad && error.theta_rad < 1e-8,
+            "{off:?} {error:?}"
+        );
         assert!(off[1] <= 3.0 * error.omega_rad_per_s, "{off:?} {error:?}");
     }
 }
@@ -118,7 +121,10 @@ fn too_many_rows_are_refused_before_the_first_is_written() {
         let mut rows: Vec<Row> = Vec::new();
         let refused = simulate_rows(&scene, &limited(method, 1_000_000), &mut rows);
         let error = refused.expect_err("too many rows").to_string();
-        assert!(error.contains("run.output_every") && error.contains("rows"), "{error}");
+        assert!(
+            error.contains("run.output_every") && error.contains("rows"),
+            "{error}"
+        );
         assert!(rows.is_empty());
     }
 }
@@ -136,7 +142,8 @@ fn a_tiny_part_of_a_turn_is_no_more_work_than_a_turn() {
         let t = (2.0 * theta * INERTIA / 10.0).sqrt();
         assert!((summary.summary.last.t_s / t - 1.0).abs() < 0.1 * t.max(1e-4));
         assert_eq!(rows.len(), 500);
-        let even = |pair: &[Row]| ((pair[1].theta - pair[0].theta) * 499.0 / theta - 1.0).abs() < 1e-6;
+        let even =
+            |pair: &[Row]| ((pair[1].theta - pair[0].theta) * 499.0 / theta - 1.0).abs() < 1e-6;
         assert!(rows.windows(2).all(even));
     }
 }
@@ -155,7 +162,11 @@ fn the_work_limit_holds_where_a_table_cuts_the_steps_short() {
         let summary = run(&scene, &limited(method, 20_000));
         let why = summary.stopped.expect("a reason");
         assert!(why.contains("work limit"), "{why}");
-        assert!(summary.evaluations < 20_100, "{method} {}", summary.evaluations);
+        assert!(
+            summary.evaluations < 20_100,
+            "{method} {}",
+            summary.evaluations
+        );
     }
 }
 
@@ -172,7 +183,11 @@ fn an_estimate_takes_no_more_than_the_limit() {
         let summary = run(&scene, &limited(method, limit));
         assert_eq!(summary.stopped, None);
         if let Some(cost) = summary.estimate_cost {
-            assert!(cost.evaluations <= 3 * limit, "{method} {} {limit}", cost.evaluations);
+            assert!(
+                cost.evaluations <= 3 * limit,
+                "{method} {} {limit}",
+                cost.evaluations
+            );
         }
     }
 }
@@ -194,7 +209,10 @@ fn a_step_makes_no_more_than_two_turns() {
             let why = summary.stopped.expect("a reason");
             assert!(why.contains("work limit"), "{why}");
             let turns = summary.revolutions;
-            assert!(turns > 100.0 && turns < 2.0 * summary.steps as f64, "{method} {turns}");
+            assert!(
+                turns > 100.0 && turns < 2.0 * summary.steps as f64,
+                "{method} {turns}"
+            );
             assert!(summary.events_total <= 5 * summary.steps);
         }
     }
