@@ -40,6 +40,9 @@ impl Unfinished {
 
     /// Gives the file its name, in its folder.
     pub fn finish(self, folder: &Path, path: &Path) -> io::Result<()> {
+        // A file with a name is in its folder already.
+        #[cfg(not(target_os = "linux"))]
+        let _ = folder;
         match self {
             #[cfg(target_os = "linux")]
             Unfinished::Nameless(file) => {
