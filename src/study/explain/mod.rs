@@ -204,24 +204,22 @@ fn written_out(scene: &Scene) -> Vec<String> {
                 inertia.push(format!(
                     "{} |p_rod'|^2 + {} phi'^2 (rod)",
                     rod.mass,
-                    rod.central_inertia()
+                    short(rod.central_inertia())
                 ));
                 potential.push(format!("{} g.p_rod", rod.mass));
             }
             RodModel::TwoMass => {
-                let wrist = rod.mass * rod.cg / l;
-                inertia.push(format!(
-                    "{} r^2 + {wrist} x'^2 (rod at its pins)",
-                    rod.mass - wrist
-                ));
-                potential.push(format!("{} g.A + {wrist} g.P", rod.mass - wrist));
+                let wrist = short(rod.mass * rod.cg / l);
+                let crank = short(rod.mass - wrist);
+                inertia.push(format!("{crank} r^2 + {wrist} x'^2 (rod at its pins)"));
+                potential.push(format!("{crank} g.A + {wrist} g.P"));
             }
             RodModel::SpinOnly => {
                 inertia.push(format!("{} phi'^2 (rod, spin only)", rod.inertia));
                 potential.push(format!(
                     "{} g.({} (cos theta, sin theta))",
                     rod.mass,
-                    l + rod.cg
+                    short(l + rod.cg)
                 ));
             }
             RodModel::Massless => {}
@@ -250,6 +248,12 @@ fn written_out(scene: &Scene) -> Vec<String> {
     lines.push(format!("Q = {}", joined(&work)));
     lines.push(format!("r = {r}, l = {l}, e = {e}, s = {s:+}"));
     lines
+}
+
+/// A computed value in as many digits as people type, without the noise of rounding.
+fn short(value: f64) -> f64 {
+    let shown = format!("{value:.11e}");
+    shown.parse().unwrap_or(value)
 }
 
 fn joined(parts: &[String]) -> String {
