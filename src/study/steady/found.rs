@@ -119,8 +119,8 @@ impl Seeker {
         if limits.dead_centres.iter().any(|dc| vanishes(dc.theta)) {
             return Err(unbounded());
         }
-        let position = Position::new(&self.equation, &limits, self.start, self.speed)
-            .with_cycle(self.cycle);
+        let position =
+            Position::new(&self.equation, &limits, self.start, self.speed).with_cycle(self.cycle);
         let resolution = Resolution {
             tail: TAIL,
             other,
