@@ -348,14 +348,17 @@ impl Motion<'_> {
     fn run(&self, mut t: f64, mut state: [f64; 2]) -> (f64, [f64; 2]) {
         let until = self.case.duration;
         let mut h = 1e-3 * until;
-        let mut to_extreme = false;
+        let (mut to_extreme, mut larger) = (false, f64::INFINITY);
         loop {
             h = h.min(until - t).min(0.2 / state[1].abs());
             let (next, error) = self.step(t, state, h);
-            if error.is_nan() || error > 1.0 {
-                h *= 0.5;
+            // What halving no longer makes less is rounding.
+            let is_rounding = error < 100.0 && error > 0.25 * larger;
+            if error.is_nan() || error > 1.0 && !is_rounding {
+                (h, larger) = (0.5 * h, error);
                 continue;
             }
+            larger = f64::INFINITY;
             let beyond = |h: f64, state: [f64; 2]| {
                 let all = self.pieces.iter().map(|piece| piece.beyond(t + h, state));
                 all.fold(f64::NEG_INFINITY, f64::max)
