@@ -23,6 +23,14 @@ pub enum Method {
 }
 
 impl Method {
+    /// Evaluations in a step that is tried.
+    pub fn evaluations_in_a_step(self) -> u64 {
+        match self {
+            Method::Dop853 => 12,
+            Method::Dopri5 => 6,
+        }
+    }
+
     /// The order of its steps.
     pub fn order(self) -> usize {
         match self {

@@ -15,6 +15,9 @@ use crate::scene::Variable;
 use crate::study::marks::{Marks, in_order};
 use crate::study::sliding::{Grip, Sliding};
 
+/// On each side of an angle this far, rad, the slope of a load is taken.
+const BESIDE: f64 = 1e-6;
+
 /// Inertia, potential and force of an equation whose loads depend on the position alone.
 pub(super) struct Position<'a> {
     equation: &'a Equation,
@@ -100,15 +103,6 @@ impl<'a> Position<'a> {
         let all = (0..turns).flat_map(again);
         self.of_cycle = in_order(all.chain(self.of_loads.iter().copied()));
         self
-    }
-
-    /// The first mark of a formula after `from` on the way to `to`, in either direction, that is no corner of each turn.
-    fn mark(&self, from: f64, to: f64) -> Option<f64> {
-        let before = self.turns * TAU;
-        let mark = || self.marks.next(from + before, to + before);
-        (!self.marks_are_corners)
-            .then(mark)?
-            .map(|mark| mark - before)
     }
 
     /// Whether the loads depend on the position alone and are the same in each turn.
@@ -260,7 +254,13 @@ impl Profile for Position<'_> {
 
     fn rounding(&self, theta: f64) -> f64 {
         self.count(1);
-        let size = self.equation.size_of_terms(0.0, self.angle(theta), 0.0);
+        let angle = self.angle(theta);
+        let mut size = self.equation.size_of_terms(0.0, angle, 0.0);
+        if !self.equation.loads().have_potential() {
+            // What a formula makes of the angle is rounded as the angle is.
+            let change = self.push(theta + BESIDE) - self.push(theta - BESIDE);
+            size += (0.5 * change / BESIDE * angle.radians()).abs();
+        }
         0.5 * f64::EPSILON * size
     }
 

@@ -1,4 +1,4 @@
-//! Work of the loads, by a quadrature of its own.
+//! Work of the loads, by a quadrature of its own, and where their formulas are narrow.
 
 use std::f64::consts::TAU;
 
@@ -7,6 +7,15 @@ use crate::numeric::angle::Angle;
 use crate::numeric::gauss;
 
 impl<'a> Position<'a> {
+    /// The first mark of a formula after `from` on the way to `to`, in either direction, that is no corner of each turn.
+    pub(super) fn mark(&self, from: f64, to: f64) -> Option<f64> {
+        let before = self.turns * TAU;
+        let mark = || self.marks.next(from + before, to + before);
+        (!self.marks_are_corners)
+            .then(mark)?
+            .map(|mark| mark - before)
+    }
+
     /// For loads that depend on the position alone and are the same in each turn.
     pub fn with_turns_alike(mut self) -> Position<'a> {
         let torque = TAU * self.equation.loads().constant_torque();
@@ -37,7 +46,7 @@ impl<'a> Position<'a> {
     }
 
     /// Generalized force (N m) of the loads without potential at an angle.
-    fn push(&self, theta: f64) -> f64 {
+    pub(super) fn push(&self, theta: f64) -> f64 {
         let pose = self.equation.linkage().pose(theta);
         let loads = self.equation.loads();
         let load = loads.without_potential(0.0, self.angle(theta), 0.0, &pose);
