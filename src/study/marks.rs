@@ -65,3 +65,11 @@ impl<'a> Marks<'a> {
         }
     }
 }
+
+/// Angles in rising order; a corner that rounding has made two would make a panel without length.
+pub(super) fn in_order(angles: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut angles: Vec<f64> = angles.collect();
+    angles.sort_by(f64::total_cmp);
+    angles.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+    angles
+}

@@ -5,6 +5,7 @@ use super::station::Station;
 use super::sweep::Start;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MOST, Values};
+use crate::numeric::enclosure::Interval;
 
 /// Forces at the points of a panel, N m.
 #[derive(Clone)]
@@ -79,6 +80,12 @@ impl Forces {
         for j in 0..count {
             speeds[j] = start.direction * (kinetic[j] * mobility[j]).sqrt();
         }
+    }
+
+    /// Least and largest speed at the first points, rad/s.
+    pub fn speed_range(&self, count: usize) -> Interval {
+        let points = self.speeds[..count].iter().copied().map(Interval::point);
+        points.reduce(Interval::hull).unwrap_or_default()
     }
 
     /// |dt/dx| at the points.

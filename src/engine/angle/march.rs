@@ -13,6 +13,7 @@ use crate::engine::energy::panel::Panel;
 use crate::engine::energy::piece::Piece;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
+use crate::numeric::enclosure::Interval;
 use crate::numeric::exact::two_sum;
 
 /// A run over the angle: the panels of a cycle, and where it has come to.
@@ -49,6 +50,8 @@ pub(super) struct March<'a, D: Driven> {
     pub most_evaluations: u64,
     /// Whether a panel was cut or its degree raised since this was last cleared.
     pub refined: bool,
+    /// Whether the points of a panel did not show the loads since this was last cleared.
+    pub hid: bool,
     /// Whether a crank that seems to stop is given up before its panels become tiny.
     pub gives_up: bool,
 }
@@ -118,6 +121,7 @@ impl<'a, D: Driven> March<'a, D> {
             start,
             most_evaluations: resolution.most_evaluations,
             refined: false,
+            hid: false,
             gives_up: false,
         })
     }
@@ -135,6 +139,7 @@ impl<'a, D: Driven> March<'a, D> {
         self.gain = 0.0;
         self.work = 0.0;
         self.refined = false;
+        self.hid = false;
     }
 
     /// Whether the forces have two forms.
@@ -156,6 +161,12 @@ impl<'a, D: Driven> March<'a, D> {
     pub fn least(&self) -> f64 {
         let points = &self.swept.kinetic[..=self.swept.slope.degree()];
         points.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Least and largest speed at the points of the last panel, rad/s.
+    pub fn speeds(&self) -> Interval {
+        let count = self.swept.slope.degree() + 1;
+        self.swept.forces.speed_range(count)
     }
 
     /// Whether the next panel begins a cycle.
@@ -192,6 +203,7 @@ impl<'a, D: Driven> March<'a, D> {
             };
             if let Some([first, second]) = parts {
                 self.evaluations += self.swept.evaluations;
+                self.hid = true;
                 self.parts.pop();
                 self.parts.extend([second, first]);
                 continue;

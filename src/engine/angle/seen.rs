@@ -60,6 +60,29 @@ pub(super) fn hides<D: Driven>(
     hidden(&way, look).map(|hidden| hidden.at)
 }
 
+/// Whether some speeds show the loads at all speeds between them (rad/s), at each point of a panel.
+pub(super) fn at_speeds<D: Driven>(
+    driven: &D,
+    station: &Station<D::Place>,
+    speed: Interval,
+    look: Look,
+) -> bool {
+    let points = &station.rule.points()[..=station.rule.degree()];
+    points.iter().all(|x| {
+        let angle = Angle {
+            turns: station.turns,
+            rest: station.piece.angle(*x),
+        };
+        let reach = Reach {
+            t: Interval::default(),
+            angle: Interval::point(angle.radians()),
+            speed,
+            parts: 1.0,
+        };
+        look.shows(&driven.detail(&reach, look.ellipse))
+    })
+}
+
 impl<D: Driven> OnPanel<'_, D> {
     fn angle(&self, at: f64) -> Angle {
         Angle {

@@ -37,6 +37,8 @@ pub struct Look {
 const HALVINGS: i32 = 46;
 /// Part of what is allowed that each corner may leave.
 const AT_CORNER: f64 = 1e-4;
+/// Part of what is allowed that may be missed on the shorter side of a corner.
+const BESIDE_CORNER: f64 = 10.0 * AT_CORNER;
 /// A step whose nodes are not to be compared shows what it shows on pieces of about a quarter: its stages are so far apart.
 const COARSE: f64 = 0.2;
 /// Most pieces of one panel that are looked at.
@@ -101,8 +103,8 @@ fn size(missed: f64) -> f64 {
 /// What was found from the start of a panel on.
 struct Search {
     look: Look,
-    /// Integral of what the nodes miss.
-    missed: f64,
+    /// Integral of what the nodes miss, before the first corner and behind it.
+    missed: [f64; 2],
     is_missed: bool,
     /// The first piece on which they miss anything.
     first: Option<[f64; 2]>,
@@ -113,7 +115,7 @@ impl Search {
     fn new(look: Look) -> Search {
         Search {
             look,
-            missed: 0.0,
+            missed: [0.0; 2],
             is_missed: false,
             first: None,
             corner: None,
@@ -152,7 +154,17 @@ impl Search {
                 break;
             }
         }
-        self.is_missed.then(|| self.place()).flatten()
+        (self.is_missed || self.cuts_off())
+            .then(|| self.place())
+            .flatten()
+    }
+
+    /// Whether there is a corner so near to an end that the nodes are all on one side, and something on the other.
+    fn cuts_off(&self) -> bool {
+        let [before, behind] = self.missed;
+        let share = BESIDE_CORNER * self.look.allowed;
+        let missed = self.corner.map(|at| if at < 0.5 { before } else { behind });
+        self.look.compares && missed.is_some_and(|missed| missed > share)
     }
 
     /// The first corner, or else an end of the piece on which something was missed first.
@@ -193,7 +205,7 @@ impl Search {
         if integral > self.look.allowed * (to - from) && self.first.is_none() {
             self.first = Some([from, to]);
         }
-        self.missed += integral;
-        self.is_missed = self.missed > self.look.allowed;
+        self.missed[usize::from(self.corner.is_some())] += integral;
+        self.is_missed = self.missed.iter().sum::<f64>() > self.look.allowed;
     }
 }

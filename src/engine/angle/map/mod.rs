@@ -1,14 +1,15 @@
 //! Long runs: the map of the kinetic energy over one cycle, interpolated. A turn is a cycle here.
 
+mod cells;
+
 use std::f64::consts::TAU;
 
 use super::march::March;
 use super::{Done, Driven, Driving, Errors, Goal, Resolution, Short, work_until};
 use crate::engine::energy::leg::Leg;
-use crate::engine::energy::turns::{Cell, Mark, Turn, Turns};
+use crate::engine::energy::turns::{Mark, Turn, Turns};
 use crate::engine::energy::{Orbit, Unserved};
 use crate::numeric::angle::Angle;
-use crate::numeric::chebyshev::Rule;
 
 /// Degree of the interpolation over the energy.
 const DEGREE: usize = 16;
@@ -215,42 +216,6 @@ impl<D: Driven> Way<'_, D> {
             let pays = self.width * kinetic > (DEGREE + 1) as f64 * self.lost;
             if !narrows || !pays || tried <= NARROWEST {
                 return Err(why);
-            }
-        }
-    }
-
-    /// A cell over a range of energies.
-    fn cell(&mut self, middle: f64, half: f64) -> Result<Cell, Unserved> {
-        let rule = Rule::of(DEGREE);
-        let mut turns = Vec::with_capacity(DEGREE + 1);
-        while turns.len() <= DEGREE {
-            let kinetic = middle + half * rule.points()[turns.len()];
-            let turn = self.whole_turn(kinetic)?;
-            // All turns of a cell are cut in the same way.
-            if self.march.refined {
-                self.march.settle()?;
-                turns.clear();
-            } else {
-                turns.push(turn);
-            }
-        }
-        Ok(Cell::new(middle, half, rule, turns))
-    }
-
-    fn whole_turn(&mut self, kinetic: f64) -> Result<(Leg, Turn), Unserved> {
-        self.march.restart(kinetic);
-        self.march.gives_up = false;
-        let mut leg = Leg::open();
-        loop {
-            leg.push(self.march.panel()?.panel);
-            if self.march.at_cycle() {
-                let turn = Turn {
-                    count: self.march.turns.abs(),
-                    duration: self.march.t.0,
-                    gain: self.march.gain,
-                    work: self.march.work,
-                };
-                return Ok((leg, turn));
             }
         }
     }
