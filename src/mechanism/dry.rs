@@ -168,6 +168,7 @@ impl Constrained {
             t: Interval::new(from, to),
             angle: Interval::point(q.radians()),
             speed: Interval::point(0.0),
+            parts: 1.0,
         };
         let detail = self
             .loads()

@@ -7,6 +7,8 @@ mod agreement;
 mod allocations;
 mod angle_engine;
 mod caught;
+mod cycles;
+mod ends;
 mod energy_engine;
 mod energy_integral;
 mod estimates;
