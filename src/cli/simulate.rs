@@ -8,6 +8,7 @@ use super::{Outcome, Streams, check_ending, create, fill};
 use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{self, PlotRows, Preview, RowWriter};
+use crate::scene::Scene;
 use crate::study::{self, Options, Row, RowSink, SteadyOptions};
 
 /// Arguments of `simulate`.
@@ -118,6 +119,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     check_ending(arguments.plot.as_ref(), &["svg"])?;
     check_ending(arguments.report.as_ref(), &["html", "htm"])?;
     if let Some(tolerance) = arguments.tolerance {
+        // It has no place in the file.
+        Scene::new(1.0, 2.0).tolerance(tolerance).check()?;
         scene.run.tolerance = tolerance;
     }
     let steady = arguments

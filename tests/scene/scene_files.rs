@@ -1463,8 +1463,11 @@ fn the_schema_requires_the_keys_of_each_kind_of_load() {
                 .iter()
                 .filter_map(|p| p.field.rsplit('.').next())
                 .collect();
+            // A magnitude is a value or a table: the first of two ways is named.
+            let ways = rule["then"]["anyOf"][0]["required"].as_array();
             let required: BTreeSet<&str> = rule["then"]["required"]
                 .as_array()
+                .or(ways)
                 .expect("keys")
                 .iter()
                 .filter_map(Value::as_str)

@@ -112,7 +112,7 @@ impl Detail {
     pub fn nodes(&self, ellipse: f64, allowed: f64) -> Option<usize> {
         let left = 4.0 * self.around? / (allowed * (ellipse - 1.0));
         let terms = (left.ln() / ellipse.ln()).ceil().max(0.0);
-        Some((terms as usize + 1).max(LEAST_NODES))
+        Some((terms as usize).saturating_add(1).max(LEAST_NODES))
     }
 }
 

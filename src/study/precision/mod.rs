@@ -13,7 +13,7 @@ use serde::Serialize;
 
 use crate::error::Error;
 use crate::plan::{Engine, Method, Plan};
-use crate::scene::{Extent, Scene};
+use crate::scene::{Extent, Places, Scene};
 use cell::{Cell, other_methods, run, time};
 
 /// What is asked of a comparison.
@@ -180,6 +180,8 @@ pub fn precision(scene: &Scene, options: &PrecisionOptions) -> Result<Precision,
     let t_end = last_time(scene, options)?;
     let mut scene = scene.clone();
     scene.run.extent = Some(Extent::Duration(t_end));
+    // The tolerances have no place in its file.
+    scene.places = Places::default();
     let mut left_out = Vec::new();
     let mut cells = Vec::new();
     // A loose joint has one engine, which no method names.
