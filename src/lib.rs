@@ -43,23 +43,29 @@
 //! - [`study::simulate`] keeps the dense motion; [`study::simulate_rows`] hands on its rows, in memory that does not
 //!   grow with the run.
 //! - [`study::kinematics`], [`study::forces`] and [`study::statics`] look at one turn of the crank.
-//! - [`study::inverse`] takes measured samples, from arrays ([`scene::Measurement::new`]) or from a file
+//! - [`inverse::inverse`] takes measured samples, from arrays ([`scene::Measurement::new`]) or from a file
 //!   ([`scene::Measurement::load`]).
 //! - [`study::Sweep`] computes many designs; [`study::explain`] shows the equation, its terms and the plan.
 //!
+//! Without the default feature `cli` the library has neither the program nor scene files, sweeps and reports; scenes are
+//! then written in Rust.
+//!
 //! Everything is SI and radians, f64; conventions are those of [`mechanism::Linkage`].
 
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod engine;
 pub mod error;
+pub mod inverse;
 pub mod mechanism;
 pub mod numeric;
 pub mod plan;
+#[cfg(feature = "cli")]
 pub mod report;
 pub mod scene;
 pub mod study;
 pub mod trajectory;
 
-#[cfg(doctest)]
+#[cfg(all(doctest, feature = "cli"))]
 #[doc = include_str!("../README.md")]
 struct Readme;

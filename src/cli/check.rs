@@ -1,4 +1,4 @@
-//! `check`: all that is wrong with a scene file or a data file.
+//! `check`: all that is wrong with a scene file, `simulate` would refuse of it, or is wrong with a data file.
 
 use std::path::PathBuf;
 
@@ -7,6 +7,7 @@ use clap::Args;
 use super::reading::ReadingArguments;
 use super::{Outcome, print, say, scene};
 use crate::error::Error;
+use crate::plan;
 use crate::scene::{Measurement, Reading};
 
 /// Arguments of `check`.
@@ -45,6 +46,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         ));
     }
     let scene = scene(arguments.scene.as_ref())?;
+    plan::refuse(&scene)?;
     let name = match &arguments.scene {
         Some(file) if file.as_os_str() == "-" => "standard input".to_owned(),
         Some(file) => file.display().to_string(),

@@ -8,12 +8,14 @@ pub mod guard;
 pub mod library;
 pub mod pace;
 pub mod picard;
+pub mod sight;
 pub mod step;
 pub mod time;
 
 use std::cell::Cell;
 
 use crate::numeric::angle::Angle;
+use crate::numeric::enclosure::{Detail, Reach};
 
 /// An equation of motion θ̈ = f(t, θ, θ̇) and a power whose integral is wanted beside it.
 pub trait Motion {
@@ -31,6 +33,16 @@ pub trait Motion {
 
     /// The next time after `t` at which the acceleration is not smooth in time; steps end there.
     fn next_corner(&self, t: f64) -> f64;
+
+    /// Whether the acceleration may do something between the nodes of a step that its decay does not tell.
+    fn has_detail(&self) -> bool {
+        false
+    }
+
+    /// What the acceleration, rad/s², does on a piece of the motion, and in a Bernstein ellipse of this size around it.
+    fn detail(&self, _reach: &Reach, _ellipse: f64) -> Detail {
+        Detail::NONE
+    }
 
     /// What the motion takes from the time alone: computed once for each instant of a [`Batch`].
     fn of_time(&self, _t: f64) -> [f64; 2] {
@@ -136,6 +148,14 @@ impl Motion for Counted<'_> {
 
     fn next_corner(&self, t: f64) -> f64 {
         self.motion.next_corner(t)
+    }
+
+    fn has_detail(&self) -> bool {
+        self.motion.has_detail()
+    }
+
+    fn detail(&self, reach: &Reach, ellipse: f64) -> Detail {
+        self.motion.detail(reach, ellipse)
     }
 
     fn of_time(&self, t: f64) -> [f64; 2] {

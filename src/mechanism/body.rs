@@ -188,4 +188,14 @@ impl Bodies {
         }
         bodies
     }
+
+    /// Whether anything resists acceleration, in some position.
+    pub fn have_inertia(&self) -> bool {
+        let mut moving = self.moving.iter();
+        self.crank_inertia != 0.0
+            || moving.any(|body| match *body {
+                Body::OnRod { mass, inertia, .. } => mass != 0.0 || inertia != 0.0,
+                Body::OnCrank { mass, .. } | Body::OnSlider { mass } => mass != 0.0,
+            })
+    }
 }

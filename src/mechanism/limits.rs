@@ -144,6 +144,22 @@ impl Limits {
         reach(&shorter, class)
     }
 
+    /// Crank angles, rad, through which a drive can keep up a constant speed against the friction coefficient `mu` of the
+    /// guide; empty: all. A change point is not passed: the slider's velocity would jump there.
+    pub fn driven_reach(linkage: &Linkage, mu: f64) -> Vec<[f64; 2]> {
+        match (linkage.unlocked(mu), Class::of(linkage)) {
+            (Some(shorter), _) => Limits::new(&shorter, 0.0).reach,
+            (None, Class::ChangePoint) => Limits::clear_reach(linkage),
+            (None, class) => reach(linkage, class),
+        }
+    }
+
+    /// Whether a crank angle in [0, 2π) lies in one of the intervals; no intervals: anywhere.
+    pub fn inside(reach: &[[f64; 2]], theta: f64) -> bool {
+        let within = |[from, to]: &[f64; 2]| (theta - from).rem_euclid(TAU) <= to - from;
+        reach.is_empty() || reach.iter().any(within)
+    }
+
     /// Advance angle over return angle (Obaseki & Alfred (51)); none if the crank cannot turn fully.
     pub fn time_ratio(&self) -> Option<f64> {
         Some(self.advance? / self.retreat?)

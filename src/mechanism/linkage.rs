@@ -93,6 +93,13 @@ impl Linkage {
         }
     }
 
+    /// The linkage that reaches as far as the guide does not lock itself by a friction coefficient, if there are positions
+    /// in which it does: μ |tan φ| = 1 where |e + r sin θ| = l/sqrt(1 + μ²).
+    pub fn unlocked(&self, mu: f64) -> Option<Linkage> {
+        let shorter = self.with_rod(self.l / mu.hypot(1.0));
+        (mu > 0.0 && shorter.margin() <= 0.0).then_some(shorter)
+    }
+
     /// The same lengths on another branch.
     pub fn on_branch(&self, branch: Branch) -> Linkage {
         Linkage {

@@ -60,7 +60,13 @@ impl Angle {
 /// Angles of one turn, rad: from 0 to 2π inclusive, every `step`. Whole degrees are converted as such, so
 /// that 90 degrees is the double nearest to a right angle.
 pub fn turn(step: f64) -> impl Iterator<Item = f64> {
-    let whole = (TAU / step * (1.0 - 1e-12)).floor() as u64;
+    turns(1, step)
+}
+
+/// The same for several turns.
+pub fn turns(count: u32, step: f64) -> impl Iterator<Item = f64> {
+    let end = f64::from(count) * TAU;
+    let whole = (end / step * (1.0 - 1e-12)).floor() as u64;
     let degrees = (step * 180.0 / PI * 1e9).round() / 1e9;
     let exact = (degrees * PI / 180.0 - step).abs() <= f64::EPSILON * step;
     (0..=whole)
@@ -71,7 +77,7 @@ pub fn turn(step: f64) -> impl Iterator<Item = f64> {
                 i as f64 * step
             }
         })
-        .chain([TAU])
+        .chain([end])
 }
 
 #[cfg(test)]

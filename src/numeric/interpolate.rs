@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::angle::TAU_REST;
+use super::enclosure::{Enclosed, Interval, Rectangle};
 use super::exact::two_product;
 
 /// How values between two rows are found.
@@ -115,6 +116,42 @@ impl Curve {
                 let rise = y1 - y0;
                 y0 + s * (d0 + s * (3.0 * rise - 2.0 * d0 - d1 + s * (d0 + d1 - 2.0 * rise)))
             }
+        }
+    }
+
+    /// The values over an interval: between points the curve is monotone. They are analytic, too, and of third degree,
+    /// where no point lies inside.
+    pub fn enclose(&self, over: Interval) -> Enclosed {
+        let (low, high) = self.range();
+        let Interval {
+            low: from,
+            high: to,
+        } = over;
+        if to - from >= high - low {
+            let all = self.y.iter().map(|y| Interval::point(*y));
+            let inside = self.period.is_some() || low <= from && to <= high;
+            return match all.reduce(Interval::hull) {
+                Some(all) if inside => Enclosed::jumps(all),
+                _ => Enclosed::UNKNOWN,
+            };
+        }
+        let ends = [from, to].map(|at| self.value(at));
+        let mut real = Interval::between(ends[0], ends[1]);
+        let mut next = self.next_point(from);
+        // A point at the end, off by rounding, is not inside.
+        let before = to - 1e-12 * self.spacing - 2.0 * f64::EPSILON * to.abs();
+        let smooth = next >= before;
+        while next < before {
+            real = real.hull(Interval::point(self.value(next)));
+            next = self.next_point(next);
+        }
+        if smooth && real != Interval::WHOLE {
+            Enclosed {
+                real,
+                plane: Some(Rectangle::point(real.middle())),
+            }
+        } else {
+            Enclosed::jumps(real)
         }
     }
 

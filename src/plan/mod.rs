@@ -3,8 +3,8 @@
 
 mod choice;
 mod contact;
+mod cycle;
 mod method;
-mod periodic;
 mod refusal;
 mod rubbing;
 mod terms;
@@ -15,9 +15,11 @@ use serde::Serialize;
 
 use choice::choose;
 use contact::contact_state;
+pub(crate) use cycle::over_angle as cycle_over_angle;
+pub use cycle::{Cycle, LoadPeriod};
 pub use method::Method;
-pub(crate) use periodic::repeats_with_each_turn;
-use refusal::{refuse_what_cannot_move, refuse_what_is_not_modelled, refuse_what_jams};
+use refusal::not_modelled;
+pub use refusal::refuse;
 use terms::terms;
 
 use crate::error::Error;
@@ -99,6 +101,8 @@ pub struct Plan {
     pub coordinate: &'static str,
     /// What is integrated, in this order; empty: nothing.
     pub state: Vec<&'static str>,
+    /// After how many turns the loads are the same again.
+    pub cycle: Cycle,
     /// What is looked for during the run.
     pub events: Vec<&'static str>,
     /// Terms of the equation.
@@ -111,20 +115,15 @@ impl Plan {
     /// Plans a scene.
     ///
     /// # Errors
-    /// [`Error::Scene`] for impossible values, [`Error::Refused`] for a scene that cannot be computed or a
-    /// method that cannot serve it, with the reason.
+    /// [`Error::Scene`] for impossible values and for what is not modelled, [`Error::Refused`] for a method that cannot
+    /// serve the scene, with the reason.
     pub fn new(scene: &Scene, method: Method) -> Result<Plan, Error> {
         scene.check()?;
         let reduced = scene.reduced();
         let linkage = Linkage::new(&scene.geometry);
-        refuse_what_is_not_modelled(&reduced)?;
+        scene.refused(not_modelled(&reduced, &linkage))?;
         let loads = Loads::new(&reduced);
         let choice = choose(method, &loads, &reduced)?;
-        match choice.engine {
-            Engine::Contact => refuse_what_jams(&reduced, &linkage)?,
-            Engine::ClosedForm => {}
-            _ => refuse_what_cannot_move(&reduced, &linkage)?,
-        }
         let (kept, left_out) = terms(scene, &reduced);
         Ok(Plan {
             engine: choice.engine,
@@ -132,6 +131,7 @@ impl Plan {
             stepper: choice.stepper,
             coordinate: coordinate(choice.engine, &reduced, &linkage),
             state: state(choice.engine, &reduced, &loads),
+            cycle: Cycle::of(scene),
             events: events(choice.engine, &reduced),
             kept,
             left_out,
@@ -190,7 +190,8 @@ fn events(engine: Engine, scene: &Scene) -> Vec<&'static str> {
     if engine == Engine::Time && is_limited(scene) {
         events.push("limit");
     }
-    if engine != Engine::ClosedForm && scene.friction.is_some() {
+    let dry = engine == Engine::Time && Loads::new(scene).are_dry();
+    if engine != Engine::ClosedForm && scene.friction.is_some() || dry {
         events.extend(["stick", "slip"]);
         if engine != Engine::Contact {
             events.push("rest");

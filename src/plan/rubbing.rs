@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::choice::{Choice, angle_serves};
+use super::choice::{self, Choice};
 use super::{Engine, Method, Stepper};
 use crate::error::Error;
 use crate::mechanism::{Class, Constrained, Curve, Linkage};
@@ -37,20 +37,13 @@ pub(super) fn engine(method: Method, scene: &Scene, class: Class) -> Result<Choi
     }
 }
 
-fn why_not_angle(scene: &Scene, class: Class) -> Option<&'static str> {
+fn why_not_angle(scene: &Scene, class: Class) -> Option<String> {
     if class != Class::RotatingCrank {
-        Some("the crank cannot turn fully")
-    } else if scene.motion.speed == 0.0 {
-        Some("the crank starts at rest")
-    } else if !angle_serves(scene) {
-        Some(
-            "a load jumps, is a table over another variable than theta, or does not repeat with each turn",
-        )
-    } else if jams(scene) {
-        Some("the slider jams in its guide at an angle of the turn")
-    } else {
-        None
+        return Some("the crank cannot turn fully".to_owned());
     }
+    let jams =
+        || jams(scene).then(|| "the slider jams in its guide at an angle of the turn".to_owned());
+    choice::why_not_angle(scene).or_else(jams)
 }
 
 /// Whether rigid bodies jam at one of some angles of the turn.

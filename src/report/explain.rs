@@ -50,6 +50,15 @@ fn computation(result: &Explanation) -> Facts {
     };
     facts.add("  state", state);
     facts.add("  events", plan.events.join(", "));
+    let cycle = match (&plan.cycle.turns, &plan.cycle.why_not) {
+        (Some(1), _) => "1 turn".to_owned(),
+        (Some(turns), _) => format!("{turns} turns"),
+        (None, why) => format!("none: {}", why.as_deref().unwrap_or_default()),
+    };
+    facts.add("  cycle of the loads", cycle);
+    for load in &plan.cycle.loads {
+        facts.add("", format_args!("{} repeats {}", load.name, load.repeats));
+    }
     let evaluation = result.evaluation_ns;
     facts.add(
         "  one evaluation",

@@ -156,6 +156,13 @@ fn forces(facts: &mut Facts, analysis: &ForceAnalysis) {
         "reciprocating mass",
         format_args!("{reciprocating} kg at the wrist pin"),
     );
+    if analysis.cycle_turns > 1 {
+        let turns = analysis.cycle_turns;
+        facts.add(
+            "forces",
+            format_args!("over {turns} turns, the cycle of the loads"),
+        );
+    }
     for (name, stroke) in [("outward", analysis.outward), ("inward", analysis.inward)] {
         if let Some(StrokeTorque { max, min }) = stroke {
             let [min, max] = [min, max].map(|found| extreme(&found, "N m"));
@@ -204,7 +211,7 @@ pub fn turn_figure(result: &OneTurn) -> Result<String, Error> {
         let point = |row: &TurnRow| (row.kinematics.theta.to_degrees(), value(row));
         rows.iter().map(point).collect()
     };
-    let angle = || Axis::linear("crank angle [deg]").range(0.0, 360.0);
+    let angle = || Axis::linear("crank angle [deg]").range(0.0, 360.0 * f64::from(result.turns()));
     let mut figures: Vec<Figure> = quantities
         .into_iter()
         .enumerate()

@@ -11,14 +11,18 @@ fn shown(estimated: Estimated, unit: &str) -> String {
 /// The key figures.
 pub(super) fn steady_state(facts: &mut Facts, steady: &SteadyState) {
     let period = shown(steady.period_s, "s");
-    facts.add("steady state", format_args!("period {period}"));
+    let (of_turns, a_cycle) = match steady.cycle_turns {
+        1 => (String::new(), "turn"),
+        turns => (format!(" ({turns} turns)"), "cycle"),
+    };
+    facts.add("steady state", format_args!("period {period}{of_turns}"));
     facts.add("  mean speed", shown(steady.omega_mean_rad_per_s, "rad/s"));
     facts.add("  slowest", extreme(&steady.slowest));
     facts.add("  fastest", extreme(&steady.fastest));
     facts.add("  fluctuation", shown(steady.fluctuation, ""));
     let left = if steady.stable {
         format!(
-            "{} of one is left after a turn",
+            "{} of one is left after a {a_cycle}",
             shown(steady.multiplier, "")
         )
     } else {

@@ -1,8 +1,8 @@
 //! Scenes built in code.
 
 use super::{
-    Branch, Crank, Every, Extent, Geometry, Gravity, Load, Motion, MotionKind, Rod, Run, Scene,
-    Slider,
+    Branch, Crank, Every, Extent, Geometry, Gravity, Load, Motion, MotionKind, Places, Rod, Run,
+    Scene, Slider,
 };
 
 impl Scene {
@@ -39,6 +39,7 @@ impl Scene {
             clearance: None,
             motion: Motion::default(),
             run: Run::default(),
+            places: Places::default(),
         }
     }
 

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt;
 use std::sync::Arc;
 
-use super::{Expression, Instant, Table, Variable, Variables};
+use super::{Expression, Instant, Period, Repeats, Table, Variable, Variables, WhyNot};
 
 type LoadFunction = Arc<dyn Fn(&Instant) -> f64 + Send + Sync>;
 
@@ -42,6 +42,9 @@ pub enum Load {
         /// −1 on the right branch, +1 on the left: the sign of a force towards the crank.
         towards_crank: f64,
     },
+    /// Dry friction: it opposes the motion of what it acts on with the magnitude that another load gives, N m or N. At rest
+    /// it holds as long as all else stays below the magnitude. One over omega or v is over their size.
+    Dry(Box<Load>),
     /// A formula.
     Expression(Expression),
     /// A function of code; what it reads must be said.
@@ -50,6 +53,9 @@ pub enum Load {
         reads: Variables,
         /// The function.
         function: LoadFunction,
+        /// After how much of a turn it is the same again, as far as it depends on the crank angle; none: it does not
+        /// repeat.
+        period: Option<Period>,
     },
 }
 
@@ -67,7 +73,70 @@ impl Load {
         Load::Function {
             reads,
             function: Arc::new(function),
+            period: None,
         }
+    }
+
+    /// A load that opposes motion with a constant magnitude, N m or N.
+    ///
+    /// ```
+    /// use slider_crank::scene::{Crank, Load, Scene};
+    /// use slider_crank::study::{Options, simulate};
+    ///
+    /// // 0.5 N m bring 0.02 kg m^2 at 100 rad/s to rest after 4 s.
+    /// let brake = Scene::new(0.05, 0.15)
+    ///     .crank(Crank { inertia: 0.02, ..Crank::default() })
+    ///     .torque(Load::dry(0.5))
+    ///     .start(0.0, 100.0)
+    ///     .duration(5.0);
+    /// let run = simulate(&brake, &Options::default()).unwrap();
+    /// let rest = run.summary.events.iter().find(|event| event.kind == "rest").unwrap();
+    /// assert!((rest.t_s - 4.0).abs() < 1e-12);
+    /// ```
+    pub fn dry(magnitude: f64) -> Load {
+        Load::Dry(Box::new(Load::Constant(magnitude)))
+    }
+
+    /// Says of a load from a closure after how much of a turn it is the same again; a closure that reads the crank angle
+    /// and does not say it is not taken to repeat. Other loads know their period.
+    ///
+    /// ```
+    /// use slider_crank::scene::{Load, Period, Variables};
+    /// let cam = Load::function(Variables::THETA, |now| 3.0 * (0.5 * now.theta).sin()).with_period(Period::turns(2).unwrap());
+    /// ```
+    pub fn with_period(mut self, stated: Period) -> Load {
+        if let Load::Function { period, .. } = &mut self {
+            *period = Some(stated);
+        }
+        self
+    }
+
+    /// Whether it is the same again after some turns of the crank, time and crank speed being the same.
+    pub fn repeats(&self, on_slider: bool) -> Repeats {
+        let of_position = match self {
+            Load::Table(table)
+            | Load::Gas {
+                pressure: table, ..
+            } if table.of() == Variable::Theta => table.repeats(),
+            Load::Dry(magnitude) => magnitude.repeats(on_slider),
+            Load::Expression(expression) => return expression.repeats(),
+            Load::Function {
+                period: Some(period),
+                ..
+            } => Repeats::After(*period),
+            Load::Function { reads, .. } if reads.has(Variable::Theta) => {
+                Repeats::Never(WhyNot::Unstated)
+            }
+            _ => Repeats::Always,
+        };
+        let turns = !self
+            .reads(on_slider)
+            .disjoint(Variables::X.or(Variables::V));
+        of_position.with(if turns {
+            Repeats::After(Period::TURN)
+        } else {
+            Repeats::Always
+        })
     }
 
     /// The word for it in scene files.
@@ -79,6 +148,7 @@ impl Load {
             Load::Spring { .. } => "spring",
             Load::Table(_) => "table",
             Load::Gas { .. } => "gas",
+            Load::Dry(_) => "dry",
             Load::Expression(_) => "expression",
             Load::Function { .. } => "function",
         }
@@ -93,8 +163,22 @@ impl Load {
             Load::Spring { .. } => Variables::X,
             Load::Table(table) => Variables::NONE.with(table.of()),
             Load::Gas { .. } => Variables::THETA,
+            Load::Dry(magnitude) if on_slider => magnitude.reads(true).or(Variables::V),
+            Load::Dry(magnitude) => magnitude.reads(false).or(Variables::OMEGA),
             Load::Expression(expression) => expression.reads(),
             Load::Function { reads, .. } => *reads,
+        }
+    }
+
+    /// The table it is made of, if it is.
+    pub(super) fn table(&self) -> Option<&Table> {
+        match self {
+            Load::Table(table)
+            | Load::Gas {
+                pressure: table, ..
+            } => Some(table),
+            Load::Dry(magnitude) => magnitude.table(),
+            _ => None,
         }
     }
 
@@ -111,6 +195,12 @@ impl Load {
             Some((table, Step::None)) => table.rows().to_vec(),
             Some((_, Step::Without)) | None => Vec::new(),
         }
+    }
+
+    /// All of them between two angles, rad.
+    pub fn corners_between(&self, low: f64, high: f64) -> Vec<f64> {
+        let table = self.angle_table();
+        table.map_or_else(Vec::new, |(table, _)| table.rows_between(low, high))
     }
 
     /// Those between two angles, rad, of a table that does not keep step with the turns.
@@ -139,19 +229,15 @@ impl Load {
 
     /// A table over the crank angle, and how it keeps step with the turns.
     fn angle_table(&self) -> Option<(&Table, Step)> {
-        match self {
-            Load::Table(table)
-            | Load::Gas {
-                pressure: table, ..
-            } if table.of() == Variable::Theta => Some((table, Step::of(table))),
-            _ => None,
-        }
+        let table = self.table()?;
+        (table.of() == Variable::Theta).then(|| (table, Step::of(table)))
     }
 
     /// The next time after `t` (s) at which the load is not smooth in time; infinite if it is not known.
     pub fn next_corner(&self, t: f64) -> f64 {
         match self {
             Load::Table(table) if table.of() == Variable::T => table.next_row(t),
+            Load::Dry(magnitude) => magnitude.next_corner(t),
             _ => f64::INFINITY,
         }
     }
@@ -165,6 +251,7 @@ impl Load {
             Load::Spring { stiffness, .. } => *stiffness == 0.0,
             Load::Table(table) => table.is_zero(),
             Load::Gas { area, .. } => *area == 0.0,
+            Load::Dry(magnitude) => magnitude.is_zero(),
             Load::Expression(_) => self.fixed() == Some(0.0),
             Load::Function { .. } => false,
         }
@@ -189,29 +276,29 @@ enum Step {
     None,
     /// It is the same again after so many turns.
     With(f64),
-    /// It repeats, but turn and period are no multiples of each other.
+    /// It repeats, but not after whole turns, or it has too many rows.
     Without,
 }
 
 impl Step {
-    /// Periods that differ by less than this part of them are the same: 6.283185307 rad, as calculators show it, is a turn.
-    const SAME: f64 = 1e-9;
-
     /// More rows than this in a turn are found one by one, not listed.
     const MOST_ROWS: f64 = 1e5;
 
     fn of(table: &Table) -> Step {
-        let Some(period) = table.period() else {
+        if table.period().is_none() {
             return Step::None;
-        };
-        let whole = |ratio: f64| (ratio - ratio.round()).abs() <= Step::SAME * ratio;
-        let turns = period / TAU;
-        if turns > 0.5 && whole(turns) {
-            Step::With(turns.round())
-        } else if whole(1.0 / turns) && table.rows().len() as f64 <= Step::MOST_ROWS * turns {
-            Step::With(1.0)
-        } else {
-            Step::Without
+        }
+        match table.repeats() {
+            Repeats::After(period) => {
+                let turns = f64::from(period.whole_turns());
+                let periods = turns * TAU / period.radians();
+                if table.rows().len() as f64 * periods <= Step::MOST_ROWS * turns {
+                    Step::With(turns)
+                } else {
+                    Step::Without
+                }
+            }
+            _ => Step::Without,
         }
     }
 }
@@ -244,6 +331,7 @@ impl fmt::Display for Load {
                     "gas pressure over theta, area {area} m2, ambient {ambient} Pa"
                 )
             }
+            Load::Dry(magnitude) => write!(f, "opposes motion, magnitude {magnitude}"),
             Load::Expression(expression) => write!(f, "expression `{expression}`"),
             Load::Function { reads, .. } => write!(f, "function of {reads}"),
         }

@@ -3,28 +3,41 @@
 //! A scene comes from a file ([`Scene::load`]) or from code ([`Scene::new`] and the methods that add
 //! parts). Either way [`Scene::check`] says all that is wrong with it.
 
+#[cfg(feature = "cli")]
 mod assemble;
 mod body;
 mod builder;
+#[cfg(feature = "cli")]
 mod builtin;
 mod clearance;
 mod expression;
+#[cfg(feature = "cli")]
 mod keys;
 mod load;
 mod measurement;
 mod motion;
 mod number;
 mod parts;
+mod period;
+mod places;
+#[cfg(feature = "cli")]
+mod printable;
 mod problem;
+#[cfg(feature = "cli")]
 mod read;
+#[cfg(feature = "cli")]
+mod render;
+#[cfg(feature = "cli")]
 mod schema;
 mod table;
 mod text;
 pub mod unit;
 mod validate;
 mod variable;
+#[cfg(feature = "cli")]
 mod vary;
 
+#[cfg(feature = "cli")]
 use builtin::DUARTE;
 
 use std::path::Path;
@@ -36,10 +49,16 @@ pub use load::Load;
 pub use measurement::{DUARTE_MOTION, Measured, Measurement, Reading};
 pub use motion::{Every, Extent, Motion, MotionKind, Run};
 pub use parts::{Branch, Friction, Geometry, Gravity};
+pub use period::{Period, Repeats, WhyNot};
+pub use places::Places;
+#[cfg(feature = "cli")]
+pub use printable::printable;
 pub use problem::{Problem, Problems};
+#[cfg(feature = "cli")]
 pub use schema::schema;
 pub use table::{Interpolation, Table, calibration_points};
 pub use variable::{Instant, Variable, Variables};
+#[cfg(feature = "cli")]
 pub use vary::{Draft, Varied};
 
 /// A complete scene.
@@ -69,6 +88,8 @@ pub struct Scene {
     pub motion: Motion,
     /// How long, how fine, how exact.
     pub run: Run,
+    /// Where its keys stand, if it comes from a file.
+    pub places: Places,
 }
 
 impl Scene {
@@ -79,23 +100,25 @@ impl Scene {
     pub fn check(&self) -> Result<(), Problems> {
         let mut problems = Vec::new();
         validate::problems(self, &mut problems);
+        self.refused(problems)
+    }
+
+    /// What is wrong, with the places of the file the scene comes from.
+    ///
+    /// # Errors
+    /// [`Problems`] if there is anything.
+    pub fn refused(&self, problems: Vec<Problem>) -> Result<(), Problems> {
         if problems.is_empty() {
             Ok(())
         } else {
-            Err(Problems::in_code(problems))
+            Err(self.places.problems(problems))
         }
     }
 
     /// The files of the tables of its loads.
     pub fn table_files(&self) -> impl Iterator<Item = &Path> {
         let loads = self.torques.iter().chain(&self.forces);
-        loads.filter_map(|load| match load {
-            Load::Table(table)
-            | Load::Gas {
-                pressure: table, ..
-            } => table.file(),
-            _ => None,
-        })
+        loads.filter_map(Load::table).filter_map(Table::file)
     }
 
     /// The same scene without what has no strength: zero masses, zero loads, zero gravity.

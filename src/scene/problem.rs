@@ -1,11 +1,8 @@
 //! What is wrong with a scene, and its display with the line of the file.
 
-use std::borrow::Cow;
 use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-
-use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
 use super::number::with_unit;
 
@@ -42,8 +39,8 @@ impl Problem {
 /// All problems of one scene.
 #[derive(Clone, Debug)]
 pub struct Problems {
-    file: Option<PathBuf>,
-    source: String,
+    pub(super) file: Option<PathBuf>,
+    pub(super) source: String,
     list: Vec<Problem>,
 }
 
@@ -60,7 +57,8 @@ impl Problems {
         }
     }
 
-    pub(super) fn in_code(list: Vec<Problem>) -> Problems {
+    /// Problems of what does not come from a file.
+    pub fn in_code(list: Vec<Problem>) -> Problems {
         Problems {
             file: None,
             source: String::new(),
@@ -81,57 +79,6 @@ impl Problems {
         let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
         Some((line, column))
     }
-
-    /// The text for a terminal, in colour or plain.
-    pub fn render(&self, colour: bool) -> String {
-        let renderer = if colour {
-            Renderer::styled()
-        } else {
-            Renderer::plain()
-        };
-        let blocks: Vec<String> = self
-            .list
-            .iter()
-            .map(|problem| self.render_one(problem, &renderer))
-            .collect();
-        blocks.join("\n\n")
-    }
-
-    fn render_one(&self, problem: &Problem, renderer: &Renderer) -> String {
-        let title = Level::ERROR.primary_title(shortened(&problem.what));
-        let help = Level::HELP.message(problem.help.as_str());
-        let report = match (&self.file, &problem.span) {
-            (Some(file), Some(span)) => title.element(
-                Snippet::source(self.source.as_str())
-                    .path(file.display().to_string())
-                    .annotation(
-                        AnnotationKind::Primary
-                            .span(span.clone())
-                            .label(problem.field.as_str()),
-                    ),
-            ),
-            (Some(file), None) => {
-                title.element(annotate_snippets::Origin::path(file.display().to_string()))
-            }
-            (None, _) => title.element(Level::NOTE.message(problem.field.as_str())),
-        };
-        renderer.render(&[report.element(help)])
-    }
-}
-
-/// Longest message, in characters: one that is longer quotes a value as long as a file.
-const LONGEST: usize = 300;
-
-/// A message without the middle of what it quotes, if that is very long.
-fn shortened(text: &str) -> Cow<'_, str> {
-    let count = text.chars().count();
-    if count <= LONGEST {
-        return Cow::Borrowed(text);
-    }
-    let half = LONGEST / 2;
-    let start: String = text.chars().take(half).collect();
-    let end: String = text.chars().skip(count - half).collect();
-    Cow::Owned(format!("{start} ... {end}"))
 }
 
 /// The span widened to whole characters of the source, as the renderer needs it.
@@ -145,8 +92,28 @@ fn whole_characters(source: &str, span: Range<usize>) -> Range<usize> {
 }
 
 impl fmt::Display for Problems {
+    #[cfg(feature = "cli")]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.render(false))
+    }
+
+    #[cfg(not(feature = "cli"))]
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, problem) in self.list.iter().enumerate() {
+            let line_break = if index == 0 { "" } else { "\n" };
+            let Problem {
+                field, what, help, ..
+            } = problem;
+            write!(f, "{line_break}")?;
+            if let Some(file) = &self.file {
+                write!(f, "{}:", file.display())?;
+            }
+            if let Some((line, column)) = self.place(problem) {
+                write!(f, "{line}:{column}: ")?;
+            }
+            write!(f, "{field}: {what}\nhelp: {help}")?;
+        }
+        Ok(())
     }
 }
 

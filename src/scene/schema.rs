@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::keys::{FORCES, Key, Kind, KindKeys, MOTIONS, SECTIONS, Section, TORQUES};
-use super::unit::Quantity;
+use super::unit::{self, Quantity};
 
 /// The schema, draft 2020-12.
 ///
@@ -44,9 +44,9 @@ fn table(section: &Section) -> Value {
         "additionalProperties": false,
     });
     match section.name {
-        "torque" => one["allOf"] = kinds(TORQUES),
-        "force" => one["allOf"] = kinds(FORCES),
-        "motion" => one["allOf"] = kinds(MOTIONS),
+        "torque" => one["allOf"] = kinds(section, TORQUES),
+        "force" => one["allOf"] = kinds(section, FORCES),
+        "motion" => one["allOf"] = kinds(section, MOTIONS),
         _ => {}
     }
     if section.repeated {
@@ -56,14 +56,23 @@ fn table(section: &Section) -> Value {
     }
 }
 
-/// Each kind with the keys it needs.
-fn kinds(kinds: &[KindKeys]) -> Value {
+/// Each kind with the keys it needs, and the units of what is a formula in another.
+fn kinds(section: &Section, kinds: &[KindKeys]) -> Value {
     kinds
         .iter()
         .map(|kind| {
+            let mut then = json!({"required": &kind.keys[..kind.required]});
+            let keys = section.keys.iter();
+            for key in keys.filter(|key| kind.keys.contains(&key.name)) {
+                if let Kind::QuantityOrFormula(quantity) = key.kind
+                    && kind.name != "expression"
+                {
+                    then["properties"][key.name] = measured(&[quantity]);
+                }
+            }
             json!({
                 "if": {"properties": {"kind": {"const": kind.name}}, "required": ["kind"]},
-                "then": {"required": &kind.keys[..kind.required]},
+                "then": then,
             })
         })
         .collect()
@@ -72,9 +81,11 @@ fn kinds(kinds: &[KindKeys]) -> Value {
 fn property(key: &Key) -> Value {
     let mut value = match key.kind {
         Kind::Quantity(Quantity::Number) => json!({"type": "number"}),
-        Kind::Quantity(quantity) => measured(&[quantity.examples()]),
-        Kind::TimeOrAngle => measured(&[Quantity::Time.examples(), Quantity::Angle.examples()]),
-        Kind::QuantityOrFormula(quantity) => measured(&[quantity.examples()]),
+        Kind::Quantity(quantity) => measured(&[quantity]),
+        Kind::TimeOrAngle => measured(&[Quantity::Time, Quantity::Angle]),
+        Kind::QuantityOrFormula(quantity) => {
+            json!({"type": ["string", "number"], "examples": examples(&[quantity])})
+        }
         Kind::Choice(words) => json!({"enum": words}),
         Kind::Text => json!({"type": "string"}),
     };
@@ -82,12 +93,17 @@ fn property(key: &Key) -> Value {
     value
 }
 
-/// A text with number and unit, or 0.
-fn measured(examples: &[&str]) -> Value {
-    let examples: Vec<&str> = examples
-        .iter()
-        .flat_map(|list| list.split(", "))
-        .map(|example| example.trim_matches('"'))
-        .collect();
-    json!({"anyOf": [{"type": "string"}, {"const": 0}], "examples": examples})
+/// A text with a number and a unit of one of these quantities, or 0.
+fn measured(quantities: &[Quantity]) -> Value {
+    let pattern = unit::pattern(quantities);
+    json!({
+        "anyOf": [{"type": "string", "pattern": pattern}, {"const": 0}],
+        "examples": examples(quantities),
+    })
+}
+
+fn examples(quantities: &[Quantity]) -> Vec<&'static str> {
+    let lists = quantities.iter().map(|quantity| quantity.examples());
+    let each = lists.flat_map(|list| list.split(", "));
+    each.map(|example| example.trim_matches('"')).collect()
 }

@@ -7,11 +7,10 @@ use super::drive::Drive;
 use super::row::RowSink;
 use super::schedule::Schedule;
 use super::simulate::Simulation;
-use super::stopped;
 use super::summary::{ErrorEstimate, Event, Final, Solved, Summary};
 use super::task::Task;
 use crate::error::Error;
-use crate::mechanism::{Class, Limits, Linkage};
+use crate::mechanism::{Constrained, Limits};
 use crate::numeric::angle::Angle;
 use crate::scene::Extent;
 use crate::trajectory::Trajectory;
@@ -21,10 +20,7 @@ pub(super) fn run(task: &Task<'_>, rows: &mut dyn RowSink) -> Result<Simulation,
     let equation = task.equation();
     let start = task.start();
     let speed = task.scene.motion.speed;
-    if let Some(reason) = impossible(task, start) {
-        return Err(reason);
-    }
-    let asked = duration(task.extent, speed)?;
+    let asked = duration(task.extent, speed);
     let blocked = time_to_limit(task, start, speed).filter(|t| *t < asked);
     let end = blocked.unwrap_or(asked);
     let last = start.plus(speed * end);
@@ -66,7 +62,7 @@ pub(super) fn run(task: &Task<'_>, rows: &mut dyn RowSink) -> Result<Simulation,
         events,
         events_total,
         stopped: blocked.map(|t| {
-            let what = match lock(task) {
+            let what = match equation.linkage().unlocked(friction(task)) {
                 Some(_) => "the guide locks itself from here on, as the coefficient of friction times tan phi reaches 1: no crank torque keeps up the speed",
                 None => "the crank reaches the limit of its motion: the rod stands normal to the guide there and no constant speed passes it",
             };
@@ -80,56 +76,21 @@ pub(super) fn run(task: &Task<'_>, rows: &mut dyn RowSink) -> Result<Simulation,
     })
 }
 
-/// Crank angles that can be reached. A change point is not passed: the slider's velocity would jump there.
+/// The coefficient of friction of the guide.
+fn friction(task: &Task<'_>) -> f64 {
+    let friction = task.maker.guide.as_ref().and_then(Constrained::friction);
+    friction.map_or(0.0, |friction| friction.coefficient)
+}
+
 fn reach(task: &Task<'_>) -> Vec<[f64; 2]> {
-    if let Some(shorter) = lock(task) {
-        return Limits::new(&shorter, 0.0).reach;
-    }
-    match task.limits.class {
-        Class::ChangePoint => Limits::clear_reach(task.equation().linkage()),
-        _ => task.limits.reach.clone(),
-    }
+    Limits::driven_reach(task.equation().linkage(), friction(task))
 }
 
-/// The linkage that reaches as far as the guide with its friction does not lock itself, if there are positions
-/// in which it does: μ |tan φ| = 1 where |e + r sin θ| = l/sqrt(1 + μ²).
-fn lock(task: &Task<'_>) -> Option<Linkage> {
-    let guide = task.maker.guide.as_ref()?;
-    let mu = guide.friction()?.coefficient;
-    let linkage = task.equation().linkage();
-    let shorter = linkage.with_rod(linkage.l / mu.hypot(1.0));
-    (shorter.margin() <= 0.0).then_some(shorter)
-}
-
-fn impossible(task: &Task<'_>, start: Angle) -> Option<Error> {
-    let reach = reach(task);
-    let inside = reach.is_empty()
-        || reach.iter().any(|[from, to]| {
-            let turned = (start.rest - from).rem_euclid(TAU);
-            turned <= to - from
-        });
-    (!inside).then(|| {
-        let theta = start.radians();
-        match lock(task) {
-            Some(_) => Error::refused(
-                format!(
-                    "motion.angle: at crank angle {theta} rad the guide locks itself, as the coefficient of friction times tan phi is 1 or more: no crank torque moves it at constant speed"
-                ),
-                "start where |e + r sin(theta)| is less than l/sqrt(1 + coefficient^2), or reduce the friction",
-            ),
-            None => Error::refused(
-                format!("motion.angle: the rod does not reach the guide at crank angle {theta} rad"),
-                "give an angle that `kinematics` shows as reachable",
-            ),
-        }
-    })
-}
-
-pub(super) fn duration(extent: Extent, speed: f64) -> Result<f64, Error> {
+/// How long a run at constant speed (rad/s) takes, s.
+pub(super) fn duration(extent: Extent, speed: f64) -> f64 {
     match extent {
-        Extent::Duration(duration) => Ok(duration),
-        Extent::Revolutions(turns) if speed != 0.0 => Ok(turns * TAU / speed.abs()),
-        Extent::Revolutions(turns) => Err(stopped::never_turns(turns)),
+        Extent::Duration(duration) => duration,
+        Extent::Revolutions(turns) => turns * TAU / speed.abs(),
     }
 }
 

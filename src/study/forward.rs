@@ -10,6 +10,7 @@ use crate::engine::time::{self, Finish, Settings, Start};
 use crate::engine::{Batch, Counted, Motion};
 use crate::mechanism::{Equation, Instants, LoadValue};
 use crate::numeric::angle::Angle;
+use crate::numeric::enclosure::{Detail, Reach};
 use crate::scene::Variable;
 
 /// The equation, integrated forward.
@@ -34,6 +35,15 @@ impl Motion for Forward<'_> {
 
     fn next_corner(&self, t: f64) -> f64 {
         self.0.loads().next_corner(t)
+    }
+
+    fn has_detail(&self) -> bool {
+        self.0.loads().have_detail()
+    }
+
+    fn detail(&self, reach: &Reach, ellipse: f64) -> Detail {
+        let force = self.0.loads().detail(self.0.linkage(), reach, ellipse);
+        force.times(1.0 / self.0.terms(reach.angle.middle()).inertia.m)
     }
 
     fn of_time(&self, t: f64) -> [f64; 2] {

@@ -37,11 +37,6 @@ pub(super) fn run(
     let motion = Counted::new(&forward);
     let start = task.first_state();
     let settings = settings(task, equation);
-    let reach = Limits::clear_reach(equation.linkage());
-    if !stopped::inside(&reach, start.angle.rest) {
-        return Err(stopped::no_start(equation, start, &task.limits));
-    }
-    stopped::refuse_balance(task.extent, start, &forward)?;
     // What rows and events cost is counted apart: it does not change how far a run goes.
     let looked_at = Counted::new(&forward);
     let mut watch = watch(task, &looked_at, rows, record);
@@ -51,7 +46,7 @@ pub(super) fn run(
         return Err(error);
     }
     if finish == Finish::NoStart {
-        return Err(stopped::no_start(equation, start, &task.limits));
+        return Err(stopped::no_start(start.angle, start.speed));
     }
     if let Some(t) = watch.seen.ends_at {
         last = shortened(&motion, &last, t, &settings, &mut watch);

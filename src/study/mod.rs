@@ -12,10 +12,11 @@ mod explain;
 mod forces;
 mod forward;
 mod in_time;
-mod inverse;
+
 mod kinematics;
 mod last_row;
 mod log;
+mod marks;
 mod offsets;
 mod one_turn;
 mod over_angle;
@@ -24,6 +25,7 @@ mod peaks;
 mod precision;
 mod profile;
 mod relay;
+#[cfg(feature = "cli")]
 mod reproduce;
 mod row;
 mod schedule;
@@ -34,6 +36,7 @@ mod statics;
 mod steady;
 mod stopped;
 mod summary;
+#[cfg(feature = "cli")]
 mod sweep;
 mod swing;
 mod task;
@@ -45,15 +48,12 @@ pub use calibration::{Calibration, Measured, calibrate};
 pub use clearance::{Beyond, ClearanceSummary, ContactStatistics, Horizon, LooseFinal};
 pub use explain::{Explanation, FrictionAt, LoadAt, TermsAt, explain};
 pub use forces::{ForceAnalysis, ForceRow, StrokeTorque, forces};
-pub use inverse::{
-    AsPrinted, BandRule, DataSummary, DeadCentreBand, FitKind, FitSize, FitSummary, ForceRange,
-    Inverse, InverseOptions, InverseRow, InverseSummary, Residual, inverse,
-};
 pub use kinematics::{DeadCentre, Kinematics, KinematicsRow, Located, NamedPosition, kinematics};
 pub use offsets::{OffsetExtremes, offset_extremes};
 pub use one_turn::{LengthSlope, LoopCheck, OneTurn, TurnOptions, TurnRow, one_turn};
 pub use peaks::{Peak, Peaks};
 pub use precision::{Precision, PrecisionOptions, PrecisionRow, precision};
+#[cfg(feature = "cli")]
 pub use reproduce::{Drawing, Entry, Paper, Plot, Reproduction, Series, Style, Verdict, reproduce};
 pub use row::{LooseRow, NoRows, Row, RowSink};
 pub use simulate::{Options, Simulation, simulate, simulate_rows};
@@ -62,4 +62,5 @@ pub use steady::{
     Estimated, Flywheel, LoadWork, SpeedExtreme, SteadyOptions, SteadyState, steady_state,
 };
 pub use summary::{Cost, ErrorEstimate, Event, Final, Summary, TorqueRange};
+#[cfg(feature = "cli")]
 pub use sweep::{Design, Outcome, Sweep, SweepOptions};

@@ -13,7 +13,7 @@ use crate::engine::energy::{Orbit, Unserved};
 use crate::error::Error;
 use crate::mechanism::Class;
 use crate::numeric::angle::Angle;
-use crate::plan::{Engine, Method, Plan, repeats_with_each_turn};
+use crate::plan::{Engine, Method, Plan, cycle_over_angle};
 use crate::trajectory::Trajectory;
 
 /// A motion over the crank angle.
@@ -59,10 +59,15 @@ pub(super) fn run(
     rows: &mut dyn RowSink,
     record: bool,
 ) -> Result<Simulation, Error> {
-    let mut position = Position::new(task.equation(), &task.limits, task.start())
+    let speed = task.scene.motion.speed;
+    let cycle = cycle_over_angle(task.scene).ok();
+    let mut position = Position::new(task.equation(), &task.limits, task.start(), speed)
         .with_friction(task.maker.sliding)
         .with_limit(task.options.max_evaluations);
-    if task.plan.engine == Engine::Energy && repeats_with_each_turn(task.scene) {
+    if let Some(turns) = cycle {
+        position = position.with_cycle(turns);
+    }
+    if task.plan.engine == Engine::Energy && cycle == Some(1) {
         position = position.with_turns_alike();
     }
     let solved = match task.plan.engine {
@@ -75,7 +80,7 @@ pub(super) fn run(
         },
         // Turns that differ and end at rest are many panels; the map from turn to turn is for them.
         _ => match by_energy::solve(task, &position) {
-            Err(Unserved::TooLong) if position.turns_are_alike() => {
+            Err(Unserved::TooLong) if cycle.is_some() => {
                 by_angle::solve(task, &position).map_err(|unsolved| unsolved.why)
             }
             Err(why) if hands_over(task, why) => match Plan::new(task.scene, Method::Angle) {

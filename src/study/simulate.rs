@@ -9,7 +9,7 @@ use super::task::Task;
 use super::{clearance, closed_form, in_time, over_angle, peaks};
 use crate::error::Error;
 use crate::mechanism::{Constrained, Curve, Equation, Limits, Reactor};
-use crate::plan::{Engine, Method, Plan};
+use crate::plan::{self, Engine, Method, Plan};
 use crate::scene::{Extent, MotionKind, Scene};
 use crate::trajectory::Trajectory;
 
@@ -122,16 +122,11 @@ fn run_with_rows_at(
     rows: &mut dyn RowSink,
     record: bool,
 ) -> Result<Simulation, Error> {
+    plan::refuse(scene)?;
     let plan = Plan::new(scene, options.method)?;
-    let extent = scene.run.extent.ok_or_else(|| {
-        Error::refused(
-            "the scene does not say how long the run is",
-            "add [run] with duration = \"1 s\" or revolutions = 10",
-        )
-    })?;
-    let extent = match extent {
-        Extent::Revolutions(0.0) => Extent::Duration(0.0),
-        extent => extent,
+    let extent = match scene.run.extent {
+        None | Some(Extent::Revolutions(0.0)) => Extent::Duration(0.0),
+        Some(extent) => extent,
     };
     let reactor = options.reactions.then(|| Reactor::new(scene)).transpose()?;
     let equation = Equation::new(scene);

@@ -1,13 +1,10 @@
 //! Why a run in time ends before its time, or cannot begin, in words.
 
-use std::f64::consts::TAU;
-
 use super::in_time::FAR;
-use crate::engine::Motion;
 use crate::engine::step::Step;
-use crate::engine::time::{Finish, Start};
+use crate::engine::time::Finish;
 use crate::error::Error;
-use crate::mechanism::{Equation, Limits, Obstacle};
+use crate::mechanism::{Equation, Obstacle};
 use crate::numeric::angle::Angle;
 use crate::scene::Extent;
 
@@ -17,12 +14,6 @@ pub(super) fn at_limit(last: &Step) -> String {
         last.end.t,
         last.angle(last.end.theta).radians()
     )
-}
-
-/// Whether a crank angle in [0, 2π) lies in one of the intervals; no intervals: anywhere.
-pub(super) fn inside(reach: &[[f64; 2]], theta: f64) -> bool {
-    let within = |[from, to]: &[f64; 2]| (theta - from).rem_euclid(TAU) <= to - from;
-    reach.is_empty() || reach.iter().any(within)
 }
 
 /// A time (s) and its state (speed in rad/s) in words.
@@ -101,79 +92,13 @@ fn nearly_vanishes(equation: &Equation, last: &Step) -> bool {
     inertia(theta) < 1e-9 * inertia(theta + 1.0)
 }
 
-/// Why there is no run of a crank that stays at rest.
-pub(super) fn never_turns(turns: f64) -> Error {
+/// Why a run cannot begin from a crank angle and speed (rad/s) that nothing else is wrong with.
+pub(super) fn no_start(angle: Angle, speed: f64) -> Error {
     Error::refused(
-        format!("a crank at rest never completes {turns} turns"),
-        "give motion.speed, or run.duration",
+        format!(
+            "no motion begins at the start, theta = {} rad, omega = {speed} rad/s: the equation has no finite acceleration next to it",
+            angle.radians()
+        ),
+        "start at another angle, or check the loads there",
     )
-}
-
-/// Refuses turns of a crank that starts at rest in a balance of forces that last.
-pub(super) fn refuse_balance(
-    extent: Extent,
-    start: Start,
-    motion: &dyn Motion,
-) -> Result<(), Error> {
-    let balanced = || {
-        start.speed == 0.0
-            && !motion.depends_on_time()
-            && motion.acceleration(start.t, start.angle, start.speed) == 0.0
-    };
-    match extent {
-        Extent::Revolutions(turns) if balanced() => Err(never_turns(turns)),
-        _ => Ok(()),
-    }
-}
-
-/// Refuses turns that a crank between limits, rad, can never make.
-pub(super) fn refuse_turns(reach: &[[f64; 2]], extent: Extent) -> Result<(), Error> {
-    let widest = reach
-        .iter()
-        .fold(0.0, |widest: f64, [from, to]| widest.max(to - from));
-    match extent {
-        Extent::Revolutions(turns) if widest > 0.0 && turns * TAU > widest => Err(Error::refused(
-            format!(
-                "run.revolutions: the crank cannot turn by more than {} deg between its limits and never completes {turns} turns",
-                widest.to_degrees()
-            ),
-            "give run.duration instead",
-        )),
-        _ => Ok(()),
-    }
-}
-
-/// Why a run cannot begin.
-pub(super) fn no_start(equation: &Equation, start: Start, limits: &Limits) -> Error {
-    let theta = start.angle.radians();
-    match equation.obstacle(start.t, start.angle, start.speed) {
-        Some(Obstacle::Blocked) | None => {
-            let reach: Vec<String> = limits
-                .reach
-                .iter()
-                .map(|[from, to]| format!("{:.6} to {:.6} deg", from.to_degrees(), to.to_degrees()))
-                .collect();
-            Error::refused(
-                format!(
-                    "motion.angle: the mechanism has no position at crank angle {theta} rad: the rod does not reach the guide or stands normal to it"
-                ),
-                format!("give an angle inside {}", reach.join(" or ")),
-            )
-        }
-        Some(Obstacle::Load) => Error::refused(
-            format!(
-                "a load has no finite value at the start (t = 0, theta = {theta} rad, omega = {} rad/s)",
-                start.speed
-            ),
-            "check the range of its table or the domain of its formula",
-        ),
-        Some(Obstacle::TooLarge) => Error::refused(
-            format!("a load is too large to be computed with at the start, theta = {theta} rad"),
-            "check the units of the loads, and what their formulas give",
-        ),
-        Some(Obstacle::NoInertia) => Error::refused(
-            format!("the effective inertia vanishes at the start, theta = {theta} rad"),
-            "give the crank an inertia, or start away from the dead centre",
-        ),
-    }
 }

@@ -79,7 +79,7 @@ fn what_has_none_is_refused_and_nothing_is_written() {
         "driven.toml",
         &format!("{load}{}", free("duration = \"1 s\"")),
     );
-    let words = ["over the crank angle", "repeat with each turn"];
+    let words = ["over the crank angle", "theta stands outside of sin"];
     let outcome = folder.run(&arguments).fails(2, &words);
     assert!(!outcome.stderr.contains("--method"), "{outcome:?}");
     assert!(!folder.path("rows.csv").exists());

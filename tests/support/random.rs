@@ -5,7 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use slider_crank::scene::{
-    Branch, Crank, Geometry, Gravity, InertiaAbout, Load, Rod, RodModel, Scene, Slider, Variables,
+    Branch, Crank, Geometry, Gravity, InertiaAbout, Load, Period, Rod, RodModel, Scene, Slider,
+    Variables,
 };
 
 /// This many cases from a fixed seed.
@@ -107,10 +108,12 @@ impl Drive {
                 stall: self.stall,
                 no_load_speed: self.no_load,
             })
-            .torque(Load::function(
-                Variables::THETA.or(Variables::T),
-                move |now| wave * (2.0 * now.theta + now.t).sin(),
-            ))
+            .torque(
+                Load::function(Variables::THETA.or(Variables::T), move |now| {
+                    wave * (2.0 * now.theta + now.t).sin()
+                })
+                .with_period(Period::TURN),
+            )
             .force(Load::Constant(self.force))
             .force(Load::Spring { stiffness, rest })
             .force(Load::Viscous(self.linear))

@@ -1,4 +1,4 @@
-//! Long runs: the map of the kinetic energy over one turn, interpolated.
+//! Long runs: the map of the kinetic energy over one cycle, interpolated. A turn is a cycle here.
 
 use std::f64::consts::TAU;
 
@@ -50,7 +50,7 @@ pub(super) fn run<D: Driven>(
         tail: resolution.tail,
         width: WIDEST,
         rises: march.rises(),
-        lost: (march.gain / march.turns).abs(),
+        lost: (march.gain / march.turns).abs() * f64::from(march.driven.cycle()),
         march,
         turns: Turns {
             cells: Vec::new(),
@@ -145,7 +145,7 @@ impl<D: Driven> Way<'_, D> {
             };
             let left = match goal {
                 Goal::Time(until) => ((until - mark.t.0) - mark.t.1) / turn.duration,
-                Goal::Turned(way) => way / TAU - mark.turns,
+                Goal::Turned(way) => (way / TAU - mark.turns) / turn.count,
             };
             let is_steady = turn.gain.abs() <= 2.0 * f64::EPSILON * mark.kinetic;
             if left < 1.0 || is_steady {
@@ -243,8 +243,9 @@ impl<D: Driven> Way<'_, D> {
         let mut leg = Leg::open();
         loop {
             leg.push(self.march.panel()?.panel);
-            if self.march.at_turn() {
+            if self.march.at_cycle() {
                 let turn = Turn {
+                    count: self.march.turns.abs(),
                     duration: self.march.t.0,
                     gain: self.march.gain,
                     work: self.march.work,
@@ -286,7 +287,7 @@ impl<D: Driven> Way<'_, D> {
                 Goal::Time(until) => self.march.t.0 > (until - mark.t.0) - mark.t.1,
                 Goal::Turned(way) => turned + mark.turns * TAU >= way - 1e-12,
             };
-            let all = self.march.at_turn() && self.march.turns.abs() >= most;
+            let all = self.march.at_cycle() && self.march.turns.abs() >= most;
             match map_ended {
                 _ if passed => return Ok(Ended::AtGoal(done.into())),
                 None if all => return Ok(Ended::AtGoal(done.into())),

@@ -1,6 +1,7 @@
 //! Panel after panel, turn after turn.
 
 use super::errors::{Errors, uncertain};
+use super::seen::hides;
 use super::station::{Fineness, Station};
 use super::sweep::{Start, Swept, sweep};
 use super::switch::{Side, side};
@@ -14,7 +15,7 @@ use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
 use crate::numeric::exact::two_sum;
 
-/// A run over the angle: the panels of a turn, and where it has come to.
+/// A run over the angle: the panels of a cycle, and where it has come to.
 #[derive(Clone)]
 pub(super) struct March<'a, D: Driven> {
     pub(super) driven: &'a D,
@@ -72,7 +73,7 @@ impl<'a, D: Driven> March<'a, D> {
             tail: resolution.tail,
             speed,
         };
-        let mut stations = stations(driven, start.rest, fine)?;
+        let mut stations = stations(driven, start, fine)?;
         if resolution.other {
             let mut cut = Vec::with_capacity(2 * stations.len());
             for station in stations {
@@ -121,7 +122,7 @@ impl<'a, D: Driven> March<'a, D> {
         })
     }
 
-    /// The same panels, at the start of a turn with another kinetic energy, J.
+    /// The same panels, at the start of a cycle with another kinetic energy, J.
     pub fn restart(&mut self, kinetic: f64) {
         self.parts.clear();
         self.next = 0;
@@ -157,8 +158,8 @@ impl<'a, D: Driven> March<'a, D> {
         points.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether the next panel begins a turn.
-    pub fn at_turn(&self) -> bool {
+    /// Whether the next panel begins a cycle.
+    pub fn at_cycle(&self) -> bool {
         self.next == 0 && self.parts.is_empty()
     }
 
@@ -183,6 +184,16 @@ impl<'a, D: Driven> March<'a, D> {
             if let Err(why) = sweep(self.driven, station, start, self.fine.tail, swept) {
                 self.evaluations += self.swept.evaluations;
                 self.refine(why)?;
+                continue;
+            }
+            let parts = match hides(self.driven, station, start, self.fine, swept) {
+                Some(at) => station.parts(self.driven, at, self.fine)?,
+                None => None,
+            };
+            if let Some([first, second]) = parts {
+                self.evaluations += self.swept.evaluations;
+                self.parts.pop();
+                self.parts.extend([second, first]);
                 continue;
             }
             match side(self.driven, station, start, swept) {
@@ -247,10 +258,14 @@ impl<'a, D: Driven> March<'a, D> {
         self.parts.pop();
         self.parts.extend(rest);
         if self.parts.is_empty() {
+            let turns = self.stations[self.next].turns;
             self.next += 1;
-            if self.next == self.stations.len() {
-                self.next = 0;
+            let next = self.stations.get(self.next);
+            if next.is_none_or(|next| next.turns != turns) {
                 self.turns += self.direction;
+            }
+            if next.is_none() {
+                self.next = 0;
             }
         }
         Done {

@@ -4,8 +4,8 @@
 //! On each panel of Chebyshev points the kinetic energy and the time are found together by collocation,
 //! K' = F(θ) + L(θ, ω, t), t' = 1/ω, with sweeps that start from the profile of the turns before and with
 //! Newton's method where the loads are steep in the speed. What depends on the position alone is tabulated
-//! once and used in every turn. Where time does not occur, a turn maps the kinetic energy at its start to
-//! that at its end: long runs iterate an interpolant of this map.
+//! once for a cycle, the turns after which the loads are the same again, and used in every one. Where time does not
+//! occur, a cycle maps the kinetic energy at its start to that at its end: long runs iterate an interpolant of this map.
 //!
 //! The forces may have two forms, one on each side of a zero of a function of the state, the switch. A panel ends
 //! there, and what is left of it is solved with the other form.
@@ -19,6 +19,7 @@ mod one_turn;
 mod past;
 mod refine;
 mod rest;
+mod seen;
 mod station;
 mod steady;
 mod sweep;
@@ -33,6 +34,7 @@ use super::pace::{Ends, Pace};
 use super::time::{FAR, Start};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MOST, Values};
+use crate::numeric::enclosure::{Detail, Reach};
 pub use errors::Errors;
 use march::{Done, March};
 pub use one_turn::{Cycle, one_turn};
@@ -43,8 +45,18 @@ pub trait Driven {
     /// What the loads need to know of a position.
     type Place: Copy;
 
-    /// Fills a table at the first `count` of some angles, rad, where the switch has the sign `side`, ±1.
-    fn tabulate(&self, angles: &Values, count: usize, side: f64, table: &mut Table<Self::Place>);
+    /// Fills a table at the first `count` of some angles, rad, beside these whole turns, where the switch has the sign
+    /// `side`, ±1.
+    fn tabulate(
+        &self,
+        turns: f64,
+        angles: (&Values, usize),
+        side: f64,
+        table: &mut Table<Self::Place>,
+    );
+
+    /// Whole turns after which everything that depends on the angle is the same again.
+    fn cycle(&self) -> u32;
 
     /// Whether there are loads beside those of the table.
     fn is_driven(&self) -> bool;
@@ -55,10 +67,16 @@ pub trait Driven {
     /// Their generalized force, N m, at time t (s), angle and speed (rad/s).
     fn drive(&self, place: &Self::Place, t: f64, angle: Angle, speed: f64) -> f64;
 
+    /// Whether they may do something between the points of a panel that the decay of their series does not tell.
+    fn has_detail(&self) -> bool;
+
+    /// What their generalized force (N m) does on a piece of the motion, and in a Bernstein ellipse of this size around it.
+    fn detail(&self, reach: &Reach, ellipse: f64) -> Detail;
+
     /// Their part of the switch.
     fn drive_switch(&self, place: &Self::Place, t: f64, angle: Angle, speed: f64) -> f64;
 
-    /// Angles in [0, 2π), in rising order, at which panels end.
+    /// Angles of a cycle from zero on, in rising order, at which panels end.
     fn corners(&self) -> &[f64];
 
     /// Those and others, at which they end too where the inertia nearly vanishes there: longer ones would not be
@@ -170,7 +188,7 @@ pub struct Resolution {
 
 /// Most panels that are kept.
 const MOST_PANELS: usize = 200_000;
-/// Turns after which the map of a turn takes over, where there is one.
+/// Turns after which the map of a cycle takes over, where there is one.
 const TURNS_BEFORE_MAP: f64 = 48.0;
 
 /// Runs from a start until the goal is reached, or until the angle cannot be the independent variable any more.
@@ -194,13 +212,15 @@ pub fn run<D: Driven>(
     let reads_time = driven.is_driven() && driven.reads_time();
     let repeats = !reads_time && !march.has_switch();
     let mut pace = pace(&march, goal, reads_time);
+    let way = f64::from(driven.cycle()) * TAU;
     let mut leg = Leg::open();
     loop {
         let spent = march.evaluations;
-        if march.at_turn() && leg.len() > 0 && pace.is_hopeless(spent, march.t.0, TAU).is_some() {
+        let done = march.at_cycle() && leg.len() > 0;
+        if done && pace.is_hopeless(spent, march.t.0, way).is_some() {
             return Ok(ended(march, leg, (start, speed), Unserved::TooManyTurns));
         }
-        if repeats && march.at_turn() && march.turns.abs() >= TURNS_BEFORE_MAP {
+        if repeats && march.at_cycle() && march.turns.abs() >= TURNS_BEFORE_MAP {
             return map::run(march, leg, start, speed, goal, resolution);
         }
         let next = if leg.len() < MOST_PANELS {

@@ -88,7 +88,7 @@ impl<'a, D: Driven> Turns<'a, D> {
         loop {
             leg.push(self.march.panel()?.panel);
             least = least.min(self.march.least());
-            if self.march.at_turn() {
+            if self.march.at_cycle() {
                 return Ok((leg, least));
             }
         }

@@ -6,9 +6,11 @@ use crate::engine::energy::Unserved;
 use crate::engine::energy::piece::{Piece, Turning};
 use crate::numeric::chebyshev::{MOST, Rule, Values, largest};
 
-/// A panel with what depends on the position alone: the same in each turn.
+/// A panel with what depends on the position alone: the same in each cycle.
 #[derive(Clone)]
 pub(super) struct Station<P> {
+    /// Whole turns beside the angles of the piece, in the first cycle.
+    pub turns: f64,
     pub piece: Piece,
     pub rule: &'static Rule,
     pub table: Table<P>,
@@ -63,12 +65,13 @@ impl<P: Copy> Station<P> {
     /// that is tried first.
     pub fn new<D: Driven<Place = P>>(
         driven: &D,
+        turns: f64,
         ends: [f64; 2],
         side: f64,
         fine: Fineness,
         first: usize,
     ) -> Result<Station<P>, Unserved> {
-        let mut station = Station::empty(ends, Rule::of(first), side);
+        let mut station = Station::empty(turns, ends, Rule::of(first), side);
         station.tabulate(driven)?;
         station.resolve(driven, fine, MOST)?;
         Ok(station)
@@ -103,8 +106,9 @@ impl<P: Copy> Station<P> {
         }
     }
 
-    pub fn empty([from, to]: [f64; 2], rule: &'static Rule, side: f64) -> Station<P> {
+    pub fn empty(turns: f64, [from, to]: [f64; 2], rule: &'static Rule, side: f64) -> Station<P> {
         Station {
+            turns,
             piece: Piece::between(from, to, Turning::Nowhere),
             rule,
             table: Table::default(),
@@ -132,9 +136,9 @@ impl<P: Copy> Station<P> {
     ) -> Result<Station<P>, Unserved> {
         let ends = [from, self.piece.to];
         let mut station = match known {
-            None => Station::new(driven, ends, -self.side, fine, FIRST_DEGREE)?,
+            None => Station::new(driven, self.turns, ends, -self.side, fine, FIRST_DEGREE)?,
             Some(known) => {
-                let mut station = Station::empty(ends, known.rule, -self.side);
+                let mut station = Station::empty(self.turns, ends, known.rule, -self.side);
                 station.past.remember(&known.kinetic);
                 station.tabulate(driven)?;
                 station
@@ -161,7 +165,7 @@ impl<P: Copy> Station<P> {
         let piece = self.piece;
         let angles = self.rule.values(|x| piece.angle(x));
         let count = self.rule.degree() + 1;
-        driven.tabulate(&angles, count, self.side, &mut self.table);
+        driven.tabulate(self.turns, (&angles, count), self.side, &mut self.table);
         let known = |values: &Values| values[..count].iter().all(|value| value.is_finite());
         let forces = self.table.force[..count].iter();
         self.largest_force = forces.fold(0.0, |largest, force| largest.max(force.abs()));
@@ -231,7 +235,8 @@ impl<P: Copy> Station<P> {
             return Ok(None);
         }
         let middle = from + share * (to - from);
-        let part = |ends: [f64; 2]| Station::new(driven, ends, self.side, fine, FIRST_DEGREE);
+        let part =
+            |ends: [f64; 2]| Station::new(driven, self.turns, ends, self.side, fine, FIRST_DEGREE);
         Ok(Some([part([from, middle])?, part([middle, to])?]))
     }
 

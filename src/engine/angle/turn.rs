@@ -1,19 +1,20 @@
-//! The panels of one turn.
+//! The panels of one cycle.
 
 use std::f64::consts::{PI, TAU};
 
 use super::Driven;
 use super::station::{FIRST_DEGREE, Fineness, Station};
 use crate::engine::energy::Unserved;
+use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MOST, Rule};
 
 /// Panels are not longer at first, rad.
 const LONGEST: f64 = PI + 1e-9;
 
-/// Panels of one turn between the corners.
+/// Panels of one cycle between the corners.
 pub(super) fn stations<D: Driven>(
     driven: &D,
-    start: f64,
+    start: Angle,
     fine: Fineness,
 ) -> Result<Vec<Station<D::Place>>, Unserved> {
     let (few, all) = (driven.corners(), driven.corners_if_light());
@@ -31,40 +32,47 @@ pub(super) fn stations<D: Driven>(
 fn between<D: Driven>(
     driven: &D,
     corners: &[f64],
-    start: f64,
+    start: Angle,
     fine: Fineness,
     most: usize,
 ) -> Result<Option<Vec<Station<D::Place>>>, Unserved> {
     let direction = fine.speed.signum();
-    let mut ends: Vec<f64> = corners
-        .iter()
-        .map(|corner| (direction * (corner - start)).rem_euclid(TAU))
-        .filter(|ahead| *ahead > 1e-9 && *ahead < TAU - 1e-9)
-        .collect();
-    ends.sort_by(f64::total_cmp);
-    ends.push(TAU);
-    let mut from = 0.0;
     let mut list: Vec<Station<D::Place>> = Vec::with_capacity(8);
-    for to in ends {
-        let parts = ((to - from) / LONGEST).ceil();
-        let begin = from;
-        for part in 1..=parts as u32 {
-            let share = f64::from(part) / parts;
-            let until = if share < 1.0 {
-                begin + share * (to - begin)
-            } else {
-                to
-            };
-            let ends = [from, until].map(|ahead| start + direction * ahead);
-            // Neighbours are alike.
-            let degree = list.last().map_or(FIRST_DEGREE, |last| last.rule.degree());
-            let mut station = Station::empty(ends, Rule::of(degree), 1.0);
-            station.tabulate(driven)?;
-            if !station.resolve(driven, fine, most)? && most < MOST {
-                return Ok(None);
+    let cycle = f64::from(driven.cycle());
+    // Where the corners count from; the turns of one that is a single turn do not matter.
+    let phase = start.turns.rem_euclid(cycle) * TAU + start.rest;
+    for turn in 0..driven.cycle() {
+        let before = f64::from(turn);
+        let mut ends: Vec<f64> = corners
+            .iter()
+            .map(|corner| (direction * (corner - phase)).rem_euclid(cycle * TAU) - before * TAU)
+            .filter(|ahead| *ahead > 1e-9 && *ahead < TAU - 1e-9)
+            .collect();
+        ends.sort_by(f64::total_cmp);
+        ends.push(TAU);
+        let turns = start.turns + direction * before;
+        let mut from = 0.0;
+        for to in ends {
+            let parts = ((to - from) / LONGEST).ceil();
+            let begin = from;
+            for part in 1..=parts as u32 {
+                let share = f64::from(part) / parts;
+                let until = if share < 1.0 {
+                    begin + share * (to - begin)
+                } else {
+                    to
+                };
+                let ends = [from, until].map(|ahead| start.rest + direction * ahead);
+                // Neighbours are alike.
+                let degree = list.last().map_or(FIRST_DEGREE, |last| last.rule.degree());
+                let mut station = Station::empty(turns, ends, Rule::of(degree), 1.0);
+                station.tabulate(driven)?;
+                if !station.resolve(driven, fine, most)? && most < MOST {
+                    return Ok(None);
+                }
+                list.push(station);
+                from = until;
             }
-            list.push(station);
-            from = until;
         }
     }
     Ok(Some(list))

@@ -34,7 +34,7 @@ impl Mark {
         let (kinetic, kinetic_low) = two_sum(self.kinetic, count * step.gain + self.low[0]);
         let (work, work_low) = two_sum(self.work, count * step.work + self.low[1]);
         Mark {
-            turns: self.turns + count,
+            turns: self.turns + count * step.count,
             t: two_sum(sum, lost + self.t.1),
             kinetic,
             work,
@@ -43,9 +43,11 @@ impl Mark {
     }
 }
 
-/// What a turn does.
+/// What a turn does, or several that are repeated together.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::engine) struct Turn {
+    /// How many turns it is.
+    pub count: f64,
     /// s
     pub duration: f64,
     /// Kinetic energy gained, J.
@@ -57,6 +59,8 @@ pub(in crate::engine) struct Turn {
 /// Turns over a range of the kinetic energy at their start.
 #[derive(Clone, Debug)]
 pub(in crate::engine) struct Cell {
+    /// Turns that are repeated together.
+    count: f64,
     middle: f64,
     half: f64,
     rule: &'static Rule,
@@ -77,6 +81,7 @@ impl Cell {
             rule.series(&values)
         };
         Cell {
+            count: turns.first().map_or(1.0, |(_, turn)| turn.count),
             middle,
             half,
             rule,
@@ -100,6 +105,7 @@ impl Cell {
     pub fn turn(&self, kinetic: f64) -> Turn {
         let x = (kinetic - self.middle) / self.half;
         Turn {
+            count: self.count,
             duration: self.duration.value(x),
             gain: self.gain.value(x),
             work: self.work.value(x),
@@ -191,7 +197,8 @@ impl Turns {
     /// When the crank has turned by `radians`, from the start angle `rest` (rad).
     pub fn time_of_turn(&self, radians: f64, rest: f64, direction: f64) -> Option<f64> {
         let whole = (radians / TAU).floor();
-        let mark = self.find(|mark| mark.turns <= whole, |mark, _| whole - mark.turns);
+        let left = |mark: &Mark, turn: &Turn| (whole - mark.turns) / turn.count;
+        let mark = self.find(|mark| mark.turns <= whole, left);
         let ahead = radians - mark.turns * TAU;
         let after = self.leg(&mark).time_of((rest + direction * ahead).into())?;
         Some(mark.t.0 + (mark.t.1 + after))
@@ -206,8 +213,9 @@ impl Turns {
         let first = whole().next().copied();
         // The energies of the turns rise or fall, but not all turns have marks.
         let before_last = (last.turns >= 1.0).then(|| {
-            let turn = last.turns - 1.0;
-            self.find(|mark| mark.turns <= turn, |mark, _| turn - mark.turns)
+            let turns = last.turns - self.cells.first().map_or(1.0, |cell| cell.count);
+            let left = |mark: &Mark, turn: &Turn| (turns - mark.turns) / turn.count;
+            self.find(|mark| mark.turns <= turns, left)
         });
         let marks = [
             whole().min_by(by_energy).copied(),

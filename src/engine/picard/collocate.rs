@@ -1,9 +1,12 @@
 //! One step: sweeps until the motion stays, then its error and the next length.
 
+use super::seen::OnStep;
 use super::state::State;
 use super::tableau::Tableau;
+use crate::engine::sight::{Hidden, Look, hidden};
 use crate::engine::step::{Step, TERMS};
 use crate::engine::{Batch, Counted, Motion, NODES};
+use crate::numeric::enclosure::ellipse;
 
 /// Most sweeps of a step; one that needs more is too long.
 const SWEEPS: usize = 14;
@@ -11,6 +14,10 @@ const SWEEPS: usize = 14;
 const FEW_SWEEPS: usize = 9;
 /// What sweeps may leave of the error allowed to a step.
 const LEFT_BY_SWEEPS: f64 = 1e-2;
+/// No step ends closer to its start than this part of the time.
+const SHORTEST: f64 = 16.0 * f64::EPSILON;
+/// A step that is too long is not made shorter for a corner behind this part of it.
+const WELL_INSIDE: f64 = 0.9;
 /// Rounding of a state, in parts of itself.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
@@ -23,11 +30,23 @@ pub struct Accepted {
     pub factor: f64,
 }
 
+/// A step that does not hold.
+#[derive(Clone, Copy, Debug)]
+pub enum Failed {
+    /// The next try is to have this part of its length.
+    TooLong(f64),
+    /// Something is hidden between its nodes: it has to end at this part of it.
+    Hides(f64),
+}
+
 /// The method, with what one step leaves to the next.
 pub struct Collocation<'a> {
     motion: &'a Counted<'a>,
     tableau: &'static Tableau,
     tolerance: f64,
+    /// Size of the ellipse that the nodes need.
+    ellipse: f64,
+    has_detail: bool,
     has_power: bool,
     batch: Batch,
     /// Length and Legendre coefficients of the acceleration of the last step.
@@ -51,6 +70,8 @@ impl<'a> Collocation<'a> {
             motion,
             tableau: Tableau::get(),
             tolerance,
+            ellipse: ellipse(NODES, LEFT_BY_SWEEPS * tolerance),
+            has_detail: motion.has_detail(),
             has_power: motion.has_power(),
             batch: Batch::default(),
             last: None,
@@ -64,8 +85,34 @@ impl<'a> Collocation<'a> {
         self.alpha = alpha;
     }
 
-    /// Tries a step from a state; an error says how much shorter the next try is to be.
-    pub fn attempt(&mut self, state: &State, Try { h, corners }: Try) -> Result<Accepted, f64> {
+    /// Tries a step from a state. One that is too long for a corner in it is to end there.
+    pub fn attempt(&mut self, state: &State, step: Try) -> Result<Accepted, Failed> {
+        self.attempt_whole(state, step)
+            .map_err(|failed| match failed {
+                Failed::TooLong(_) if self.has_detail => {
+                    self.corner(state, step.h).map_or(failed, Failed::Hides)
+                }
+                _ => failed,
+            })
+    }
+
+    /// The part of a step that is too long at which it seems to meet a corner.
+    fn corner(&self, state: &State, h: f64) -> Option<f64> {
+        let coefficients = self.coefficients();
+        if !coefficients.iter().sum::<f64>().is_finite() {
+            return None;
+        }
+        let (step, ..) = self.finish(state, h, &coefficients);
+        let found = self.hides(state, &step, &coefficients)?;
+        (found.is_corner && found.at < WELL_INSIDE).then_some(found.at)
+    }
+
+    /// Tries a step from a state; an error says how much shorter the next one is to be.
+    fn attempt_whole(
+        &mut self,
+        state: &State,
+        Try { h, corners }: Try,
+    ) -> Result<Accepted, Failed> {
         self.prepare(state, h);
         let mut before = f64::INFINITY;
         let mut sweeps = 0;
@@ -73,7 +120,7 @@ impl<'a> Collocation<'a> {
             self.motion.fill(&mut self.batch);
             sweeps += 1;
             if !self.batch.alpha.iter().sum::<f64>().is_finite() {
-                return Err(0.25);
+                return Err(Failed::TooLong(0.25));
             }
             let change = self.update(state, h);
             let rate = change / before;
@@ -93,12 +140,12 @@ impl<'a> Collocation<'a> {
                 }
             }
             if sweeps == SWEEPS || (sweeps > 2 && rate > 0.7) {
-                return Err(0.5);
+                return Err(Failed::TooLong(0.5));
             }
             if sweeps == 2 {
                 let error = self.error(state, h, &self.coefficients());
                 if error > 1e3 {
-                    return Err(0.8 * error.powf(-1.0 / NODES as f64));
+                    return Err(Failed::TooLong(0.8 * error.powf(-1.0 / NODES as f64)));
                 }
             }
             before = change;
@@ -110,19 +157,22 @@ impl<'a> Collocation<'a> {
         let mut error = self.error(state, h, &coefficients);
         for (jump, at_corner) in jumps.into_iter().zip(corners) {
             if !jump.is_finite() {
-                return Err(0.25);
+                return Err(Failed::TooLong(0.25));
             } else if !at_corner {
                 error = error.max(self.error_of(state, h, jump, &coefficients));
             }
         }
         let mut factor = 0.7 * error.max(1e-20).powf(-1.0 / NODES as f64);
         if error > 1.0 {
-            return Err(factor);
+            return Err(Failed::TooLong(factor));
         }
         if sweeps > FEW_SWEEPS {
             factor = factor.min(0.9);
         } else if sweeps == FEW_SWEEPS {
             factor = factor.min(1.0);
+        }
+        if let Some(hidden) = self.hides(state, &step, &coefficients) {
+            return Err(Failed::Hides(hidden.at));
         }
         self.last = Some((h, coefficients));
         self.alpha = alpha;
@@ -197,6 +247,27 @@ impl<'a> Collocation<'a> {
         self.error_of(state, h, a.abs().max(b.abs()), coefficients)
     }
 
+    /// Where the step has to end for its nodes to show the acceleration; none where it is as short as the time allows.
+    fn hides(&self, state: &State, step: &Step, coefficients: &[f64; NODES]) -> Option<Hidden> {
+        if !self.has_detail {
+            return None;
+        }
+        let h = step.length();
+        let term = self.tolerance * (1.0 + state.omega.abs()) * (2 * NODES) as f64 / h;
+        let look = Look {
+            nodes: NODES,
+            ellipse: self.ellipse,
+            allowed: term.max(rounding(state, h, coefficients)),
+        };
+        let way = OnStep {
+            motion: self.motion,
+            state,
+            step,
+            coefficients,
+        };
+        hidden(&way, look).filter(|hidden| hidden.at * h > SHORTEST * state.t.abs())
+    }
+
     /// What a term of this size beyond the last would add; rounding of the acceleration is no such term.
     fn error_of(&self, state: &State, h: f64, term: f64, coefficients: &[f64; NODES]) -> f64 {
         let term = (term.abs() - rounding(state, h, coefficients)).max(0.0);
@@ -247,7 +318,7 @@ fn dot(a: &[f64; NODES], b: &[f64; NODES]) -> f64 {
 }
 
 /// A Legendre series at many places, by its recurrence.
-fn legendre<const N: usize>(coefficients: &[f64; NODES], x: [f64; N]) -> [f64; N] {
+pub(super) fn legendre<const N: usize>(coefficients: &[f64; NODES], x: [f64; N]) -> [f64; N] {
     let (mut p, mut before) = ([1.0; N], [0.0; N]);
     let mut sum = [0.0; N];
     for (k, coefficient) in coefficients.iter().enumerate() {

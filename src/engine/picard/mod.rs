@@ -5,6 +5,7 @@
 //! twice for a better one (Picard, Lindelöf). The polynomial is the motion inside the step, too.
 
 mod collocate;
+mod seen;
 mod state;
 mod tableau;
 
@@ -13,7 +14,7 @@ use std::f64::consts::TAU;
 use super::step::{Node, Step};
 use super::time::{Finish, Settings, Start};
 use super::{Counted, Motion};
-use collocate::{Accepted, Collocation, Try};
+use collocate::{Accepted, Collocation, Failed, Try};
 use state::State;
 pub use tableau::Tableau;
 
@@ -39,8 +40,12 @@ pub fn run(
     let mut collocation = Collocation::new(motion, settings.tolerance, alpha);
     let mut wanted = first_length(&node);
     let (mut steps, mut at_corner) = (0, false);
+    let mut hidden = f64::INFINITY;
     while state.t < settings.t_end {
-        let corner = motion.next_corner(state.t);
+        if hidden <= state.t {
+            hidden = f64::INFINITY;
+        }
+        let corner = motion.next_corner(state.t).min(hidden);
         let until = corner.min(settings.t_end);
         let left = until - state.t;
         let way = wanted.min(TAU / state.omega.abs());
@@ -65,7 +70,8 @@ pub fn run(
             Err(_) if h <= 2.0 * f64::EPSILON * state.t.abs() => {
                 return (Finish::StepTooSmall, last, steps);
             }
-            Err(factor) => wanted = h * factor.clamp(LEAST, 0.9),
+            Err(Failed::TooLong(factor)) => wanted = h * factor.clamp(LEAST, 0.9),
+            Err(Failed::Hides(at)) => hidden = state.t + at * h,
             Ok(Accepted { step, next, factor }) => {
                 let whole = length >= way;
                 // What is left of the way to a corner says little about the step that follows it.

@@ -1,8 +1,7 @@
 //! Force between journal and bearing.
 
 use super::LooseMechanism;
-use crate::error::Error;
-use crate::scene::{Clearance, ContactLaw};
+use crate::scene::{Clearance, ContactLaw, Problem, Problems};
 
 /// Normal force F = K δ^1.5 (1 + D δ̇/δ̇₀), never negative: journal and bearing do not stick to each other.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -17,20 +16,26 @@ impl NormalForce {
     /// The force of a scene's joint.
     ///
     /// # Errors
-    /// [`Error::Refused`] where the scene does not say what the law needs.
-    pub fn new(clearance: &Clearance) -> Result<NormalForce, Error> {
-        let given = |value: Option<f64>, name: &str, example: &str| {
-            value.ok_or_else(|| {
-                Error::refused(
+    /// [`Problems`]: all that the law needs and the scene does not say.
+    pub fn new(clearance: &Clearance) -> Result<NormalForce, Problems> {
+        let mut missing = Vec::new();
+        let mut given = |value: Option<f64>, name: &str, example: &str| {
+            value.unwrap_or_else(|| {
+                missing.push(Problem::new(
+                    &format!("clearance.{name}"),
                     format!("clearance.{name} is missing, and the contact force depends on it"),
                     format!("add {name} = {example} to [clearance], or use contact_law = \"massless-link\""),
-                )
+                ));
+                f64::NAN
             })
         };
-        let bearing = given(clearance.bearing_radius, "bearing_radius", "\"10 mm\"")?;
-        let modulus = given(clearance.young_modulus, "young_modulus", "\"207 GPa\"")?;
-        let poisson = given(clearance.poisson_ratio, "poisson_ratio", "0.3")?;
-        let restitution = given(clearance.restitution, "restitution", "0.9")?;
+        let bearing = given(clearance.bearing_radius, "bearing_radius", "\"10 mm\"");
+        let modulus = given(clearance.young_modulus, "young_modulus", "\"207 GPa\"");
+        let poisson = given(clearance.poisson_ratio, "poisson_ratio", "0.3");
+        let restitution = given(clearance.restitution, "restitution", "0.9");
+        if !missing.is_empty() {
+            return Err(Problems::in_code(missing));
+        }
         Ok(NormalForce {
             stiffness: hertz_stiffness(bearing, clearance.radial, modulus, poisson),
             damping: damping(clearance.law, restitution),

@@ -2,11 +2,14 @@
 //!
 //! The usual mathematical reading: `-x^2` is −(x²), `2^3^2` is 2⁹, `1e-3` is a number.
 
+mod enclosure;
 mod parser;
+mod period;
 
 use std::fmt;
 
 use super::{Instant, Variable, Variables};
+use crate::numeric::enclosure::Enclosed;
 use parser::Parser;
 
 /// Values on the stack of one evaluation; deeper expressions are refused when they are read.
@@ -28,34 +31,39 @@ enum Op {
     Call2(usize),
 }
 
-type Function1 = (&'static str, fn(f64) -> f64);
-type Function2 = (&'static str, fn(f64, f64) -> f64);
+/// Name, value, and enclosure of the values.
+type Function1 = (&'static str, fn(f64) -> f64, fn(Enclosed) -> Enclosed);
+type Function2 = (
+    &'static str,
+    fn(f64, f64) -> f64,
+    fn(Enclosed, Enclosed) -> Enclosed,
+);
 
 const FUNCTIONS_1: &[Function1] = &[
-    ("sin", f64::sin),
-    ("cos", f64::cos),
-    ("tan", f64::tan),
-    ("asin", f64::asin),
-    ("acos", f64::acos),
-    ("atan", f64::atan),
-    ("sinh", f64::sinh),
-    ("cosh", f64::cosh),
-    ("tanh", f64::tanh),
-    ("exp", f64::exp),
-    ("ln", f64::ln),
-    ("log10", f64::log10),
-    ("sqrt", f64::sqrt),
-    ("abs", f64::abs),
-    ("floor", f64::floor),
-    ("sign", sign),
-    ("step", step),
+    ("sin", f64::sin, Enclosed::sin),
+    ("cos", f64::cos, Enclosed::cos),
+    ("tan", f64::tan, Enclosed::tan),
+    ("asin", f64::asin, Enclosed::asin),
+    ("acos", f64::acos, Enclosed::acos),
+    ("atan", f64::atan, Enclosed::atan),
+    ("sinh", f64::sinh, Enclosed::sinh),
+    ("cosh", f64::cosh, Enclosed::cosh),
+    ("tanh", f64::tanh, Enclosed::tanh),
+    ("exp", f64::exp, Enclosed::exp),
+    ("ln", f64::ln, Enclosed::ln),
+    ("log10", f64::log10, Enclosed::log10),
+    ("sqrt", f64::sqrt, Enclosed::sqrt),
+    ("abs", f64::abs, Enclosed::abs),
+    ("floor", f64::floor, Enclosed::floor),
+    ("sign", sign, Enclosed::sign),
+    ("step", step, Enclosed::step),
 ];
 
 const FUNCTIONS_2: &[Function2] = &[
-    ("atan2", f64::atan2),
-    ("min", |a, b| both(a, b, f64::min)),
-    ("max", |a, b| both(a, b, f64::max)),
-    ("mod", f64::rem_euclid),
+    ("atan2", f64::atan2, Enclosed::atan2),
+    ("min", |a, b| both(a, b, f64::min), Enclosed::min),
+    ("max", |a, b| both(a, b, f64::max), Enclosed::max),
+    ("mod", f64::rem_euclid, Enclosed::modulo),
 ];
 
 fn words(text: &str) -> impl Iterator<Item = &str> {

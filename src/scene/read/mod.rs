@@ -10,6 +10,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::keys::{self, Section};
+use super::places::Places;
 use super::vary::Setting;
 use super::{Problem, Problems, Scene, assemble, validate};
 pub(super) use reader::Reader;
@@ -43,10 +44,11 @@ pub(super) fn scene<'a>(
     }
     let (title, tables) = tables(&mut reader, document.get_ref());
     let folder = file.parent().unwrap_or(Path::new(""));
-    let scene = assemble::scene(&mut reader, title, &tables, folder);
+    let mut scene = assemble::scene(&mut reader, title, &tables, folder);
     validate::problems(&scene, &mut reader.problems);
-    let problems = reader.located();
+    let (problems, spans) = reader.located();
     if problems.is_empty() {
+        scene.places = Places::in_file(file, source, spans);
         Ok(scene)
     } else {
         Err(Problems::in_file(file, source, problems))

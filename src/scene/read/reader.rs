@@ -1,16 +1,16 @@
 //! Problems on the way from text to scene, and the places of keys and values.
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::Values;
 use crate::scene::Problem;
+use crate::scene::places::{Spans, locate};
 
 /// Collects problems and remembers where each key stands.
 pub(in crate::scene) struct Reader<'a> {
     pub problems: Vec<Problem>,
     source: &'a str,
-    spans: BTreeMap<String, Range<usize>>,
+    spans: Spans,
 }
 
 impl<'a> Reader<'a> {
@@ -18,7 +18,7 @@ impl<'a> Reader<'a> {
         Reader {
             problems: Vec::new(),
             source,
-            spans: BTreeMap::new(),
+            spans: Spans::new(),
         }
     }
 
@@ -67,19 +67,10 @@ impl<'a> Reader<'a> {
         self.problems.iter().any(|problem| problem.field == field)
     }
 
-    /// The problems, each with the place of its key or of the table it belongs to.
-    pub fn located(mut self) -> Vec<Problem> {
-        for problem in &mut self.problems {
-            let mut field = problem.field.as_str();
-            while problem.span.is_none() {
-                problem.span = self.spans.get(field).cloned();
-                match field.rsplit_once('.') {
-                    Some((parent, _)) => field = parent,
-                    None => break,
-                }
-            }
-        }
-        self.problems
+    /// The problems, each with the place of its key or of the table it belongs to, and all places.
+    pub fn located(mut self) -> (Vec<Problem>, Spans) {
+        locate(&mut self.problems, &self.spans);
+        (self.problems, self.spans)
     }
 }
 

@@ -1,5 +1,7 @@
 //! Loads given by measured or designed values: two columns, interpolated.
 
+mod calibration;
+#[cfg(feature = "cli")]
 pub(super) mod file;
 pub(super) mod header;
 pub(super) mod pairs;
@@ -8,10 +10,11 @@ pub(super) mod rows;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use super::Variable;
+use super::{Period, Repeats, Variable, WhyNot};
+use crate::numeric::enclosure::{Enclosed, Interval};
 use crate::numeric::interpolate::Curve;
 pub use crate::numeric::interpolate::Interpolation;
-pub use file::calibration_points;
+pub use calibration::calibration_points;
 use rows::{Column, Rows};
 
 /// Values over one variable, SI and radians.
@@ -25,6 +28,7 @@ pub struct Table {
 
 /// Why a table of a scene file cannot be used.
 #[derive(Debug)]
+#[cfg_attr(not(feature = "cli"), allow(dead_code))]
 pub(super) struct TableError {
     /// The key of the load that is to be changed.
     pub key: &'static str,
@@ -95,6 +99,11 @@ impl Table {
         self.curve.value(at)
     }
 
+    /// All its values over an interval, in SI.
+    pub fn enclose(&self, over: Interval) -> Enclosed {
+        self.curve.enclose(over)
+    }
+
     /// First and last argument, in SI, of a table that does not repeat.
     pub fn range(&self) -> Option<(f64, f64)> {
         self.curve.period().is_none().then(|| self.curve.range())
@@ -103,6 +112,12 @@ impl Table {
     /// The period (rad or s) of a table that repeats.
     pub fn period(&self) -> Option<f64> {
         self.curve.period()
+    }
+
+    /// Whether a table over the crank angle is the same again after some turns.
+    pub fn repeats(&self) -> Repeats {
+        let period = self.curve.period().ok_or(WhyNot::NoPeriod);
+        period.and_then(Period::of_angle).into()
     }
 
     /// The arguments of the rows.
@@ -127,6 +142,12 @@ impl Table {
             0.0,
             |most: f64, y| if y.abs() > most.abs() { y } else { most },
         )
+    }
+
+    /// The least value, SI.
+    pub(super) fn least(&self) -> f64 {
+        let values = self.curve.values().iter().copied();
+        values.fold(f64::INFINITY, f64::min)
     }
 
     pub(super) fn is_zero(&self) -> bool {

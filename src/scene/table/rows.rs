@@ -2,8 +2,8 @@
 
 use super::{Interpolation, TableError};
 use crate::numeric::interpolate::Curve;
-use crate::scene::Variable;
 use crate::scene::number::{apart, counted, show, with_unit};
+use crate::scene::{Period, Variable};
 
 /// Arguments or values that differ by less than this part of the whole count as equal: the last digit of calculators, which
 /// show 2π as 6.283185307.
@@ -69,8 +69,19 @@ impl Rows<'_> {
         if let Some(period) = period {
             self.close(period)?;
         }
+        let period = period.map(|period| self.in_turns(period));
         let (x, y) = self.points.into_iter().unzip();
         Ok(Curve::new(x, y, interpolation, period))
+    }
+
+    /// The period (rad or s), which for a table over the crank angle is the fraction of a turn that its digits tell.
+    fn in_turns(&self, period: f64) -> f64 {
+        if self.of != Variable::Theta || Period::of_angle(period).is_ok() {
+            return period;
+        }
+        let span = self.points[self.points.len() - 1].0 - self.points[0].0;
+        let meant = Period::as_written(period).map(Period::radians);
+        meant.ok().filter(|meant| span < *meant).unwrap_or(period)
     }
 
     fn rise(&self) -> Result<(), TableError> {

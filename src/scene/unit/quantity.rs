@@ -101,6 +101,7 @@ impl Quantity {
     }
 
     /// The SI unit as names of columns have it; empty for numbers.
+    #[cfg(feature = "cli")]
     pub(in crate::scene) fn column(self) -> &'static str {
         match self {
             Self::Length => "m",

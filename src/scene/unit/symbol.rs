@@ -1,8 +1,6 @@
-//! Unit symbols, their exact factors, and the grammar of compound units.
+//! Unit symbols and their exact factors.
 
 use std::f64::consts::PI;
-
-use crate::scene::number::MINUS;
 
 /// Exponents of metre, kilogram, second and radian.
 pub(super) type Dimension = [i8; 4];
@@ -18,7 +16,7 @@ pub(super) struct Factor {
 }
 
 impl Factor {
-    const ONE: Factor = Factor {
+    pub(super) const ONE: Factor = Factor {
         numerator: 1.0,
         denominator: 1.0,
         ten: 0,
@@ -26,7 +24,15 @@ impl Factor {
         dimension: [0; 4],
     };
 
-    fn times(mut self, other: Factor, power: i32) -> Factor {
+    /// 2π rad
+    const REVOLUTION: Factor = Factor {
+        numerator: 2.0,
+        pi: 1,
+        dimension: [0, 0, 0, 1],
+        ..Factor::ONE
+    };
+
+    pub(super) fn times(mut self, other: Factor, power: i32) -> Factor {
         let (up, down) = if power >= 0 {
             (other.numerator, other.denominator)
         } else {
@@ -40,6 +46,14 @@ impl Factor {
             *mine = mine.saturating_add(theirs.saturating_mul(power as i8));
         }
         self
+    }
+
+    /// A count per minute, which of a speed counts revolutions: (rad/s)/(1/min). One per second may be meant in
+    /// radians as well.
+    pub(super) fn revolutions(self) -> Option<Factor> {
+        let per_minute = self.numerator == 1.0 && self.denominator == 60.0;
+        let plain = (self.ten, self.pi, self.dimension) == (0, 0, [0, 0, -1, 0]);
+        (per_minute && plain).then(|| self.times(Factor::REVOLUTION, 1))
     }
 
     pub(super) fn apply(self, digits: &str) -> Option<f64> {
@@ -80,6 +94,7 @@ const UNITS: &[Unit] = &[
     ("arcmin", 1.0, 10_800.0, 0, 1, [0, 0, 0, 1], false),
     ("arcsec", 1.0, 648_000.0, 0, 1, [0, 0, 0, 1], false),
     ("rpm", 1.0, 30.0, 0, 1, [0, 0, -1, 1], false),
+    ("Hz", 2.0, 1.0, 0, 1, [0, 0, -1, 1], true),
     ("t", 1.0, 1.0, 3, 0, [0, 1, 0, 0], false),
     ("in", 254.0, 1.0, -4, 0, [1, 0, 0, 0], false),
     ("ft", 3048.0, 1.0, -4, 0, [1, 0, 0, 0], false),
@@ -130,6 +145,7 @@ const NAMES: &[(&str, &str)] = &[
     ("revs", "rev"),
     ("turns", "turn"),
     ("r", "rev"),
+    ("U", "rev"),
     ("RPM", "rpm"),
     ("inch", "in"),
     ("inches", "in"),
@@ -159,7 +175,27 @@ pub(super) fn symbols(dimension: Dimension) -> impl Iterator<Item = &'static str
     of_it.map(|unit| unit.0)
 }
 
-fn symbol(name: &str) -> Option<Factor> {
+/// Every spelling of a unit of a dimension, as a regular expression.
+#[cfg(feature = "cli")]
+pub(super) fn spellings(dimension: Dimension) -> String {
+    let prefixes: Vec<&str> = PREFIXES.iter().map(|prefix| prefix.0).collect();
+    let prefixes = prefixes.join("|");
+    let mut all = Vec::new();
+    for unit in UNITS.iter().filter(|unit| unit.5 == dimension) {
+        let prefix = if unit.6 {
+            format!("(?:{prefixes})?")
+        } else {
+            String::new()
+        };
+        let names = NAMES.iter().filter(|name| name.1 == unit.0);
+        for name in std::iter::once(unit.0).chain(names.map(|name| name.0)) {
+            all.push(format!("{prefix}{name}"));
+        }
+    }
+    format!("(?:{})", all.join("|"))
+}
+
+pub(super) fn symbol(name: &str) -> Option<Factor> {
     let find = |name: &str| {
         let named = NAMES.iter().find(|entry| entry.0 == name);
         let symbol = named.map_or(name, |entry| entry.1);
@@ -179,113 +215,4 @@ fn symbol(name: &str) -> Option<Factor> {
         let unit = find(name.strip_prefix(prefix)?)?;
         unit.6.then(|| make(unit, *ten))
     })
-}
-
-/// `unit := factor { (space | · | * | . | - | /) factor }`, `factor := symbol [^]integer | ( unit )`. A hyphen before a
-/// digit is the sign of an exponent.
-pub(super) fn unit_factor(text: &str) -> Result<Factor, String> {
-    let mut rest = text.trim();
-    let (factor, left) = product(&mut rest)?;
-    if left.is_empty() {
-        Ok(factor)
-    } else {
-        Err(format!(
-            "`{left}` in the unit `{}` is not understood",
-            text.trim()
-        ))
-    }
-}
-
-fn product<'a>(rest: &mut &'a str) -> Result<(Factor, &'a str), String> {
-    let whole = *rest;
-    let mut total = Factor::ONE;
-    let mut divided = false;
-    let mut first = true;
-    loop {
-        *rest = rest.trim_start();
-        if rest.is_empty() || rest.starts_with(')') {
-            return Ok((total, rest));
-        }
-        let mut divide = false;
-        if let Some(after) = rest.strip_prefix('/') {
-            divide = true;
-            *rest = after.trim_start();
-        } else if !first {
-            let explicit = rest.strip_prefix(['*', '·', '⋅', '×', '.', '-']);
-            if divided {
-                return Err(format!(
-                    "`{whole}` can be read in two ways: put what is divided by in brackets, as in `kg/(m s)`"
-                ));
-            }
-            if let Some(after) = explicit {
-                *rest = after.trim_start();
-            }
-        }
-        divided |= divide;
-        first = false;
-        let part = factor_of(rest)?;
-        total = total.times(part, if divide { -1 } else { 1 });
-    }
-}
-
-fn factor_of(rest: &mut &str) -> Result<Factor, String> {
-    if let Some(inner) = rest.strip_prefix('(') {
-        *rest = inner;
-        let (factor, left) = product(rest)?;
-        *rest = left
-            .strip_prefix(')')
-            .ok_or_else(|| "a bracket of the unit is not closed".to_owned())?;
-        return Ok(factor);
-    }
-    let end = rest
-        .find(|c: char| !(c.is_alphabetic() || c == '°'))
-        .unwrap_or(rest.len());
-    let name = &rest[..end];
-    let base = symbol(name).ok_or_else(|| {
-        let shown = if name.is_empty() { *rest } else { name };
-        let small = name.to_lowercase();
-        match symbol(&small) {
-            Some(_) => format!("`{shown}` is not a known unit: `{small}` is"),
-            None => format!("`{shown}` is not a known unit"),
-        }
-    })?;
-    *rest = &rest[end..];
-    let power = exponent(rest)?;
-    Ok(Factor::ONE.times(base, power))
-}
-
-fn exponent(rest: &mut &str) -> Result<i32, String> {
-    let caret = rest.strip_prefix('^').or_else(|| rest.strip_prefix("**"));
-    let text = caret.unwrap_or(rest);
-    let hyphen = |rest: &str| {
-        let after = rest.strip_prefix('-');
-        after.is_some_and(|after| !after.starts_with(|c: char| c.is_ascii_digit()))
-    };
-    if caret.is_none() && hyphen(text) {
-        return Ok(1);
-    }
-    let mut digits = String::new();
-    let mut length = 0;
-    for c in text.chars() {
-        let plain = match c {
-            '0'..='9' | '-' => c,
-            '⁻' | MINUS => '-',
-            '¹' => '1',
-            '²' => '2',
-            '³' => '3',
-            '⁴' => '4',
-            _ => break,
-        };
-        digits.push(plain);
-        length += c.len_utf8();
-    }
-    if digits.is_empty() && caret.is_none() {
-        return Ok(1);
-    }
-    *rest = &text[length..];
-    digits
-        .parse::<i32>()
-        .ok()
-        .filter(|power| (-6..=6).contains(power))
-        .ok_or_else(|| format!("`^{digits}` is not a usable exponent of a unit"))
 }

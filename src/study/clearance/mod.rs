@@ -19,12 +19,11 @@ use super::in_time::FAR;
 use super::row::{NoRows, RowSink};
 use super::schedule::Schedule;
 use super::simulate::Simulation;
-use super::stopped;
 use super::summary::{Cost, Summary};
 use super::task::Task;
 use crate::engine::contact::{self, Ended, Finish, Phase, Settings, Stretch};
 use crate::error::Error;
-use crate::mechanism::{Limits, LooseMechanism, LooseState};
+use crate::mechanism::{LooseMechanism, LooseState};
 use crate::numeric::angle::Angle;
 use crate::scene::{ContactLaw, Every, Extent, MotionKind};
 use follow::{Asked, Follow, Seen};
@@ -51,9 +50,6 @@ pub(super) fn run(
     };
     let mechanism = LooseMechanism::new(&scene, clearance)?;
     let start = mechanism.start(task.scene)?;
-    let linkage = task.equation().linkage();
-    let widened = linkage.with_rod(linkage.l + clearance.radial);
-    stopped::refuse_turns(&Limits::new(&widened, 0.0).reach, task.extent)?;
     match task.scene.motion.kind {
         MotionKind::ConstantSpeed => Run::<DRIVEN>::new(task, &mechanism, start)?.all(rows, record),
         MotionKind::Free => Run::<FREE>::new(task, &mechanism, start)?.all(rows, record),
@@ -76,7 +72,7 @@ impl<'a, const N: usize> Run<'a, N> {
         let t_end = match task.extent {
             Extent::Duration(duration) => duration,
             Extent::Revolutions(_) if N == FREE => FAR,
-            Extent::Revolutions(_) => closed_form::duration(task.extent, start.omega)?,
+            Extent::Revolutions(_) => closed_form::duration(task.extent, start.omega),
         };
         Ok(Run {
             task,

@@ -38,7 +38,8 @@ use crate::trajectory::Trajectory;
 
 /// Whether a free motion in time is computed here.
 pub(super) fn serves(task: &Task<'_>) -> bool {
-    task.limits.class != Class::RotatingCrank || task.scene.reduced().friction.is_some()
+    let may_stick = task.scene.reduced().friction.is_some() || task.equation().loads().are_dry();
+    task.limits.class != Class::RotatingCrank || may_stick
 }
 
 /// Runs a task.
@@ -52,7 +53,6 @@ pub(super) fn run(
     let (constrained, start) = on_curve(task)?;
     let constrained = Arc::new(constrained);
     let curve = constrained.curve();
-    let speed = task.scene.motion.speed;
     let follow = Follow {
         equation: &constrained,
         settings: settings(task, equation),
@@ -60,13 +60,6 @@ pub(super) fn run(
         turn_limit: task.extent.angle(),
         turned_from: task.start(),
     };
-    if constrained.friction().is_none() {
-        let free = phase::InPhase {
-            equation: &constrained,
-            phase: Phase::Sliding { c: 0.0 },
-        };
-        stopped::refuse_balance(task.extent, start, &free)?;
-    }
     let mut watch = CurveWatch {
         equation: &constrained,
         reactor: task.maker.reactor.as_ref(),
@@ -84,12 +77,7 @@ pub(super) fn run(
         return Err(error);
     }
     if arrived.end == End::Integrator(Finish::NoStart) {
-        let crank = Start {
-            angle: task.start(),
-            speed,
-            ..start
-        };
-        return Err(stopped::no_start(equation, crank, &task.limits));
+        return Err(stopped::no_start(task.start(), task.scene.motion.speed));
     }
     watch.write_last_row(&arrived.last)?;
     let log = watch.log;
@@ -145,34 +133,19 @@ fn on_curve(task: &Task<'_>) -> Result<(Constrained, Start), Error> {
     let theta = task.start();
     let speed = task.scene.motion.speed;
     let linkage = task.equation().linkage();
-    let start = |angle: Angle, speed: f64| Start {
-        t: 0.0,
-        angle,
-        speed,
-    };
     let Some((curve, q)) = Curve::through(linkage, theta) else {
-        if task.limits.class == Class::ChangePoint && linkage.reaches(theta.rest) {
-            return Err(Error::refused(
-                "motion.angle is the change point itself, where the mechanism may go on in two ways",
-                "start away from it, or change a length a little to say which mechanism is meant",
-            ));
-        }
-        return Err(stopped::no_start(
-            task.equation(),
-            start(theta, speed),
-            &task.limits,
-        ));
+        return Err(stopped::no_start(theta, speed));
     };
-    stopped::refuse_turns(&task.limits.reach, task.extent)?;
-    let pace = speed / curve.place(q.rest).dtheta;
-    if speed != 0.0 && pace.abs() > 1e12 * speed.abs() {
-        return Err(Error::refused(
-            "motion.speed: at motion.angle the rod stands normal to the guide, and the crank has no speed there",
-            "start at rest, or away from the limit",
-        ));
-    }
-    let pace = if speed == 0.0 { 0.0 } else { pace };
-    Ok((Constrained::new(task.scene, curve), start(q, pace)))
+    let pace = match speed {
+        0.0 => 0.0,
+        speed => speed / curve.place(q.rest).dtheta,
+    };
+    let start = Start {
+        t: 0.0,
+        angle: q,
+        speed: pace,
+    };
+    Ok((Constrained::new(task.scene, curve), start))
 }
 
 fn crank_state(curve: &Curve, last: &Step) -> (Angle, f64) {

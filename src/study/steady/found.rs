@@ -10,6 +10,7 @@ use crate::error::Error;
 use crate::mechanism::{Equation, Limits};
 use crate::numeric::angle::Angle;
 use crate::numeric::root;
+use crate::plan::cycle_over_angle;
 use crate::scene::{Scene, Variable};
 use crate::study::profile::Position;
 
@@ -40,11 +41,13 @@ pub(super) struct Found {
     pub orbit: Orbit,
     /// Speed at the start, rad/s.
     pub speed: f64,
-    /// s
+    /// Turns after which it is the same again.
+    pub turns: f64,
+    /// Their time, s.
     pub period: f64,
     /// Least and largest speed.
     pub extremes: [Extreme; 2],
-    /// Deviation from it after a turn, by that before.
+    /// Deviation from it after these turns, by that before.
     pub multiplier: f64,
     pub multiplier_error: f64,
     /// What is left open of its energies, relative to them.
@@ -60,7 +63,12 @@ impl Found {
     /// Coefficient of fluctuation: the range of the speed, by its mean.
     pub fn fluctuation(&self) -> f64 {
         let [slow, fast] = self.extremes;
-        (fast.omega - slow.omega).abs() * self.period / TAU
+        (fast.omega - slow.omega).abs() * self.period / self.way()
+    }
+
+    /// The crank's way in a period, rad.
+    pub fn way(&self) -> f64 {
+        self.turns * TAU
     }
 
     /// Speed where the crank has turned by this since the start, rad, rad/s.
@@ -74,6 +82,8 @@ impl Found {
 /// What looks for the periodic motion of a scene.
 pub(super) struct Seeker {
     equation: Equation,
+    /// Turns after which the loads are the same again.
+    cycle: u32,
     start: Angle,
     /// rad/s
     speed: f64,
@@ -85,6 +95,8 @@ impl Seeker {
     pub fn new(scene: &Scene, speed: f64, max_evaluations: u64) -> Seeker {
         Seeker {
             equation: Equation::new(scene),
+            // What has none was refused.
+            cycle: cycle_over_angle(scene).unwrap_or(1),
             start: Angle::from(scene.motion.angle).reduced(),
             speed,
             max_evaluations,
@@ -107,7 +119,8 @@ impl Seeker {
         if limits.dead_centres.iter().any(|dc| vanishes(dc.theta)) {
             return Err(unbounded());
         }
-        let position = Position::new(&self.equation, &limits, self.start);
+        let position =
+            Position::new(&self.equation, &limits, self.start, self.speed).with_cycle(self.cycle);
         let resolution = Resolution {
             tail: TAIL,
             other,
@@ -133,6 +146,7 @@ impl Seeker {
             start: self.start,
             orbit: cycle.orbit,
             speed: cycle.speed,
+            turns: f64::from(self.cycle),
             period: cycle.period,
             extremes: [Extreme {
                 turned: 0.0,
@@ -155,36 +169,40 @@ impl Seeker {
 
     /// The largest sign·|speed|: of the angles of a fine grid, then where the acceleration vanishes beside it.
     fn extreme(&self, found: &Found, sign: f64) -> Extreme {
-        let sense = found.speed.signum();
+        let (sense, whole) = (found.speed.signum(), found.way());
         let grid = self.equation.linkage().turn_grid();
         let since = |theta: &f64| (sense * (theta - self.start.rest)).rem_euclid(TAU);
-        let mut ways: Vec<f64> = grid.iter().map(since).collect();
+        let again = |turn: u32| {
+            let before = f64::from(turn) * TAU;
+            grid.iter().map(move |theta| since(theta) + before)
+        };
+        let mut ways: Vec<f64> = (0..self.cycle).flat_map(again).collect();
         ways.push(0.0);
         ways.sort_by(f64::total_cmp);
         ways.dedup();
-        let value = |way: f64| sign * sense * found.omega(way.rem_euclid(TAU));
+        let value = |way: f64| sign * sense * found.omega(way.rem_euclid(whole));
         let best = (0..ways.len()).max_by(|a, b| value(ways[*a]).total_cmp(&value(ways[*b])));
         let best = best.unwrap_or(0);
         let count = ways.len();
         let before = if best == 0 {
-            ways[count - 1] - TAU
+            ways[count - 1] - whole
         } else {
             ways[best - 1]
         };
         let after = if best + 1 == count {
-            TAU
+            whole
         } else {
             ways[best + 1]
         };
         let slope = |way: f64| {
-            let way = way.rem_euclid(TAU);
+            let way = way.rem_euclid(whole);
             let angle = self.start.plus(sense * way);
             self.equation.acceleration(0.0, angle, found.omega(way))
         };
         let way = root::bracketed(slope, before, after)
             .filter(|way| value(*way) > value(ways[best]))
             .unwrap_or(ways[best])
-            .rem_euclid(TAU);
+            .rem_euclid(whole);
         Extreme {
             turned: way,
             omega: found.omega(way),
@@ -197,11 +215,10 @@ impl Seeker {
 pub(super) fn place(found: &Found, check: &Found, which: usize, relative: f64) -> Estimated {
     let [here, there] = [found, check].map(|f| f.extremes[which].turned);
     let apart = (here - there).abs();
-    let apart = apart.min((TAU - apart).abs());
-    let sense = found.speed.signum();
-    let angle = found.start.rest + sense * here;
+    let apart = apart.min((found.way() - apart).abs());
+    let angle = found.start.plus(found.speed.signum() * here);
     Estimated {
-        value: angle.rem_euclid(TAU),
+        value: angle.radians().rem_euclid(found.way()),
         error: MARGIN * apart + relative * TAU / found.fluctuation().clamp(1e-12, 1.0),
     }
 }

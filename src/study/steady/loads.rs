@@ -1,4 +1,4 @@
-//! The work of each load over the periodic turn.
+//! The work of each load over the periodic motion.
 
 use std::f64::consts::TAU;
 
@@ -13,7 +13,7 @@ use crate::scene::{Instant, Load, Scene};
 /// Pieces of a turn beside those that dead centres and tables make.
 const PIECES: u32 = 16;
 
-/// One load over a turn.
+/// One load over a period.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LoadWork {
     /// As `torque[1]`, with what it is.
@@ -41,7 +41,7 @@ pub(super) fn works(scene: &Scene, found: &Found, check: &Found, relative: f64) 
             works.push(LoadWork {
                 name: format!("{name}[{}]: {load}", i + 1),
                 power_w: over(found.period),
-                torque_nm: over(found.speed.signum() * TAU),
+                torque_nm: over(found.speed.signum() * found.way()),
             });
         }
     }
@@ -64,14 +64,13 @@ pub(super) fn powers(loads: &[LoadWork]) -> (Estimated, Estimated) {
     (sum(1.0), sum(-1.0))
 }
 
-/// Work over a turn, J, and the size of what adds up to it.
+/// Work over a period, J, and the size of what adds up to it.
 fn work(scene: &Scene, load: &Load, on_slider: bool, found: &Found) -> (f64, f64) {
     let linkage = Linkage::new(&scene.geometry);
     let sense = found.speed.signum();
-    let start = found.start.rest;
     let torque = |turned: f64| {
-        let theta = start + sense * turned;
-        let pose = linkage.pose(theta);
+        let angle = found.start.plus(sense * turned);
+        let (pose, theta) = (linkage.pose(angle.rest), angle.radians());
         let omega = found.omega(turned);
         let now = Instant {
             t: 0.0,
@@ -84,11 +83,29 @@ fn work(scene: &Scene, load: &Load, on_slider: bool, found: &Found) -> (f64, f64
         sense * arm * single(load, on_slider, &now)
     };
     let limits = Limits::new(&linkage, found.speed);
-    let dead_centres = limits.dead_centres.iter().map(|dc| dc.theta);
-    let corners = dead_centres.chain(load.angle_corners());
-    let turned = |theta: f64| (sense * (theta - start)).rem_euclid(TAU);
-    let even = (0..=PIECES).map(|i| TAU * f64::from(i) / f64::from(PIECES));
-    let mut cuts: Vec<f64> = corners.map(turned).chain(even).collect();
+    let begin = found.start.radians();
+    let (low, high) = (
+        begin.min(begin + sense * found.way()),
+        begin.max(begin + sense * found.way()),
+    );
+    let turned = |theta: f64| sense * (theta - begin);
+    let dead_centres = limits.dead_centres.iter();
+    let dead_centres = dead_centres.map(|dc| turned(dc.theta).rem_euclid(TAU));
+    let rows = load.corners_between(low, high).into_iter().map(turned);
+    let turns = found.turns as u32;
+    let even =
+        |turn: u32| (0..PIECES).map(move |i| f64::from(turn) + f64::from(i) / f64::from(PIECES));
+    let whole = (0..turns).flat_map(|turn| {
+        dead_centres
+            .clone()
+            .map(move |ahead| f64::from(turn) * TAU + ahead)
+    });
+    let parts = (0..turns).flat_map(even).map(|turns| turns * TAU);
+    let mut cuts: Vec<f64> = whole
+        .chain(rows)
+        .chain(parts)
+        .chain([found.way()])
+        .collect();
     cuts.sort_by(f64::total_cmp);
     let tolerance = 1e-15 * found.largest;
     let integral = |f: &dyn Fn(f64) -> f64, tolerance: f64| -> f64 {

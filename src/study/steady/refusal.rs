@@ -57,8 +57,8 @@ pub(super) fn refuse_what_has_none(scene: &Scene) -> Result<(), Error> {
     let plan = Plan::new(&turning, Method::Angle);
     plan.map(|_| ()).map_err(|error| match error {
         Error::Refused { what, .. } => Error::refused(
-            format!("a steady state is found over the crank angle, and {what}"),
-            "use loads that repeat with each turn, or simulate until the motion repeats",
+            format!("a steady state is found over the crank angle: {what}"),
+            "change that load, or simulate until the motion repeats",
         ),
         other => other,
     })

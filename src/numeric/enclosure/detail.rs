@@ -1,0 +1,87 @@
+//! How many nodes show a function.
+
+use super::{Enclosed, Interval};
+
+/// A piece of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reach {
+    /// s
+    pub t: Interval,
+    /// Crank angle, rad, unwrapped.
+    pub angle: Interval,
+    /// rad/s
+    pub speed: Interval,
+}
+
+/// What a function does on a piece of a motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Detail {
+    /// Its greatest value less its least.
+    pub change: f64,
+    /// How far it is from a constant in the Bernstein ellipse around the piece; none if it may not be analytic there.
+    pub around: Option<f64>,
+}
+
+/// Pieces of tables are cubic: fewer nodes show no function of two.
+const LEAST_NODES: usize = 4;
+
+impl Detail {
+    /// Of a function that is constant, or is not known from anything but its values.
+    pub const NONE: Detail = Detail {
+        change: 0.0,
+        around: Some(0.0),
+    };
+
+    /// Of an enclosed function.
+    pub fn of(function: Enclosed) -> Detail {
+        let change = 2.0 * function.real.half();
+        Detail {
+            change: if change.is_nan() {
+                f64::INFINITY
+            } else {
+                change
+            },
+            around: function
+                .plane
+                .map(|plane| plane.radius())
+                .filter(|radius| radius.is_finite()),
+        }
+    }
+
+    /// The sum of two functions.
+    pub fn plus(self, other: Detail) -> Detail {
+        Detail {
+            change: self.change + other.change,
+            around: self.around.zip(other.around).map(|(a, b)| a + b),
+        }
+    }
+
+    /// The function times a factor.
+    pub fn times(self, by: f64) -> Detail {
+        let change = self.change * by;
+        Detail {
+            change: if change.is_nan() {
+                f64::INFINITY
+            } else {
+                change
+            },
+            around: self
+                .around
+                .map(|around| around * by)
+                .filter(|around| around.is_finite()),
+        }
+    }
+
+    /// Nodes that show it but for `allowed`, where it is enclosed in an ellipse of this size: 4M ρ⁻ⁿ/(ρ − 1) is left. None
+    /// where it may not be analytic.
+    pub fn nodes(&self, ellipse: f64, allowed: f64) -> Option<usize> {
+        let left = 4.0 * self.around? / (allowed * (ellipse - 1.0));
+        let terms = (left.ln() / ellipse.ln()).ceil().max(0.0);
+        Some((terms as usize + 1).max(LEAST_NODES))
+    }
+}
+
+/// The size of the ellipse in which so many nodes leave this part.
+pub fn ellipse(nodes: usize, part: f64) -> f64 {
+    part.powf(-1.0 / nodes as f64)
+}

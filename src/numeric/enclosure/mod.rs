@@ -1,0 +1,349 @@
+//! Enclosures of the values of a function over an interval, and over a neighbourhood of it in the complex plane.
+//!
+//! A function that is analytic there, and differs from a constant by M at most, is a polynomial of degree n but for
+//! 2M ρ⁻ⁿ/(ρ − 1), where ρ is the size of the Bernstein ellipse that the neighbourhood holds (Trefethen, Approximation Theory
+//! and Approximation Practice, theorem 8.2): n + 1 nodes show it but for twice that. Functions of several cases (abs, min,
+//! floor, ...) are analytic where one case serves the whole interval; it is this one that is followed into the plane.
+
+mod detail;
+mod interval;
+mod partition;
+mod rectangle;
+
+use std::f64::consts::{FRAC_PI_2, LOG10_E, PI};
+use std::ops::{Add, Mul, Neg, Sub};
+
+pub use detail::{Detail, Reach, ellipse};
+pub use interval::Interval;
+pub use partition::{Wanted, partition};
+pub use rectangle::Rectangle;
+
+/// Values over an interval and around it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Enclosed {
+    /// Over the interval.
+    pub real: Interval,
+    /// Around it; none where the function is not known to be analytic.
+    pub plane: Option<Rectangle>,
+}
+
+impl Default for Enclosed {
+    fn default() -> Enclosed {
+        Enclosed::point(0.0)
+    }
+}
+
+impl Enclosed {
+    /// Nothing is known.
+    pub const UNKNOWN: Enclosed = Enclosed::jumps(Interval::WHOLE);
+
+    /// A constant.
+    pub fn point(value: f64) -> Enclosed {
+        Enclosed {
+            real: Interval::point(value),
+            plane: Some(Rectangle::point(value)),
+        }
+    }
+
+    /// A variable over an interval, and in the Bernstein ellipse of this size around it.
+    pub fn variable(real: Interval, ellipse: f64) -> Enclosed {
+        let (middle, half) = (real.middle(), real.half());
+        let [along, across] =
+            [ellipse + 1.0 / ellipse, ellipse - 1.0 / ellipse].map(|axis| 0.5 * half * axis);
+        let plane = Rectangle {
+            re: Interval::new(middle - along, middle + along),
+            im: Interval::new(-across, across),
+        };
+        Enclosed {
+            real,
+            plane: Some(plane),
+        }
+    }
+
+    /// Values of a function that is not known to be analytic.
+    pub const fn jumps(real: Interval) -> Enclosed {
+        Enclosed { real, plane: None }
+    }
+
+    /// A function that is rising over the interval, with its continuation.
+    fn rising(
+        self,
+        f: impl Fn(f64) -> f64,
+        plane: impl FnOnce(Rectangle) -> Option<Rectangle>,
+    ) -> Enclosed {
+        Enclosed {
+            real: self.real.rising(f),
+            plane: self.plane.and_then(plane),
+        }
+    }
+
+    /// A constant that depends on the sign of the argument.
+    fn of_sign(self, negative: f64, zero: f64, positive: f64) -> Enclosed {
+        let Interval { low, high } = self.real;
+        if low > 0.0 || low == 0.0 && zero == positive {
+            Enclosed::point(positive)
+        } else if high < 0.0 {
+            Enclosed::point(negative)
+        } else {
+            Enclosed::jumps(Interval::new(negative, positive))
+        }
+    }
+
+    /// Squares.
+    pub fn square(self) -> Enclosed {
+        Enclosed {
+            real: self.real.square(),
+            plane: self.plane.map(Rectangle::square),
+        }
+    }
+
+    /// 1/z
+    pub fn reciprocal(self) -> Enclosed {
+        Enclosed {
+            real: self.real.reciprocal(),
+            plane: self.plane.and_then(Rectangle::reciprocal),
+        }
+    }
+
+    /// Quotients.
+    pub fn divided_by(self, other: Enclosed) -> Enclosed {
+        self * other.reciprocal()
+    }
+
+    /// Sines.
+    pub fn sin(self) -> Enclosed {
+        Enclosed {
+            real: self.real.sin(),
+            plane: self.plane.map(Rectangle::sin),
+        }
+    }
+
+    /// Cosines.
+    pub fn cos(self) -> Enclosed {
+        Enclosed {
+            real: self.real.cos(),
+            plane: self.plane.map(Rectangle::cos),
+        }
+    }
+
+    /// Tangents.
+    pub fn tan(self) -> Enclosed {
+        let within_a_branch = self.real.high - self.real.low < PI && !self.real.cos().contains(0.0);
+        if within_a_branch {
+            self.rising(f64::tan, |z| Some(z.sin() * z.cos().reciprocal()?))
+        } else {
+            Enclosed::UNKNOWN
+        }
+    }
+
+    /// Inverse sines.
+    pub fn asin(self) -> Enclosed {
+        if self.real.largest() > 1.0 {
+            return Enclosed::UNKNOWN;
+        }
+        self.rising(f64::asin, |z| {
+            let slope = (Rectangle::point(1.0) - z.square()).sqrt()?.reciprocal()?;
+            Some(z.by_slope(f64::asin, slope))
+        })
+    }
+
+    /// Inverse cosines.
+    pub fn acos(self) -> Enclosed {
+        Enclosed::point(FRAC_PI_2) - self.asin()
+    }
+
+    /// Inverse tangents.
+    pub fn atan(self) -> Enclosed {
+        self.rising(f64::atan, |z| {
+            let size = Rectangle::point(1.0) + z.square();
+            // Beyond that the branch points ±i are near.
+            (size.re.low > 0.0).then_some(())?;
+            Some(z.by_slope(f64::atan, size.reciprocal()?))
+        })
+    }
+
+    /// Hyperbolic sines.
+    pub fn sinh(self) -> Enclosed {
+        self.rising(f64::sinh, |z| Some(z.sinh()))
+    }
+
+    /// Hyperbolic cosines.
+    pub fn cosh(self) -> Enclosed {
+        Enclosed {
+            real: self.real.cosh(),
+            plane: self.plane.map(Rectangle::cosh),
+        }
+    }
+
+    /// Hyperbolic tangents, from (1 − u)/(1 + u), u = e^(−2z), which does not overflow on the right, and is odd.
+    pub fn tanh(self) -> Enclosed {
+        let right = |z: Rectangle| {
+            let one = Rectangle::point(1.0);
+            let u = z.times(-2.0).exp();
+            Some((one - u) * (one + u).reciprocal()?)
+        };
+        self.rising(f64::tanh, |z| match z.re.middle() < 0.0 {
+            true => right(-z).map(Neg::neg),
+            false => right(z),
+        })
+    }
+
+    /// e^z
+    pub fn exp(self) -> Enclosed {
+        self.rising(f64::exp, |z| Some(z.exp()))
+    }
+
+    /// Natural logarithms.
+    pub fn ln(self) -> Enclosed {
+        if self.real.low < 0.0 {
+            return Enclosed::UNKNOWN;
+        }
+        self.rising(f64::ln, Rectangle::ln)
+    }
+
+    /// Decimal logarithms.
+    pub fn log10(self) -> Enclosed {
+        self.ln() * Enclosed::point(LOG10_E)
+    }
+
+    /// Square roots.
+    pub fn sqrt(self) -> Enclosed {
+        if self.real.low < 0.0 {
+            return Enclosed::UNKNOWN;
+        }
+        self.rising(f64::sqrt, Rectangle::sqrt)
+    }
+
+    /// Magnitudes.
+    pub fn abs(self) -> Enclosed {
+        let Interval { low, high } = self.real;
+        if low >= 0.0 {
+            self
+        } else if high <= 0.0 {
+            -self
+        } else {
+            Enclosed::jumps(Interval::new(0.0, self.real.largest()))
+        }
+    }
+
+    /// The whole numbers below.
+    pub fn floor(self) -> Enclosed {
+        let real = self.real.rising(f64::floor);
+        if real.low == real.high {
+            Enclosed::point(real.low)
+        } else {
+            Enclosed::jumps(real)
+        }
+    }
+
+    /// −1, 0 or 1.
+    pub fn sign(self) -> Enclosed {
+        self.of_sign(-1.0, 0.0, 1.0)
+    }
+
+    /// 0 below zero, else 1.
+    pub fn step(self) -> Enclosed {
+        self.of_sign(0.0, 1.0, 1.0)
+    }
+
+    /// The greater of two.
+    pub fn max(self, other: Enclosed) -> Enclosed {
+        let (a, b) = (self.real, other.real);
+        if a.low >= b.high {
+            self
+        } else if b.low >= a.high {
+            other
+        } else {
+            Enclosed::jumps(Interval::new(a.low.max(b.low), a.high.max(b.high)))
+        }
+    }
+
+    /// The lesser of two.
+    pub fn min(self, other: Enclosed) -> Enclosed {
+        -(-self).max(-other)
+    }
+
+    /// What is left of multiples of the other, never negative.
+    pub fn modulo(self, other: Enclosed) -> Enclosed {
+        let by = other.abs();
+        if by.real.low <= 0.0 {
+            return Enclosed::UNKNOWN;
+        }
+        let count = self.divided_by(by).floor();
+        match count.plane {
+            Some(_) => self - by * count,
+            None => Enclosed::jumps(Interval::new(0.0, by.real.high)),
+        }
+    }
+
+    /// Directions of points (x, self).
+    pub fn atan2(self, x: Enclosed) -> Enclosed {
+        let right_angle = Enclosed::point(FRAC_PI_2);
+        if x.real.low > 0.0 {
+            self.divided_by(x).atan()
+        } else if self.real.low > 0.0 {
+            right_angle - x.divided_by(self).atan()
+        } else if self.real.high < 0.0 {
+            -right_angle - x.divided_by(self).atan()
+        } else {
+            Enclosed::jumps(Interval::new(-PI, PI))
+        }
+    }
+
+    /// Powers.
+    pub fn power(self, exponent: Enclosed) -> Enclosed {
+        /// Higher powers go by the logarithm.
+        const MOST: f64 = 64.0;
+        let Interval { low, high } = exponent.real;
+        if low == high && low == low.trunc() && low.abs() <= MOST {
+            let whole = self.to_the(low.abs() as u32);
+            return if low < 0.0 { whole.reciprocal() } else { whole };
+        }
+        if self.real.low > 0.0 {
+            (exponent * self.ln()).exp()
+        } else if self.real.low == 0.0 && low == high && low > 0.0 {
+            Enclosed::jumps(self.real.rising(|base| base.powf(low)))
+        } else {
+            Enclosed::UNKNOWN
+        }
+    }
+
+    fn to_the(self, n: u32) -> Enclosed {
+        match n {
+            0 => Enclosed::point(1.0),
+            1 => self,
+            _ if n.is_multiple_of(2) => self.to_the(n / 2).square(),
+            _ => self.to_the(n - 1) * self,
+        }
+    }
+}
+
+macro_rules! part_by_part {
+    ($operator:ident, $function:ident) => {
+        impl $operator for Enclosed {
+            type Output = Enclosed;
+
+            fn $function(self, other: Enclosed) -> Enclosed {
+                Enclosed {
+                    real: self.real.$function(other.real),
+                    plane: self.plane.zip(other.plane).map(|(a, b)| a.$function(b)),
+                }
+            }
+        }
+    };
+}
+
+part_by_part!(Add, add);
+part_by_part!(Sub, sub);
+part_by_part!(Mul, mul);
+
+impl Neg for Enclosed {
+    type Output = Enclosed;
+
+    fn neg(self) -> Enclosed {
+        Enclosed {
+            real: -self.real,
+            plane: self.plane.map(Neg::neg),
+        }
+    }
+}

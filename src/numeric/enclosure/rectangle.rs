@@ -1,0 +1,172 @@
+//! Rectangles of complex numbers.
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+use super::Interval;
+
+/// All complex numbers whose real and imaginary parts lie in two intervals.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rectangle {
+    /// Real parts.
+    pub re: Interval,
+    /// Imaginary parts.
+    pub im: Interval,
+}
+
+impl Rectangle {
+    /// One real number.
+    pub fn point(at: f64) -> Rectangle {
+        Rectangle::real(Interval::point(at))
+    }
+
+    /// Real numbers.
+    pub fn real(re: Interval) -> Rectangle {
+        let im = Interval::point(0.0);
+        Rectangle { re, im }
+    }
+
+    /// How far a value in it may be from its middle.
+    pub fn radius(self) -> f64 {
+        self.re.half().hypot(self.im.half())
+    }
+
+    /// Squares.
+    pub fn square(self) -> Rectangle {
+        let product = self.re * self.im;
+        Rectangle {
+            re: self.re.square() - self.im.square(),
+            im: product + product,
+        }
+    }
+
+    /// 1/z; none if zero is in it.
+    pub fn reciprocal(self) -> Option<Rectangle> {
+        let size = self.re.square() + self.im.square();
+        if size.low <= 0.0 {
+            return None;
+        }
+        let by = size.reciprocal();
+        Some(Rectangle {
+            re: self.re * by,
+            im: -(self.im * by),
+        })
+    }
+
+    /// Times a real number.
+    pub fn times(self, by: f64) -> Rectangle {
+        let by = Interval::point(by);
+        Rectangle {
+            re: self.re * by,
+            im: self.im * by,
+        }
+    }
+
+    /// e^z
+    pub fn exp(self) -> Rectangle {
+        let size = self.re.rising(f64::exp);
+        Rectangle {
+            re: size * self.im.cos(),
+            im: size * self.im.sin(),
+        }
+    }
+
+    /// ln z, where the real parts are positive; none elsewhere.
+    pub fn ln(self) -> Option<Rectangle> {
+        if self.re.low <= 0.0 {
+            return None;
+        }
+        let size = self.re.square() + self.im.square();
+        let half = Interval::point(0.5);
+        Some(Rectangle {
+            re: half * size.rising(f64::ln),
+            im: (self.im * self.re.reciprocal()).rising(f64::atan),
+        })
+    }
+
+    /// The root with a positive real part, where the real parts are positive; none elsewhere.
+    pub fn sqrt(self) -> Option<Rectangle> {
+        Some(self.ln()?.times(0.5).exp())
+    }
+
+    /// sin z
+    pub fn sin(self) -> Rectangle {
+        Rectangle {
+            re: self.re.sin() * self.im.cosh(),
+            im: self.re.cos() * self.im.rising(f64::sinh),
+        }
+    }
+
+    /// cos z
+    pub fn cos(self) -> Rectangle {
+        Rectangle {
+            re: self.re.cos() * self.im.cosh(),
+            im: -(self.re.sin() * self.im.rising(f64::sinh)),
+        }
+    }
+
+    /// sinh z
+    pub fn sinh(self) -> Rectangle {
+        Rectangle {
+            re: self.re.rising(f64::sinh) * self.im.cos(),
+            im: self.re.cosh() * self.im.sin(),
+        }
+    }
+
+    /// cosh z
+    pub fn cosh(self) -> Rectangle {
+        Rectangle {
+            re: self.re.cosh() * self.im.cos(),
+            im: self.re.rising(f64::sinh) * self.im.sin(),
+        }
+    }
+
+    /// The values of an analytic function with a given slope: the mean value theorem on a convex set.
+    pub fn by_slope(self, f: impl Fn(f64) -> f64, slope: Rectangle) -> Rectangle {
+        let middle = self.re.middle();
+        Rectangle::point(f(middle)) + slope * (self - Rectangle::point(middle))
+    }
+}
+
+impl Add for Rectangle {
+    type Output = Rectangle;
+
+    fn add(self, other: Rectangle) -> Rectangle {
+        Rectangle {
+            re: self.re + other.re,
+            im: self.im + other.im,
+        }
+    }
+}
+
+impl Sub for Rectangle {
+    type Output = Rectangle;
+
+    fn sub(self, other: Rectangle) -> Rectangle {
+        Rectangle {
+            re: self.re - other.re,
+            im: self.im - other.im,
+        }
+    }
+}
+
+impl Neg for Rectangle {
+    type Output = Rectangle;
+
+    fn neg(self) -> Rectangle {
+        Rectangle {
+            re: -self.re,
+            im: -self.im,
+        }
+    }
+}
+
+impl Mul for Rectangle {
+    type Output = Rectangle;
+
+    fn mul(self, other: Rectangle) -> Rectangle {
+        Rectangle {
+            re: self.re * other.re - self.im * other.im,
+            im: self.re * other.im + self.im * other.re,
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! What cannot be simulated, though each value of the scene is possible: the one place that decides it.
+
+mod inertia;
+mod model;
+mod run;
+mod start;
+
+pub(super) use model::problems as not_modelled;
+
+use crate::mechanism::Linkage;
+use crate::scene::{Problem, Problems, Scene};
+
+/// Refuses a scene that has no simulation, whatever the method.
+///
+/// # Errors
+/// [`Problems`] with all that is wrong with its values; if nothing is, with all that keeps its motion from being modelled,
+/// begun or ended.
+pub fn refuse(scene: &Scene) -> Result<(), Problems> {
+    scene.check()?;
+    let reduced = scene.reduced();
+    let linkage = Linkage::new(&scene.geometry);
+    let mut list = model::problems(&reduced, &linkage);
+    // Without a model there is no start to be looked at.
+    if list.is_empty() {
+        start::problems(scene, &reduced, &mut list);
+    }
+    let starts = list.is_empty();
+    run::problems(&reduced, &linkage, starts, &mut list);
+    scene.refused(list)
+}
+
+/// A problem of the value of a key.
+fn problem(field: &str, what: impl Into<String>, help: impl Into<String>) -> Problem {
+    Problem::new(field, what, help)
+}

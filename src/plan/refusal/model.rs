@@ -1,0 +1,97 @@
+//! Parts that do not go together, and mechanisms whose loads decide no motion.
+
+use super::inertia;
+use super::problem;
+use crate::mechanism::{Bodies, Class, Curve, Linkage, LooseMechanism};
+use crate::numeric::angle::Angle;
+use crate::scene::{ContactLaw, Load, MotionKind, Problem, RodModel, Scene};
+
+/// Of a scene from which parts without strength were taken out.
+pub fn problems(scene: &Scene, linkage: &Linkage) -> Vec<Problem> {
+    let mut list = Vec::new();
+    friction(scene, &mut list);
+    match (scene.clearance, scene.motion.kind) {
+        (Some(clearance), _) => {
+            if let Err(problems) = LooseMechanism::new(scene, clearance) {
+                list.extend(problems.list().iter().cloned());
+            }
+            loose(scene, clearance.radial, linkage, &mut list);
+            dry(scene, &mut list);
+        }
+        (None, MotionKind::Free) => free(scene, linkage, &mut list),
+        (None, MotionKind::ConstantSpeed) => {}
+    }
+    list
+}
+
+fn friction(scene: &Scene, list: &mut Vec<Problem>) {
+    if scene.friction.is_none() {
+        return;
+    }
+    if scene.rod.is_some_and(|rod| rod.model == RodModel::SpinOnly) {
+        list.push(problem(
+            "rod.model",
+            "the rod model \"spin-only\" leaves out the rod's translation, so no normal force goes with it",
+            "use model = \"rigid\" or \"two-mass\" with [friction]",
+        ));
+    }
+    let law = scene.clearance.map(|clearance| clearance.law);
+    if law == Some(ContactLaw::MasslessLink) {
+        list.push(problem(
+            "clearance.contact_law",
+            "Coulomb friction at the guide together with a massless link in a joint is not modelled",
+            "use another contact_law, or take [friction] out of the scene",
+        ));
+    }
+}
+
+fn free(scene: &Scene, linkage: &Linkage, list: &mut Vec<Problem>) {
+    if !Bodies::new(scene).have_inertia() {
+        list.push(inertia::none());
+    }
+    let at_crossing = || {
+        linkage.reaches(scene.motion.angle)
+            && Curve::through(linkage, Angle::from(scene.motion.angle).reduced()).is_none()
+    };
+    if Class::of(linkage) == Class::ChangePoint && at_crossing() {
+        list.push(problem(
+            "motion.angle",
+            "motion.angle is the change point of these lengths, where the mechanism may go on in two ways, and the scene does not say which",
+            "start away from it, or change a length a little to say which mechanism is meant",
+        ));
+    }
+}
+
+/// With clearance: loads that oppose motion.
+fn dry(scene: &Scene, list: &mut Vec<Problem>) {
+    for (name, loads) in [("torque", &scene.torques), ("force", &scene.forces)] {
+        let dry = |load: &Load| matches!(load, Load::Dry(_));
+        for (i, _) in loads.iter().enumerate().filter(|(_, load)| dry(load)) {
+            list.push(problem(
+                &format!("{name}[{}].kind", i + 1),
+                "a load of kind \"dry\" together with clearance in a joint is not modelled",
+                "use kind = \"viscous\", or take [clearance] out of the scene",
+            ));
+        }
+    }
+}
+
+/// With clearance: lengths at which joints with play decide nothing, and a prescribed motion that the rod cannot follow.
+fn loose(scene: &Scene, slack: f64, linkage: &Linkage, list: &mut Vec<Problem>) {
+    if Class::of(linkage) == Class::ChangePoint {
+        list.push(problem(
+            "geometry.rod",
+            "the lengths make a change point, where joints with clearance may go on in two ways",
+            "change a length a little to say which mechanism is meant",
+        ));
+        return;
+    }
+    let prescribed = scene.motion.kind == MotionKind::ConstantSpeed;
+    if prescribed && linkage.margin() + slack < 0.0 {
+        list.push(problem(
+            "motion.kind",
+            "the crank cannot turn fully, and at constant speed nothing gives way but the loose joint",
+            "use motion kind = \"free\", or lengths whose crank turns fully",
+        ));
+    }
+}

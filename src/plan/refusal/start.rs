@@ -1,0 +1,157 @@
+//! Starts from which no motion begins.
+
+use super::inertia;
+use super::problem;
+use crate::mechanism::{Class, Constrained, Curve, Limits, Linkage, LooseMechanism, single};
+use crate::numeric::angle::Angle;
+use crate::scene::{Clearance, Instant, Load, MotionKind, Problem, Scene};
+
+/// A crank that turns so much slower than the coordinate has no speed, but for rounding.
+const NO_SPEED: f64 = 1e-12;
+
+/// Of a scene that is modelled; `reduced` is without parts that have no strength.
+pub(super) fn problems(scene: &Scene, reduced: &Scene, list: &mut Vec<Problem>) {
+    let linkage = Linkage::new(&scene.geometry);
+    match (reduced.clearance, scene.motion.kind) {
+        (Some(clearance), _) => loose(scene, reduced, clearance, list),
+        (None, MotionKind::Free) => free(reduced, &linkage, list),
+        (None, MotionKind::ConstantSpeed) => driven(reduced, &linkage, list),
+    }
+}
+
+fn free(scene: &Scene, linkage: &Linkage, list: &mut Vec<Problem>) {
+    let (theta, speed) = (
+        Angle::from(scene.motion.angle).reduced(),
+        scene.motion.speed,
+    );
+    let Some((curve, q)) = Curve::through(linkage, theta) else {
+        list.push(out_of_reach(theta, &Limits::new(linkage, speed).reach));
+        return;
+    };
+    let place = curve.place(q.rest);
+    if place.dtheta.abs() < NO_SPEED && speed != 0.0 {
+        list.push(problem(
+            "motion.speed",
+            "motion.speed: at motion.angle the rod stands normal to the guide, and the crank has no speed there",
+            "start at rest, or away from the limit",
+        ));
+        return;
+    }
+    let pace = match speed {
+        0.0 => 0.0,
+        speed => speed / place.dtheta,
+    };
+    let equation = Constrained::new(scene, curve);
+    let before = list.len();
+    loads(scene, &equation.instant(&place, 0.0, q, pace), list);
+    if inertia::vanishes(&equation, q.rest) {
+        list.push(inertia::at_start(theta.radians()));
+    } else if list.len() == before && !equation.free(0.0, q, pace).acceleration.is_finite() {
+        list.push(too_large(theta));
+    }
+}
+
+/// Loads that have no value at the start.
+fn loads(scene: &Scene, now: &Instant, list: &mut Vec<Problem>) {
+    for (name, on_slider, loads) in [
+        ("torque", false, &scene.torques),
+        ("force", true, &scene.forces),
+    ] {
+        for (i, load) in loads.iter().enumerate() {
+            let value = single(load, on_slider, now);
+            if !value.is_finite() {
+                list.push(no_value(&format!("{name}[{}]", i + 1), load, value, now));
+            }
+        }
+    }
+}
+
+fn no_value(field: &str, load: &Load, value: f64, now: &Instant) -> Problem {
+    let Instant { theta, omega, .. } = *now;
+    let (key, help) = match load {
+        Load::Table(_) | Load::Gas { .. } => {
+            ("file", "give the table rows there, or start inside them")
+        }
+        _ => (
+            "value",
+            "check the domain of its formula, and what it divides by",
+        ),
+    };
+    problem(
+        &format!("{field}.{key}"),
+        format!(
+            "a load has no finite value at the start: {field} is {value} at t = 0, theta = {theta} rad, omega = {omega} rad/s"
+        ),
+        help,
+    )
+}
+
+fn too_large(theta: Angle) -> Problem {
+    problem(
+        "motion",
+        format!(
+            "the loads or the speed are too large to be computed with at the start, theta = {} rad: the acceleration has no value in double precision",
+            theta.radians()
+        ),
+        "check the units of loads, speed and inertia",
+    )
+}
+
+fn out_of_reach(theta: Angle, reach: &[[f64; 2]]) -> Problem {
+    let range =
+        |[from, to]: &[f64; 2]| format!("{:.6} to {:.6} deg", from.to_degrees(), to.to_degrees());
+    let ranges: Vec<String> = reach.iter().map(range).collect();
+    problem(
+        "motion.angle",
+        format!(
+            "motion.angle: the mechanism has no position at crank angle {} rad: the rod does not reach the guide or stands normal to it",
+            theta.radians()
+        ),
+        format!("give an angle inside {}", ranges.join(" or ")),
+    )
+}
+
+fn loose(scene: &Scene, reduced: &Scene, clearance: Clearance, list: &mut Vec<Problem>) {
+    let start = LooseMechanism::new(reduced, clearance).and_then(|loose| loose.start(scene));
+    match start {
+        Ok(at) => {
+            let now = Instant {
+                t: 0.0,
+                theta: scene.motion.angle,
+                omega: at.omega,
+                x: at.x,
+                v: at.v,
+            };
+            loads(reduced, &now, list);
+        }
+        Err(problems) => list.extend(problems.list().iter().cloned()),
+    }
+}
+
+/// At a prescribed speed, which passes no limit and no position in which the guide locks itself.
+fn driven(scene: &Scene, linkage: &Linkage, list: &mut Vec<Problem>) {
+    let mu = scene.friction.map_or(0.0, |friction| friction.coefficient);
+    let theta = Angle::from(scene.motion.angle).reduced();
+    if Limits::inside(&Limits::driven_reach(linkage, mu), theta.rest) {
+        return;
+    }
+    if linkage.unlocked(mu).is_some() {
+        list.push(problem(
+            "motion.angle",
+            format!(
+                "motion.angle: at crank angle {} rad the guide locks itself, as the coefficient of friction times tan phi is 1 or more: no crank torque moves it at constant speed",
+                theta.radians()
+            ),
+            "start where |e + r sin(theta)| is less than l/sqrt(1 + coefficient^2), or reduce the friction",
+        ));
+    } else if Class::of(linkage) == Class::ChangePoint {
+        list.push(problem(
+            "motion.angle",
+            format!("at crank angle {} rad the mechanism is at its change point, which no constant speed passes", theta.radians()),
+            "start away from it",
+        ));
+    } else {
+        let reach = Limits::new(linkage, scene.motion.speed).reach;
+        list.push(out_of_reach(theta, &reach));
+    }
+}

@@ -1,0 +1,68 @@
+//! Problems as text for a terminal, with the line of the file underlined.
+
+use std::borrow::Cow;
+
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+
+use super::number::counted;
+use super::{Problem, Problems, printable};
+
+/// Problems that are shown; of more, the number.
+const MOST_SHOWN: usize = 20;
+
+impl Problems {
+    /// The text for a terminal, in colour or plain.
+    pub fn render(&self, colour: bool) -> String {
+        let renderer = if colour {
+            Renderer::styled()
+        } else {
+            Renderer::plain()
+        };
+        let shown = self.list().iter().take(MOST_SHOWN);
+        let mut blocks: Vec<String> = shown
+            .map(|problem| self.render_one(problem, &renderer))
+            .collect();
+        let more = self.list().len().saturating_sub(MOST_SHOWN);
+        if more > 0 {
+            let title = counted(more, "more problem");
+            let help = Level::HELP.message("put right the first ones, and look again");
+            let report = Level::ERROR.primary_title(title).element(help);
+            blocks.push(renderer.render(&[report]));
+        }
+        blocks.join("\n\n")
+    }
+
+    fn render_one(&self, problem: &Problem, renderer: &Renderer) -> String {
+        let what = printable(&problem.what);
+        let (help, field) = (printable(&problem.help), printable(&problem.field));
+        let title = Level::ERROR.primary_title(shortened(&what));
+        let help = Level::HELP.message(help);
+        let file = self.file.as_ref().map(|file| file.display().to_string());
+        let file = file.as_deref().map(printable);
+        let report = match (file, &problem.span) {
+            (Some(file), Some(span)) => title.element(
+                Snippet::source(self.source.as_str())
+                    .path(file)
+                    .annotation(AnnotationKind::Primary.span(span.clone()).label(field)),
+            ),
+            (Some(file), None) => title.element(annotate_snippets::Origin::path(file)),
+            (None, _) => title.element(Level::NOTE.message(field)),
+        };
+        renderer.render(&[report.element(help)])
+    }
+}
+
+/// Longest message, in characters: one that is longer quotes a value as long as a file.
+const LONGEST: usize = 300;
+
+/// A message without the middle of what it quotes, if that is very long.
+fn shortened(text: &str) -> Cow<'_, str> {
+    let count = text.chars().count();
+    if count <= LONGEST {
+        return Cow::Borrowed(text);
+    }
+    let half = LONGEST / 2;
+    let start: String = text.chars().take(half).collect();
+    let end: String = text.chars().skip(count - half).collect();
+    Cow::Owned(format!("{start} ... {end}"))
+}

@@ -1,0 +1,153 @@
+//! The grammar of compound units.
+
+use super::symbol::{Factor, symbol};
+use crate::scene::number::MINUS;
+
+/// The factors of a bracket, or of the whole unit.
+struct Product<'a> {
+    text: &'a str,
+    total: Factor,
+    /// Whether a sign of division has been met.
+    divided: bool,
+    begun: bool,
+    /// Power of this product in the one around it.
+    power: i32,
+}
+
+impl<'a> Product<'a> {
+    fn new(text: &'a str, power: i32) -> Product<'a> {
+        Product {
+            text,
+            total: Factor::ONE,
+            divided: false,
+            begun: false,
+            power,
+        }
+    }
+
+    /// Reads what stands between two factors: the power of the next.
+    fn operator(&mut self, rest: &mut &str) -> Result<i32, String> {
+        let first = !std::mem::replace(&mut self.begun, true);
+        if let Some(after) = rest.strip_prefix('/') {
+            *rest = after.trim_start();
+            self.divided = true;
+            return Ok(-1);
+        }
+        if !first && self.divided {
+            return Err(format!(
+                "`{}` can be read in two ways: put what is divided by in brackets, as in `kg/(m s)`",
+                self.text
+            ));
+        }
+        let explicit = rest.strip_prefix(['*', '·', '⋅', '×', '.', '-']);
+        if let Some(after) = explicit.filter(|_| !first) {
+            *rest = after.trim_start();
+        }
+        Ok(1)
+    }
+}
+
+/// `unit := [1 /] factor { (space | · | * | . | - | /) factor }`, `factor := symbol [^]integer | ( unit )`. A hyphen
+/// before a digit is the sign of an exponent. Brackets may be nested at will: the open ones are a list.
+pub(super) fn unit_factor(text: &str) -> Result<Factor, String> {
+    let mut rest = without_one(text.trim());
+    let mut product = Product::new(rest, 1);
+    let mut around = Vec::new();
+    loop {
+        rest = rest.trim_start();
+        if rest.is_empty() || rest.starts_with(')') {
+            let Some(outer) = around.pop() else { break };
+            let inner = std::mem::replace(&mut product, outer);
+            rest = rest
+                .strip_prefix(')')
+                .ok_or_else(|| "a bracket of the unit is not closed".to_owned())?;
+            product.total = product.total.times(inner.total, inner.power);
+            continue;
+        }
+        let power = product.operator(&mut rest)?;
+        if let Some(inner) = rest.strip_prefix('(') {
+            rest = inner;
+            around.push(std::mem::replace(&mut product, Product::new(inner, power)));
+        } else {
+            product.total = product.total.times(factor_of(&mut rest)?, power);
+        }
+    }
+    if rest.is_empty() {
+        Ok(product.total)
+    } else {
+        let unit = text.trim();
+        Err(format!("`{rest}` in the unit `{unit}` is not understood"))
+    }
+}
+
+/// The unit without the 1 of `1/min`.
+fn without_one(text: &str) -> &str {
+    let after = text.strip_prefix('1').map(str::trim_start);
+    after.filter(|after| after.starts_with('/')).unwrap_or(text)
+}
+
+fn factor_of(rest: &mut &str) -> Result<Factor, String> {
+    let end = rest
+        .find(|c: char| !(c.is_alphabetic() || c == '°'))
+        .unwrap_or(rest.len());
+    let name = &rest[..end];
+    let [before, last] = symbols_of(name).ok_or_else(|| {
+        let shown = if name.is_empty() { *rest } else { name };
+        let small = name.to_lowercase();
+        match symbol(&small) {
+            Some(_) => format!("`{shown}` is not a known unit: `{small}` is"),
+            None => format!("`{shown}` is not a known unit"),
+        }
+    })?;
+    *rest = &rest[end..];
+    let power = exponent(rest)?;
+    Ok(before.times(last, power))
+}
+
+/// A symbol, or two that are written without a space, as in `kgm^2`, where that can be read in one way only. An
+/// exponent belongs to the last.
+fn symbols_of(name: &str) -> Option<[Factor; 2]> {
+    if let Some(only) = symbol(name) {
+        return Some([Factor::ONE, only]);
+    }
+    let ends = name.char_indices().map(|(at, _)| name.split_at(at));
+    let mut pairs = ends.filter_map(|(a, b)| Some([symbol(a)?, symbol(b)?]));
+    let pair = pairs.next()?;
+    pairs.next().is_none().then_some(pair)
+}
+
+fn exponent(rest: &mut &str) -> Result<i32, String> {
+    let caret = rest.strip_prefix('^').or_else(|| rest.strip_prefix("**"));
+    let text = caret.unwrap_or(rest);
+    let hyphen = |rest: &str| {
+        let after = rest.strip_prefix('-');
+        after.is_some_and(|after| !after.starts_with(|c: char| c.is_ascii_digit()))
+    };
+    if caret.is_none() && hyphen(text) {
+        return Ok(1);
+    }
+    let mut digits = String::new();
+    let mut length = 0;
+    for c in text.chars() {
+        let plain = match c {
+            '0'..='9' => c,
+            '-' | '⁻' | MINUS if digits.is_empty() => '-',
+            '¹' => '1',
+            '²' => '2',
+            '³' => '3',
+            '⁴' => '4',
+            _ => break,
+        };
+        digits.push(plain);
+        length += c.len_utf8();
+    }
+    if digits.is_empty() && caret.is_none() {
+        return Ok(1);
+    }
+    *rest = &text[length..];
+    digits
+        .parse::<i32>()
+        .ok()
+        .filter(|power| (-6..=6).contains(power))
+        .ok_or_else(|| format!("`^{digits}` is not a usable exponent of a unit"))
+}

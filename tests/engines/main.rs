@@ -1,0 +1,29 @@
+//! Motions against references: quadrature, other engines, conserved quantities; stated errors, limits and ends.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod agreement;
+mod allocations;
+mod angle_engine;
+mod caught;
+mod energy_engine;
+mod energy_estimates;
+mod energy_integral;
+mod estimates;
+mod forward;
+mod handover;
+mod hard_cases;
+mod limits_properties;
+mod many_turns;
+mod ode_solvers_defects;
+mod peaks;
+mod precision;
+mod rockers;
+mod rows;
+mod stalling;
+mod steady_state;
+mod switching_properties;
+mod time_engine;
+mod unstable;
+mod work_limit;

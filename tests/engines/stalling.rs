@@ -1,0 +1,177 @@
+//! Nothing hangs: motions that make no way end in a clear message, and rest is found without a search for ever.
+
+use crate::support::machines;
+use slider_crank::plan::Method;
+use slider_crank::scene::{Crank, Expression, Gravity, Load, Rod, Scene, Slider, Variables};
+use slider_crank::study::{Options, Summary, simulate};
+
+fn machine() -> Scene {
+    Scene::new(0.05, 0.15)
+        .offset(0.01)
+        .crank(Crank {
+            inertia: 1e-3,
+            ..Crank::default()
+        })
+        .rod(Rod {
+            mass: 0.3,
+            cg: 0.06,
+            inertia: 6e-4,
+            ..Rod::default()
+        })
+        .slider(Slider { mass: 0.5 })
+        .gravity(Gravity::standard())
+        .start(0.9, 5.0)
+        .duration(1.0)
+}
+
+fn rubbing(coefficient: f64, static_coefficient: f64) -> Scene {
+    machines::rubbing(machine(), coefficient, static_coefficient)
+}
+
+fn run_with(scene: &Scene, options: &Options) -> Summary {
+    let summary = simulate(scene, options).expect("a run").summary;
+    let last = summary.last;
+    assert!(last.t_s.is_finite() && last.theta_rad.is_finite() && last.omega_rad_per_s.is_finite());
+    summary
+}
+
+fn run(scene: &Scene) -> Summary {
+    run_with(scene, &Options::default())
+}
+
+fn formula(text: &str) -> Load {
+    Load::Expression(Expression::parse(text).expect("a formula"))
+}
+
+/// Formulas that turn round with the speed hold it at zero by chattering; a loss stiff beyond all measure.
+#[test]
+fn motions_that_make_no_way_are_given_up() {
+    let steep = Load::Motor {
+        stall: 1e9,
+        no_load_speed: 100.0,
+    };
+    for (scene, t) in [
+        (machine().force(formula("-5*sign(v)")), 0.04),
+        (rubbing(0.2, 0.3).force(formula("3 - 20*step(v)")), 0.05),
+        (rubbing(0.2, 0.3).torque(steep), 0.0),
+    ] {
+        let summary = run(&scene);
+        let why = summary.stopped.expect("given up");
+        assert!(
+            why.contains("long before the end") && why.contains("t = "),
+            "{why}"
+        );
+        assert!(summary.last.t_s >= t && summary.evaluations < 20_000_000);
+        assert!(summary.energy_residual.abs() < 1e-6);
+    }
+}
+
+/// The same in friction's own words is a rest.
+#[test]
+fn dry_friction_comes_to_rest_at_once() {
+    let summary = run(&rubbing(0.2, 0.3).force(formula("-5*sign(v)")));
+    assert_eq!(summary.stopped, None);
+    assert_eq!(summary.events.last().map(|event| event.kind), Some("rest"));
+    assert!(summary.evaluations < 10_000);
+}
+
+/// At the outer dead centre no force on the slider moves the crank, however it grows, and the band of friction is
+/// zero all the time.
+#[test]
+fn rest_at_a_dead_centre_is_found_without_search() {
+    let mut scene = rubbing(0.2, 0.3).start(0.0, 0.0).force(formula("50*t"));
+    scene.geometry.offset = 0.0;
+    scene.gravity = None;
+    let summary = run(&scene);
+    assert_eq!((summary.stopped, summary.last.theta_rad), (None, 0.0));
+    assert_eq!(summary.events[0].kind, "rest");
+    assert!(summary.evaluations < 10_000, "{}", summary.evaluations);
+}
+
+/// A search for the end of a rest that runs into the work limit says so: it does not say rest for good.
+#[test]
+fn a_rest_that_was_not_searched_to_its_end_is_not_for_good() {
+    let scene = rubbing(0.2, 0.3)
+        .start(0.9, 0.0)
+        .force(formula("0.001*t"))
+        .duration(1e5);
+    let options = Options {
+        max_evaluations: 30,
+        ..Options::default()
+    };
+    let summary = run_with(&scene, &options);
+    assert!(summary.stopped.expect("stopped").contains("work limit"));
+    assert!(summary.last.t_s < 1e5);
+    assert_eq!(summary.events[0].kind, "stick");
+    let whole = run(&scene);
+    assert_eq!(whole.stopped, None);
+    assert!(whole.events.iter().any(|event| event.kind == "slip"));
+}
+
+/// Stiff losses and long rests: what is stated for the place of rest is what is known of it.
+#[test]
+fn a_place_of_rest_is_known_however_long_it_lasts() {
+    let stiff = rubbing(0.2, 0.3).torque(Load::Viscous(1e9));
+    let way = 5.0 * stiff.crank.unwrap().inertia / 1e9;
+    let summary = run(&stiff);
+    // Slider and rod add to the inertia of the crank.
+    assert!((summary.last.theta_rad - 0.9).abs() < 10.0 * way);
+    assert!(summary.error_estimate.unwrap().theta_rad < 1e-12);
+    let short = run(&rubbing(0.2, 0.3));
+    let long = run(&rubbing(0.2, 0.3).duration(9e8));
+    assert_eq!(long.last.omega_rad_per_s, 0.0);
+    let [a, b] = [&short, &long].map(|summary| summary.error_estimate.unwrap().theta_rad);
+    assert!(a < 1e-11 && b < 1e-11, "{a:e} {b:e}");
+    assert!((short.last.theta_rad - long.last.theta_rad).abs() <= a + b);
+}
+
+/// Coefficients, starts and loads at the edges of what they may be: a run, or a reason.
+#[test]
+fn extremes_are_computed_or_refused() {
+    let pulses = || Load::function(Variables::T, |now| 20.0 * (1e3 * now.t).sin());
+    let limit = (0.01f64 / 0.05).asin();
+    let mut at_limit = rubbing(0.2, 0.3).start(limit, 0.0);
+    at_limit.geometry.offset = 0.14;
+    let mut near = at_limit.clone().start(limit - 1e-13, 1.0);
+    near.run.tolerance = 1e-9;
+    let mut light = rubbing(0.2, 0.3);
+    (light.rod, light.crank) = (None, None);
+    let mut no_weight = rubbing(0.2, 0.3);
+    (no_weight.gravity, no_weight.rod) = (None, None);
+    let scenes = [
+        rubbing(1e-12, 1e-12),
+        rubbing(1e-12, 0.9).start(0.9, 0.0).force(pulses()),
+        rubbing(0.1, 0.9).start(0.9, 0.0).force(pulses()),
+        rubbing(5.2, 5.2),
+        rubbing(1e6, 1e6).start(0.9, 0.0),
+        at_limit,
+        near,
+        light,
+        no_weight,
+        rubbing(0.2, 0.3).start(0.9, 1e-300),
+        rubbing(0.2, 0.3).start(0.9, 1e9).duration(1e-7),
+    ];
+    for (number, scene) in scenes.iter().enumerate() {
+        for method in [Method::Auto, Method::Dop853, Method::Dopri5] {
+            let options = Options {
+                method,
+                max_evaluations: 5_000_000,
+                ..Options::default()
+            };
+            if let Err(refused) = simulate(scene, &options) {
+                assert!(refused.to_string().contains("help:"), "{number} {method}");
+                continue;
+            }
+            let summary = run_with(scene, &options);
+            let Some(why) = summary.stopped else {
+                // Next to nothing moves: the potential rounds by more than that.
+                let kept =
+                    summary.energy_residual_j.abs() < 1e-14 || summary.energy_residual.abs() < 1e-6;
+                assert!(kept, "{number} {method}");
+                assert!(summary.error_estimate.is_some(), "{number} {method}");
+                continue;
+            };
+            assert!(why.contains("stopped at t = "), "{number} {method}: {why}");
+        }
+    }
+}

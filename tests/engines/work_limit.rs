@@ -1,0 +1,210 @@
+//! The work limit holds whichever engine computes, keeps what was computed, and is foreseen where it can be.
+
+use crate::support::machines;
+use slider_crank::plan::Method;
+use slider_crank::scene::{Crank, Expression, Friction, Gravity, Load, Scene, Slider};
+use slider_crank::study::{Options, Summary, simulate};
+
+const INERTIA: f64 = 2e-6;
+
+fn formula(text: &str) -> Load {
+    Load::Expression(Expression::parse(text).expect("a formula"))
+}
+
+/// A small crank alone, of constant inertia, and one that moves a slider.
+fn crank() -> Scene {
+    Scene::new(0.005, 0.015).crank(Crank {
+        inertia: INERTIA,
+        ..Crank::default()
+    })
+}
+
+fn machine() -> Scene {
+    crank().offset(0.001).slider(Slider { mass: 0.006 })
+}
+
+fn options(method: Method, max_evaluations: u64) -> Options {
+    Options {
+        method,
+        max_evaluations,
+        ..Options::default()
+    }
+}
+
+fn run(scene: &Scene, method: Method) -> Summary {
+    simulate(scene, &options(method, 2_000_000_000))
+        .expect("a run")
+        .summary
+}
+
+/// Turns that are all alike, that gain the same work, that differ, and a swing; by time and by turns.
+#[test]
+fn every_engine_ends_at_the_limit_with_what_it_has() {
+    let weighted = |scene: Scene| scene.gravity(Gravity::standard());
+    let scenes = [
+        weighted(machine().start(0.3, 40.0)).torque(Load::Constant(1e-5)),
+        weighted(machine().start(0.3, 40.0)).torque(formula("1e-4*sin(0.3*theta)")),
+        weighted(machine().start(0.3, 0.0)),
+        weighted(machine().start(0.3, 40.0)).force(formula("-1e-5*v")),
+    ];
+    for (number, scene) in scenes.iter().enumerate() {
+        for scene in [
+            scene.clone().duration(100.0),
+            scene.clone().revolutions(1e3),
+        ] {
+            for method in [Method::Auto, Method::Time, Method::Dop853] {
+                for limit in [1, 100, 700, 3000] {
+                    let limited = match simulate(&scene, &options(method, limit)) {
+                        Ok(limited) => limited,
+                        // The third one starts in a balance.
+                        Err(error) => {
+                            assert!(error.to_string().contains("a crank at rest"), "{error}");
+                            continue;
+                        }
+                    };
+                    let Summary {
+                        stopped,
+                        last,
+                        evaluations,
+                        ..
+                    } = &limited.summary;
+                    let Some(why) = stopped else {
+                        assert!(*evaluations < limit, "{number} {method} {limit}");
+                        continue;
+                    };
+                    if !why.contains("work limit") {
+                        assert!(why.contains("does not complete"), "{number} {why}");
+                        continue;
+                    }
+                    assert!(why.contains("--max-evaluations"), "{why}");
+                    // A turn of panels beyond it at most.
+                    assert!(
+                        *evaluations < limit + 1500,
+                        "{number} {method} {limit}: {evaluations}"
+                    );
+                    let whole = scene.clone().duration(1.01 * last.t_s + 1e-9);
+                    let whole = simulate(&whole, &Options::default()).expect("a run");
+                    let (theta, omega) = whole.at(last.t_s).expect("a time of the run");
+                    assert!(
+                        (theta - last.theta_rad).abs() < 1e-6,
+                        "{number} {method} {limit}"
+                    );
+                    assert!(
+                        (omega - last.omega_rad_per_s).abs() < 1e-4,
+                        "{number} {method} {limit}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// A speed that the torque makes up in a way shorter than angles are rounded: t = (ω − ω₀) I/τ, ω² = ω₀² + 2 τ θ/I.
+#[test]
+fn a_crank_under_far_too_strong_a_torque_is_computed_over_its_turns() {
+    for (torque, speed, turns) in [(1e10, 10.0, 3e4), (1e10, -10.0, 3e4), (5.0, 1e-6, 1e5)] {
+        let scene = crank()
+            .torque(Load::Constant(torque))
+            .start(0.5, speed)
+            .revolutions(turns);
+        let summary = run(&scene, Method::Auto);
+        assert_eq!(summary.stopped, None);
+        let way = std::f64::consts::TAU * turns;
+        let omega = (speed * speed + 2.0 * torque * way / INERTIA).sqrt();
+        let t = (omega - speed) * INERTIA / torque;
+        let late = (summary.last.t_s / t - 1.0).abs();
+        assert!(late < 1e-11, "{torque} {speed}: {late:e}");
+        assert!((summary.last.omega_rad_per_s / omega - 1.0).abs() < 1e-11);
+        assert!(summary.evaluations < 200_000, "{}", summary.evaluations);
+    }
+}
+
+/// What is left after a second would take years: it is said soon.
+#[test]
+fn too_many_turns_are_foreseen() {
+    let strong = || {
+        machine()
+            .torque(Load::Constant(1e10))
+            .start(0.5, 10.0)
+            .duration(1.0)
+    };
+    let mut rubbing = machines::rubbing(strong(), 0.1, 0.1);
+    rubbing.friction = Some(Friction {
+        coefficient: 0.1,
+        static_coefficient: 0.1,
+    });
+    for (scene, method) in [
+        (strong(), Method::Auto),
+        (strong(), Method::Time),
+        (rubbing, Method::Auto),
+        (strong().revolutions(1e12), Method::Dop853),
+    ] {
+        let summary = run(&scene, method);
+        let why = summary.stopped.expect("a reason");
+        assert!(
+            why.contains("turns so often") && why.contains("t = "),
+            "{why}"
+        );
+        assert!(summary.evaluations < 10_000_000, "{}", summary.evaluations);
+        assert!(summary.last.t_s > 0.0 && summary.last.t_s < 1.0);
+    }
+}
+
+/// Run-up to a speed that lasts: all turns from there on are the same, however many.
+#[test]
+fn a_steady_speed_is_reached_whatever_follows() {
+    let scene = machine()
+        .torque(Load::Constant(1e-3))
+        .torque(Load::Viscous(1e-6))
+        .start(0.5, 10.0)
+        .duration(1e12);
+    let summary = run(&scene, Method::Auto);
+    assert_eq!(summary.stopped, None);
+    assert!(summary.revolutions > 1e13, "{}", summary.revolutions);
+}
+
+/// The residual is relative to the energies of the run, not to those of turns that follow: at the end of this one the
+/// crank has the work of the torque.
+#[test]
+fn the_residual_is_relative_to_the_run() {
+    let scene = machine()
+        .offset(0.0)
+        .torque(Load::Constant(1e7))
+        .start(0.5, 300.0)
+        .revolutions(1e4);
+    let summary = run(&scene, Method::Energy);
+    let largest = 1e7 * std::f64::consts::TAU * 1e4;
+    let relative = summary.energy_residual_j / largest;
+    assert!(summary.energy_residual != 0.0);
+    assert!(
+        (relative / summary.energy_residual - 1.0).abs() < 1e-3,
+        "{relative:e} {:e}",
+        summary.energy_residual
+    );
+}
+
+/// A ripple that the tolerance does not see is all that the second run of the estimate would have to follow.
+#[test]
+fn the_second_run_takes_a_share_of_work_only() {
+    let scene = machine()
+        .torque(formula("-1e-7*omega + 1e-9*sin(1e6*theta)"))
+        .start(0.0, 50.0)
+        .tolerance(1e-4)
+        .revolutions(20.0);
+    let begun = std::time::Instant::now();
+    let summary = run(&scene, Method::Angle);
+    let took = begun.elapsed().as_secs_f64();
+    assert_eq!(summary.stopped, None);
+    assert!(
+        summary.error_estimate.is_none(),
+        "{:?}",
+        summary.error_estimate
+    );
+    let said = summary
+        .warnings
+        .iter()
+        .any(|warning| warning.contains("could not be estimated"));
+    assert!(said, "{:?}", summary.warnings);
+    // Without a limit of its own it runs for many times as long.
+    assert!(took < 3.0, "{took} s");
+}

@@ -1,0 +1,11 @@
+//! Coulomb friction at the guide: law, reversals, sticking, estimates.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod friction_dips;
+mod friction_law;
+mod friction_motion;
+mod friction_turning;
+mod rubbing_estimates;
+mod rubbing_properties;

@@ -1,0 +1,14 @@
+//! Slider force and crank torque from measured motion.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod fit;
+mod hard_data;
+mod inverse;
+mod inverse_friction;
+mod inverse_fuzz;
+mod inverse_limits;
+mod measured_rows;
+mod noise;
+mod polynomial;

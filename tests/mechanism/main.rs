@@ -1,0 +1,16 @@
+//! The equation of motion and its parts against second derivations.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod design;
+mod fold;
+mod forces;
+mod geometry;
+mod limits;
+mod loads;
+mod mechanism;
+mod rod_models;
+mod sensitivity;
+mod statics;
+mod turning_place;
