@@ -10,6 +10,7 @@ mod caught;
 mod cycles;
 mod ends;
 mod energy_engine;
+mod energy_estimates;
 mod energy_integral;
 mod estimates;
 mod forward;

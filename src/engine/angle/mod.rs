@@ -204,6 +204,10 @@ pub fn run<D: Driven>(
     let (start, speed) = (from.angle.reduced(), from.speed);
     let mut march = March::new(driven, start, speed, resolution)?;
     march.begin = from.t;
+    if from.t == 0.0 && start.turns == 0.0 {
+        // An angle that is given, and not reduced, is not rounded.
+        march.errors = Errors::at(march.kinetic, 0.0);
+    }
     march.gives_up = true;
     let reads_time = driven.is_driven() && driven.reads_time();
     let repeats = !reads_time && !march.has_switch();

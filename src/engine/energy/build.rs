@@ -137,10 +137,13 @@ impl Builder<'_> {
             Tried::Done(panel, off) => match self.better(&panel, uncertain) {
                 Better::None => self.take(*panel, off),
                 Better::Turning(ahead) => self.ahead = Some(ahead),
-                Better::Shorter if short => return Err(Unserved::NotFinite),
+                Better::Shorter if self.length <= SHORTEST * at.abs().max(1.0) => {
+                    return Err(Unserved::NotFinite);
+                }
                 Better::Shorter => {
+                    // Rounding of the panel on which it was found may have made up the turning point.
                     self.ahead = None;
-                    self.length = 0.5 * piece.span().abs();
+                    self.length *= 0.5;
                 }
             },
             Tried::TurnsAfter(way) if way != 0.0 => {
