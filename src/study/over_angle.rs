@@ -52,7 +52,10 @@ pub(super) fn run(
     let solved = match task.plan.engine {
         Engine::Angle => match by_angle::solve(task, &position) {
             Ok(motion) => Ok(motion),
-            Err(Unsolved { why, first }) if first.is_some() || hands_over(task, why) => {
+            // What does not turn fully is followed past its limits from the start.
+            Err(Unsolved { why, first })
+                if turns_fully(task) && first.is_some() || hands_over(task, why) =>
+            {
                 return relay::run(task, &position, first, rows, record);
             }
             Err(Unsolved { why, .. }) => Err(why),
@@ -93,9 +96,11 @@ pub(super) fn run(
 
 /// Whether a run that cannot begin over the angle may be served by it later.
 fn hands_over(task: &Task<'_>, why: Unserved) -> bool {
-    why == Unserved::TooSlow
-        && task.options.method == Method::Auto
-        && task.limits.class == Class::RotatingCrank
+    why == Unserved::TooSlow && task.options.method == Method::Auto && turns_fully(task)
+}
+
+fn turns_fully(task: &Task<'_>) -> bool {
+    task.limits.class == Class::RotatingCrank
 }
 
 /// Why these engines cannot serve a task.

@@ -54,11 +54,11 @@ pub(super) fn reason(
         (Finish::AtEnd, Extent::Revolutions(turns)) if end.t >= FAR => Some(format!(
             "the crank does not complete {turns} turns: stopped {place}; give a duration instead"
         )),
-        (Finish::AtEnd | Finish::Stopped | Finish::NoStart, _) => None,
+        (Finish::AtEnd | Finish::Stopped, _) => None,
         (Finish::WorkLimit, _) => Some(work_limit(&place)),
         (Finish::WorkLimitAhead, _) => Some(work_limit_ahead(&place)),
         (Finish::TooManyTurns, _) => Some(too_many_turns(&place)),
-        (Finish::StepTooSmall, _) => {
+        (Finish::StepTooSmall | Finish::NoStart, _) => {
             let (t, angle, speed) = impossible.unwrap_or((end.t, last.angle(end.theta), end.omega));
             Some(match equation.obstacle(t, angle, speed) {
                 Some(Obstacle::Blocked) => at_limit(last),

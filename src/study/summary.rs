@@ -1,5 +1,7 @@
 //! The result of a run in numbers.
 
+use std::f64::consts::TAU;
+
 use serde::Serialize;
 
 use super::clearance::ClearanceSummary;
@@ -7,6 +9,7 @@ use super::peaks::Peaks;
 use super::steady::SteadyState;
 use super::task::Task;
 use crate::plan::Plan;
+use crate::scene::Extent;
 
 /// Summary of a run; its JSON is the object that `simulate --json` prints.
 #[derive(Clone, Debug, Serialize)]
@@ -90,6 +93,9 @@ pub(super) struct Solved {
 impl Summary {
     pub(super) fn new(task: &Task<'_>, solved: Solved) -> Summary {
         let (residual, scale) = solved.energy;
+        let stopped = solved
+            .stopped
+            .or_else(|| short_of(task.extent, &solved.last, solved.turned));
         let mut warnings = solved.warnings;
         let kept = solved.events.len();
         if kept > 0 && solved.events_total > kept as u64 {
@@ -103,7 +109,7 @@ impl Summary {
             engine: task.plan.engine.name().to_owned(),
             plan: task.plan.clone(),
             last: solved.last,
-            revolutions: solved.turned / std::f64::consts::TAU,
+            revolutions: solved.turned / TAU,
             error_estimate: solved.error_estimate,
             energy_residual: if scale == 0.0 { 0.0 } else { residual / scale },
             energy_residual_j: residual,
@@ -120,9 +126,27 @@ impl Summary {
             events: solved.events,
             events_total: solved.events_total,
             warnings,
-            stopped: solved.stopped,
+            stopped,
         }
     }
+}
+
+/// What is said of a run that ended short of its goal, or without a state, though no engine told why.
+fn short_of(extent: Extent, last: &Final, turned: f64) -> Option<String> {
+    let (goal, reached) = match extent {
+        Extent::Duration(duration) => (duration, last.t_s),
+        Extent::Revolutions(turns) => (turns * TAU, turned.abs()),
+    };
+    // Half of all digits: far more than a goal is missed by in rounding.
+    let missed = goal - reached > f64::EPSILON.sqrt() * goal;
+    let state = [last.t_s, last.theta_rad, last.omega_rad_per_s, reached];
+    let is_state = state.iter().all(|number| number.is_finite());
+    (missed || !is_state).then(|| {
+        format!(
+            "the run ended before its goal: stopped at t = {} s, theta = {} rad, omega = {} rad/s; no engine gave a reason, which is a defect of this program",
+            last.t_s, last.theta_rad, last.omega_rad_per_s
+        )
+    })
 }
 
 /// A last state.
@@ -176,4 +200,26 @@ pub struct Event {
     pub theta_rad: f64,
     /// rad/s
     pub omega_rad_per_s: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_short_of_its_goal_never_ends_in_silence() {
+        let says = |extent, t_s, turned| {
+            let last = Final {
+                t_s,
+                theta_rad: turned,
+                omega_rad_per_s: 1.0,
+            };
+            short_of(extent, &last, turned).is_some()
+        };
+        let (second, turn) = (Extent::Duration(1.0), Extent::Revolutions(1.0));
+        assert!(!says(second, 1.0, 0.3) && !says(turn, 0.2, -TAU) && !says(turn, 0.2, TAU));
+        assert!(says(second, 0.999, 0.3) && says(turn, 0.2, -6.2));
+        assert!(says(second, 1.0, f64::NAN) && says(second, f64::NAN, 0.3));
+        assert!(says(turn, 0.2, f64::INFINITY) && !says(Extent::Duration(0.0), 0.0, 0.3));
+    }
 }
