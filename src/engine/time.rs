@@ -79,6 +79,10 @@ pub struct Start {
 /// Result vectors of the library grow with each step of a call.
 const STEPS_IN_A_CALL: usize = 256;
 
+/// A longer way (rad) of one step is no motion that its polynomial follows, nor one whose events can be listed: the step
+/// is tried again, as one of a turn.
+const LONGEST: f64 = 2.0 * TAU;
+
 /// A last time (s) from which on a run has none of its own.
 pub const FAR: f64 = 1e9;
 
@@ -138,12 +142,13 @@ fn in_calls(
     }
     let mut first_step = 0.0;
     loop {
+        let spent = motion.evaluations();
+        if spent >= settings.max_evaluations {
+            return (Finish::WorkLimit, last, steps);
+        }
         let mut in_call = 0;
-        let mut ended_by_sink = false;
-        let left = settings
-            .max_evaluations
-            .saturating_sub(motion.evaluations())
-            / 12;
+        let (mut ended_by_sink, mut too_long) = (false, None);
+        let left = (settings.max_evaluations - spent) / method.evaluations_in_a_step();
         let ended = library::integrate(Call {
             motion,
             method,
@@ -155,6 +160,11 @@ fn in_calls(
             max_steps: left.min(u64::from(u32::MAX)) as u32,
             work_unit: settings.work_unit,
             observer: &mut |step| {
+                let travel = (step.end.theta - step.start.theta).abs();
+                if travel > LONGEST {
+                    too_long = Some(step.length() * TAU / travel);
+                    return true;
+                }
                 last = *step;
                 in_call += 1;
                 ended_by_sink = sink(step);
@@ -162,23 +172,35 @@ fn in_calls(
             },
         });
         steps += in_call as u64;
+        if let Some(shorter) = too_long {
+            // Once more from its start.
+            (angle, node) = carried_on(&last);
+            first_step = shorter;
+            continue;
+        }
         let finish = match ended {
             Ended::WorkLimit => Finish::WorkLimit,
             Ended::StepTooSmall => Finish::StepTooSmall,
             Ended::Stopped if ended_by_sink => Finish::Stopped,
             Ended::AtEnd | Ended::Stopped if last.end.t >= settings.t_end => Finish::AtEnd,
             Ended::AtEnd | Ended::Stopped => {
-                angle = last.angle(last.end.theta).reduced();
-                node = Node {
-                    theta: angle.rest,
-                    ..last.end
-                };
+                (angle, node) = carried_on(&last);
                 first_step = last.length();
                 continue;
             }
         };
         return (finish, last, steps);
     }
+}
+
+/// The end of a step as the start of a call.
+fn carried_on(last: &Step) -> (Angle, Node) {
+    let angle = last.angle(last.end.theta).reduced();
+    let node = Node {
+        theta: angle.rest,
+        ..last.end
+    };
+    (angle, node)
 }
 
 /// A step ended at the time `t_end` (s) inside it, integrated anew; `sink` sees what it consists of.

@@ -26,10 +26,11 @@ pub(super) const MARGIN: f64 = 1.5;
 /// Evaluations of a second run for one of the first, and beside them.
 const MOST_EVALUATIONS: (u64, u64) = (20, 200_000);
 
-/// Most evaluations of the second run after a first one that took so many.
-pub(super) fn most_evaluations(first: u64) -> u64 {
+/// Most evaluations of the second run after a first one that took so many, under a work limit.
+pub(super) fn most_evaluations(first: u64, limit: u64) -> u64 {
     let (factor, beside) = MOST_EVALUATIONS;
-    first.saturating_mul(factor).saturating_add(beside)
+    let share = first.saturating_mul(factor).saturating_add(beside);
+    share.min(limit)
 }
 
 /// A task that is not solved over the angle alone.
@@ -75,7 +76,10 @@ pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, 
     let estimate = if task.options.estimate {
         let begun = Instant::now();
         let limited = Resolution {
-            most_evaluations: most_evaluations(places + driving.evaluations),
+            most_evaluations: most_evaluations(
+                places + driving.evaluations,
+                task.options.max_evaluations,
+            ),
             ..finer()
         };
         let unfinished = |why| matches!(why, Unserved::WorkLimit | Unserved::TooManyTurns);

@@ -121,13 +121,13 @@ pub(super) fn estimate(
         max_evaluations: run
             .evaluations
             .saturating_mul(factor)
-            .saturating_add(beside),
+            .saturating_add(beside)
+            .min(settings.max_evaluations),
         ..*settings
     };
     let same = Settings {
         tolerance: (settings.tolerance / TIGHTER).max(TIGHTEST),
         t_end,
-        max_evaluations: settings.max_evaluations.saturating_mul(4),
         ..*settings
     };
     let mut evaluations = 0;

@@ -145,7 +145,7 @@ pub(super) fn estimate(
             ..course.settings
         },
         wait: OTHER_WAIT,
-        max_evaluations: most_evaluations(arrived.evaluations),
+        max_evaluations: most_evaluations(arrived.evaluations, course.max_evaluations),
         ..*course
     };
     let forward = Forward(course.equation);
