@@ -33,6 +33,7 @@ mod table;
 mod text;
 pub mod unit;
 mod validate;
+pub(crate) use validate::MOST_ROWS;
 mod variable;
 #[cfg(feature = "cli")]
 mod vary;
