@@ -9,14 +9,19 @@ use slider_crank::scene::{
     Variables,
 };
 
-/// This many cases from a fixed seed.
+/// This many cases from a fixed seed, or from that in the environment variable PROPTEST_RNG_SEED.
 pub fn cases(cases: u32) -> ProptestConfig {
+    let given = ProptestConfig::default();
+    let rng_seed = match given.rng_seed {
+        RngSeed::Random => RngSeed::Fixed(20_260_101),
+        seed => seed,
+    };
     ProptestConfig {
         cases,
         failure_persistence: None,
-        rng_seed: RngSeed::Fixed(20_260_101),
+        rng_seed,
         max_global_rejects: 100 * cases,
-        ..ProptestConfig::default()
+        ..given
     }
 }
 

@@ -4,8 +4,8 @@ use std::cell::Cell;
 
 use super::arrived::{Arrived, End, Follow, Observer};
 use super::phase::{
-    CLEAR, CRANK, DEAD_CENTRE, InPhase, LIMIT, NORMAL, Phase, Quantities, SPEED, Signs, TURNED,
-    against, signs, sliding,
+    AHEAD, CLEAR, CRANK, DEAD_CENTRE, InPhase, LIMIT, NORMAL, Phase, Quantities, SPEED, Signs,
+    TURNED, against, signs, sliding,
 };
 use crate::engine::guard::{self, Change, Watched};
 use crate::engine::pace::Pace;
@@ -13,9 +13,6 @@ use crate::engine::step::{Node, Step};
 use crate::engine::time::{self, Finish, Settings, Start};
 use crate::engine::{Counted, Motion};
 use crate::scene::Friction;
-
-/// How far ahead of a start the signs show, rad.
-const AHEAD: f64 = 1e-6;
 
 /// A run under way.
 pub(super) struct Run<'a, 'o> {
