@@ -219,3 +219,25 @@ pub struct Event {
     /// rad/s
     pub omega_rad_per_s: f64,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_short_of_its_goal_never_ends_in_silence() {
+        let says = |extent, t_s, turned| {
+            let last = Final {
+                t_s,
+                theta_rad: turned,
+                omega_rad_per_s: 1.0,
+            };
+            short_of(extent, &last, turned).is_some()
+        };
+        let (second, turn) = (Extent::Duration(1.0), Extent::Revolutions(1.0));
+        assert!(!says(second, 1.0, 0.3) && !says(turn, 0.2, -TAU) && !says(turn, 0.2, TAU));
+        assert!(says(second, 0.999, 0.3) && says(turn, 0.2, -6.2));
+        assert!(says(second, 1.0, f64::NAN) && says(second, f64::NAN, 0.3));
+        assert!(says(turn, 0.2, f64::INFINITY) && !says(Extent::Duration(0.0), 0.0, 0.3));
+    }
+}

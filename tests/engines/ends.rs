@@ -5,7 +5,8 @@ use crate::support::random::magnitude;
 use proptest::prelude::*;
 use slider_crank::plan::Method;
 use slider_crank::scene::{
-    Branch, Crank, Every, Expression, Interpolation, Load, Scene, Slider, Table, Variable,
+    Branch, Crank, Every, Expression, Friction, Gravity, Interpolation, Load, Rod, Scene, Slider,
+    Table, Variable,
 };
 use slider_crank::study::{
     Options, PrecisionOptions, Row, Summary, precision, simulate, simulate_rows,
@@ -233,4 +234,82 @@ fn precision_obeys_the_work_limit() {
     let result = precision(&scene, &options).expect("a comparison");
     assert_eq!(result.reference_error_theta_rad, None);
     assert!(result.rows.iter().all(|row| row.failure.is_some()));
+}
+
+/// The forces of a rod that is longer by 1e-9 are the same away from the change point, but for 1e-8 of them.
+#[test]
+fn forces_far_from_a_change_point_are_given() {
+    for (offset, angle) in [(0.02, 0.0), (-0.02, 0.0), (0.02, 3.0)] {
+        let peaks = |rod: f64| {
+            let scene = machine(0.05, rod, 0.5)
+                .offset(offset)
+                .start(angle, 10.0)
+                .duration(0.01);
+            let options = Options {
+                reactions: true,
+                ..Options::default()
+            };
+            run(&scene, &options).peaks.expect("the largest forces")
+        };
+        let (exact, longer) = (peaks(0.07), peaks(0.07 * (1.0 + 1e-9)));
+        for ((name, a), (_, b)) in exact.named().into_iter().zip(longer.named()) {
+            assert!(
+                (a.value_n - b.value_n).abs() <= 1e-7 * b.value_n,
+                "{name} {a:?} {b:?}"
+            );
+            assert!(a.value_n.is_finite());
+        }
+    }
+}
+
+/// The angle hands over to the time at the second dead centre, which no float is.
+#[test]
+fn a_dead_centre_at_a_handover_is_listed_once() {
+    let scene = |mirror: f64| {
+        let crank = Crank {
+            inertia: 0.01,
+            ..Crank::default()
+        };
+        let rod = Rod {
+            mass: 1.316_168_174_648_470_4,
+            cg: 0.278_372_514_428_059_1,
+            inertia: 0.270_764_578_268_492_8,
+            ..Rod::default()
+        };
+        let slider = Slider {
+            mass: 0.071_643_272_932_767_98,
+        };
+        let mut scene = Scene::new(0.3, 1.434_300_770_795_350_3)
+            .offset(0.134_060_456_016_178_3 * mirror)
+            .branch(Branch::Left)
+            .crank(crank)
+            .rod(rod)
+            .slider(slider)
+            .gravity(Gravity {
+                direction: -mirror * std::f64::consts::FRAC_PI_2,
+                ..Gravity::standard()
+            })
+            .torque(Load::Constant(0.559_860_953_228_709_5 * mirror))
+            .force(Load::Spring {
+                stiffness: 167.567_014_898_558_94,
+                rest: -1.434_300_770_795_350_3,
+            })
+            .force(formula("5.275492379532281*sin(5.846311489049012*t)"))
+            .start(
+                2.529_975_046_562_175 * mirror,
+                -8.931_114_120_268_74 * mirror,
+            )
+            .duration(1.0);
+        scene.friction = Some(Friction {
+            coefficient: 0.031_763_188_577_165_84,
+            static_coefficient: 0.031_763_188_577_165_84,
+        });
+        scene
+    };
+    for mirror in [1.0, -1.0] {
+        let summary = run(&scene(mirror), &Options::default());
+        let kinds: Vec<&str> = summary.events.iter().map(|event| event.kind).collect();
+        let expected = ["dead-centre", "dead-centre", "turning-point", "dead-centre"];
+        assert_eq!(kinds, expected);
+    }
 }

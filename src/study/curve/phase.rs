@@ -1,6 +1,7 @@
 //! Motion between two changes of the friction: the signs of slider velocity and normal force stay.
 
 use std::cell::Cell;
+use std::f64::consts::TAU;
 
 use crate::engine::Motion;
 use crate::engine::guard::Watched;
@@ -157,11 +158,16 @@ impl Watched<QUANTITIES> for Quantities<'_> {
     }
 }
 
-/// The signs with which motion in `direction` (±1 of the coordinate) begins: where a quantity is zero, that of
-/// `ahead`, its value a little further.
+/// How far ahead of a start the signs show, rad.
+pub(super) const AHEAD: f64 = 1e-6;
+/// An angle in its turn, and that of a dead centre, are rounded by less than this together, rad.
+const ROUNDED: f64 = 4.0 * f64::EPSILON * TAU;
+
+/// The signs with which motion in `direction` (±1 of the coordinate) begins: where a quantity is zero but for the
+/// rounding of the angle, that of `ahead`, its value a little further.
 pub(super) fn signs(values: Signs, ahead: Signs, direction: f64) -> Signs {
     let mut signs: Signs = std::array::from_fn(|i| {
-        let nothing = values[i].abs() <= 1e-9 * ahead[i].abs();
+        let nothing = values[i].abs() <= ROUNDED / AHEAD * ahead[i].abs();
         let value = if nothing { ahead[i] } else { values[i] };
         if value < 0.0 { -1.0 } else { 1.0 }
     });

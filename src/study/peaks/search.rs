@@ -1,6 +1,6 @@
 //! The search for the largest forces of a run that can be made again.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::scan::{Scan, Track};
 use super::{FORCES, Peak, Peaks};
@@ -46,15 +46,26 @@ pub(in crate::study) fn search(
     refined(coarse, step, end, look)
 }
 
-/// Time between the rows at first, s: the crank turns by a degree at most. Rods that are hardly long enough make
-/// peaks of the width sqrt((l − |e| − r)/r) in the crank angle.
+/// Time between the rows at first, s: the crank turns by a degree at most, and by less where the run has narrow peaks.
 fn first_step(scene: &Scene, summary: &Summary) -> f64 {
-    let linkage = Linkage::new(&scene.geometry);
-    let narrow = (linkage.margin() / linkage.r).abs().sqrt();
-    let angle = (PI / 180.0).min(0.1 * narrow);
     let fastest = summary.omega_min.abs().max(summary.omega_max.abs());
-    let turns = fastest * summary.last.t_s / angle;
-    summary.last.t_s / turns.max(LEAST_ROWS)
+    let way = fastest * summary.last.t_s;
+    let narrow = narrowest(&Linkage::new(&scene.geometry), scene.motion.angle, way);
+    let angle = (PI / 180.0).min(0.1 * narrow);
+    summary.last.t_s / (way / angle).max(LEAST_ROWS)
+}
+
+/// Least width in the crank angle, rad, of the peaks on a way (rad) from an angle. Rods that are hardly long enough make
+/// some of the width sqrt((l − |e ± r|)/r) where the crank stands normal to the guide; away from there nothing is narrower
+/// than the distance from it.
+fn narrowest(linkage: &Linkage, angle: f64, way: f64) -> f64 {
+    let Linkage { r, l, e, .. } = *linkage;
+    let width = |side: f64| {
+        let apart = (angle - side * FRAC_PI_2).rem_euclid(TAU);
+        let distance = apart.min(TAU - apart) - way;
+        ((l - (e + side * r).abs()) / r).abs().sqrt().max(distance)
+    };
+    width(1.0).min(width(-1.0))
 }
 
 fn refined(
