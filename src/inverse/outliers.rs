@@ -20,7 +20,7 @@ pub(super) fn weights(problem: &Problem<'_>, smoothed: &Smoothed) -> Option<Vec<
     let sigma = smoothed.noise.sigma;
     let standardised: Vec<f64> = (0..record.times.len())
         .map(|i| {
-            let estimate = &smoothed.estimates[problem.node_of(i)];
+            let estimate = problem.at_sample(&smoothed.estimates, i);
             let (residual, shown) = record.sensor.residual(record.values[i], estimate.state[0]);
             // Of a sample that counts, part of its error is in the path.
             let leverage = record.weights[i] * shown.slope * shown.slope * estimate.covariance[0]
