@@ -31,6 +31,10 @@ pub(super) struct Fitted {
     pub patterned: bool,
     /// Whether the iterations came to rest.
     pub settled: bool,
+    /// The first row that hardly counts because it is far off.
+    pub first_outlier: Option<usize>,
+    /// Step of an encoder, rad, whose codes were told by their transitions.
+    pub coded: Option<f64>,
     /// Least standard deviation of a sample, rad or m.
     floor: f64,
 }
@@ -68,8 +72,14 @@ impl Fitted {
             let found = Polynomial::new(&record, &angles.theta, degree)?;
             Ok::<Fitted, String>(Fitted::of_polynomial(&record, found, reason))
         };
-        if options.fit == FitKind::Polynomial {
-            return polynomial("it was asked for");
+        match (options.fit, degree) {
+            (FitKind::Polynomial, _) | (FitKind::Auto, Some(_)) => {
+                return polynomial("it was asked for");
+            }
+            (FitKind::Smoother, Some(degree)) => {
+                return Err(format!("a smoother has no degree, and {degree} is given"));
+            }
+            _ => {}
         }
         let mut simple = (options.fit == FitKind::Auto && is_within_a_turn(&angles.theta))
             .then(|| polynomial("within one turn it leaves nothing but noise").ok())
@@ -172,7 +182,7 @@ impl Fitted {
             parameters,
             corner_hz: Some(smoothed.noise.corner / std::f64::consts::TAU),
             noise_correlation_s: smoothed.noise.correlated.map(|c| 1.0 / c.decay),
-            outliers: record.outliers(),
+            outliers: record.outliers().count(),
             residual_lag_one: whiteness.lag_one,
             residual_runs: whiteness.runs,
             ..fitted.summary
@@ -243,6 +253,8 @@ impl Fitted {
             summary,
             patterned: false,
             settled: true,
+            first_outlier: record.outliers().next(),
+            coded: record.step,
             floor: record.floor,
         }
     }
@@ -287,6 +299,7 @@ fn record<'a>(
         weights: vec![1.0; values.len()],
         values,
         rows: None,
+        step: None,
         floor: (measurement.resolution() / 12f64.sqrt()).max(COMPUTED * f64::EPSILON * largest),
         origin: measurement.origin(),
     }
@@ -306,6 +319,7 @@ fn problem<'a>(record: Record<'a>, theta: &[f64], equation: &'a Equation) -> Pro
                 values: coded.values,
                 weights: coded.weights,
                 rows: Some(coded.rows),
+                step: Some(coded.step),
                 floor: SHARP * coded.step,
                 ..record
             },

@@ -18,6 +18,8 @@ pub(super) struct Record<'a> {
     pub weights: Vec<f64>,
     /// Where each row of the measurement is among the samples, where transitions from code to code stand between them.
     pub rows: Option<Vec<usize>>,
+    /// Step of an encoder, rad, if its codes are told by their transitions.
+    pub step: Option<f64>,
     /// Least standard deviation of a sample, rad or m.
     pub floor: f64,
     /// Time of the scene at time 0 of the record, s.
@@ -149,11 +151,12 @@ impl Record<'_> {
     }
 
     /// Samples that hardly count.
-    pub fn outliers(&self) -> usize {
-        match self.rows {
-            Some(_) => 0,
-            None => self.weights.iter().filter(|w| **w < 0.5).count(),
-        }
+    pub fn outliers(&self) -> impl Iterator<Item = usize> {
+        let all = match self.rows {
+            Some(_) => 0..0,
+            None => 0..self.weights.len(),
+        };
+        all.filter(|i| self.weights[*i] < 0.5)
     }
 
     /// Whether what was measured is the crank angle itself.
