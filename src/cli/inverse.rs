@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::reading::ReadingArguments;
-use super::{Outcome, Streams, create, fill, is_standard};
+use super::{Outcome, Streams, check_ending, create, fill, is_standard};
 use crate::error::Error;
 use crate::inverse::{self, AsPrinted, FitKind, FitSize, InverseOptions};
 use crate::report;
@@ -95,7 +95,7 @@ fn measurement(arguments: &Arguments) -> Result<Measurement, Error> {
             }
         }),
         (None, None) if reading != Reading::default() => Err(Error::refused(
-            "--column, --columns and --decimal say how measured motion is read, and no file is given",
+            "options such as --column, --time and --decimal say how measured motion is read, and no file is given",
             "slider-crank inverse SCENE DATA.csv",
         )),
         (None, None) => Ok(Measurement::duarte()),
@@ -122,6 +122,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     // First the data, whose lack tells a data file in the place of the scene.
     let measurement = measurement(arguments)?;
     let scene = streams.scene(arguments.scene.as_ref())?;
+    check_ending(arguments.plot.as_ref(), &["svg"])?;
     let options = InverseOptions {
         fit: arguments.fit,
         size: arguments.degree,

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
-    Outcome, Streams, angle, check_rows_of_turn, create, fill, length, positive_angle, quantity,
-    say,
+    Outcome, Streams, angle, check_ending, check_rows_of_turn, create, fill, length,
+    positive_angle, quantity, say,
 };
 use crate::error::Error;
 use crate::report::{self, TurnWriter};
@@ -18,7 +18,7 @@ use crate::study::{self, Length, TurnOptions};
 pub(super) struct Arguments {
     /// Scene file, `-` for standard input; without it the built-in Duarte engine
     scene: Option<PathBuf>,
-    /// Crank angle between rows, from 0 to 360 degrees inclusive
+    /// Crank angle between rows, from 0 to 360 degrees inclusive, with --forces to the end of the cycle of the loads
     #[arg(long, value_name = "ANGLE", default_value = "1 deg", value_parser = positive_angle, allow_hyphen_values = true)]
     every: f64,
     /// Writes the rows as CSV to this file, `-` for standard output
@@ -67,10 +67,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     )?;
     check_rows_of_turn(arguments.every)?;
     let mut scene = streams.scene(arguments.scene.as_ref())?;
+    check_ending(arguments.plot.as_ref(), &["svg"])?;
     if let Some((stroke, ratio)) = arguments.stroke.zip(arguments.rod_ratio) {
         let (crank, rod) = study::size_from_stroke(stroke, ratio, scene.geometry.offset)?;
         (scene.geometry.crank, scene.geometry.rod) = (crank, rod);
-        say(&format!("sized: crank {crank} m, rod {rod} m"));
+        say(&report::sized(crank, rod));
     }
     let result = study::one_turn(&scene, &arguments.options())?;
     let (out, plot) = (

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Outcome, Streams, create, fill};
+use super::{Outcome, Streams, check_ending, create, fill};
 use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{self, PlotRows, Preview, RowWriter};
@@ -42,7 +42,7 @@ pub(super) struct Arguments {
     /// Does without the error estimate, which takes a second run
     #[arg(long)]
     no_estimate: bool,
-    /// Starts the run in the periodic steady state, one turn if the scene gives no run, and adds its key figures
+    /// Starts the run in the periodic steady state, one cycle if the scene gives no run, and adds its key figures
     #[arg(long)]
     steady_state: bool,
     /// Adds the flywheel for this coefficient of speed fluctuation in the steady state
@@ -115,6 +115,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         arguments.json,
     )?;
     let mut scene = streams.scene(arguments.scene.as_ref())?;
+    check_ending(arguments.plot.as_ref(), &["svg"])?;
+    check_ending(arguments.report.as_ref(), &["html", "htm"])?;
     if let Some(tolerance) = arguments.tolerance {
         scene.run.tolerance = tolerance;
     }

@@ -168,6 +168,11 @@ pub fn inverse(
     let mut warnings = measurement.notes().to_vec();
     warnings.extend(noted);
     warnings.extend(warnings::of_scene(scene, options));
+    warnings.extend(warnings::of_motion(
+        scene,
+        measurement.measured(),
+        &found.rows,
+    ));
     warnings.extend(locked);
     warnings.extend(warnings::of_fit(&fitted, measurement));
     let summary = InverseSummary::new(

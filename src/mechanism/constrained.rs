@@ -5,7 +5,7 @@
 //! N = A q̈ + B q̇² + V_n − Q_n with A = Σ m p_n·p' + I ψ_n ψ', B = Σ m p_n·p'' + I ψ_n ψ''.
 
 use super::friction::{Free, Touch};
-use super::{Bodies, Body, Curve, Equation, LoadValue, Loads, Place};
+use super::{Bodies, Body, Curve, Equation, Loads, Place, Sense};
 use crate::numeric::angle::Angle;
 use crate::scene::{Friction, Instant, Scene};
 
@@ -152,20 +152,17 @@ impl Constrained {
         }
     }
 
-    /// Torque and force of the loads, without friction.
-    pub fn load(&self, place: &Place, t: f64, q: Angle, speed: f64) -> LoadValue {
-        let spent = self.loads.spent(&self.instant(place, t, q, speed));
-        let stored = self.loads.with_potential_at(place.x);
-        LoadValue {
-            torque: stored.torque + spent.torque,
-            force: stored.force + spent.force,
-        }
-    }
-
     /// Acceleration and normal force as they would be without friction, and what a force along the guide
     /// changes in them. Speed in rad/s of the coordinate.
     pub fn free(&self, t: f64, q: Angle, speed: f64) -> Free {
         let terms = self.across(q.rest);
+        let place = &terms.place;
+        let sense = Sense::of(place.dtheta * speed, place.dx * speed);
+        self.against(&terms, t, q, speed, sense)
+    }
+
+    /// The same without the dry loads.
+    pub(super) fn without_dry(&self, terms: &Across, t: f64, q: Angle, speed: f64) -> Free {
         let place = &terms.place;
         let spent = self.loads.spent(&self.instant(place, t, q, speed));
         let stored = self.loads.with_potential_at(place.x);

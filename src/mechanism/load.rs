@@ -22,6 +22,8 @@ pub struct Loads {
     pub(super) timed: Called,
     /// All others.
     pub(super) mixed: Called,
+    /// Those that oppose motion.
+    pub(super) dry: Called,
     reads: Variables,
     pub(super) on_slider: bool,
 }
@@ -92,7 +94,9 @@ impl Loads {
     fn class(&mut self, load: &Load, on_slider: bool) -> &mut Called {
         let reads = load.reads(on_slider);
         let position = Variables::THETA.or(Variables::X);
-        if reads.or(position) == position {
+        if matches!(load, Load::Dry(_)) {
+            &mut self.dry
+        } else if reads.or(position) == position {
             &mut self.placed
         } else if reads == Variables::T {
             &mut self.timed
@@ -102,13 +106,13 @@ impl Loads {
     }
 
     pub(super) fn called(&self) -> impl Iterator<Item = &Load> {
-        let classes = [&self.placed, &self.timed, &self.mixed];
+        let classes = [&self.placed, &self.timed, &self.mixed, &self.dry];
         classes.into_iter().flat_map(Called::loads)
     }
 
     /// Whether there are loads that depend on speed or time otherwise than by damping.
     pub fn are_called(&self) -> bool {
-        !(self.timed.is_empty() && self.mixed.is_empty())
+        !(self.timed.is_empty() && self.mixed.is_empty() && self.dry.is_empty())
     }
 
     /// Crank angles, rad, at which tables over the crank angle have their rows.
@@ -262,9 +266,10 @@ impl Loads {
             .plus(of_time)
             .plus(self.of_place(theta, x))
             .plus(mixed)
+            .plus(self.dry_of_speed(t, theta, omega, [x, dx]))
     }
 
-    /// Torque and force of the loads whose work must be integrated.
+    /// Torque and force of the loads whose work must be integrated, without dry ones.
     pub(super) fn spent(&self, now: &Instant) -> LoadValue {
         let damped = LoadValue {
             torque: -self.rotary_damping * now.omega,
@@ -277,7 +282,8 @@ impl Loads {
 
     /// Torque and force of all loads together, for a slider whose motion is not that of the ideal joints.
     pub fn at(&self, now: &Instant) -> LoadValue {
-        self.with_potential_at(now.x).plus(self.spent(now))
+        let spent = self.spent(now).plus(self.dry.value(now));
+        self.with_potential_at(now.x).plus(spent)
     }
 
     /// Potential of the loads that have one, J, from crank angle (from any fixed start) and position.

@@ -26,12 +26,13 @@ impl Angle {
         self.turns * TAU + (self.turns * TAU_REST + self.rest)
     }
 
-    /// The same angle with its rest in [0, 2π).
+    /// The same angle with its rest in [−π, 2π): one that is in there is kept with all its digits, a small negative
+    /// one, too.
     pub fn reduced(self) -> Angle {
-        let turns = (self.rest / TAU).floor();
-        if turns == 0.0 {
+        if (-PI..TAU).contains(&self.rest) {
             return self;
         }
+        let turns = (self.rest / TAU).floor();
         Angle {
             turns: self.turns + turns,
             rest: (self.rest - turns * TAU) - turns * TAU_REST,
@@ -59,7 +60,13 @@ impl Angle {
 /// Angles of one turn, rad: from 0 to 2π inclusive, every `step`. Whole degrees are converted as such, so
 /// that 90 degrees is the double nearest to a right angle.
 pub fn turn(step: f64) -> impl Iterator<Item = f64> {
-    let whole = (TAU / step * (1.0 - 1e-12)).floor() as u64;
+    turns(1, step)
+}
+
+/// The same for several turns.
+pub fn turns(count: u32, step: f64) -> impl Iterator<Item = f64> {
+    let end = f64::from(count) * TAU;
+    let whole = (end / step * (1.0 - 1e-12)).floor() as u64;
     let degrees = (step * 180.0 / PI * 1e9).round() / 1e9;
     let exact = (degrees * PI / 180.0 - step).abs() <= f64::EPSILON * step;
     (0..=whole)
@@ -70,7 +77,7 @@ pub fn turn(step: f64) -> impl Iterator<Item = f64> {
                 i as f64 * step
             }
         })
-        .chain([TAU])
+        .chain([end])
 }
 
 #[cfg(test)]
@@ -90,6 +97,8 @@ mod tests {
         .reduced();
         assert_eq!(same.turns, 1.0);
         assert!((same.rest - 0.25).abs() < 1e-15);
+        let small = Angle::from(-1e-5);
+        assert_eq!(small.reduced(), small);
         assert_eq!(
             far.minus(Angle {
                 turns: 1e6,

@@ -118,6 +118,8 @@ fn escape(text: &str) -> String {
             '<' => escaped.push_str("&lt;"),
             '>' => escaped.push_str("&gt;"),
             '"' => escaped.push_str("&quot;"),
+            // HTML has no control characters but these.
+            c if c.is_control() && !matches!(c, '\n' | '\t') => escaped.extend(c.escape_default()),
             c => escaped.push(c),
         }
     }

@@ -1,6 +1,6 @@
 //! The periodic steady state in words.
 
-use super::facts::{Facts, with_error};
+use super::facts::{Facts, given, with_error};
 use crate::study::{Estimated, Flywheel, SpeedExtreme, SteadyState};
 
 fn shown(estimated: Estimated, unit: &str) -> String {
@@ -11,14 +11,18 @@ fn shown(estimated: Estimated, unit: &str) -> String {
 /// The key figures.
 pub(super) fn steady_state(facts: &mut Facts, steady: &SteadyState) {
     let period = shown(steady.period_s, "s");
-    facts.add("steady state", format_args!("period {period}"));
+    let (of_turns, a_cycle) = match steady.cycle_turns {
+        1 => (String::new(), "turn"),
+        turns => (format!(" ({turns} turns)"), "cycle"),
+    };
+    facts.add("steady state", format_args!("period {period}{of_turns}"));
     facts.add("  mean speed", shown(steady.omega_mean_rad_per_s, "rad/s"));
     facts.add("  slowest", extreme(&steady.slowest));
     facts.add("  fastest", extreme(&steady.fastest));
     facts.add("  fluctuation", shown(steady.fluctuation, ""));
     let left = if steady.stable {
         format!(
-            "{} of one is left after a turn",
+            "{} of one is left after a {a_cycle}",
             shown(steady.multiplier, "")
         )
     } else {
@@ -51,7 +55,7 @@ fn flywheel(facts: &mut Facts, wheel: &Flywheel) {
         (added.value, "to be added to the crank")
     };
     let inertia = with_error(value, added.error, "kg m2");
-    let wanted = wheel.wanted_fluctuation;
+    let wanted = given(wheel.wanted_fluctuation);
     facts.add(
         "  flywheel",
         format_args!("{inertia} {what}, for a fluctuation of {wanted}"),

@@ -1,6 +1,5 @@
 //! Loads: what a torque on the crank or a force on the slider depends on, and its value.
 
-use std::f64::consts::TAU;
 use std::fmt;
 use std::sync::Arc;
 
@@ -42,6 +41,9 @@ pub enum Load {
         /// −1 on the right branch, +1 on the left: the sign of a force towards the crank.
         towards_crank: f64,
     },
+    /// Dry friction: it opposes the motion of what it acts on with the magnitude that another load gives, N m or N. At rest
+    /// it holds as long as all else stays below the magnitude. One over omega or v is over their size.
+    Dry(Box<Load>),
     /// A formula.
     Expression(Expression),
     /// A function of code; what it reads must be said.
@@ -74,6 +76,26 @@ impl Load {
         }
     }
 
+    /// A load that opposes motion with a constant magnitude, N m or N.
+    ///
+    /// ```
+    /// use slider_crank::scene::{Crank, Load, Scene};
+    /// use slider_crank::study::{Options, simulate};
+    ///
+    /// // 0.5 N m bring 0.02 kg m^2 at 100 rad/s to rest after 4 s.
+    /// let brake = Scene::new(0.05, 0.15)
+    ///     .crank(Crank { inertia: 0.02, ..Crank::default() })
+    ///     .torque(Load::dry(0.5))
+    ///     .start(0.0, 100.0)
+    ///     .duration(5.0);
+    /// let run = simulate(&brake, &Options::default()).unwrap();
+    /// let rest = run.summary.events.iter().find(|event| event.kind == "rest").unwrap();
+    /// assert!((rest.t_s - 4.0).abs() < 1e-12);
+    /// ```
+    pub fn dry(magnitude: f64) -> Load {
+        Load::Dry(Box::new(Load::Constant(magnitude)))
+    }
+
     /// Says of a load from a closure after how much of a turn it is the same again; a closure that reads the crank angle
     /// and does not say it is not taken to repeat. Other loads know their period.
     ///
@@ -95,6 +117,7 @@ impl Load {
             | Load::Gas {
                 pressure: table, ..
             } if table.of() == Variable::Theta => table.repeats(),
+            Load::Dry(magnitude) => magnitude.repeats(on_slider),
             Load::Expression(expression) => return expression.repeats(),
             Load::Function {
                 period: Some(period),
@@ -124,6 +147,7 @@ impl Load {
             Load::Spring { .. } => "spring",
             Load::Table(_) => "table",
             Load::Gas { .. } => "gas",
+            Load::Dry(_) => "dry",
             Load::Expression(_) => "expression",
             Load::Function { .. } => "function",
         }
@@ -138,73 +162,28 @@ impl Load {
             Load::Spring { .. } => Variables::X,
             Load::Table(table) => Variables::NONE.with(table.of()),
             Load::Gas { .. } => Variables::THETA,
+            Load::Dry(magnitude) if on_slider => magnitude.reads(true).or(Variables::V),
+            Load::Dry(magnitude) => magnitude.reads(false).or(Variables::OMEGA),
             Load::Expression(expression) => expression.reads(),
             Load::Function { reads, .. } => *reads,
         }
     }
 
-    /// Crank angles, rad, at which the load is not smooth, as far as a table says so. Those of one that keeps step with
-    /// the turns are the same in each of them, or in each second one and so on, and whole turns do not count.
-    pub fn angle_corners(&self) -> Vec<f64> {
-        match self.angle_table() {
-            Some((table, Step::With(turns))) => {
-                let first = table.rows()[0];
-                let mut rows = table.rows_between(first, first + turns * TAU);
-                rows.push(first);
-                rows
-            }
-            Some((table, Step::None)) => table.rows().to_vec(),
-            Some((_, Step::Without)) | None => Vec::new(),
-        }
-    }
-
-    /// All of them between two angles, rad.
-    pub fn corners_between(&self, low: f64, high: f64) -> Vec<f64> {
-        let table = self.angle_table();
-        table.map_or_else(Vec::new, |(table, _)| table.rows_between(low, high))
-    }
-
-    /// Those between two angles, rad, of a table that does not keep step with the turns.
-    pub fn corners_out_of_step(&self, low: f64, high: f64) -> Vec<f64> {
-        match self.angle_table() {
-            Some((table, Step::Without)) => table.rows_between(low, high),
-            _ => Vec::new(),
-        }
-    }
-
-    /// The first of them, rad, after `from` on the way to `to`, in either direction.
-    pub fn corner_out_of_step(&self, from: f64, to: f64) -> Option<f64> {
-        let Some((table, Step::Without)) = self.angle_table() else {
-            return None;
-        };
-        // Within a period there is one.
-        let far = table.period()?.min((to - from).abs());
-        let reach = from + far * (to - from).signum();
-        let rows = table.rows_between(from.min(reach), from.max(reach));
-        if from < to {
-            rows.first().copied()
-        } else {
-            rows.last().copied()
-        }
-    }
-
-    /// A table over the crank angle, and how it keeps step with the turns.
-    fn angle_table(&self) -> Option<(&Table, Step)> {
+    /// The table it is made of, if it is.
+    pub(super) fn table(&self) -> Option<&Table> {
         match self {
             Load::Table(table)
             | Load::Gas {
                 pressure: table, ..
-            } if table.of() == Variable::Theta => Some((table, Step::of(table))),
+            } => Some(table),
+            Load::Dry(magnitude) => magnitude.table(),
             _ => None,
         }
     }
 
-    /// The next time after `t` (s) at which the load is not smooth in time; infinite if it is not known.
-    pub fn next_corner(&self, t: f64) -> f64 {
-        match self {
-            Load::Table(table) if table.of() == Variable::T => table.next_row(t),
-            _ => f64::INFINITY,
-        }
+    /// Whether its values are those of a table.
+    pub fn is_tabulated(&self) -> bool {
+        self.table().is_some()
     }
 
     /// Whether it is zero always; such a load is not modelled at all.
@@ -216,6 +195,7 @@ impl Load {
             Load::Spring { stiffness, .. } => *stiffness == 0.0,
             Load::Table(table) => table.is_zero(),
             Load::Gas { area, .. } => *area == 0.0,
+            Load::Dry(magnitude) => magnitude.is_zero(),
             Load::Expression(_) => self.fixed() == Some(0.0),
             Load::Function { .. } => false,
         }
@@ -229,40 +209,6 @@ impl Load {
                 Some(expression.value(&Instant::default()))
             }
             _ => None,
-        }
-    }
-}
-
-/// How a table over the crank angle keeps step with the turns.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Step {
-    /// It does not repeat.
-    None,
-    /// It is the same again after so many turns.
-    With(f64),
-    /// It repeats, but not after whole turns, or it has too many rows.
-    Without,
-}
-
-impl Step {
-    /// More rows than this in a turn are found one by one, not listed.
-    const MOST_ROWS: f64 = 1e5;
-
-    fn of(table: &Table) -> Step {
-        if table.period().is_none() {
-            return Step::None;
-        }
-        match table.repeats() {
-            Repeats::After(period) => {
-                let turns = f64::from(period.whole_turns());
-                let periods = turns * TAU / period.radians();
-                if table.rows().len() as f64 * periods <= Step::MOST_ROWS * turns {
-                    Step::With(turns)
-                } else {
-                    Step::Without
-                }
-            }
-            _ => Step::Without,
         }
     }
 }
@@ -295,6 +241,7 @@ impl fmt::Display for Load {
                     "gas pressure over theta, area {area} m2, ambient {ambient} Pa"
                 )
             }
+            Load::Dry(magnitude) => write!(f, "opposes motion, magnitude {magnitude}"),
             Load::Expression(expression) => write!(f, "expression `{expression}`"),
             Load::Function { reads, .. } => write!(f, "function of {reads}"),
         }

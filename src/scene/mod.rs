@@ -10,6 +10,7 @@ mod builder;
 #[cfg(feature = "cli")]
 mod builtin;
 mod clearance;
+mod corners;
 mod expression;
 #[cfg(feature = "cli")]
 mod keys;
@@ -20,6 +21,8 @@ mod number;
 mod parts;
 mod period;
 mod places;
+#[cfg(feature = "cli")]
+mod printable;
 mod problem;
 #[cfg(feature = "cli")]
 mod read;
@@ -31,6 +34,7 @@ mod table;
 mod text;
 pub mod unit;
 mod validate;
+pub(crate) use validate::MOST_ROWS;
 mod variable;
 #[cfg(feature = "cli")]
 mod vary;
@@ -49,10 +53,14 @@ pub use motion::{Every, Extent, Motion, MotionKind, Run};
 pub use parts::{Branch, Friction, Geometry, Gravity};
 pub use period::{Period, Repeats, WhyNot};
 pub use places::Places;
+#[cfg(feature = "cli")]
+pub use printable::printable;
 pub use problem::{Problem, Problems};
 #[cfg(feature = "cli")]
 pub use schema::schema;
 pub use table::{Interpolation, Table, calibration_points};
+#[cfg(feature = "cli")]
+pub use table::{LoadTable, load_table};
 pub use variable::{Instant, Variable, Variables};
 #[cfg(feature = "cli")]
 pub use vary::{Draft, Varied};
@@ -114,13 +122,7 @@ impl Scene {
     /// The files of the tables of its loads.
     pub fn table_files(&self) -> impl Iterator<Item = &Path> {
         let loads = self.torques.iter().chain(&self.forces);
-        loads.filter_map(|load| match load {
-            Load::Table(table)
-            | Load::Gas {
-                pressure: table, ..
-            } => table.file(),
-            _ => None,
-        })
+        loads.filter_map(Load::table).filter_map(Table::file)
     }
 
     /// The same scene without what has no strength: zero masses, zero loads, zero gravity.

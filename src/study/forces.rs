@@ -1,4 +1,4 @@
-//! Forces of the whole mechanism at constant crank speed over one turn.
+//! Forces of the whole mechanism at constant crank speed over the cycle of its loads.
 
 use std::f64::consts::TAU;
 
@@ -6,8 +6,11 @@ use serde::Serialize;
 
 use super::Located;
 use crate::error::Error;
-use crate::mechanism::{Equation, EquivalentMasses, InertiaForces, Linkage, Reactions, Reactor};
+use crate::mechanism::{
+    Equation, EquivalentMasses, InertiaForces, Limits, Linkage, Reactions, Reactor,
+};
 use crate::numeric::{angle, difference, root};
+use crate::plan::Cycle;
 use crate::scene::Scene;
 
 /// Forces at constant crank speed.
@@ -15,11 +18,16 @@ use crate::scene::Scene;
 pub struct ForceAnalysis {
     /// rad/s, counter-clockwise
     pub speed_rad_per_s: f64,
+    /// Turns over which the forces are looked at: those of the cycle of the loads, or the first one.
+    pub cycle_turns: u32,
+    /// Why the loads do not repeat, if they do not: then other turns have other forces.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub not_repeating: Option<String>,
     /// Rotating and reciprocating masses.
     pub masses: EquivalentMasses,
-    /// Greatest and least driving torque on the outward stroke, N m; none for a crank that cannot turn fully.
+    /// Greatest and least driving torque on the outward strokes of the cycle, N m; none for a crank that cannot turn fully.
     pub outward: Option<StrokeTorque>,
-    /// The same on the inward stroke.
+    /// The same on the inward strokes.
     pub inward: Option<StrokeTorque>,
     #[serde(skip)]
     equation: Equation,
@@ -27,7 +35,7 @@ pub struct ForceAnalysis {
     reactor: Reactor,
 }
 
-/// Extremes of the driving torque on one stroke, with their crank angles.
+/// Extremes of the driving torque on strokes of one direction, with their crank angles in the cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct StrokeTorque {
     /// N m
@@ -71,8 +79,11 @@ pub fn forces(scene: &Scene) -> Result<ForceAnalysis, Error> {
             "give motion.speed, like \"300 rpm\"; for forces at rest use `statics`",
         ));
     }
+    let cycle = Cycle::of(scene);
     let mut analysis = ForceAnalysis {
         speed_rad_per_s: speed,
+        cycle_turns: cycle.turns.unwrap_or(1),
+        not_repeating: cycle.why_not,
         masses: EquivalentMasses::new(scene),
         outward: None,
         inward: None,
@@ -118,15 +129,20 @@ impl ForceAnalysis {
         }
     }
 
-    /// Rows of one turn, from 0 to 360 degrees inclusive, every `step` (rad).
+    /// Rows of the cycle from its angle 0 to its end inclusive, every `step` (rad).
     pub fn rows(&self, step: f64) -> impl Iterator<Item = (f64, ForceRow)> + '_ {
-        angle::turn(step).map(|theta| (theta, self.row(theta)))
+        angle::turns(self.cycle_turns, step).map(|theta| (theta, self.row(theta)))
     }
 
-    /// Extremes of the torque on the outward and on the inward stroke.
+    /// The angle at which the cycle ends, rad.
+    fn whole(&self) -> f64 {
+        f64::from(self.cycle_turns) * TAU
+    }
+
+    /// Extremes of the torque on the outward and on the inward strokes.
     fn strokes(&self) -> [Option<StrokeTorque>; 2] {
         let linkage = self.linkage();
-        let centres = crate::mechanism::Limits::new(linkage, self.speed_rad_per_s).dead_centres;
+        let centres = Limits::new(linkage, self.speed_rad_per_s).dead_centres;
         let [first, second] = centres.as_slice() else {
             return [None; 2];
         };
@@ -137,49 +153,61 @@ impl ForceAnalysis {
             (first.theta, second.theta),
             (second.theta, first.theta + TAU),
         ];
-        let mut found = [None; 2];
-        for (from, to) in arcs {
-            let middle = linkage.pose(0.5 * (from + to));
-            let outward = middle.x * middle.dx * self.speed_rad_per_s > 0.0;
-            found[usize::from(!outward)] = self.extremes(from, to);
+        let mut found = [const { Vec::new() }; 2];
+        for turn in 0..self.cycle_turns {
+            let before = f64::from(turn) * TAU;
+            for (from, to) in arcs {
+                let middle = linkage.pose(0.5 * (from + to));
+                let outward = middle.x * middle.dx * self.speed_rad_per_s > 0.0;
+                let stroke = self.extremes(from + before, to + before);
+                found[usize::from(!outward)].extend(stroke);
+            }
         }
-        found
+        found.map(|mut found: Vec<Located>| {
+            found.sort_by(|a, b| a.value.total_cmp(&b.value));
+            Some(StrokeTorque {
+                min: *found.first()?,
+                max: *found.last()?,
+            })
+        })
     }
 
-    fn extremes(&self, from: f64, to: f64) -> Option<StrokeTorque> {
-        // That of the rows, from 0 to 360 degrees: loads need not be the same in the next turn.
-        let torque = |theta: f64| {
-            self.torque(if theta == TAU {
-                TAU
+    /// Where the torque may be extreme on a stroke: its ends, the rows of tables, and where its slope vanishes.
+    fn extremes(&self, from: f64, to: f64) -> Vec<Located> {
+        // That of the rows, which end with the cycle: loads need not be the same in the next one.
+        let whole = self.whole();
+        let place = |theta: f64| {
+            if theta == whole {
+                whole
             } else {
-                theta.rem_euclid(TAU)
-            })
+                theta.rem_euclid(whole)
+            }
         };
-        let seam = [0.0, TAU].into_iter().filter(|_| (from..to).contains(&TAU));
-        let mut angles = vec![from, to];
+        let torque = |theta: f64| self.torque(place(theta));
+        let seam = [0.0, whole]
+            .into_iter()
+            .filter(|_| (from..to).contains(&whole));
         let grid = self.linkage().turn_grid();
-        let inside = (-1..=2)
-            .flat_map(|turn| grid.iter().map(move |theta| theta + f64::from(turn) * TAU))
+        let inside = (-1..=i64::from(self.cycle_turns) + 1)
+            .flat_map(|turn| grid.iter().map(move |theta| theta + turn as f64 * TAU))
             .filter(|theta| (from..=to).contains(theta));
+        let loads = self.equation.loads();
+        let mut angles = vec![from, to];
         angles.extend(inside);
+        let rows = loads.corners_between(from, to);
+        angles.extend(&rows);
         angles.sort_by(f64::total_cmp);
         let slope = |theta: f64| difference::slope(torque, theta, 1e-3);
         let tops = angles
             .windows(2)
             .filter_map(|w| root::bracketed(slope, w[0], w[1]));
-        let mut found: Vec<Located> = tops
-            .chain([from, to])
-            .chain(seam)
+        let located = tops.chain([from, to]).chain(rows).chain(seam);
+        located
             .map(|theta| Located {
                 value: torque(theta),
-                theta_rad: theta.rem_euclid(TAU) % TAU,
+                theta_rad: theta.rem_euclid(whole) % whole,
             })
             .filter(|located| located.value.is_finite())
-            .collect();
-        found.sort_by(|a, b| a.value.total_cmp(&b.value));
-        Some(StrokeTorque {
-            min: *found.first()?,
-            max: *found.last()?,
-        })
+            .collect()
     }
 }

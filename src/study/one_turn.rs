@@ -1,4 +1,4 @@
-//! One turn with all that can be asked of it: forces, sensitivities, a change of the lengths, and the loop
+//! One turn, or the cycle of the loads, with all that can be asked of it: forces, sensitivities, a change of the lengths, and the loop
 //! closed by iteration as a check.
 
 use serde::Serialize;
@@ -131,8 +131,13 @@ pub fn one_turn(scene: &Scene, options: &TurnOptions) -> Result<OneTurn, Error> 
             .warnings
             .push("the clearance of the scene is not in these forces".to_owned());
     }
+    let forces = options.forces.then(|| forces(scene)).transpose()?;
+    if let Some(why) = forces.as_ref().and_then(|f| f.not_repeating.as_ref()) {
+        let what = format!("the forces are those of the first turn, others may differ: {why}");
+        kinematics.warnings.push(what);
+    }
     Ok(OneTurn {
-        forces: options.forces.then(|| forces(scene)).transpose()?,
+        forces,
         changed: changed(scene, &options.change)?,
         offsets: offset_extremes(scene, &options.offsets)?,
         loop_closure: options
@@ -148,7 +153,14 @@ fn changed(scene: &Scene, change: &[(Length, f64)]) -> Result<Option<Kinematics>
         return Ok(None);
     }
     let mut scene = scene.clone();
-    for (length, value) in change {
+    for (i, (length, value)) in change.iter().enumerate() {
+        if change[..i].iter().any(|(other, _)| other == length) {
+            let name = length.name();
+            return Err(Error::refused(
+                format!("the changed {name} is given twice"),
+                format!("give one length for the {name}"),
+            ));
+        }
         match length {
             Length::Crank => scene.geometry.crank = *value,
             Length::Rod => scene.geometry.rod = *value,
@@ -208,9 +220,14 @@ impl OneTurn {
         }
     }
 
-    /// Rows of one turn, from 0 to 360 degrees inclusive, every `step` (rad).
+    /// Turns of the rows: one, or those of the cycle of the loads if there are forces.
+    pub fn turns(&self) -> u32 {
+        self.forces.as_ref().map_or(1, |forces| forces.cycle_turns)
+    }
+
+    /// Rows of these turns, from 0 to their end inclusive, every `step` (rad).
     pub fn rows(&self, step: f64) -> impl Iterator<Item = TurnRow> + '_ {
-        angle::turn(step).map(|theta| self.row(theta))
+        angle::turns(self.turns(), step).map(|theta| self.row(theta))
     }
 
     /// Whether rows have derivatives with respect to the lengths.

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use slider_crank::mechanism::Equation;
 use slider_crank::plan::Method;
 use slider_crank::scene::{
-    Branch, Clearance, Crank, Friction, Gravity, Joint, Load, Rod, Scene, Slider, Variables,
+    Branch, Clearance, Crank, Gravity, Joint, Load, Period, Rod, Scene, Slider, Variables,
 };
 use slider_crank::study::{Options, SteadyOptions, SteadyState, Summary, simulate, steady_state};
 
@@ -147,9 +147,12 @@ fn a_torque_that_varies_over_the_angle() {
         let [low, high, mean, at_zero] = reference(inertia, tau, c);
         for sense in [1.0, -1.0] {
             let scene = crank(inertia)
-                .torque(Load::function(Variables::THETA, move |now| {
-                    sense * tau[0] + tau[1] * now.theta.sin()
-                }))
+                .torque(
+                    Load::function(Variables::THETA, move |now| {
+                        sense * tau[0] + tau[1] * now.theta.sin()
+                    })
+                    .with_period(Period::TURN),
+                )
                 .torque(Load::Viscous(c))
                 .start(0.0, sense * tau[0] / c);
             let found = steady(&scene);
@@ -354,9 +357,10 @@ fn the_flywheel_gives_the_wanted_fluctuation() {
 fn a_heavy_flywheel_follows_the_rule_of_its_energy() {
     let (tau, tau_1, c) = (3.0, 5.0, 0.1);
     let scene = crank(0.02)
-        .torque(Load::function(Variables::THETA, move |now| {
-            tau_1 * now.theta.sin()
-        }))
+        .torque(
+            Load::function(Variables::THETA, move |now| tau_1 * now.theta.sin())
+                .with_period(Period::TURN),
+        )
         .torque(Load::Constant(tau))
         .torque(Load::Viscous(c))
         .start(0.0, 30.0);
@@ -385,16 +389,8 @@ fn what_has_no_steady_state_is_refused_with_the_reason() {
     refused(&constant, None, &["prescribes"]);
     let timed = viscous().torque(Load::function(Variables::T, |now| now.t.sin()));
     refused(&timed, None, &["time t"]);
-    let two_turns = viscous().torque(Load::function(Variables::THETA, |now| {
-        3.0 + (0.5 * now.theta).sin()
-    }));
-    refused(&two_turns, None, &["repeat with each turn"]);
-    let mut rubbing = viscous();
-    rubbing.friction = Some(Friction {
-        coefficient: 0.1,
-        static_coefficient: 0.1,
-    });
-    refused(&rubbing, None, &["friction"]);
+    let unstated = viscous().torque(Load::function(Variables::THETA, |now| now.theta.sin()));
+    refused(&unstated, None, &["torque[2]", "states no period"]);
     let mut loose = viscous();
     loose.clearance = Some(Clearance::new(Joint::CrankPin, 1e-4));
     refused(&loose, None, &["clearance"]);

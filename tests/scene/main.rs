@@ -1,5 +1,12 @@
 //! Scene files: what is read, what is refused, and with which words.
 
+#[path = "../support/mod.rs"]
+mod support;
+
 mod bad_scenes;
 mod data_files;
+mod odd_files;
+mod refusals;
 mod scene_files;
+#[path = "../support/seed.rs"]
+mod seed;

@@ -1,19 +1,21 @@
-//! Random mechanisms, the same in every run.
+//! Random mechanisms, the same in every run with the same seed.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 use slider_crank::scene::{
-    Branch, Crank, Geometry, Gravity, InertiaAbout, Load, Rod, RodModel, Scene, Slider, Variables,
+    Branch, Crank, Geometry, Gravity, InertiaAbout, Load, Period, Rod, RodModel, Scene, Slider,
+    Variables,
 };
 
-/// This many cases from a fixed seed.
+use super::seed::seed;
+
+/// This many cases from one seed.
 pub fn cases(cases: u32) -> ProptestConfig {
     ProptestConfig {
         cases,
         failure_persistence: None,
-        rng_seed: RngSeed::Fixed(20_260_101),
+        rng_seed: seed(20_260_101),
         max_global_rejects: 100 * cases,
         ..ProptestConfig::default()
     }
@@ -107,10 +109,12 @@ impl Drive {
                 stall: self.stall,
                 no_load_speed: self.no_load,
             })
-            .torque(Load::function(
-                Variables::THETA.or(Variables::T),
-                move |now| wave * (2.0 * now.theta + now.t).sin(),
-            ))
+            .torque(
+                Load::function(Variables::THETA.or(Variables::T), move |now| {
+                    wave * (2.0 * now.theta + now.t).sin()
+                })
+                .with_period(Period::TURN),
+            )
             .force(Load::Constant(self.force))
             .force(Load::Spring { stiffness, rest })
             .force(Load::Viscous(self.linear))

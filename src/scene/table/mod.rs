@@ -15,6 +15,8 @@ use crate::numeric::enclosure::{Enclosed, Interval};
 use crate::numeric::interpolate::Curve;
 pub use crate::numeric::interpolate::Interpolation;
 pub use calibration::calibration_points;
+#[cfg(feature = "cli")]
+pub use file::{LoadTable, load_table};
 use rows::{Column, Rows};
 
 /// Values over one variable, SI and radians.
@@ -142,6 +144,12 @@ impl Table {
             0.0,
             |most: f64, y| if y.abs() > most.abs() { y } else { most },
         )
+    }
+
+    /// The least value, SI.
+    pub(super) fn least(&self) -> f64 {
+        let values = self.curve.values().iter().copied();
+        values.fold(f64::INFINITY, f64::min)
     }
 
     pub(super) fn is_zero(&self) -> bool {

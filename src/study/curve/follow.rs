@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use super::arrived::{Arrived, End, Follow, Observer};
 use super::phase::{
-    CLEAR, DEAD_CENTRE, InPhase, LIMIT, NORMAL, Phase, Quantities, SPEED, Signs, TURNED, signs,
+    CLEAR, CRANK, DEAD_CENTRE, InPhase, LIMIT, NORMAL, Phase, Quantities, SPEED, Signs, TURNED,
     sliding,
 };
 use crate::engine::guard::{self, Change, Watched};
@@ -13,9 +13,6 @@ use crate::engine::step::{Node, Step};
 use crate::engine::time::{self, Finish, Settings, Start};
 use crate::engine::{Counted, Motion};
 use crate::scene::Friction;
-
-/// How far ahead of a start the signs show, rad.
-const AHEAD: f64 = 1e-6;
 
 /// A run under way.
 pub(super) struct Run<'a, 'o> {
@@ -50,6 +47,7 @@ impl Follow<'_> {
                 equation: self.equation,
                 turning: self.turn_limit.map(|limit| (self.turned_from, limit)),
                 evaluations: Cell::new(0),
+                against: Cell::default(),
             },
             observer,
             now: self.start,
@@ -73,12 +71,17 @@ impl Follow<'_> {
     pub fn friction(&self) -> Option<Friction> {
         self.equation.friction()
     }
+
+    /// Whether anything may hold the mechanism at rest.
+    pub fn may_stick(&self) -> bool {
+        self.friction().is_some() || self.equation.loads().are_dry()
+    }
 }
 
 impl Run<'_, '_> {
     fn begin(&mut self) {
         let speed = self.now.speed;
-        let end = if speed == 0.0 && self.follow.friction().is_some() {
+        let end = if speed == 0.0 && self.follow.may_stick() {
             self.leave_rest(None)
         } else {
             self.signs = self.signs_for(if speed < 0.0 { -1.0 } else { 1.0 });
@@ -88,24 +91,7 @@ impl Run<'_, '_> {
         self.arrived.end = end.unwrap_or(End::Done);
     }
 
-    pub fn signs_for(&self, direction: f64) -> Signs {
-        let Start { t, angle, speed } = self.now;
-        let values = self.quantities.values(t, angle, speed);
-        let ahead = self
-            .quantities
-            .values(t, angle.plus(direction * AHEAD), speed);
-        let mut signs = signs(values, ahead, direction);
-        // A start without speed says nothing about its direction.
-        if speed == 0.0 && self.follow.friction().is_none() {
-            let motion = self.in_phase(Phase::Sliding { c: 0.0 });
-            if motion.acceleration(t, angle, speed) < 0.0 {
-                signs[SPEED] = -1.0;
-            }
-        }
-        signs
-    }
-
-    fn in_phase(&self, phase: Phase) -> InPhase<'_> {
+    pub(super) fn in_phase(&self, phase: Phase) -> InPhase<'_> {
         InPhase {
             equation: self.follow.equation,
             phase,
@@ -132,6 +118,7 @@ impl Run<'_, '_> {
                 }
                 Cut::At { t, index } => {
                     self.signs[index] = -self.signs[index];
+                    self.oppose(index);
                     self.report(index, t);
                     None
                 }
@@ -165,7 +152,8 @@ impl Run<'_, '_> {
     fn slide(&mut self) -> Cut {
         let equation = self.follow.equation;
         let friction = self.follow.friction();
-        let phase = sliding(friction, &self.signs);
+        let [on_crank, on_slider] = equation.loads().dry_on();
+        let phase = sliding(equation, &self.signs);
         let in_phase = InPhase { equation, phase };
         let motion = Counted::new(&in_phase);
         let looked_at = Counted::new(&in_phase);
@@ -189,7 +177,10 @@ impl Run<'_, '_> {
                     return true;
                 }
                 let ends = match change.index {
-                    SPEED | DEAD_CENTRE | NORMAL => friction.is_some(),
+                    SPEED => friction.is_some() || on_crank || on_slider,
+                    DEAD_CENTRE => friction.is_some() || on_slider,
+                    NORMAL => friction.is_some(),
+                    CRANK => on_crank,
                     LIMIT => false,
                     _ => true,
                 };
@@ -199,7 +190,7 @@ impl Run<'_, '_> {
                 }
                 signs[change.index] = -signs[change.index];
                 let from_rest = change.index == SPEED && step.start.omega == 0.0;
-                if from_rest {
+                if from_rest || change.index == CRANK {
                     continue;
                 }
                 let (kind, speed) = match change.index {

@@ -3,15 +3,18 @@
 use std::f64::consts::TAU;
 
 use super::Estimated;
-use super::refusal::{always_gains, no_cycle, not_turned, unbounded};
-use crate::engine::angle::{self, Cycle, Resolution};
-use crate::engine::energy::Orbit;
+use super::refusal::{Over, always_gains, no_cycle, not_turned, over, unbounded};
+use super::round::{Motion, Round, Rounds};
+use super::timed::Timed;
+use crate::engine::angle::{self, FixedPoint, NoCycle, Resolution};
 use crate::error::Error;
 use crate::mechanism::{Equation, Limits};
 use crate::numeric::angle::Angle;
 use crate::numeric::root;
+use crate::plan::cycle_over_angle;
 use crate::scene::{Scene, Variable};
 use crate::study::profile::Position;
+use crate::study::sliding::Sliding;
 
 /// What is stated is larger than the distance of two computations by this.
 pub(super) const MARGIN: f64 = 1.5;
@@ -37,14 +40,16 @@ pub(super) struct Extreme {
 /// A periodic motion.
 pub(super) struct Found {
     pub start: Angle,
-    pub orbit: Orbit,
+    motion: Motion,
     /// Speed at the start, rad/s.
     pub speed: f64,
-    /// s
+    /// Turns after which it is the same again.
+    pub turns: f64,
+    /// Their time, s.
     pub period: f64,
     /// Least and largest speed.
     pub extremes: [Extreme; 2],
-    /// Deviation from it after a turn, by that before.
+    /// Deviation from it after these turns, by that before.
     pub multiplier: f64,
     pub multiplier_error: f64,
     /// What is left open of its energies, relative to them.
@@ -60,20 +65,28 @@ impl Found {
     /// Coefficient of fluctuation: the range of the speed, by its mean.
     pub fn fluctuation(&self) -> f64 {
         let [slow, fast] = self.extremes;
-        (fast.omega - slow.omega).abs() * self.period / TAU
+        (fast.omega - slow.omega).abs() * self.period / self.way()
+    }
+
+    /// The crank's way in a period, rad.
+    pub fn way(&self) -> f64 {
+        self.turns * TAU
     }
 
     /// Speed where the crank has turned by this since the start, rad, rad/s.
     pub fn omega(&self, turned: f64) -> f64 {
-        self.orbit
-            .time_of_turn(turned)
-            .map_or(f64::NAN, |t| self.orbit.state(t).1)
+        self.motion.omega(turned)
     }
 }
 
 /// What looks for the periodic motion of a scene.
 pub(super) struct Seeker {
+    scene: Scene,
     equation: Equation,
+    /// Friction at the guide.
+    sliding: Option<Sliding>,
+    /// Turns after which the loads are the same again.
+    cycle: u32,
     start: Angle,
     /// rad/s
     speed: f64,
@@ -83,8 +96,13 @@ pub(super) struct Seeker {
 impl Seeker {
     /// Looks from a speed on, rad/s.
     pub fn new(scene: &Scene, speed: f64, max_evaluations: u64) -> Seeker {
+        let equation = Equation::new(scene);
         Seeker {
-            equation: Equation::new(scene),
+            sliding: Sliding::new(scene, &equation),
+            equation,
+            scene: scene.clone(),
+            // What has none was refused.
+            cycle: cycle_over_angle(scene).unwrap_or(1),
             start: Angle::from(scene.motion.angle).reduced(),
             speed,
             max_evaluations,
@@ -107,44 +125,73 @@ impl Seeker {
         if limits.dead_centres.iter().any(|dc| vanishes(dc.theta)) {
             return Err(unbounded());
         }
-        let position = Position::new(&self.equation, &limits, self.start);
+        if over(&self.scene) == Over::Time {
+            let (turns, most) = (self.cycle, self.max_evaluations);
+            let mut timed = Timed::new(&self.scene, self.speed, turns, other, most);
+            let found = self.solve(&mut timed, step);
+            return match (found, timed.refused) {
+                (Err(_), Some(why)) => Err(why),
+                (found, _) => found,
+            };
+        }
+        let position = Position::new(&self.equation, &limits, self.start, self.speed)
+            .with_cycle(self.cycle)
+            .with_friction(self.sliding.as_ref());
         let resolution = Resolution {
             tail: TAIL,
             other,
             most_evaluations: self.max_evaluations,
         };
-        let reads = self.equation.loads().reads();
-        let any_speed = !reads.has(Variable::Omega) && !reads.has(Variable::V);
-        let cycle = if any_speed {
-            let turn = angle::one_turn(&position, self.start, self.speed, resolution);
-            let turn = turn.map_err(not_turned)?;
-            if turn.gain.abs() > NOTHING * turn.largest {
-                return Err(always_gains(turn.gain));
-            }
-            turn
-        } else {
-            angle::steady(&position, self.start, self.speed, step, resolution).map_err(no_cycle)?
-        };
-        self.found(cycle, any_speed)
+        let turns = angle::Turns::new(&position, self.start, self.speed, resolution);
+        self.solve(&mut turns.map_err(not_turned)?, step)
     }
 
-    fn found(&self, cycle: Cycle, any_speed: bool) -> Result<Found, Error> {
+    /// Whether nothing depends on the speed.
+    fn any_speed(&self) -> bool {
+        let reads = self.equation.loads().reads();
+        !reads.has(Variable::Omega) && !reads.has(Variable::V) && self.sliding.is_none()
+    }
+
+    fn solve(&self, rounds: &mut dyn Rounds, step: f64) -> Result<Found, Error> {
+        if self.any_speed() {
+            let round = rounds.round(rounds.first()).map_err(not_turned)?;
+            if round.gain.abs() > NOTHING.max(rounds.noise()) * round.largest {
+                return Err(always_gains(round.gain));
+            }
+            return self.found(round, None);
+        }
+        let fixed = angle::fixed_point(rounds, step).map_err(no_cycle)?;
+        let round = rounds.round(fixed.kinetic);
+        let round = round.map_err(|why| no_cycle(NoCycle::Unserved(why)))?;
+        self.found(round, Some((fixed, rounds.noise())))
+    }
+
+    /// From a cycle, which is a fixed point found within some noise of the gain, or begins with any speed.
+    fn found(&self, round: Round, fixed: Option<(FixedPoint, f64)>) -> Result<Found, Error> {
         let mut found = Found {
             start: self.start,
-            orbit: cycle.orbit,
-            speed: cycle.speed,
-            period: cycle.period,
+            motion: round.motion,
+            speed: round.speed,
+            turns: f64::from(self.cycle),
+            period: round.period,
             extremes: [Extreme {
                 turned: 0.0,
-                omega: cycle.speed,
+                omega: round.speed,
             }; 2],
-            multiplier: cycle.multiplier,
-            multiplier_error: cycle.multiplier_error,
-            uncertain: cycle.uncertain,
-            approached: cycle.approached,
-            any_speed,
-            largest: cycle.largest,
+            multiplier: 1.0,
+            multiplier_error: 0.0,
+            uncertain: round.uncertain,
+            approached: true,
+            any_speed: fixed.is_none(),
+            largest: round.largest,
         };
+        if let Some((fixed, noise)) = fixed {
+            found.uncertain /= fixed.slope.abs().max(noise);
+            // Motions do not cross: what is below zero is rounding.
+            found.multiplier = (1.0 + fixed.slope).max(0.0);
+            found.multiplier_error = fixed.slope_error;
+            found.approached = fixed.approached;
+        }
         found.extremes = [-1.0, 1.0].map(|sign| self.extreme(&found, sign));
         let known = found
             .extremes
@@ -153,38 +200,51 @@ impl Seeker {
         if known { Ok(found) } else { Err(unbounded()) }
     }
 
+    /// θ̈, rad/s².
+    fn acceleration(&self, angle: Angle, omega: f64) -> f64 {
+        match &self.sliding {
+            // Not at the start of a motion, where the guide is what it will be.
+            Some(sliding) => sliding.state(f64::MIN_POSITIVE, angle, omega).0,
+            None => self.equation.acceleration(0.0, angle, omega),
+        }
+    }
+
     /// The largest sign·|speed|: of the angles of a fine grid, then where the acceleration vanishes beside it.
     fn extreme(&self, found: &Found, sign: f64) -> Extreme {
-        let sense = found.speed.signum();
+        let (sense, whole) = (found.speed.signum(), found.way());
         let grid = self.equation.linkage().turn_grid();
         let since = |theta: &f64| (sense * (theta - self.start.rest)).rem_euclid(TAU);
-        let mut ways: Vec<f64> = grid.iter().map(since).collect();
+        let again = |turn: u32| {
+            let before = f64::from(turn) * TAU;
+            grid.iter().map(move |theta| since(theta) + before)
+        };
+        let mut ways: Vec<f64> = (0..self.cycle).flat_map(again).collect();
         ways.push(0.0);
         ways.sort_by(f64::total_cmp);
         ways.dedup();
-        let value = |way: f64| sign * sense * found.omega(way.rem_euclid(TAU));
+        let value = |way: f64| sign * sense * found.omega(way.rem_euclid(whole));
         let best = (0..ways.len()).max_by(|a, b| value(ways[*a]).total_cmp(&value(ways[*b])));
         let best = best.unwrap_or(0);
         let count = ways.len();
         let before = if best == 0 {
-            ways[count - 1] - TAU
+            ways[count - 1] - whole
         } else {
             ways[best - 1]
         };
         let after = if best + 1 == count {
-            TAU
+            whole
         } else {
             ways[best + 1]
         };
         let slope = |way: f64| {
-            let way = way.rem_euclid(TAU);
+            let way = way.rem_euclid(whole);
             let angle = self.start.plus(sense * way);
-            self.equation.acceleration(0.0, angle, found.omega(way))
+            self.acceleration(angle, found.omega(way))
         };
         let way = root::bracketed(slope, before, after)
             .filter(|way| value(*way) > value(ways[best]))
             .unwrap_or(ways[best])
-            .rem_euclid(TAU);
+            .rem_euclid(whole);
         Extreme {
             turned: way,
             omega: found.omega(way),
@@ -197,11 +257,10 @@ impl Seeker {
 pub(super) fn place(found: &Found, check: &Found, which: usize, relative: f64) -> Estimated {
     let [here, there] = [found, check].map(|f| f.extremes[which].turned);
     let apart = (here - there).abs();
-    let apart = apart.min((TAU - apart).abs());
-    let sense = found.speed.signum();
-    let angle = found.start.rest + sense * here;
+    let apart = apart.min((found.way() - apart).abs());
+    let angle = found.start.plus(found.speed.signum() * here);
     Estimated {
-        value: angle.rem_euclid(TAU),
+        value: angle.radians().rem_euclid(found.way()),
         error: MARGIN * apart + relative * TAU / found.fluctuation().clamp(1e-12, 1.0),
     }
 }

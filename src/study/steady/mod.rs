@@ -4,8 +4,8 @@ mod flywheel;
 mod found;
 mod loads;
 mod refusal;
-
-use std::f64::consts::TAU;
+mod round;
+mod timed;
 
 use serde::Serialize;
 
@@ -47,7 +47,7 @@ pub struct Estimated {
 pub struct SpeedExtreme {
     /// Signed speed, rad/s.
     pub omega_rad_per_s: Estimated,
-    /// Crank angle in [0, 2π), rad; none if the speed does not vary by more than its error.
+    /// Crank angle in the cycle, from 0 to 2π times its turns, rad; none if the speed does not vary by more than its error.
     pub theta_rad: Option<Estimated>,
 }
 
@@ -60,9 +60,11 @@ pub struct SteadyState {
     pub theta_rad: f64,
     /// The steady speed there, rad/s.
     pub omega_rad_per_s: Estimated,
-    /// Time of a turn, s.
+    /// Turns of the crank after which the motion is the same again: the cycle of the loads.
+    pub cycle_turns: u32,
+    /// Time of a cycle, s.
     pub period_s: Estimated,
-    /// Mean speed over time, 2π/period, with the sign of the rotation, rad/s.
+    /// Mean speed over time, 2π turns/period, with the sign of the rotation, rad/s.
     pub omega_mean_rad_per_s: Estimated,
     /// The least speed without regard to its sign.
     pub slowest: SpeedExtreme,
@@ -70,13 +72,13 @@ pub struct SteadyState {
     pub fastest: SpeedExtreme,
     /// Coefficient of fluctuation: the largest minus the least speed, over the mean.
     pub fluctuation: Estimated,
-    /// Part of a small deviation that is left after a turn.
+    /// Part of a small deviation that is left after a cycle.
     pub multiplier: Estimated,
     /// Whether small deviations die out.
     pub stable: bool,
     /// Whether it is the motion that the scene's own start speed approaches; none for a start at rest.
     pub approached_from_start: Option<bool>,
-    /// Mean power that loads put in, W: those whose work over a turn is positive.
+    /// Mean power that loads put in, W: those whose work over a cycle is positive.
     pub power_in_w: Estimated,
     /// Mean power that loads take out, W, positive.
     pub power_out_w: Estimated,
@@ -90,11 +92,12 @@ pub struct SteadyState {
 }
 
 impl SteadyState {
-    /// The scene, started in the steady state; over one turn if it does not say how long its run is.
+    /// The scene, started in the steady state; over one cycle if it does not say how long its run is.
     pub fn start(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         scene.motion.speed = self.omega_rad_per_s.value;
-        scene.run.extent = scene.run.extent.or(Some(Extent::Revolutions(1.0)));
+        let cycle = Some(Extent::Revolutions(self.cycle_turns.into()));
+        scene.run.extent = scene.run.extent.or(cycle);
         scene
     }
 }
@@ -200,8 +203,9 @@ fn describe(scene: &Scene, found: &Found, check: &Found) -> SteadyState {
         scene: scene.title.clone().unwrap_or_default(),
         theta_rad: scene.motion.angle,
         omega_rad_per_s: speed(&|f| f.speed),
+        cycle_turns: found.turns as u32,
         period_s: of(&|f| f.period, relative * found.period),
-        omega_mean_rad_per_s: speed(&|f| f.speed.signum() * TAU / f.period),
+        omega_mean_rad_per_s: speed(&|f| f.speed.signum() * f.way() / f.period),
         slowest: extreme(0),
         fastest: extreme(1),
         fluctuation,

@@ -1,8 +1,6 @@
 //! `check` refuses what `simulate` refuses, and nothing else, in the same words: over the files of the repository, and
 //! over scenes made of them by leaving parts out and putting others in.
 
-mod support;
-
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::fs;
@@ -14,7 +12,8 @@ use slider_crank::error::Error;
 use slider_crank::plan;
 use slider_crank::scene::{Draft, Scene};
 use slider_crank::study::{Options, simulate};
-use support::random::cases;
+
+use crate::support::random::cases;
 
 const FOLDERS: [&str; 3] = ["data", "data/hard", "tests/bad"];
 
