@@ -19,11 +19,11 @@ pub(super) struct Arguments {
     /// Measured motion as CSV, `-` for standard input: time and theta, gamma or x, units in the header; without it
     /// (and without a scene) the motion of Duarte et al.
     data: Option<PathBuf>,
-    /// Kind of curve fitted to the motion: auto, polynomial or smoother
+    /// How the motion is estimated: smoother (through the equation of motion), polynomial, or auto: a polynomial where it
+    /// leaves nothing but noise within one turn, else the smoother
     #[arg(long, value_name = "KIND", default_value = "auto", value_parser = kind)]
     fit: FitKind,
-    /// Degree of the polynomial, number of harmonics, or number of pieces of the spline; `auto` chooses it from the
-    /// samples
+    /// Degree of a polynomial; `auto` chooses it from the samples
     #[arg(long, value_name = "NUMBER", default_value = "auto", value_parser = size, allow_hyphen_values = true)]
     degree: FitSize,
     #[command(flatten)]

@@ -5,7 +5,7 @@ use super::measurement_model::Sensor;
 use super::motion_estimate::MotionEstimate;
 use super::polynomial::Polynomial;
 use super::problem::{Estimate, Problem};
-use super::record::{Grid, Record};
+use super::record::{Grid, Path, Record};
 use super::residual_tests::Whiteness;
 use super::smoother::{KINEMATIC, Smoothed};
 use super::state_space::Prior;
@@ -31,6 +31,10 @@ pub(super) struct Fitted {
     pub patterned: bool,
     /// Whether the iterations came to rest.
     pub settled: bool,
+    /// The first row that hardly counts because it is far off.
+    pub first_outlier: Option<usize>,
+    /// Step of an encoder, rad, whose codes were told by their transitions.
+    pub coded: Option<f64>,
     /// Least standard deviation of a sample, rad or m.
     floor: f64,
 }
@@ -40,6 +44,9 @@ const OUTLIER_ROUNDS: usize = 6;
 
 /// Units of rounding of computed values.
 const COMPUTED: f64 = 2.0;
+
+/// Largest corner frequency of a smoother, over the rate of blocks of samples, rad: less happens in a block than noise tells.
+const SLOW: f64 = 0.3;
 
 /// Part of an encoder's step that is the least standard deviation of a sample told by a transition.
 const SHARP: f64 = 1e-3;
@@ -65,13 +72,23 @@ impl Fitted {
             let found = Polynomial::new(&record, &angles.theta, degree)?;
             Ok::<Fitted, String>(Fitted::of_polynomial(&record, found, reason))
         };
-        if options.fit == FitKind::Polynomial {
-            return polynomial("it was asked for");
+        match (options.fit, degree) {
+            (FitKind::Polynomial, _) | (FitKind::Auto, Some(_)) => {
+                return polynomial("it was asked for");
+            }
+            (FitKind::Smoother, Some(degree)) => {
+                return Err(format!("a smoother has no degree, and {degree} is given"));
+            }
+            _ => {}
         }
-        let simple = (options.fit == FitKind::Auto && is_within_a_turn(&angles.theta))
+        let mut simple = (options.fit == FitKind::Auto && is_within_a_turn(&angles.theta))
             .then(|| polynomial("within one turn it leaves nothing but noise").ok())
             .flatten()
             .filter(|polynomial| polynomial.settled && !polynomial.patterned);
+        if let Some(exact) = simple.take_if(|polynomial| polynomial.summary.rms <= polynomial.floor)
+        {
+            return Ok(exact);
+        }
         let smoothed = Fitted::smoothed(record, angles, equation);
         Ok(match simple {
             Some(polynomial)
@@ -95,12 +112,14 @@ impl Fitted {
 
     fn smoothed(record: Record<'_>, angles: &CrankAngles, equation: &Equation) -> Fitted {
         let mut problem = problem(record, &angles.theta, equation);
-        let first = match problem.record.is_linear() {
-            true => first_path::straight(&problem),
-            false => first_path::coarse(&problem, &angles.theta),
-        };
+        let first = first_path(&problem, angles);
         let sigma = angles.sigma.max(problem.record.floor);
         let mut kinematic = problem.kinematic(first, sigma);
+        if problem.grid.block * kinematic.noise.corner > SLOW {
+            problem.grid = Grid::new(&problem.record.times, &angles.theta);
+            let first = first_path(&problem, angles);
+            kinematic = problem.kinematic(first, sigma);
+        }
         // An encoder has no outliers.
         let rounds = match problem.record.rows {
             Some(_) => 0,
@@ -111,7 +130,8 @@ impl Fitted {
                 break;
             };
             let before = std::mem::replace(&mut problem.record.weights, weights);
-            let path = problem.path_of(KINEMATIC, &kinematic);
+            let all = 0..problem.grid.len();
+            let path = problem.path_of(KINEMATIC, &kinematic, std::slice::from_ref(&all));
             kinematic = problem.kinematic(path, kinematic.noise.sigma);
             if outliers::alike(&before, &problem.record.weights) {
                 break;
@@ -127,9 +147,9 @@ impl Fitted {
         candidates: &[(Prior, f64)],
     ) -> Fitted {
         let record = &problem.record;
-        let of_sample = |i: usize| &smoothed.estimates[problem.node_of(i)];
+        let of_sample = |i: usize| problem.at_sample(&smoothed.estimates, i);
         let motion = parallel::list(record.row_count(), |row| {
-            motion_of(of_sample(record.sample_of(row)))
+            motion_of(&of_sample(record.sample_of(row)))
         });
         let sigma = smoothed.noise.sigma;
         let shares = (0..record.times.len()).map(|i| {
@@ -162,7 +182,7 @@ impl Fitted {
             parameters,
             corner_hz: Some(smoothed.noise.corner / std::f64::consts::TAU),
             noise_correlation_s: smoothed.noise.correlated.map(|c| 1.0 / c.decay),
-            outliers: record.outliers(),
+            outliers: record.outliers().count(),
             residual_lag_one: whiteness.lag_one,
             residual_runs: whiteness.runs,
             ..fitted.summary
@@ -233,16 +253,25 @@ impl Fitted {
             summary,
             patterned: false,
             settled: true,
+            first_outlier: record.outliers().next(),
+            coded: record.step,
             floor: record.floor,
         }
     }
 }
 
+fn first_path(problem: &Problem<'_>, angles: &CrankAngles) -> Path {
+    match problem.record.is_linear() {
+        true => first_path::straight(problem),
+        false => first_path::coarse(problem, &angles.theta),
+    }
+}
+
 fn motion_of(estimate: &Estimate) -> MotionEstimate {
     MotionEstimate {
-        value: estimate.motion,
+        value: estimate.motion(),
         covariance: estimate.covariance,
-        rounding: [f64::EPSILON * estimate.motion[0].abs(), 0.0, 0.0],
+        rounding: [f64::EPSILON * estimate.state[0].abs(), 0.0, 0.0],
     }
 }
 
@@ -270,6 +299,7 @@ fn record<'a>(
         weights: vec![1.0; values.len()],
         values,
         rows: None,
+        step: None,
         floor: (measurement.resolution() / 12f64.sqrt()).max(COMPUTED * f64::EPSILON * largest),
         origin: measurement.origin(),
     }
@@ -289,13 +319,15 @@ fn problem<'a>(record: Record<'a>, theta: &[f64], equation: &'a Equation) -> Pro
                 values: coded.values,
                 weights: coded.weights,
                 rows: Some(coded.rows),
+                step: Some(coded.step),
                 floor: SHARP * coded.step,
                 ..record
             },
             equation,
         },
         None => Problem {
-            grid: Grid::new(&record.times, theta),
+            grid: Grid::of_blocks(&record.times, theta)
+                .unwrap_or_else(|| Grid::new(&record.times, theta)),
             record,
             equation,
         },

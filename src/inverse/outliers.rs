@@ -8,6 +8,12 @@ use crate::numeric::median::median;
 /// Standard deviations beyond which a sample is looked at: one in 10⁸ of noise.
 const FAR: f64 = 5.7;
 
+/// Share of its own value in the path from which on a sample is not judged.
+const TIED: f64 = 0.5;
+
+/// Part of the samples beyond which what lies far off is no outlier.
+const MOST: f64 = 0.1;
+
 /// Standard deviation of normal noise over the median of its sizes.
 const NORMAL: f64 = 1.4826;
 
@@ -20,21 +26,29 @@ pub(super) fn weights(problem: &Problem<'_>, smoothed: &Smoothed) -> Option<Vec<
     let sigma = smoothed.noise.sigma;
     let standardised: Vec<f64> = (0..record.times.len())
         .map(|i| {
-            let estimate = &smoothed.estimates[problem.node_of(i)];
+            let estimate = problem.at_sample(&smoothed.estimates, i);
             let (residual, shown) = record.sensor.residual(record.values[i], estimate.state[0]);
             // Of a sample that counts, part of its error is in the path.
             let leverage = record.weights[i] * shown.slope * shown.slope * estimate.covariance[0]
                 / (sigma * sigma);
-            residual / (sigma * (1.0 - leverage).max(0.1).sqrt())
+            // The path goes where such a sample is, right or wrong.
+            if leverage > TIED {
+                return 0.0;
+            }
+            residual / (sigma * (1.0 - leverage).sqrt())
         })
         .collect();
-    let scale = NORMAL * median(standardised.iter().map(|r| r.abs()))?;
+    let told = standardised.iter().filter(|r| **r != 0.0);
+    let scale = NORMAL * median(told.map(|r| r.abs()))?;
     let scale = scale.max(record.floor / sigma);
     let far = || standardised.iter().filter(|r| r.abs() > FAR * scale);
     let count = far().count() as f64;
-    if count == 0.0 {
+    if count == 0.0 || count > MOST * standardised.len() as f64 {
         let weighted = record.weights.iter().any(|w| *w < 1.0);
-        return weighted.then(|| record.weights.clone());
+        return weighted.then(|| match count {
+            0.0 => record.weights.clone(),
+            _ => vec![1.0; standardised.len()],
+        });
     }
     let part = count / standardised.len() as f64;
     let wide = far().map(|r| r * r).sum::<f64>() / count / (scale * scale);

@@ -2,7 +2,7 @@
 
 use super::kalman;
 use super::likelihood::{Linear, Noise, Scales, Stretch};
-use super::record::{Grid, Path, Record};
+use super::record::{Grid, Path, Record, hermite};
 use super::state_space::{Deviations, Motion, Prior, Rates, State};
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
@@ -11,12 +11,19 @@ use crate::numeric::parallel;
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Estimate {
     pub state: State,
-    /// θ, ω, θ̈.
-    pub motion: [f64; 3],
-    /// Their covariance: 00, 01, 11, 02, 12, 22.
+    /// rad/s²
+    pub alpha: f64,
+    /// Covariance of θ, ω, θ̈: 00, 01, 11, 02, 12, 22.
     pub covariance: [f64; 6],
     /// Prediction error of the samples of the node over its standard deviation; not a number without samples.
     pub innovation: f64,
+}
+
+impl Estimate {
+    /// θ, ω, θ̈.
+    pub fn motion(&self) -> [f64; 3] {
+        [self.state[0], self.state[1], self.alpha]
+    }
 }
 
 /// Nodes that one thread smooths at a time, at least, beside those at both ends that are shared with its neighbours.
@@ -34,6 +41,30 @@ pub(super) struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
+    /// The smoothed motion at a sample.
+    pub fn at_sample(&self, estimates: &[Estimate], sample: usize) -> Estimate {
+        let node = self.node_of(sample);
+        if self.grid.block == 0.0 {
+            return estimates[node];
+        }
+        let t = self.record.times[sample];
+        let (a, b) = self.grid.around(node, t);
+        let times = [self.grid.times[a], self.grid.times[b]];
+        let part = (t - times[0]) / (times[1] - times[0]);
+        let (a, b) = (&estimates[a], &estimates[b]);
+        let end = |e: &Estimate| [e.state[0], e.state[1]];
+        let [theta, omega] = hermite(times, [end(a), end(b)], t);
+        let between = |a: f64, b: f64| a + part * (b - a);
+        let mut found = estimates[node];
+        (found.state[0], found.state[1]) = (theta, omega);
+        found.alpha = between(a.alpha, b.alpha);
+        // Beyond the ends as at the ends.
+        let part = part.clamp(0.0, 1.0);
+        found.covariance =
+            std::array::from_fn(|k| a.covariance[k] + part * (b.covariance[k] - a.covariance[k]));
+        found
+    }
+
     /// The node of a sample.
     pub fn node_of(&self, sample: usize) -> usize {
         self.grid.first.partition_point(|first| *first <= sample) - 1
@@ -75,7 +106,7 @@ impl<'a> Problem<'a> {
     }
 
     /// The ranges of nodes by which hyper-parameters are estimated: all, or of long records a few stretches.
-    fn sampled(&self) -> Vec<std::ops::Range<usize>> {
+    pub fn sampled(&self) -> Vec<std::ops::Range<usize>> {
         const MOST: usize = 6000;
         const PARTS: usize = 4;
         let nodes = self.grid.len();
@@ -99,15 +130,20 @@ impl<'a> Problem<'a> {
     }
 
     /// Typical sizes along a path with a prior.
-    pub fn scales(&self, motion: &Motion<'_>, path: &Path, slope: f64, shape: [f64; 2]) -> Scales {
+    pub fn scales(
+        &self,
+        motion: &Motion<'_>,
+        state: impl Fn(usize) -> State,
+        slope: f64,
+        shape: [f64; 2],
+    ) -> Scales {
         let times = &self.grid.times;
         let duration = times[times.len() - 1] - times[0];
         let samples = self.record.times.len() as f64;
         let stride = times.len().div_ceil(1000);
         let (mut lever, mut count) = (0.0, 0.0);
         for k in (0..times.len()).step_by(stride) {
-            let state = &path.states[k];
-            let rates = motion.rates(times[k], state);
+            let rates = motion.rates(times[k], &state(k));
             if rates.by_unknown.is_finite() {
                 lever += rates.by_unknown * rates.by_unknown;
                 count += 1.0;
@@ -119,7 +155,7 @@ impl<'a> Problem<'a> {
             slope,
             lever: (lever / count).sqrt(),
             motion: shape,
-            speed: spread(path.states.iter().step_by(stride).map(|state| state[1])),
+            speed: spread((0..times.len()).step_by(stride).map(|k| state(k)[1])),
             floor: self.record.floor,
         }
     }
@@ -137,9 +173,8 @@ impl<'a> Problem<'a> {
         let shared = FORGOTTEN / noise.corner;
         let density = nodes as f64 / scales.duration;
         let length = PIECE.max((4.0 * shared * density).min(nodes as f64) as usize);
-        let pieces = nodes.div_ceil(length);
-        let job = |piece: usize| {
-            let core = nodes * piece / pieces..nodes * (piece + 1) / pieces;
+        let job = |(piece, found): (usize, &mut [Estimate])| {
+            let core = piece * length..piece * length + found.len();
             let from = times.partition_point(|t| *t < times[core.start] - shared);
             let to = times.partition_point(|t| *t <= times[core.end - 1] + shared);
             let stretch = self.stretch(motion, path, from..to, noise.sigma);
@@ -149,12 +184,12 @@ impl<'a> Problem<'a> {
                 scales,
             };
             let model = linear.deviations(&stretch, noise);
-            let mut all = self.estimates(motion, path, from, &model, noise);
-            all.truncate(core.end - from);
-            all.drain(..core.start - from);
-            all
+            let all = self.estimates(motion, path, from, &model, noise);
+            found.copy_from_slice(&all[core.start - from..core.end - from]);
         };
-        parallel::map(0..pieces, job).concat()
+        let mut found = vec![Estimate::default(); nodes];
+        parallel::each(found.chunks_mut(length).enumerate(), job);
+        found
     }
 
     fn estimates(
@@ -198,7 +233,7 @@ impl<'a> Problem<'a> {
                 let covariance = [p[0][0], p[0][1], p[1][1], across[0], across[1], own];
                 Estimate {
                     state,
-                    motion: [state[0], state[1], rates.alpha],
+                    alpha: rates.alpha,
                     covariance: covariance.map(|value| value * variance),
                     innovation: innovation.map_or(f64::NAN, |value| value / noise.sigma),
                 }

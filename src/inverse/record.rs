@@ -18,6 +18,8 @@ pub(super) struct Record<'a> {
     pub weights: Vec<f64>,
     /// Where each row of the measurement is among the samples, where transitions from code to code stand between them.
     pub rows: Option<Vec<usize>>,
+    /// Step of an encoder, rad, if its codes are told by their transitions.
+    pub step: Option<f64>,
     /// Least standard deviation of a sample, rad or m.
     pub floor: f64,
     /// Time of the scene at time 0 of the record, s.
@@ -31,6 +33,8 @@ pub(super) struct Grid {
     pub times: Vec<f64>,
     /// First sample of each node, and at the end the number of samples: a node has those up to the next one's first.
     pub first: Vec<usize>,
+    /// Time of a block of samples that stand at one node, s; 0 where each has its own.
+    pub block: f64,
 }
 
 /// A path: the nominal one of a linear model.
@@ -42,10 +46,64 @@ pub(super) struct Path {
     pub variances: Option<Vec<f64>>,
 }
 
+impl Path {
+    /// Crank angle at a time in the block of a node, rad.
+    fn angle(&self, grid: &Grid, node: usize, t: f64) -> f64 {
+        let (a, b) = grid.around(node, t);
+        let state = |k: usize| [self.states[k][0], self.states[k][1]];
+        hermite([grid.times[a], grid.times[b]], [state(a), state(b)], t)[0]
+    }
+}
+
+/// Value and slope at t of the cubic that has values and slopes at two times.
+pub(super) fn hermite(times: [f64; 2], ends: [[f64; 2]; 2], t: f64) -> [f64; 2] {
+    let h = times[1] - times[0];
+    let s = (t - times[0]) / h;
+    let [[p, u], [q, v]] = ends;
+    let mean = (q - p) / h;
+    let (c, d) = (3.0 * mean - 2.0 * u - v, u + v - 2.0 * mean);
+    [
+        p + h * s * (u + s * (c + s * d)),
+        u + s * (2.0 * c + 3.0 * s * d),
+    ]
+}
+
 /// Largest way of the crank from node to node, rad.
 const LONGEST: f64 = 0.12;
 
+/// Samples from which on they may be taken together, nodes that are left at least, and the largest way of the crank, rad, along
+/// which they are.
+const MANY: usize = 100_000;
+const BLOCKS: usize = 50_000;
+const SHORT: f64 = 0.02;
+
 impl Grid {
+    /// Nodes that stand for blocks of samples, if these are so many and so dense that little happens in a block.
+    pub fn of_blocks(times: &[f64], angles: &[f64]) -> Option<Grid> {
+        let count = times.len();
+        let stride = count.div_ceil(1000);
+        let some: Vec<f64> = angles.iter().step_by(stride).copied().collect();
+        let way: f64 = some.windows(2).map(|w| (w[1] - w[0]).abs()).sum();
+        let dense = (SHORT * count as f64 / way.max(f64::MIN_POSITIVE)) as usize;
+        let length = dense.min(count / BLOCKS);
+        if count < MANY || length < 2 {
+            return None;
+        }
+        let blocks = count / length;
+        let mut first: Vec<usize> = (0..=blocks).map(|k| k * count / blocks).collect();
+        first.dedup();
+        let times: Vec<f64> = first
+            .windows(2)
+            .map(|w| 0.5 * (times[w[0]] + times[w[1] - 1]))
+            .collect();
+        let widest = times.windows(2).map(|w| w[1] - w[0]).fold(0.0, f64::max);
+        Some(Grid {
+            times,
+            first,
+            block: widest,
+        })
+    }
+
     /// Nodes at the samples and between those that are far apart.
     pub fn new(times: &[f64], angles: &[f64]) -> Grid {
         let mut grid = Grid::default();
@@ -65,6 +123,17 @@ impl Grid {
         grid
     }
 
+    /// The node and the next one on the side of a time.
+    pub fn around(&self, node: usize, t: f64) -> (usize, usize) {
+        let last = self.times.len() - 1;
+        let before = match t < self.times[node] {
+            true => node.saturating_sub(1),
+            false => node,
+        };
+        let before = before.min(last - 1);
+        (before, before + 1)
+    }
+
     pub fn len(&self) -> usize {
         self.times.len()
     }
@@ -82,11 +151,12 @@ impl Record<'_> {
     }
 
     /// Samples that hardly count.
-    pub fn outliers(&self) -> usize {
-        match self.rows {
-            Some(_) => 0,
-            None => self.weights.iter().filter(|w| **w < 0.5).count(),
-        }
+    pub fn outliers(&self) -> impl Iterator<Item = usize> {
+        let all = match self.rows {
+            Some(_) => 0..0,
+            None => 0..self.weights.len(),
+        };
+        all.filter(|i| self.weights[*i] < 0.5)
     }
 
     /// Whether what was measured is the crank angle itself.
@@ -101,9 +171,12 @@ impl Record<'_> {
             ..Observed::default()
         };
         let range = grid.first[node]..grid.first[node + 1];
-        let theta = path.states[node][0];
         let (mut weight, mut sum, mut slope) = (0.0, 0.0, 0.0);
         for i in range {
+            let theta = match grid.block > 0.0 {
+                true => path.angle(grid, node, self.times[i]),
+                false => path.states[node][0],
+            };
             let (residual, shown) = self.sensor.residual(self.values[i], theta);
             let mut precision = self.weights[i];
             if let Some(variances) = &path.variances {

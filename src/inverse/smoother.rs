@@ -5,8 +5,9 @@ use super::likelihood::{Linear, Noise, Scales};
 use super::problem::{Estimate, Problem};
 use super::record::Path;
 use super::residual_tests::Whiteness;
-use super::state_space::{Prior, Unknown};
+use super::state_space::{Prior, State, Unknown};
 use crate::numeric::parallel;
+use std::ops::Range;
 
 /// A smoothed motion with its prior and noise.
 #[derive(Clone, Debug)]
@@ -58,8 +59,15 @@ pub(super) const MECHANICAL: [Prior; 5] = [
 /// Most iterations of Gauss and Newton.
 const ITERATIONS: usize = 12;
 
+/// First standard deviation of a sample over the way between two, and the factor by which it is lowered: the prior of the start
+/// is then as wide as that way.
+const LARGE: f64 = 1e-3;
+
+/// Nodes from which on one pass is enough where the model is linear.
+const MANY: usize = 100_000;
+
 /// Change of the path, in its standard errors, at which the iterations have come to rest.
-const AT_REST: f64 = 0.01;
+const AT_REST: f64 = 0.05;
 
 impl Problem<'_> {
     /// Root mean square of d measured/dθ.
@@ -82,10 +90,16 @@ impl Problem<'_> {
         let mut best: Option<Smoothed> = None;
         let is_linear = self.record.is_linear();
         let mut sigma = sigma;
+        // The prior of the start is so many σ wide: a σ that is large at first, and lowered, makes it wide enough.
+        let mut floor = LARGE * slope * self.way();
         for iteration in 0..ITERATIONS {
-            let scales = self.scales(&motion, &path, slope, shape);
+            floor = floor.max(self.record.floor);
+            let scales = Scales {
+                floor,
+                ..self.scales(&motion, |node| path.states[node], slope, shape)
+            };
             let noise = match &best {
-                Some(last) if iteration > 3 => last.noise,
+                Some(last) if iteration > 6 => last.noise,
                 last => {
                     let stretches = self.stretches(&motion, &path, sigma);
                     let linear = Linear {
@@ -93,10 +107,10 @@ impl Problem<'_> {
                         prior: KINEMATIC,
                         scales,
                     };
-                    last.as_ref().map_or_else(
-                        || linear.anywhere(),
-                        |last| linear.maximised(last.noise.corner, None),
-                    )
+                    match last {
+                        Some(last) => linear.maximised(last.noise.corner, None),
+                        None => linear.anywhere(),
+                    }
                 }
             };
             let estimates = self.smoothed(&motion, &path, scales, &noise);
@@ -112,7 +126,8 @@ impl Problem<'_> {
                     .sqrt()
             };
             shape = [rms(2).max(f64::MIN_POSITIVE), rms(3).max(f64::MIN_POSITIVE)];
-            let settled = change < AT_REST || is_linear;
+            let lowered = floor <= self.record.floor || noise.sigma > 3.0 * floor;
+            let settled = lowered && (change < AT_REST || is_linear);
             best = Some(Smoothed {
                 prior: KINEMATIC,
                 noise,
@@ -121,35 +136,56 @@ impl Problem<'_> {
                 settled,
             });
             // A second pass takes what is lost to rounding about a straight line.
-            if change < AT_REST || is_linear && iteration > 0 {
+            let many = self.grid.len() > MANY;
+            if settled && (!is_linear || iteration > 0 || many) {
                 break;
+            }
+            if !lowered {
+                floor *= LARGE;
             }
         }
         let Some(mut found) = best else {
             unreachable!("at least one iteration")
         };
         found.scales.motion = shape;
+        found.scales.floor = self.record.floor;
         found
     }
 
-    /// The states of a prior along a smoothed motion.
-    pub fn path_of(&self, prior: Prior, from: &Smoothed) -> Path {
-        let r = self.equation.linkage().r;
-        let states = parallel::list(from.estimates.len(), |k| {
-            let [theta, omega, alpha] = from.estimates[k].motion;
-            let terms = self.equation.terms(theta);
-            let t = self.record.origin + self.grid.times[k];
-            let known = self.equation.loads().value(t, theta, omega, &terms.pose);
-            let torque = self.equation.generalized_force(&terms, omega, alpha)
-                - known.generalized(&terms.pose);
-            let dx = terms.pose.dx;
-            let unknown = match prior.unknown {
-                Unknown::Acceleration => alpha,
-                Unknown::Torque => torque,
-                Unknown::Force => torque * dx / (dx * dx + 0.01 * r * r),
-            };
-            [theta, omega, unknown, 0.0]
-        });
+    /// Way of the crank from sample to sample, rad, root mean square.
+    fn way(&self) -> f64 {
+        let record = &self.record;
+        let squares = record.values.windows(2).map(|w| (w[1] - w[0]).powi(2));
+        let mean = squares.sum::<f64>() / record.values.len() as f64;
+        mean.sqrt() / record.sensor.size()
+    }
+
+    /// The state of a prior at a node of a smoothed motion.
+    fn state_of(&self, prior: Prior, from: &Smoothed, node: usize) -> State {
+        let [theta, omega, alpha] = from.estimates[node].motion();
+        if prior.unknown == Unknown::Acceleration {
+            return [theta, omega, alpha, from.estimates[node].state[3]];
+        }
+        let terms = self.equation.terms(theta);
+        let t = self.record.origin + self.grid.times[node];
+        let known = self.equation.loads().value(t, theta, omega, &terms.pose);
+        let torque =
+            self.equation.generalized_force(&terms, omega, alpha) - known.generalized(&terms.pose);
+        let (r, dx) = (self.equation.linkage().r, terms.pose.dx);
+        let unknown = match prior.unknown {
+            Unknown::Force => torque * dx / (dx * dx + 0.01 * r * r),
+            _ => torque,
+        };
+        [theta, omega, unknown, 0.0]
+    }
+
+    /// The states of a prior along a smoothed motion, at some ranges of nodes.
+    pub fn path_of(&self, prior: Prior, from: &Smoothed, ranges: &[Range<usize>]) -> Path {
+        let mut states = vec![State::default(); from.estimates.len()];
+        for range in ranges {
+            let some = parallel::list(range.len(), |k| self.state_of(prior, from, range.start + k));
+            states[range.clone()].copy_from_slice(&some);
+        }
         let variances = (!self.record.is_linear())
             .then(|| from.estimates.iter().map(|e| e.covariance[0]).collect());
         Path { states, variances }
@@ -158,8 +194,9 @@ impl Problem<'_> {
     /// A prior about a smoothed path.
     fn candidate(&self, prior: Prior, from: &Smoothed, correlated: bool) -> Candidate {
         let motion = self.motion(prior);
-        let path = self.path_of(prior, from);
-        let scales = self.scales(&motion, &path, from.scales.slope, from.scales.motion);
+        let path = self.path_of(prior, from, &self.sampled());
+        let state = |node: usize| self.state_of(prior, from, node);
+        let scales = self.scales(&motion, state, from.scales.slope, from.scales.motion);
         let stretches = self.stretches(&motion, &path, from.noise.sigma);
         let linear = Linear {
             stretches: &stretches,
@@ -177,7 +214,6 @@ impl Problem<'_> {
             prior,
             noise,
             scales,
-            path,
         }
     }
 
@@ -185,7 +221,7 @@ impl Problem<'_> {
     /// first. Noise of the samples is correlated where the prediction errors say so, and the likelihood agrees.
     pub fn likeliest(&self, kinematic: Smoothed) -> (Smoothed, Vec<(Prior, f64)>) {
         let white = self.tried(&kinematic, false);
-        let Some(found) = self.first_settled(&white) else {
+        let Some(found) = self.first_settled(&white, &kinematic) else {
             return (kinematic, listed(&white));
         };
         let innovations = found.estimates.iter().map(|e| e.innovation);
@@ -200,7 +236,7 @@ impl Problem<'_> {
                     .map_or(f64::NEG_INFINITY, |c| c.noise.likelihood)
             };
             if gain(&correlated) > gain(&white) + cost
-                && let Some(found) = self.first_settled(&correlated)
+                && let Some(found) = self.first_settled(&correlated, &kinematic)
             {
                 return (found, listed(&correlated));
             }
@@ -220,19 +256,22 @@ impl Problem<'_> {
     }
 
     /// The smoothed motion with the first prior whose iterations come to rest.
-    fn first_settled(&self, tried: &[Candidate]) -> Option<Smoothed> {
-        let smoothed = tried.iter().map(|candidate| self.iterated(candidate));
+    fn first_settled(&self, tried: &[Candidate], kinematic: &Smoothed) -> Option<Smoothed> {
+        let smoothed = tried
+            .iter()
+            .map(|candidate| self.iterated(candidate, kinematic));
         smoothed.into_iter().find(|found| found.settled)
     }
 
     /// The smoothed motion with a prior, about paths that approach it.
-    fn iterated(&self, candidate: &Candidate) -> Smoothed {
+    fn iterated(&self, candidate: &Candidate, kinematic: &Smoothed) -> Smoothed {
         let Candidate {
             prior,
             mut noise,
             scales,
-            mut path,
-        } = candidate.clone();
+        } = *candidate;
+        let all = 0..self.grid.len();
+        let mut path = self.path_of(prior, kinematic, std::slice::from_ref(&all));
         let motion = self.motion(prior);
         let mut result = Smoothed {
             prior,
@@ -255,6 +294,8 @@ impl Problem<'_> {
                     noise = linear.with_level(&noise);
                 }
             }
+            // The former ones take their memory.
+            result.estimates = Vec::new();
             let estimates = self.smoothed(&motion, &path, scales, &noise);
             let change = change(&estimates, &path);
             path.states = estimates.iter().map(|e| e.state).collect();
@@ -275,12 +316,11 @@ impl Problem<'_> {
 }
 
 /// A prior with its noise, about a path.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 struct Candidate {
     prior: Prior,
     noise: Noise,
     scales: Scales,
-    path: Path,
 }
 
 fn listed(tried: &[Candidate]) -> Vec<(Prior, f64)> {

