@@ -7,7 +7,7 @@ pub(super) struct Transitions {
     pub times: Vec<f64>,
     /// rad
     pub values: Vec<f64>,
-    /// Weight beside a sample whose error is spread over a step; 0 at times that are there for their rows alone.
+    /// Weight beside a sample whose error is spread over a step.
     pub weights: Vec<f64>,
     /// Where each original sample is among these.
     pub rows: Vec<usize>,
@@ -39,8 +39,8 @@ fn common_step(values: &[f64]) -> Option<f64> {
 /// The transitions of codes, if most samples dwell on them.
 ///
 /// A transition by one step lies between two samples, at a time with the variance h²/12 for the time h between them; as an angle
-/// that is (step/len)²/12 for a code that stays for len samples. A code that stays for one sample is a sample whose error has
-/// the variance step²/12, and so is the middle of one that stays for longer.
+/// that is (step/len)²/12 for a code that stays for len samples, the shorter stay on both sides. The samples of one stay have
+/// one error together, of the variance step²/12: each has its share of that weight.
 pub(super) fn transitions(times: &[f64], values: &[f64]) -> Option<Transitions> {
     let equal = values.windows(2).filter(|w| w[0] == w[1]).count();
     if (equal as f64) < DWELLING * values.len() as f64 {
@@ -60,18 +60,17 @@ pub(super) fn transitions(times: &[f64], values: &[f64]) -> Option<Transitions> 
         if let Some((last, stayed)) = before {
             let is_one = (values[first] - values[last]).abs() < 1.5 * found.step;
             if is_one && stayed.max(length) > 1 {
-                let stay = 0.5 * (stayed + length) as f64;
+                let stay = stayed.min(length) as f64;
                 found.times.push(0.5 * (times[last] + times[first]));
                 found.values.push(0.5 * (values[last] + values[first]));
                 found.weights.push(stay * stay);
             }
         }
-        let middle = first + length / 2;
         for i in first..first + length {
             found.rows.push(found.times.len());
             found.times.push(times[i]);
             found.values.push(values[i]);
-            found.weights.push(f64::from(u8::from(i == middle)));
+            found.weights.push(1.0 / length as f64);
         }
         before = Some((first + length - 1, length));
         first += length;
@@ -98,7 +97,7 @@ mod tests {
         // Two steps at once tell no transition.
         assert_eq!(told.len(), 2);
         assert!((found.times[told[0]] - 0.35).abs() < 1e-12 && found.values[told[0]] == 0.125);
-        assert_eq!(found.weights[told[0]], 16.0);
+        assert_eq!((found.weights[0], found.weights[told[0]]), (0.25, 16.0));
     }
 
     #[test]

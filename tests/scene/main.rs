@@ -8,3 +8,5 @@ mod data_files;
 mod odd_files;
 mod refusals;
 mod scene_files;
+#[path = "../support/seed.rs"]
+mod seed;

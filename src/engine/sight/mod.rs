@@ -1,8 +1,12 @@
 //! Whether the nodes of a panel or a step show the forces on it, or something is hidden between them.
 
+mod steps;
+
 use std::f64::consts::PI;
 
 use crate::numeric::enclosure::{Detail, Reach};
+
+pub use steps::Proof;
 
 /// The motion on a panel or a step, over its part from 0 to 1.
 pub trait Way {
@@ -25,12 +29,16 @@ pub struct Look {
     pub ellipse: f64,
     /// What the nodes may leave out of the force, everywhere on it.
     pub allowed: f64,
+    /// Whether its nodes tell the force between them, to be compared; else they show what is as wide as a quarter of it.
+    pub compares: bool,
 }
 
 /// A corner or a jump is found to so many halvings of the whole.
 const HALVINGS: i32 = 46;
 /// Part of what is allowed that each corner may leave.
 const AT_CORNER: f64 = 1e-4;
+/// A step whose nodes are not to be compared shows what it shows on pieces of about a quarter: its stages are so far apart.
+const COARSE: f64 = 0.2;
 /// Most pieces of one panel that are looked at.
 const MOST_PIECES: usize = 400;
 /// Ends that are left out where a corner is at an end, off by what its place is off.
@@ -47,18 +55,8 @@ pub struct Hidden {
 
 /// Where a panel or a step has to end so that its nodes show the forces; none if they do.
 pub fn hidden(way: &impl Way, look: Look) -> Option<Hidden> {
-    let Look { nodes, .. } = look;
-    let needed = |from: f64, to: f64| look.nodes_for(&look.detail(way, from, to));
-    if needed(0.0, 1.0).is_some_and(|needed| needed <= nodes) {
+    if look.shows(&look.detail(way, 0.0, 1.0)) {
         return None;
-    }
-    for end in ENDS {
-        let left = AT_CORNER * look.allowed;
-        let little = |from: f64, to: f64| look.detail(way, from, to).change * end <= left;
-        let shown = needed(end, 1.0 - end).is_some_and(|needed| needed <= nodes);
-        if shown && little(0.0, end) && little(1.0 - end, 1.0) {
-            return None;
-        }
     }
     Search::new(look).run(way)
 }
@@ -73,6 +71,21 @@ impl Look {
             return Some(1);
         }
         detail.nodes(self.ellipse, self.allowed)
+    }
+
+    /// Whether its nodes show a force.
+    pub fn shows(&self, detail: &Detail) -> bool {
+        let needed = self.nodes_for(detail);
+        needed.is_some_and(|needed| needed <= self.nodes)
+    }
+
+    /// The part at an end that may be left out for a corner there.
+    fn end(&self, way: &impl Way, piece: fn(f64) -> [f64; 2]) -> f64 {
+        let little = |end: &f64| {
+            let [from, to] = piece(*end);
+            self.detail(way, from, to).change * end <= AT_CORNER * self.allowed
+        };
+        ENDS.into_iter().find(little).unwrap_or(0.0)
     }
 }
 
@@ -90,6 +103,7 @@ struct Search {
     look: Look,
     /// Integral of what the nodes miss.
     missed: f64,
+    is_missed: bool,
     /// The first piece on which they miss anything.
     first: Option<[f64; 2]>,
     corner: Option<f64>,
@@ -100,6 +114,7 @@ impl Search {
         Search {
             look,
             missed: 0.0,
+            is_missed: false,
             first: None,
             corner: None,
         }
@@ -108,7 +123,8 @@ impl Search {
     /// Halves the panel until each piece is shown by as many nodes as the panel has, and compares there.
     fn run(mut self, way: &impl Way) -> Option<Hidden> {
         let mut left = [[0.0; 2]; HALVINGS as usize + 2];
-        left[0] = [0.0, 1.0];
+        let begin = self.look.end(way, |end| [0.0, end]);
+        left[0] = [begin, 1.0 - self.look.end(way, |end| [1.0 - end, 1.0])];
         let (mut count, mut pieces) = (1, 0);
         while count > 0 {
             let [from, to] = left[count - 1];
@@ -132,15 +148,11 @@ impl Search {
                     count += 2;
                 }
             }
-            if self.corner.is_some() && self.is_missed() {
+            if self.corner.is_some() && self.is_missed {
                 break;
             }
         }
-        self.is_missed().then(|| self.place()).flatten()
-    }
-
-    fn is_missed(&self) -> bool {
-        self.missed > self.look.allowed
+        self.is_missed.then(|| self.place()).flatten()
     }
 
     /// The first corner, or else an end of the piece on which something was missed first.
@@ -160,11 +172,18 @@ impl Search {
         let is_at_end = from == 0.0 || to == 1.0;
         if detail.around.is_none() && !is_at_end && self.corner.is_none() {
             self.corner = Some(0.5 * (from + to));
+            self.is_missed |= !self.look.compares;
         }
     }
 
     fn compare(&mut self, way: &impl Way, [from, to]: [f64; 2], nodes: usize) {
-        if self.is_missed() {
+        if self.is_missed {
+            return;
+        }
+        if !self.look.compares {
+            if to - from < COARSE {
+                (self.is_missed, self.first) = (true, Some([from, to]));
+            }
             return;
         }
         let half = 0.5 * (to - from);
@@ -175,5 +194,6 @@ impl Search {
             self.first = Some([from, to]);
         }
         self.missed += integral;
+        self.is_missed = self.missed > self.look.allowed;
     }
 }
