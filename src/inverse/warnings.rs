@@ -86,6 +86,19 @@ pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> 
             summary.residual_lag_one, summary.residual_runs,
         ));
     }
+    let sizes = fitted.residuals.iter().map(|residual| residual.abs());
+    let farthest = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+    if let (1.., Some((sample, _))) = (summary.outliers, farthest) {
+        let samples = match summary.outliers {
+            1 => "1 sample is far off and hardly counts".to_owned(),
+            more => format!("{more} samples are far off and hardly count"),
+        };
+        warnings.push(format!(
+            "{samples}, the farthest at {} by {}",
+            measurement.place(sample),
+            measurement.shown(fitted.residuals[sample])
+        ));
+    }
     if summary.coefficients.iter().any(Option::is_none) {
         warnings.push("coefficients in plain time are left out where cancellation leaves no digits: let the time begin near 0".to_owned());
     }

@@ -37,11 +37,7 @@ fn the_text_fits_a_screen() {
         (400, 0.02, &[][..]),
         (1500, 0.05, &[]),
         (60, 0.01, &["--fit", "polynomial", "--degree", "30"]),
-        (
-            60,
-            0.01,
-            &["--fit", "polynomial", "--degree", "12"],
-        ),
+        (60, 0.01, &["--fit", "polynomial", "--degree", "12"]),
     ] {
         let text = said(
             "10 rad/s",
