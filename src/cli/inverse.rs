@@ -124,7 +124,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let scene = streams.scene(arguments.scene.as_ref())?;
     check_ending(arguments.plot.as_ref(), &["svg"])?;
     let options = InverseOptions {
-        fit: arguments.fit,
+        fit: match (arguments.fit, arguments.degree) {
+            // A degree asks for a polynomial.
+            (FitKind::Auto, FitSize::Fixed(_)) => FitKind::Polynomial,
+            (fit, _) => fit,
+        },
         size: arguments.degree,
         reactions: arguments.reactions,
         beside_forces: arguments.beside_forces,

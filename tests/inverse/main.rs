@@ -11,3 +11,5 @@ mod inverse_limits;
 mod measured_rows;
 mod noise;
 mod polynomial;
+mod simulated;
+mod white_snap;

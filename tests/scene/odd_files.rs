@@ -291,7 +291,7 @@ fn counts_of_an_encoder_and_the_zero_of_a_ruler() {
         &with(|reading| reading.x_zero = 0.0125),
         Measured::X,
     );
-    assert_eq!(found.shown(found.values()[0]), "512.5 mm");
+    assert_eq!(found.shown(found.values()[0]), "500 mm");
     let error = load(
         plain("t [s],theta [rad]").as_bytes(),
         &with(|reading| reading.x_zero = 0.0125),

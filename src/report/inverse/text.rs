@@ -132,17 +132,6 @@ fn fit(facts: &mut Facts, fit: &FitSummary, data: &DataSummary) {
     if let Some(time) = fit.noise_correlation_s {
         facts.add("  noise", format_args!("correlated over {time:.3e} s"));
     }
-    if fit.outliers > 0 {
-        let samples = if fit.outliers == 1 {
-            "sample"
-        } else {
-            "samples"
-        };
-        facts.add(
-            "  outliers",
-            format_args!("{} {samples} far off that hardly count", fit.outliers),
-        );
-    }
 }
 
 /// The least and the largest value with their standard errors.

@@ -253,11 +253,11 @@ impl Measurement {
 
     /// A value in the unit of its column, with the unit.
     pub fn shown(&self, value: f64) -> String {
-        let (factor, zero, unit) = match &self.source {
-            Some(source) => (source.value.factor, source.zero, source.value.unit.as_str()),
-            None => (1.0, 0.0, self.measured.unit()),
+        let (factor, unit) = match &self.source {
+            Some(source) => (source.value.factor, source.value.unit.as_str()),
+            None => (1.0, self.measured.unit()),
         };
-        super::number::with_unit((value + zero) / factor, unit)
+        super::number::with_unit(value / factor, unit)
     }
 
     /// Problems with the measured values of some samples (from 0): what is wrong and what would be right.

@@ -68,7 +68,6 @@ pub(super) fn measurement(
             columns: columns.at,
             time: columns.time,
             value: columns.value,
-            zero: columns.zero,
             text,
         }),
     };

@@ -18,8 +18,6 @@ pub(super) struct Source {
     pub columns: [usize; 2],
     pub time: Column,
     pub value: Column,
-    /// What was subtracted from a value in SI.
-    pub zero: f64,
 }
 
 impl Source {
