@@ -43,7 +43,7 @@
 //! - [`study::simulate`] keeps the dense motion; [`study::simulate_rows`] hands on its rows, in memory that does not
 //!   grow with the run.
 //! - [`study::kinematics`], [`study::forces`] and [`study::statics`] look at one turn of the crank.
-//! - [`study::inverse`] takes measured samples, from arrays ([`scene::Measurement::new`]) or from a file
+//! - [`inverse::inverse`] takes measured samples, from arrays ([`scene::Measurement::new`]) or from a file
 //!   ([`scene::Measurement::load`]).
 //! - [`study::Sweep`] computes many designs; [`study::explain`] shows the equation, its terms and the plan.
 //!
@@ -56,6 +56,7 @@
 pub mod cli;
 pub mod engine;
 pub mod error;
+pub mod inverse;
 pub mod mechanism;
 pub mod numeric;
 pub mod plan;

@@ -26,8 +26,15 @@ const MAY_NAME: &[(&str, &[&str])] = &[
             "error",
         ],
     ),
-    ("report", &["study", "error"]),
-    ("cli", &["study", "report", "scene", "plan", "error"]),
+    (
+        "inverse",
+        &["scene", "mechanism", "plan", "numeric", "error"],
+    ),
+    ("report", &["study", "inverse", "error"]),
+    (
+        "cli",
+        &["study", "inverse", "report", "scene", "plan", "error"],
+    ),
 ];
 
 /// Lines of a file that is not a table.

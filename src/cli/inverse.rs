@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::reading::ReadingArguments;
-use super::{Outcome, Streams, create, fill, is_standard};
+use super::{Outcome, Streams, check_ending, create, fill, is_standard};
 use crate::error::Error;
+use crate::inverse::{self, AsPrinted, FitKind, FitSize, InverseOptions};
 use crate::report;
 use crate::scene::{Measurement, Reading};
-use crate::study::{self, AsPrinted, FitKind, FitSize, InverseOptions};
 
 /// Arguments of `inverse`.
 #[derive(Debug, Args)]
@@ -19,8 +19,8 @@ pub(super) struct Arguments {
     /// Measured motion as CSV, `-` for standard input: time and theta, gamma or x, units in the header; without it
     /// (and without a scene) the motion of Duarte et al.
     data: Option<PathBuf>,
-    /// Kind of curve fitted to the motion: polynomial, spline or fourier
-    #[arg(long, value_name = "KIND", default_value = "polynomial", value_parser = kind)]
+    /// Kind of curve fitted to the motion: auto, polynomial or smoother
+    #[arg(long, value_name = "KIND", default_value = "auto", value_parser = kind)]
     fit: FitKind,
     /// Degree of the polynomial, number of harmonics, or number of pieces of the spline; `auto` chooses it from the
     /// samples
@@ -54,7 +54,7 @@ pub(super) struct Arguments {
 
 fn kind(text: &str) -> Result<FitKind, String> {
     let found = FitKind::ALL.into_iter().find(|kind| kind.name() == text);
-    found.ok_or_else(|| "the fit is polynomial, spline or fourier".to_owned())
+    found.ok_or_else(|| "the fit is auto, polynomial or smoother".to_owned())
 }
 
 /// Larger degrees are a slip.
@@ -122,6 +122,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     // First the data, whose lack tells a data file in the place of the scene.
     let measurement = measurement(arguments)?;
     let scene = streams.scene(arguments.scene.as_ref())?;
+    check_ending(arguments.plot.as_ref(), &["svg"])?;
     let options = InverseOptions {
         fit: arguments.fit,
         size: arguments.degree,
@@ -136,7 +137,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let residuals = create(arguments.residuals.as_ref())?;
     let plot = create(arguments.plot.as_ref())?;
     // What is odd in the data may be why it is refused.
-    let mut result = study::inverse(&scene, &measurement, &options)
+    let mut result = inverse::inverse(&scene, &measurement, &options)
         .map_err(|error| error.with_notes(measurement.notes()))?;
     let of_printed = printed.as_ref().and_then(AsPrinted::warning);
     result.summary.warnings.extend(of_printed);

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
-    Outcome, Streams, angle, check_rows_of_turn, create, fill, length, positive_angle, quantity,
-    say,
+    Outcome, Streams, angle, check_ending, check_rows_of_turn, create, fill, length,
+    positive_angle, quantity, say,
 };
 use crate::error::Error;
 use crate::report::{self, TurnWriter};
@@ -67,6 +67,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     )?;
     check_rows_of_turn(arguments.every)?;
     let mut scene = streams.scene(arguments.scene.as_ref())?;
+    check_ending(arguments.plot.as_ref(), &["svg"])?;
     if let Some((stroke, ratio)) = arguments.stroke.zip(arguments.rod_ratio) {
         let (crank, rod) = study::size_from_stroke(stroke, ratio, scene.geometry.offset)?;
         (scene.geometry.crank, scene.geometry.rod) = (crank, rod);

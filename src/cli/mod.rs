@@ -22,7 +22,9 @@ use clap::{Parser, Subcommand};
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::scene::unit::{self, Quantity};
-use streams::{Streams, check_files, create, fill, is_standard, print, say};
+use streams::{
+    Streams, check_ending, check_files, create, fill, is_standard, print, say, say_styled,
+};
 
 /// Dynamics of the offset slider-crank from its Lagrange equation.
 #[derive(Debug, Parser)]
@@ -87,7 +89,7 @@ pub fn main() -> ExitCode {
         Err(error) if error.is_broken_pipe() => ExitCode::SUCCESS,
         Err(error) => {
             match &error {
-                Error::Scene(problems) => say(&problems.render(colour())),
+                Error::Scene(problems) => say_styled(&problems.render(colour())),
                 other => say(&format!("error: {other}")),
             }
             ExitCode::from(error.exit_status())

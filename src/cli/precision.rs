@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Outcome, check_files, create, fill, is_standard, print, say, scene};
+use super::{Outcome, check_ending, check_files, create, fill, is_standard, print, say, scene};
 use crate::error::Error;
 use crate::report;
 use crate::scene::Scene;
@@ -93,6 +93,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let read: Vec<&Path> = files.iter().map(PathBuf::as_path).chain(tables).collect();
     let written = [&arguments.out, &arguments.plot].into_iter().flatten();
     check_files(&read, &written.cloned().collect::<Vec<_>>())?;
+    check_ending(arguments.plot.as_ref(), &["svg"])?;
     let rows = create(arguments.out.as_ref())?;
     let plot = create(arguments.plot.as_ref())?;
     let results = compare(&scenes, &arguments.options(), text_on_stdout)?;

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
-    Outcome, Streams, angle, check_rows_of_turn, create, fill, length, positive_angle, print,
-    quantity,
+    Outcome, Streams, angle, check_ending, check_rows_of_turn, create, fill, length,
+    positive_angle, print, quantity,
 };
 use crate::error::Error;
 use crate::report::{self, StaticsWriter};
@@ -116,10 +116,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         arguments.json,
     )?;
     check_rows_of_turn(arguments.every)?;
-    let result = study::statics(
-        &streams.scene(arguments.scene.as_ref())?,
-        &arguments.options(),
-    )?;
+    let scene = streams.scene(arguments.scene.as_ref())?;
+    check_ending(arguments.plot.as_ref(), &["svg"])?;
+    let result = study::statics(&scene, &arguments.options())?;
     let (out, plot) = (
         create(arguments.out.as_ref())?,
         create(arguments.plot.as_ref())?,

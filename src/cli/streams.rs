@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::error::Error;
 use crate::report::{self, Output};
-use crate::scene::Scene;
+use crate::scene::{Scene, printable};
 
 /// The files and streams of a command, checked before anything is computed.
 pub(super) struct Streams {
@@ -128,6 +128,30 @@ fn place(path: &Path) -> PathBuf {
     std::fs::canonicalize(path).unwrap_or_else(|_| new().unwrap_or_else(|| path.to_owned()))
 }
 
+/// Refuses a name whose ending promises another format than is written.
+///
+/// # Errors
+/// [`Error::Refused`].
+pub(super) fn check_ending(path: Option<&PathBuf>, written: &[&str]) -> Result<(), Error> {
+    let Some((path, ending)) = path.and_then(|path| Some((path, path.extension()?))) else {
+        return Ok(());
+    };
+    if written
+        .iter()
+        .any(|known| ending.eq_ignore_ascii_case(known))
+    {
+        return Ok(());
+    }
+    let (shown, format) = (path.display(), written[0]);
+    Err(Error::refused(
+        format!(
+            "`{shown}` would hold {}, which its ending does not say",
+            format.to_uppercase()
+        ),
+        format!("write it to `{}`", path.with_extension(format).display()),
+    ))
+}
+
 /// Whether a path stands for standard input or output.
 pub(super) fn is_standard(path: Option<&PathBuf>) -> bool {
     path.is_some_and(|path| report::is_standard_output(path))
@@ -135,12 +159,17 @@ pub(super) fn is_standard(path: Option<&PathBuf>) -> bool {
 
 /// The one place that talks to the user beside the results.
 pub(super) fn say(message: &str) {
+    say_styled(&printable(message));
+}
+
+/// The same for a text with colours, whose parts are printable.
+pub(super) fn say_styled(message: &str) {
     let _ = writeln!(std::io::stderr(), "{message}");
 }
 
 /// Writes a text to standard output.
 pub(super) fn print(text: &str) -> Result<(), Error> {
-    Output::standard().text(text)
+    Output::standard().text(&printable(text))
 }
 
 /// Opens an output that may be asked for, `-` for standard output.

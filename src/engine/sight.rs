@@ -30,21 +30,31 @@ pub struct Look {
 /// A corner or a jump is found to so many halvings of the whole.
 const HALVINGS: i32 = 46;
 /// Part of what is allowed that each corner may leave.
-const AT_CORNER: f64 = 1.0 / 256.0;
+const AT_CORNER: f64 = 1e-4;
 /// Most pieces of one panel that are looked at.
 const MOST_PIECES: usize = 400;
 /// Ends that are left out where a corner is at an end, off by what its place is off.
 const ENDS: [f64; 2] = [9.5367431640625e-7, 9.094947017729282e-13];
 
-/// Where a panel or a step has to end, as part of it, so that its nodes show the forces; none if they do.
-pub fn hidden(way: &impl Way, look: Look) -> Option<f64> {
+/// Where a panel or a step has to end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hidden {
+    /// As part of it.
+    pub at: f64,
+    /// Whether the force has a corner or a jump there.
+    pub is_corner: bool,
+}
+
+/// Where a panel or a step has to end so that its nodes show the forces; none if they do.
+pub fn hidden(way: &impl Way, look: Look) -> Option<Hidden> {
     let Look { nodes, .. } = look;
     let needed = |from: f64, to: f64| look.nodes_for(&look.detail(way, from, to));
     if needed(0.0, 1.0).is_some_and(|needed| needed <= nodes) {
         return None;
     }
     for end in ENDS {
-        let little = |from: f64, to: f64| look.detail(way, from, to).change * end <= look.allowed;
+        let left = AT_CORNER * look.allowed;
+        let little = |from: f64, to: f64| look.detail(way, from, to).change * end <= left;
         let shown = needed(end, 1.0 - end).is_some_and(|needed| needed <= nodes);
         if shown && little(0.0, end) && little(1.0 - end, 1.0) {
             return None;
@@ -63,6 +73,15 @@ impl Look {
             return Some(1);
         }
         detail.nodes(self.ellipse, self.allowed)
+    }
+}
+
+/// A magnitude; what has no value is missed beyond all bounds.
+fn size(missed: f64) -> f64 {
+    if missed.is_nan() {
+        f64::INFINITY
+    } else {
+        missed.abs()
     }
 }
 
@@ -87,7 +106,7 @@ impl Search {
     }
 
     /// Halves the panel until each piece is shown by as many nodes as the panel has, and compares there.
-    fn run(mut self, way: &impl Way) -> Option<f64> {
+    fn run(mut self, way: &impl Way) -> Option<Hidden> {
         let mut left = [[0.0; 2]; HALVINGS as usize + 2];
         left[0] = [0.0, 1.0];
         let (mut count, mut pieces) = (1, 0);
@@ -96,7 +115,11 @@ impl Search {
             count -= 1;
             pieces += 1;
             if pieces > MOST_PIECES {
-                return self.place().or((from > 0.0).then_some(from));
+                let here = Hidden {
+                    at: from,
+                    is_corner: false,
+                };
+                return self.place().or((from > 0.0).then_some(here));
             }
             let detail = self.look.detail(way, from, to);
             match self.look.nodes_for(&detail) {
@@ -121,10 +144,12 @@ impl Search {
     }
 
     /// The first corner, or else an end of the piece on which something was missed first.
-    fn place(&self) -> Option<f64> {
+    fn place(&self) -> Option<Hidden> {
         let inside = |at: &f64| *at > 0.0 && *at < 1.0;
-        let ends = self.first.into_iter().flatten();
-        self.corner.or_else(|| ends.into_iter().find(inside))
+        let mut ends = self.first.into_iter().flatten();
+        let at = self.corner.or_else(|| ends.find(inside))?;
+        let is_corner = self.corner.is_some();
+        Some(Hidden { at, is_corner })
     }
 
     fn is_least(&self, detail: &Detail, length: f64) -> bool {
@@ -144,9 +169,9 @@ impl Search {
         }
         let half = 0.5 * (to - from);
         let at = |i: usize| from + half * (1.0 - (PI * (i as f64 + 0.5) / nodes as f64).cos());
-        let missed = (0..nodes).map(|i| way.missed(at(i)).abs()).sum::<f64>();
+        let missed = (0..nodes).map(|i| size(way.missed(at(i)))).sum::<f64>();
         let integral = missed / nodes as f64 * (to - from);
-        if !(integral <= self.look.allowed * (to - from)) && self.first.is_none() {
+        if integral > self.look.allowed * (to - from) && self.first.is_none() {
             self.first = Some([from, to]);
         }
         self.missed += integral;

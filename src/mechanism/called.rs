@@ -60,8 +60,35 @@ impl Called {
         }
     }
 
+    /// The sums of the magnitudes of loads that oppose motion, N m and N.
+    pub fn magnitude(&self, now: &Instant) -> LoadValue {
+        let sum = |loads: &[Load], on_slider: bool| {
+            let values = loads.iter();
+            values
+                .map(|load| single_magnitude(load, on_slider, now))
+                .sum::<f64>()
+        };
+        LoadValue {
+            torque: sum(&self.torques, false),
+            force: sum(&self.forces, true),
+        }
+    }
+
     pub fn loads(&self) -> impl Iterator<Item = &Load> {
         self.torques.iter().chain(&self.forces)
+    }
+}
+
+/// Magnitude of a load that opposes motion, N m or N, which depends on the size of the speed.
+pub(super) fn single_magnitude(load: &Load, on_slider: bool, now: &Instant) -> f64 {
+    let now = Instant {
+        omega: now.omega.abs(),
+        v: now.v.abs(),
+        ..*now
+    };
+    match load {
+        Load::Dry(magnitude) => single(magnitude, on_slider, &now),
+        magnitude => single(magnitude, on_slider, &now),
     }
 }
 
@@ -83,6 +110,13 @@ pub fn single(load: &Load, on_slider: bool, now: &Instant) -> f64 {
             area,
             towards_crank,
         } => towards_crank * (pressure.value(now.get(Variable::Theta)) - ambient) * area,
+        Load::Dry(magnitude) => {
+            let speed = if on_slider { now.v } else { now.omega };
+            match speed {
+                0.0 => 0.0,
+                speed => -speed.signum() * single_magnitude(magnitude, on_slider, now),
+            }
+        }
         Load::Expression(expression) => expression.value(now),
         Load::Function { function, .. } => function(now),
     }

@@ -5,7 +5,7 @@
 //! N = A q̈ + B q̇² + V_n − Q_n with A = Σ m p_n·p' + I ψ_n ψ', B = Σ m p_n·p'' + I ψ_n ψ''.
 
 use super::friction::{Free, Touch};
-use super::{Bodies, Body, Curve, Equation, LoadValue, Loads, Place};
+use super::{Bodies, Body, Curve, Equation, LoadValue, Loads, Place, Sense};
 use crate::numeric::angle::Angle;
 use crate::scene::{Friction, Instant, Scene};
 
@@ -152,13 +152,27 @@ impl Constrained {
         }
     }
 
-    /// Torque and force of the loads, without friction.
+    /// Torque and force of the loads, without friction; dry ones against this speed.
     pub fn load(&self, place: &Place, t: f64, q: Angle, speed: f64) -> LoadValue {
+        let sense = Sense::of(place.dtheta * speed, place.dx * speed);
+        let dry = self.loads.dry(&self.instant(place, t, q, speed), sense);
+        self.load_beside(dry, place, t, q, speed)
+    }
+
+    /// The same beside what is known of the dry ones.
+    pub fn load_beside(
+        &self,
+        dry: LoadValue,
+        place: &Place,
+        t: f64,
+        q: Angle,
+        speed: f64,
+    ) -> LoadValue {
         let spent = self.loads.spent(&self.instant(place, t, q, speed));
         let stored = self.loads.with_potential_at(place.x);
         LoadValue {
-            torque: stored.torque + spent.torque,
-            force: stored.force + spent.force,
+            torque: stored.torque + spent.torque + dry.torque,
+            force: stored.force + spent.force + dry.force,
         }
     }
 
@@ -166,6 +180,13 @@ impl Constrained {
     /// changes in them. Speed in rad/s of the coordinate.
     pub fn free(&self, t: f64, q: Angle, speed: f64) -> Free {
         let terms = self.across(q.rest);
+        let place = &terms.place;
+        let sense = Sense::of(place.dtheta * speed, place.dx * speed);
+        self.against(&terms, t, q, speed, sense)
+    }
+
+    /// The same without the dry loads.
+    pub(super) fn without_dry(&self, terms: &Across, t: f64, q: Angle, speed: f64) -> Free {
         let place = &terms.place;
         let spent = self.loads.spent(&self.instant(place, t, q, speed));
         let stored = self.loads.with_potential_at(place.x);

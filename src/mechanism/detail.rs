@@ -55,7 +55,19 @@ impl Around<'_> {
                 pressure.enclose(self.reach.angle) * Enclosed::point(*area)
             }
             Load::Expression(expression) => expression.enclose(|variable| self.variable(variable)),
+            // Its sign stays on a piece.
+            Load::Dry(magnitude) => self.magnitude(magnitude),
             _ => Enclosed::point(0.0),
+        }
+    }
+
+    /// A magnitude, which is over the size of a speed.
+    fn magnitude(&self, load: &Load) -> Enclosed {
+        match load {
+            Load::Table(table) if matches!(table.of(), Variable::Omega | Variable::V) => {
+                table.enclose(self.variable(table.of()).abs().real)
+            }
+            other => self.load(other),
         }
     }
 
@@ -74,6 +86,11 @@ impl Around<'_> {
     }
 }
 
+/// The rows of other tables of the position are known as crank angles.
+fn is_over_x(load: &Load) -> bool {
+    matches!(load, Load::Table(table) if table.of() == Variable::X)
+}
+
 impl Loads {
     /// Whether there are loads that may do something between nodes: formulas, and tables over another variable than the
     /// crank angle or time, whose rows are known.
@@ -81,14 +98,20 @@ impl Loads {
         self.called().any(|load| {
             matches!(
                 load,
-                Load::Expression(_) | Load::Table(_) | Load::Gas { .. }
+                Load::Expression(_) | Load::Table(_) | Load::Gas { .. } | Load::Dry(_)
             )
         })
     }
 
+    /// Whether one of them depends on the position alone.
+    pub fn have_detail_of_place(&self) -> bool {
+        let mut placed = self.placed.loads();
+        placed.any(|load| matches!(load, Load::Expression(_)) || is_over_x(load))
+    }
+
     /// What the generalized force (N m) of the loads does on a piece of a motion, and in an ellipse of this size around it.
     pub fn detail(&self, linkage: &Linkage, reach: &Reach, ellipse: f64) -> Detail {
-        let classes = [&self.placed, &self.timed, &self.mixed];
+        let classes = [&self.placed, &self.timed, &self.mixed, &self.dry];
         self.detail_of(&classes, linkage, reach, ellipse)
     }
 

@@ -1,7 +1,7 @@
 //! Virtual work of the loads: all that is linear is summed once, the rest is called.
 
 use super::called::Called;
-use super::{LoadValue, Pose};
+use super::{LoadValue, Pose, Sense};
 use crate::numeric::angle::Angle;
 use crate::scene::{Instant, Load, Scene, Variables};
 
@@ -22,6 +22,8 @@ pub struct Loads {
     pub(super) timed: Called,
     /// All others.
     pub(super) mixed: Called,
+    /// Those that oppose motion.
+    pub(super) dry: Called,
     reads: Variables,
     pub(super) on_slider: bool,
 }
@@ -92,7 +94,9 @@ impl Loads {
     fn class(&mut self, load: &Load, on_slider: bool) -> &mut Called {
         let reads = load.reads(on_slider);
         let position = Variables::THETA.or(Variables::X);
-        if reads.or(position) == position {
+        if matches!(load, Load::Dry(_)) {
+            &mut self.dry
+        } else if reads.or(position) == position {
             &mut self.placed
         } else if reads == Variables::T {
             &mut self.timed
@@ -102,13 +106,13 @@ impl Loads {
     }
 
     pub(super) fn called(&self) -> impl Iterator<Item = &Load> {
-        let classes = [&self.placed, &self.timed, &self.mixed];
+        let classes = [&self.placed, &self.timed, &self.mixed, &self.dry];
         classes.into_iter().flat_map(Called::loads)
     }
 
     /// Whether there are loads that depend on speed or time otherwise than by damping.
     pub fn are_called(&self) -> bool {
-        !(self.timed.is_empty() && self.mixed.is_empty())
+        !(self.timed.is_empty() && self.mixed.is_empty() && self.dry.is_empty())
     }
 
     /// Crank angles, rad, at which tables over the crank angle have their rows.
@@ -262,9 +266,48 @@ impl Loads {
             .plus(of_time)
             .plus(self.of_place(theta, x))
             .plus(mixed)
+            .plus(self.dry_of_speed(t, theta, omega, [x, dx]))
     }
 
-    /// Torque and force of the loads whose work must be integrated.
+    /// Torque and force of the dry loads against this speed, at slider position x (m) and x' (m/rad).
+    fn dry_of_speed(&self, t: f64, theta: Angle, omega: f64, [x, dx]: [f64; 2]) -> LoadValue {
+        if self.dry.is_empty() {
+            return LoadValue::default();
+        }
+        self.dry.value(&Instant {
+            t,
+            theta: theta.radians(),
+            omega,
+            x,
+            v: dx * omega,
+        })
+    }
+
+    /// Whether there are loads that oppose motion.
+    pub fn are_dry(&self) -> bool {
+        !self.dry.is_empty()
+    }
+
+    /// Whether such loads act on the crank, and on the slider.
+    pub fn dry_on(&self) -> [bool; 2] {
+        [&self.dry.torques, &self.dry.forces].map(|loads| !loads.is_empty())
+    }
+
+    /// What they oppose motion with at most, N m and N.
+    pub fn dry_magnitude(&self, now: &Instant) -> LoadValue {
+        self.dry.magnitude(now)
+    }
+
+    /// Torque and force of the dry loads against motion in these senses.
+    pub fn dry(&self, now: &Instant, against: Sense) -> LoadValue {
+        let most = self.dry_magnitude(now);
+        LoadValue {
+            torque: -against.crank * most.torque,
+            force: -against.slider * most.force,
+        }
+    }
+
+    /// Torque and force of the loads whose work must be integrated, without dry ones.
     pub(super) fn spent(&self, now: &Instant) -> LoadValue {
         let damped = LoadValue {
             torque: -self.rotary_damping * now.omega,
@@ -277,7 +320,8 @@ impl Loads {
 
     /// Torque and force of all loads together, for a slider whose motion is not that of the ideal joints.
     pub fn at(&self, now: &Instant) -> LoadValue {
-        self.with_potential_at(now.x).plus(self.spent(now))
+        let spent = self.spent(now).plus(self.dry.value(now));
+        self.with_potential_at(now.x).plus(spent)
     }
 
     /// Potential of the loads that have one, J, from crank angle (from any fixed start) and position.

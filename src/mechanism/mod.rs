@@ -8,6 +8,7 @@ mod clearance;
 mod constrained;
 mod curve;
 mod detail;
+mod dry;
 mod equivalent;
 mod extremes;
 mod first_order;
@@ -39,6 +40,7 @@ pub use clearance::{
 };
 pub use constrained::{Across, Constrained};
 pub use curve::{Curve, Place};
+pub use dry::{Held, Sense};
 pub use equivalent::EquivalentMasses;
 pub use extremes::{Extreme, Extremes};
 pub use first_order::FirstOrder;

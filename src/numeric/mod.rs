@@ -17,6 +17,8 @@ pub mod line_fit;
 pub mod median;
 pub mod orthogonal;
 pub mod parallel;
+pub mod polynomial_fit;
+pub mod powers;
 pub mod real;
 pub mod root;
 pub mod student;

@@ -32,7 +32,11 @@ pub fn fit<T: Real>(
     weight: Option<&[f64]>,
     mut go_on: impl FnMut(&[T]) -> bool,
 ) -> Expansion<T> {
-    let (first, last) = (t[0], t[t.len() - 1]);
+    let (first, last) = t
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), t| {
+            (low.min(*t), high.max(*t))
+        });
     let middle = 0.5 * first + 0.5 * last;
     let half = (0.5 * last - 0.5 * first).max(f64::MIN_POSITIVE);
     let zero = T::from(0.0);
@@ -174,7 +178,20 @@ impl Expansion<f64> {
     }
 }
 
-impl<T> Expansion<T> {
+impl<T: Copy> Expansion<T> {
+    /// The same expansion in other numbers.
+    pub fn convert<S>(&self, number: &impl Fn(T) -> S) -> Expansion<S> {
+        let all = |list: &[T]| list.iter().map(|x| number(*x)).collect();
+        Expansion {
+            middle: self.middle,
+            half: self.half,
+            centres: all(&self.centres),
+            norms: all(&self.norms),
+            coefficients: all(&self.coefficients),
+            squares: all(&self.squares),
+        }
+    }
+
     /// Leaves out all beyond a degree.
     pub fn truncate(&mut self, degree: usize) {
         for list in [

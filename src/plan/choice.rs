@@ -57,10 +57,12 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Cho
         Method::Auto | Method::Energy | Method::Angle => {
             if class == Class::ChangePoint {
                 change_point(method)
+            } else if loads.are_dry() {
+                dry(method)
             } else if scene.friction.is_some() {
                 rubbing::engine(method, scene, class)
             } else {
-                over_angle(method, loads, scene)
+                over_angle(method, scene)
             }
         }
     }
@@ -103,19 +105,35 @@ fn change_point(method: Method) -> Result<Choice, Error> {
     }
 }
 
-/// Without friction: the energy, else the crank angle, else the time as the independent variable.
-fn over_angle(method: Method, loads: &Loads, scene: &Scene) -> Result<Choice, Error> {
+/// Loads that oppose motion turn round with the crank and with the slider.
+fn dry(method: Method) -> Result<Choice, Error> {
     match method {
-        Method::Auto | Method::Energy if energy_serves(loads, scene) => Ok(Choice::of(
+        Method::Auto => Ok(Choice::in_time(
+            Stepper::Picard,
+            "a load opposes motion: integration in time, piece by piece between the places where crank or slider turn back or rest",
+        )),
+        _ => Err(Error::refused(
+            format!(
+                "method {method} cannot serve a load of kind \"dry\", which turns round with the motion"
+            ),
+            "use --method auto, time, dop853 or dopri5",
+        )),
+    }
+}
+
+/// Without friction: the energy, else the crank angle, else the time as the independent variable.
+fn over_angle(method: Method, scene: &Scene) -> Result<Choice, Error> {
+    match method {
+        Method::Auto | Method::Energy if why_not_energy(scene).is_none() => Ok(Choice::of(
             Engine::Energy,
             "every load depends on the position alone: omega from the energy, time from one quadrature",
         )),
         Method::Energy => Err(Error::refused(
             format!(
-                "method energy cannot serve these loads, which depend on {}",
-                loads.reads()
+                "method energy cannot serve this scene: {}",
+                why_not_energy(scene).unwrap_or_default()
             ),
-            "use --method auto; energy needs loads of theta and x alone, tables over theta only, and formulas without step, sign, floor and mod",
+            "use --method auto, angle, time, dop853 or dopri5",
         )),
         _ => match why_not_angle(scene) {
             None => Ok(Choice::of(
@@ -134,10 +152,20 @@ fn over_angle(method: Method, loads: &Loads, scene: &Scene) -> Result<Choice, Er
     }
 }
 
-/// Whether every load depends on the position alone, and its corners are known.
-fn energy_serves(loads: &Loads, scene: &Scene) -> bool {
+/// What keeps omega from following from the position: a load that depends on more, or one whose corners are not known.
+fn why_not_energy(scene: &Scene) -> Option<String> {
     let position = Variables::THETA.or(Variables::X);
-    loads.reads().or(position) == position && are_smooth(scene)
+    let more = named(scene).find_map(|load| {
+        let reads = load.reads();
+        let depends = reads.or(position) != position;
+        depends.then(|| {
+            format!(
+                "{} depends on {reads}, and its work on more than the position",
+                load.name
+            )
+        })
+    });
+    more.or_else(|| why_corners(scene))
 }
 
 /// What keeps the crank angle from being the independent variable from the start: a crank at rest, a load whose corners
@@ -146,17 +174,15 @@ pub(super) fn why_not_angle(scene: &Scene) -> Option<String> {
     if scene.motion.speed == 0.0 {
         return Some("the crank starts at rest".to_owned());
     }
-    let rough = named(scene).find_map(|load| {
-        let why = why_rough(load.load)?;
-        Some(format!("{} {why}", load.name))
-    });
-    rough.or_else(|| cycle::over_angle(scene).err())
+    why_corners(scene).or_else(|| cycle::over_angle(scene).err())
 }
 
-/// Whether the corners of the loads are known as crank angles, if they have any.
-fn are_smooth(scene: &Scene) -> bool {
-    let mut loads = scene.torques.iter().chain(&scene.forces);
-    loads.all(|load| why_rough(load).is_none())
+/// The first load whose corners are not known as crank angles, and why.
+fn why_corners(scene: &Scene) -> Option<String> {
+    named(scene).find_map(|load| {
+        let why = why_rough(load.load)?;
+        Some(format!("{} {why}", load.name))
+    })
 }
 
 /// Why the corners of a load are not known as crank angles.

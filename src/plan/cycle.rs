@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::scene::{Load, Period, Repeats, Scene, Variable};
+use crate::scene::{Load, Period, Repeats, Scene, Variable, Variables};
 
 /// The cycle of a scene: the least common multiple of the periods of its loads, in whole turns.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -29,7 +29,7 @@ impl Cycle {
     pub fn of(scene: &Scene) -> Cycle {
         let named: Vec<Named> = named(scene).collect();
         let mut turns = over_angle(scene);
-        for load in named.iter().filter(|load| load.reads_time) {
+        for load in named.iter().filter(|load| load.reads_time()) {
             turns = turns.and(Err(format!("{} {OF_TIME}", load.name)));
         }
         Cycle {
@@ -60,7 +60,18 @@ pub(super) struct Named<'a> {
     pub name: String,
     pub load: &'a Load,
     repeats: Repeats,
-    reads_time: bool,
+    on_slider: bool,
+}
+
+impl Named<'_> {
+    /// The variables it depends on.
+    pub fn reads(&self) -> Variables {
+        self.load.reads(self.on_slider)
+    }
+
+    fn reads_time(&self) -> bool {
+        self.reads().has(Variable::T)
+    }
 }
 
 const OF_TIME: &str = "depends on the time t";
@@ -79,7 +90,7 @@ pub(super) fn named(scene: &Scene) -> impl Iterator<Item = Named<'_>> {
                 name: format!("{list}[{number}] ({load})"),
                 load,
                 repeats: load.repeats(on_slider),
-                reads_time: load.reads(on_slider).has(Variable::T),
+                on_slider,
             }
         })
 }
@@ -87,7 +98,7 @@ pub(super) fn named(scene: &Scene) -> impl Iterator<Item = Named<'_>> {
 impl LoadPeriod {
     fn of(load: &Named<'_>) -> LoadPeriod {
         let repeats = match load.repeats {
-            _ if load.reads_time => format!("not: it {OF_TIME}"),
+            _ if load.reads_time() => format!("not: it {OF_TIME}"),
             Repeats::Always => "at every angle".to_owned(),
             Repeats::After(period) if period == Period::TURN => "each turn".to_owned(),
             Repeats::After(period) => format!("after {period}"),

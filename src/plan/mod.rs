@@ -190,7 +190,8 @@ fn events(engine: Engine, scene: &Scene) -> Vec<&'static str> {
     if engine == Engine::Time && is_limited(scene) {
         events.push("limit");
     }
-    if engine != Engine::ClosedForm && scene.friction.is_some() {
+    let dry = engine == Engine::Time && Loads::new(scene).are_dry();
+    if engine != Engine::ClosedForm && scene.friction.is_some() || dry {
         events.extend(["stick", "slip"]);
         if engine != Engine::Contact {
             events.push("rest");

@@ -38,6 +38,15 @@ fn folder(path: &Path) -> &Path {
     }
 }
 
+/// Whether a file may be written, as its own permissions say.
+fn writable(path: &Path) -> io::Result<()> {
+    let file = std::fs::File::options().append(true).open(path)?;
+    if file.metadata()?.permissions().readonly() {
+        return Err(io::Error::other("it is write-protected"));
+    }
+    Ok(())
+}
+
 /// A stream of output. A file takes its name in [`Output::finish`].
 #[derive(Debug)]
 pub struct Output {
@@ -88,6 +97,10 @@ impl Output {
             return Err(failed(io::Error::other("it is a folder")));
         }
         let before = std::fs::metadata(path).ok();
+        if before.is_some() {
+            // Another file would take its name, for which the folder's permission is enough.
+            writable(path).map_err(failed)?;
+        }
         // Until it is complete its name means nothing to the user: the system's reason is given without it.
         let file = Unfinished::new(folder, before.as_ref())
             .map_err(|error| failed(error.kind().into()))?;

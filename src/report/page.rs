@@ -5,6 +5,7 @@ use std::fmt::Write;
 use super::motion::PlotRows;
 use super::text::{facts, table};
 use crate::error::Error;
+use crate::scene::printable;
 use crate::study::{Event, Row, Summary};
 
 /// Most events that are listed.
@@ -112,7 +113,7 @@ fn events(events: &[Event]) -> String {
 /// A text that means itself in HTML.
 fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
-    for c in text.chars() {
+    for c in printable(text).chars() {
         match c {
             '&' => escaped.push_str("&amp;"),
             '<' => escaped.push_str("&lt;"),

@@ -89,12 +89,16 @@ const fn kind(name: &'static str, keys: &'static [&'static str], required: usize
 
 const TABLE_KEYS: &[&str] = &["file", "of", "period", "interpolation"];
 
+/// A load that opposes motion: a constant magnitude or a table of it.
+const DRY_KEYS: &[&str] = &["value", "file", "of", "period", "interpolation"];
+
 /// Kinds of `[[torque]]`.
 pub const TORQUES: &[KindKeys] = &[
     kind("constant", &["value"], 1),
     kind("viscous", &["coefficient"], 1),
     kind("motor", &["stall", "no_load_speed"], 2),
     kind("table", TABLE_KEYS, 2),
+    kind("dry", DRY_KEYS, 0),
     kind("expression", &["value"], 1),
 ];
 
@@ -104,6 +108,7 @@ pub const FORCES: &[KindKeys] = &[
     kind("viscous", &["coefficient"], 1),
     kind("spring", &["stiffness", "rest"], 2),
     kind("table", TABLE_KEYS, 2),
+    kind("dry", DRY_KEYS, 0),
     kind("expression", &["value"], 1),
     kind(
         "gas",
@@ -259,13 +264,13 @@ pub const SECTIONS: &[Section] = &[
         keys: &[
             key(
                 "kind",
-                Kind::Choice(&["constant", "viscous", "motor", "table", "expression"]),
+                Kind::Choice(&["constant", "viscous", "motor", "table", "dry", "expression"]),
                 "kind of load",
             ),
             key(
                 "value",
                 Kind::QuantityOrFormula(Quantity::Torque),
-                "the torque, or for kind expression a formula in SI of t, theta, omega, x, v",
+                "the torque; for kind dry its magnitude against motion, for kind expression a formula in SI of t, theta, omega, x, v",
             ),
             quantity(
                 "coefficient",
@@ -313,6 +318,7 @@ pub const SECTIONS: &[Section] = &[
                     "viscous",
                     "spring",
                     "table",
+                    "dry",
                     "expression",
                     "gas",
                 ]),
@@ -321,7 +327,7 @@ pub const SECTIONS: &[Section] = &[
             key(
                 "value",
                 Kind::QuantityOrFormula(Quantity::Force),
-                "the force, or for kind expression a formula in SI of t, theta, omega, x, v",
+                "the force; for kind dry its magnitude against motion, for kind expression a formula in SI of t, theta, omega, x, v",
             ),
             quantity(
                 "coefficient",

@@ -42,6 +42,9 @@ pub enum Load {
         /// −1 on the right branch, +1 on the left: the sign of a force towards the crank.
         towards_crank: f64,
     },
+    /// Dry friction: it opposes the motion of what it acts on with the magnitude that another load gives, N m or N. At rest
+    /// it holds as long as all else stays below the magnitude. One over omega or v is over their size.
+    Dry(Box<Load>),
     /// A formula.
     Expression(Expression),
     /// A function of code; what it reads must be said.
@@ -74,6 +77,26 @@ impl Load {
         }
     }
 
+    /// A load that opposes motion with a constant magnitude, N m or N.
+    ///
+    /// ```
+    /// use slider_crank::scene::{Crank, Load, Scene};
+    /// use slider_crank::study::{Options, simulate};
+    ///
+    /// // 0.5 N m bring 0.02 kg m^2 at 100 rad/s to rest after 4 s.
+    /// let brake = Scene::new(0.05, 0.15)
+    ///     .crank(Crank { inertia: 0.02, ..Crank::default() })
+    ///     .torque(Load::dry(0.5))
+    ///     .start(0.0, 100.0)
+    ///     .duration(5.0);
+    /// let run = simulate(&brake, &Options::default()).unwrap();
+    /// let rest = run.summary.events.iter().find(|event| event.kind == "rest").unwrap();
+    /// assert!((rest.t_s - 4.0).abs() < 1e-12);
+    /// ```
+    pub fn dry(magnitude: f64) -> Load {
+        Load::Dry(Box::new(Load::Constant(magnitude)))
+    }
+
     /// Says of a load from a closure after how much of a turn it is the same again; a closure that reads the crank angle
     /// and does not say it is not taken to repeat. Other loads know their period.
     ///
@@ -95,6 +118,7 @@ impl Load {
             | Load::Gas {
                 pressure: table, ..
             } if table.of() == Variable::Theta => table.repeats(),
+            Load::Dry(magnitude) => magnitude.repeats(on_slider),
             Load::Expression(expression) => return expression.repeats(),
             Load::Function {
                 period: Some(period),
@@ -124,6 +148,7 @@ impl Load {
             Load::Spring { .. } => "spring",
             Load::Table(_) => "table",
             Load::Gas { .. } => "gas",
+            Load::Dry(_) => "dry",
             Load::Expression(_) => "expression",
             Load::Function { .. } => "function",
         }
@@ -138,8 +163,22 @@ impl Load {
             Load::Spring { .. } => Variables::X,
             Load::Table(table) => Variables::NONE.with(table.of()),
             Load::Gas { .. } => Variables::THETA,
+            Load::Dry(magnitude) if on_slider => magnitude.reads(true).or(Variables::V),
+            Load::Dry(magnitude) => magnitude.reads(false).or(Variables::OMEGA),
             Load::Expression(expression) => expression.reads(),
             Load::Function { reads, .. } => *reads,
+        }
+    }
+
+    /// The table it is made of, if it is.
+    pub(super) fn table(&self) -> Option<&Table> {
+        match self {
+            Load::Table(table)
+            | Load::Gas {
+                pressure: table, ..
+            } => Some(table),
+            Load::Dry(magnitude) => magnitude.table(),
+            _ => None,
         }
     }
 
@@ -190,19 +229,15 @@ impl Load {
 
     /// A table over the crank angle, and how it keeps step with the turns.
     fn angle_table(&self) -> Option<(&Table, Step)> {
-        match self {
-            Load::Table(table)
-            | Load::Gas {
-                pressure: table, ..
-            } if table.of() == Variable::Theta => Some((table, Step::of(table))),
-            _ => None,
-        }
+        let table = self.table()?;
+        (table.of() == Variable::Theta).then(|| (table, Step::of(table)))
     }
 
     /// The next time after `t` (s) at which the load is not smooth in time; infinite if it is not known.
     pub fn next_corner(&self, t: f64) -> f64 {
         match self {
             Load::Table(table) if table.of() == Variable::T => table.next_row(t),
+            Load::Dry(magnitude) => magnitude.next_corner(t),
             _ => f64::INFINITY,
         }
     }
@@ -216,6 +251,7 @@ impl Load {
             Load::Spring { stiffness, .. } => *stiffness == 0.0,
             Load::Table(table) => table.is_zero(),
             Load::Gas { area, .. } => *area == 0.0,
+            Load::Dry(magnitude) => magnitude.is_zero(),
             Load::Expression(_) => self.fixed() == Some(0.0),
             Load::Function { .. } => false,
         }
@@ -295,6 +331,7 @@ impl fmt::Display for Load {
                     "gas pressure over theta, area {area} m2, ambient {ambient} Pa"
                 )
             }
+            Load::Dry(magnitude) => write!(f, "opposes motion, magnitude {magnitude}"),
             Load::Expression(expression) => write!(f, "expression `{expression}`"),
             Load::Function { reads, .. } => write!(f, "function of {reads}"),
         }

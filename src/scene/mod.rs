@@ -20,6 +20,8 @@ mod number;
 mod parts;
 mod period;
 mod places;
+#[cfg(feature = "cli")]
+mod printable;
 mod problem;
 #[cfg(feature = "cli")]
 mod read;
@@ -49,6 +51,8 @@ pub use motion::{Every, Extent, Motion, MotionKind, Run};
 pub use parts::{Branch, Friction, Geometry, Gravity};
 pub use period::{Period, Repeats, WhyNot};
 pub use places::Places;
+#[cfg(feature = "cli")]
+pub use printable::printable;
 pub use problem::{Problem, Problems};
 #[cfg(feature = "cli")]
 pub use schema::schema;
@@ -114,13 +118,7 @@ impl Scene {
     /// The files of the tables of its loads.
     pub fn table_files(&self) -> impl Iterator<Item = &Path> {
         let loads = self.torques.iter().chain(&self.forces);
-        loads.filter_map(|load| match load {
-            Load::Table(table)
-            | Load::Gas {
-                pressure: table, ..
-            } => table.file(),
-            _ => None,
-        })
+        loads.filter_map(Load::table).filter_map(Table::file)
     }
 
     /// The same scene without what has no strength: zero masses, zero loads, zero gravity.

@@ -4,7 +4,11 @@ use std::borrow::Cow;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
-use super::{Problem, Problems};
+use super::number::counted;
+use super::{Problem, Problems, printable};
+
+/// Problems that are shown; of more, the number.
+const MOST_SHOWN: usize = 20;
 
 impl Problems {
     /// The text for a terminal, in colour or plain.
@@ -14,31 +18,35 @@ impl Problems {
         } else {
             Renderer::plain()
         };
-        let blocks: Vec<String> = self
-            .list()
-            .iter()
+        let shown = self.list().iter().take(MOST_SHOWN);
+        let mut blocks: Vec<String> = shown
             .map(|problem| self.render_one(problem, &renderer))
             .collect();
+        let more = self.list().len().saturating_sub(MOST_SHOWN);
+        if more > 0 {
+            let title = counted(more, "more problem");
+            let help = Level::HELP.message("put right the first ones, and look again");
+            let report = Level::ERROR.primary_title(title).element(help);
+            blocks.push(renderer.render(&[report]));
+        }
         blocks.join("\n\n")
     }
 
     fn render_one(&self, problem: &Problem, renderer: &Renderer) -> String {
-        let title = Level::ERROR.primary_title(shortened(&problem.what));
-        let help = Level::HELP.message(problem.help.as_str());
-        let report = match (&self.file, &problem.span) {
+        let what = printable(&problem.what);
+        let (help, field) = (printable(&problem.help), printable(&problem.field));
+        let title = Level::ERROR.primary_title(shortened(&what));
+        let help = Level::HELP.message(help);
+        let file = self.file.as_ref().map(|file| file.display().to_string());
+        let file = file.as_deref().map(printable);
+        let report = match (file, &problem.span) {
             (Some(file), Some(span)) => title.element(
                 Snippet::source(self.source.as_str())
-                    .path(file.display().to_string())
-                    .annotation(
-                        AnnotationKind::Primary
-                            .span(span.clone())
-                            .label(problem.field.as_str()),
-                    ),
+                    .path(file)
+                    .annotation(AnnotationKind::Primary.span(span.clone()).label(field)),
             ),
-            (Some(file), None) => {
-                title.element(annotate_snippets::Origin::path(file.display().to_string()))
-            }
-            (None, _) => title.element(Level::NOTE.message(problem.field.as_str())),
+            (Some(file), None) => title.element(annotate_snippets::Origin::path(file)),
+            (None, _) => title.element(Level::NOTE.message(field)),
         };
         renderer.render(&[report.element(help)])
     }

@@ -12,10 +12,11 @@ mod explain;
 mod forces;
 mod forward;
 mod in_time;
-mod inverse;
+
 mod kinematics;
 mod last_row;
 mod log;
+mod marks;
 mod offsets;
 mod one_turn;
 mod over_angle;
@@ -47,10 +48,6 @@ pub use calibration::{Calibration, Measured, calibrate};
 pub use clearance::{Beyond, ClearanceSummary, ContactStatistics, Horizon, LooseFinal};
 pub use explain::{Explanation, FrictionAt, LoadAt, TermsAt, explain};
 pub use forces::{ForceAnalysis, ForceRow, StrokeTorque, forces};
-pub use inverse::{
-    AsPrinted, BandRule, DataSummary, DeadCentreBand, FitKind, FitSize, FitSummary, ForceRange,
-    Inverse, InverseOptions, InverseRow, InverseSummary, Residual, inverse,
-};
 pub use kinematics::{DeadCentre, Kinematics, KinematicsRow, Located, NamedPosition, kinematics};
 pub use offsets::{OffsetExtremes, offset_extremes};
 pub use one_turn::{LengthSlope, LoopCheck, OneTurn, TurnOptions, TurnRow, one_turn};

@@ -153,7 +153,14 @@ fn changed(scene: &Scene, change: &[(Length, f64)]) -> Result<Option<Kinematics>
         return Ok(None);
     }
     let mut scene = scene.clone();
-    for (length, value) in change {
+    for (i, (length, value)) in change.iter().enumerate() {
+        if change[..i].iter().any(|(other, _)| other == length) {
+            let name = length.name();
+            return Err(Error::refused(
+                format!("the changed {name} is given twice"),
+                format!("give one length for the {name}"),
+            ));
+        }
         match length {
             Length::Crank => scene.geometry.crank = *value,
             Length::Rod => scene.geometry.rod = *value,

@@ -38,11 +38,14 @@ pub(super) fn run(
     rows: &mut dyn RowSink,
     record: bool,
 ) -> Result<Simulation, Error> {
+    let speed = task.scene.motion.speed;
     let cycle = cycle_over_angle(task.scene).ok();
-    let mut position = Position::new(task.equation(), &task.limits, task.start())
-        .with_cycle(cycle.unwrap_or(1))
+    let mut position = Position::new(task.equation(), &task.limits, task.start(), speed)
         .with_friction(task.maker.sliding)
         .with_limit(task.options.max_evaluations);
+    if let Some(turns) = cycle {
+        position = position.with_cycle(turns);
+    }
     if task.plan.engine == Engine::Energy && cycle == Some(1) {
         position = position.with_turns_alike();
     }

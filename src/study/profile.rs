@@ -3,12 +3,14 @@
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
+use super::marks::Marks;
 use super::sliding::{Grip, Sliding};
 use crate::engine::angle::{Driven, Table};
 use crate::engine::energy::Profile;
 use crate::mechanism::{Equation, Limits};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
+use crate::numeric::enclosure::{Detail, Reach};
 use crate::numeric::gauss;
 use crate::scene::Variable;
 
@@ -26,6 +28,9 @@ pub(super) struct Position<'a> {
     /// Corners of loads in a cycle, and these with its dead centres.
     of_loads: Vec<f64>,
     of_cycle: Vec<f64>,
+    /// Corners and narrow parts of formulas, where they are no corners of each turn.
+    marks: Marks<'a>,
+    marks_are_corners: bool,
     repeats: bool,
     /// Work of the loads in one turn, J, and its error, if they are the same in each.
     work_of_turn: Option<(f64, f64)>,
@@ -36,7 +41,7 @@ pub(super) struct Position<'a> {
 impl<'a> Position<'a> {
     /// Angles are those beside the whole turns of `start`. Panels end at the rows of tables over the crank angle, and
     /// may end at the dead centres, where the inertia of a mechanism without crank inertia has a corner.
-    pub fn new(equation: &'a Equation, limits: &Limits, start: Angle) -> Position<'a> {
+    pub fn new(equation: &'a Equation, limits: &Limits, start: Angle, speed: f64) -> Position<'a> {
         let loads = equation.loads();
         let dead_centres: Vec<f64> = limits.dead_centres.iter().map(|dc| dc.theta).collect();
         let tables = loads.angle_corners().into_iter();
@@ -51,6 +56,8 @@ impl<'a> Position<'a> {
             of_cycle: corners.clone(),
             corners,
             of_loads,
+            marks: Marks::new(equation, start, speed),
+            marks_are_corners: false,
             repeats: loads.have_potential() && !loads.turn_the_crank(),
             work_of_turn: None,
             evaluations: Cell::new(0),
@@ -73,20 +80,34 @@ impl<'a> Position<'a> {
     /// For loads that are the same again after so many turns.
     pub fn with_cycle(mut self, turns: u32) -> Position<'a> {
         self.cycle = turns;
+        let length = f64::from(turns) * TAU;
+        let marks = self.marks.between(0.0, length);
         if turns > 1 {
             // Those at its start are its own.
             let before = -1e-9;
             let loads = self.equation.loads();
-            let of_loads = loads.corners_between(before, f64::from(turns) * TAU + before);
-            self.of_loads = in_order(of_loads.into_iter());
-            let again = |turn: u32| {
-                let dead_centres = self.dead_centres.iter();
-                dead_centres.map(move |theta| theta + f64::from(turn) * TAU)
-            };
-            let all = (0..turns).flat_map(again);
-            self.of_cycle = in_order(all.chain(self.of_loads.iter().copied()));
+            self.of_loads = loads.corners_between(before, length + before);
+        } else {
+            self.corners = in_order(self.corners.iter().chain(&marks).copied());
+            self.marks_are_corners = true;
         }
+        self.of_loads = in_order(self.of_loads.iter().chain(&marks).copied());
+        let again = |turn: u32| {
+            let dead_centres = self.dead_centres.iter();
+            dead_centres.map(move |theta| theta + f64::from(turn) * TAU)
+        };
+        let all = (0..turns).flat_map(again);
+        self.of_cycle = in_order(all.chain(self.of_loads.iter().copied()));
         self
+    }
+
+    /// The first mark of a formula after `from` on the way to `to`, in either direction, that is no corner of each turn.
+    fn mark(&self, from: f64, to: f64) -> Option<f64> {
+        let before = self.turns * TAU;
+        let mark = || self.marks.next(from + before, to + before);
+        (!self.marks_are_corners)
+            .then(mark)?
+            .map(|mark| mark - before)
     }
 
     /// For loads that depend on the position alone and are the same in each turn.
@@ -163,6 +184,10 @@ impl<'a> Position<'a> {
         let loads = self.equation.loads();
         let out_of_step = loads.corners_out_of_step(low + before, high + before);
         cuts.extend(out_of_step.iter().map(|corner| corner - before));
+        if !self.marks_are_corners {
+            let marks = self.marks.between(low + before, high + before);
+            cuts.extend(marks.iter().map(|mark| mark - before));
+        }
         cuts.push(high);
         cuts.sort_by(f64::total_cmp);
         let piece = |w: &[f64]| gauss::adaptive(&force, w[0], w[1], 0.0);
@@ -253,6 +278,15 @@ impl Driven for Position<'_> {
         load.over(place.at[1]) + place.grip.rubbed(load)
     }
 
+    fn has_detail(&self) -> bool {
+        self.is_driven() && self.equation.loads().have_detail()
+    }
+
+    fn detail(&self, reach: &Reach, ellipse: f64) -> Detail {
+        let (loads, linkage) = (self.equation.loads(), self.equation.linkage());
+        loads.detail_of_state(linkage, reach, ellipse)
+    }
+
     fn drive_switch(&self, place: &Spot, t: f64, angle: Angle, speed: f64) -> f64 {
         let load = self.equation.loads().of_state(t, angle, speed, place.at);
         place.grip.pressed(load)
@@ -308,8 +342,11 @@ impl Profile for Position<'_> {
         let apart = (to - from).signum() * 1e-12 * from.abs().max(1.0);
         let turns = self.turns * TAU;
         let loads = self.equation.loads();
-        let corner = loads.corner_out_of_step(from + apart + turns, to + turns)?;
-        Some(corner - turns)
+        let corner = loads.corner_out_of_step(from + apart + turns, to + turns);
+        let mark = self.mark(from + apart, to);
+        let first = |a: f64, b: f64| if (a < b) == (from < to) { a } else { b };
+        let corner = corner.map(|corner| corner - turns);
+        corner.into_iter().chain(mark).reduce(first)
     }
 
     fn is_spent(&self) -> bool {

@@ -58,7 +58,7 @@ impl Swing {
             return None;
         };
         let of_speed = reads.has(Variable::Omega) || reads.has(Variable::V);
-        let rubs = task.scene.reduced().friction.is_some();
+        let rubs = task.scene.reduced().friction.is_some() || task.equation().loads().are_dry();
         Some(Swing {
             furthest: reads.has(Variable::T).then(|| Furthest::new(start)),
             recent: [start; 5],

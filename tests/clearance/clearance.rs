@@ -603,6 +603,13 @@ fn what_cannot_be_computed_is_refused_with_the_reason() {
         Err(Error::Refused { what, help }) => {
             assert!(what.contains(words) && !help.is_empty(), "{what}");
         }
+        Err(Error::Scene(problems)) => {
+            let mut list = problems.list().iter();
+            assert!(
+                list.any(|p| p.what.contains(words) && !p.help.is_empty()),
+                "{problems}"
+            );
+        }
         other => panic!("{words}: {other:?}"),
     };
     let default = Options::default();

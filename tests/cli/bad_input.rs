@@ -178,3 +178,110 @@ fn a_start_at_a_change_point_is_refused() {
         "{shown}"
     );
 }
+
+#[test]
+fn brackets_may_be_nested_at_will() {
+    let brackets = "(".repeat(30_000);
+    let scene = format!("[geometry]\ncrank = \"50 {brackets}mm\"\nrod = \"150 mm\"\n");
+    let folder = Folder::with(&scene);
+    folder.write("motion.csv", &format!("t [s],theta [{brackets}deg]\n0,1\n"));
+    for file in ["scene.toml", "motion.csv"] {
+        folder
+            .run(&["check", file])
+            .fails(2, &["bracket", "not closed"]);
+    }
+}
+
+#[test]
+fn of_very_many_problems_the_first_are_shown_and_all_counted() {
+    let load = "[[torque]]\nkind = \"constant\"\nvalue = \"2 kg\"\n";
+    let scene = format!(
+        "[geometry]\ncrank = \"50 mm\"\nrod = \"150 mm\"\n{}",
+        load.repeat(20_000)
+    );
+    let folder = Folder::with(&scene);
+    let said = folder
+        .run(&["check", "scene.toml"])
+        .fails(2, &["scene.toml:6:", "19980 more problems"]);
+    assert!(said.stderr.lines().count() < 200, "{}", said.stderr);
+}
+
+#[test]
+fn one_mistake_in_a_column_is_shown_three_times_and_counted() {
+    let folder = Folder::new();
+    for (name, row) in [
+        ("comma", "0.5;1,5\n"),
+        ("missing", "0.5;\n"),
+        ("formula", "#DIV/0!;1\n"),
+        ("repeated", "0.5;1\n"),
+    ] {
+        let text = format!("t [s];theta [deg]\n0.1;1\n{}", row.repeat(100));
+        folder.write("motion.csv", &text);
+        let said = folder
+            .run(&["check", "motion.csv"])
+            .fails(2, &["more like these"])
+            .stderr;
+        assert_eq!(said.matches("error: ").count(), 4, "{name}: {said}");
+        let rest = if name == "repeated" {
+            "96 problems more"
+        } else {
+            "97 problems more"
+        };
+        assert!(said.contains(rest), "{name}: {said}");
+    }
+}
+
+#[test]
+fn what_a_title_says_is_shown_not_obeyed() {
+    let folder = Folder::with(&format!(
+        "title = \"a\\u001b[31mb\\u0007\"\n{}",
+        driven("duration = \"0.1 s\"")
+    ));
+    for command in ["simulate", "kinematics", "check", "explain", "statics"] {
+        let shown = folder.run(&[command, "scene.toml"]).done().stdout;
+        assert!(shown.contains("a\\u{1b}[31mb\\u{7}"), "{command}: {shown}");
+        let commands = |c: char| c.is_control() && c != '\n';
+        assert!(!shown.contains(commands), "{command}: {shown:?}");
+    }
+    let title: String = folder
+        .run(&["simulate", "scene.toml", "--json"])
+        .done()
+        .json()["scene"]
+        .as_str()
+        .expect("a title")
+        .to_owned();
+    assert_eq!(title, "a\u{1b}[31mb\u{7}");
+    let name = "a\u{1b}[31m.toml";
+    let said = folder
+        .run(&["check", name])
+        .fails(2, &["a\\u{1b}[31m.toml"])
+        .stderr;
+    assert!(!said.contains('\u{1b}'), "{said:?}");
+    folder.write(name, "[geometry]\ncrank = \"\\u001b[31m\"\n");
+    let said = folder
+        .run(&["check", name])
+        .fails(2, &["a\\u{1b}[31m.toml"])
+        .stderr;
+    assert!(!said.contains('\u{1b}'), "{said:?}");
+}
+
+/// Crank plus rod, rounded, is the offset; exactly, it is less.
+#[test]
+fn an_offset_one_rounding_beyond_crank_plus_rod_is_refused() {
+    let scene = |offset: &str| {
+        format!(
+            "[geometry]\ncrank = \"1 m\"\nrod = \"1.8640046154075482 m\"\noffset = \"{offset} m\"\n"
+        )
+    };
+    for offset in ["2.8640046154075485", "-2.8640046154075485"] {
+        let folder = Folder::with(&scene(offset));
+        for command in ["kinematics", "check"] {
+            folder
+                .run(&[command, "scene.toml"])
+                .fails(2, &["cannot be assembled", "geometry.offset"]);
+        }
+    }
+    Folder::with(&scene("2.864004615407548"))
+        .run(&["check", "scene.toml"])
+        .done();
+}

@@ -188,3 +188,76 @@ fn a_run_that_is_stopped_leaves_nothing() {
     assert_eq!(folder.names(), ["rows.csv", "scene.toml"]);
     assert_eq!(folder.read("rows.csv"), "old");
 }
+
+#[test]
+fn a_figure_has_the_ending_of_its_format() {
+    let folder = Folder::with(&free(GOOD));
+    for command in ["simulate", "kinematics", "statics", "precision"] {
+        for name in ["x.png", "x.pdf", "x.PNG"] {
+            let words = [name, "write it to `x.svg`"];
+            let arguments = [command, "scene.toml", "--plot", name];
+            folder.run(&arguments).fails(2, &words);
+        }
+    }
+    folder
+        .run(&["inverse", "--plot", "x.png"])
+        .fails(2, &["x.png"]);
+    let page = ["simulate", "scene.toml", "--report", "x.pdf"];
+    folder.run(&page).fails(2, &["x.pdf", "x.html"]);
+    for name in ["x.svg", "X.SVG", "figure"] {
+        folder
+            .run(&["kinematics", "scene.toml", "--plot", name])
+            .done();
+    }
+    assert_eq!(folder.names(), ["X.SVG", "figure", "scene.toml", "x.svg"]);
+}
+
+#[test]
+fn a_write_protected_file_stays_as_it_is() {
+    let folder = Folder::with(&free(GOOD));
+    folder.write("rows.csv", "precious\n");
+    let file = folder.path("rows.csv");
+    let mut permissions = fs::metadata(&file).expect("a file").permissions();
+    permissions.set_readonly(true);
+    fs::set_permissions(&file, permissions).expect("a change");
+    for command in ["simulate", "kinematics", "statics"] {
+        let words = ["rows.csv", "cannot be written"];
+        folder
+            .run(&[command, "scene.toml", "--out", "rows.csv"])
+            .fails(1, &words);
+    }
+    let sweep = [
+        "sweep",
+        "scene.toml",
+        "--vary",
+        "geometry.offset=0mm,1mm",
+        "--out",
+        "rows.csv",
+    ];
+    folder.run(&sweep).fails(1, &["rows.csv"]);
+    assert_eq!(folder.read("rows.csv"), "precious\n");
+    assert_eq!(folder.names(), ["rows.csv", "scene.toml"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn rows_of_a_sweep_are_not_written_through_a_link() {
+    let folder = Folder::with(&free(GOOD));
+    folder.write("precious.txt", "");
+    let link = folder.path("rows.csv.part");
+    std::os::unix::fs::symlink("precious.txt", link).expect("a link");
+    let sweep = [
+        "sweep",
+        "scene.toml",
+        "--vary",
+        "geometry.offset=0mm,1mm",
+        "--out",
+        "rows.csv",
+    ];
+    folder.run(&sweep).fails(1, &["rows.csv.part", "link"]);
+    assert_eq!(
+        folder.names(),
+        ["precious.txt", "rows.csv.part", "scene.toml"]
+    );
+    assert_eq!(folder.read("precious.txt"), "");
+}

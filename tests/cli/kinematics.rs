@@ -324,3 +324,24 @@ fn the_summary_for_people_says_the_same() {
         assert!(shown.contains(name), "no {name} in {shown}");
     }
 }
+
+#[test]
+fn a_length_is_changed_once() {
+    let folder = Folder::new();
+    let twice = [
+        "kinematics",
+        "--change",
+        "offset=1 mm",
+        "--change",
+        "offset=2 mm",
+    ];
+    folder.run(&twice).fails(2, &["offset is given twice"]);
+    let both = [
+        "kinematics",
+        "--change",
+        "offset=1 mm",
+        "--change",
+        "rod=150 mm",
+    ];
+    folder.run(&both).done();
+}

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
+use slider_crank::inverse::{Inverse, InverseOptions, inverse};
 use slider_crank::scene::{Measurement, Reading, Scene};
-use slider_crank::study::{Inverse, InverseOptions, inverse};
 
 fn hard(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))

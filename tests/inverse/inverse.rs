@@ -3,14 +3,12 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::noise::Random;
-use slider_crank::mechanism::{Equation, Linkage};
+use slider_crank::inverse::{AsPrinted, FitKind, Inverse, InverseOptions, inverse};
+use slider_crank::mechanism::Linkage;
 use slider_crank::scene::{
     Branch, Crank, Gravity, Load, Measured, Measurement, Scene, Slider, Variables,
 };
-use slider_crank::study::{
-    AsPrinted, FitKind, FitSize, FitSummary, Inverse, InverseOptions, Options, Simulation, inverse,
-    simulate,
-};
+use slider_crank::study::{Options, Simulation, simulate};
 
 fn pump() -> Scene {
     Scene::new(0.05, 0.15)
@@ -50,17 +48,6 @@ fn turns() -> Case {
         force,
         samples: 600,
         end: 1.2,
-    }
-}
-
-fn steady() -> Case {
-    let force = |_: f64, x: f64| -150.0 * (x - 0.12);
-    let load = Load::function(Variables::X, move |now| force(0.0, now.x));
-    Case {
-        scene: pump().force(load).start(0.3, 25.0),
-        force,
-        samples: 600,
-        end: 2.0,
     }
 }
 
@@ -152,8 +139,8 @@ fn covers(case: &Case, fit: FitKind, measured: Measured, noise: f64, repeats: u3
         all += of;
     }
     let share = inside as f64 / all as f64;
-    // The Bayesian band of a spline takes the motion to be rougher than these are: it may be too wide, not too narrow.
-    let most = if noise > 0.0 && fit != FitKind::Spline {
+    // The band of a smoother takes the motion to be rougher than these are in parts: it may be too wide, not too narrow.
+    let most = if noise > 0.0 && fit != FitKind::Smoother {
         0.99
     } else {
         1.0
@@ -177,23 +164,17 @@ fn bands_of_polynomials_cover_the_force() {
 }
 
 #[test]
-fn bands_of_splines_cover_the_force() {
-    covers(&turns(), FitKind::Spline, Measured::Theta, 1e-3, 30);
-    covers(&turns(), FitKind::Spline, Measured::Gamma, 1e-3, 6);
-    covers(&turns(), FitKind::Spline, Measured::X, 2e-5, 6);
-}
-
-#[test]
-fn bands_of_rotation_with_harmonics_cover_the_force() {
-    covers(&steady(), FitKind::Fourier, Measured::Theta, 1e-3, 15);
-    covers(&steady(), FitKind::Fourier, Measured::Gamma, 1e-3, 6);
+fn bands_of_smoothers_cover_the_force() {
+    covers(&turns(), FitKind::Smoother, Measured::Theta, 1e-3, 30);
+    covers(&turns(), FitKind::Smoother, Measured::Gamma, 1e-3, 6);
+    covers(&turns(), FitKind::Smoother, Measured::X, 2e-5, 6);
 }
 
 #[test]
 fn bands_without_noise_cover_the_force() {
     covers(&swing(), FitKind::Polynomial, Measured::Theta, 0.0, 1);
     covers(&swing(), FitKind::Polynomial, Measured::X, 0.0, 1);
-    covers(&turns(), FitKind::Spline, Measured::Theta, 0.0, 1);
+    covers(&turns(), FitKind::Smoother, Measured::Theta, 0.0, 1);
 }
 
 /// Motions by formula on mechanisms of all kinds: turning either way, swinging back before the dead centres and passing
@@ -239,7 +220,7 @@ fn check_unfolding(scene: &Scene, angle: fn(f64) -> f64, end: f64) {
     for measured in [Measured::Gamma, Measured::X] {
         let motion = Measurement::new(measured, times.clone(), shown(scene, measured, &theta))
             .expect("samples");
-        let found = inverse(scene, &motion, &fitted(FitKind::Spline)).expect("an inversion");
+        let found = inverse(scene, &motion, &fitted(FitKind::Smoother)).expect("an inversion");
         let turns = ((found.rows[0].theta - theta[0]) / TAU).round() * TAU;
         for (row, theta) in found.rows.iter().zip(&theta) {
             let off = row.theta - turns - theta;
@@ -278,7 +259,7 @@ fn the_angle_of_the_scene_decides_where_the_motion_reverses_at_once() {
                     let values = shown(&scene, measured, &theta);
                     let motion =
                         Measurement::new(measured, times.clone(), values).expect("samples");
-                    let found = inverse(&scene, &motion, &fitted(FitKind::Spline));
+                    let found = inverse(&scene, &motion, &fitted(FitKind::Smoother));
                     let found = found.expect("an inversion");
                     for (row, theta) in found.rows.iter().zip(&theta) {
                         let off = row.theta - theta;
@@ -307,8 +288,8 @@ fn samples_that_do_not_tell_the_motion_are_refused_or_followed() {
     let theta: Vec<f64> = times.iter().map(|t| -0.8 + 2.7 * t + 0.3 * t * t).collect();
     let exact = shown(&scene, Measured::Gamma, &theta);
     for (seed, fit) in [
-        (1, FitKind::Spline),
-        (2, FitKind::Spline),
+        (1, FitKind::Smoother),
+        (2, FitKind::Smoother),
         (3, FitKind::Polynomial),
     ] {
         let mut random = Random(77 + seed);
@@ -332,39 +313,10 @@ fn the_speed_of_the_scene_decides_where_its_angle_says_nothing() {
             let scene = scene.start(angle, 5.0 * sense);
             let values = shown(&scene, Measured::X, &theta);
             let motion = Measurement::new(Measured::X, times.clone(), values).expect("samples");
-            let found = inverse(&scene, &motion, &fitted(FitKind::Spline)).expect("an inversion");
+            let found = inverse(&scene, &motion, &fitted(FitKind::Smoother)).expect("an inversion");
             assert!((found.rows[0].theta - 0.9 * sense).abs() < 1e-3);
         }
     }
-}
-
-/// A million positions of the slider over sixteen turns, each noisy by much more than the way between two of them.
-#[test]
-fn dense_positions_are_unfolded_like_few() {
-    let scene = Scene::new(0.05, 0.15);
-    let mut random = Random(88_172_645_463_325_252);
-    let count = 1_000_000;
-    let times: Vec<f64> = (0..count).map(|i| 1.6e-6 * f64::from(i)).collect();
-    let rate = TAU * 10.0;
-    let angle = |t: f64| 0.3 + rate * t + 0.05 * (rate * t + 0.4).sin();
-    let theta: Vec<f64> = times.iter().map(|t| angle(*t)).collect();
-    let mut x = shown(&scene, Measured::X, &theta);
-    for x in &mut x {
-        *x += 1e-5 * random.normal();
-    }
-    let data = Measurement::new(Measured::X, times, x).unwrap();
-    let options = InverseOptions {
-        size: FitSize::Fixed(3),
-        ..fitted(FitKind::Fourier)
-    };
-    let found = inverse(&scene.start(0.3, 60.0), &data, &options).unwrap();
-    let off = found
-        .rows
-        .iter()
-        .zip(&theta)
-        .map(|(row, theta)| (row.theta - theta).abs());
-    let most = off.fold(0.0, f64::max);
-    assert!(most < 1e-4, "{most:e}");
 }
 
 #[test]
@@ -384,27 +336,6 @@ fn angles_reduced_to_one_turn_are_continued() {
             .iter()
             .any(|w| w.contains("reduced to one turn"))
     );
-}
-
-/// Its error is told by splines through fewer samples, not by what few residuals leave.
-#[test]
-fn samples_are_not_few_for_a_spline_that_goes_through_them() {
-    let times: Vec<f64> = (0..200).map(|i| 0.01 * f64::from(i)).collect();
-    let angles = times.iter().map(|t| 0.5 + 12.0 * t + 0.3 * (7.0 * t).sin());
-    let angles = angles.collect();
-    let motion = Measurement::new(Measured::Theta, times, angles).expect("samples");
-    let few = |fit: FitKind, size: FitSize| {
-        let options = InverseOptions {
-            size,
-            ..fitted(fit)
-        };
-        let found = inverse(&pump(), &motion, &options).expect("an inversion");
-        let FitSummary { parameters, .. } = found.summary.fit;
-        assert!(3.0 * parameters > 200.0, "{fit:?}: {parameters} parameters");
-        found.summary.warnings.iter().any(|w| w.contains("are few"))
-    };
-    assert!(!few(FitKind::Spline, FitSize::Auto));
-    assert!(few(FitKind::Polynomial, FitSize::Fixed(80)));
 }
 
 /// A sensor whose scale is a little long, with noise, shows more than one turn.
@@ -453,46 +384,6 @@ fn at_a_dead_centre_the_force_is_empty_and_the_torque_is_not() {
             bands.iter().map(|band| band.rows).sum::<usize>()
         ),
         (3, 3)
-    );
-}
-
-#[test]
-fn a_motion_that_the_fit_misses_is_named() {
-    let (scene, run) = turns().run();
-    let times = turns().times();
-    let theta = times
-        .iter()
-        .map(|t| run.at(*t).expect("inside").0)
-        .collect();
-    let motion = Measurement::new(Measured::Theta, times, theta).expect("samples");
-    let options = InverseOptions {
-        size: FitSize::Fixed(4),
-        ..InverseOptions::default()
-    };
-    let found = inverse(&scene, &motion, &options).expect("an inversion");
-    // The band is as wide as what a spline finds beside it.
-    let options = InverseOptions {
-        fit: FitKind::Spline,
-        ..InverseOptions::default()
-    };
-    let right = inverse(&scene, &motion, &options).expect("an inversion");
-    let (mut inside, mut squares) = (0, 0.0);
-    for (row, right) in found.rows.iter().zip(&right.rows) {
-        let torque = |row: &slider_crank::study::InverseRow| row.crank_torque.expect("a torque");
-        let off = (torque(row) - torque(right)).abs() / row.crank_torque_se.expect("its error");
-        inside += usize::from(off <= found.summary.band_factor);
-        squares += off * off;
-    }
-    let (rows, factor) = (found.rows.len(), found.summary.fit.widening);
-    assert!(10 * inside >= 9 * rows, "{inside} of {rows}");
-    let error = (squares / rows as f64).sqrt();
-    assert!((0.1..=1.5).contains(&error), "{error}, widened by {factor}");
-    assert!(
-        found
-            .summary
-            .warnings
-            .iter()
-            .any(|w| w.contains("not noise"))
     );
 }
 
@@ -583,48 +474,4 @@ fn the_table_of_forces_is_right() {
         );
     }
     assert!(lines.next().is_none());
-}
-
-/// Fifteen turns from rest in 201 samples: the polynomial of the highest degree that these allow goes through most of them, and
-/// is off by thousands of millions of newtons between those at the ends.
-#[test]
-fn rows_at_which_a_polynomial_does_not_follow_the_motion_are_left_empty() {
-    let times: Vec<f64> = (0..=200).map(|i| 0.01 * f64::from(i)).collect();
-    let faster = |t: f64| 7.5 * TAU / 2.0 * t * t;
-    let angle = |t: f64| faster(t) + 0.05 * faster(t).sin();
-    let theta = times.iter().map(|t| angle(*t)).collect();
-    let motion = Measurement::new(Measured::Theta, times, theta).expect("samples");
-    let found = inverse(&pump(), &motion, &InverseOptions::default()).expect("a polynomial");
-    let [first, last] = [&found.rows[0], &found.rows[200]];
-    for row in [first, last] {
-        assert_eq!((row.slider_force, row.crank_torque), (None, None));
-    }
-    let warnings = &found.summary.warnings;
-    let said = warnings.iter().find(|w| w.contains("misses more of the"));
-    assert!(
-        said.is_some_and(|w| w.contains("--fit spline")),
-        "{warnings:?}"
-    );
-    // The rest is within its band: its angle is prescribed, and so are speed and acceleration.
-    let equation = Equation::new(&pump());
-    let mut within = Vec::new();
-    for row in &found.rows {
-        let (Some(torque), Some(se)) = (row.crank_torque, row.crank_torque_se) else {
-            continue;
-        };
-        let (speed, acceleration) = (7.5 * TAU * row.t, 7.5 * TAU);
-        let phase = faster(row.t);
-        let omega = speed * (1.0 + 0.05 * phase.cos());
-        let alpha = acceleration * (1.0 + 0.05 * phase.cos()) - 0.05 * speed * speed * phase.sin();
-        let terms = equation.terms(angle(row.t));
-        let needed = equation.generalized_force(&terms, omega, alpha);
-        within.push(f64::from((torque - needed).abs() < 2.0 * se));
-    }
-    let part = within.iter().sum::<f64>() / within.len() as f64;
-    assert!(
-        within.len() > 100 && part > 0.9,
-        "{part} of {}",
-        within.len()
-    );
-    assert!(inverse(&pump(), &motion, &fitted(FitKind::Spline)).is_ok());
 }

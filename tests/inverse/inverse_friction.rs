@@ -4,10 +4,11 @@
 use crate::support::newton::Parts;
 use crate::support::random::{cases, rotating_crank};
 use proptest::prelude::*;
+use slider_crank::inverse::{FitKind, InverseOptions, inverse};
 use slider_crank::scene::{
     Crank, Friction, Gravity, Load, Measured, Measurement, Rod, Scene, Slider, Variables,
 };
-use slider_crank::study::{FitKind, InverseOptions, Options, inverse, simulate};
+use slider_crank::study::{Options, simulate};
 
 fn rubbing(scene: Scene, mu: f64) -> Scene {
     let mut scene = scene
@@ -59,7 +60,7 @@ fn a_forward_run_gives_back_its_force() {
             .collect();
         let motion = Measurement::new(Measured::Theta, times, angles).expect("samples");
         let options = InverseOptions {
-            fit: FitKind::Spline,
+            fit: FitKind::Smoother,
             reactions: true,
             ..InverseOptions::default()
         };

@@ -9,8 +9,8 @@ use crate::support::instrument::shown;
 use crate::support::newton::Parts;
 use crate::support::random::{cases, rotating_crank};
 use proptest::prelude::*;
+use slider_crank::inverse::{FitKind, Inverse, InverseOptions, inverse};
 use slider_crank::scene::{Crank, Gravity, Measured, Measurement, Reading, Rod, Scene, Slider};
-use slider_crank::study::{FitKind, Inverse, InverseOptions, inverse};
 
 /// θ(t) = start + speed (1 − exp(−slowing t))/slowing + swing sin(rate t), sampled from 0 to `end`.
 #[derive(Clone, Copy, Debug)]
@@ -215,7 +215,7 @@ proptest! {
         let text = style.csv(measured, &samples);
         let read = Measurement::parse(Path::new("fuzz.csv"), text, &Reading::default());
         let read = read.expect("good data");
-        let options = InverseOptions { fit: FitKind::Spline, ..InverseOptions::default() };
+        let options = InverseOptions { fit: FitKind::Smoother, ..InverseOptions::default() };
         let found = match inverse(&scene, &read, &options) {
             Ok(found) => found,
             // What cannot be told is refused, with what would help.

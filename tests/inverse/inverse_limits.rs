@@ -4,11 +4,12 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::noise::Random;
+use slider_crank::inverse::{FitKind, InverseOptions, inverse};
 use slider_crank::mechanism::Linkage;
 use slider_crank::scene::{
     Branch, Crank, Gravity, Load, Measured, Measurement, Scene, Slider, Variables,
 };
-use slider_crank::study::{FitKind, InverseOptions, Options, inverse, simulate};
+use slider_crank::study::{Options, simulate};
 
 const CRANK: f64 = 0.05;
 const INERTIA: f64 = 2e-3;
@@ -120,7 +121,7 @@ fn invert(
     let values = samples.iter().map(value).collect();
     let motion = Measurement::new(measured, times.to_vec(), values).expect("samples");
     let options = InverseOptions {
-        fit: FitKind::Spline,
+        fit: FitKind::Smoother,
         ..InverseOptions::default()
     };
     let found = match inverse(scene, &motion, &options) {

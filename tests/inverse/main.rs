@@ -3,19 +3,12 @@
 #[path = "../support/mod.rs"]
 mod support;
 
-mod dense_steps;
-mod encoders;
-mod fast_waves;
 mod fit;
-mod fit_errors;
 mod hard_data;
 mod inverse;
-mod inverse_band;
 mod inverse_friction;
 mod inverse_fuzz;
 mod inverse_limits;
 mod measured_rows;
-mod missed;
 mod noise;
-mod rounded_times;
-mod unfolding;
+mod polynomial;

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use slider_crank::inverse::{FitKind, Inverse, InverseOptions, inverse};
 use slider_crank::scene::{Measured, Measurement, Reading, Scene, Slider};
-use slider_crank::study::{FitKind, Inverse, InverseOptions, inverse};
 
 const MICROSECONDS: i64 = 1_000_000;
 
@@ -68,7 +68,7 @@ fn time_stamps_of_a_clock_lose_nothing() {
                 let t = right.t;
                 assert_eq!(
                     *row,
-                    slider_crank::study::InverseRow { t: row.t, ..*right },
+                    slider_crank::inverse::InverseRow { t: row.t, ..*right },
                     "{t}"
                 );
             }

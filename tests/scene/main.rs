@@ -1,5 +1,9 @@
 //! Scene files: what is read, what is refused, and with which words.
 
+#[path = "../support/mod.rs"]
+mod support;
+
 mod bad_scenes;
 mod data_files;
+mod refusals;
 mod scene_files;

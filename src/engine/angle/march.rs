@@ -1,6 +1,7 @@
 //! Panel after panel, turn after turn.
 
 use super::errors::{Errors, uncertain};
+use super::seen::hides;
 use super::station::{Fineness, Station};
 use super::sweep::{Start, Swept, sweep};
 use super::switch::{Side, side};
@@ -183,6 +184,16 @@ impl<'a, D: Driven> March<'a, D> {
             if let Err(why) = sweep(self.driven, station, start, self.fine.tail, swept) {
                 self.evaluations += self.swept.evaluations;
                 self.refine(why)?;
+                continue;
+            }
+            let parts = match hides(self.driven, station, start, self.fine, swept) {
+                Some(at) => station.parts(self.driven, at, self.fine)?,
+                None => None,
+            };
+            if let Some([first, second]) = parts {
+                self.evaluations += self.swept.evaluations;
+                self.parts.pop();
+                self.parts.extend([second, first]);
                 continue;
             }
             match side(self.driven, station, start, swept) {

@@ -19,6 +19,7 @@ mod one_turn;
 mod past;
 mod refine;
 mod rest;
+mod seen;
 mod station;
 mod steady;
 mod sweep;
@@ -33,6 +34,7 @@ use super::pace::{Ends, Pace};
 use super::time::{FAR, Start};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MOST, Values};
+use crate::numeric::enclosure::{Detail, Reach};
 pub use errors::Errors;
 use march::{Done, March};
 pub use one_turn::{Cycle, Turns};
@@ -64,6 +66,12 @@ pub trait Driven {
 
     /// Their generalized force, N m, at time t (s), angle and speed (rad/s).
     fn drive(&self, place: &Self::Place, t: f64, angle: Angle, speed: f64) -> f64;
+
+    /// Whether they may do something between the points of a panel that the decay of their series does not tell.
+    fn has_detail(&self) -> bool;
+
+    /// What their generalized force (N m) does on a piece of the motion, and in a Bernstein ellipse of this size around it.
+    fn detail(&self, reach: &Reach, ellipse: f64) -> Detail;
 
     /// Their part of the switch.
     fn drive_switch(&self, place: &Self::Place, t: f64, angle: Angle, speed: f64) -> f64;

@@ -3,7 +3,7 @@
 use super::seen::OnStep;
 use super::state::State;
 use super::tableau::Tableau;
-use crate::engine::sight::{Look, hidden};
+use crate::engine::sight::{Hidden, Look, hidden};
 use crate::engine::step::{Step, TERMS};
 use crate::engine::{Batch, Counted, Motion, NODES};
 use crate::numeric::enclosure::ellipse;
@@ -16,6 +16,8 @@ const FEW_SWEEPS: usize = 9;
 const LEFT_BY_SWEEPS: f64 = 1e-2;
 /// No step ends closer to its start than this part of the time.
 const SHORTEST: f64 = 16.0 * f64::EPSILON;
+/// A step that is too long is not made shorter for a corner behind this part of it.
+const WELL_INSIDE: f64 = 0.9;
 /// Rounding of a state, in parts of itself.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
@@ -83,8 +85,34 @@ impl<'a> Collocation<'a> {
         self.alpha = alpha;
     }
 
+    /// Tries a step from a state. One that is too long for a corner in it is to end there.
+    pub fn attempt(&mut self, state: &State, step: Try) -> Result<Accepted, Failed> {
+        self.attempt_whole(state, step)
+            .map_err(|failed| match failed {
+                Failed::TooLong(_) if self.has_detail => {
+                    self.corner(state, step.h).map_or(failed, Failed::Hides)
+                }
+                _ => failed,
+            })
+    }
+
+    /// The part of a step that is too long at which it seems to meet a corner.
+    fn corner(&self, state: &State, h: f64) -> Option<f64> {
+        let coefficients = self.coefficients();
+        if !coefficients.iter().sum::<f64>().is_finite() {
+            return None;
+        }
+        let (step, ..) = self.finish(state, h, &coefficients);
+        let found = self.hides(state, &step, &coefficients)?;
+        (found.is_corner && found.at < WELL_INSIDE).then_some(found.at)
+    }
+
     /// Tries a step from a state; an error says how much shorter the next one is to be.
-    pub fn attempt(&mut self, state: &State, Try { h, corners }: Try) -> Result<Accepted, Failed> {
+    fn attempt_whole(
+        &mut self,
+        state: &State,
+        Try { h, corners }: Try,
+    ) -> Result<Accepted, Failed> {
         self.prepare(state, h);
         let mut before = f64::INFINITY;
         let mut sweeps = 0;
@@ -143,8 +171,8 @@ impl<'a> Collocation<'a> {
         } else if sweeps == FEW_SWEEPS {
             factor = factor.min(1.0);
         }
-        if let Some(at) = self.hides(state, &step, &coefficients) {
-            return Err(Failed::Hides(at));
+        if let Some(hidden) = self.hides(state, &step, &coefficients) {
+            return Err(Failed::Hides(hidden.at));
         }
         self.last = Some((h, coefficients));
         self.alpha = alpha;
@@ -220,7 +248,7 @@ impl<'a> Collocation<'a> {
     }
 
     /// Where the step has to end for its nodes to show the acceleration; none where it is as short as the time allows.
-    fn hides(&self, state: &State, step: &Step, coefficients: &[f64; NODES]) -> Option<f64> {
+    fn hides(&self, state: &State, step: &Step, coefficients: &[f64; NODES]) -> Option<Hidden> {
         if !self.has_detail {
             return None;
         }
@@ -237,7 +265,7 @@ impl<'a> Collocation<'a> {
             step,
             coefficients,
         };
-        hidden(&way, look).filter(|at| at * h > SHORTEST * state.t.abs())
+        hidden(&way, look).filter(|hidden| hidden.at * h > SHORTEST * state.t.abs())
     }
 
     /// What a term of this size beyond the last would add; rounding of the acceleration is no such term.

@@ -96,7 +96,8 @@ impl Interval {
     pub fn sin(self) -> Interval {
         let peak = |at: f64| ((self.low - at) / TAU).ceil() * TAU + at <= self.high;
         let (a, b) = (self.low.sin(), self.high.sin());
-        if !(self.high - self.low < TAU) {
+        let width = self.high - self.low;
+        if width.is_nan() || width >= TAU {
             return Interval::new(-1.0, 1.0);
         }
         let low = if peak(-FRAC_PI_2) { -1.0 } else { a.min(b) };

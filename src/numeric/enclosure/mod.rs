@@ -7,6 +7,7 @@
 
 mod detail;
 mod interval;
+mod partition;
 mod rectangle;
 
 use std::f64::consts::{FRAC_PI_2, LOG10_E, PI};
@@ -14,6 +15,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 pub use detail::{Detail, Reach, ellipse};
 pub use interval::Interval;
+pub use partition::{Wanted, partition};
 pub use rectangle::Rectangle;
 
 /// Values over an interval and around it.

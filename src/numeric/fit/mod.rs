@@ -17,7 +17,6 @@ mod outstanding;
 mod penalized;
 mod pieces;
 mod polynomial;
-mod powers;
 mod refinement;
 mod rotation;
 mod roughness;
@@ -31,12 +30,12 @@ mod told;
 mod triangle;
 mod turn;
 
+pub use crate::numeric::powers::Powers;
 pub use condensed::Rows;
 pub use curve::{Curve, Kind};
 pub use dependent::Dependent;
 pub use fourier::Fourier;
 pub use polynomial::Polynomial;
-pub use powers::Powers;
 pub use spline::Spline;
 
 use crate::numeric::chebyshev::largest;

@@ -4,7 +4,7 @@ use super::inertia;
 use super::problem;
 use crate::mechanism::{Bodies, Class, Curve, Linkage, LooseMechanism};
 use crate::numeric::angle::Angle;
-use crate::scene::{ContactLaw, MotionKind, Problem, RodModel, Scene};
+use crate::scene::{ContactLaw, Load, MotionKind, Problem, RodModel, Scene};
 
 /// Of a scene from which parts without strength were taken out.
 pub fn problems(scene: &Scene, linkage: &Linkage) -> Vec<Problem> {
@@ -16,6 +16,7 @@ pub fn problems(scene: &Scene, linkage: &Linkage) -> Vec<Problem> {
                 list.extend(problems.list().iter().cloned());
             }
             loose(scene, clearance.radial, linkage, &mut list);
+            dry(scene, &mut list);
         }
         (None, MotionKind::Free) => free(scene, linkage, &mut list),
         (None, MotionKind::ConstantSpeed) => {}
@@ -58,6 +59,20 @@ fn free(scene: &Scene, linkage: &Linkage, list: &mut Vec<Problem>) {
             "motion.angle is the change point of these lengths, where the mechanism may go on in two ways, and the scene does not say which",
             "start away from it, or change a length a little to say which mechanism is meant",
         ));
+    }
+}
+
+/// With clearance: loads that oppose motion.
+fn dry(scene: &Scene, list: &mut Vec<Problem>) {
+    for (name, loads) in [("torque", &scene.torques), ("force", &scene.forces)] {
+        let dry = |load: &Load| matches!(load, Load::Dry(_));
+        for (i, _) in loads.iter().enumerate().filter(|(_, load)| dry(load)) {
+            list.push(problem(
+                &format!("{name}[{}].kind", i + 1),
+                "a load of kind \"dry\" together with clearance in a joint is not modelled",
+                "use kind = \"viscous\", or take [clearance] out of the scene",
+            ));
+        }
     }
 }
 

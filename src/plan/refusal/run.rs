@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::problem;
 use crate::mechanism::{Constrained, Curve, Limits, Linkage};
 use crate::numeric::angle::Angle;
-use crate::scene::{Extent, MotionKind, Problem, Scene, Variable};
+use crate::scene::{Extent, Load, MotionKind, Problem, Scene, Variable};
 
 /// Of a scene without parts of no strength; `starts`: its motion begins.
 pub(super) fn problems(scene: &Scene, linkage: &Linkage, starts: bool, list: &mut Vec<Problem>) {
@@ -58,7 +58,9 @@ fn widest_turn(scene: &Scene, linkage: &Linkage) -> Option<f64> {
 
 /// Whether a crank at rest starts in a balance of forces that lasts. Friction may hold it too, which a run tells.
 fn is_balanced(scene: &Scene, linkage: &Linkage) -> bool {
-    if scene.friction.is_some() || scene.clearance.is_some() {
+    let dry = |load: &Load| matches!(load, Load::Dry(_));
+    let dry = scene.torques.iter().chain(&scene.forces).any(dry);
+    if scene.friction.is_some() || scene.clearance.is_some() || dry {
         return false;
     }
     let theta = Angle::from(scene.motion.angle).reduced();

@@ -1,8 +1,8 @@
 //! Figures of `inverse`: data and fit, residuals, slider force and crank torque with their bands.
 
 use crate::error::Error;
+use crate::inverse::{AsPrinted, Inverse, InverseRow};
 use crate::report::{Axis, Figure, panels};
-use crate::study::{AsPrinted, Inverse, InverseRow};
 
 /// Points of a curve that a figure shows.
 const POINTS: usize = 2000;

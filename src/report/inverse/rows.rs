@@ -4,10 +4,10 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 
 use crate::error::Error;
+use crate::inverse::{AsPrinted, Inverse, InverseRow};
 use crate::report::Output;
-use crate::study::{AsPrinted, Inverse, InverseRow};
 
-const COLUMNS: &str = "t_s,theta_rad,omega_rad_per_s,alpha_rad_per_s2,slider_force_n,slider_force_se_n,crank_torque_nm,near_dead_centre";
+const COLUMNS: &str = "t_s,theta_rad,omega_rad_per_s,alpha_rad_per_s2,slider_force_n,slider_force_se_n,crank_torque_nm,near_dead_centre,crank_torque_se_nm";
 
 const PRINTED: &str = "spin_only_force_n,duarte_9_force_n";
 
@@ -134,6 +134,7 @@ fn line(row: &InverseRow, text: &mut Vec<u8>) {
     }
     cell(row.crank_torque.unwrap_or(f64::NAN), text);
     text.extend(if row.near_dead_centre { b",1" } else { b",0" });
+    cell(row.crank_torque_se.unwrap_or(f64::NAN), text);
 }
 
 fn cell(value: f64, text: &mut Vec<u8>) {

@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
+use crate::inverse::{AsPrinted, FitSummary, ForceRange, Inverse};
 use crate::report::facts::Facts;
-use crate::study::{AsPrinted, FitSummary, ForceRange, Inverse};
 
 /// Rows of the table.
 const ROWS: usize = 16;
@@ -63,24 +63,23 @@ pub fn inverse(result: &Inverse, printed: Option<&AsPrinted>) -> String {
 
 fn fit(facts: &mut Facts, fit: &FitSummary, unit: &str) {
     let (kind, degree, parameters) = (fit.kind, fit.degree, fit.parameters);
-    facts.add(
-        "fit",
-        format_args!("{kind}, degree {degree}, {parameters:.4} parameters"),
-    );
-    if let Some(passages) = fit.passages {
-        let what =
-            "times of going from one step of the samples to the next, which lie densely in each";
-        facts.add("  fitted to", format_args!("{passages} {what}"));
+    match fit.kind {
+        "polynomial" => facts.add(
+            "fit",
+            format_args!("{kind}, degree {degree}, {parameters:.4} parameters"),
+        ),
+        _ => facts.add(
+            "fit",
+            format_args!("{kind}, {}, worth {parameters:.4} parameters", fit.prior),
+        ),
     }
-    if kind != "spline" {
-        let errors = fit.standard_errors.iter();
-        for (power, (c, e)) in fit.coefficients.iter().zip(errors).enumerate() {
-            let value = match (c, e) {
-                (Some(c), Some(e)) => format!("{c:.15e} +- {e:.2e}"),
-                _ => "no digits in plain time".to_owned(),
-            };
-            facts.add(format_args!("  coefficient {power}"), value);
-        }
+    let errors = fit.standard_errors.iter();
+    for (power, (c, e)) in fit.coefficients.iter().zip(errors).enumerate() {
+        let value = match (c, e) {
+            (Some(c), Some(e)) => format!("{c:.15e} +- {e:.2e}"),
+            _ => "no digits in plain time".to_owned(),
+        };
+        facts.add(format_args!("  coefficient {power}"), value);
     }
     facts.add("  R^2", format_args!("{:.9}", fit.r_squared));
     facts.add("  residual rms", format_args!("{:.6e} {unit}", fit.rms));

@@ -7,6 +7,9 @@ use std::path::Path;
 /// Opens a file, or makes it, for this process alone until it is closed; none while another process has it. On a
 /// file system that cannot keep processes apart it is open to all.
 pub(super) fn open(path: &Path) -> io::Result<Option<File>> {
+    if std::fs::symlink_metadata(path).is_ok_and(|found| found.is_symlink()) {
+        return Err(io::Error::other("it is a link to another file"));
+    }
     let mut options = OpenOptions::new();
     options.read(true).write(true).create(true).truncate(false);
     alone(&options, path)
@@ -14,9 +17,11 @@ pub(super) fn open(path: &Path) -> io::Result<Option<File>> {
 
 #[cfg(unix)]
 fn alone(options: &OpenOptions, path: &Path) -> io::Result<Option<File>> {
-    use rustix::fs::{FlockOperation, flock};
+    use rustix::fs::{FlockOperation, OFlags, flock};
     use rustix::io::Errno;
-    use std::os::unix::fs::MetadataExt;
+    use std::os::unix::fs::{MetadataExt, OpenOptionsExt};
+    let mut options = options.clone();
+    options.custom_flags(OFlags::NOFOLLOW.bits().cast_signed());
     loop {
         let file = options.open(path)?;
         if flock(&file, FlockOperation::NonBlockingLockExclusive) == Err(Errno::WOULDBLOCK) {

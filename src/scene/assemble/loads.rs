@@ -36,6 +36,7 @@ pub(super) fn load(
             rest: values.number("rest")?,
         }),
         "expression" => expression(reader, values),
+        "dry" => dry(reader, values, quantity, folder),
         "table" => {
             let of = Variable::named(values.text("of")?)?;
             table(reader, values, of, quantity, folder).map(Load::Table)
@@ -53,6 +54,53 @@ fn constant(reader: &mut Reader, values: &Values, quantity: Quantity) -> Option<
             None
         }
     }
+}
+
+/// A load that opposes motion: the magnitude is a value or a table.
+fn dry(reader: &mut Reader, values: &Values, quantity: Quantity, folder: &Path) -> Option<Load> {
+    let magnitude = match (values.has("value"), values.has("file")) {
+        (true, false) => {
+            let tables = values
+                .names()
+                .filter(|name| !["kind", "value"].contains(name));
+            for name in tables.collect::<Vec<_>>() {
+                let what = format!("`{name}` belongs to a table, and the magnitude is `value`");
+                reader.problem(
+                    &values.field(name),
+                    what,
+                    "leave it out, or give `file` in place of `value`",
+                );
+            }
+            constant(reader, values, quantity)?
+        }
+        (false, true) => {
+            if !values.has("of") {
+                let what = "`of` is missing: what the magnitude is a table of";
+                reader.missing(values, "of", what, "add of = \"theta\"");
+            }
+            let of = Variable::named(values.text("of")?)?;
+            Load::Table(table(reader, values, of, quantity, folder)?)
+        }
+        (both, _) => {
+            let what = match both {
+                true => "kind \"dry\" has both `value` and `file`",
+                false => "`value` is missing for kind \"dry\"",
+            };
+            let help = "give its magnitude as value = \"0.5 N m\", or as a table with file and of";
+            let help = match quantity {
+                Quantity::Torque => help.to_owned(),
+                _ => help.replace("N m", "N"),
+            };
+            if both
+                || !reader.doubtful(&values.field("value"))
+                    && !reader.doubtful(&values.field("file"))
+            {
+                reader.problem(&values.field("value"), what, help);
+            }
+            return None;
+        }
+    };
+    Some(Load::Dry(Box::new(magnitude)))
 }
 
 fn expression(reader: &mut Reader, values: &Values) -> Option<Load> {

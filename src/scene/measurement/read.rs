@@ -14,8 +14,8 @@ use crate::scene::table::pairs::{OPEN_QUOTE, delimiter, open_quote};
 use crate::scene::text::with_line_feeds;
 use crate::scene::{Problem, Problems};
 
-/// Problems that are listed; all are counted.
-const MOST_LISTED: usize = 20;
+/// Problems of one kind that are listed; all are counted.
+pub(super) const MOST_LISTED: usize = 3;
 
 /// A file's samples, each a number, not yet checked against each other.
 pub(super) fn measurement(
@@ -118,14 +118,16 @@ fn samples(
     let (mut times, mut values, mut digits) = (Vec::new(), Vec::new(), Digits::default());
     let mut problems = without_values(text, delimiter);
     let mut count = problems.len();
+    problems.truncate(MOST_LISTED);
     let names = ["time", columns.measured.name()];
     let mut before = records.end();
     while records.next() {
         let (record, end) = (&records.record, records.end());
         let mut wrong = |column: Option<usize>, field: &str, what: String, help: String| {
             count += 1;
-            if problems.len() < MOST_LISTED {
-                let mut problem = Problem::new(field, what, help);
+            let mut problem = Problem::new(field, what, help);
+            let alike = |other: &&Problem| other.field == field && other.help == problem.help;
+            if problems.iter().filter(alike).count() < MOST_LISTED {
                 problem.span = Some(match column {
                     Some(column) => cell(text, end, delimiter, column),
                     None => line_at(text, end),
@@ -134,6 +136,7 @@ fn samples(
             }
         };
         if runs_on(record) {
+            count += 1;
             problems.push(unclosed(text, before));
             break;
         }
@@ -176,15 +179,7 @@ fn samples(
             with_point(cell, columns).unwrap_or_default().as_bytes(),
         );
     }
-    if count > problems.len() {
-        let more = format!(
-            "{} more like these",
-            counted(count - problems.len(), "problem")
-        );
-        let mut last = Problem::new("", more, "repair the data, or take the rows out");
-        last.span = Some(text.len()..text.len());
-        problems.push(last);
-    }
+    problems.extend(more(count - problems.len(), text));
     if problems.is_empty() {
         Ok((times, values, digits))
     } else {
@@ -192,14 +187,22 @@ fn samples(
     }
 }
 
+/// How many problems there are beside those that are listed, if any.
+pub(super) fn more(count: usize, text: &str) -> Option<Problem> {
+    (count > 0).then(|| {
+        let what = format!("{} more like these", counted(count, "problem"));
+        let mut last = Problem::new("", what, "repair the data, or take the rows out");
+        last.span = Some(text.len()..text.len());
+        last
+    })
+}
+
 /// Rows that begin with what spreadsheets write where a formula has no value.
 fn without_values(text: &str, delimiter: u8) -> Vec<Problem> {
     let mut start = 0;
     let mut problems = Vec::new();
     for line in text.split_inclusive('\n') {
-        if let Some(mark) = no_value(line, delimiter)
-            && problems.len() < MOST_LISTED
-        {
+        if let Some(mark) = no_value(line, delimiter) {
             let (what, help) = not_a_number(mark);
             let mut problem = Problem::new("row", what, help);
             problem.span = Some(start..start + mark.len());

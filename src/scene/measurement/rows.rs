@@ -1,6 +1,7 @@
 //! Samples checked against each other.
 
 use super::cut_short::cut_short;
+use super::read::{MOST_LISTED, more};
 use super::saturated::saturated;
 use super::{LEAST_ROWS, Measured, Measurement};
 use crate::numeric::median::median;
@@ -37,7 +38,10 @@ pub(super) fn check_rows(measurement: &mut Measurement) -> Result<(), Problems> 
         .as_ref()
         .map_or(1.0, |source| source.time.factor);
     let faults = measurement.elapsed().windows(2).enumerate();
-    for (i, w) in faults.filter(|(_, w)| w[1] <= w[0]).take(20) {
+    let faults = faults.filter(|(_, w)| w[1] <= w[0]);
+    let text = measurement.source.as_ref().map_or("", |s| s.text.as_str());
+    let rest = faults.clone().count().saturating_sub(MOST_LISTED);
+    for (i, w) in faults.take(MOST_LISTED) {
         let (now, before) = apart(times[i + 1] / factor, times[i] / factor);
         let what = if w[1] == w[0] {
             format!("the time {now} is repeated")
@@ -47,6 +51,7 @@ pub(super) fn check_rows(measurement: &mut Measurement) -> Result<(), Problems> 
         let help = "times must rise strictly; take out or put right the row".to_owned();
         problems.push(place(measurement, i + 1, "time", what, help));
     }
+    problems.extend(more(rest, text));
     if problems.is_empty() && times.len() < LEAST_ROWS {
         let rows = counted(times.len(), "sample");
         let what = format!("{rows} where at least {LEAST_ROWS} are needed");

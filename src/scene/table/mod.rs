@@ -144,6 +144,12 @@ impl Table {
         )
     }
 
+    /// The least value, SI.
+    pub(super) fn least(&self) -> f64 {
+        let values = self.curve.values().iter().copied();
+        values.fold(f64::INFINITY, f64::min)
+    }
+
     pub(super) fn is_zero(&self) -> bool {
         self.curve.values().iter().all(|y| *y == 0.0)
     }

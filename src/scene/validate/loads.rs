@@ -56,6 +56,34 @@ pub(super) fn load(list: &mut Check, field: &str, on_slider: bool, load: &Load) 
         Load::Table(table) => {
             list.finite(key("file"), table.largest());
         }
+        Load::Dry(magnitude) => dry(list, field, on_slider, magnitude),
         Load::Expression(_) | Load::Function { .. } => {}
+    }
+}
+
+/// A magnitude that is none.
+fn dry(list: &mut Check, field: &str, on_slider: bool, magnitude: &Load) {
+    let key = |name: &str| format!("{field}.{name}");
+    match magnitude {
+        Load::Constant(value) => {
+            list.not_negative(key("value"), *value, if on_slider { "N" } else { "N m" });
+        }
+        Load::Table(table) => {
+            if list.finite(key("file"), table.largest()) && table.least() < 0.0 {
+                list.add(
+                    key("file"),
+                    format!("a magnitude of {} is negative", show(table.least())),
+                    "kind \"dry\" opposes motion by itself: give magnitudes, which are zero or positive",
+                );
+            }
+        }
+        other => list.add(
+            key("kind"),
+            format!(
+                "a load of kind \"{}\" is no magnitude of a dry one",
+                other.kind()
+            ),
+            "give a constant magnitude, or a table",
+        ),
     }
 }

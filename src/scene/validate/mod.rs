@@ -12,6 +12,7 @@ use super::{
     Every, Extent, Friction, Geometry, InertiaAbout, Motion, MotionKind, Problem, Rod, RodModel,
     Run, Scene,
 };
+use crate::numeric::exact::sum3;
 use check::Check;
 
 /// Local error targets below this cannot be met in double precision.
@@ -71,13 +72,18 @@ fn geometry(list: &mut Check, geometry: &Geometry) {
     list.positive("geometry.rod", geometry.rod, "m");
     list.finite("geometry.offset", geometry.offset);
     let (r, l, e) = (geometry.crank, geometry.rod, geometry.offset);
-    if e.abs() > r + l && list.sound(start::LENGTHS) {
-        let (offset, most) = apart(e, r + l);
+    // Rounded once, after the difference: crank plus rod may be rounded up to the offset.
+    let reach = sum3(r, l, -e.abs());
+    if reach < 0.0 && list.sound(start::LENGTHS) {
+        let larger = if e.abs() > r + l {
+            let (offset, most) = apart(e, r + l);
+            format!("{offset} m is larger than crank plus rod, {most} m")
+        } else {
+            format!("is larger than crank plus rod by {} m", show(-reach))
+        };
         list.add(
             "geometry.offset",
-            format!(
-                "the mechanism cannot be assembled: the offset {offset} m is larger than crank plus rod, {most} m"
-            ),
+            format!("the mechanism cannot be assembled: the offset {larger}"),
             "make the offset smaller or the rod longer",
         );
     }

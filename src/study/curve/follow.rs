@@ -4,8 +4,8 @@ use std::cell::Cell;
 
 use super::arrived::{Arrived, End, Follow, Observer};
 use super::phase::{
-    CLEAR, DEAD_CENTRE, InPhase, LIMIT, NORMAL, Phase, Quantities, SPEED, Signs, TURNED, signs,
-    sliding,
+    CLEAR, CRANK, DEAD_CENTRE, InPhase, LIMIT, NORMAL, Phase, Quantities, SPEED, Signs, TURNED,
+    against, signs, sliding,
 };
 use crate::engine::guard::{self, Change, Watched};
 use crate::engine::pace::Pace;
@@ -50,6 +50,7 @@ impl Follow<'_> {
                 equation: self.equation,
                 turning: self.turn_limit.map(|limit| (self.turned_from, limit)),
                 evaluations: Cell::new(0),
+                against: Cell::default(),
             },
             observer,
             now: self.start,
@@ -73,12 +74,17 @@ impl Follow<'_> {
     pub fn friction(&self) -> Option<Friction> {
         self.equation.friction()
     }
+
+    /// Whether anything may hold the mechanism at rest.
+    pub fn may_stick(&self) -> bool {
+        self.friction().is_some() || self.equation.loads().are_dry()
+    }
 }
 
 impl Run<'_, '_> {
     fn begin(&mut self) {
         let speed = self.now.speed;
-        let end = if speed == 0.0 && self.follow.friction().is_some() {
+        let end = if speed == 0.0 && self.follow.may_stick() {
             self.leave_rest(None)
         } else {
             self.signs = self.signs_for(if speed < 0.0 { -1.0 } else { 1.0 });
@@ -89,6 +95,16 @@ impl Run<'_, '_> {
     }
 
     pub fn signs_for(&self, direction: f64) -> Signs {
+        let equation = self.follow.equation;
+        if equation.loads().are_dry() {
+            // The sign of N follows from those of the speeds.
+            let seen = self.seen(direction);
+            self.quantities.against.set(against(equation, &seen));
+        }
+        self.seen(direction)
+    }
+
+    fn seen(&self, direction: f64) -> Signs {
         let Start { t, angle, speed } = self.now;
         let values = self.quantities.values(t, angle, speed);
         let ahead = self
@@ -96,8 +112,8 @@ impl Run<'_, '_> {
             .values(t, angle.plus(direction * AHEAD), speed);
         let mut signs = signs(values, ahead, direction);
         // A start without speed says nothing about its direction.
-        if speed == 0.0 && self.follow.friction().is_none() {
-            let motion = self.in_phase(Phase::Sliding { c: 0.0 });
+        if speed == 0.0 && !self.follow.may_stick() {
+            let motion = self.in_phase(Phase::FREE);
             if motion.acceleration(t, angle, speed) < 0.0 {
                 signs[SPEED] = -1.0;
             }
@@ -132,6 +148,7 @@ impl Run<'_, '_> {
                 }
                 Cut::At { t, index } => {
                     self.signs[index] = -self.signs[index];
+                    self.oppose(index);
                     self.report(index, t);
                     None
                 }
@@ -150,6 +167,15 @@ impl Run<'_, '_> {
         }
     }
 
+    /// Where dry loads turn round, the normal force jumps.
+    fn oppose(&mut self, index: usize) {
+        let equation = self.follow.equation;
+        if equation.loads().are_dry() && matches!(index, DEAD_CENTRE | CRANK) {
+            self.quantities.against.set(against(equation, &self.signs));
+            self.signs[NORMAL] = self.seen(self.signs[SPEED])[NORMAL];
+        }
+    }
+
     fn report(&mut self, index: usize, t: f64) {
         let kind = match index {
             SPEED => "turning-point",
@@ -165,7 +191,8 @@ impl Run<'_, '_> {
     fn slide(&mut self) -> Cut {
         let equation = self.follow.equation;
         let friction = self.follow.friction();
-        let phase = sliding(friction, &self.signs);
+        let [on_crank, on_slider] = equation.loads().dry_on();
+        let phase = sliding(equation, &self.signs);
         let in_phase = InPhase { equation, phase };
         let motion = Counted::new(&in_phase);
         let looked_at = Counted::new(&in_phase);
@@ -189,7 +216,10 @@ impl Run<'_, '_> {
                     return true;
                 }
                 let ends = match change.index {
-                    SPEED | DEAD_CENTRE | NORMAL => friction.is_some(),
+                    SPEED => friction.is_some() || on_crank || on_slider,
+                    DEAD_CENTRE => friction.is_some() || on_slider,
+                    NORMAL => friction.is_some(),
+                    CRANK => on_crank,
                     LIMIT => false,
                     _ => true,
                 };
@@ -199,7 +229,7 @@ impl Run<'_, '_> {
                 }
                 signs[change.index] = -signs[change.index];
                 let from_rest = change.index == SPEED && step.start.omega == 0.0;
-                if from_rest {
+                if from_rest || change.index == CRANK {
                     continue;
                 }
                 let (kind, speed) = match change.index {

@@ -38,7 +38,8 @@ use crate::trajectory::Trajectory;
 
 /// Whether a free motion in time is computed here.
 pub(super) fn serves(task: &Task<'_>) -> bool {
-    task.limits.class != Class::RotatingCrank || task.scene.reduced().friction.is_some()
+    let may_stick = task.scene.reduced().friction.is_some() || task.equation().loads().are_dry();
+    task.limits.class != Class::RotatingCrank || may_stick
 }
 
 /// Runs a task.

@@ -4,9 +4,9 @@ use std::cell::Cell;
 
 use crate::engine::Motion;
 use crate::engine::guard::Watched;
-use crate::mechanism::{Constrained, Touch};
+use crate::mechanism::{Constrained, LoadValue, Place, Sense, Touch};
 use crate::numeric::angle::Angle;
-use crate::scene::{Friction, Variable};
+use crate::scene::Variable;
 
 /// The watched quantities.
 pub(super) const SPEED: usize = 0;
@@ -15,8 +15,9 @@ pub(super) const LIMIT: usize = 2;
 pub(super) const TURNED: usize = 3;
 pub(super) const NORMAL: usize = 4;
 pub(super) const CLEAR: usize = 5;
+pub(super) const CRANK: usize = 6;
 /// How many they are.
-pub(super) const QUANTITIES: usize = 6;
+pub(super) const QUANTITIES: usize = 7;
 
 /// Signs of the watched quantities.
 pub(super) type Signs = [f64; QUANTITIES];
@@ -24,10 +25,26 @@ pub(super) type Signs = [f64; QUANTITIES];
 /// How the slider touches its guide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::study) enum Phase {
-    /// It slides; c = −μ sgn(v) sgn(N), zero without friction.
-    Sliding { c: f64 },
+    /// It slides.
+    Sliding {
+        /// −μ sgn(v) sgn(N), zero without friction.
+        c: f64,
+        /// What dry loads oppose, if there are any.
+        against: Sense,
+    },
     /// It sticks.
     Sticking,
+}
+
+impl Phase {
+    /// Sliding without friction.
+    pub const FREE: Phase = Phase::Sliding {
+        c: 0.0,
+        against: Sense {
+            crank: 0.0,
+            slider: 0.0,
+        },
+    };
 }
 
 /// The equation in one phase.
@@ -39,15 +56,31 @@ pub(super) struct InPhase<'a> {
 impl InPhase<'_> {
     /// Acceleration (rad/s² of the coordinate), forces of the guide, and power (W) of all that has no potential.
     pub fn state(&self, t: f64, angle: Angle, speed: f64) -> (f64, Touch, f64) {
-        let free = self.equation.free(t, angle, speed);
         match self.phase {
-            Phase::Sliding { c } => {
+            Phase::Sliding { c, against } => {
+                let free = self.equation.free_against(t, angle, speed, against);
                 let (acceleration, touch) = free.sliding(c);
                 let power = free.power + touch.friction * free.velocity(speed);
                 (acceleration, touch, power)
             }
-            Phase::Sticking => (0.0, free.holding().unwrap_or_default(), 0.0),
+            Phase::Sticking => {
+                let touch = self.equation.held(t, angle).free.holding();
+                (0.0, touch.unwrap_or_default(), 0.0)
+            }
         }
+    }
+
+    /// Torque and force of the loads at a position.
+    pub fn load(&self, place: &Place, t: f64, angle: Angle, speed: f64) -> LoadValue {
+        let equation = self.equation;
+        let dry = match self.phase {
+            Phase::Sliding { against, .. } => {
+                let now = equation.instant(place, t, angle, speed);
+                equation.loads().dry(&now, against)
+            }
+            Phase::Sticking => equation.held(t, angle).dry,
+        };
+        equation.load_beside(dry, place, t, angle, speed)
     }
 }
 
@@ -80,6 +113,8 @@ pub(super) struct Quantities<'a> {
     /// The crank angle of the start, and how far the crank may turn, rad.
     pub turning: Option<(Angle, f64)>,
     pub evaluations: Cell<u64>,
+    /// What dry loads oppose.
+    pub against: Cell<Sense>,
 }
 
 impl Watched<QUANTITIES> for Quantities<'_> {
@@ -89,7 +124,8 @@ impl Watched<QUANTITIES> for Quantities<'_> {
         let (normal, clear) = match self.equation.friction() {
             Some(friction) => {
                 self.evaluations.set(self.evaluations.get() + 1);
-                let free = self.equation.free(t, angle, speed);
+                let against = self.against.get();
+                let free = self.equation.free_against(t, angle, speed, against);
                 (free.normal, free.clear_of_jam(friction.coefficient))
             }
             None => (1.0, 1.0),
@@ -104,6 +140,7 @@ impl Watched<QUANTITIES> for Quantities<'_> {
         values[TURNED] = turned;
         values[NORMAL] = normal;
         values[CLEAR] = clear;
+        values[CRANK] = place.dtheta;
         values
     }
 }
@@ -122,9 +159,22 @@ pub(super) fn signs(values: Signs, ahead: Signs, direction: f64) -> Signs {
 }
 
 /// The phase that goes with signs.
-pub(super) fn sliding(friction: Option<Friction>, signs: &Signs) -> Phase {
+pub(super) fn sliding(equation: &Constrained, signs: &Signs) -> Phase {
+    let friction = equation.friction();
     let mu = friction.map_or(0.0, |friction| friction.coefficient);
     Phase::Sliding {
         c: -mu * signs[SPEED] * signs[DEAD_CENTRE] * signs[NORMAL],
+        against: against(equation, signs),
+    }
+}
+
+/// What dry loads oppose, if there are any.
+pub(super) fn against(equation: &Constrained, signs: &Signs) -> Sense {
+    match equation.loads().are_dry() {
+        true => Sense::of(
+            signs[SPEED] * signs[CRANK],
+            signs[SPEED] * signs[DEAD_CENTRE],
+        ),
+        false => Sense::default(),
     }
 }

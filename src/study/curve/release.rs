@@ -32,7 +32,8 @@ pub(super) fn time(
     allowed: u64,
 ) -> (Release, u64) {
     let mut count = 0;
-    let band = |t: f64| equation.free(t, angle, 0.0).band(mu_static);
+    let dry = equation.loads().are_dry();
+    let band = |t: f64| equation.held(t, angle).margin(mu_static, dry);
     let longest = FIRST * (to - from);
     let shortest = SHORTEST * (to - from);
     let (mut t, mut length) = (from, longest);

@@ -15,11 +15,14 @@ const FAR_AHEAD: f64 = 1e3;
 impl Run<'_, '_> {
     /// Goes on from rest: none if it moves. `before`: the direction in which it moved.
     pub fn leave_rest(&mut self, before: Option<f64>) -> Option<End> {
-        let friction = self.follow.friction()?;
-        let (mu, mu_static) = (friction.coefficient, friction.static_coefficient);
+        if !self.follow.may_stick() {
+            return None;
+        }
+        let friction = self.follow.friction();
+        let [mu, mu_static] = friction.map_or([0.0; 2], |f| [f.coefficient, f.static_coefficient]);
         let Start { t, angle, .. } = self.now;
-        let free = self.follow.equation.free(t, angle, 0.0);
-        let direction = match free.from_rest(mu, mu_static) {
+        let held = self.follow.equation.held(t, angle);
+        let direction = match held.free.from_rest(mu, mu_static) {
             FromRest::Move(direction) => {
                 if before.is_some_and(|before| before != direction) {
                     self.observer.event("turning-point", t, angle, 0.0);

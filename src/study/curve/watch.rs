@@ -159,7 +159,7 @@ impl CurveWatch<'_> {
         let place = curve.place(angle.rest);
         let (acceleration, touch, _) = motion.state(t, angle, speed);
         let reactions = self.reactor.map(|reactor| {
-            let load = self.equation.load(&place, t, angle, speed);
+            let load = motion.load(&place, t, angle, speed);
             let force = load.force + touch.friction;
             reactor.on_curve(&place, speed, acceleration, force, touch.normal)
         });

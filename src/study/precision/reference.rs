@@ -70,6 +70,10 @@ pub(super) fn extended(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Re
     if class == Class::ChangePoint {
         return None;
     }
+    // Dry loads are not written in it.
+    if Equation::new(scene).loads().are_dry() {
+        return None;
+    }
     if reduced.friction.is_some() || class != Class::RotatingCrank {
         return in_pieces(scene, t_end, evaluations);
     }

@@ -134,7 +134,7 @@ impl Seeker {
                 (found, _) => found,
             };
         }
-        let position = Position::new(&self.equation, &limits, self.start)
+        let position = Position::new(&self.equation, &limits, self.start, self.speed)
             .with_cycle(self.cycle)
             .with_friction(self.sliding.as_ref());
         let resolution = Resolution {

@@ -1,0 +1,126 @@
+//! Whether the points of a panel show the loads on it.
+
+use super::Driven;
+use super::Table;
+use super::station::{Fineness, Station};
+use super::sweep::{Start, Swept};
+use crate::engine::sight::{Look, Way, hidden};
+use crate::numeric::angle::Angle;
+use crate::numeric::chebyshev::{MOST, Series, largest};
+use crate::numeric::enclosure::{Detail, Interval, Reach, ellipse};
+
+/// The motion on a panel that was solved.
+struct OnPanel<'a, D: Driven> {
+    driven: &'a D,
+    station: &'a Station<D::Place>,
+    start: Start,
+    swept: &'a Swept,
+    /// Time since its start over x.
+    time: Series,
+    /// Force without a potential over x.
+    spent: Series,
+    /// How far the slope of the time over x is from its mean, and how steep it is, at most.
+    varies: [f64; 2],
+}
+
+/// Where a solved panel has to end for its points to show the loads, as part of it; none if they do.
+pub(super) fn hides<D: Driven>(
+    driven: &D,
+    station: &Station<D::Place>,
+    start: Start,
+    fine: Fineness,
+    swept: &Swept,
+) -> Option<f64> {
+    if !driven.has_detail() {
+        return None;
+    }
+    let (rule, slope) = (station.rule, &swept.slope);
+    let degree = rule.degree();
+    let sum = |of: fn(f64) -> f64| {
+        let terms = (1..=degree).map(|k| of(k as f64) * slope.coefficient(k).abs());
+        terms.sum::<f64>()
+    };
+    let way = OnPanel {
+        driven,
+        station,
+        start,
+        swept,
+        time: slope.integral(),
+        spent: rule.series(swept.spent()),
+        varies: [sum(|_| 1.0), sum(|k| k * k)],
+    };
+    let forces = largest(&swept.spent()[..=degree]).max(station.largest_force);
+    let rounding = 64.0 * f64::EPSILON * forces;
+    let look = Look {
+        nodes: degree,
+        ellipse: ellipse(degree, fine.tail),
+        allowed: rounding.max(fine.tail * start.kinetic / station.half().abs()),
+    };
+    hidden(&way, look).map(|hidden| hidden.at)
+}
+
+impl<D: Driven> OnPanel<'_, D> {
+    fn angle(&self, at: f64) -> Angle {
+        Angle {
+            turns: self.start.turns,
+            rest: self.station.piece.angle(2.0 * at - 1.0),
+        }
+    }
+
+    fn time(&self, at: f64) -> f64 {
+        self.start.t + self.time.value(2.0 * at - 1.0)
+    }
+
+    fn speed(&self, slope: f64) -> f64 {
+        self.start.direction * self.station.half().abs() / slope
+    }
+}
+
+impl<D: Driven> Way for OnPanel<'_, D> {
+    fn reach(&self, from: f64, to: f64) -> Reach {
+        let slope = &self.swept.slope;
+        let [about, steep] = self.varies;
+        let by_mean = Interval::point(slope.coefficient(0)).widened(about);
+        let by_middle = Interval::point(slope.value(from + to - 1.0)).widened(steep * (to - from));
+        let slowness = Interval::new(
+            by_mean.low.max(by_middle.low),
+            by_mean.high.min(by_middle.high),
+        );
+        let least = self.swept.slopes[..=slope.degree()]
+            .iter()
+            .fold(f64::INFINITY, |least: f64, slope| least.min(*slope));
+        // What turns is slower everywhere than at twice the largest speed of the points.
+        let low = slowness.low.max(0.5 * least);
+        Reach {
+            t: Interval::between(self.time(from), self.time(to)),
+            angle: Interval::between(self.angle(from).radians(), self.angle(to).radians()),
+            speed: Interval::between(self.speed(low), self.speed(slowness.high.max(low))),
+        }
+    }
+
+    fn missed(&self, at: f64) -> f64 {
+        let x = 2.0 * at - 1.0;
+        let speed = self.speed(self.swept.slope.value(x));
+        let mut table = Table::default();
+        let mut angles = [0.0; MOST + 1];
+        angles[0] = self.angle(at).rest;
+        // The direction of the panel is that of its angles.
+        angles[1] = self.station.piece.to;
+        let side = self.station.side;
+        let turns = self.station.turns;
+        self.driven.tabulate(turns, (&angles, 2), side, &mut table);
+        let Some(place) = table.places.first() else {
+            return 0.0;
+        };
+        let driven = self
+            .driven
+            .drive(place, self.time(at), self.angle(at), speed);
+        let squared = table.switch.map_or(0.0, |switch| switch.force[0]) * speed * speed;
+        let force = table.push[0] - table.damping[0] * speed + squared + driven;
+        force - self.spent.value(x)
+    }
+
+    fn detail(&self, reach: &Reach, ellipse: f64) -> Detail {
+        self.driven.detail(reach, ellipse)
+    }
+}

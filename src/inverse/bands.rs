@@ -1,0 +1,101 @@
+//! Where the motion does not determine the slider force: near the dead centres, and at rest with friction.
+
+use crate::numeric::median::median;
+use serde::Serialize;
+
+use super::row::{Doubt, InverseRow};
+
+/// A stretch of the motion in which the slider force is left empty.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DeadCentreBand {
+    /// First sample in it, s.
+    pub from_s: f64,
+    /// Last sample in it, s.
+    pub to_s: f64,
+    /// Crank angle of the first sample, rad.
+    pub from_theta_rad: f64,
+    /// Crank angle of the last sample, rad.
+    pub to_theta_rad: f64,
+    /// Samples in it.
+    pub rows: usize,
+    /// Why the force is not determined there.
+    pub reason: &'static str,
+}
+
+/// The rule by which samples are left without a force.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct BandRule {
+    /// Largest half-width of the 95 % band of the slider force at which the force is given, N.
+    pub half_width_max_n: f64,
+    /// Lever arm |x'| below which the rule applies, m/rad: half a crank.
+    pub arm_m: f64,
+    /// The rule in words.
+    pub rule: &'static str,
+}
+
+/// The lever arm, in cranks, below which the rule applies.
+pub(super) const LONG_ARM: f64 = 0.5;
+
+const RULE: &str = "within |x'| < r/2 the slider force is left empty where half of its 95 % band is wider than the largest crank torque of the motion (or ten times the median half-width of that torque's band, if larger) over the crank length, or where x' is less than five standard errors from zero; near the limit of a rocker (cos phi < 0.3) the width alone counts, and each torque of a rocker is divided by |x'| where that is longer than the crank; it is left empty too with friction where the crank speed is less than five standard errors from zero";
+
+const NO_SIGN: &str = "the sign of the lever arm x' is not certain";
+const AT_LIMIT: &str =
+    "the rod stands normal to the guide: the position has no certain derivatives";
+const AT_REST: &str =
+    "the crank speed is within five standard errors of zero: friction may act either way";
+const TOO_WIDE: &str =
+    "the uncertainty of the motion over the lever arm x' is wider than the force";
+
+const TOO_WIDE_AT_LIMIT: &str = "the rod is nearly normal to the guide: the uncertainty of the motion makes that of the force wider than the force";
+
+/// Whether samples beside each other are left empty by one cause: rest is another one than a dead centre.
+pub(super) fn alike(reason: &str, other: &str) -> bool {
+    (reason == AT_REST) == (other == AT_REST)
+}
+
+impl BandRule {
+    /// The rule for a motion: crank length in m, torque and its standard error in N m at each sample, half of a 95 % band
+    /// in standard errors.
+    pub(super) fn new(
+        r: f64,
+        torques: impl Iterator<Item = (f64, f64)> + Clone,
+        factor: f64,
+    ) -> BandRule {
+        let sizes = torques.clone().map(|(torque, _)| torque.abs());
+        let largest = sizes.fold(0.0, f64::max);
+        let median = median(torques.map(|(_, se)| se)).unwrap_or(0.0);
+        BandRule {
+            half_width_max_n: largest.max(10.0 * factor * median) / r,
+            arm_m: LONG_ARM * r,
+            rule: RULE,
+        }
+    }
+
+    /// Why the force of a sample is left empty, if it is.
+    pub(super) fn reason(
+        &self,
+        row: &InverseRow,
+        doubt: &Doubt,
+        factor: f64,
+    ) -> Option<&'static str> {
+        let [force, error] =
+            [row.slider_force, row.slider_force_se].map(|value| value.unwrap_or(f64::NAN));
+        let narrow = factor * error <= self.half_width_max_n;
+        if !force.is_finite() || !error.is_finite() {
+            // At a dead centre itself the lever arm is zero.
+            Some(if doubt.near_limit { AT_LIMIT } else { NO_SIGN })
+        } else if !doubt.friction_known {
+            Some(AT_REST)
+        } else if doubt.near_limit && !narrow {
+            Some(TOO_WIDE_AT_LIMIT)
+        } else if doubt.long_arm {
+            None
+        } else if !doubt.certain {
+            Some(NO_SIGN)
+        } else if !narrow {
+            Some(TOO_WIDE)
+        } else {
+            None
+        }
+    }
+}

@@ -1,0 +1,354 @@
+//! Marginal likelihood of a prior (prediction error decomposition with a diffuse start, that is REML), maximised over the
+//! intensity of its noise; the variance of a sample is profiled out.
+
+use super::kalman::{self, Evidence};
+use super::state_space::{Autoregression, Deviations, Linearised, Observed, State};
+
+/// Stretches of nodes with their linear models, and the scales of the search.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Linear<'a> {
+    /// Steps and samples of each stretch.
+    pub stretches: &'a [Stretch],
+    pub order: usize,
+    pub scales: Scales,
+}
+
+/// A stretch of nodes.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Stretch {
+    pub steps: Vec<Linearised>,
+    pub observed: Vec<Observed>,
+}
+
+/// Typical sizes along a record.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scales {
+    /// Time from sample to sample, s.
+    pub spacing: f64,
+    /// Duration, s.
+    pub duration: f64,
+    /// d measured/dθ, root mean square.
+    pub slope: f64,
+    /// ∂θ̈/∂u, root mean square.
+    pub lever: f64,
+    /// θ̈, rad/s², and its rate, rad/s³, root mean squares: spread of the prior before the first sample.
+    pub motion: [f64; 2],
+    /// Least standard deviation of a sample, rad or m.
+    pub floor: f64,
+}
+
+/// Noise of the process and of the samples.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Noise {
+    /// Corner frequency of the smoother, rad/s: the noise of the process is q = ω_c^(2D) σ² h/(lever² slope²) for D
+    /// integrations from the white noise to θ.
+    pub corner: f64,
+    /// Corner frequency of a smoother of order one whose noise u has in it as well, rad/s; 0 without.
+    pub level: f64,
+    /// First-order autoregression of the samples' noise.
+    pub correlated: Option<Autoregression>,
+    /// Standard deviation of a sample, rad or m.
+    pub sigma: f64,
+    /// ln of the marginal likelihood.
+    pub likelihood: f64,
+}
+
+/// Standard deviations of the start, in those that the first few samples alone would leave: so diffuse that they count for
+/// 1e-6 of one sample, and so narrow that rounding keeps ten digits.
+const DIFFUSE: f64 = 1e3;
+
+impl Scales {
+    /// Standard deviations of the state before the first sample, in σ.
+    fn spread(&self) -> State {
+        let theta = DIFFUSE / self.slope;
+        let h = self.spacing;
+        [
+            theta,
+            theta / h,
+            theta / (h * h * self.lever),
+            theta / (h * h * h * self.lever),
+        ]
+    }
+
+    /// Spectral density of the process noise over σ².
+    fn density(&self, corner: f64, order: usize) -> f64 {
+        let integrations = i32::try_from(2 * (order + 2)).unwrap_or(8);
+        corner.powi(integrations) * self.spacing / (self.lever * self.slope).powi(2)
+    }
+}
+
+impl Linear<'_> {
+    /// The linear model of one stretch.
+    pub fn deviations<'a>(&self, stretch: &'a Stretch, noise: &Noise) -> Deviations<'a> {
+        Deviations {
+            steps: &stretch.steps,
+            observed: &stretch.observed,
+            order: self.order,
+            noise: self.scales.density(noise.corner, self.order),
+            level: self.scales.density(noise.level, 1),
+            correlated: noise.correlated,
+            spread: self.scales.spread(),
+        }
+    }
+
+    fn evidence(&self, noise: &Noise) -> Evidence {
+        let of = |stretch: &Stretch| {
+            let model = self.deviations(stretch, noise);
+            match (self.order, noise.correlated) {
+                (1, None) => kalman::evidence::<3>(&model),
+                (1, Some(_)) | (2, None) => kalman::evidence::<4>(&model),
+                _ => kalman::evidence::<5>(&model),
+            }
+        };
+        let parts = self.stretches.iter().map(of);
+        parts.fold(Evidence::default(), Evidence::plus)
+    }
+
+    /// Likelihood and σ for a corner frequency and a correlation.
+    fn at(&self, corner: f64, correlated: Option<Autoregression>) -> Noise {
+        self.evaluated(Noise {
+            corner,
+            level: 0.0,
+            correlated,
+            sigma: 1.0,
+            likelihood: f64::NEG_INFINITY,
+        })
+    }
+
+    /// Noise with its likelihood and its σ.
+    fn evaluated(&self, mut noise: Noise) -> Noise {
+        let evidence = self.evidence(&noise);
+        let dimension = 2 + self.order;
+        let starts = (dimension * self.stretches.len()) as f64;
+        let free = evidence.samples as f64 - starts;
+        noise.sigma = (evidence.squares / free.max(1.0))
+            .sqrt()
+            .max(self.scales.floor);
+        let spread = self.scales.spread();
+        let Scales {
+            lever,
+            motion: [alpha, jerk],
+            ..
+        } = self.scales;
+        // The spreads of θ and ω are the same for all priors.
+        let prior = [1.0, 1.0, alpha / lever, jerk / lever];
+        let start: f64 = (0..dimension).map(|k| (spread[k] / prior[k]).ln()).sum();
+        let likelihood = start * self.stretches.len() as f64
+            - free * noise.sigma.ln()
+            - 0.5 * (evidence.log_variances + evidence.squares / (noise.sigma * noise.sigma));
+        if likelihood.is_finite() {
+            noise.likelihood = likelihood;
+        }
+        noise
+    }
+
+    /// The largest likelihood over the corner frequency, from a first guess.
+    pub fn maximised(&self, guess: f64, correlated: Option<Autoregression>) -> Noise {
+        self.over(guess, |corner| self.at(corner, correlated))
+    }
+
+    /// The largest likelihood over a corner frequency, from a first guess.
+    fn over(&self, guess: f64, at: impl Fn(f64) -> Noise) -> Noise {
+        let lowest = (0.1 / self.scales.duration).ln();
+        let highest = (30.0 / self.scales.spacing).ln();
+        climb(
+            |log| at(log.exp()),
+            guess.ln().clamp(lowest, highest),
+            [lowest, highest],
+        )
+    }
+
+    /// The largest likelihood over both corner frequencies, that of the rate of u and that of u itself.
+    pub fn mixed(&self, from: &Noise) -> Noise {
+        let mut best = *from;
+        for _ in 0..ROUNDS {
+            let before = best;
+            let level = if best.level > 0.0 {
+                best.level
+            } else {
+                best.corner
+            };
+            best = better(
+                best,
+                self.over(level, |level| self.evaluated(Noise { level, ..before })),
+            );
+            let now = best;
+            best = better(
+                best,
+                self.over(now.corner, |corner| self.evaluated(Noise { corner, ..now })),
+            );
+            if best.likelihood - before.likelihood < 0.1 {
+                break;
+            }
+        }
+        best
+    }
+
+    /// The largest likelihood over corner frequencies all over the range.
+    pub fn anywhere(&self) -> Noise {
+        let lowest = (0.5 / self.scales.duration).ln();
+        let highest = (3.0 / self.scales.spacing).ln();
+        let count = (highest - lowest).ceil().max(1.0);
+        let best = (0..=count as usize)
+            .map(|k| self.at((lowest + (highest - lowest) * k as f64 / count).exp(), None))
+            .max_by(|a, b| a.likelihood.total_cmp(&b.likelihood));
+        let guess = best.map_or(1.0 / self.scales.spacing, |best| best.corner);
+        self.maximised(guess, None)
+    }
+
+    /// Noise of u itself beside that of its rate, as strong as the samples allow: the likelihood ratio to the likeliest is
+    /// that of one standard error. A prior that is too smooth has a band that does not hold what is less smooth.
+    pub fn with_level(&self, noise: &Noise) -> Noise {
+        let at = |level: f64| self.evaluated(Noise { level, ..*noise });
+        let mut best = noise.likelihood;
+        let mut low = *noise;
+        let mut high = None;
+        let mut level = noise.corner;
+        for _ in 0..LEVELS {
+            let found = at(level);
+            best = best.max(found.likelihood);
+            if found.likelihood > best - ALLOWED {
+                low = found;
+            } else {
+                high = Some(level);
+            }
+            level = match (high, low.level > 0.0) {
+                (None, _) => 2.0 * level,
+                (Some(high), false) => 0.5 * high,
+                (Some(high), true) if high < 1.2 * low.level => break,
+                (Some(high), true) => (high * low.level).sqrt(),
+            };
+        }
+        low
+    }
+
+    /// The largest likelihood over the corner frequency, the correlation of the noise and its white part.
+    pub fn correlated(&self, from: &Noise) -> Noise {
+        let mut best = Noise {
+            likelihood: f64::NEG_INFINITY,
+            ..*from
+        };
+        let guesses = [0.2, 1.0, 5.0].map(|steps| Autoregression {
+            decay: 1.0 / (steps * self.scales.spacing),
+            white: WHITE,
+        });
+        for guess in guesses {
+            let found = self.at(from.corner, Some(guess));
+            if found.likelihood > best.likelihood {
+                best = found;
+            }
+        }
+        for _ in 0..ROUNDS {
+            let before = best.likelihood;
+            let Some(now) = best.correlated else { break };
+            let corner = best.corner;
+            let decay = now.decay.ln();
+            let range = [
+                (0.01 / self.scales.duration).ln(),
+                (5.0 / self.scales.spacing).ln(),
+            ];
+            let by_decay = |log: f64| {
+                self.at(
+                    corner,
+                    Some(Autoregression {
+                        decay: log.exp(),
+                        ..now
+                    }),
+                )
+            };
+            best = better(best, climb(by_decay, decay, range));
+            let Some(now) = best.correlated else { break };
+            best = better(best, self.maximised(best.corner, Some(now)));
+            if best.likelihood - before < 0.1 {
+                break;
+            }
+        }
+        best
+    }
+}
+
+/// ln of the likelihood ratio that is allowed to more noise than is likeliest.
+const ALLOWED: f64 = 2.0;
+
+/// Most evaluations in the search for that noise.
+const LEVELS: usize = 12;
+
+/// White part of the variance of correlated noise.
+const WHITE: f64 = 0.02;
+
+/// Most rounds of the search over one parameter after the other.
+const ROUNDS: usize = 8;
+
+fn better(a: Noise, b: Noise) -> Noise {
+    if b.likelihood > a.likelihood { b } else { a }
+}
+
+/// Largest value near a guess: uphill in growing steps, then two parabolas through the three best points.
+fn climb(at: impl Fn(f64) -> Noise, guess: f64, [lowest, highest]: [f64; 2]) -> Noise {
+    const FIRST: f64 = 0.5;
+    let mut points = vec![(guess, at(guess))];
+    for direction in [1.0, -1.0] {
+        let mut step = FIRST;
+        let mut here = guess;
+        loop {
+            let next = (here + direction * step).clamp(lowest, highest);
+            if next == here {
+                break;
+            }
+            let found = at(next);
+            let before = value(&points, here);
+            points.push((next, found));
+            if found.likelihood <= before {
+                break;
+            }
+            here = next;
+            step *= 1.6;
+        }
+        if here != guess {
+            break;
+        }
+    }
+    for _ in 0..4 {
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let Some(best) = (0..points.len())
+            .max_by(|a, b| points[*a].1.likelihood.total_cmp(&points[*b].1.likelihood))
+        else {
+            break;
+        };
+        if best == 0 || best + 1 == points.len() {
+            break;
+        }
+        let [a, b, c] = [best - 1, best, best + 1].map(|k| (points[k].0, points[k].1.likelihood));
+        let top = vertex(a, b, c);
+        if c.0 - a.0 < 0.1 || (top - b.0).abs() < 0.01 || !top.is_finite() {
+            break;
+        }
+        points.push((top, at(top)));
+    }
+    let best = points
+        .into_iter()
+        .max_by(|a, b| a.1.likelihood.total_cmp(&b.1.likelihood));
+    best.map_or_else(|| at(guess), |(_, noise)| noise)
+}
+
+fn value(points: &[(f64, Noise)], place: f64) -> f64 {
+    let found = points.iter().find(|(at, _)| *at == place);
+    found.map_or(f64::NEG_INFINITY, |(_, noise)| noise.likelihood)
+}
+
+/// Where the parabola through three points has its top, kept inside.
+fn vertex(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> f64 {
+    let (left, right) = ((b.1 - a.1) / (b.0 - a.0), (c.1 - b.1) / (c.0 - b.0));
+    let curvature = (right - left) / (c.0 - a.0);
+    if !curvature.is_finite() || curvature >= 0.0 {
+        // No parabola: the middle of the wider side.
+        return if c.0 - b.0 > b.0 - a.0 {
+            0.5 * (b.0 + c.0)
+        } else {
+            0.5 * (a.0 + b.0)
+        };
+    }
+    let top = 0.5 * (a.0 + b.0) - 0.5 * left / curvature;
+    let margin = 0.1;
+    top.clamp(a.0 + margin * (b.0 - a.0), c.0 - margin * (c.0 - b.0))
+}

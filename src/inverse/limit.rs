@@ -1,0 +1,93 @@
+//! The limits of a crank that cannot turn fully, where the rod stands normal to the guide and the branches meet.
+//!
+//! A motion that comes to a limit may turn back just before it, on its branch, or pass it and go on along the other one:
+//! the crank angle turns back either way, and within its uncertainty it does not tell which.
+
+use super::inverse_dynamics::NEAR_LIMIT;
+use super::motion_estimate::MotionEstimate;
+use crate::error::Error;
+use crate::mechanism::Linkage;
+use crate::scene::Measurement;
+use std::f64::consts::TAU;
+
+/// Standard errors of the crank angle within which a motion is at the limit.
+const WITHIN: f64 = 5.0;
+
+/// Refuses a motion that comes to a limit within its uncertainty, at the samples or where it turns between them.
+pub(super) fn keeps_clear(
+    linkage: &Linkage,
+    motion: &[MotionEstimate],
+    measurement: &Measurement,
+) -> Result<(), Error> {
+    let limits = linkage.limit_angles();
+    if limits.is_empty() {
+        return Ok(());
+    }
+    for (sample, state) in motion.iter().enumerate() {
+        let before = sample.checked_sub(1).map(|before| &motion[before]);
+        let passed = before.is_some_and(|before| passes(&limits, before, state));
+        let error = state.angle_error();
+        let turn = before.and_then(|before| turning_angle(before, state));
+        for theta in turn.into_iter().chain([state.value[0]]) {
+            let pose = linkage.pose(theta);
+            let far = pose.cos_phi > NEAR_LIMIT || distance(&limits, theta) > WITHIN * error;
+            if passed || !pose.exists() || !far {
+                return Err(refusal(linkage, measurement, sample, theta, error));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn refusal(
+    linkage: &Linkage,
+    measurement: &Measurement,
+    sample: usize,
+    theta: f64,
+    error: f64,
+) -> Error {
+    Error::refused(
+        format!(
+            "the crank comes to a limit at {} (t = {} s, theta = {theta} rad, standard error {error:.1e}), where the rod stands normal to the guide: whether the motion turns back there or goes on along the other branch is not certain",
+            measurement.place(sample),
+            measurement.times()[sample]
+        ),
+        format!(
+            "invert the samples before the limit and those after it apart, and those beyond it with branch = \"{}\"",
+            if linkage.s > 0.0 { "left" } else { "right" }
+        ),
+    )
+}
+
+/// The way from a crank angle to the nearest limit, rad.
+fn distance(limits: &[f64], theta: f64) -> f64 {
+    let from = |limit: &f64| {
+        let off = theta - limit;
+        (off - (off / TAU).round() * TAU).abs()
+    };
+    limits.iter().map(from).fold(f64::INFINITY, f64::min)
+}
+
+/// Whether a limit lies between two states, as a change point may.
+fn passes(limits: &[f64], a: &MotionEstimate, b: &MotionEstimate) -> bool {
+    let turn = |state: &MotionEstimate, limit: f64| ((state.value[0] - limit) / TAU).floor();
+    limits
+        .iter()
+        .any(|limit| turn(a, *limit) != turn(b, *limit))
+}
+
+/// The crank angle at which the motion turns back between two samples: the vertex of the parabola of the nearer one.
+fn turning_angle(a: &MotionEstimate, b: &MotionEstimate) -> Option<f64> {
+    let vertex = |state: &MotionEstimate| {
+        let [theta, omega, alpha] = state.value;
+        theta - 0.5 * omega * omega / alpha
+    };
+    let nearer = if a.value[1].abs() < b.value[1].abs() {
+        a
+    } else {
+        b
+    };
+    (a.value[1] * b.value[1] < 0.0)
+        .then(|| vertex(nearer))
+        .filter(|theta| theta.is_finite())
+}

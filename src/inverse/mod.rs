@@ -1,0 +1,299 @@
+//! Slider force and crank torque from a measured motion: samples and a scene go in, force and torque with their standard
+//! errors come out, by an iterated extended Kalman smoother whose model is the equation of motion (or by a polynomial), and by
+//! inverse dynamics along the motion that it gives.
+
+mod as_printed;
+mod bands;
+mod branch_tracking;
+mod fitted;
+mod guide;
+mod inverse_dynamics;
+mod kalman;
+mod likelihood;
+mod limit;
+mod measurement_model;
+mod motion_estimate;
+mod outliers;
+mod polynomial;
+mod residual_tests;
+mod row;
+mod smoother;
+mod state_space;
+mod summary;
+mod unwrap;
+mod warnings;
+
+pub use as_printed::AsPrinted;
+pub use bands::{BandRule, DeadCentreBand};
+pub use row::{InverseRow, Residual};
+pub use summary::{CandidateSummary, DataSummary, FitSummary, ForceRange, InverseSummary};
+
+use self::fitted::Fitted;
+use self::guide::Guide;
+use self::inverse_dynamics::Backwards;
+use self::measurement_model::Sensor;
+use self::row::Rows;
+use crate::error::Error;
+use crate::mechanism::{Equation, Reactions, Reactor};
+use crate::numeric::student;
+use crate::plan::{Method, Plan};
+use crate::scene::{Measurement, MotionKind, Scene};
+
+/// How the motion is estimated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FitKind {
+    /// A polynomial where it leaves nothing but noise within one turn, else the smoother.
+    Auto,
+    /// A polynomial of the crank angle over time.
+    Polynomial,
+    /// The iterated extended Kalman smoother.
+    Smoother,
+}
+
+impl FitKind {
+    /// All of them.
+    pub const ALL: [FitKind; 3] = [FitKind::Auto, FitKind::Polynomial, FitKind::Smoother];
+
+    /// Its name in options and outputs.
+    pub fn name(self) -> &'static str {
+        match self {
+            FitKind::Auto => "auto",
+            FitKind::Polynomial => "polynomial",
+            FitKind::Smoother => "smoother",
+        }
+    }
+}
+
+/// Degree of a polynomial.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FitSize {
+    /// The degree that the samples support.
+    Auto,
+    /// This degree.
+    Fixed(usize),
+}
+
+/// What is asked of an inverse computation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InverseOptions {
+    /// How the motion is estimated.
+    pub fit: FitKind,
+    /// Degree of a polynomial.
+    pub size: FitSize,
+    /// Joint forces for the rows.
+    pub reactions: bool,
+    /// Whether the slider force is what acts beside the forces of the scene; if not it is the whole force on the
+    /// slider.
+    pub beside_forces: bool,
+}
+
+impl Default for InverseOptions {
+    fn default() -> InverseOptions {
+        InverseOptions {
+            fit: FitKind::Auto,
+            size: FitSize::Auto,
+            reactions: false,
+            beside_forces: false,
+        }
+    }
+}
+
+/// Slider force and crank torque along a measured motion.
+#[derive(Debug)]
+pub struct Inverse {
+    /// The numbers.
+    pub summary: InverseSummary,
+    /// One row for each sample.
+    pub rows: Vec<InverseRow>,
+    /// One residual for each sample.
+    pub residuals: Vec<Residual>,
+    equation: Equation,
+    reactor: Option<Reactor>,
+}
+
+/// Slider force and crank torque from a measured motion.
+///
+/// # Errors
+/// [`Error::Scene`] for impossible values of scene or data, [`Error::Refused`] for what cannot be computed.
+///
+/// ```
+/// use slider_crank::scene::{Measured, Measurement, Scene, Slider};
+/// use slider_crank::inverse::{InverseOptions, inverse};
+///
+/// // A massless crank and rod of 50 and 150 mm, a slider of 2 kg, turned at 10 rad/s.
+/// let scene = Scene::new(0.05, 0.15).slider(Slider { mass: 2.0 });
+/// let times: Vec<f64> = (0..40).map(|i| 0.01 * f64::from(i)).collect();
+/// let angles = times.iter().map(|t| 0.3 + 10.0 * t).collect();
+/// let motion = Measurement::new(Measured::Theta, times, angles)?;
+///
+/// let found = inverse(&scene, &motion, &InverseOptions::default())?;
+/// let row = found.rows[12];
+/// // Newton: force = mass times acceleration of the slider, x'' omega^2.
+/// let x = |theta: f64| 0.05 * theta.cos() + (0.15f64.powi(2) - (0.05 * theta.sin()).powi(2)).sqrt();
+/// let second = (x(row.theta + 1e-4) - 2.0 * x(row.theta) + x(row.theta - 1e-4)) / 1e-8;
+/// assert!((row.slider_force.unwrap() - 2.0 * second * 100.0).abs() < 1e-4);
+/// # Ok::<(), slider_crank::error::Error>(())
+/// ```
+pub fn inverse(
+    scene: &Scene,
+    measurement: &Measurement,
+    options: &InverseOptions,
+) -> Result<Inverse, Error> {
+    let plan = plan(scene)?;
+    let reactor = options.reactions.then(|| Reactor::new(scene)).transpose()?;
+    let guide = Guide::new(scene)?;
+    let equation = Equation::new(scene);
+    let sensor = Sensor {
+        linkage: equation.linkage(),
+        measured: measurement.measured(),
+    };
+    let angles = branch_tracking::crank_angles(&sensor, measurement, &scene.motion)?;
+    let noted = angles.warnings.clone();
+    let fitted = Fitted::new(sensor, measurement, angles, &equation, options)
+        .map_err(|what| Error::refused(what, "give more samples, or another --fit or --degree"))?;
+    let backwards = Backwards {
+        equation: &equation,
+        beside_forces: options.beside_forces,
+        guide: guide.as_ref(),
+    };
+    let factor = student::half_band(fitted.free);
+    let found = Rows::new(&backwards, &fitted, measurement, factor);
+    reachable(measurement, &found)?;
+    limit::keeps_clear(equation.linkage(), &fitted.motion, measurement)?;
+    let locked = finite(&backwards, measurement, &found.rows)?;
+    let mut warnings = measurement.notes().to_vec();
+    warnings.extend(noted);
+    warnings.extend(warnings::of_scene(scene, options));
+    warnings.extend(locked);
+    warnings.extend(warnings::of_fit(&fitted, measurement));
+    let summary = InverseSummary::new(
+        scene,
+        plan,
+        measurement,
+        &fitted,
+        &found,
+        (options.beside_forces, factor),
+        warnings,
+    );
+    let residuals = Residual::list(&fitted, measurement);
+    Ok(Inverse {
+        summary,
+        rows: found.rows,
+        residuals,
+        reactor,
+        equation,
+    })
+}
+
+impl Inverse {
+    /// Whether joint forces were asked for.
+    pub fn with_reactions(&self) -> bool {
+        self.reactor.is_some()
+    }
+
+    /// The lever arm x' of the slider force at a row, m/rad.
+    pub fn lever_arm(&self, row: &InverseRow) -> f64 {
+        self.equation.linkage().pose(row.theta).dx
+    }
+
+    /// The joint forces of a row, with its slider force acting; none where that is empty, or if they were not asked
+    /// for.
+    pub fn reactions(&self, row: &InverseRow) -> Option<Reactions> {
+        let reactor = self.reactor.as_ref()?;
+        row.slider_force?;
+        let terms = self.equation.terms(row.theta);
+        let mut load = self.equation.load(row.t, row.theta, row.omega);
+        // The whole force along the guide, friction included.
+        let needed = self
+            .equation
+            .generalized_force(&terms, row.omega, row.alpha);
+        load.force = (needed - load.torque) / terms.pose.dx;
+        Some(reactor.reactions(&terms.pose, row.omega, row.alpha, &load))
+    }
+}
+
+/// The plan of a scene whose motion was measured.
+fn plan(scene: &Scene) -> Result<Plan, Error> {
+    if scene.reduced().clearance.is_some() {
+        return Err(Error::refused(
+            "with clearance in a joint the motion of the crank does not say where the slider is: inverse reads the equation of tight joints",
+            "take [clearance] out of the scene, or set its radial to 0",
+        ));
+    }
+    let mut prescribed = scene.clone();
+    prescribed.motion.kind = MotionKind::ConstantSpeed;
+    let mut plan = Plan::new(&prescribed, Method::Auto)?;
+    plan.reason = "the crank motion is measured: nothing to integrate, the equation is read backwards along the estimated theta(t)".into();
+    Ok(plan)
+}
+
+/// Refuses a fit that leaves the angles that the crank can take.
+fn reachable(measurement: &Measurement, found: &Rows) -> Result<(), Error> {
+    let Some(sample) = found.unreachable else {
+        return Ok(());
+    };
+    Err(Error::refused(
+        format!(
+            "the fitted crank angle at {}, {} rad, is one at which the rod does not reach the guide",
+            measurement.place(sample),
+            found.rows[sample].theta
+        ),
+        "try another --fit or --degree, or check the lengths of the scene",
+    ))
+}
+
+/// Refuses loads without a value along the motion; says where a guide locks itself, and refuses a motion all along which
+/// it does.
+fn finite(
+    backwards: &Backwards<'_>,
+    measurement: &Measurement,
+    rows: &[InverseRow],
+) -> Result<Option<String>, Error> {
+    let place = |sample: usize| {
+        let InverseRow { t, theta, .. } = rows[sample];
+        let place = measurement.place(sample);
+        format!("at {place} (t = {t} s, theta = {theta} rad)")
+    };
+    let without = || (0..rows.len()).filter(|i| rows[*i].crank_torque.is_none());
+    for sample in without() {
+        let row = &rows[sample];
+        let load = backwards.equation.load(row.t, row.theta, row.omega);
+        if !load.is_finite() {
+            return Err(Error::refused(
+                format!(
+                    "the loads of the scene have no finite value {}",
+                    place(sample)
+                ),
+                "let the tables of the scene cover the measured motion, or take the load out",
+            ));
+        }
+        if backwards.guide.is_none() {
+            return Err(Error::refused(
+                format!("the crank torque is not a finite number {}", place(sample)),
+                "check the units of the data, of the time above all",
+            ));
+        }
+    }
+    let (Some(first), count) = (without().next(), without().count()) else {
+        return Ok(None);
+    };
+    let locks = |place: String| {
+        format!(
+            "the guide locks itself {place}: friction holds the slider against any torque on the crank"
+        )
+    };
+    if count == rows.len() {
+        return Err(Error::refused(
+            locks(place(first)),
+            "a motion like this one needs less friction, or the longer rod of another mechanism: check [friction] and [geometry]",
+        ));
+    }
+    let samples = match count {
+        1 => place(first),
+        _ => format!("at {count} samples, the first {}", place(first)),
+    };
+    Ok(Some(format!(
+        "{}; their crank torque is left empty, and the slider force is what drives it by a pull or push on the slider",
+        locks(samples)
+    )))
+}

@@ -1,0 +1,51 @@
+//! Crank angle, speed and acceleration at one time with their covariance.
+
+/// θ (rad), ω (rad/s) and θ̈ (rad/s²) with their errors.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct MotionEstimate {
+    pub value: [f64; 3],
+    /// Covariance, rows of the lower triangle.
+    pub covariance: [f64; 6],
+    /// What rounding may have done to the three.
+    pub rounding: [f64; 3],
+}
+
+impl MotionEstimate {
+    /// Variance of a combination of the three, rounding included.
+    pub fn variance(&self, gradient: &[f64; 3]) -> f64 {
+        let parts = gradient.iter().zip(&self.rounding);
+        let rounding: f64 = parts.map(|(g, r)| (g * r).abs()).sum();
+        quadratic(&self.covariance, gradient) + (RARE * rounding).powi(2)
+    }
+
+    /// Standard error of the crank angle, rad.
+    pub fn angle_error(&self) -> f64 {
+        self.variance(&[1.0, 0.0, 0.0]).sqrt()
+    }
+
+    /// This motion where its times may be stretched by a part.
+    pub fn stretched(mut self, part: f64) -> MotionEstimate {
+        let [_, first, second] = self.value;
+        let off = [0.0, part * first, 2.0 * part * second];
+        let mut entry = 0;
+        for k in 0..3 {
+            for l in 0..=k {
+                self.covariance[entry] += off[k] * off[l];
+                entry += 1;
+            }
+        }
+        self
+    }
+}
+
+/// Part of the largest rounding that is its standard deviation: roundings of many terms seldom add up.
+const RARE: f64 = 0.5;
+
+/// gᵀ S g for a symmetric matrix given by its lower triangle.
+fn quadratic(matrix: &[f64; 6], gradient: &[f64; 3]) -> f64 {
+    let [aa, ba, bb, ca, cb, cc] = *matrix;
+    let [a, b, c] = *gradient;
+    let sum =
+        a * (a * aa + 2.0 * b * ba) + b * (b * bb + 2.0 * c * cb) + c * (c * cc + 2.0 * a * ca);
+    sum.max(0.0)
+}

@@ -1,0 +1,99 @@
+//! Tests of residuals for being white noise.
+
+/// What tests of whiteness tell.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Whiteness {
+    /// Correlation of each residual with the next.
+    pub lag_one: f64,
+    /// Runs of one sign, in standard deviations from what noise has (Wald and Wolfowitz).
+    pub runs: f64,
+    /// Ljung and Box's statistic (Biometrika 65 (1978) 297) of the first autocorrelations, in standard deviations of χ²
+    /// (Wilson and Hilferty).
+    pub ljung_box: f64,
+}
+
+/// Standard deviations beyond which residuals are not taken for white noise: one in 10 000 records of noise is beyond.
+const SIGNIFICANT: f64 = 3.7;
+
+/// Most autocorrelations that are tested.
+const LAGS: usize = 20;
+
+impl Whiteness {
+    /// Tests residuals, those that are no numbers left out.
+    pub fn of(residuals: impl Iterator<Item = f64>) -> Whiteness {
+        let list: Vec<f64> = residuals.filter(|r| r.is_finite()).collect();
+        let n = list.len() as f64;
+        let lags = LAGS.min(list.len() / 5);
+        let own: f64 = list.iter().map(|r| r * r).sum();
+        if lags == 0 || own == 0.0 {
+            return Whiteness::default();
+        }
+        let correlation = |lag: usize| {
+            let pairs = list.iter().zip(&list[lag..]);
+            pairs.map(|(a, b)| a * b).sum::<f64>() / own
+        };
+        let statistic: f64 = (1..=lags)
+            .map(|lag| correlation(lag).powi(2) / (n - lag as f64))
+            .sum::<f64>()
+            * n
+            * (n + 2.0);
+        let part = 2.0 / (9.0 * lags as f64);
+        Whiteness {
+            lag_one: correlation(1),
+            runs: runs(&list),
+            ljung_box: ((statistic / lags as f64).cbrt() - (1.0 - part)) / part.sqrt(),
+        }
+    }
+
+    /// Whether the residuals are plainly not white.
+    pub fn is_violated(&self) -> bool {
+        self.ljung_box > SIGNIFICANT
+    }
+}
+
+fn runs(list: &[f64]) -> f64 {
+    let positive = list.iter().filter(|r| **r > 0.0).count() as f64;
+    let negative = list.len() as f64 - positive;
+    let all = positive + negative;
+    let expected = 1.0 + 2.0 * positive * negative / all;
+    let variance = (expected - 1.0) * (expected - 2.0) / (all - 1.0);
+    let found = 1 + list
+        .windows(2)
+        .filter(|w| (w[0] > 0.0) != (w[1] > 0.0))
+        .count();
+    if variance > 0.0 {
+        (found as f64 - expected) / variance.sqrt()
+    } else {
+        0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers of a linear congruence (Knuth's MMIX), uniform in ±½.
+    fn noise(count: usize) -> Vec<f64> {
+        let mut state = 1u64;
+        let mut next = || {
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+        };
+        (0..count).map(|_| next()).collect()
+    }
+
+    #[test]
+    fn white_noise_passes_and_correlated_noise_does_not() {
+        let white = noise(500);
+        assert!(!Whiteness::of(white.iter().copied()).is_violated());
+        let mut last = 0.0;
+        let correlated = white.iter().map(|w| {
+            last = 0.4 * last + w;
+            last
+        });
+        let found = Whiteness::of(correlated);
+        assert!(found.is_violated() && (found.lag_one - 0.4).abs() < 0.1 && found.runs < -4.0);
+    }
+}

@@ -1,0 +1,425 @@
+//! The motion as a state-space model: θ̈ from the equation of motion and an unknown torque or force that is an integrated
+//! Wiener process, linearised about a nominal path (Gauss-Newton; Bell 1994).
+//!
+//! State: θ (rad), ω (rad/s), u and, of order two, u̇. θ̈ = (Q − V' − ½ M' ω² + a u)/M with the arm a = 1 for a torque (N m)
+//! and x' for a force (N); without mechanics θ̈ = u.
+
+use super::kalman::{Gaussian, Matrix, Model, Sample, Step, Vector};
+use crate::mechanism::Equation;
+
+/// θ, ω, u, u̇.
+pub(super) type State = [f64; 4];
+
+/// What is unknown and varies as an integrated Wiener process.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Unknown {
+    /// θ̈ itself: no mechanics.
+    Acceleration,
+    /// A torque on the crank beside the loads of the scene.
+    Torque,
+    /// A force on the slider beside the loads of the scene.
+    Force,
+}
+
+/// A prior of the motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Prior {
+    pub unknown: Unknown,
+    /// How often the white noise is integrated to u: 1 (Wiener process) or 2.
+    pub order: usize,
+    /// Whether the noise goes on with the crank angle, not with time.
+    pub per_angle: bool,
+}
+
+impl Prior {
+    /// What varies at random, in words.
+    pub fn name(self) -> &'static str {
+        match (self.unknown, self.order) {
+            (Unknown::Acceleration, _) => "angle with white snap, without mechanics",
+            (Unknown::Torque, 1) => "torque as a Wiener process",
+            (Unknown::Torque, _) => "torque as an integrated Wiener process",
+            (Unknown::Force, 1) => "force as a Wiener process",
+            (Unknown::Force, _) => "force as an integrated Wiener process",
+        }
+    }
+}
+
+/// θ̈ and its derivatives at a state.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Rates {
+    /// θ̈, rad/s²
+    pub alpha: f64,
+    /// ∂θ̈/∂θ
+    pub by_theta: f64,
+    /// ∂θ̈/∂ω
+    pub by_omega: f64,
+    /// ∂θ̈/∂u
+    pub by_unknown: f64,
+}
+
+/// The equation of motion with its unknown.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Motion<'a> {
+    pub equation: &'a Equation,
+    pub prior: Prior,
+    /// Time of the scene at time 0 of the record, s.
+    pub origin: f64,
+}
+
+/// Step of the crank angle (rad) for differences: they are right to about 1e-9 of the terms.
+const STEP: f64 = 1e-6;
+
+impl Motion<'_> {
+    /// θ̈ and ∂θ̈/∂u.
+    fn acceleration(&self, t: f64, theta: f64, omega: f64, unknown: f64) -> [f64; 2] {
+        let terms = self.equation.terms(theta);
+        let load = self
+            .equation
+            .loads()
+            .value(self.origin + t, theta, omega, &terms.pose);
+        let arm = match self.prior.unknown {
+            Unknown::Force => terms.pose.dx,
+            _ => 1.0,
+        };
+        let known =
+            load.generalized(&terms.pose) - terms.dv - terms.inertia.half_dm * omega * omega;
+        let m = terms.inertia.m;
+        [(known + arm * unknown) / m, arm / m]
+    }
+
+    /// θ̈ at a state with its derivatives.
+    pub fn rates(&self, t: f64, state: &State) -> Rates {
+        let [theta, omega, unknown, _] = *state;
+        if self.prior.unknown == Unknown::Acceleration {
+            return Rates {
+                alpha: unknown,
+                by_unknown: 1.0,
+                ..Rates::default()
+            };
+        }
+        let [alpha, by_unknown] = self.acceleration(t, theta, omega, unknown);
+        let [mut turned, _] = self.acceleration(t, theta + STEP, omega, unknown);
+        let mut step = STEP;
+        if !turned.is_finite() {
+            // At the limit of a rocker.
+            step = -STEP;
+            [turned, _] = self.acceleration(t, theta + step, omega, unknown);
+        }
+        let faster = STEP * omega.abs().max(1e-3);
+        let [quick, _] = self.acceleration(t, theta, omega + faster, unknown);
+        Rates {
+            alpha,
+            by_theta: (turned - alpha) / step,
+            by_omega: (quick - alpha) / faster,
+            by_unknown,
+        }
+    }
+
+    /// θ̈ in the middle of a step whose ends are known, with u as the prior predicts it from the first.
+    fn in_the_middle(&self, t: [f64; 2], ends: [&State; 2], rates: [&Rates; 2]) -> f64 {
+        let h = t[1] - t[0];
+        let [a, b] = ends;
+        let theta = 0.5 * (a[0] + b[0])
+            + h * (a[1] - b[1]) * (5.0 / 32.0)
+            + h * h * (rates[0].alpha + rates[1].alpha) / 64.0;
+        let omega = 0.5 * (a[1] + b[1]) + h * (rates[0].alpha - rates[1].alpha) / 8.0;
+        let unknown = a[2] + 0.5 * h * a[3];
+        self.acceleration(0.5 * (t[0] + t[1]), theta, omega, unknown)[0]
+    }
+
+    /// One step of the linear model of the deviations from a nominal path.
+    pub fn linearised(&self, t: [f64; 2], ends: [&State; 2], rates: [&Rates; 2]) -> Linearised {
+        let h = t[1] - t[0];
+        let [a, b] = ends;
+        let mean = |f: fn(&Rates) -> f64| 0.5 * (f(rates[0]) + f(rates[1]));
+        let lever = mean(|r| r.by_unknown);
+        let top = exponential(h, mean(|r| r.by_theta), mean(|r| r.by_omega), lever);
+        let unknown = a[2] + h * a[3];
+        let after = if self.prior.unknown == Unknown::Acceleration {
+            [0, 1].map(|row| (0..4).map(|k| top[row][k] * a[k]).sum::<f64>())
+        } else {
+            // Simpson's rule for ω and θ; the noise of u is not part of the prediction.
+            let first = rates[0].alpha;
+            let middle = self.in_the_middle(t, ends, rates);
+            let last = rates[1].alpha - rates[1].by_unknown * (b[2] - unknown);
+            [
+                a[0] + h * a[1] + h * h * (first + 2.0 * middle) / 6.0,
+                a[1] + h * (first + 4.0 * middle + last) / 6.0,
+            ]
+        };
+        Linearised {
+            h,
+            top,
+            defect: [
+                after[0] - b[0],
+                after[1] - b[1],
+                unknown - b[2],
+                a[3] - b[3],
+            ],
+            lever,
+            tempo: if self.prior.per_angle {
+                ((b[0] - a[0]) / h).abs()
+            } else {
+                1.0
+            },
+        }
+    }
+}
+
+/// Upper two rows of the transition of (θ, ω, u, u̇) over a time h, for constant derivatives of θ̈: the exponential series
+/// to h⁴.
+fn exponential(h: f64, by_theta: f64, by_omega: f64, lever: f64) -> [[f64; 4]; 2] {
+    // Columns of Aⁿ/n! hⁿ for A = [[0, 1], [by_theta, by_omega]].
+    let mut power = [[1.0, 0.0], [0.0, 1.0]];
+    let mut top = [[0.0; 4]; 2];
+    for n in 0..5 {
+        let weight = [h / f64::from(n + 1), h * h / f64::from((n + 1) * (n + 2))];
+        for row in 0..2 {
+            top[row][0] += power[row][0];
+            top[row][1] += power[row][1];
+            top[row][2] += power[row][1] * lever * weight[0];
+            top[row][3] += power[row][1] * lever * weight[1];
+        }
+        let scale = h / f64::from(n + 1);
+        power = power.map(|[p, q]| [scale * q * by_theta, scale * (p + q * by_omega)]);
+    }
+    top
+}
+
+/// One step of the deviations from a nominal path.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Linearised {
+    /// s
+    h: f64,
+    /// Rows of θ and ω of the transition.
+    top: [[f64; 4]; 2],
+    /// Prediction from the nominal path's begin minus its end.
+    defect: State,
+    /// ∂θ̈/∂u
+    lever: f64,
+    /// Factor of the noise.
+    tempo: f64,
+}
+
+/// Mean deviation of the samples of a node from the nominal path.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Observed {
+    /// Measured minus nominal, rad or m.
+    pub residual: f64,
+    /// d measured/dθ
+    pub slope: f64,
+    /// Variance over that of one sample; infinite without a sample.
+    pub variance: f64,
+}
+
+/// Correlated noise: a first-order autoregression beside the white noise of the samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Autoregression {
+    /// Rate at which the correlation decays, 1/s.
+    pub decay: f64,
+    /// White part of the variance of a sample.
+    pub white: f64,
+}
+
+/// The linear model of the deviations from a nominal path; N is 2 + order, and one more with correlated noise.
+#[derive(Clone, Debug)]
+pub(super) struct Deviations<'a> {
+    pub steps: &'a [Linearised],
+    pub observed: &'a [Observed],
+    pub order: usize,
+    /// Spectral density of the process noise over σ².
+    pub noise: f64,
+    /// Spectral density of white noise that u itself follows beside it, over σ².
+    pub level: f64,
+    pub correlated: Option<Autoregression>,
+    /// Standard deviations of θ, ω, u and u̇ before the first sample, in σ.
+    pub spread: State,
+}
+
+impl<const N: usize> Model<N> for Deviations<'_> {
+    fn nodes(&self) -> usize {
+        self.observed.len()
+    }
+
+    #[inline]
+    fn step(&self, node: usize) -> Step<N> {
+        let step = &self.steps[node];
+        let dimension = 2 + self.order;
+        let mut transition: Matrix<N> = [[0.0; N]; N];
+        let mut inverse: Matrix<N> = [[0.0; N]; N];
+        let mut noise: Matrix<N> = [[0.0; N]; N];
+        let mut offset: Vector<N> = [0.0; N];
+        for row in 0..2 {
+            transition[row][..dimension].copy_from_slice(&step.top[row][..dimension]);
+        }
+        for row in 2..dimension {
+            transition[row][row] = 1.0;
+        }
+        offset[..dimension].copy_from_slice(&step.defect[..dimension]);
+        if self.order == 2 {
+            transition[2][3] = step.h;
+        }
+        self.invert(step, &mut inverse);
+        self.add_noise(step, &mut noise);
+        if let Some(Autoregression { decay, white }) = self.correlated {
+            let kept = (-decay * step.h).exp();
+            transition[N - 1][N - 1] = kept;
+            inverse[N - 1][N - 1] = 1.0 / kept;
+            noise[N - 1][N - 1] = (1.0 - white) * -(-2.0 * decay * step.h).exp_m1();
+        }
+        Step {
+            transition,
+            inverse,
+            offset,
+            noise,
+        }
+    }
+
+    #[inline]
+    fn sample(&self, node: usize) -> Option<Sample<N>> {
+        let observed = &self.observed[node];
+        if observed.variance == f64::INFINITY {
+            return None;
+        }
+        let mut row = [0.0; N];
+        row[0] = observed.slope;
+        let mut variance = observed.variance;
+        if let Some(correlated) = self.correlated {
+            row[N - 1] = 1.0;
+            variance *= correlated.white;
+        }
+        Some(Sample {
+            value: observed.residual,
+            row,
+            variance,
+        })
+    }
+
+    fn start(&self) -> Gaussian<N> {
+        let mut covariance = [[0.0; N]; N];
+        for k in 0..2 + self.order {
+            covariance[k][k] = self.spread[k] * self.spread[k];
+        }
+        if let Some(correlated) = self.correlated {
+            covariance[N - 1][N - 1] = 1.0 - correlated.white;
+        }
+        Gaussian {
+            mean: [0.0; N],
+            covariance,
+        }
+    }
+}
+
+impl Deviations<'_> {
+    /// Φ⁻¹ = [[B⁻¹, −B⁻¹ C T⁻¹], [0, T⁻¹]] of Φ = [[B, C], [0, T]].
+    #[inline]
+    fn invert<const N: usize>(&self, step: &Linearised, inverse: &mut Matrix<N>) {
+        let [[a, b, ..], [c, d, ..]] = step.top;
+        let per = 1.0 / (a * d - b * c);
+        let small = [[d * per, -b * per], [-c * per, a * per]];
+        for row in 0..2 {
+            inverse[row][..2].copy_from_slice(&small[row]);
+            for k in 2..2 + self.order {
+                let mut column = [step.top[0][k], step.top[1][k]];
+                if k == 3 {
+                    column[0] -= step.h * step.top[0][2];
+                    column[1] -= step.h * step.top[1][2];
+                }
+                inverse[row][k] = -(small[row][0] * column[0] + small[row][1] * column[1]);
+            }
+        }
+        for k in 2..2 + self.order {
+            inverse[k][k] = 1.0;
+        }
+        if self.order == 2 {
+            inverse[2][3] = -step.h;
+        }
+    }
+
+    /// ∫ ψ ψᵀ ds of the responses of θ, ω, u, u̇ to a unit of the white noise.
+    #[inline]
+    fn add_noise<const N: usize>(&self, step: &Linearised, noise: &mut Matrix<N>) {
+        let (h, b) = (step.h, step.lever);
+        // hⁿ/n
+        let mut integral = [0.0; 8];
+        let mut power = 1.0;
+        for (n, value) in integral.iter_mut().enumerate().skip(1) {
+            power *= h;
+            *value = power / n as f64;
+        }
+        // Responses of θ, ω, u, u̇ to an impulse a time s before: ψ_k = scale_k s^power_k.
+        let on_level = ([0.5 * b, b, 1.0, 0.0], [2, 1, 0, 0]);
+        let on_slope = ([b / 6.0, 0.5 * b, 1.0, 1.0], [3, 2, 1, 0]);
+        let mut add = |(scales, powers): ([f64; 4], [usize; 4]), density: f64| {
+            for i in 0..2 + self.order {
+                for j in 0..2 + self.order {
+                    let integral = integral[powers[i] + powers[j] + 1];
+                    noise[i][j] += density * step.tempo * scales[i] * scales[j] * integral;
+                }
+            }
+        };
+        if self.order == 1 {
+            add(on_level, self.noise);
+        } else {
+            add(on_slope, self.noise);
+            if self.level > 0.0 {
+                add(on_level, self.level);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::inverse::kalman::times;
+
+    #[test]
+    fn the_inverse_transition_undoes_the_transition() {
+        let step = Linearised {
+            h: 0.3,
+            top: exponential(0.3, -2.0, 0.7, 1.7),
+            lever: 1.7,
+            tempo: 1.0,
+            ..Linearised::default()
+        };
+        let model = Deviations {
+            steps: &[step],
+            observed: &[],
+            order: 2,
+            noise: 1.0,
+            level: 0.5,
+            correlated: Some(Autoregression {
+                decay: 2.0,
+                white: 0.1,
+            }),
+            spread: [1.0; 4],
+        };
+        let step: Step<5> = model.step(0);
+        let x = [0.3, -1.0, 2.0, 0.7, 0.2];
+        let back = times(&step.inverse, &times(&step.transition, &x));
+        for (x, back) in x.iter().zip(back) {
+            assert!((x - back).abs() < 1e-14);
+        }
+    }
+
+    /// θ̈ = −2 θ + 0.7 θ̇ + 1.7 u for u = 1 + 2 t by 10 000 steps of the midpoint rule.
+    #[test]
+    fn the_transition_solves_the_linear_equation() {
+        let (mut theta, mut omega) = (0.4, -0.2);
+        let (count, h) = (10_000, 0.1);
+        let dt = h / f64::from(count);
+        let rate =
+            |theta: f64, omega: f64, t: f64| -2.0 * theta + 0.7 * omega + 1.7 * (1.0 + 2.0 * t);
+        for k in 0..count {
+            let t = f64::from(k) * dt;
+            let half = omega + 0.5 * dt * rate(theta, omega, t);
+            let there = theta + 0.5 * dt * omega;
+            omega += dt * rate(there, half, t + 0.5 * dt);
+            theta += dt * half;
+        }
+        let top = exponential(h, -2.0, 0.7, 1.7);
+        let found = top.map(|row| row[0] * 0.4 - row[1] * 0.2 + row[2] + 2.0 * row[3]);
+        assert!((found[0] - theta).abs() < 1e-8 && (found[1] - omega).abs() < 1e-7);
+    }
+}

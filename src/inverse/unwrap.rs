@@ -1,0 +1,99 @@
+//! Crank angles that were measured, as they are or reduced to one turn.
+
+use std::f64::consts::{PI, TAU};
+
+use super::branch_tracking::CrankAngles;
+use crate::error::Error;
+use crate::mechanism::Linkage;
+use crate::numeric::median::median;
+use crate::scene::Measurement;
+
+/// Part of a turn within which angles are that were reduced to one: noise and the scale of a sensor go beyond it.
+const ONE_TURN: f64 = 1.05;
+
+/// How many times as fast as usual the crank is where the angle jumps by more than half a turn.
+const JUMP: f64 = 10.0;
+
+/// A measured crank angle as it is, or continued over the turns if it was reduced to one.
+pub(super) fn unwrap(linkage: &Linkage, measurement: &Measurement) -> Result<CrankAngles, Error> {
+    let values = measurement.values();
+    let (least, most) = values
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| {
+            (a.min(*v), b.max(*v))
+        });
+    let jumps = values.windows(2).any(|w| (w[1] - w[0]).abs() > PI);
+    let mut warnings = Vec::new();
+    let mut theta = values.to_vec();
+    if jumps && most - least <= TAU * ONE_TURN {
+        let mut turns = 0.0;
+        let mut doubtful = None;
+        for i in 1..values.len() {
+            let step = values[i] - values[i - 1];
+            turns -= (step / TAU).round();
+            theta[i] = values[i] + turns * TAU;
+            if (theta[i] - theta[i - 1]).abs() > 0.8 * PI {
+                doubtful = doubtful.or(Some(i));
+            }
+        }
+        warnings.push("theta stays within one turn and jumps: it is taken as reduced to one turn, and continued over the turns by the shorter way".to_owned());
+        if let Some(sample) = doubtful {
+            return Err(Error::refused(
+                format!(
+                    "theta jumps by almost half a turn at {}: the samples do not say which way the crank went",
+                    measurement.place(sample)
+                ),
+                "sample more often, or give theta without reducing it to one turn",
+            ));
+        }
+    } else if jumps {
+        warnings.extend(jumping(measurement));
+    }
+    let unreachable = |(sample, theta): (usize, &f64)| {
+        (!linkage.pose(*theta).exists()).then(|| {
+            let what = format!(
+                "theta = {} cannot be reached: the rod is too short for it",
+                measurement.shown(values[sample])
+            );
+            (
+                sample,
+                what,
+                "`kinematics` shows the crank angles that can be reached".to_owned(),
+            )
+        })
+    };
+    let list: Vec<_> = theta
+        .iter()
+        .enumerate()
+        .filter_map(unreachable)
+        .take(20)
+        .collect();
+    if !list.is_empty() {
+        return Err(measurement.problems(list).into());
+    }
+    Ok(CrankAngles {
+        theta,
+        sigma: 0.0,
+        warnings,
+    })
+}
+
+/// What is said of an angle that jumps, as where a counter of turns was reset.
+fn jumping(measurement: &Measurement) -> Option<String> {
+    let (times, values) = (measurement.elapsed(), measurement.values());
+    let step = |i: usize| values[i] - values[i - 1];
+    let speed = |i: usize| step(i).abs() / (times[i] - times[i - 1]);
+    let usual = median((1..values.len()).map(speed))?;
+    let jumps = |i: &usize| step(*i).abs() > PI && speed(*i) > JUMP * usual;
+    let count = (1..values.len()).filter(jumps).count();
+    let first = (1..values.len()).find(jumps)?;
+    Some(format!(
+        "theta jumps {}, by {} at {}: more than half a turn, more than {JUMP} times as fast as usual; it is taken as it is",
+        match count {
+            1 => "once".to_owned(),
+            _ => format!("{count} times, first"),
+        },
+        measurement.shown(step(first)),
+        measurement.place(first),
+    ))
+}

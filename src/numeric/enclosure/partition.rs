@@ -1,0 +1,99 @@
+//! Where panels have to end so that their nodes show a function.
+
+use super::{Detail, Interval, ellipse};
+
+/// How panels are to show a function.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted {
+    /// Nodes of a panel.
+    pub nodes: usize,
+    /// What they may leave, as part of the change of the function over the whole, or of a unit.
+    pub part: f64,
+}
+
+/// Pieces are not halved more often.
+const HALVINGS: usize = 50;
+/// Most pieces that are looked at.
+const MOST_PIECES: usize = 100_000;
+
+/// One piece: how it is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Piece {
+    Shown,
+    Corner,
+}
+
+/// The ends inside an interval between panels that each show a function, whose detail on an interval and in an ellipse of some
+/// size around it is given; in rising order. A corner or a jump is such an end; beside a narrow pulse panels become
+/// shorter towards it.
+pub fn partition(
+    detail: impl Fn(Interval, f64) -> Detail,
+    over: Interval,
+    wanted: Wanted,
+    unit: f64,
+) -> Vec<f64> {
+    let ellipse = ellipse(wanted.nodes, wanted.part);
+    let detail = |part: Interval| detail(part, ellipse);
+    let allowed = wanted.part * scale(&detail, over, unit);
+    let is_shown = |part: Interval| {
+        let detail = detail(part);
+        let nodes = detail.nodes(ellipse, allowed);
+        detail.change <= allowed || nodes.is_some_and(|nodes| nodes <= wanted.nodes)
+    };
+    if is_shown(over) {
+        return Vec::new();
+    }
+    let width = over.high - over.low;
+    let is_corner = |part: Interval| {
+        let share = (part.high - part.low) / width;
+        detail(part).change * share <= allowed || share < 0.5f64.powi(HALVINGS as i32)
+    };
+    let mut left = vec![over];
+    let mut pieces: Vec<(Interval, Piece)> = Vec::new();
+    while let Some(part) = left.pop() {
+        if is_shown(part) {
+            pieces.push((part, Piece::Shown));
+        } else if is_corner(part) || pieces.len() + left.len() >= MOST_PIECES {
+            pieces.push((part, Piece::Corner));
+        } else {
+            let middle = part.middle();
+            left.push(Interval::new(middle, part.high));
+            left.push(Interval::new(part.low, middle));
+        }
+    }
+    merged(&pieces, is_shown)
+}
+
+/// The change over the whole, or over the first part of it on which it is finite; not less than a unit.
+fn scale(detail: &impl Fn(Interval) -> Detail, over: Interval, unit: f64) -> f64 {
+    let mut part = over;
+    for _ in 0..HALVINGS {
+        let change = detail(part).change;
+        if change.is_finite() {
+            return change.max(unit).max(f64::MIN_POSITIVE);
+        }
+        part = Interval::new(part.low, part.middle());
+    }
+    unit.max(f64::MIN_POSITIVE)
+}
+
+/// Ends between pieces, of which neighbours that are shown together are one; a corner lies in the middle of its piece.
+fn merged(pieces: &[(Interval, Piece)], is_shown: impl Fn(Interval) -> bool) -> Vec<f64> {
+    let mut ends = Vec::new();
+    let mut begin = None;
+    for (part, piece) in pieces {
+        match (piece, begin) {
+            (Piece::Corner, _) => {
+                ends.push(part.middle());
+                begin = None;
+            }
+            (Piece::Shown, Some(from)) if !is_shown(Interval::new(from, part.high)) => {
+                ends.push(part.low);
+                begin = Some(part.low);
+            }
+            (Piece::Shown, None) => begin = Some(part.low),
+            _ => {}
+        }
+    }
+    ends
+}

@@ -1,0 +1,67 @@
+//! Crank angles at which panels end so that their nodes show the loads that depend on the position alone.
+
+use std::cell::RefCell;
+
+use crate::mechanism::Equation;
+use crate::numeric::angle::Angle;
+use crate::numeric::enclosure::{Interval, Wanted, partition};
+
+/// Panels of the crank angle begin with 25 nodes, and end where series have decayed to rounding.
+const WANTED: Wanted = Wanted {
+    nodes: 24,
+    part: 1e-14,
+};
+
+/// Angles, rad, found where they were asked for.
+pub(super) struct Marks<'a> {
+    equation: &'a Equation,
+    /// The energy of the start, and the work of its forces over a radian, J: what is little beside it is nothing.
+    unit: f64,
+    /// The last interval that was looked at, and what was found there.
+    last: RefCell<(Interval, Vec<f64>)>,
+}
+
+impl<'a> Marks<'a> {
+    /// None so far, of a motion from an angle and a speed (rad/s).
+    pub fn new(equation: &'a Equation, start: Angle, speed: f64) -> Marks<'a> {
+        let nowhere = Interval::new(f64::NAN, f64::NAN);
+        Marks {
+            equation,
+            unit: equation.kinetic_energy(start.rest, speed)
+                + equation.size_of_terms(0.0, start, speed),
+            last: RefCell::new((nowhere, Vec::new())),
+        }
+    }
+
+    /// Those between two angles, in rising order.
+    pub fn between(&self, low: f64, high: f64) -> Vec<f64> {
+        let (loads, linkage) = (self.equation.loads(), self.equation.linkage());
+        if !loads.have_detail_of_place() || low >= high {
+            return Vec::new();
+        }
+        let detail = |angle, ellipse| loads.detail_of_place(linkage, angle, ellipse);
+        partition(detail, Interval::new(low, high), WANTED, self.unit)
+    }
+
+    /// The first after `from` on the way to `to`, in either direction.
+    pub fn next(&self, from: f64, to: f64) -> Option<f64> {
+        if !self.equation.loads().have_detail_of_place() {
+            return None;
+        }
+        let way = Interval::between(from, to);
+        let (known, marks) = &mut *self.last.borrow_mut();
+        if !(known.low <= way.low && way.high <= known.high) {
+            *marks = self.between(way.low, way.high);
+            *known = way;
+        }
+        let mut inside = marks
+            .iter()
+            .copied()
+            .filter(|mark| way.low < *mark && *mark < way.high);
+        if from < to {
+            inside.next()
+        } else {
+            inside.next_back()
+        }
+    }
+}
