@@ -22,6 +22,24 @@ pub enum Method {
     Dopri5,
 }
 
+impl Method {
+    /// Evaluations in a step that is tried.
+    pub fn evaluations_in_a_step(self) -> u64 {
+        match self {
+            Method::Dop853 => 12,
+            Method::Dopri5 => 6,
+        }
+    }
+
+    /// The order of its steps.
+    pub fn order(self) -> usize {
+        match self {
+            Method::Dop853 => 8,
+            Method::Dopri5 => 5,
+        }
+    }
+}
+
 /// How one call ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ended {

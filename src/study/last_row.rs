@@ -1,6 +1,7 @@
 //! The end of a run among its rows.
 
 use super::row::{Row, RowSink};
+use super::schedule;
 use crate::error::Error;
 
 /// A row due this much of the spacing before the end is the end, but for the rounding of its time.
@@ -14,6 +15,7 @@ pub(super) struct LastRow<'a> {
     held: [Option<Row>; 2],
     /// Time of the row before them, s.
     before: f64,
+    handed_on: u64,
 }
 
 impl<'a> LastRow<'a> {
@@ -22,6 +24,7 @@ impl<'a> LastRow<'a> {
             rows,
             held: [None; 2],
             before: 0.0,
+            handed_on: 0,
         }
     }
 
@@ -53,6 +56,8 @@ impl RowSink for LastRow<'_> {
         match due {
             Some(due) => {
                 self.before = due.t;
+                self.handed_on += 1;
+                schedule::refuse_rows(self.handed_on as f64, due.t)?;
                 self.rows.row(&due)
             }
             None => Ok(()),

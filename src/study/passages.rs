@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::schedule::passed;
+use super::schedule::{passed, refuse_rows};
 use super::summary::Event;
 use super::task::Task;
 use crate::engine::energy::Orbit;
@@ -181,6 +181,7 @@ fn each_angle(
     let Stretch { orbit, end, .. } = *stretch;
     let before = orbit.start().minus(task.start());
     let turned = |t: f64| orbit.state(t).0.minus(task.start());
+    refuse_rows((turned(end) / step).abs(), stretch.begin + end)?;
     let mut from = 0.0;
     let mut turnings = orbit.turning_times(end);
     turnings.push(end);

@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use crate::scene::{Every, Extent};
+use crate::error::Error;
+use crate::scene::{Every, Extent, MOST_ROWS};
 
 /// Rows of a run without `output_every`.
 const DEFAULT_ROWS: u32 = 500;
@@ -24,6 +25,19 @@ pub(super) fn passed(a: f64, b: f64) -> impl Iterator<Item = f64> {
         (a.ceil(), b.ceil() - a.ceil())
     };
     (1..=way.abs() as u64).map(move |i| start + (i as f64).copysign(way))
+}
+
+/// Refuses more rows than a run may have until a time, s.
+pub(super) fn refuse_rows(rows: f64, until: f64) -> Result<(), Error> {
+    if rows <= MOST_ROWS {
+        return Ok(());
+    }
+    Err(Error::refused(
+        format!(
+            "run.output_every: more than {MOST_ROWS} output rows would be written, for the run has {rows:.0} of them until t = {until} s"
+        ),
+        "give a larger step, leave it out for 500 rows, or shorten the run",
+    ))
 }
 
 /// Stretches of time that are looked at closely.
@@ -98,6 +112,14 @@ impl Schedule {
                 let t = from + (index % POINTS) as f64 * step;
                 (t < end - 1e-9 * step).then_some(t)
             }
+        }
+    }
+
+    /// Rows that are due at times until this one (s) of a run without a last time.
+    pub fn rows_until(&self, t: f64) -> f64 {
+        match *self {
+            Schedule::Times { step, end } => t.min(end) / step,
+            _ => 0.0,
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::last_row::LastRow;
 use super::row::{NoRows, RowMaker, RowSink};
-use super::schedule::Schedule;
+use super::schedule::{self, Schedule};
 use super::sliding::Sliding;
 use super::summary::Summary;
 use super::task::Task;
@@ -147,6 +147,17 @@ fn run_with_rows_at(
             sliding: sliding.as_ref(),
         },
     };
+    if is_open(&task) && rows.wants_rows() {
+        let blind = Options {
+            estimate: false,
+            reactions: false,
+            events_kept: 0,
+            ..*options
+        };
+        let seen = run_with_rows_at(None, scene, &blind, &mut NoRows, false)?.summary;
+        let end = seen.last.t_s;
+        schedule::refuse_rows(task.schedule().rows_until(end), end)?;
+    }
     let mut rows = LastRow::new(rows);
     let run = match task.plan.engine {
         Engine::ClosedForm => closed_form::run(&task, &mut rows),
@@ -156,6 +167,14 @@ fn run_with_rows_at(
     }?;
     rows.finish()?;
     Ok(run)
+}
+
+/// Whether how long a run of turns takes, and so how many rows at times it has, is known at its end only.
+fn is_open(task: &Task<'_>) -> bool {
+    let at_times = matches!(task.schedule(), Schedule::Times { .. });
+    let of_turns = matches!(task.extent, Extent::Revolutions(_));
+    let asked = task.looked_at.is_none() && task.plan.engine != Engine::Contact;
+    asked && at_times && of_turns && task.scene.motion.kind == MotionKind::Free
 }
 
 /// The guide of a prescribed motion, if it has friction.

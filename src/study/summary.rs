@@ -1,12 +1,16 @@
 //! The result of a run in numbers.
 
+use std::f64::consts::TAU;
+
 use serde::Serialize;
 
 use super::clearance::ClearanceSummary;
 use super::peaks::Peaks;
+use super::stalled;
 use super::steady::SteadyState;
 use super::task::Task;
 use crate::plan::Plan;
+use crate::scene::Extent;
 
 /// Summary of a run; its JSON is the object that `simulate --json` prints.
 #[derive(Clone, Debug, Serialize)]
@@ -24,6 +28,10 @@ pub struct Summary {
     pub revolutions: f64,
     /// Estimate of the global error of the last state; none if it was not asked for or cannot be given.
     pub error_estimate: Option<ErrorEstimate>,
+    /// The same of the worst row of a run over the crank angle, which may lie where a series is not as good as at its
+    /// end; none without rows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rows_error: Option<ErrorEstimate>,
     /// Energy at the end minus energy at the start minus work of the loads, divided by the largest of the
     /// energies that occur; not finite for a prescribed speed that runs into a limit, where they grow without bound.
     pub energy_residual: f64,
@@ -71,6 +79,7 @@ pub(super) struct Solved {
     /// rad, signed
     pub turned: f64,
     pub error_estimate: Option<ErrorEstimate>,
+    pub rows_error: Option<ErrorEstimate>,
     /// Residual and the largest energy that occurs, J.
     pub energy: (f64, f64),
     pub evaluations: u64,
@@ -98,13 +107,18 @@ impl Summary {
                 "{total} events occurred; the first {kept} are listed"
             ));
         }
+        let stopped = solved
+            .stopped
+            .or_else(|| short_of(task.extent, &solved.last, solved.turned));
+        let stopped = stopped.map(|why| stalled::reason(task, &solved.last).unwrap_or(why));
         Summary {
             scene: task.scene.title.clone().unwrap_or_default(),
             engine: task.plan.engine.name().to_owned(),
             plan: task.plan.clone(),
             last: solved.last,
-            revolutions: solved.turned / std::f64::consts::TAU,
+            revolutions: solved.turned / TAU,
             error_estimate: solved.error_estimate,
+            rows_error: solved.rows_error,
             energy_residual: if scale == 0.0 { 0.0 } else { residual / scale },
             energy_residual_j: residual,
             evaluations: solved.evaluations,
@@ -120,9 +134,27 @@ impl Summary {
             events: solved.events,
             events_total: solved.events_total,
             warnings,
-            stopped: solved.stopped,
+            stopped,
         }
     }
+}
+
+/// What is said of a run that ended short of its goal, or without a state, though no engine told why.
+fn short_of(extent: Extent, last: &Final, turned: f64) -> Option<String> {
+    let (goal, reached) = match extent {
+        Extent::Duration(duration) => (duration, last.t_s),
+        Extent::Revolutions(turns) => (turns * TAU, turned.abs()),
+    };
+    // Half of all digits: far more than a goal is missed by in rounding.
+    let missed = goal - reached > f64::EPSILON.sqrt() * goal;
+    let state = [last.t_s, last.theta_rad, last.omega_rad_per_s, reached];
+    let is_state = state.iter().all(|number| number.is_finite());
+    (missed || !is_state).then(|| {
+        format!(
+            "the run ended before its goal: stopped at t = {} s, theta = {} rad, omega = {} rad/s; no engine gave a reason, which is a defect of this program",
+            last.t_s, last.theta_rad, last.omega_rad_per_s
+        )
+    })
 }
 
 /// A last state.
@@ -143,6 +175,16 @@ pub struct ErrorEstimate {
     pub theta_rad: f64,
     /// rad/s
     pub omega_rad_per_s: f64,
+}
+
+impl ErrorEstimate {
+    /// The larger one of each.
+    pub(super) fn max(self, other: ErrorEstimate) -> ErrorEstimate {
+        ErrorEstimate {
+            theta_rad: self.theta_rad.max(other.theta_rad),
+            omega_rad_per_s: self.omega_rad_per_s.max(other.omega_rad_per_s),
+        }
+    }
 }
 
 /// Evaluations and time.

@@ -185,8 +185,8 @@ impl Watch<'_> {
         }
         let turning = self.seen.crossings.iter();
         let turning = turning.filter(|(_, what)| *what == Crossing::Turning);
-        let mut cuts: Vec<f64> = turning.map(|(t, _)| *t).collect();
-        cuts.push(step.end.t);
+        let mut cuts: Vec<f64> = turning.map(|(t, _)| *t).filter(|t| *t < until).collect();
+        cuts.push(until);
         let mut from = step.start.t;
         for to in cuts {
             let way = |t: f64| self.turned(step, step.at(t).0) / spacing;
@@ -195,9 +195,7 @@ impl Watch<'_> {
                 let theta = step.start.theta + (k * spacing - self.turned(step, step.start.theta));
                 // A turning point may fall short of its angle by rounding.
                 let t = step.time_of_angle(theta, from, to).unwrap_or(to);
-                if t <= until {
-                    self.write_row(step, t)?;
-                }
+                self.write_row(step, t)?;
             }
             from = to;
         }

@@ -38,7 +38,7 @@ pub fn run(
         return (Finish::NoStart, last, 0);
     }
     let mut collocation = Collocation::new(motion, settings.tolerance, alpha);
-    let mut wanted = first_length(&node);
+    let mut wanted = first_length(&node, settings.way);
     let (mut steps, mut at_corner) = (0, false);
     let mut hidden = f64::INFINITY;
     while state.t < settings.t_end {
@@ -106,10 +106,11 @@ pub fn run(
     (Finish::AtEnd, last, steps)
 }
 
-/// A tenth of a radian, at the speed or the acceleration of the start.
-fn first_length(start: &Node) -> f64 {
-    let by_speed = 0.1 / start.omega.abs();
-    let by_acceleration = (0.2 / start.alpha.abs()).sqrt();
+/// A tenth of a radian at the speed or the acceleration of the start, or the way of the run (rad) if that is less.
+fn first_length(start: &Node, way: f64) -> f64 {
+    let travel = way.min(0.1);
+    let by_speed = travel / start.omega.abs();
+    let by_acceleration = (2.0 * travel / start.alpha.abs()).sqrt();
     by_speed.min(by_acceleration).min(0.1)
 }
 

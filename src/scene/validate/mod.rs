@@ -19,7 +19,7 @@ use check::Check;
 const LEAST_TOLERANCE: f64 = 1e-14;
 
 /// More output rows than this, some hundred gigabytes, are a slip of the unit.
-const MOST_ROWS: f64 = 1e9;
+pub(crate) const MOST_ROWS: f64 = 1e9;
 
 /// Adds one problem for each impossible value. Values that have a problem already are not compared with
 /// others: what follows from a problem is none of its own.

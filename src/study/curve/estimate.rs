@@ -39,12 +39,12 @@ pub(super) fn estimate(follow: &Follow<'_>, arrived: &Arrived) -> Option<(ErrorE
         max_evaluations: arrived
             .evaluations
             .saturating_mul(factor)
-            .saturating_add(beside),
+            .saturating_add(beside)
+            .min(follow.settings.max_evaluations),
         ..follow.settings
     };
     let again = Settings {
         tolerance: tighter(tolerance),
-        max_evaluations: follow.settings.max_evaluations.saturating_mul(4),
         ..follow.settings
     };
     let mut evaluations = 0;

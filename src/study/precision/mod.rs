@@ -195,7 +195,7 @@ pub fn precision(scene: &Scene, options: &PrecisionOptions) -> Result<Precision,
             cells.push(Cell::new(&scene, method, tolerance, options)?);
         }
     }
-    let common = reference::extended(&scene, t_end, EVALUATIONS);
+    let common = reference::extended(&scene, t_end, EVALUATIONS.min(options.max_evaluations));
     let others = match &common {
         Some(_) => Vec::new(),
         None => other_methods(&scene, options),

@@ -224,7 +224,7 @@ impl Pass<'_, '_> {
         back &= finish == Finish::Stopped;
         if !back {
             arrived.end = match finish {
-                Finish::AtEnd if course.is_over(last.end.t) => End::AtGoal,
+                Finish::AtEnd if course.is_at_goal(&arrived.now) => End::AtGoal,
                 finish => End::Integrator(finish),
             };
         }
@@ -233,8 +233,11 @@ impl Pass<'_, '_> {
 }
 
 impl Course<'_> {
-    /// Whether a run of turns did not take for ever.
-    pub fn is_over(&self, t: f64) -> bool {
-        matches!(self.extent, Extent::Duration(_)) || t < self.settings.t_end
+    /// Whether a run has come to its time, or its turns did not take for ever.
+    pub fn is_at_goal(&self, now: &Start) -> bool {
+        match self.extent {
+            Extent::Duration(duration) => now.t >= duration,
+            Extent::Revolutions(_) => now.t < self.settings.t_end,
+        }
     }
 }

@@ -29,6 +29,7 @@ use super::summary::{Final, Solved, Summary};
 use super::task::Task;
 use crate::engine::Counted;
 use crate::engine::step::{Node, Step};
+use crate::engine::time::Finish;
 use crate::error::Error;
 use crate::plan::{Method, Plan};
 use crate::trajectory::Trajectory;
@@ -63,6 +64,9 @@ pub(super) fn run(
     let mut notes = Notes::new(task, &looked_at, rows, record);
     let mut arrived = course.run(first.map(|first| first.driving), &mut notes)?;
     arrived.evaluations += places;
+    if arrived.end == End::Integrator(Finish::NoStart) && arrived.now == course.start {
+        return Err(stopped::no_start(course.start.angle, course.start.speed));
+    }
     let caught = notes.caught(&arrived);
     let log = notes.finish(&arrived)?;
     let wall_s = wall_s + log.wall_s(begun);

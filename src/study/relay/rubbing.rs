@@ -54,7 +54,9 @@ impl Pass<'_, '_> {
         back &= rubbed.end == curve::End::Stopped;
         if !back {
             arrived.end = match &rubbed.end {
-                curve::End::Done | curve::End::AtRest if course.is_over(last.end.t) => End::AtGoal,
+                curve::End::Done | curve::End::AtRest if course.is_at_goal(&arrived.now) => {
+                    End::AtGoal
+                }
                 curve::End::Integrator(finish) => End::Integrator(*finish),
                 _ => End::Integrator(Finish::Stopped),
             };

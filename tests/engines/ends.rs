@@ -1,0 +1,236 @@
+//! Where runs end: at their goal, or with the reason, and never with more work or rows than they are allowed.
+
+use crate::support::random::cases;
+use crate::support::random::magnitude;
+use proptest::prelude::*;
+use slider_crank::plan::Method;
+use slider_crank::scene::{
+    Branch, Crank, Every, Expression, Interpolation, Load, Scene, Slider, Table, Variable,
+};
+use slider_crank::study::{
+    Options, PrecisionOptions, Row, Summary, precision, simulate, simulate_rows,
+};
+
+const INERTIA: f64 = 0.02;
+
+fn formula(text: &str) -> Load {
+    Load::Expression(Expression::parse(text).expect("a formula"))
+}
+
+/// A crank, rod and slider, in m and kg.
+fn machine(r: f64, l: f64, slider: f64) -> Scene {
+    Scene::new(r, l)
+        .crank(Crank {
+            inertia: INERTIA,
+            ..Crank::default()
+        })
+        .slider(Slider { mass: slider })
+}
+
+fn limited(method: Method, max_evaluations: u64) -> Options {
+    Options {
+        method,
+        max_evaluations,
+        ..Options::default()
+    }
+}
+
+fn run(scene: &Scene, options: &Options) -> Summary {
+    simulate(scene, options).expect("a run").summary
+}
+
+/// A motor at a crank that is kept from turning fully by 0.12 nm of its rod.
+fn nearly_turning(speed: f64) -> Scene {
+    machine(0.1, 0.119_999_999_88, 0.5)
+        .offset(0.02)
+        .torque(Load::Motor {
+            stall: 2.0 * speed.signum(),
+            no_load_speed: 30.0 * speed.signum(),
+        })
+        .start(0.1, speed)
+}
+
+/// Reference: extrapolation of order 16 with 34 digits, of the equation along the configuration curve written anew.
+#[test]
+fn a_crank_that_nearly_turns_fully_is_followed_past_its_limits() {
+    for (t, theta, omega) in [
+        (0.3, 0.556_232_590_844_719_5, 2.950_345_198_563_416),
+        (2.0, 1.543_605_951_513_556_6, 2.984_674_809_930_666),
+    ] {
+        let summary = run(&nearly_turning(10.0).duration(t), &Options::default());
+        assert_eq!(summary.stopped, None);
+        assert_eq!(summary.last.t_s, t);
+        let error = summary.error_estimate.expect("an estimate");
+        let off = [
+            (summary.last.theta_rad - theta).abs(),
+            (summary.last.omega_rad_per_s - omega).abs(),
+        ];
+        assert!(
+            off[0] <= 3.0 * error.theta_rad && error.theta_rad < 1e-8,
+            "{off:?} {error:?}"
+        );
+        assert!(off[1] <= 3.0 * error.omega_rad_per_s, "{off:?} {error:?}");
+    }
+}
+
+proptest! {
+    #![proptest_config(cases(48))]
+
+    #[test]
+    fn a_run_ends_at_its_time_or_says_why(
+        (speed, clockwise, left) in (3.0..60.0f64, any::<bool>(), any::<bool>()),
+        (short, above) in (magnitude(1e-12, 1e-6), any::<bool>()),
+        duration in 0.2..1.0f64,
+    ) {
+        let speed = if clockwise { -speed } else { speed };
+        let scene = nearly_turning(speed).duration(duration);
+        let mut scene = scene.branch(if left { Branch::Left } else { Branch::Right });
+        scene.geometry.rod = 0.12 * (1.0 - short);
+        scene.geometry.offset = if above { -0.02 } else { 0.02 };
+        let options = Options { estimate: false, ..limited(Method::Auto, 1_000_000) };
+        let summary = run(&scene, &options);
+        prop_assert!(summary.stopped.is_some() || summary.last.t_s == duration, "{:?}", summary.last);
+    }
+}
+
+#[test]
+fn a_load_without_a_value_at_the_start_is_said() {
+    for (text, angle) in [("sin(50*t)/(50*t)", 0.6), ("1/theta", 0.0), ("ln(t)", 1.0)] {
+        let scene = machine(0.05, 0.15, 2.0)
+            .torque(formula(text))
+            .start(angle, 0.1)
+            .duration(1.0);
+        for method in [Method::Auto, Method::Time, Method::Dop853, Method::Dopri5] {
+            let error = simulate(&scene, &limited(method, 1_000_000)).expect_err("no start");
+            assert!(error.to_string().contains("finite value"), "{error}");
+        }
+    }
+}
+
+/// Under a drag of c ω² a crank of inertia I loses its speed with the angle, ω = ω₀ exp(−c θ/I), and the time for a way is
+/// (exp(c θ/I) − 1) I/(c ω₀): ten turns take 1e12 s.
+#[test]
+fn too_many_rows_are_refused_before_the_first_is_written() {
+    let mut scene = machine(0.05, 0.15, 0.5)
+        .torque(formula("-0.01*omega*abs(omega)"))
+        .start(0.0, 30.0)
+        .revolutions(10.0);
+    assert_eq!(run(&scene, &Options::default()).stopped, None);
+    scene.run.output_every = Some(Every::Time(1e-3));
+    for method in [Method::Auto, Method::Time] {
+        let mut rows: Vec<Row> = Vec::new();
+        let refused = simulate_rows(&scene, &limited(method, 1_000_000), &mut rows);
+        let error = refused.expect_err("too many rows").to_string();
+        assert!(
+            error.contains("run.output_every") && error.contains("rows"),
+            "{error}"
+        );
+        assert!(rows.is_empty());
+    }
+}
+
+/// From rest under a constant torque M the angle is M t²/2I: at the dead centre the slider does not move with the crank.
+#[test]
+fn a_tiny_part_of_a_turn_is_no_more_work_than_a_turn() {
+    for turns in [1e-7, 1e-5] {
+        let scene = machine(0.05, 0.15, 0.5)
+            .torque(formula("10 + t"))
+            .revolutions(turns);
+        let mut rows: Vec<Row> = Vec::new();
+        let summary = simulate_rows(&scene, &Options::default(), &mut rows).expect("a run");
+        let theta = std::f64::consts::TAU * turns;
+        let t = (2.0 * theta * INERTIA / 10.0).sqrt();
+        assert!((summary.summary.last.t_s / t - 1.0).abs() < 0.1 * t.max(1e-4));
+        assert_eq!(rows.len(), 500);
+        let even =
+            |pair: &[Row]| ((pair[1].theta - pair[0].theta) * 499.0 / theta - 1.0).abs() < 1e-6;
+        assert!(rows.windows(2).all(even));
+    }
+}
+
+/// Each row of the table ends a step.
+#[test]
+fn the_work_limit_holds_where_a_table_cuts_the_steps_short() {
+    let times: Vec<f64> = (0..30_000).map(|i| f64::from(i) * 1e-5).collect();
+    let torques: Vec<f64> = times.iter().map(|t| (40.0 * t).sin()).collect();
+    let table = Table::new(Variable::T, &times, &torques, Interpolation::Linear, None);
+    let scene = machine(0.05, 0.15, 0.5)
+        .torque(Load::Table(table.expect("a table")))
+        .start(0.3, 10.0)
+        .duration(0.29);
+    for method in [Method::Dopri5, Method::Dop853, Method::Time] {
+        let summary = run(&scene, &limited(method, 20_000));
+        let why = summary.stopped.expect("a reason");
+        assert!(why.contains("work limit"), "{why}");
+        assert!(
+            summary.evaluations < 20_100,
+            "{method} {}",
+            summary.evaluations
+        );
+    }
+}
+
+/// The second run of an estimate obeys the limit, too.
+#[test]
+fn an_estimate_takes_no_more_than_the_limit() {
+    let scene = machine(0.05, 0.15, 0.5)
+        .torque(formula("-0.02*omega + 0.3*sin(2*theta)"))
+        .start(0.3, 100.0)
+        .duration(2.0);
+    for method in [Method::Dopri5, Method::Dop853, Method::Time, Method::Angle] {
+        let whole = run(&scene, &limited(method, 10_000_000));
+        let limit = whole.evaluations + 200;
+        let summary = run(&scene, &limited(method, limit));
+        assert_eq!(summary.stopped, None);
+        if let Some(cost) = summary.estimate_cost {
+            assert!(
+                cost.evaluations <= 3 * limit,
+                "{method} {} {limit}",
+                cost.evaluations
+            );
+        }
+    }
+}
+
+/// From rest the steps of a crank of constant inertia have no error, however many turns they make.
+#[test]
+fn a_step_makes_no_more_than_two_turns() {
+    for load in [Load::Constant(1e6), formula("1e6*t")] {
+        let scene = Scene::new(0.05, 0.15)
+            .crank(Crank {
+                inertia: INERTIA,
+                ..Crank::default()
+            })
+            .torque(load)
+            .tolerance(0.1)
+            .duration(1e6);
+        for method in [Method::Dop853, Method::Dopri5] {
+            let summary = run(&scene, &limited(method, 50_000));
+            let why = summary.stopped.expect("a reason");
+            assert!(why.contains("work limit"), "{why}");
+            let turns = summary.revolutions;
+            assert!(
+                turns > 100.0 && turns < 2.0 * summary.steps as f64,
+                "{method} {turns}"
+            );
+            assert!(summary.events_total <= 5 * summary.steps);
+        }
+    }
+}
+
+#[test]
+fn precision_obeys_the_work_limit() {
+    let scene = machine(0.05, 0.15, 0.5)
+        .torque(formula("-0.02*omega + 0.3*sin(2*theta)"))
+        .start(0.3, 100.0)
+        .duration(20.0);
+    let options = PrecisionOptions {
+        tolerances: vec![1e-6],
+        repeats: 1,
+        max_evaluations: 100,
+        ..PrecisionOptions::default()
+    };
+    let result = precision(&scene, &options).expect("a comparison");
+    assert_eq!(result.reference_error_theta_rad, None);
+    assert!(result.rows.iter().all(|row| row.failure.is_some()));
+}
