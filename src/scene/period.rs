@@ -69,7 +69,7 @@ impl Period {
         };
         // Fractions of no larger denominator in a turn, and the part of it that is as near to one of them.
         let fractions = 0.5 * parts * (parts + 1.0);
-        if 2.0 * off * fractions > CHANCE {
+        if whole < 1.0 || 2.0 * off * fractions > CHANCE {
             return Err(WhyNot::Incommensurable);
         }
         match whole <= f64::from(LONGEST) && parts <= f64::from(u32::MAX) {
@@ -264,7 +264,9 @@ mod tests {
         ] {
             assert_eq!(Period::as_written(angle), period(turns, parts), "{angle}");
         }
-        for angle in [1.0, 3.0, 6.0, 6.3, 4.27, 4.269881, 2.5, 0.1, 6.2833] {
+        for angle in [
+            1e-3, 1e-300, 1.0, 3.0, 6.0, 6.3, 4.27, 4.269881, 2.5, 0.1, 6.2833,
+        ] {
             let found = Period::as_written(angle);
             assert_eq!(found, Err(WhyNot::Incommensurable), "{angle}");
         }

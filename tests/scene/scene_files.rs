@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 use slider_crank::mechanism::single;
 use slider_crank::scene::{
-    Branch, ContactLaw, Every, Extent, InertiaAbout, Instant, Joint, Load, MotionKind, RodModel,
-    Scene, Table, Variable, schema,
+    Branch, ContactLaw, Every, Extent, InertiaAbout, Instant, Joint, Load, MotionKind, Period,
+    Repeats, RodModel, Scene, Table, Variable, schema,
 };
 use tempfile::TempDir;
 
@@ -259,6 +259,41 @@ fn the_pressure_of_the_cycle_is_its_formula() {
     }
     // The mean torque that the comment of the scene gives.
     near(work / (2.0 * PI), 46.8, 1e-3);
+}
+
+#[test]
+fn the_pressure_of_the_four_strokes_is_its_formulas() {
+    let scene = example("four-stroke.toml");
+    let [Load::Gas { pressure, .. }] = &scene.forces[..] else {
+        panic!()
+    };
+    assert_eq!(
+        pressure.repeats(),
+        Repeats::After(Period::turns(2).unwrap())
+    );
+    let (r, l) = (43.0f64, 143.5f64);
+    let h = |degrees: f64| {
+        let theta = degrees.to_radians();
+        let x = r * theta.cos() + (l * l - (r * theta.sin()).powi(2)).sqrt();
+        r + l - x + 2.0 * r / 9.0
+    };
+    let closed = |degrees: f64| {
+        let compressed = |at: f64| 0.85 * (h(-145.0) / h(at)).powf(1.32);
+        let burnt = 1.0 - (-6.908 * ((degrees + 12.0) / 50.0).max(0.0).powi(3)).exp();
+        let expanded = 3.4 * compressed(0.0) * (h(0.0) / h(degrees)).powf(1.27);
+        (1.0 - burnt) * compressed(degrees) + burnt * expanded
+    };
+    let fall = |a: f64| (1.0 + (PI * a.clamp(0.0, 1.0)).cos()) / 2.0;
+    for degrees in (0..720).step_by(2).map(f64::from) {
+        let expected = match degrees {
+            _ if degrees <= 130.0 => closed(degrees),
+            _ if degrees >= 575.0 => closed(degrees - 720.0),
+            _ if degrees < 360.0 => 1.08 + (closed(130.0) - 1.08) * fall((degrees - 130.0) / 60.0),
+            _ => 0.85 + (1.08 - 0.85) * fall((degrees - 360.0) / 40.0),
+        };
+        // Five digits.
+        near(pressure.value(degrees.to_radians()) / 1e5, expected, 1e-4);
+    }
 }
 
 // Sections and keys
