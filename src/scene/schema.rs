@@ -61,7 +61,7 @@ fn kinds(section: &Section, kinds: &[KindKeys]) -> Value {
     kinds
         .iter()
         .map(|kind| {
-            let mut then = json!({"required": &kind.keys[..kind.required]});
+            let mut then = needed(kind);
             let keys = section.keys.iter();
             for key in keys.filter(|key| kind.keys.contains(&key.name)) {
                 if let Kind::QuantityOrFormula(quantity) = key.kind
@@ -76,6 +76,14 @@ fn kinds(section: &Section, kinds: &[KindKeys]) -> Value {
             })
         })
         .collect()
+}
+
+/// The keys that a kind needs; one that opposes motion a value or a table.
+fn needed(kind: &KindKeys) -> Value {
+    match kind.name {
+        "dry" => json!({"anyOf": [{"required": ["value"]}, {"required": ["file", "of"]}]}),
+        _ => json!({"required": &kind.keys[..kind.required]}),
+    }
 }
 
 fn property(key: &Key) -> Value {

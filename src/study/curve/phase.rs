@@ -108,9 +108,11 @@ impl Motion for InPhase<'_> {
         self.equation.loads().next_corner(t)
     }
 
-    // Loads are enclosed over the crank angle.
+    // Loads are enclosed over the crank angle; what they do to the friction of the guide is not.
     fn has_detail(&self) -> bool {
-        self.equation.curve().is_crank_angle() && self.equation.loads().have_detail()
+        let loads = self.equation.loads();
+        let seen = self.equation.curve().is_crank_angle() && loads.are_dry();
+        seen && self.equation.friction().is_none() && loads.have_detail()
     }
 
     fn detail(&self, reach: &Reach, ellipse: f64) -> Detail {
