@@ -1,16 +1,18 @@
 //! The estimated motion at each sample, by polynomial or smoother.
 
 use super::branch_tracking::CrankAngles;
+use super::linearised::Prior;
 use super::measurement_model::Sensor;
 use super::motion_estimate::MotionEstimate;
 use super::polynomial::Polynomial;
+use super::prior::KINEMATIC;
 use super::problem::{Estimate, Problem};
 use super::record::{Grid, Path, Record};
 use super::residual_tests::Whiteness;
-use super::smoother::{KINEMATIC, Smoothed};
-use super::state_space::Prior;
+use super::samples::{problem, record};
+use super::smoother::Smoothed;
 use super::summary::{CandidateSummary, FitSummary};
-use super::{FitKind, FitSize, InverseOptions, first_path, outliers, quantised};
+use super::{FitKind, FitSize, InverseOptions, first_path, outliers};
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
 use crate::scene::{Measured, Measurement};
@@ -42,14 +44,8 @@ pub(super) struct Fitted {
 /// Most rounds in which outliers are found.
 const OUTLIER_ROUNDS: usize = 6;
 
-/// Units of rounding of computed values.
-const COMPUTED: f64 = 2.0;
-
 /// Largest corner frequency of a smoother, over the rate of blocks of samples, rad: less happens in a block than noise tells.
 const SLOW: f64 = 0.3;
-
-/// Part of an encoder's step that is the least standard deviation of a sample told by a transition.
-const SHARP: f64 = 1e-3;
 
 impl Fitted {
     /// Estimates the motion.
@@ -280,56 +276,4 @@ fn is_within_a_turn(theta: &[f64]) -> bool {
     let ends = (f64::INFINITY, f64::NEG_INFINITY);
     let ends = theta.iter().fold(ends, |(a, b), v| (a.min(*v), b.max(*v)));
     ends.1 - ends.0 <= std::f64::consts::TAU
-}
-
-/// The samples of a measurement with the crank angles that they were read as.
-fn record<'a>(
-    sensor: Sensor<'a>,
-    measurement: &'a Measurement,
-    angles: &CrankAngles,
-) -> Record<'a> {
-    let values = match sensor.measured {
-        Measured::Theta => angles.theta.clone(),
-        _ => measurement.values().to_vec(),
-    };
-    let largest = values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-    Record {
-        sensor,
-        times: measurement.elapsed().into(),
-        weights: vec![1.0; values.len()],
-        values,
-        rows: None,
-        step: None,
-        floor: (measurement.resolution() / 12f64.sqrt()).max(COMPUTED * f64::EPSILON * largest),
-        origin: measurement.origin(),
-    }
-}
-
-/// A record with its nodes; codes of an encoder are told by their transitions.
-fn problem<'a>(record: Record<'a>, theta: &[f64], equation: &'a Equation) -> Problem<'a> {
-    let coded = match record.is_linear() {
-        true => quantised::transitions(&record.times, &record.values),
-        false => None,
-    };
-    match coded {
-        Some(coded) => Problem {
-            grid: Grid::new(&coded.times, &coded.values),
-            record: Record {
-                times: coded.times.into(),
-                values: coded.values,
-                weights: coded.weights,
-                rows: Some(coded.rows),
-                step: Some(coded.step),
-                floor: SHARP * coded.step,
-                ..record
-            },
-            equation,
-        },
-        None => Problem {
-            grid: Grid::of_blocks(&record.times, theta)
-                .unwrap_or_else(|| Grid::new(&record.times, theta)),
-            record,
-            equation,
-        },
-    }
 }

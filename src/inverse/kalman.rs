@@ -2,6 +2,10 @@
 //! Filtering and Smoothing, 2nd ed. 2023, chapters 6 and 12), all covariances in units of the variance σ² of a sample.
 //!
 //! x(k+1) = Φ x(k) + c + w, w ~ N(0, Q);   y(k) = H x(k) + e, e ~ N(0, R).
+#![allow(
+    clippy::needless_range_loop,
+    reason = "matrices stand in index notation"
+)]
 
 /// Column of N numbers.
 pub(super) type Vector<const N: usize> = [f64; N];

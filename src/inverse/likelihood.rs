@@ -2,7 +2,9 @@
 //! intensity of its noise; the variance of a sample is profiled out.
 
 use super::kalman::{self, Evidence};
-use super::state_space::{Autoregression, Deviations, Linearised, Observed, Prior, State};
+use super::linearised::{Linearised, Prior, State};
+use super::maximum::{better, climb};
+use super::state_space::{Autoregression, Deviations, Observed};
 
 /// Stretches of nodes with their linear models, and the scales of the search.
 #[derive(Clone, Copy, Debug)]
@@ -274,77 +276,3 @@ const WHITE: f64 = 0.02;
 
 /// Most rounds of the search over one parameter after the other.
 const ROUNDS: usize = 8;
-
-fn better(a: Noise, b: Noise) -> Noise {
-    if b.likelihood > a.likelihood { b } else { a }
-}
-
-/// Largest value near a guess: uphill in growing steps, then two parabolas through the three best points.
-fn climb(at: impl Fn(f64) -> Noise, guess: f64, [lowest, highest]: [f64; 2]) -> Noise {
-    const FIRST: f64 = 0.5;
-    let mut points = vec![(guess, at(guess))];
-    for direction in [1.0, -1.0] {
-        let mut step = FIRST;
-        let mut here = guess;
-        loop {
-            let next = (here + direction * step).clamp(lowest, highest);
-            if next == here {
-                break;
-            }
-            let found = at(next);
-            let before = value(&points, here);
-            points.push((next, found));
-            if found.likelihood <= before {
-                break;
-            }
-            here = next;
-            step *= 1.6;
-        }
-        if here != guess {
-            break;
-        }
-    }
-    for _ in 0..4 {
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let Some(best) = (0..points.len())
-            .max_by(|a, b| points[*a].1.likelihood.total_cmp(&points[*b].1.likelihood))
-        else {
-            break;
-        };
-        if best == 0 || best + 1 == points.len() {
-            break;
-        }
-        let [a, b, c] = [best - 1, best, best + 1].map(|k| (points[k].0, points[k].1.likelihood));
-        let top = vertex(a, b, c);
-        if c.0 - a.0 < 0.1 || (top - b.0).abs() < 0.01 || !top.is_finite() {
-            break;
-        }
-        points.push((top, at(top)));
-    }
-    let best = points
-        .into_iter()
-        .max_by(|a, b| a.1.likelihood.total_cmp(&b.1.likelihood));
-    best.map_or_else(|| at(guess), |(_, noise)| noise)
-}
-
-fn value(points: &[(f64, Noise)], place: f64) -> f64 {
-    let found = points.iter().find(|(at, _)| *at == place);
-    found.map_or(f64::NEG_INFINITY, |(_, noise)| noise.likelihood)
-}
-
-/// Where the parabola through three points has its top, kept inside.
-fn vertex(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> f64 {
-    let (left, right) = ((b.1 - a.1) / (b.0 - a.0), (c.1 - b.1) / (c.0 - b.0));
-    let curvature = (right - left) / (c.0 - a.0);
-    if !curvature.is_finite() || curvature >= 0.0 {
-        // No parabola: the middle of the wider side.
-        return if c.0 - b.0 > b.0 - a.0 {
-            0.5 * (b.0 + c.0)
-        } else {
-            0.5 * (a.0 + b.0)
-        };
-    }
-    let top = 0.5 * (a.0 + b.0) - 0.5 * left / curvature;
-    let margin = 0.1;
-    top.clamp(a.0 + margin * (b.0 - a.0), c.0 - margin * (c.0 - b.0))
-}

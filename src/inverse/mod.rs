@@ -8,19 +8,25 @@ mod branch_tracking;
 mod first_path;
 mod fitted;
 mod guide;
+mod hypotheses;
 mod inverse_dynamics;
 mod kalman;
 mod likelihood;
 mod limit;
+mod linearised;
+mod maximum;
 mod measurement_model;
 mod motion_estimate;
+mod options;
 mod outliers;
 mod polynomial;
+mod prior;
 mod problem;
 mod quantised;
 mod record;
 mod residual_tests;
 mod row;
+mod samples;
 mod smoother;
 mod state_space;
 mod summary;
@@ -29,6 +35,7 @@ mod warnings;
 
 pub use as_printed::AsPrinted;
 pub use bands::{BandRule, DeadCentreBand};
+pub use options::{FitKind, FitSize, InverseOptions};
 pub use row::{InverseRow, Residual};
 pub use summary::{CandidateSummary, DataSummary, FitSummary, ForceRange, InverseSummary};
 
@@ -42,65 +49,6 @@ use crate::mechanism::{Equation, Reactions, Reactor};
 use crate::numeric::student;
 use crate::plan::{Method, Plan};
 use crate::scene::{Measurement, MotionKind, Scene};
-
-/// How the motion is estimated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FitKind {
-    /// A polynomial where it leaves nothing but noise within one turn, else the smoother.
-    Auto,
-    /// A polynomial of the crank angle over time.
-    Polynomial,
-    /// The iterated extended Kalman smoother.
-    Smoother,
-}
-
-impl FitKind {
-    /// All of them.
-    pub const ALL: [FitKind; 3] = [FitKind::Auto, FitKind::Polynomial, FitKind::Smoother];
-
-    /// Its name in options and outputs.
-    pub fn name(self) -> &'static str {
-        match self {
-            FitKind::Auto => "auto",
-            FitKind::Polynomial => "polynomial",
-            FitKind::Smoother => "smoother",
-        }
-    }
-}
-
-/// Degree of a polynomial.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FitSize {
-    /// The degree that the samples support.
-    Auto,
-    /// This degree.
-    Fixed(usize),
-}
-
-/// What is asked of an inverse computation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct InverseOptions {
-    /// How the motion is estimated.
-    pub fit: FitKind,
-    /// Degree of a polynomial.
-    pub size: FitSize,
-    /// Joint forces for the rows.
-    pub reactions: bool,
-    /// Whether the slider force is what acts beside the forces of the scene; if not it is the whole force on the
-    /// slider.
-    pub beside_forces: bool,
-}
-
-impl Default for InverseOptions {
-    fn default() -> InverseOptions {
-        InverseOptions {
-            fit: FitKind::Auto,
-            size: FitSize::Auto,
-            reactions: false,
-            beside_forces: false,
-        }
-    }
-}
 
 /// Slider force and crank torque along a measured motion.
 #[derive(Debug)]

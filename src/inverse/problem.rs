@@ -2,8 +2,9 @@
 
 use super::kalman;
 use super::likelihood::{Linear, Noise, Scales, Stretch};
+use super::linearised::{Motion, Prior, Rates, State};
 use super::record::{Grid, Path, Record, hermite};
-use super::state_space::{Deviations, Motion, Prior, Rates, State};
+use super::state_space::Deviations;
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
 
@@ -221,9 +222,8 @@ impl<'a> Problem<'a> {
         let estimate =
             |(at, (deviation, innovation)): (usize, (&kalman::Gaussian<N>, &Option<f64>))| {
                 let mut state = path.states[from + at];
-                for k in 0..dimension {
-                    state[k] += deviation.mean[k];
-                }
+                let pairs = state.iter_mut().zip(deviation.mean).take(dimension);
+                pairs.for_each(|(value, change)| *value += change);
                 let rates = motion.rates(self.grid.times[from + at], &state);
                 let gradient = [rates.by_theta, rates.by_omega, rates.by_unknown];
                 let p = &deviation.covariance;

@@ -2,8 +2,9 @@
 
 use std::borrow::Cow;
 
+use super::linearised::State;
 use super::measurement_model::Sensor;
-use super::state_space::{Observed, State};
+use super::state_space::Observed;
 use crate::scene::Measured;
 
 /// Samples with the crank angles that they were read as.

@@ -2,10 +2,11 @@
 //! prior chosen by marginal likelihood.
 
 use super::likelihood::{Linear, Noise, Scales};
+use super::linearised::{Prior, State, Unknown};
+use super::prior::{KINEMATIC, MECHANICAL};
 use super::problem::{Estimate, Problem};
 use super::record::Path;
 use super::residual_tests::Whiteness;
-use super::state_space::{Prior, State, Unknown};
 use crate::numeric::parallel;
 use std::ops::Range;
 
@@ -19,42 +20,6 @@ pub(super) struct Smoothed {
     /// Whether the iterations came to rest.
     pub settled: bool,
 }
-
-/// The prior without mechanics: a smoothing spline of degree seven in state-space form.
-pub(super) const KINEMATIC: Prior = Prior {
-    unknown: Unknown::Acceleration,
-    order: 2,
-    follows_speed: false,
-};
-
-/// Priors through the equation of motion.
-pub(super) const MECHANICAL: [Prior; 5] = [
-    Prior {
-        unknown: Unknown::Torque,
-        order: 2,
-        follows_speed: true,
-    },
-    Prior {
-        unknown: Unknown::Torque,
-        order: 1,
-        follows_speed: false,
-    },
-    Prior {
-        unknown: Unknown::Torque,
-        order: 2,
-        follows_speed: false,
-    },
-    Prior {
-        unknown: Unknown::Force,
-        order: 1,
-        follows_speed: false,
-    },
-    Prior {
-        unknown: Unknown::Force,
-        order: 2,
-        follows_speed: false,
-    },
-];
 
 /// Most iterations of Gauss and Newton.
 const ITERATIONS: usize = 12;

@@ -1,0 +1,282 @@
+//! Multiple-hypothesis tracking (Reid 1979): paths through samples that may stand for several crank angles, each followed by a
+//! Kalman filter whose angular acceleration is a Wiener process; the likelier ones are kept.
+
+use std::f64::consts::TAU;
+
+use super::kalman::{self, Matrix};
+use super::measurement_model::Sensor;
+use crate::scene::Measured;
+
+/// A path through all samples.
+#[derive(Clone, Debug)]
+pub(super) struct Track {
+    /// Crank angles, rad.
+    pub theta: Vec<f64>,
+    /// ln of its likelihood.
+    pub score: f64,
+}
+
+impl Track {
+    /// Sense of rotation, of the first part of the path in which it turns by half a turn, or of all.
+    pub fn sense(&self) -> f64 {
+        let first = self.theta[0];
+        let far = self
+            .theta
+            .iter()
+            .find(|theta| (*theta - first).abs() > 0.25 * TAU);
+        (far.unwrap_or(&self.theta[self.theta.len() - 1]) - first).signum()
+    }
+
+    /// Whether another path is one on the other strokes.
+    pub fn mirrors(&self, other: &Track) -> bool {
+        self.sense() != other.sense()
+    }
+}
+
+/// Noise of the samples and agility of the crank.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Setting {
+    /// rad or m
+    pub sigma: f64,
+    /// Spectral density of the jerk of the crank angle, rad²/s⁵.
+    jerk: f64,
+}
+
+/// A hypothesis: a path that ends here.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hypothesis {
+    mean: [f64; 3],
+    covariance: Matrix<3>,
+    pub score: f64,
+    /// Its last angle in the list of all.
+    last: usize,
+}
+
+/// An angle of a path and the one before.
+#[derive(Clone, Copy, Debug)]
+struct Link {
+    theta: f64,
+    before: usize,
+}
+
+/// Follows hypotheses through samples.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tracker<'a> {
+    pub sensor: &'a Sensor<'a>,
+    pub times: &'a [f64],
+    pub values: &'a [f64],
+    /// Typical speed of the crank, rad/s.
+    pub speed: f64,
+}
+
+/// Most hypotheses that are kept, and ln of the likelihood ratio beyond which one is dropped.
+const MOST: usize = 12;
+const DROPPED: f64 = 50.0;
+
+/// The end of a path.
+const NOTHING: usize = usize::MAX;
+
+impl Tracker<'_> {
+    /// Noise and agility that are tried.
+    pub fn settings(&self, resolution: f64) -> Vec<Setting> {
+        let size = self.sensor.size();
+        let noises = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2].map(|part| (part * size).max(resolution));
+        let agilities = [1e-2, 1e-1, 1.0, 10.0];
+        let mut list = Vec::new();
+        for sigma in noises {
+            for agility in agilities {
+                let jerk = agility * agility * self.speed.powi(5);
+                list.push(Setting { sigma, jerk });
+            }
+        }
+        list
+    }
+
+    /// The paths of all hypotheses that are left at the end, the likeliest first.
+    pub fn tracks(&self, setting: &Setting) -> Vec<Track> {
+        let mut links = Vec::with_capacity(2 * self.values.len());
+        let ends = self.run(setting, self.values.len(), &mut links);
+        let path = |end: &Hypothesis| {
+            let mut theta = Vec::with_capacity(self.values.len());
+            let mut at = end.last;
+            while at != NOTHING {
+                theta.push(links[at].theta);
+                at = links[at].before;
+            }
+            theta.reverse();
+            Track {
+                theta,
+                score: end.score,
+            }
+        };
+        ends.iter().map(path).collect()
+    }
+
+    /// The hypotheses after some samples, the likeliest first.
+    pub fn followed(&self, setting: &Setting, samples: usize) -> Vec<Hypothesis> {
+        self.run(setting, samples, &mut Vec::with_capacity(2 * samples))
+    }
+
+    fn run(&self, setting: &Setting, samples: usize, links: &mut Vec<Link>) -> Vec<Hypothesis> {
+        let mut now: Vec<Hypothesis> = Vec::new();
+        let mut next: Vec<Hypothesis> = Vec::new();
+        for i in 0..samples {
+            next.clear();
+            let sighted = self.sighted(i, setting.sigma);
+            if i == 0 {
+                next.extend(sighted.iter().map(|sight| self.begun(sight, links)));
+            } else {
+                let dt = self.times[i] - self.times[i - 1];
+                for before in &now {
+                    let predicted = predicted(before, dt, setting.jerk);
+                    for sight in &sighted {
+                        extend(&predicted, sight, links, &mut next);
+                    }
+                }
+            }
+            prune(&mut next);
+            std::mem::swap(&mut now, &mut next);
+        }
+        now
+    }
+
+    /// The crank angles that a sample may stand for.
+    fn sighted(&self, sample: usize, sigma: f64) -> Vec<Sight> {
+        let value = self.values[sample];
+        let linkage = self.sensor.linkage;
+        let (candidates, excess) = match self.sensor.measured {
+            Measured::X => (linkage.angles_of_x(value), linkage.excess_of_x(value)),
+            _ => (
+                linkage.angles_of_gamma(value),
+                linkage.excess_of_gamma(value),
+            ),
+        };
+        let sights = candidates.angles().iter().map(|theta| {
+            let shown = self.sensor.shown(*theta);
+            // Of a dead centre the curvature tells the width.
+            let steep = shown.slope * shown.slope + shown.curvature.abs() * (sigma + excess);
+            Sight {
+                theta: *theta,
+                variance: sigma * sigma / steep,
+                score: -0.5 * steep.ln() - 0.5 * (excess / sigma).powi(2).min(50.0),
+            }
+        });
+        sights.filter(|sight| sight.variance.is_finite()).collect()
+    }
+
+    fn begun(&self, sight: &Sight, links: &mut Vec<Link>) -> Hypothesis {
+        links.push(Link {
+            theta: sight.theta,
+            before: NOTHING,
+        });
+        let speed = 2.0 * self.speed;
+        Hypothesis {
+            mean: [sight.theta, 0.0, 0.0],
+            covariance: [
+                [sight.variance, 0.0, 0.0],
+                [0.0, speed * speed, 0.0],
+                [0.0, 0.0, speed.powi(4)],
+            ],
+            score: sight.score,
+            last: links.len() - 1,
+        }
+    }
+}
+
+/// A crank angle that a sample may stand for.
+#[derive(Clone, Copy, Debug)]
+struct Sight {
+    theta: f64,
+    variance: f64,
+    /// ln of the density of the measured value, per angle.
+    score: f64,
+}
+
+/// A hypothesis a time later.
+fn predicted(before: &Hypothesis, dt: f64, jerk: f64) -> Hypothesis {
+    let [theta, omega, alpha] = before.mean;
+    let transition = [[1.0, dt, 0.5 * dt * dt], [0.0, 1.0, dt], [0.0, 0.0, 1.0]];
+    let q = |n: i32, divisor: f64| jerk * dt.powi(n) / divisor;
+    let noise = [
+        [q(5, 20.0), q(4, 8.0), q(3, 6.0)],
+        [q(4, 8.0), q(3, 3.0), q(2, 2.0)],
+        [q(3, 6.0), q(2, 2.0), q(1, 1.0)],
+    ];
+    Hypothesis {
+        mean: [
+            theta + dt * (omega + 0.5 * dt * alpha),
+            omega + dt * alpha,
+            alpha,
+        ],
+        covariance: kalman::congruent(&transition, &before.covariance, &noise),
+        ..*before
+    }
+}
+
+/// A hypothesis with a sample taken in, in the turns in which it may be.
+fn extend(
+    predicted: &Hypothesis,
+    sight: &Sight,
+    links: &mut Vec<Link>,
+    list: &mut Vec<Hypothesis>,
+) {
+    let nearest = ((predicted.mean[0] - sight.theta) / TAU).round();
+    let spread = predicted.covariance[0][0] + sight.variance;
+    let reach = if spread.sqrt() > 0.1 * TAU { 1 } else { 0 };
+    for turn in -reach..=reach {
+        let theta = sight.theta + (nearest + f64::from(turn)) * TAU;
+        let error = theta - predicted.mean[0];
+        let mut found = *predicted;
+        for i in 0..3 {
+            let gain = predicted.covariance[i][0] / spread;
+            found.mean[i] += gain * error;
+            for j in 0..3 {
+                found.covariance[i][j] -= gain * predicted.covariance[0][j];
+            }
+        }
+        // Outliers count as such, by the tails of Student's distribution with four degrees of freedom.
+        let off = error * error / spread;
+        let tails = if off < 4.0 {
+            0.5 * off
+        } else {
+            2.0 + 2.5 * (1.0 + (off - 4.0) / 4.0).ln()
+        };
+        found.score += sight.score - 0.5 * spread.ln() - tails;
+        if off > 25.0 {
+            // It moves the path no further than five standard deviations would.
+            let part = 5.0 / off.sqrt();
+            for i in 0..3 {
+                found.mean[i] = predicted.mean[i] + part * (found.mean[i] - predicted.mean[i]);
+            }
+            found.covariance = predicted.covariance;
+        }
+        links.push(Link {
+            theta: found.mean[0],
+            before: predicted.last,
+        });
+        found.last = links.len() - 1;
+        list.push(found);
+    }
+}
+
+/// Keeps the likeliest hypotheses, and of those that agree the likeliest.
+fn prune(list: &mut Vec<Hypothesis>) {
+    list.sort_by(|a, b| b.score.total_cmp(&a.score));
+    let mut kept: usize = 0;
+    for k in 0..list.len() {
+        let now = list[k];
+        let agrees = |other: &Hypothesis| {
+            let [theta, omega, _] = std::array::from_fn(|i| {
+                (other.mean[i] - now.mean[i]).powi(2) / now.covariance[i][i]
+            });
+            theta < 1.0 && omega < 1.0
+        };
+        let drop =
+            now.score < list[0].score - DROPPED || list[..kept].iter().any(agrees) || kept == MOST;
+        if !drop && now.score.is_finite() {
+            list[kept] = now;
+            kept += 1;
+        }
+    }
+    list.truncate(kept);
+}

@@ -1,0 +1,241 @@
+//! The equation of motion with an unknown torque or force, and its linearisation about a nominal path.
+//!
+//! State: θ (rad), ω (rad/s), u and, of order two, u̇. θ̈ = (Q − V' − ½ M' ω² + a u)/M with the arm a = 1 for a torque (N m)
+//! and x' for a force (N); without mechanics θ̈ = u.
+
+use crate::mechanism::Equation;
+
+/// θ, ω, u, u̇.
+pub(super) type State = [f64; 4];
+
+/// What is unknown and varies as an integrated Wiener process.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Unknown {
+    /// θ̈ itself: no mechanics.
+    Acceleration,
+    /// A torque on the crank beside the loads of the scene.
+    Torque,
+    /// A force on the slider beside the loads of the scene.
+    Force,
+}
+
+/// A prior of the motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Prior {
+    pub unknown: Unknown,
+    /// How often the white noise is integrated to u: 1 (Wiener process) or 2.
+    pub order: usize,
+    /// Whether u follows the speed: u̇ = g θ̈ + white noise with an unknown constant g as the fourth state, in place of u̇.
+    pub follows_speed: bool,
+}
+
+impl Prior {
+    /// How often the white noise is integrated to u.
+    pub fn noisy(self) -> usize {
+        match self.follows_speed {
+            true => 1,
+            false => self.order,
+        }
+    }
+
+    /// What varies at random, in words.
+    pub fn name(self) -> &'static str {
+        match (self.unknown, self.order) {
+            _ if self.follows_speed => "torque that follows the speed, and a Wiener process",
+            (Unknown::Acceleration, _) => "angle with white snap, without mechanics",
+            (Unknown::Torque, 1) => "torque as a Wiener process",
+            (Unknown::Torque, _) => "torque as an integrated Wiener process",
+            (Unknown::Force, 1) => "force as a Wiener process",
+            (Unknown::Force, _) => "force as an integrated Wiener process",
+        }
+    }
+}
+
+/// θ̈ and its derivatives at a state.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Rates {
+    /// θ̈, rad/s²
+    pub alpha: f64,
+    /// ∂θ̈/∂θ
+    pub by_theta: f64,
+    /// ∂θ̈/∂ω
+    pub by_omega: f64,
+    /// ∂θ̈/∂u
+    pub by_unknown: f64,
+}
+
+/// The equation of motion with its unknown.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Motion<'a> {
+    pub equation: &'a Equation,
+    pub prior: Prior,
+    /// Time of the scene at time 0 of the record, s.
+    pub origin: f64,
+}
+
+/// Step of the crank angle (rad) for differences: they are right to about 1e-9 of the terms.
+const STEP: f64 = 1e-6;
+
+impl Motion<'_> {
+    /// θ̈ and ∂θ̈/∂u.
+    fn acceleration(&self, t: f64, theta: f64, omega: f64, unknown: f64) -> [f64; 2] {
+        let terms = self.equation.terms(theta);
+        let load = self
+            .equation
+            .loads()
+            .value(self.origin + t, theta, omega, &terms.pose);
+        let arm = match self.prior.unknown {
+            Unknown::Force => terms.pose.dx,
+            _ => 1.0,
+        };
+        let known =
+            load.generalized(&terms.pose) - terms.dv - terms.inertia.half_dm * omega * omega;
+        let m = terms.inertia.m;
+        [(known + arm * unknown) / m, arm / m]
+    }
+
+    /// θ̈ at a state with its derivatives.
+    pub fn rates(&self, t: f64, state: &State) -> Rates {
+        let [theta, omega, unknown, _] = *state;
+        if self.prior.unknown == Unknown::Acceleration {
+            return Rates {
+                alpha: unknown,
+                by_unknown: 1.0,
+                ..Rates::default()
+            };
+        }
+        let [alpha, by_unknown] = self.acceleration(t, theta, omega, unknown);
+        let [mut turned, _] = self.acceleration(t, theta + STEP, omega, unknown);
+        let mut step = STEP;
+        if !turned.is_finite() {
+            // At the limit of a rocker.
+            step = -STEP;
+            [turned, _] = self.acceleration(t, theta + step, omega, unknown);
+        }
+        let faster = STEP * omega.abs().max(1e-3);
+        let [quick, _] = self.acceleration(t, theta, omega + faster, unknown);
+        Rates {
+            alpha,
+            by_theta: (turned - alpha) / step,
+            by_omega: (quick - alpha) / faster,
+            by_unknown,
+        }
+    }
+
+    /// What the fourth state adds to u over a step, per time: 1 of u̇, the change of the speed of g.
+    fn tilt(&self, h: f64, ends: [&State; 2]) -> f64 {
+        match self.prior.follows_speed {
+            true => (ends[1][1] - ends[0][1]) / h,
+            false => 1.0,
+        }
+    }
+
+    /// θ̈ in the middle of a step whose ends are known, with u as the prior predicts it from the first.
+    fn in_the_middle(&self, t: [f64; 2], ends: [&State; 2], rates: [&Rates; 2]) -> f64 {
+        let h = t[1] - t[0];
+        let [a, b] = ends;
+        let theta = 0.5 * (a[0] + b[0])
+            + h * (a[1] - b[1]) * (5.0 / 32.0)
+            + h * h * (rates[0].alpha + rates[1].alpha) / 64.0;
+        let omega = 0.5 * (a[1] + b[1]) + h * (rates[0].alpha - rates[1].alpha) / 8.0;
+        let unknown = a[2] + 0.5 * h * self.tilt(h, ends) * a[3];
+        self.acceleration(0.5 * (t[0] + t[1]), theta, omega, unknown)[0]
+    }
+
+    /// One step of the linear model of the deviations from a nominal path.
+    pub fn linearised(&self, t: [f64; 2], ends: [&State; 2], rates: [&Rates; 2]) -> Linearised {
+        let h = t[1] - t[0];
+        let [a, b] = ends;
+        let mean = |f: fn(&Rates) -> f64| 0.5 * (f(rates[0]) + f(rates[1]));
+        let lever = mean(|r| r.by_unknown);
+        let tilt = self.tilt(h, ends);
+        let mut top = exponential(h, mean(|r| r.by_theta), mean(|r| r.by_omega), lever);
+        top[0][3] *= tilt;
+        top[1][3] *= tilt;
+        let unknown = a[2] + h * tilt * a[3];
+        let after = if self.prior.unknown == Unknown::Acceleration {
+            [0, 1].map(|row| (0..4).map(|k| top[row][k] * a[k]).sum::<f64>())
+        } else {
+            // Simpson's rule for ω and θ; the noise of u is not part of the prediction.
+            let first = rates[0].alpha;
+            let middle = self.in_the_middle(t, ends, rates);
+            let last = rates[1].alpha - rates[1].by_unknown * (b[2] - unknown);
+            [
+                a[0] + h * a[1] + h * h * (first + 2.0 * middle) / 6.0,
+                a[1] + h * (first + 4.0 * middle + last) / 6.0,
+            ]
+        };
+        Linearised {
+            h,
+            top,
+            defect: [
+                after[0] - b[0],
+                after[1] - b[1],
+                unknown - b[2],
+                a[3] - b[3],
+            ],
+            lever,
+            tilt,
+        }
+    }
+}
+
+/// Upper two rows of the transition of (θ, ω, u, u̇) over a time h, for constant derivatives of θ̈: the exponential series
+/// to h⁴.
+pub(super) fn exponential(h: f64, by_theta: f64, by_omega: f64, lever: f64) -> [[f64; 4]; 2] {
+    // Columns of Aⁿ/n! hⁿ for A = [[0, 1], [by_theta, by_omega]].
+    let mut power = [[1.0, 0.0], [0.0, 1.0]];
+    let mut top = [[0.0; 4]; 2];
+    for n in 0..5 {
+        let weight = [h / f64::from(n + 1), h * h / f64::from((n + 1) * (n + 2))];
+        for row in 0..2 {
+            top[row][0] += power[row][0];
+            top[row][1] += power[row][1];
+            top[row][2] += power[row][1] * lever * weight[0];
+            top[row][3] += power[row][1] * lever * weight[1];
+        }
+        let scale = h / f64::from(n + 1);
+        power = power.map(|[p, q]| [scale * q * by_theta, scale * (p + q * by_omega)]);
+    }
+    top
+}
+
+/// One step of the deviations from a nominal path.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Linearised {
+    /// s
+    pub h: f64,
+    /// Rows of θ and ω of the transition.
+    pub top: [[f64; 4]; 2],
+    /// Prediction from the nominal path's begin minus its end.
+    pub defect: State,
+    /// ∂θ̈/∂u
+    pub lever: f64,
+    /// What the fourth state adds to u, per time.
+    pub tilt: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::exponential;
+
+    /// θ̈ = −2 θ + 0.7 θ̇ + 1.7 u for u = 1 + 2 t by 10 000 steps of the midpoint rule.
+    #[test]
+    fn the_transition_solves_the_linear_equation() {
+        let (mut theta, mut omega) = (0.4, -0.2);
+        let (count, h) = (10_000, 0.1);
+        let dt = h / f64::from(count);
+        let rate =
+            |theta: f64, omega: f64, t: f64| -2.0 * theta + 0.7 * omega + 1.7 * (1.0 + 2.0 * t);
+        for k in 0..count {
+            let t = f64::from(k) * dt;
+            let half = omega + 0.5 * dt * rate(theta, omega, t);
+            let there = theta + 0.5 * dt * omega;
+            omega += dt * rate(there, half, t + 0.5 * dt);
+            theta += dt * half;
+        }
+        let top = exponential(h, -2.0, 0.7, 1.7);
+        let found = top.map(|row| row[0] * 0.4 - row[1] * 0.2 + row[2] + 2.0 * row[3]);
+        assert!((found[0] - theta).abs() < 1e-8 && (found[1] - omega).abs() < 1e-7);
+    }
+}
