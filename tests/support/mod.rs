@@ -11,7 +11,6 @@ pub mod instrument;
 pub mod judged;
 pub mod machines;
 pub mod newton;
-pub mod pulses;
 pub mod random;
 pub mod rubbing;
 pub mod run;
