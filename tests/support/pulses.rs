@@ -98,7 +98,11 @@ impl Pulse {
             }
             None => [f64::NEG_INFINITY, f64::INFINITY],
         };
-        let low = if index == 0 { ends[0] } else { edges[index - 1] * self.width };
+        let low = if index == 0 {
+            ends[0]
+        } else {
+            edges[index - 1] * self.width
+        };
         let high = edges.get(index).map_or(ends[1], |edge| edge * self.width);
         Piece {
             of: self.of,
@@ -134,7 +138,12 @@ impl Pulse {
             Some(period) => [self.centre - 0.5 * period, self.centre + 0.5 * period],
             None => [low.min(at(-2.0)), high.max(at(2.0))],
         };
-        let rows = [(-1.2, 0.0), (-1.0, self.height), (1.0, self.height), (1.2, 0.0)];
+        let rows = [
+            (-1.2, 0.0),
+            (-1.0, self.height),
+            (1.0, self.height),
+            (1.2, 0.0),
+        ];
         let inner = rows.map(|(edge, value)| (at(edge), value));
         [&[(first, 0.0)], &inner[..], &[(last, 0.0)]].concat()
     }
@@ -196,7 +205,12 @@ impl Piece {
     fn value(&self, t: f64, state: [f64; 2]) -> f64 {
         let u = (self.of(t, state) - self.origin) / self.width;
         let [a, b, c] = self.form;
-        self.height * if a.is_nan() { (-u * u).exp() } else { a + u * (b + u * c) }
+        self.height
+            * if a.is_nan() {
+                (-u * u).exp()
+            } else {
+                a + u * (b + u * c)
+            }
     }
 
     /// How far beyond its edges the argument is, in widths; negative inside.
@@ -247,11 +261,21 @@ impl Case {
 
     fn pulse(&self, chance: &mut Chance, turns: f64, energy: f64) -> Pulse {
         let of = chance.one_of(&[Of::T, Of::Theta, Of::Omega]);
-        let shapes = [Shape::Gauss, Shape::Parabola, Shape::Tent, Shape::Box, Shape::Table];
+        let shapes = [
+            Shape::Gauss,
+            Shape::Parabola,
+            Shape::Tent,
+            Shape::Box,
+            Shape::Table,
+        ];
         let shape = chance.one_of(&shapes);
         let share = chance.between(0.02, 0.3) * chance.one_of(&[1.0, 1.0, -0.3]);
         let (low, span, mut width) = match of {
-            Of::T => (0.0, self.duration, self.duration * chance.magnitude(1e-5, 0.1)),
+            Of::T => (
+                0.0,
+                self.duration,
+                self.duration * chance.magnitude(1e-5, 0.1),
+            ),
             Of::Theta => {
                 let degrees = chance.magnitude(0.01, 30.0);
                 (self.angle, turns * TAU, degrees.to_radians())

@@ -103,6 +103,8 @@ fn size(missed: f64) -> f64 {
 /// What was found from the start of a panel on.
 struct Search {
     look: Look,
+    /// What is looked at: all but corners at the ends.
+    whole: [f64; 2],
     /// Integral of what the nodes miss, before the first corner and behind it.
     missed: [f64; 2],
     is_missed: bool,
@@ -115,6 +117,7 @@ impl Search {
     fn new(look: Look) -> Search {
         Search {
             look,
+            whole: [0.0, 1.0],
             missed: [0.0; 2],
             is_missed: false,
             first: None,
@@ -126,7 +129,8 @@ impl Search {
     fn run(mut self, way: &impl Way) -> Option<Hidden> {
         let mut left = [[0.0; 2]; HALVINGS as usize + 2];
         let begin = self.look.end(way, |end| [0.0, end]);
-        left[0] = [begin, 1.0 - self.look.end(way, |end| [1.0 - end, 1.0])];
+        self.whole = [begin, 1.0 - self.look.end(way, |end| [1.0 - end, 1.0])];
+        left[0] = self.whole;
         let (mut count, mut pieces) = (1, 0);
         while count > 0 {
             let [from, to] = left[count - 1];
@@ -137,7 +141,7 @@ impl Search {
                     at: from,
                     is_corner: false,
                 };
-                return self.place().or((from > 0.0).then_some(here));
+                return self.place().or((from > self.whole[0]).then_some(here));
             }
             let detail = self.look.detail(way, from, to);
             match self.look.nodes_for(&detail) {
@@ -169,7 +173,8 @@ impl Search {
 
     /// The first corner, or else an end of the piece on which something was missed first.
     fn place(&self) -> Option<Hidden> {
-        let inside = |at: &f64| *at > 0.0 && *at < 1.0;
+        let [begin, end] = self.whole;
+        let inside = |at: &f64| *at > begin && *at < end;
         let mut ends = self.first.into_iter().flatten();
         let at = self.corner.or_else(|| ends.find(inside))?;
         let is_corner = self.corner.is_some();
@@ -181,7 +186,7 @@ impl Search {
     }
 
     fn note_corner(&mut self, detail: &Detail, from: f64, to: f64) {
-        let is_at_end = from == 0.0 || to == 1.0;
+        let is_at_end = from == self.whole[0] || to == self.whole[1];
         if detail.around.is_none() && !is_at_end && self.corner.is_none() {
             self.corner = Some(0.5 * (from + to));
             self.is_missed |= !self.look.compares;

@@ -1,0 +1,184 @@
+//! Narrow pulses: no engine may step over one, in angle, time or speed, in whatever turn it stands.
+
+use std::f64::consts::PI;
+
+use slider_crank::plan::Method;
+use slider_crank::scene::{Crank, Expression, Interpolation, Load, Scene, Slider, Table, Variable};
+use slider_crank::study::{Options, Simulation, simulate};
+
+use crate::support::pulses::{Case, Chance, MACHINE, Of, Pulse, Shape};
+
+/// Random scenes, unless the environment says another number: 1000 take some minutes.
+const CASES: u64 = 60;
+const MORE_CASES: &str = "SLIDER_CRANK_PULSES";
+
+fn machine(angle: f64, speed: f64) -> Scene {
+    let [r, l, inertia, mass] = MACHINE;
+    Scene::new(r, l)
+        .crank(Crank {
+            inertia,
+            ..Crank::default()
+        })
+        .slider(Slider { mass })
+        .start(angle, speed)
+}
+
+fn formula(text: &str) -> Load {
+    Load::Expression(Expression::parse(text).expect("a formula"))
+}
+
+fn load(pulse: &Pulse) -> Load {
+    if pulse.shape != Shape::Table {
+        return formula(&pulse.formula());
+    }
+    let (of, low, high) = match pulse.of {
+        Of::T => (Variable::T, -1.0, 100.0),
+        Of::Theta => (Variable::Theta, -100.0, 1000.0),
+        Of::Omega => (Variable::Omega, -1000.0, 1e4),
+    };
+    let (at, values): (Vec<f64>, Vec<f64>) = pulse.rows(low, high).into_iter().unzip();
+    let table = Table::new(of, &at, &values, Interpolation::Linear, pulse.period());
+    Load::Table(table.expect("a table"))
+}
+
+fn scene(case: &Case) -> Scene {
+    let start = machine(case.angle, case.speed)
+        .torque(Load::Constant(case.torque))
+        .torque(Load::Viscous(case.viscous))
+        .duration(case.duration);
+    let loads = case.pulses.iter().map(load);
+    loads.fold(start, Scene::torque)
+}
+
+fn run(scene: &Scene, method: Method) -> Result<Simulation, slider_crank::Error> {
+    let options = Options {
+        method,
+        ..Options::default()
+    };
+    simulate(scene, &options)
+}
+
+/// Whether a run ends at an angle and a speed within ten times its stated errors and the tolerance, and how far it is off.
+fn agrees(simulation: &Simulation, [theta, omega]: [f64; 2]) -> Result<(), String> {
+    let summary = &simulation.summary;
+    let stated = summary.error_estimate.expect("an estimate");
+    let last = &summary.last;
+    let off = [last.theta_rad - theta, last.omega_rad_per_s - omega].map(f64::abs);
+    let tolerance = 1e-10;
+    let allowed = [
+        10.0 * stated.theta_rad + tolerance * (1.0 + theta.abs()),
+        10.0 * stated.omega_rad_per_s + tolerance * (1.0 + omega.abs()),
+    ];
+    match off[0] <= allowed[0] && off[1] <= allowed[1] {
+        true => Ok(()),
+        false => Err(format!("off by {off:?}, stated {stated:?}")),
+    }
+}
+
+#[test]
+fn random_pulses_are_met_by_every_method() {
+    let asked = std::env::var(MORE_CASES).ok();
+    let count = asked.map_or(CASES, |count| count.parse().expect("a number"));
+    let mut compared = 0;
+    for seed in 0..count {
+        let case = Case::random(&mut Chance(seed * 1_000_003));
+        let Some(end) = case.reference() else {
+            continue;
+        };
+        let scene = scene(&case);
+        for method in [Method::Auto, Method::Time, Method::Angle, Method::Dop853] {
+            let simulation = match run(&scene, method) {
+                Ok(simulation) => simulation,
+                // What it cannot serve it refuses.
+                Err(_) if method == Method::Angle => continue,
+                Err(error) => panic!("seed {seed}: {error}"),
+            };
+            if let Err(off) = agrees(&simulation, end) {
+                panic!("seed {seed}, {method}: {off}\n{case:?}");
+            }
+            compared += 1;
+        }
+    }
+    assert!(compared > 2 * count, "{compared} of {count}");
+}
+
+/// Loads, start and turns or time, and where they end: DOP853 of SciPy at 1e-13, in pieces between the edges of the pulses.
+struct Pulsed {
+    torque: Option<&'static str>,
+    force: Option<&'static str>,
+    viscous: f64,
+    start: [f64; 2],
+    turns: f64,
+    /// Time, s, and speed, rad/s, at the end.
+    end: [f64; 2],
+}
+
+const PULSED: [Pulsed; 3] = [
+    Pulsed {
+        torque: None,
+        force: Some("-2000*exp(-((theta-20.4)/0.035)^2)"),
+        viscous: 0.0,
+        start: [PI, 30.0],
+        turns: 4.0,
+        end: [0.7917457751121301, 39.04480748598993],
+    },
+    Pulsed {
+        torque: None,
+        force: Some("-3000*max(0, 1-((theta-27)/0.07)^2)"),
+        viscous: 0.005,
+        start: [0.0, 40.0],
+        turns: 6.0,
+        end: [0.9850338378692461, 45.486449265600214],
+    },
+    Pulsed {
+        torque: Some("300*exp(-((t-0.5)/0.0003)^2)"),
+        force: None,
+        viscous: 0.001,
+        start: [0.0, 10.0],
+        turns: 5.0,
+        end: [2.1140885404179226, 16.12949775392015],
+    },
+];
+
+#[test]
+fn a_blow_in_a_later_turn_is_met() {
+    for pulsed in &PULSED {
+        let [angle, speed] = pulsed.start;
+        let mut scene = machine(angle, speed).revolutions(pulsed.turns);
+        if let Some(text) = pulsed.torque {
+            scene = scene.torque(formula(text));
+        }
+        if let Some(text) = pulsed.force {
+            scene = scene.force(formula(text));
+        }
+        if pulsed.viscous != 0.0 {
+            scene = scene.torque(Load::Viscous(pulsed.viscous));
+        }
+        for method in [
+            Method::Auto,
+            Method::Time,
+            Method::Angle,
+            Method::Dop853,
+            Method::Dopri5,
+        ] {
+            let simulation = match run(&scene, method) {
+                Err(_) if method == Method::Angle => continue,
+                run => run.expect("a run"),
+            };
+            let summary = &simulation.summary;
+            let stated = summary.error_estimate.expect("an estimate");
+            let last = &summary.last;
+            let [t, omega] = pulsed.end;
+            let off = (last.omega_rad_per_s - omega).abs();
+            // The reference is good to 1e-9.
+            let allowed = 2.0 * stated.omega_rad_per_s + 1e-9;
+            assert!(
+                off <= allowed,
+                "{method}: {off:e} {:?} {:?}",
+                pulsed.torque,
+                pulsed.force
+            );
+            assert!((last.t_s - t).abs() <= 1e-8, "{method}: {} {t}", last.t_s);
+        }
+    }
+}
