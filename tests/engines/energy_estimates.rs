@@ -198,10 +198,10 @@ impl Profile for Ellipse {
 /// inside the panels, and of many turns.
 #[test]
 fn the_tails_of_series_are_stated() {
-    for e in [0.5, 0.8, 0.95] {
+    for e in [0.9, 0.95, 0.98] {
         let motion = Ellipse(e);
         let period = 2.0 * PI / motion.rate();
-        for tolerance in [1e-4, 1e-6, 1e-8] {
+        for tolerance in [1e-3, 1e-6, 1e-8] {
             let start = Angle::from(0.0);
             let orbit = Orbit::new(&motion, start, 1.0 + e, period, tolerance).unwrap();
             for (first, what) in [(0.0, "first turn"), (1e4, "after many")] {
@@ -219,7 +219,8 @@ fn the_tails_of_series_are_stated() {
                 for [error, stated] in [late, fast] {
                     let message = format!("{e} {tolerance} {what}: {error:e} {stated:e}");
                     assert!(error <= 2.0 * stated + 1e-14 * (1.0 + first), "{message}");
-                    assert!(stated <= 100.0 * error + 1e-14 * (1.0 + first), "{message}");
+                    // The terms that follow alternate, and partly cancel over a turn.
+                    assert!(stated <= 600.0 * error + 1e-14 * (1.0 + first), "{message}");
                 }
             }
         }

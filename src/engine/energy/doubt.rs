@@ -28,7 +28,7 @@ impl Orbit {
         let duration = later.map_or(self.forward.duration.0, |later| later.end())
             + back.map_or(0.0, |leg| leg.duration.0);
         let left_out = match self.panel_at(until) {
-            Some(panel) => panel.left_out(),
+            Some((panel, _)) => panel.left_out(),
             None => self.forward.left_out,
         };
         error / duration * until + left_out
@@ -37,7 +37,7 @@ impl Orbit {
     /// How far the place of the state at a time (s) is rounded, rad: it is a way on a panel, and an angle. None after the
     /// first turns of many.
     pub fn rounding(&self, t: f64) -> Option<f64> {
-        let piece = &self.panel_at(t)?.piece;
+        let piece = &self.panel_at(t)?.0.piece;
         let most = piece.from.abs().max(piece.to.abs());
         Some(0.5 * f64::EPSILON * (piece.span().abs() + most))
     }
@@ -45,12 +45,14 @@ impl Orbit {
     /// What the series leave out of the speed at a time (s), relative to it.
     pub fn speed_error(&self, t: f64) -> f64 {
         self.panel_at(t)
-            .map_or(self.forward.tail, |panel| panel.tail)
+            .map_or(self.forward.tail, |(panel, after)| {
+                panel.left_out_of_speed(after)
+            })
     }
 
     /// How far the kinetic energy (J) of the state at a time (s) may be off, J.
     pub fn energy_error(&self, t: f64, kinetic: f64) -> f64 {
-        self.panel_at(t).map_or(self.off, |panel| {
+        self.panel_at(t).map_or(self.off, |(panel, _)| {
             panel.off
                 * match panel.piece.turning {
                     Turning::Nowhere => 1.0,
@@ -63,17 +65,17 @@ impl Orbit {
     /// there: where the crank is slow, its place is off by that, however exact the time.
     pub fn misplaced(&self, t: f64) -> f64 {
         let there = self.panel_at(t).filter(|_| self.turns_back());
-        there.map_or(0.0, |panel| panel.misplaced)
+        there.map_or(0.0, |(panel, _)| panel.misplaced)
     }
 
-    /// The panel on which the state at a time (s) lies; none after the first turns of many.
-    fn panel_at(&self, t: f64) -> Option<&Panel> {
+    /// The panel on which the state at a time (s) lies, and the time since its begin, s; none after the first turns of many.
+    fn panel_at(&self, t: f64) -> Option<(&Panel, f64)> {
         if self.later.is_some() && t > self.forward.duration.0 {
             return None;
         }
         let (_, after) = self.split(t);
         if !self.turns_back() {
-            return Some(self.forward.panel_at(after)?.0);
+            return self.forward.panel_at(after);
         }
         let there = 2.0 * self.forward.duration.0;
         match &self.backward {
@@ -83,8 +85,7 @@ impl Orbit {
     }
 }
 
-/// The panel of a leg that is run through to and fro.
-fn to_and_fro(leg: &Leg, since: f64) -> Option<&Panel> {
-    let since = since.min(2.0 * leg.duration.0 - since);
-    leg.panel_at(since).map(|(panel, _)| panel)
+/// The panel of a leg that is run through to and fro, and the time since its begin, s.
+fn to_and_fro(leg: &Leg, since: f64) -> Option<(&Panel, f64)> {
+    leg.panel_at(since.min(2.0 * leg.duration.0 - since))
 }

@@ -201,6 +201,13 @@ impl Panel {
         self.tail / self.rule.degree() as f64 * self.duration.0
     }
 
+    /// What the series leaves out of the speed a time `after` its start (s), relative to it: the more the smaller dt/dx
+    /// is there.
+    pub fn left_out_of_speed(&self, after: f64) -> f64 {
+        let here = self.slope.value(self.position(after)).abs();
+        self.tail * self.slope.largest() / here
+    }
+
     /// Angle and speed a time `after` its start, rad and rad/s; the sign of the speed is that of the panel.
     pub fn state(&self, after: f64) -> (f64, f64) {
         let x = self.position(after);
