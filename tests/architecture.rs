@@ -377,3 +377,58 @@ fn files_that_may_be_longer_are_there() {
         );
     }
 }
+
+/// Major and minor number of a version of Rust.
+fn version(text: &str) -> [u32; 2] {
+    let mut numbers = text.split('.').map(|part| part.parse().expect("a version"));
+    std::array::from_fn(|_| numbers.next().unwrap_or(0))
+}
+
+/// The Rust that Cargo.toml states is the one of the README, and enough for all that is compiled with it.
+#[test]
+fn the_stated_rust_is_enough_for_every_dependency() {
+    let root = env!("CARGO_MANIFEST_DIR");
+    let mut command = std::process::Command::new(env!("CARGO"));
+    command.args(["metadata", "--format-version=1", "--locked", "--offline"]);
+    let output = command.current_dir(root).output().expect("cargo");
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let metadata: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let packages = metadata["packages"].as_array().expect("packages");
+    let stated = |package: &serde_json::Value| package["rust_version"].as_str().map(version);
+    let ours = packages
+        .iter()
+        .find(|package| package["name"] == "slider-crank");
+    let ours = ours.and_then(stated).expect("rust-version in Cargo.toml");
+    for package in packages {
+        assert!(
+            stated(package).is_none_or(|needed| needed <= ours),
+            "{}",
+            package["name"]
+        );
+    }
+    let readme = fs::read_to_string(Path::new(root).join("README.md")).expect("README.md");
+    let said = format!("Rust, {}.{} or later", ours[0], ours[1]);
+    assert!(readme.contains(&said), "README.md does not say `{said}`");
+}
+
+/// Of the language (clippy knows the library's part) these are younger than the stated Rust.
+#[test]
+fn no_source_is_younger_than_the_stated_rust() {
+    const YOUNGER: [(&str, &str); 2] = [
+        ("; _]", "lengths of arrays are inferred since 1.89"),
+        ("cfg_select!", "since 1.95"),
+    ];
+    for source in sources() {
+        for (text, since) in YOUNGER {
+            assert!(
+                !source.code.contains(text),
+                "src/{}: `{text}`: {since}",
+                source.place
+            );
+        }
+    }
+}

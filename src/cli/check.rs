@@ -8,13 +8,13 @@ use super::reading::ReadingArguments;
 use super::{Outcome, print, say, scene};
 use crate::error::Error;
 use crate::plan;
-use crate::scene::{Measurement, Reading};
+use crate::scene::{Measurement, Reading, load_table};
 
 /// Arguments of `check`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
-    /// Scene file, or measured motion as a file ending in .csv; `-` for a scene from standard input; without it the
-    /// built-in Duarte engine
+    /// Scene file, or measured motion or the table of a load as a file ending in .csv; `-` for a scene from standard
+    /// input; without it the built-in Duarte engine
     scene: Option<PathBuf>,
     #[command(flatten)]
     reading: ReadingArguments,
@@ -27,6 +27,18 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
             .extension()
             .is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
     {
+        if reading == Reading::default()
+            && let Some(table) = load_table(file)?
+        {
+            print(&format!(
+                "{}: nothing is wrong with a table of {} over {} with {} rows\n",
+                file.display(),
+                table.gives,
+                table.of.name(),
+                table.rows
+            ))?;
+            return Ok(Outcome::Done);
+        }
         let motion = Measurement::load(file, &reading)?;
         print(&format!(
             "{}: nothing is wrong with {} samples of {}\n",
@@ -41,7 +53,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     }
     if reading != Reading::default() {
         return Err(Error::refused(
-            "--column, --columns and --decimal say how measured motion is read, and this is a scene",
+            "options such as --column, --time and --decimal say how measured motion is read, and this is a scene",
             "give a file ending in .csv, or leave them out",
         ));
     }

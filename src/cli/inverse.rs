@@ -95,7 +95,7 @@ fn measurement(arguments: &Arguments) -> Result<Measurement, Error> {
             }
         }),
         (None, None) if reading != Reading::default() => Err(Error::refused(
-            "--column, --columns and --decimal say how measured motion is read, and no file is given",
+            "options such as --column, --time and --decimal say how measured motion is read, and no file is given",
             "slider-crank inverse SCENE DATA.csv",
         )),
         (None, None) => Ok(Measurement::duarte()),

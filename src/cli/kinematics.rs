@@ -71,7 +71,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     if let Some((stroke, ratio)) = arguments.stroke.zip(arguments.rod_ratio) {
         let (crank, rod) = study::size_from_stroke(stroke, ratio, scene.geometry.offset)?;
         (scene.geometry.crank, scene.geometry.rod) = (crank, rod);
-        say(&format!("sized: crank {crank} m, rod {rod} m"));
+        say(&report::sized(crank, rod));
     }
     let result = study::one_turn(&scene, &arguments.options())?;
     let (out, plot) = (

@@ -2,6 +2,7 @@
 
 use clap::Args;
 
+use crate::scene::unit::{self, Quantity};
 use crate::scene::{Measured, Reading};
 
 /// Options of all commands that read measured motion.
@@ -13,9 +14,28 @@ pub(super) struct ReadingArguments {
     /// What the columns of a file without header are, like "t [s],theta [deg]"
     #[arg(long, value_name = "HEADER")]
     columns: Option<String>,
+    /// The column of the time, by header or number, with its unit: "2[ms]"
+    #[arg(long, value_name = "COL[UNIT]")]
+    time: Option<String>,
+    /// The column of the motion, by header or number, with its unit: "Winkel[deg]", "3[counts]"
+    #[arg(long, value_name = "COL[UNIT]")]
+    motion: Option<String>,
+    /// Counts of an encoder in a turn of the crank
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1..))]
+    counts_per_turn: Option<u32>,
+    /// What the sensor of x shows where the slider is at the crank pivot, like "12.5 mm"
+    #[arg(long, value_name = "LENGTH", value_parser = length, allow_hyphen_values = true)]
+    x_zero: Option<f64>,
+    /// Lines above the header
+    #[arg(long, value_name = "NUMBER", default_value_t = 0)]
+    skip: usize,
     /// What numbers have between units and tenths, point or comma; with comma, semicolons or tabs separate the columns
     #[arg(long, value_name = "MARK", default_value = "point", value_parser = ["point", "comma"])]
     decimal: String,
+}
+
+fn length(text: &str) -> Result<f64, String> {
+    unit::parse(text, Quantity::Length).map_err(|error| error.to_string())
 }
 
 impl ReadingArguments {
@@ -23,6 +43,11 @@ impl ReadingArguments {
         Reading {
             columns: self.columns.clone(),
             column: self.column,
+            time: self.time.clone(),
+            motion: self.motion.clone(),
+            counts_per_turn: self.counts_per_turn,
+            x_zero: self.x_zero.unwrap_or(0.0),
+            skip: self.skip,
             decimal_comma: self.decimal == "comma",
         }
     }

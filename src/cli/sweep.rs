@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{self, SweepWriter};
 use crate::scene::{Draft, Varied};
-use crate::study::{Sweep, SweepOptions};
+use crate::study::{SteadyOptions, Sweep, SweepOptions};
 
 /// Arguments of `sweep`.
 #[derive(Debug, Args)]
@@ -38,6 +38,12 @@ pub(super) struct Arguments {
     /// Adds the largest joint, guide and shaking forces of the motion
     #[arg(long)]
     reactions: bool,
+    /// Adds speeds, fluctuation and power of the periodic steady state
+    #[arg(long)]
+    steady_state: bool,
+    /// Adds the flywheel for this coefficient of speed fluctuation in the steady state
+    #[arg(long, value_name = "NUMBER", requires = "steady_state")]
+    fluctuation: Option<f64>,
     /// auto, closed-form, energy, angle, time, dop853 or dopri5
     #[arg(long, default_value = "auto")]
     method: Method,
@@ -73,6 +79,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let options = SweepOptions {
         motion: !arguments.no_motion,
         reactions: arguments.reactions,
+        steady: arguments.steady_state.then_some(SteadyOptions {
+            fluctuation: arguments.fluctuation,
+            max_evaluations: arguments.max_evaluations,
+        }),
         method: arguments.method,
         estimate: !arguments.no_estimate,
         max_evaluations: arguments.max_evaluations,

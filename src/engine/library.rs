@@ -30,6 +30,14 @@ impl Method {
             Method::Dopri5 => 6,
         }
     }
+
+    /// The order of its steps.
+    pub fn order(self) -> usize {
+        match self {
+            Method::Dop853 => 8,
+            Method::Dopri5 => 5,
+        }
+    }
 }
 
 /// How one call ended.

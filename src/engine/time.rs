@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use super::library::{self, Call, Ended};
 use super::pace::{Ends, Pace};
 use super::picard;
+use super::sight::Proof;
 use super::step::{Node, Step};
 use super::{Counted, Motion};
 use crate::numeric::angle::Angle;
@@ -141,13 +142,17 @@ fn in_calls(
         return (Finish::NoStart, last, steps);
     }
     let mut first_step = 0.0;
+    let mut proof = Proof::new(motion, settings.tolerance, method.order());
+    let mut hidden = f64::INFINITY;
     loop {
         let spent = motion.evaluations();
         if spent >= settings.max_evaluations {
             return (Finish::WorkLimit, last, steps);
         }
-        let mut in_call = 0;
-        let (mut ended_by_sink, mut too_long) = (false, None);
+        if hidden <= node.t {
+            hidden = f64::INFINITY;
+        }
+        let (mut in_call, mut ended_by_sink, mut rejected) = (0, false, None);
         let left = (settings.max_evaluations - spent) / method.evaluations_in_a_step();
         let ended = library::integrate(Call {
             motion,
@@ -155,14 +160,13 @@ fn in_calls(
             tolerance: settings.tolerance,
             turns: angle.turns,
             start: node,
-            t_end: motion.next_corner(node.t).min(settings.t_end),
+            t_end: motion.next_corner(node.t).min(settings.t_end).min(hidden),
             first_step,
             max_steps: left.min(u64::from(u32::MAX)) as u32,
             work_unit: settings.work_unit,
             observer: &mut |step| {
-                let travel = (step.end.theta - step.start.theta).abs();
-                if travel > LONGEST {
-                    too_long = Some(step.length() * TAU / travel);
+                rejected = Rejected::of(step, &mut proof);
+                if rejected.is_some() {
                     return true;
                 }
                 last = *step;
@@ -172,24 +176,42 @@ fn in_calls(
             },
         });
         steps += in_call as u64;
-        if let Some(shorter) = too_long {
-            // Once more from its start.
-            (angle, node) = carried_on(&last);
-            first_step = shorter;
-            continue;
-        }
         let finish = match ended {
-            Ended::WorkLimit => Finish::WorkLimit,
-            Ended::StepTooSmall => Finish::StepTooSmall,
-            Ended::Stopped if ended_by_sink => Finish::Stopped,
-            Ended::AtEnd | Ended::Stopped if last.end.t >= settings.t_end => Finish::AtEnd,
-            Ended::AtEnd | Ended::Stopped => {
-                (angle, node) = carried_on(&last);
-                first_step = last.length();
-                continue;
-            }
+            _ if rejected.is_some() => None,
+            Ended::WorkLimit => Some(Finish::WorkLimit),
+            Ended::StepTooSmall => Some(Finish::StepTooSmall),
+            Ended::Stopped if ended_by_sink => Some(Finish::Stopped),
+            Ended::AtEnd | Ended::Stopped if last.end.t >= settings.t_end => Some(Finish::AtEnd),
+            Ended::AtEnd | Ended::Stopped => None,
         };
-        return (finish, last, steps);
+        if let Some(finish) = finish {
+            return (finish, last, steps);
+        }
+        (angle, node) = carried_on(&last);
+        first_step = last.length();
+        match rejected {
+            Some(Rejected::TooLong(shorter)) => first_step = shorter,
+            Some(Rejected::Hides(until)) => hidden = until,
+            None => {}
+        }
+    }
+}
+
+/// Why an accepted step of the library is made again from its start.
+enum Rejected {
+    /// The crank turns too far in it; the length to try, s.
+    TooLong(f64),
+    /// It hides part of a load; the time at which it has to end, s.
+    Hides(f64),
+}
+
+impl Rejected {
+    fn of(step: &Step, proof: &mut Proof<'_>) -> Option<Rejected> {
+        let travel = (step.end.theta - step.start.theta).abs();
+        if travel > LONGEST {
+            return Some(Rejected::TooLong(step.length() * TAU / travel));
+        }
+        proof.hides(step).map(Rejected::Hides)
     }
 }
 

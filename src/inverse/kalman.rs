@@ -14,8 +14,6 @@ pub(super) type Matrix<const N: usize> = [[f64; N]; N];
 pub(super) struct Step<const N: usize> {
     /// Φ
     pub transition: Matrix<N>,
-    /// Φ⁻¹
-    pub inverse: Matrix<N>,
     /// c
     pub offset: Vector<N>,
     /// Q
@@ -39,6 +37,8 @@ pub(super) trait Model<const N: usize> {
     fn nodes(&self) -> usize;
     /// The step from a node to the next.
     fn step(&self, node: usize) -> Step<N>;
+    /// Φ⁻¹ of the step from a node to the next.
+    fn inverse(&self, node: usize) -> Matrix<N>;
     /// What was measured at a node.
     fn sample(&self, node: usize) -> Option<Sample<N>>;
     /// Mean and covariance before the first sample.
@@ -163,7 +163,7 @@ pub(super) fn smooth<const N: usize>(
     let mut now = last;
     for node in (0..nodes - 1).rev() {
         let predicted = std::mem::replace(&mut path[node + 1], now);
-        now = earlier(&model.step(node), &predicted, &now);
+        now = earlier(&model.step(node), &model.inverse(node), &predicted, &now);
     }
     path[0] = now;
     (path, innovations)
@@ -173,6 +173,7 @@ pub(super) fn smooth<const N: usize>(
 #[inline]
 fn earlier<const N: usize>(
     step: &Step<N>,
+    inverse: &Matrix<N>,
     predicted: &Gaussian<N>,
     later: &Gaussian<N>,
 ) -> Gaussian<N> {
@@ -194,8 +195,8 @@ fn earlier<const N: usize>(
     }
     let before = congruent(&kept, &later.covariance, &left);
     Gaussian {
-        mean: times(&step.inverse, &back),
-        covariance: congruent(&step.inverse, &before, &[[0.0; N]; N]),
+        mean: times(inverse, &back),
+        covariance: congruent(inverse, &before, &[[0.0; N]; N]),
     }
 }
 

@@ -2,14 +2,14 @@
 //! intensity of its noise; the variance of a sample is profiled out.
 
 use super::kalman::{self, Evidence};
-use super::state_space::{Autoregression, Deviations, Linearised, Observed, State};
+use super::state_space::{Autoregression, Deviations, Linearised, Observed, Prior, State};
 
 /// Stretches of nodes with their linear models, and the scales of the search.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Linear<'a> {
     /// Steps and samples of each stretch.
     pub stretches: &'a [Stretch],
-    pub order: usize,
+    pub prior: Prior,
     pub scales: Scales,
 }
 
@@ -33,6 +33,8 @@ pub(super) struct Scales {
     pub lever: f64,
     /// θ̈, rad/s², and its rate, rad/s³, root mean squares: spread of the prior before the first sample.
     pub motion: [f64; 2],
+    /// ω, rad/s, root mean square about its mean.
+    pub speed: f64,
     /// Least standard deviation of a sample, rad or m.
     pub floor: f64,
 }
@@ -78,23 +80,38 @@ impl Scales {
 }
 
 impl Linear<'_> {
+    /// Standard deviations of the state before the first sample, in σ.
+    fn spread(&self) -> State {
+        let mut spread = self.scales.spread();
+        if self.prior.follows_speed {
+            // Such a g makes as much of the speed as the spread of u has.
+            spread[3] = spread[2] / self.scales.speed;
+        }
+        spread
+    }
+
     /// The linear model of one stretch.
     pub fn deviations<'a>(&self, stretch: &'a Stretch, noise: &Noise) -> Deviations<'a> {
+        let corner = self.scales.density(noise.corner, self.prior.noisy());
+        let (rate, level) = match self.prior.follows_speed {
+            true => (0.0, corner),
+            false => (corner, self.scales.density(noise.level, 1)),
+        };
         Deviations {
             steps: &stretch.steps,
             observed: &stretch.observed,
-            order: self.order,
-            noise: self.scales.density(noise.corner, self.order),
-            level: self.scales.density(noise.level, 1),
+            order: self.prior.order,
+            noise: rate,
+            level,
             correlated: noise.correlated,
-            spread: self.scales.spread(),
+            spread: self.spread(),
         }
     }
 
     fn evidence(&self, noise: &Noise) -> Evidence {
         let of = |stretch: &Stretch| {
             let model = self.deviations(stretch, noise);
-            match (self.order, noise.correlated) {
+            match (self.prior.order, noise.correlated) {
                 (1, None) => kalman::evidence::<3>(&model),
                 (1, Some(_)) | (2, None) => kalman::evidence::<4>(&model),
                 _ => kalman::evidence::<5>(&model),
@@ -118,20 +135,25 @@ impl Linear<'_> {
     /// Noise with its likelihood and its σ.
     fn evaluated(&self, mut noise: Noise) -> Noise {
         let evidence = self.evidence(&noise);
-        let dimension = 2 + self.order;
+        let dimension = 2 + self.prior.order;
         let starts = (dimension * self.stretches.len()) as f64;
         let free = evidence.samples as f64 - starts;
         noise.sigma = (evidence.squares / free.max(1.0))
             .sqrt()
             .max(self.scales.floor);
-        let spread = self.scales.spread();
+        let spread = self.spread();
         let Scales {
             lever,
             motion: [alpha, jerk],
+            speed,
             ..
         } = self.scales;
         // The spreads of θ and ω are the same for all priors.
-        let prior = [1.0, 1.0, alpha / lever, jerk / lever];
+        let fourth = match self.prior.follows_speed {
+            true => alpha / speed,
+            false => jerk,
+        };
+        let prior = [1.0, 1.0, alpha / lever, fourth / lever];
         let start: f64 = (0..dimension).map(|k| (spread[k] / prior[k]).ln()).sum();
         let likelihood = start * self.stretches.len() as f64
             - free * noise.sigma.ln()
@@ -156,32 +178,6 @@ impl Linear<'_> {
             guess.ln().clamp(lowest, highest),
             [lowest, highest],
         )
-    }
-
-    /// The largest likelihood over both corner frequencies, that of the rate of u and that of u itself.
-    pub fn mixed(&self, from: &Noise) -> Noise {
-        let mut best = *from;
-        for _ in 0..ROUNDS {
-            let before = best;
-            let level = if best.level > 0.0 {
-                best.level
-            } else {
-                best.corner
-            };
-            best = better(
-                best,
-                self.over(level, |level| self.evaluated(Noise { level, ..before })),
-            );
-            let now = best;
-            best = better(
-                best,
-                self.over(now.corner, |corner| self.evaluated(Noise { corner, ..now })),
-            );
-            if best.likelihood - before.likelihood < 0.1 {
-                break;
-            }
-        }
-        best
     }
 
     /// The largest likelihood over corner frequencies all over the range.

@@ -5,6 +5,7 @@
 mod as_printed;
 mod bands;
 mod branch_tracking;
+mod first_path;
 mod fitted;
 mod guide;
 mod inverse_dynamics;
@@ -15,6 +16,9 @@ mod measurement_model;
 mod motion_estimate;
 mod outliers;
 mod polynomial;
+mod problem;
+mod quantised;
+mod record;
 mod residual_tests;
 mod row;
 mod smoother;
@@ -149,7 +153,7 @@ pub fn inverse(
     };
     let angles = branch_tracking::crank_angles(&sensor, measurement, &scene.motion)?;
     let noted = angles.warnings.clone();
-    let fitted = Fitted::new(sensor, measurement, angles, &equation, options)
+    let fitted = Fitted::new(sensor, measurement, &angles, &equation, options)
         .map_err(|what| Error::refused(what, "give more samples, or another --fit or --degree"))?;
     let backwards = Backwards {
         equation: &equation,
@@ -164,6 +168,11 @@ pub fn inverse(
     let mut warnings = measurement.notes().to_vec();
     warnings.extend(noted);
     warnings.extend(warnings::of_scene(scene, options));
+    warnings.extend(warnings::of_motion(
+        scene,
+        measurement.measured(),
+        &found.rows,
+    ));
     warnings.extend(locked);
     warnings.extend(warnings::of_fit(&fitted, measurement));
     let summary = InverseSummary::new(

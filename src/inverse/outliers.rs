@@ -1,7 +1,8 @@
 //! Samples that are far off: noise as a mixture of two normal distributions, of which the wider one has few samples (variance
 //! inflation; Box and Tiao, Biometrika 55 (1968) 119). Each sample counts by the probability that it belongs to the narrow one.
 
-use super::smoother::{Problem, Smoothed};
+use super::problem::Problem;
+use super::smoother::Smoothed;
 use crate::numeric::median::median;
 
 /// Standard deviations beyond which a sample is looked at: one in 10⁸ of noise.

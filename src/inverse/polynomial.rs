@@ -1,56 +1,80 @@
-//! A polynomial of the crank angle over time by least squares.
+//! A polynomial of the crank angle over time: least squares in terms of what was measured, by Gauss-Newton iterations where
+//! that is not the crank angle itself.
 
 use super::motion_estimate::MotionEstimate;
-use crate::numeric::fit::{Curve, Kind, Samples, Size};
+use super::record::Record;
+use crate::numeric::parallel;
+use crate::numeric::polynomial_fit::{Equations, PolynomialFit};
 
-/// A fitted polynomial.
+/// Most iterations of Gauss and Newton, and those after which the degree stays.
+const ITERATIONS: usize = 30;
+const CHOICES: usize = 3;
+
+/// Change of the crank angle, rad, at which the iterations have come to rest.
+const AT_REST: f64 = 1e-10;
+
+/// A fitted polynomial and the motion at its samples.
 #[derive(Clone, Debug)]
 pub(super) struct Polynomial {
-    pub degree: usize,
-    pub sigma: f64,
-    pub floor: f64,
-    pub coefficients: Vec<f64>,
-    pub standard_errors: Vec<f64>,
-    pub condition: f64,
+    pub fit: PolynomialFit,
     pub motion: Vec<MotionEstimate>,
+    /// Whether the iterations came to rest.
+    pub settled: bool,
 }
 
 impl Polynomial {
-    /// Fits θ (rad) over t (s) with a degree, or the best one.
-    pub fn fit(
-        t: &[f64],
-        theta: &[f64],
-        floor: f64,
+    /// Fits a polynomial of a degree, or of the likeliest one, from first crank angles, rad.
+    ///
+    /// # Errors
+    /// Why the samples do not serve.
+    pub fn new(
+        record: &Record<'_>,
+        first: &[f64],
         degree: Option<usize>,
     ) -> Result<Polynomial, String> {
-        let samples = Samples {
-            t,
-            target: theta,
-            weight: None,
-            floor,
-        };
-        let curve = Curve::fit(
-            &samples,
-            Kind::Polynomial,
-            degree.map_or(Size::Auto, Size::Fixed),
-        )?;
-        let quality = curve.quality();
-        let (coefficients, errors, condition) = curve.coefficients();
-        let motion = curve.states(t).into_iter().map(|state| MotionEstimate {
-            value: state.value,
-            covariance: std::array::from_fn(|k| {
-                state.covariance[k] * quality.sigma * quality.sigma
-            }),
-            rounding: state.rounding,
-        });
-        Ok(Polynomial {
-            degree: curve.degree(),
-            sigma: quality.sigma,
-            floor: quality.floor,
-            coefficients,
-            standard_errors: errors.iter().map(|e| e * quality.sigma).collect(),
-            condition,
-            motion: motion.collect(),
-        })
+        let mut theta = first.to_vec();
+        let mut degree = degree;
+        for iteration in 0..ITERATIONS {
+            let lines = parallel::list(theta.len(), |i| {
+                let (residual, shown) = record.sensor.residual(record.values[i], theta[i]);
+                (residual + shown.slope * theta[i], shown.slope)
+            });
+            let (target, weight): (Vec<f64>, Vec<f64>) = lines.into_iter().unzip();
+            let equations = Equations {
+                t: &record.times,
+                target: &target,
+                weight: (!record.is_linear()).then_some(&weight),
+                floor: record.floor,
+            };
+            let fit = PolynomialFit::new(&equations, degree).map_err(|few| {
+                let (found, needed) = (few.found, few.needed);
+                format!("{found} samples are too few for a polynomial: it needs {needed}")
+            })?;
+            let motion = parallel::list(theta.len(), |i| {
+                let state = fit.state(record.times[i]);
+                MotionEstimate {
+                    value: state.value,
+                    covariance: state.covariance,
+                    rounding: state.rounding,
+                }
+            });
+            let pairs = motion.iter().zip(&theta);
+            let change = pairs.fold(0.0, |most: f64, (state, theta)| {
+                most.max((state.value[0] - theta).abs())
+            });
+            let settled = record.is_linear() || change < AT_REST;
+            if settled || iteration + 1 == ITERATIONS || !change.is_finite() {
+                return Ok(Polynomial {
+                    fit,
+                    motion,
+                    settled,
+                });
+            }
+            if iteration + 1 >= CHOICES {
+                degree = Some(fit.degree());
+            }
+            theta = motion.iter().map(|state| state.value[0]).collect();
+        }
+        unreachable!("the last iteration returns")
     }
 }

@@ -27,14 +27,23 @@ pub(super) struct Prior {
     pub unknown: Unknown,
     /// How often the white noise is integrated to u: 1 (Wiener process) or 2.
     pub order: usize,
-    /// Whether the noise goes on with the crank angle, not with time.
-    pub per_angle: bool,
+    /// Whether u follows the speed: u̇ = g θ̈ + white noise with an unknown constant g as the fourth state, in place of u̇.
+    pub follows_speed: bool,
 }
 
 impl Prior {
+    /// How often the white noise is integrated to u.
+    pub fn noisy(self) -> usize {
+        match self.follows_speed {
+            true => 1,
+            false => self.order,
+        }
+    }
+
     /// What varies at random, in words.
     pub fn name(self) -> &'static str {
         match (self.unknown, self.order) {
+            _ if self.follows_speed => "torque that follows the speed, and a Wiener process",
             (Unknown::Acceleration, _) => "angle with white snap, without mechanics",
             (Unknown::Torque, 1) => "torque as a Wiener process",
             (Unknown::Torque, _) => "torque as an integrated Wiener process",
@@ -115,6 +124,14 @@ impl Motion<'_> {
         }
     }
 
+    /// What the fourth state adds to u over a step, per time: 1 of u̇, the change of the speed of g.
+    fn tilt(&self, h: f64, ends: [&State; 2]) -> f64 {
+        match self.prior.follows_speed {
+            true => (ends[1][1] - ends[0][1]) / h,
+            false => 1.0,
+        }
+    }
+
     /// θ̈ in the middle of a step whose ends are known, with u as the prior predicts it from the first.
     fn in_the_middle(&self, t: [f64; 2], ends: [&State; 2], rates: [&Rates; 2]) -> f64 {
         let h = t[1] - t[0];
@@ -123,7 +140,7 @@ impl Motion<'_> {
             + h * (a[1] - b[1]) * (5.0 / 32.0)
             + h * h * (rates[0].alpha + rates[1].alpha) / 64.0;
         let omega = 0.5 * (a[1] + b[1]) + h * (rates[0].alpha - rates[1].alpha) / 8.0;
-        let unknown = a[2] + 0.5 * h * a[3];
+        let unknown = a[2] + 0.5 * h * self.tilt(h, ends) * a[3];
         self.acceleration(0.5 * (t[0] + t[1]), theta, omega, unknown)[0]
     }
 
@@ -133,8 +150,11 @@ impl Motion<'_> {
         let [a, b] = ends;
         let mean = |f: fn(&Rates) -> f64| 0.5 * (f(rates[0]) + f(rates[1]));
         let lever = mean(|r| r.by_unknown);
-        let top = exponential(h, mean(|r| r.by_theta), mean(|r| r.by_omega), lever);
-        let unknown = a[2] + h * a[3];
+        let tilt = self.tilt(h, ends);
+        let mut top = exponential(h, mean(|r| r.by_theta), mean(|r| r.by_omega), lever);
+        top[0][3] *= tilt;
+        top[1][3] *= tilt;
+        let unknown = a[2] + h * tilt * a[3];
         let after = if self.prior.unknown == Unknown::Acceleration {
             [0, 1].map(|row| (0..4).map(|k| top[row][k] * a[k]).sum::<f64>())
         } else {
@@ -157,11 +177,7 @@ impl Motion<'_> {
                 a[3] - b[3],
             ],
             lever,
-            tempo: if self.prior.per_angle {
-                ((b[0] - a[0]) / h).abs()
-            } else {
-                1.0
-            },
+            tilt,
         }
     }
 }
@@ -197,8 +213,8 @@ pub(super) struct Linearised {
     defect: State,
     /// ∂θ̈/∂u
     lever: f64,
-    /// Factor of the noise.
-    tempo: f64,
+    /// What the fourth state adds to u, per time.
+    tilt: f64,
 }
 
 /// Mean deviation of the samples of a node from the nominal path.
@@ -246,7 +262,6 @@ impl<const N: usize> Model<N> for Deviations<'_> {
         let step = &self.steps[node];
         let dimension = 2 + self.order;
         let mut transition: Matrix<N> = [[0.0; N]; N];
-        let mut inverse: Matrix<N> = [[0.0; N]; N];
         let mut noise: Matrix<N> = [[0.0; N]; N];
         let mut offset: Vector<N> = [0.0; N];
         for row in 0..2 {
@@ -257,22 +272,50 @@ impl<const N: usize> Model<N> for Deviations<'_> {
         }
         offset[..dimension].copy_from_slice(&step.defect[..dimension]);
         if self.order == 2 {
-            transition[2][3] = step.h;
+            transition[2][3] = step.h * step.tilt;
         }
-        self.invert(step, &mut inverse);
         self.add_noise(step, &mut noise);
         if let Some(Autoregression { decay, white }) = self.correlated {
             let kept = (-decay * step.h).exp();
             transition[N - 1][N - 1] = kept;
-            inverse[N - 1][N - 1] = 1.0 / kept;
             noise[N - 1][N - 1] = (1.0 - white) * -(-2.0 * decay * step.h).exp_m1();
         }
         Step {
             transition,
-            inverse,
             offset,
             noise,
         }
+    }
+
+    /// Φ⁻¹ = [[B⁻¹, −B⁻¹ C T⁻¹], [0, T⁻¹]] of Φ = [[B, C], [0, T]].
+    #[inline]
+    fn inverse(&self, node: usize) -> Matrix<N> {
+        let step = &self.steps[node];
+        let mut inverse: Matrix<N> = [[0.0; N]; N];
+        let [[a, b, ..], [c, d, ..]] = step.top;
+        let per = 1.0 / (a * d - b * c);
+        let small = [[d * per, -b * per], [-c * per, a * per]];
+        for row in 0..2 {
+            inverse[row][..2].copy_from_slice(&small[row]);
+            for k in 2..2 + self.order {
+                let mut column = [step.top[0][k], step.top[1][k]];
+                if k == 3 {
+                    column[0] -= step.h * step.tilt * step.top[0][2];
+                    column[1] -= step.h * step.tilt * step.top[1][2];
+                }
+                inverse[row][k] = -(small[row][0] * column[0] + small[row][1] * column[1]);
+            }
+        }
+        for (k, row) in inverse.iter_mut().enumerate().skip(2) {
+            row[k] = 1.0;
+        }
+        if self.order == 2 {
+            inverse[2][3] = -step.h * step.tilt;
+        }
+        if let Some(correlated) = self.correlated {
+            inverse[N - 1][N - 1] = (correlated.decay * step.h).exp();
+        }
+        inverse
     }
 
     #[inline]
@@ -311,31 +354,6 @@ impl<const N: usize> Model<N> for Deviations<'_> {
 }
 
 impl Deviations<'_> {
-    /// Φ⁻¹ = [[B⁻¹, −B⁻¹ C T⁻¹], [0, T⁻¹]] of Φ = [[B, C], [0, T]].
-    #[inline]
-    fn invert<const N: usize>(&self, step: &Linearised, inverse: &mut Matrix<N>) {
-        let [[a, b, ..], [c, d, ..]] = step.top;
-        let per = 1.0 / (a * d - b * c);
-        let small = [[d * per, -b * per], [-c * per, a * per]];
-        for row in 0..2 {
-            inverse[row][..2].copy_from_slice(&small[row]);
-            for k in 2..2 + self.order {
-                let mut column = [step.top[0][k], step.top[1][k]];
-                if k == 3 {
-                    column[0] -= step.h * step.top[0][2];
-                    column[1] -= step.h * step.top[1][2];
-                }
-                inverse[row][k] = -(small[row][0] * column[0] + small[row][1] * column[1]);
-            }
-        }
-        for k in 2..2 + self.order {
-            inverse[k][k] = 1.0;
-        }
-        if self.order == 2 {
-            inverse[2][3] = -step.h;
-        }
-    }
-
     /// ∫ ψ ψᵀ ds of the responses of θ, ω, u, u̇ to a unit of the white noise.
     #[inline]
     fn add_noise<const N: usize>(&self, step: &Linearised, noise: &mut Matrix<N>) {
@@ -354,14 +372,16 @@ impl Deviations<'_> {
             for i in 0..2 + self.order {
                 for j in 0..2 + self.order {
                     let integral = integral[powers[i] + powers[j] + 1];
-                    noise[i][j] += density * step.tempo * scales[i] * scales[j] * integral;
+                    noise[i][j] += density * scales[i] * scales[j] * integral;
                 }
             }
         };
         if self.order == 1 {
             add(on_level, self.noise);
         } else {
-            add(on_slope, self.noise);
+            if self.noise > 0.0 {
+                add(on_slope, self.noise);
+            }
             if self.level > 0.0 {
                 add(on_level, self.level);
             }
@@ -380,7 +400,7 @@ mod tests {
             h: 0.3,
             top: exponential(0.3, -2.0, 0.7, 1.7),
             lever: 1.7,
-            tempo: 1.0,
+            tilt: 0.7,
             ..Linearised::default()
         };
         let model = Deviations {
@@ -395,9 +415,9 @@ mod tests {
             }),
             spread: [1.0; 4],
         };
-        let step: Step<5> = model.step(0);
+        let (step, inverse): (Step<5>, Matrix<5>) = (model.step(0), model.inverse(0));
         let x = [0.3, -1.0, 2.0, 0.7, 0.2];
-        let back = times(&step.inverse, &times(&step.transition, &x));
+        let back = times(&inverse, &times(&step.transition, &x));
         for (x, back) in x.iter().zip(back) {
             assert!((x - back).abs() < 1e-14);
         }

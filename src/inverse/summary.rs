@@ -113,10 +113,14 @@ pub struct ForceRange {
     pub min: f64,
     /// When, s
     pub min_t_s: f64,
+    /// Its standard error, N or N m
+    pub min_se: f64,
     /// N or N m
     pub max: f64,
     /// When, s
     pub max_t_s: f64,
+    /// Its standard error, N or N m
+    pub max_se: f64,
     /// Median of the standard errors, N or N m
     pub median_se: f64,
 }
@@ -141,8 +145,10 @@ impl ForceRange {
         Some(ForceRange {
             min: min.1 + 0.0,
             min_t_s: min.0,
+            min_se: min.2,
             max: max.1 + 0.0,
             max_t_s: max.0,
+            max_se: max.2,
             median_se: median(errors)?,
         })
     }
@@ -167,8 +173,10 @@ impl InverseSummary {
         let nothing = ForceRange {
             min: 0.0,
             min_t_s: 0.0,
+            min_se: 0.0,
             max: 0.0,
             max_t_s: 0.0,
+            max_se: 0.0,
             median_se: 0.0,
         };
         InverseSummary {

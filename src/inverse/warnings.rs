@@ -1,8 +1,12 @@
 //! When a result is not to be trusted, and why.
 
+use std::f64::consts::TAU;
+
 use super::InverseOptions;
 use super::fitted::Fitted;
-use crate::scene::{Measurement, Scene};
+use super::row::InverseRow;
+use crate::numeric::median::median;
+use crate::scene::{Measured, Measurement, Scene};
 
 /// What is to be known of the scene's loads.
 pub(super) fn of_scene(scene: &Scene, options: &InverseOptions) -> Vec<String> {
@@ -20,6 +24,43 @@ pub(super) fn of_scene(scene: &Scene, options: &InverseOptions) -> Vec<String> {
         .chain(friction)
         .map(str::to_owned)
         .collect()
+}
+
+/// Least factor by which a mistaken unit changes a speed: 2π, turns for radians; the rest is for speeds that vary.
+const MISTAKEN: f64 = 0.8 * TAU;
+
+/// Rows in a turn that the sampling theorem asks for: the inertia of the mechanism varies twice in a turn.
+const ROWS_IN_A_TURN: f64 = 4.0;
+
+/// Where a motion of whole turns contradicts the scene's `[motion] speed`, or has too few rows in a turn.
+pub(super) fn of_motion(scene: &Scene, measured: Measured, rows: &[InverseRow]) -> Vec<String> {
+    let (first, last) = (&rows[0], &rows[rows.len() - 1]);
+    let turns = (last.theta - first.theta) / TAU;
+    if turns.abs() < 1.0 {
+        return Vec::new();
+    }
+    let mut warnings = Vec::new();
+    let stated = scene.motion.speed;
+    if measured == Measured::Theta && turns * stated < 0.0 {
+        warnings.push(format!("the crank turns against the sense of the scene's [motion] speed: {turns:.2} turns, positive anticlockwise"));
+    }
+    let speeds = || rows.iter().map(|row| row.omega.abs());
+    let fastest = speeds().fold(0.0, f64::max);
+    let usual = median(speeds()).unwrap_or(fastest);
+    let times = [usual, fastest].map(|speed| speed / stated.abs());
+    if stated != 0.0 && (times[0] > MISTAKEN || times[1] < 1.0 / MISTAKEN) {
+        warnings.push(format!(
+            "the crank turns at {usual:.4} rad/s, {:.3} times the scene's [motion] speed: check the units of the data (degrees taken for radians make it 57.3 times, milliseconds for seconds 0.001 times) or the scene",
+            times[0]
+        ));
+    }
+    let in_a_turn = (rows.len() - 1) as f64 / turns.abs();
+    if in_a_turn < ROWS_IN_A_TURN {
+        warnings.push(format!(
+            "there are {in_a_turn:.1} rows in a turn: with fewer than {ROWS_IN_A_TURN} the samples do not show how the speed varies within a turn, and force and torque rest on the scene's inertia"
+        ));
+    }
+    warnings
 }
 
 /// What is to be known of the estimated motion.

@@ -60,6 +60,14 @@ impl Called {
         }
     }
 
+    /// The first without a finite value.
+    pub fn without_value(&self, now: &Instant) -> Option<&Load> {
+        let has_none = |load: &&Load, on_slider| !single(load, on_slider, now).is_finite();
+        let mut torques = self.torques.iter();
+        let torque = torques.find(|load| has_none(load, false));
+        torque.or_else(|| self.forces.iter().find(|load| has_none(load, true)))
+    }
+
     /// The sums of the magnitudes of loads that oppose motion, N m and N.
     pub fn magnitude(&self, now: &Instant) -> LoadValue {
         let sum = |loads: &[Load], on_slider: bool| {

@@ -127,6 +127,11 @@ impl Curve {
         &self.linkage
     }
 
+    /// Whether the coordinate is the crank angle.
+    pub fn is_crank_angle(&self) -> bool {
+        matches!(self.chart, Chart::Crank)
+    }
+
     /// What the coordinate is.
     pub fn coordinate(&self) -> &'static str {
         match self.chart {

@@ -45,7 +45,12 @@ impl Around<'_> {
             Variable::X => place(|places| places.x),
             Variable::V => place(|places| places.dx) * self.reach.speed,
         };
-        Enclosed::variable(real, self.ellipse)
+        // A part of the way may be a larger one of the stroke.
+        let parts = match variable {
+            Variable::X | Variable::V => 1.0,
+            _ => self.reach.parts,
+        };
+        Enclosed::in_parts(real, self.ellipse, parts)
     }
 
     fn load(&self, load: &Load) -> Enclosed {
@@ -122,6 +127,7 @@ impl Loads {
             t: none,
             angle,
             speed: none,
+            parts: 1.0,
         };
         self.detail_of(&[&self.placed], linkage, &reach, ellipse)
     }

@@ -4,8 +4,16 @@
 //! and beyond that motion begins in the direction of Q − V' (Filippov's solution of the equation with their signs).
 
 use super::friction::Free;
-use super::{Across, Constrained, LoadValue};
+use super::{Across, Constrained, LoadValue, Loads, Place};
 use crate::numeric::angle::Angle;
+use crate::numeric::enclosure::{Interval, Reach};
+use crate::scene::Instant;
+
+/// Operations that round the value of a load.
+const ROUNDINGS: f64 = 64.0;
+
+/// Of the range of a load no ellipse around it is asked for.
+const SOME_ELLIPSE: f64 = 2.0;
 
 /// Signs of the speeds of crank and slider that dry loads oppose; zero: they are at rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -59,7 +67,77 @@ impl Held {
     }
 }
 
+impl Loads {
+    /// Torque and force of the dry loads against this speed, at slider position x (m) and x' (m/rad).
+    pub(super) fn dry_of_speed(
+        &self,
+        t: f64,
+        theta: Angle,
+        omega: f64,
+        [x, dx]: [f64; 2],
+    ) -> LoadValue {
+        if self.dry.is_empty() {
+            return LoadValue::default();
+        }
+        self.dry.value(&Instant {
+            t,
+            theta: theta.radians(),
+            omega,
+            x,
+            v: dx * omega,
+        })
+    }
+
+    /// Whether there are loads that oppose motion.
+    pub fn are_dry(&self) -> bool {
+        !self.dry.is_empty()
+    }
+
+    /// Whether such loads act on the crank, and on the slider.
+    pub fn dry_on(&self) -> [bool; 2] {
+        [&self.dry.torques, &self.dry.forces].map(|loads| !loads.is_empty())
+    }
+
+    /// What they oppose motion with at most, N m and N.
+    pub fn dry_magnitude(&self, now: &Instant) -> LoadValue {
+        self.dry.magnitude(now)
+    }
+
+    /// Torque and force of the dry loads against motion in these senses.
+    pub fn dry(&self, now: &Instant, against: Sense) -> LoadValue {
+        let most = self.dry_magnitude(now);
+        LoadValue {
+            torque: -against.crank * most.torque,
+            force: -against.slider * most.force,
+        }
+    }
+}
+
 impl Constrained {
+    /// Torque and force of the loads, without friction; dry ones against this speed.
+    pub fn load(&self, place: &Place, t: f64, q: Angle, speed: f64) -> LoadValue {
+        let sense = Sense::of(place.dtheta * speed, place.dx * speed);
+        let dry = self.loads().dry(&self.instant(place, t, q, speed), sense);
+        self.load_beside(dry, place, t, q, speed)
+    }
+
+    /// The same beside what is known of the dry ones.
+    pub fn load_beside(
+        &self,
+        dry: LoadValue,
+        place: &Place,
+        t: f64,
+        q: Angle,
+        speed: f64,
+    ) -> LoadValue {
+        let spent = self.loads().spent(&self.instant(place, t, q, speed));
+        let stored = self.loads().with_potential_at(place.x);
+        LoadValue {
+            torque: stored.torque + spent.torque + dry.torque,
+            force: stored.force + spent.force + dry.force,
+        }
+    }
+
     /// [`Self::free`] of a motion that dry loads oppose in these senses, whatever the speed.
     pub fn free_against(&self, t: f64, q: Angle, speed: f64, sense: Sense) -> Free {
         self.against(&self.across(q.rest), t, q, speed, sense)
@@ -79,6 +157,41 @@ impl Constrained {
             free.push(terms, self.loads().dry(&now, sense), speed);
         }
         free
+    }
+
+    /// How much [`Held::margin`] changes at most between two times (s), as far as the loads are enclosed.
+    pub fn margin_change(&self, q: Angle, mu_static: f64, [from, to]: [f64; 2]) -> f64 {
+        if !self.curve().is_crank_angle() || !self.loads().have_detail() {
+            return 0.0;
+        }
+        let reach = Reach {
+            t: Interval::new(from, to),
+            angle: Interval::point(q.radians()),
+            speed: Interval::point(0.0),
+            parts: 1.0,
+        };
+        let detail = self
+            .loads()
+            .detail(self.curve().linkage(), &reach, SOME_ELLIPSE);
+        let terms = self.across(q.rest);
+        let (arm, x_n) = (terms.place.dx.abs(), terms.x_n.abs());
+        // What changes Q by one changes the torque by one at most and the force by 1/x'.
+        let most = 1.0 + mu_static * (arm * terms.theta_n.abs() + 2.0 * x_n);
+        let change = (detail.change - self.rounding(&terms, q, from)).max(0.0) * most;
+        match self.loads().are_dry() {
+            true => change,
+            false if arm > 0.0 => change / arm,
+            false => 0.0,
+        }
+    }
+
+    /// What rounding leaves open of the generalized force of the loads at rest, N m.
+    fn rounding(&self, terms: &Across, q: Angle, t: f64) -> f64 {
+        let place = &terms.place;
+        let LoadValue { torque, force } = self.load(place, t, q, 0.0);
+        let most = self.loads().dry_magnitude(&self.instant(place, t, q, 0.0));
+        let size = torque.abs() + most.torque + (force.abs() + most.force) * place.dx.abs();
+        ROUNDINGS * f64::EPSILON * size
     }
 
     /// The mechanism at rest.

@@ -1,7 +1,7 @@
 //! Virtual work of the loads: all that is linear is summed once, the rest is called.
 
 use super::called::Called;
-use super::{LoadValue, Pose, Sense};
+use super::{LoadValue, Pose};
 use crate::numeric::angle::Angle;
 use crate::scene::{Instant, Load, Scene, Variables};
 
@@ -267,44 +267,6 @@ impl Loads {
             .plus(self.of_place(theta, x))
             .plus(mixed)
             .plus(self.dry_of_speed(t, theta, omega, [x, dx]))
-    }
-
-    /// Torque and force of the dry loads against this speed, at slider position x (m) and x' (m/rad).
-    fn dry_of_speed(&self, t: f64, theta: Angle, omega: f64, [x, dx]: [f64; 2]) -> LoadValue {
-        if self.dry.is_empty() {
-            return LoadValue::default();
-        }
-        self.dry.value(&Instant {
-            t,
-            theta: theta.radians(),
-            omega,
-            x,
-            v: dx * omega,
-        })
-    }
-
-    /// Whether there are loads that oppose motion.
-    pub fn are_dry(&self) -> bool {
-        !self.dry.is_empty()
-    }
-
-    /// Whether such loads act on the crank, and on the slider.
-    pub fn dry_on(&self) -> [bool; 2] {
-        [&self.dry.torques, &self.dry.forces].map(|loads| !loads.is_empty())
-    }
-
-    /// What they oppose motion with at most, N m and N.
-    pub fn dry_magnitude(&self, now: &Instant) -> LoadValue {
-        self.dry.magnitude(now)
-    }
-
-    /// Torque and force of the dry loads against motion in these senses.
-    pub fn dry(&self, now: &Instant, against: Sense) -> LoadValue {
-        let most = self.dry_magnitude(now);
-        LoadValue {
-            torque: -against.crank * most.torque,
-            force: -against.slider * most.force,
-        }
     }
 
     /// Torque and force of the loads whose work must be integrated, without dry ones.

@@ -1,8 +1,8 @@
 //! Static equilibrium of slider force and crank torque, with the band that friction at the guide allows.
 
-use super::{Equation, Linkage, LoadValue, Pose, Reactor};
+use super::{Equation, Linkage, LoadValue, Pose, Reactor, Terms};
 use crate::error::Error;
-use crate::scene::{RodModel, Scene};
+use crate::scene::{Instant, RodModel, Scene};
 
 /// The static problem of a scene: its weight and its loads at rest.
 #[derive(Clone, Debug)]
@@ -66,8 +66,22 @@ impl Statics {
     ///
     /// The crank torque fixes the force of the rod, and so the normal force N of the guide, whatever friction
     /// does; so the band is F ± μ |N|, Ng (8) with both of its edges.
+    ///
+    /// Dry loads hold with anything up to their magnitudes.
     pub fn slider_force(&self, theta: f64) -> Balance {
         let (terms, load) = self.at(theta);
+        let mut balance = self.force_beside(&terms, load, theta);
+        if let Some(most) = self.dry(&terms, theta) {
+            let ends = [-most.torque, most.torque].map(|torque| {
+                let dry = LoadValue { torque, force: 0.0 };
+                self.force_beside(&terms, load.plus(dry), theta).band
+            });
+            balance.band = balance.band.map(|band| band.widened(ends, most.force));
+        }
+        balance
+    }
+
+    fn force_beside(&self, terms: &Terms, load: LoadValue, theta: f64) -> Balance {
         let pose = &terms.pose;
         let mut balance = self.unknown(pose);
         let linkage = self.equation.linkage();
@@ -93,8 +107,22 @@ impl Statics {
     /// The normal force depends on how much of the slider force reaches the rod: it is n₀ + n₁ R for a rod
     /// force R along +x on the slider, and R + F is at most μ |n₀ + n₁ R|. Where μ |n₁| ≥ 1 the mechanism
     /// locks itself and a torque of any size is held; no edge is stated there.
+    ///
+    /// Dry loads hold with anything up to their magnitudes.
     pub fn crank_torque(&self, theta: f64) -> Balance {
         let (terms, load) = self.at(theta);
+        let mut balance = self.torque_beside(&terms, load);
+        if let Some(most) = self.dry(&terms, theta) {
+            let ends = [-most.force, most.force].map(|force| {
+                let dry = LoadValue { torque: 0.0, force };
+                self.torque_beside(&terms, load.plus(dry)).band
+            });
+            balance.band = balance.band.map(|band| band.widened(ends, most.torque));
+        }
+        balance
+    }
+
+    fn torque_beside(&self, terms: &Terms, load: LoadValue) -> Balance {
         let pose = &terms.pose;
         let mut balance = self.unknown(pose);
         if !pose.exists() || !finite(&load) {
@@ -120,7 +148,18 @@ impl Statics {
         balance
     }
 
-    fn at(&self, theta: f64) -> (super::Terms, LoadValue) {
+    /// What dry loads hold with at most, if there are any.
+    fn dry(&self, terms: &Terms, theta: f64) -> Option<LoadValue> {
+        let loads = self.equation.loads();
+        let now = Instant {
+            theta,
+            x: terms.pose.x,
+            ..Instant::default()
+        };
+        loads.are_dry().then(|| loads.dry_magnitude(&now))
+    }
+
+    fn at(&self, theta: f64) -> (Terms, LoadValue) {
         (
             self.equation.terms(theta),
             self.equation.load(0.0, theta, 0.0),
@@ -141,6 +180,21 @@ impl Statics {
     fn guide(&self, pose: &Pose, torque: f64, force: f64) -> f64 {
         let load = LoadValue { torque, force };
         self.reactor.reactions(pose, 0.0, 0.0, &load).guide
+    }
+}
+
+impl Band {
+    /// The band that also covers these, widened on both sides.
+    fn widened(self, ends: [Option<Band>; 2], by: f64) -> Band {
+        let all = |edge: fn(&Band) -> Option<f64>, pick: fn(f64, f64) -> f64| {
+            let ends = ends.iter().map(|band| band.as_ref().and_then(edge));
+            ends.fold(edge(&self), |found, end| Some(pick(found?, end?)))
+        };
+        Band {
+            min: all(|band| band.min, f64::min).map(|min| min - by),
+            max: all(|band| band.max, f64::max).map(|max| max + by),
+            ..self
+        }
     }
 }
 

@@ -26,12 +26,13 @@ impl Angle {
         self.turns * TAU + (self.turns * TAU_REST + self.rest)
     }
 
-    /// The same angle with its rest in [0, 2π).
+    /// The same angle with its rest in [−π, 2π): one that is in there is kept with all its digits, a small negative
+    /// one, too.
     pub fn reduced(self) -> Angle {
-        let turns = (self.rest / TAU).floor();
-        if turns == 0.0 {
+        if (-PI..TAU).contains(&self.rest) {
             return self;
         }
+        let turns = (self.rest / TAU).floor();
         Angle {
             turns: self.turns + turns,
             rest: (self.rest - turns * TAU) - turns * TAU_REST,
@@ -96,6 +97,8 @@ mod tests {
         .reduced();
         assert_eq!(same.turns, 1.0);
         assert!((same.rest - 0.25).abs() < 1e-15);
+        let small = Angle::from(-1e-5);
+        assert_eq!(small.reduced(), small);
         assert_eq!(
             far.minus(Angle {
                 turns: 1e6,

@@ -1,18 +1,15 @@
 //! Small numerical tools, each with its source.
 
 pub mod angle;
-pub mod banded;
 pub mod chebyshev;
 pub mod difference;
 pub mod dip;
 pub mod double_double;
 pub mod enclosure;
 pub mod exact;
-pub mod fit;
 pub mod gauss;
 pub mod golden;
 pub mod interpolate;
-pub mod leading;
 pub mod line_fit;
 pub mod median;
 pub mod orthogonal;

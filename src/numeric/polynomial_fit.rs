@@ -60,7 +60,7 @@ pub struct PolynomialFit {
 pub const HIGHEST_CHOSEN: usize = 12;
 
 /// Most equations that are solved in double-double arithmetic.
-const MOST_IN_DOUBLE: usize = 100_000;
+const MOST_IN_DOUBLE: usize = 10_000;
 
 /// Relative standard deviation of targets that were computed in floats.
 const COMPUTED: f64 = 2.0 * f64::EPSILON;

@@ -144,7 +144,10 @@ fn over_angle(method: Method, scene: &Scene) -> Result<Choice, Error> {
                 format!("method angle cannot serve this scene: {why}"),
                 "use --method auto, time, dop853 or dopri5",
             )),
-            Some(_) => Ok(by_sweeps()),
+            Some(why) => Ok(Choice::in_time(
+                Stepper::Picard,
+                format!("{why}: integration in time, by sweeps over Gauss nodes"),
+            )),
         },
     }
 }

@@ -1,29 +1,29 @@
 //! A calibration in words.
 
-use super::facts::Facts;
+use super::facts::{Facts, given, six, with_error};
 use crate::study::Calibration;
 
 /// The line, its statistics, and the forces of the readings.
 pub fn calibration(result: &Calibration) -> String {
     let mut facts = Facts::of("");
     let fit = &result.fit;
-    let error = |se: Option<f64>| se.map_or(String::new(), |se| format!(" +- {se}"));
+    let shown = |value: f64, se: Option<f64>| match se {
+        Some(se) => with_error(value, se, ""),
+        None => six(value),
+    };
     facts.add("points", fit.points);
-    let (slope, slope_error) = (fit.slope, error(fit.slope_se));
-    facts.add("slope", format_args!("{slope}{slope_error} per N"));
-    let intercept_error = error(fit.intercept_se);
-    facts.add(
-        "intercept",
-        format_args!("{}{intercept_error}", fit.intercept),
-    );
+    let slope = shown(fit.slope, fit.slope_se);
+    facts.add("slope", format_args!("{slope} per N"));
+    facts.add("intercept", shown(fit.intercept, fit.intercept_se));
     if let Some(r_squared) = fit.r_squared {
-        facts.add("R squared", r_squared);
+        facts.add("R squared", given(r_squared));
     }
     for measured in &result.forces {
-        let (force, error) = (measured.force_n, error(measured.force_se_n));
+        let force = shown(measured.force_n, measured.force_se_n);
+        let reading = given(measured.reading);
         facts.add(
             "force",
-            format_args!("{force}{error} N for a reading of {}", measured.reading),
+            format_args!("{force} N for a reading of {reading}"),
         );
     }
     facts.warnings(&result.warnings);

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::facts::{Facts, degrees};
+use super::facts::{Facts, degrees, given, six};
 use crate::study::{Explanation, FrictionAt, TermsAt};
 
 /// Characters of a name, with what it is indented by.
@@ -68,7 +68,7 @@ fn computation(result: &Explanation) -> Facts {
 }
 
 fn terms_at(at: &TermsAt) -> String {
-    let (theta, omega) = (degrees(at.theta_rad), at.omega_rad_per_s);
+    let (theta, omega) = (degrees(at.theta_rad), given(at.omega_rad_per_s));
     let mut text = format!("at theta = {theta} deg, omega = {omega} rad/s, t = 0\n");
     let mut facts = Facts::of("");
     for (name, value, unit) in [
@@ -78,21 +78,22 @@ fn terms_at(at: &TermsAt) -> String {
         ("x", at.x_m, "m"),
         ("x'", at.dx_m_per_rad, "m/rad"),
     ] {
+        let value = six(value);
         facts.add(format_args!("  {name}"), format_args!("{value} {unit}"));
     }
     text.push_str(&facts.lines(NAMES));
     for load in &at.loads {
-        let _ = writeln!(text, "  Q of {} = {} N m", load.name, load.q_nm);
+        let _ = writeln!(text, "  Q of {} = {} N m", load.name, six(load.q_nm));
     }
     let mut facts = Facts::of("");
-    facts.add("  Q", format_args!("{} N m", at.q_nm));
+    facts.add("  Q", format_args!("{} N m", six(at.q_nm)));
     let alpha = match at.alpha_rad_per_s2 {
-        Some(alpha) => format!("{alpha} rad/s2"),
+        Some(alpha) => format!("{} rad/s2", six(alpha)),
         None => "not determined: no inertia here, or the guide jams".to_owned(),
     };
     facts.add("  theta..", alpha);
     let without = at.friction.map_or("", |_| ", without friction");
-    let torque = at.holding_torque_nm;
+    let torque = six(at.holding_torque_nm);
     facts.add(
         "  holding torque",
         format_args!("{torque} N m (torque that keeps this speed{without})"),
@@ -106,8 +107,8 @@ fn terms_at(at: &TermsAt) -> String {
 
 fn holding(friction: &FrictionAt) -> String {
     match (friction.holding_min_nm, friction.holding_max_nm) {
-        (Some(min), Some(max)) if min == max => format!("{min} N m"),
-        (Some(min), Some(max)) => format!("any torque from {min} to {max} N m"),
+        (Some(min), Some(max)) if min == max => format!("{} N m", six(min)),
+        (Some(min), Some(max)) => format!("any torque from {} to {} N m", six(min), six(max)),
         _ => "the guide locks itself".to_owned(),
     }
 }

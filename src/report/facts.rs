@@ -1,5 +1,6 @@
 //! Facts: what there is to say of a result, each with its name.
 
+use std::f64::consts::TAU;
 use std::fmt::{Display, Write};
 
 /// Names and values in order; names that belong to the one before begin with spaces.
@@ -40,23 +41,84 @@ impl Facts {
     }
 }
 
-/// An angle (rad) in degrees with 12 digits, so that one that was given in degrees is shown as it was given.
-pub(super) fn degrees(radians: f64) -> f64 {
-    let degrees = radians.to_degrees();
-    format!("{degrees:.11e}").parse().unwrap_or(degrees)
+/// A number for people: six digits; JSON and CSV have all.
+pub(super) fn six(value: f64) -> String {
+    let short = format!("{value:.5e}").parse().unwrap_or(value);
+    plain(short)
 }
 
-/// A value with the digits that its error leaves, and no more.
+/// A number that was given: as it was typed, without what rounding adds to it.
+pub(super) fn given(value: f64) -> String {
+    let short = format!("{value:.11e}").parse().unwrap_or(value);
+    plain(short)
+}
+
+fn plain(value: f64) -> String {
+    let size = value.abs();
+    // Minus zero is zero.
+    let value = value + 0.0;
+    if size == 0.0 || !size.is_finite() || (1e-4..1e9).contains(&size) {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
+}
+
+/// An angle (rad) in degrees.
+pub(super) fn degrees(radians: f64) -> String {
+    six(radians.to_degrees())
+}
+
+/// The crank angle (rad, unwrapped) in its turn, in degrees.
+pub(super) fn in_turn(theta: f64) -> String {
+    degrees(theta.rem_euclid(TAU))
+}
+
+/// A value with the digits that its error leaves, and no more; six if it is exact.
 pub(super) fn digits(value: f64, error: f64) -> String {
     if error == 0.0 {
-        return format!("{value}");
+        return six(value);
     }
     let places = (-error.log10()).ceil().clamp(0.0, 17.0) as usize;
-    format!("{value:.places$}")
+    format!("{:.places$}", value + 0.0)
 }
 
-/// A value with its error.
+/// A value with its error, unless it is exact.
 pub(super) fn with_error(value: f64, error: f64, unit: &str) -> String {
-    let text = format!("{} +- {error:.1e} {unit}", digits(value, error));
+    let shown = digits(value, error);
+    let text = match error {
+        0.0 => format!("{shown} {unit}"),
+        _ => format!("{shown} +- {error:.1e} {unit}"),
+    };
     text.trim_end().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+
+    #[test]
+    fn people_see_six_digits_or_those_that_the_error_leaves() {
+        for (value, shown) in [
+            (0.099_999_999_999_999_99, "0.1"),
+            (-1.130_863_886_742_583_8e-15, "-1.13086e-15"),
+            (-0.0, "0"),
+            (31.415_926_535, "31.4159"),
+            (31669.463_364_590_403, "31669.5"),
+            (2_000_000.0, "2000000"),
+            (f64::INFINITY, "inf"),
+        ] {
+            assert_eq!(six(value), shown);
+        }
+        assert_eq!(given(0.1 + 0.2), "0.3");
+        assert_eq!(given(0.02769881), "0.02769881");
+        assert_eq!(with_error(31.416, 0.0, "rad/s"), "31.416 rad/s");
+        assert_eq!(
+            with_error(1.234_567_891, 2e-8, "s"),
+            "1.23456789 +- 2.0e-8 s"
+        );
+        assert_eq!(in_turn(-0.5 * PI), "270");
+    }
 }

@@ -1,11 +1,11 @@
 //! A loose joint in words.
 
-use super::facts::{Facts, with_error};
+use super::facts::{Facts, given, six, with_error};
 use crate::study::{ClearanceSummary, ContactStatistics};
 
 /// The loose joint.
 pub(super) fn clearance(facts: &mut Facts, joint: &ClearanceSummary) {
-    let (radial, law) = (joint.radial_m, joint.contact_law);
+    let (radial, law) = (given(joint.radial_m), joint.contact_law);
     facts.add(
         "loose joint",
         format_args!("{}, {radial} m radial clearance, {law}", joint.joint),
@@ -13,25 +13,29 @@ pub(super) fn clearance(facts: &mut Facts, joint: &ClearanceSummary) {
     facts.add(
         "  contact",
         format_args!(
-            "{} impacts, {:.2} % of the time, peak {:.6} N, mean {:.6} N",
+            "{} impacts, {:.2} % of the time, peak {} N, mean {} N",
             joint.impacts,
             100.0 * joint.contact_share,
-            joint.force_peak_n,
-            joint.force_mean_n
+            six(joint.force_peak_n),
+            six(joint.force_mean_n)
         ),
     );
-    let (lost, work) = (joint.dissipated_j, joint.work_j);
-    facts.add("  energy lost", format_args!("{lost} J of {work} J put in"));
+    let (lost, work) = (six(joint.dissipated_j), six(joint.work_j.abs()));
+    let way = if joint.work_j < 0.0 { "out of" } else { "into" };
+    facts.add(
+        "  energy lost",
+        format_args!("{lost} J in contact and guide; the loads and the drive bring {work} J {way} the mechanism"),
+    );
     let shown = |value: f64, error: Option<f64>, unit: &str| match error {
         Some(error) => with_error(value, error, unit),
-        None => format!("{value:.6} {unit}, error not stated"),
+        None => format!("{} {unit}, error not stated", six(value)),
     };
     let last = &joint.last;
     facts.add("  slider", shown(last.x_m, last.error_x_m, "m"));
     facts.add("  rod", shown(last.phi_rad, last.error_phi_rad, "rad"));
     if let Some(horizon) = &joint.horizon {
         let until = if horizon.whole_run { "the end, " } else { "" };
-        let (t, turns) = (horizon.t_s, horizon.revolutions);
+        let (t, turns) = (six(horizon.t_s), horizon.revolutions);
         facts.add(
             "  reproducible",
             format_args!("to {until}t = {t} s, {turns:.3} turns"),

@@ -25,7 +25,7 @@ pub use explain::explanation;
 pub use figure::{Axis, Figure, ScaleKind, panels};
 pub use inverse::{inverse, inverse_figure, inverse_rows, residuals};
 pub use motion::PlotRows;
-pub use one_turn::{TurnWriter, turn, turn_figure};
+pub use one_turn::{TurnWriter, sized, turn, turn_figure};
 pub use output::{Output, is_standard_output};
 pub use page::page;
 pub use precision::{precision, precision_csv, precision_figure, precision_notes};

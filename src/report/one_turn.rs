@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::facts::{Facts, degrees};
+use super::facts::{Facts, degrees, given, six};
 use super::rows::{REACTIONS, reactions, write};
 use super::text::{NAMES, extreme, kinematics};
 use super::{Axis, Figure, Output, panels};
@@ -106,6 +106,11 @@ impl TurnWriter {
     }
 }
 
+/// The lengths (m) that were chosen for a stroke.
+pub fn sized(crank: f64, rod: f64) -> String {
+    format!("sized: crank {} m, rod {} m", given(crank), given(rod))
+}
+
 /// What the lengths give, and what was asked for beside it.
 pub fn turn(result: &OneTurn) -> String {
     let mut facts = kinematics(&result.kinematics);
@@ -117,7 +122,7 @@ pub fn turn(result: &OneTurn) -> String {
         None => "m/rad2",
     };
     for with in &result.offsets {
-        let name = format!("with offset {} m", with.offset_m);
+        let name = format!("with offset {} m", given(with.offset_m));
         facts.add(name, offset(with, unit));
     }
     if let Some(check) = &result.loop_closure {
@@ -146,12 +151,12 @@ pub fn turn(result: &OneTurn) -> String {
 
 fn forces(facts: &mut Facts, analysis: &ForceAnalysis) {
     let masses = &analysis.masses;
-    let rotating = masses.rotating_kg;
+    let rotating = six(masses.rotating_kg);
     facts.add(
         "rotating mass",
         format_args!("{rotating} kg at the crank pin"),
     );
-    let reciprocating = masses.reciprocating_kg;
+    let reciprocating = six(masses.reciprocating_kg);
     facts.add(
         "reciprocating mass",
         format_args!("{reciprocating} kg at the wrist pin"),
@@ -174,11 +179,11 @@ fn forces(facts: &mut Facts, analysis: &ForceAnalysis) {
 
 /// Stroke and extremes with another offset, the acceleration in this unit.
 fn offset(with: &OffsetExtremes, unit: &str) -> String {
-    let mut line = format!("stroke {} m", with.stroke_m);
+    let mut line = format!("stroke {} m", six(with.stroke_m));
     let mut add = |name: &str, found: Option<Located>, unit: &str| {
         if let Some(Located { value, theta_rad }) = found {
-            let angle = theta_rad.to_degrees();
-            let _ = write!(line, "; {name} {value:.7} {unit} at {angle:.5} deg");
+            let (value, angle) = (six(value), degrees(theta_rad));
+            let _ = write!(line, "; {name} {value} {unit} at {angle} deg");
         }
     };
     add("largest acceleration", with.acceleration_max, unit);

@@ -5,7 +5,6 @@ use std::fmt::Write;
 use super::motion::PlotRows;
 use super::text::{facts, table};
 use crate::error::Error;
-use crate::scene::printable;
 use crate::study::{Event, Row, Summary};
 
 /// Most events that are listed.
@@ -113,12 +112,14 @@ fn events(events: &[Event]) -> String {
 /// A text that means itself in HTML.
 fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
-    for c in printable(text).chars() {
+    for c in text.chars() {
         match c {
             '&' => escaped.push_str("&amp;"),
             '<' => escaped.push_str("&lt;"),
             '>' => escaped.push_str("&gt;"),
             '"' => escaped.push_str("&quot;"),
+            // HTML has no control characters but these.
+            c if c.is_control() && !matches!(c, '\n' | '\t') => escaped.extend(c.escape_default()),
             c => escaped.push(c),
         }
     }

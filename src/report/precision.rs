@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::facts::six;
 use super::figure::{Axis, Figure, panels};
 use super::rows::shortest;
 use crate::error::Error;
@@ -65,7 +66,7 @@ pub fn precision(scene: &Precision) -> String {
     if !scene.scene.is_empty() {
         put(format_args!("scene      {}", scene.scene));
     }
-    put(format_args!("end        t = {} s", scene.t_s));
+    put(format_args!("end        t = {} s", six(scene.t_s)));
     put(format_args!("reference  {}", scene.reference));
     if let (Some(theta), Some(omega)) = (
         scene.reference_error_theta_rad,

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::facts::Facts;
+use super::facts::{Facts, given};
 use super::rows::write;
 use super::text::{NAMES, extreme, place};
 use super::{Axis, Figure, Output, panels};
@@ -82,7 +82,7 @@ pub fn statics(result: &StaticAnalysis) -> String {
     let mut facts = Facts::of(&result.scene);
     facts.add("class", result.class);
     facts.add("sought", format_args!("{what} beside the other loads"));
-    facts.add("friction coefficient", result.friction);
+    facts.add("friction coefficient", given(result.friction));
     for found in &result.least {
         facts.add("least", extreme(found, unit));
     }

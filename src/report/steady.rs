@@ -1,6 +1,6 @@
 //! The periodic steady state in words.
 
-use super::facts::{Facts, with_error};
+use super::facts::{Facts, given, with_error};
 use crate::study::{Estimated, Flywheel, SpeedExtreme, SteadyState};
 
 fn shown(estimated: Estimated, unit: &str) -> String {
@@ -55,7 +55,7 @@ fn flywheel(facts: &mut Facts, wheel: &Flywheel) {
         (added.value, "to be added to the crank")
     };
     let inertia = with_error(value, added.error, "kg m2");
-    let wanted = wheel.wanted_fluctuation;
+    let wanted = given(wheel.wanted_fluctuation);
     facts.add(
         "  flywheel",
         format_args!("{inertia} {what}, for a fluctuation of {wanted}"),

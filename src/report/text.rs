@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-use super::facts::{Facts, degrees, with_error};
+use super::facts::{Facts, degrees, in_turn, six, with_error};
 use super::joint::clearance;
 use super::steady::steady_state;
 use crate::study::{Kinematics, Located, NamedPosition, Row, Summary, TorqueRange};
@@ -24,24 +24,25 @@ pub fn summary(summary: &Summary, rows: &[Row]) -> String {
 /// What there is to say of a run.
 pub(super) fn facts(summary: &Summary) -> Facts {
     let mut facts = Facts::of(&summary.scene);
-    let (engine, reason) = (&summary.engine, &summary.plan.reason);
-    facts.add("engine", format_args!("{engine} ({reason})"));
+    facts.add("engine", &summary.engine);
     end(&mut facts, summary);
     if let Some(torque) = &summary.driving_torque {
         let TorqueRange {
             min_nm,
             max_nm,
             mean_nm,
-        } = torque;
+        } = *torque;
+        let [least, most, mean] = [min_nm, max_nm, mean_nm].map(six);
         facts.add(
             "driving torque",
-            format_args!("{min_nm} to {max_nm} N m, mean {mean_nm} N m"),
+            format_args!("{least} to {most} N m, mean {mean} N m"),
         );
     }
     for (name, peak) in summary.peaks.iter().flat_map(|peaks| peaks.named()) {
+        let (value, t, angle) = (six(peak.value_n), six(peak.t_s), in_turn(peak.theta_rad));
         facts.add(
             name,
-            format_args!("at most {} N, at t = {} s", peak.value_n, peak.t_s),
+            format_args!("at most {value} N, at t = {t} s, {angle} deg"),
         );
     }
     let (relative, residual) = (summary.energy_residual, summary.energy_residual_j);
@@ -84,9 +85,9 @@ fn end(facts: &mut Facts, summary: &Summary) {
     let error = summary.error_estimate;
     let shown = |value: f64, error: Option<f64>, unit: &str| match error {
         Some(error) => with_error(value, error, unit),
-        None => format!("{value} {unit}, error not estimated"),
+        None => format!("{} {unit}, error not estimated", six(value)),
     };
-    facts.add("end", format_args!("t = {} s", last.t_s));
+    facts.add("end", format_args!("t = {} s", six(last.t_s)));
     let angle = shown(last.theta_rad, error.map(|e| e.theta_rad), "rad");
     facts.add("  crank angle", angle);
     let speed = shown(
@@ -95,7 +96,7 @@ fn end(facts: &mut Facts, summary: &Summary) {
         "rad/s",
     );
     facts.add("  crank speed", speed);
-    facts.add("turns", summary.revolutions);
+    facts.add("turns", six(summary.revolutions));
     let [least, largest] = [summary.omega_min, summary.omega_max].map(bound);
     facts.add("crank speed", format_args!("{least} to {largest} rad/s"));
 }
@@ -129,7 +130,7 @@ fn events(summary: &Summary) -> String {
 
 fn bound(speed: f64) -> String {
     if speed.is_finite() {
-        format!("{speed}")
+        six(speed)
     } else {
         "no bound".to_owned()
     }
@@ -178,16 +179,20 @@ pub(super) fn place(position: &NamedPosition) -> String {
 
 /// Where an extreme is.
 pub(super) fn extreme(found: &Located, unit: &str) -> String {
-    format!("{} {unit} at {} deg", found.value, degrees(found.theta_rad))
+    format!(
+        "{} {unit} at {} deg",
+        six(found.value),
+        degrees(found.theta_rad)
+    )
 }
 
 /// What the lengths give.
 pub(super) fn kinematics(result: &Kinematics) -> Facts {
     let mut facts = Facts::of(&result.scene);
     facts.add("class", result.class);
-    facts.add("stroke", format_args!("{} m", result.stroke_m));
+    facts.add("stroke", format_args!("{} m", six(result.stroke_m)));
     for dead_centre in &result.dead_centres {
-        let (angle, x) = (degrees(dead_centre.theta_rad), dead_centre.x_m);
+        let (angle, x) = (degrees(dead_centre.theta_rad), six(dead_centre.x_m));
         facts.add(
             format_args!("{} dead centre", dead_centre.kind),
             format_args!("{angle} deg, x = {x} m"),
@@ -198,7 +203,7 @@ pub(super) fn kinematics(result: &Kinematics) -> Facts {
     {
         facts.add("outward stroke", format_args!("{} deg", degrees(advance)));
         facts.add("inward stroke", format_args!("{} deg", degrees(back)));
-        facts.add("time ratio", ratio);
+        facts.add("time ratio", six(ratio));
     }
     for reach in &result.reach_rad {
         let [from, to] = reach.map(degrees);

@@ -1,6 +1,8 @@
 //! Files that take their name when they are complete.
 
-use std::fs::{File, Metadata};
+#[cfg(target_os = "linux")]
+use std::fs::File;
+use std::fs::Metadata;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -30,6 +32,9 @@ impl Unfinished {
         builder.prefix(HIDDEN);
         #[cfg(unix)]
         builder.permissions(permissions(before));
+        // Elsewhere a file has the permissions of its folder.
+        #[cfg(not(unix))]
+        let _ = before;
         builder.tempfile_in(folder).map(Unfinished::Hidden)
     }
 

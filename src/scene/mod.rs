@@ -10,6 +10,7 @@ mod builder;
 #[cfg(feature = "cli")]
 mod builtin;
 mod clearance;
+mod corners;
 mod expression;
 #[cfg(feature = "cli")]
 mod keys;
@@ -58,6 +59,8 @@ pub use problem::{Problem, Problems};
 #[cfg(feature = "cli")]
 pub use schema::schema;
 pub use table::{Interpolation, Table, calibration_points};
+#[cfg(feature = "cli")]
+pub use table::{LoadTable, load_table};
 pub use variable::{Instant, Variable, Variables};
 #[cfg(feature = "cli")]
 pub use vary::{Draft, Varied};

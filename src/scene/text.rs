@@ -55,6 +55,41 @@ pub(super) fn decoded(bytes: Vec<u8>) -> Result<String, String> {
     })
 }
 
+/// The text that a file of data holds, and its encoding where that is not UTF-8: UTF-16 is told by its mark or its zero bytes, and
+/// what is neither is Windows-1252, whose digits and letters without accents are those of all others.
+pub(super) fn decoded_from_any(bytes: Vec<u8>) -> Result<(String, Option<&'static str>), String> {
+    let join: Option<fn([u8; 2]) -> u16> = match bytes[..] {
+        [0xfe, 0xff, ..] | [0, 1..=255, 0, 1..=255, ..] => Some(u16::from_be_bytes),
+        [0xff, 0xfe, ..] | [1..=255, 0, 1..=255, 0, ..] => Some(u16::from_le_bytes),
+        _ => None,
+    };
+    if let Some(join) = join {
+        let (pairs, rest) = bytes.as_chunks::<2>();
+        let text = String::from_utf16(&pairs.iter().map(|pair| join(*pair)).collect::<Vec<u16>>());
+        return match text {
+            Ok(text) if rest.is_empty() => Ok((text, Some("UTF-16"))),
+            _ => Err("the file is UTF-16 text with characters cut off".to_owned()),
+        };
+    }
+    if NO_TEXT.iter().any(|(start, _)| bytes.starts_with(start))
+        || bytes.contains(&0)
+        || std::str::from_utf8(&bytes).is_ok()
+    {
+        return decoded(bytes).map(|text| (text, None));
+    }
+    let letter = |byte: &u8| match byte {
+        0x80..0xa0 => WINDOWS_1252
+            .chars()
+            .nth(usize::from(byte - 0x80))
+            .unwrap_or_default(),
+        byte => char::from(*byte),
+    };
+    Ok((bytes.iter().map(letter).collect(), Some("Windows-1252")))
+}
+
+/// The characters of bytes 0x80 to 0x9f; those that are not in use as replacement characters.
+const WINDOWS_1252: &str = "€\u{fffd}‚ƒ„…†‡ˆ‰Š‹Œ\u{fffd}Ž\u{fffd}\u{fffd}‘’“”•–—˜™š›œ\u{fffd}žŸ";
+
 /// Line and column, both from 1, of a byte.
 fn place(bytes: &[u8], at: usize) -> (usize, usize) {
     let before = &bytes[..at];

@@ -3,12 +3,12 @@
 use std::f64::consts::TAU;
 use std::time::Instant;
 
-use super::over_angle::{Motion, late_by};
+use super::over_angle::{Motion, PLACE, late_by};
 use super::profile::Position;
 use super::summary::{Cost, ErrorEstimate};
 use super::task::Task;
 use crate::engine::angle::{self, Driving, Goal, Resolution};
-use crate::engine::energy::Unserved;
+use crate::engine::energy::{Orbit, Unserved};
 use crate::scene::Extent;
 
 /// Series end where their coefficients have decayed to this part of the tolerance.
@@ -73,7 +73,7 @@ pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, 
     if let Some(short) = driving.short {
         return Err(handed(driving, short.why));
     }
-    let estimate = if task.options.estimate {
+    let estimated = if task.options.estimate {
         let begun = Instant::now();
         let limited = Resolution {
             most_evaluations: most_evaluations(
@@ -97,11 +97,13 @@ pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, 
                 evaluations: position.evaluations() - places + better.evaluations,
                 wall_s: begun.elapsed().as_secs_f64(),
             };
-            (distance(task, &driving, &better), Some(cost))
+            let error = distance(task, &driving, &better);
+            ((error, Some(cost)), better.orbit)
         })
     } else {
         None
     };
+    let (estimate, second) = estimated.unzip();
     Ok(Motion {
         last: driving.orbit.state(driving.end),
         orbit: driving.orbit,
@@ -111,6 +113,7 @@ pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, 
         wall_s,
         stopped: None,
         estimate,
+        second,
     })
 }
 
@@ -136,11 +139,20 @@ pub(super) fn finer() -> Resolution {
     }
 }
 
+/// Error of a row at a time (s) of two motions, the error of the last one added.
+pub(super) fn row_error(orbits: [&Orbit; 2], t: f64, last: ErrorEstimate) -> ErrorEstimate {
+    let [(angle, speed), (other, faster)] = orbits.map(|orbit| orbit.state(t));
+    ErrorEstimate {
+        theta_rad: MARGIN * angle.minus(other).abs() + last.theta_rad,
+        omega_rad_per_s: MARGIN * (speed - faster).abs() + last.omega_rad_per_s,
+    }
+}
+
 /// Distance of two runs at the end of the first, and what rounding may add.
 fn distance(task: &Task<'_>, driving: &Driving, better: &Driving) -> ErrorEstimate {
     let end = driving.end;
     let (a, b) = (driving.orbit.state(end), better.orbit.state(end));
-    let floor = late_by(task, a, end, driving.errors.late + ROUNDING * end);
+    let floor = late_by(task, a, end, driving.errors.late + ROUNDING * end, PLACE);
     let momentum = task.equation().terms(a.0.rest).inertia.m * a.1.abs();
     ErrorEstimate {
         theta_rad: MARGIN * a.0.minus(b.0).abs() + floor.theta_rad,

@@ -3,9 +3,10 @@
 use std::f64::consts::TAU;
 use std::time::Instant;
 
-use super::over_angle::{Motion, energy_residual, late_by};
+use super::over_angle::{Motion, PLACE, energy_residual, late_by};
 use super::profile::Position;
 use super::stopped;
+use super::summary::ErrorEstimate;
 use super::task::Task;
 use crate::engine::energy::{Orbit, Unserved};
 use crate::numeric::angle::Angle;
@@ -35,11 +36,8 @@ pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, 
     let last = orbit.state(end);
     let work = position.work(task.start(), last.0);
     let estimate = task.options.estimate.then(|| {
-        let rests = speed == 0.0 || orbit.turns_back();
-        let rounding = if rests { ROUNDING_AT_REST } else { ROUNDING };
-        let mut error = late_by(task, last, end, orbit.time_error(end) + rounding * end);
-        error.theta_rad = error.theta_rad.hypot(orbit.misplaced(end));
-        error.omega_rad_per_s += off_the_energy(task, (&orbit, end), last, work);
+        let mut error = rounded(task, (&orbit, end), last);
+        error.omega_rad_per_s += left_out(task, (&orbit, end), last, work);
         (error, None)
     });
     Ok(Motion {
@@ -50,26 +48,44 @@ pub(super) fn solve(task: &Task<'_>, position: &Position<'_>) -> Result<Motion, 
         wall_s,
         stopped,
         estimate,
+        second: None,
         orbit,
     })
 }
 
+/// Error of a state by that of its time, and by the rounding of its place and of energies.
+fn rounded(task: &Task<'_>, (orbit, t): (&Orbit, f64), state: (Angle, f64)) -> ErrorEstimate {
+    let rests = task.scene.motion.speed == 0.0 || orbit.turns_back();
+    let rounding = if rests { ROUNDING_AT_REST } else { ROUNDING };
+    let late = orbit.time_error(t) + rounding * t;
+    let place = orbit.rounding(t).map_or(PLACE, |place| place.min(PLACE));
+    let mut error = late_by(task, state, t, late, place);
+    error.theta_rad = error.theta_rad.hypot(orbit.misplaced(t));
+    let (angle, omega) = state;
+    let momentum = task.equation().terms(angle.rest).inertia.m * omega.abs();
+    // Not a number at rest.
+    let kinetic = 0.5 * momentum * omega.abs();
+    let by_energy = (orbit.energy_error(t, kinetic) / momentum).min(omega.abs());
+    error.omega_rad_per_s = error.omega_rad_per_s.hypot(by_energy);
+    error
+}
+
 /// How far the speed may be off that of its angle, rad/s: what the series leave out of it there, or less if
-/// the energy of the state says so. The energies are right to their rounding, and to that of the start.
-fn off_the_energy(
-    task: &Task<'_>,
-    (orbit, end): (&Orbit, f64),
-    last: (Angle, f64),
-    work: f64,
-) -> f64 {
+/// the energy of the state says so.
+fn left_out(task: &Task<'_>, (orbit, end): (&Orbit, f64), last: (Angle, f64), work: f64) -> f64 {
     let (angle, omega) = last;
-    let left_out = orbit.speed_error(end) * omega.abs();
     let (residual, scale) = energy_residual(task, (orbit, end), last, work);
     let momentum = task.equation().terms(angle.rest).inertia.m * omega.abs();
     let seen = (1.5 * residual.abs() + f64::EPSILON * scale) / momentum;
-    // Not a number at rest.
-    let by_start = (orbit.energy_error() / momentum).min(omega.abs());
-    left_out.min(seen) + by_start
+    (orbit.speed_error(end) * omega.abs()).min(seen)
+}
+
+/// Error of a row at a time, s.
+pub(super) fn row_error(task: &Task<'_>, orbit: &Orbit, t: f64) -> ErrorEstimate {
+    let state = orbit.state(t);
+    let mut error = rounded(task, (orbit, t), state);
+    error.omega_rad_per_s += orbit.speed_error(t) * state.1.abs();
+    error
 }
 
 /// A motion, its last time, and why it does not complete its turns, if it does not.

@@ -33,9 +33,11 @@ pub(super) fn run(task: &Task<'_>, rows: &mut dyn RowSink) -> Result<Simulation,
         end,
     };
     // Towards a limit, or where the guide locks itself, torque and energy grow without bound.
-    let (torque, energy) = match blocked {
-        Some(_) => (None, (f64::NAN, f64::NAN)),
-        None => (Some(drive.torque_range()), drive.energy_residual()),
+    let unbounded = (f64::NAN, f64::NAN);
+    let (torque, warning, energy) = match blocked.is_none().then(|| drive.torque_range()) {
+        Some(Ok(range)) => (Some(range), None, drive.energy_residual()),
+        Some(Err(why)) => (None, Some(why), drive.energy_residual()),
+        None => (None, None, unbounded),
     };
     let wall_s = begun.elapsed();
     write_rows(task, rows, start, speed, end, blocked.is_some())?;
@@ -53,12 +55,8 @@ pub(super) fn run(task: &Task<'_>, rows: &mut dyn RowSink) -> Result<Simulation,
         energy,
         wall_s: Duration::as_secs_f64(&wall_s),
         speed: (speed, speed),
-        driving_torque: torque.and_then(Result::ok),
-        warnings: torque
-            .and_then(Result::err)
-            .map(str::to_owned)
-            .into_iter()
-            .collect(),
+        driving_torque: torque,
+        warnings: warning.into_iter().collect(),
         events,
         events_total,
         stopped: blocked.map(|t| {

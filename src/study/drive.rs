@@ -7,7 +7,7 @@ use super::summary::TorqueRange;
 use crate::mechanism::Equation;
 use crate::numeric::angle::Angle;
 use crate::numeric::{gauss, golden};
-use crate::scene::Variable;
+use crate::scene::{Instant, Variable};
 
 /// A run at constant speed.
 pub(super) struct Drive<'a> {
@@ -23,8 +23,9 @@ pub(super) struct Drive<'a> {
 /// Turns of a run whose loads do not repeat that are looked at.
 const MOST_TURNS: f64 = 100.0;
 
-const NOT_FINITE: &str = "the range of the driving torque is not given: the torque has no finite value somewhere, as at a limit of the crank, outside a table of the scene or outside the domain of a formula";
-const TOO_LONG: &str = "the range of the driving torque is not given: the loads depend on the time or the crank angle, and the run has more than 100 turns";
+const NOT_GIVEN: &str = "the range of the driving torque is not given";
+const TOO_LONG: &str =
+    "the loads depend on the time or the crank angle, and the run has more than 100 turns";
 
 impl Drive<'_> {
     fn torque(&self, t: f64) -> f64 {
@@ -42,7 +43,30 @@ impl Drive<'_> {
     ///
     /// # Errors
     /// Why it is not known, in words.
-    pub fn torque_range(&self) -> Result<TorqueRange, &'static str> {
+    pub fn torque_range(&self) -> Result<TorqueRange, String> {
+        self.range().map_err(|why| format!("{NOT_GIVEN}: {why}"))
+    }
+
+    /// Why the torque has no finite value at a time (s).
+    fn not_finite(&self, t: f64) -> String {
+        let angle = self.start.plus(self.speed * t);
+        let pose = self.equation.linkage().pose(angle.rest);
+        let now = Instant {
+            t,
+            theta: angle.radians(),
+            omega: self.speed,
+            x: pose.x,
+            v: pose.dx * self.speed,
+        };
+        let why = match self.equation.loads().without_value(&now) {
+            _ if !pose.exists() => "the crank is at a limit".to_owned(),
+            Some(load) => format!("a load has no finite value ({load})"),
+            None => "the torque is too large for a number".to_owned(),
+        };
+        format!("{why} at t = {t} s, theta = {} rad", angle.radians())
+    }
+
+    fn range(&self) -> Result<TorqueRange, String> {
         if self.speed == 0.0 {
             let torque = self.torque(0.0);
             let range = TorqueRange {
@@ -50,7 +74,8 @@ impl Drive<'_> {
                 max_nm: torque,
                 mean_nm: torque,
             };
-            return torque.is_finite().then_some(range).ok_or(NOT_FINITE);
+            let known = torque.is_finite().then_some(range);
+            return known.ok_or_else(|| self.not_finite(0.0));
         }
         let turn = TAU / self.speed.abs();
         let reads = self.equation.loads().reads();
@@ -61,17 +86,19 @@ impl Drive<'_> {
             self.end
         };
         if span > MOST_TURNS * turn {
-            return Err(TOO_LONG);
+            return Err(TOO_LONG.to_owned());
         }
         let times = self.times(span);
         let torques: Vec<f64> = times.iter().map(|t| self.torque(*t)).collect();
-        if !torques.iter().all(|torque| torque.is_finite()) {
-            return Err(NOT_FINITE);
+        if let Some(i) = torques.iter().position(|torque| !torque.is_finite()) {
+            return Err(self.not_finite(times[i]));
         }
         Ok(TorqueRange {
             min_nm: -self.largest(&times, &torques, -1.0),
             max_nm: self.largest(&times, &torques, 1.0),
-            mean_nm: self.mean(span).ok_or(NOT_FINITE)?,
+            mean_nm: self
+                .mean(span)
+                .ok_or("its mean is not finite: a load has no value at an angle on the way")?,
         })
     }
 

@@ -70,6 +70,8 @@ impl Motion for Forward<'_> {
 /// The second run of the estimate is so much tighter that its own error does not count, whatever the first
 /// one's happens to be: at the order of collocation two more digits take a fifth more evaluations.
 const MUCH_TIGHTER: f64 = 1e4;
+/// A short run is far better than a loose tolerance: the second one is never looser than at the default tolerance.
+const LOOSEST: f64 = 1e-10 / MUCH_TIGHTER;
 /// Where collocation does not get to the end, the same method again, this much tighter.
 const TIGHTER: f64 = 50.0;
 /// What is stated is larger than the distance of the two runs by this, for the error of the second.
@@ -148,7 +150,7 @@ pub(super) fn estimate(
 
 /// Tolerance of a run in time that is so much tighter that its own error does not count.
 pub(super) fn tighter(tolerance: f64) -> f64 {
-    (tolerance / MUCH_TIGHTER).max(TIGHTEST)
+    (tolerance / MUCH_TIGHTER).clamp(TIGHTEST, LOOSEST)
 }
 
 /// What rounding does to a run in time.

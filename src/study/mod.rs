@@ -32,6 +32,7 @@ mod schedule;
 mod simulate;
 mod sliding;
 mod spread;
+mod stalled;
 mod statics;
 mod steady;
 mod stopped;

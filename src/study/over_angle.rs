@@ -30,6 +30,27 @@ pub(super) struct Motion {
     pub stopped: Option<String>,
     /// Error of the end, and what its estimate cost.
     pub estimate: Option<(ErrorEstimate, Option<Cost>)>,
+    /// The motion of the second run, if the estimate is by one.
+    pub second: Option<Orbit>,
+}
+
+/// Times of a run at which its rows are judged.
+const LOOKED_AT: u32 = 64;
+
+impl Motion {
+    /// Error of the worst row, by that of rows spread over the run.
+    fn rows_error(&self, task: &Task<'_>) -> Option<ErrorEstimate> {
+        // Multiples of the golden section fall everywhere in panels, however these divide the run.
+        let golden = 0.5 * (5f64.sqrt() - 1.0);
+        let times = (1..=LOOKED_AT).map(|i| (f64::from(i) * golden).fract() * self.end);
+        let (last, _) = self.estimate?;
+        Some(times.fold(last, |worst, t| {
+            worst.max(match &self.second {
+                Some(second) => by_angle::row_error([&self.orbit, second], t, last),
+                None => by_energy::row_error(task, &self.orbit, t),
+            })
+        }))
+    }
 }
 
 /// Runs a task; one that these engines cannot serve after all is run in time, and its plan says so.
@@ -107,6 +128,9 @@ fn turns_fully(task: &Task<'_>) -> bool {
 fn why(task: &Task<'_>, unserved: Unserved) -> &'static str {
     match task.maker.sliding {
         Some(sliding) if sliding.jams() => "the slider jams in its guide at an angle of the turn",
+        _ if unserved == Unserved::NotFinite && task.limits.class != Class::RotatingCrank => {
+            "the mechanism reaches the limit of its motion"
+        }
         _ => reason(unserved),
     }
 }
@@ -115,9 +139,7 @@ fn why(task: &Task<'_>, unserved: Unserved) -> &'static str {
 pub(super) fn reason(unserved: Unserved) -> &'static str {
     match unserved {
         Unserved::Equilibrium => "it starts at rest without a force",
-        Unserved::NotFinite => {
-            "the mechanism reaches the limit of its motion, or a load has no value"
-        }
+        Unserved::NotFinite => "a load has no finite value on the way",
         Unserved::NotSmooth => "a load is not smooth",
         Unserved::TooSlow => "the crank comes too near to rest",
         Unserved::WorkLimit | Unserved::TooManyTurns => {
@@ -137,6 +159,7 @@ fn finish(task: &Task<'_>, motion: Motion, rows: &mut dyn RowSink) -> Result<Sim
         end: *end,
     };
     write_rows(task, &mut log, &stretch, rows)?;
+    let rows_error = rows.wants_rows().then(|| motion.rows_error(task));
     let (speed, mut warnings) = speeds(task, log.speed, omega);
     if task.options.estimate && motion.estimate.is_none() {
         warnings.push(NOT_ESTIMATED.to_owned());
@@ -149,6 +172,7 @@ fn finish(task: &Task<'_>, motion: Motion, rows: &mut dyn RowSink) -> Result<Sim
         },
         turned: angle.minus(task.start()),
         error_estimate: motion.estimate.map(|(error, _)| error),
+        rows_error: rows_error.flatten(),
         estimate_cost: motion.estimate.and_then(|(_, cost)| cost),
         energy: energy_residual(task, (orbit, *end), motion.last, motion.work),
         evaluations: motion.evaluations,
@@ -184,17 +208,21 @@ fn write_rows(
     write(stretch.begin + stretch.end, angle, omega)
 }
 
+/// How far an angle in its turn is rounded at most, rad.
+pub(super) const PLACE: f64 = 2.0 * f64::EPSILON;
+
 /// Error of a state if its time may be off by `late` (s): it moves the state along the motion. The angle in its
-/// turn is right to two units of one radian, and rounded once more with its turns. The speed comes from series of 33
+/// turn is right to `place` (rad), and rounded once more with its turns. The speed comes from series of 33
 /// terms, whose sum is rounded by half of √33 units. These errors are independent.
 pub(super) fn late_by(
     task: &Task<'_>,
     (angle, omega): (Angle, f64),
     end: f64,
     late: f64,
+    place: f64,
 ) -> ErrorEstimate {
     let (alpha, _) = task.maker.forward(end, angle, omega);
-    let rounding = f64::EPSILON * (2.0 + 0.5 * angle.radians().abs());
+    let rounding = place + 0.5 * f64::EPSILON * angle.radians().abs();
     ErrorEstimate {
         theta_rad: (omega * late).hypot(rounding),
         omega_rad_per_s: (alpha * late).hypot(3.0 * f64::EPSILON * omega),

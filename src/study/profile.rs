@@ -14,6 +14,9 @@ use crate::numeric::enclosure::{Detail, Reach};
 use crate::numeric::gauss;
 use crate::scene::Variable;
 
+/// On each side of an angle this far, rad, the slope of a load is taken.
+const BESIDE: f64 = 1e-6;
+
 /// Inertia, potential and force of an equation whose loads depend on the position alone.
 pub(super) struct Position<'a> {
     equation: &'a Equation,
@@ -329,7 +332,13 @@ impl Profile for Position<'_> {
 
     fn rounding(&self, theta: f64) -> f64 {
         self.count(1);
-        let size = self.equation.size_of_terms(0.0, self.angle(theta), 0.0);
+        let angle = self.angle(theta);
+        let mut size = self.equation.size_of_terms(0.0, angle, 0.0);
+        if !self.equation.loads().have_potential() {
+            // What a formula makes of the angle is rounded as the angle is.
+            let change = self.push(theta + BESIDE) - self.push(theta - BESIDE);
+            size += (0.5 * change / BESIDE * angle.radians()).abs();
+        }
         0.5 * f64::EPSILON * size
     }
 

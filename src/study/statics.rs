@@ -37,6 +37,8 @@ pub struct StaticAnalysis {
     pub least: Vec<Located>,
     /// The same of the edge of the friction band that is nearer to zero.
     pub least_with_friction: Vec<Located>,
+    /// Crank angles at which friction at the guide locks the mechanism, from and to, rad; none without friction.
+    pub self_locking_rad: Vec<[f64; 2]>,
     /// Dead centres, self-locking intervals and other positions that have a name, by angle.
     pub positions: Vec<NamedPosition>,
     /// What the reader should know.
@@ -101,6 +103,10 @@ pub fn statics(scene: &Scene, options: &StaticsOptions) -> Result<StaticAnalysis
     let mut positions = linkage.named_positions();
     positions.extend(linkage.self_locking(friction));
     positions.sort_by(|a, b| a.theta_rad.total_cmp(&b.theta_rad));
+    let locked = positions.iter().filter(|at| at.kind == "self-locking");
+    let self_locking_rad = locked
+        .filter_map(|at| Some([at.theta_rad, at.to_rad?]))
+        .collect();
     let mut warnings = Vec::new();
     let reads = statics.equation().loads().reads();
     let motion = Variables::T.or(Variables::OMEGA).or(Variables::V);
@@ -131,6 +137,7 @@ pub fn statics(scene: &Scene, options: &StaticsOptions) -> Result<StaticAnalysis
         friction,
         least: Vec::new(),
         least_with_friction: Vec::new(),
+        self_locking_rad,
         positions,
         warnings,
         statics,

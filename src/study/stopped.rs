@@ -6,7 +6,7 @@ use crate::engine::time::Finish;
 use crate::error::Error;
 use crate::mechanism::{Equation, Obstacle};
 use crate::numeric::angle::Angle;
-use crate::scene::Extent;
+use crate::scene::{Extent, Instant};
 
 pub(super) fn at_limit(last: &Step) -> String {
     format!(
@@ -30,7 +30,7 @@ pub(super) fn work_limit(place: &str) -> String {
 
 pub(super) fn work_limit_ahead(place: &str) -> String {
     format!(
-        "the steps have become so short that the work limit of evaluations would be reached long before the end: stopped {place}; the equation is too stiff for a method in time, or a load jumps back and forth with the speed: give dry friction at the guide as [friction] and steep losses less steep, or raise --max-evaluations"
+        "the steps have become so short that the work limit of evaluations would be reached long before the end: stopped {place}; the equation is too stiff for a method in time, or a load jumps back and forth with the speed: give dry friction as kind = \"dry\" or at the guide as [friction], and steep losses less steep, or raise --max-evaluations"
     )
 }
 
@@ -62,10 +62,7 @@ pub(super) fn reason(
             let (t, angle, speed) = impossible.unwrap_or((end.t, last.angle(end.theta), end.omega));
             Some(match equation.obstacle(t, angle, speed) {
                 Some(Obstacle::Blocked) => at_limit(last),
-                Some(Obstacle::Load) => format!(
-                    "a load has no finite value at t = {t} s, theta = {} rad, omega = {speed} rad/s (outside its table, or outside the domain of its formula): stopped {place}",
-                    angle.radians()
-                ),
+                Some(Obstacle::Load) => no_value(equation, t, angle.radians(), speed, &place),
                 Some(Obstacle::NoInertia) => {
                     format!(
                         "the effective inertia vanishes: stopped {place}; give the crank an inertia"
@@ -83,6 +80,27 @@ pub(super) fn reason(
             })
         }
     }
+}
+
+/// That a load has no finite value at a time (s), crank angle (rad) and speed (rad/s), and which.
+pub(super) fn no_value(equation: &Equation, t: f64, theta: f64, omega: f64, place: &str) -> String {
+    let pose = equation.linkage().pose(theta);
+    let now = Instant {
+        t,
+        theta,
+        omega,
+        x: pose.x,
+        v: pose.dx * omega,
+    };
+    let load = equation.loads().without_value(&now);
+    let why = match load {
+        Some(load) if load.is_tabulated() => format!(" ({load}, beyond its rows)"),
+        Some(load) => format!(" ({load}, outside its domain)"),
+        None => String::new(),
+    };
+    format!(
+        "a load has no finite value at t = {t} s, theta = {theta} rad, omega = {omega} rad/s{why}: stopped {place}"
+    )
 }
 
 /// Whether the inertia is next to nothing here, compared with that a radian further.

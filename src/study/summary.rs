@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::clearance::ClearanceSummary;
 use super::peaks::Peaks;
+use super::stalled;
 use super::steady::SteadyState;
 use super::task::Task;
 use crate::plan::Plan;
@@ -27,6 +28,10 @@ pub struct Summary {
     pub revolutions: f64,
     /// Estimate of the global error of the last state; none if it was not asked for or cannot be given.
     pub error_estimate: Option<ErrorEstimate>,
+    /// The same of the worst row of a run over the crank angle, which may lie where a series is not as good as at its
+    /// end; none without rows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rows_error: Option<ErrorEstimate>,
     /// Energy at the end minus energy at the start minus work of the loads, divided by the largest of the
     /// energies that occur; not finite for a prescribed speed that runs into a limit, where they grow without bound.
     pub energy_residual: f64,
@@ -74,6 +79,7 @@ pub(super) struct Solved {
     /// rad, signed
     pub turned: f64,
     pub error_estimate: Option<ErrorEstimate>,
+    pub rows_error: Option<ErrorEstimate>,
     /// Residual and the largest energy that occurs, J.
     pub energy: (f64, f64),
     pub evaluations: u64,
@@ -104,6 +110,10 @@ impl Summary {
                 "{total} events occurred; the first {kept} are listed"
             ));
         }
+        let stopped = solved
+            .stopped
+            .or_else(|| short_of(task.extent, &solved.last, solved.turned));
+        let stopped = stopped.map(|why| stalled::reason(task, &solved.last).unwrap_or(why));
         Summary {
             scene: task.scene.title.clone().unwrap_or_default(),
             engine: task.plan.engine.name().to_owned(),
@@ -111,6 +121,7 @@ impl Summary {
             last: solved.last,
             revolutions: solved.turned / TAU,
             error_estimate: solved.error_estimate,
+            rows_error: solved.rows_error,
             energy_residual: if scale == 0.0 { 0.0 } else { residual / scale },
             energy_residual_j: residual,
             evaluations: solved.evaluations,
@@ -167,6 +178,16 @@ pub struct ErrorEstimate {
     pub theta_rad: f64,
     /// rad/s
     pub omega_rad_per_s: f64,
+}
+
+impl ErrorEstimate {
+    /// The larger one of each.
+    pub(super) fn max(self, other: ErrorEstimate) -> ErrorEstimate {
+        ErrorEstimate {
+            theta_rad: self.theta_rad.max(other.theta_rad),
+            omega_rad_per_s: self.omega_rad_per_s.max(other.omega_rad_per_s),
+        }
+    }
 }
 
 /// Evaluations and time.

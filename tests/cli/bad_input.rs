@@ -282,6 +282,34 @@ fn an_offset_one_rounding_beyond_crank_plus_rod_is_refused() {
         }
     }
     Folder::with(&scene("2.864004615407548"))
-        .run(&["check", "scene.toml"])
+        .run(&["kinematics", "scene.toml"])
         .done();
+}
+
+#[test]
+fn the_table_of_a_load_is_told_from_a_motion() {
+    let folder = Folder::new();
+    for (header, what) in [
+        ("theta [deg],pressure [bar]", "a pressure over theta"),
+        ("theta [rad];torque [N m]", "a torque over theta"),
+        ("t [s],F [kN]", "a force over t"),
+    ] {
+        let separator = if header.contains(';') { ';' } else { ',' };
+        let rows: String = (0..=72)
+            .map(|i| format!("{}{separator}{}\n", 10 * i, i % 7))
+            .collect();
+        folder.write("load.csv", &format!("{header}\n{rows}"));
+        let said = folder.run(&["check", "load.csv"]).done().stdout;
+        assert!(said.contains(what) && said.contains("73 rows"), "{said}");
+        folder.write("load.csv", &format!("{header}\n{rows}{rows}"));
+        folder
+            .run(&["check", "load.csv"])
+            .fails(2, &["load.csv line 75"]);
+    }
+    folder.write(
+        "motion.csv",
+        "t [s],x [mm]\n0,1\n1,2\n2,3\n3,5\n4,9\n5,12\n",
+    );
+    let said = folder.run(&["check", "motion.csv"]).done().stdout;
+    assert!(said.contains("6 samples of x"), "{said}");
 }

@@ -98,3 +98,48 @@ fn the_plan_names_the_loose_joint() {
         .run(&["simulate", &scene, "--method", "time"])
         .fails(2, &words);
 }
+
+/// Without friction the joint's force is that of the contact, whose largest value is no sample.
+#[test]
+fn the_largest_contact_force_is_that_of_the_joint() {
+    let folder = Folder::new();
+    let scene = scene("clearance-5000rpm.toml");
+    let summary = folder
+        .run(&["simulate", &scene, "--reactions", "--no-estimate", "--json"])
+        .done()
+        .json();
+    let (contact, joint) = (
+        at(&summary, "clearance.force_peak_n"),
+        at(&summary, "peaks.wrist_pin.value_n"),
+    );
+    assert!((contact / joint - 1.0).abs() < 1e-10, "{contact} {joint}");
+}
+
+#[test]
+fn energy_that_goes_out_is_not_said_to_be_put_in() {
+    let folder = Folder::new();
+    for name in [
+        "clearance-5000rpm.toml",
+        "hard/11-clearance-free-crank.toml",
+        "gupta-clearance-30rpm.toml",
+    ] {
+        let scene = scene(name);
+        let run = ["simulate", &scene, "--no-estimate"];
+        let text = folder.run(&run).done().stdout;
+        let work = at(
+            &folder.run(&[&run[..], &["--json"]].concat()).done().json(),
+            "clearance.work_j",
+        );
+        let way = if work < 0.0 {
+            "J out of the mechanism"
+        } else {
+            "J into the mechanism"
+        };
+        assert!(text.contains(way), "{work}: {text}");
+        let line = text
+            .lines()
+            .find(|line| line.contains("energy lost"))
+            .expect("a line");
+        assert!(!line.contains('-'), "{line}");
+    }
+}

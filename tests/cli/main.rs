@@ -7,6 +7,7 @@ mod commands;
 mod figure;
 mod files;
 mod inverse;
+mod inverse_text;
 mod kinematics;
 mod limits;
 mod one_turn;

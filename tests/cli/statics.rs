@@ -182,3 +182,43 @@ fn what_cannot_be_meant_is_refused() {
         .run(&["statics", "--calibration", "c.csv"])
         .fails(2, &["c.csv line 3", "column 2", "`x`"]);
 }
+
+#[test]
+fn the_summary_has_the_self_locking_range() {
+    // mu |sin phi| >= |cos phi| where |sin theta| >= l cos(atan mu)/r.
+    let folder = Folder::with(
+        "[geometry]\ncrank = \"50 mm\"\nrod = \"60 mm\"\n[friction]\ncoefficient = 1.0\n",
+    );
+    let summary = folder
+        .run(&["statics", "scene.toml", "--torque", "1 N m", "--json"])
+        .done()
+        .json();
+    let from = (0.06 / 2f64.sqrt() / 0.05).asin();
+    let ranges = summary["self_locking_rad"].as_array().expect("ranges");
+    assert_eq!(ranges.len(), 2, "{ranges:?}");
+    let edge = |i: usize, k: usize| ranges[i][k].as_f64().expect("a number");
+    assert!(
+        (edge(0, 0) - from).abs() < 1e-12
+            && (edge(0, 1) - (std::f64::consts::PI - from)).abs() < 1e-12
+    );
+    assert!(
+        (edge(1, 0) - (std::f64::consts::PI + from)).abs() < 1e-12,
+        "{ranges:?}"
+    );
+    let without = folder
+        .run(&[
+            "statics",
+            "scene.toml",
+            "--torque",
+            "1 N m",
+            "--friction",
+            "0",
+            "--json",
+        ])
+        .done()
+        .json();
+    assert_eq!(
+        without["self_locking_rad"].as_array().map(Vec::len),
+        Some(0)
+    );
+}

@@ -79,7 +79,7 @@ fn what_has_none_is_refused_and_nothing_is_written() {
         "driven.toml",
         &format!("{load}{}", free("duration = \"1 s\"")),
     );
-    let words = ["over the crank angle", "theta stands outside of sin"];
+    let words = ["does not repeat", "theta stands outside of sin"];
     let outcome = folder.run(&arguments).fails(2, &words);
     assert!(!outcome.stderr.contains("--method"), "{outcome:?}");
     assert!(!folder.path("rows.csv").exists());
@@ -89,4 +89,53 @@ fn what_has_none_is_refused_and_nothing_is_written() {
     folder
         .run(&["simulate", "--steady-state", "--fluctuation", "x"])
         .fails(2, &["x"]);
+}
+
+/// A four-stroke engine: its cycle, its steady state and its flywheel, alone and in a sweep.
+#[test]
+fn cycles_of_two_turns() {
+    let folder = Folder::new();
+    let engine = concat!(env!("CARGO_MANIFEST_DIR"), "/data/four-stroke.toml");
+    let explained = folder.run(&["explain", engine]).done().stdout;
+    for words in [
+        "cycle of the loads     2 turns",
+        "repeats after 2 turns",
+        "repeats at every angle",
+    ] {
+        assert!(explained.contains(words), "{words}: {explained}");
+    }
+    let json = folder.run(&["explain", engine, "--json"]).done().json();
+    assert_eq!(json["plan"]["cycle"]["turns"], 2);
+    let shown = folder
+        .run(&["simulate", engine, "--steady-state"])
+        .done()
+        .stdout;
+    assert!(
+        shown.contains("(2 turns)") && shown.contains("left after a cycle"),
+        "{shown}"
+    );
+    let sweep = [
+        "sweep",
+        engine,
+        "--vary",
+        "crank.inertia=0.1kg m^2,0.2kg m^2",
+        "--no-motion",
+        "--steady-state",
+        "--fluctuation",
+        "0.02",
+        "--out",
+        "-",
+    ];
+    let table = folder.run(&sweep).done().stdout;
+    let mut rows = csv::Reader::from_reader(table.as_bytes());
+    let names = rows.headers().unwrap().clone();
+    let column = |name: &str| names.iter().position(|other| other == name).unwrap();
+    let [turns, fluctuation, wheel] =
+        ["cycle_turns", "fluctuation", "flywheel_added_inertia_kg_m2"].map(column);
+    let rows: Vec<_> = rows.records().map(Result::unwrap).collect();
+    let number = |row: usize, column: usize| rows[row][column].parse::<f64>().unwrap();
+    assert_eq!([number(0, turns), number(1, turns)], [2.0, 2.0]);
+    assert!((number(0, fluctuation) / 0.151_378_592_1 - 1.0).abs() < 1e-8);
+    // What the crank has already is not added.
+    assert!((number(0, wheel) - number(1, wheel) - 0.1).abs() < 1e-9);
 }

@@ -287,3 +287,70 @@ fn the_list_of_events_is_bounded_and_says_so() {
         );
     }
 }
+
+/// Longest run of digits of the mantissa of a number in a text, leading zeros apart.
+fn digits(text: &str) -> usize {
+    let numbers = text.split(|c: char| !(c.is_ascii_digit() || c == '.'));
+    let length = |number: &str| number.replace('.', "").trim_start_matches('0').len();
+    numbers.map(length).max().unwrap_or(0)
+}
+
+#[test]
+fn people_see_six_digits_where_no_error_is_known() {
+    let scene = "[geometry]\ncrank = \"47 mm\"\nrod = \"155.83 mm\"\noffset = \"3 mm\"\n[rod]\nmass = \"0.86 kg\"\ncg = \"51.07 mm\"\ninertia = \"3564.05 kg mm^2\"\n[slider]\nmass = \"0.5 kg\"\n[motion]\nkind = \"constant-speed\"\nspeed = \"300 1/min\"\n[run]\nrevolutions = 1.1\n";
+    let folder = Folder::with(scene);
+    for arguments in [
+        &[
+            "simulate",
+            "scene.toml",
+            "--reactions",
+            "--torque",
+            "--no-estimate",
+        ][..],
+        &["kinematics", "scene.toml", "--forces"],
+        &[
+            "kinematics",
+            "scene.toml",
+            "--with-offset",
+            "1 mm",
+            "--change",
+            "rod=151 mm",
+        ],
+        &["statics", "scene.toml", "--torque", "0.3 N m"],
+    ] {
+        let text = folder.run(arguments).done().stdout;
+        let summary = text.split("\n\n").next().unwrap_or_default();
+        let lines = summary
+            .lines()
+            .filter(|line| !(line.starts_with("cost") || line.contains("+-")));
+        for line in lines {
+            assert!(digits(line) <= 6, "{arguments:?}: {line}");
+        }
+    }
+    // Exact speed, its angle beside the time of each largest force, the engine by its name alone.
+    let text = folder
+        .run(&["simulate", "scene.toml", "--reactions"])
+        .done()
+        .stdout;
+    let line = |name: &str| {
+        let line = text.lines().find(|line| line.starts_with(name));
+        line.unwrap_or_else(|| panic!("no {name} in {text}"))
+            .to_owned()
+    };
+    assert!(line("  crank speed").ends_with(" 31.4159 rad/s"), "{text}");
+    assert!(!text.contains("0.0e0"), "{text}");
+    assert_eq!(
+        line("engine").split_whitespace().last(),
+        Some("closed-form")
+    );
+    assert!(
+        line("crank pin").contains(" s, ") && line("crank pin").ends_with(" deg"),
+        "{text}"
+    );
+    let summary = folder
+        .run(&["simulate", "scene.toml", "--reactions", "--json"])
+        .done()
+        .json();
+    let peak = |key: &str| at(&summary, &format!("peaks.crank_pin.{key}"));
+    assert!((peak("theta_rad") - 10.0 * std::f64::consts::PI * peak("t_s")).abs() < 1e-9);
+}

@@ -7,7 +7,7 @@ use std::thread;
 use crate::support::scenes::{DRAWS, Draws, write_tables};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
-use proptest::test_runner::{RngSeed, TestRunner};
+use proptest::test_runner::TestRunner;
 use slider_crank::plan::Method;
 use slider_crank::scene::{Extent, Scene};
 use slider_crank::study::{Event, Options, Simulation, simulate};
@@ -312,7 +312,7 @@ fn judge(folder: &Path, text: &str, draw: f64) -> (Vec<String>, usize) {
 /// Random scenes, each with a number that chooses a time inside it.
 fn scenes(seed: u64, count: usize) -> Vec<(String, f64)> {
     let mut runner = TestRunner::new(ProptestConfig {
-        rng_seed: RngSeed::Fixed(seed),
+        rng_seed: crate::support::seed::seed(seed),
         ..ProptestConfig::default()
     });
     let numbers = prop::collection::vec(0.0..1.0f64, DRAWS);

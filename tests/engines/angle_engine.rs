@@ -53,6 +53,53 @@ fn a_braked_crank_follows_its_closed_solution() {
     }
 }
 
+/// A run of whole turns ends at the end of a panel, where it is better than between: the rows have an error of their own.
+#[test]
+fn the_worst_row_is_as_exact_as_stated() {
+    let (inertia, damping, speed) = (0.02, 0.03, 80.0);
+    let k = damping / inertia;
+    for tolerance in [1e-3, 1e-6, 1e-10] {
+        let mut worst = [[0.0f64; 2]; 2];
+        for turns in [1.0, 3.0, 6.0] {
+            let scene = Scene::new(0.05, 0.2)
+                .crank(Crank {
+                    inertia,
+                    ..Crank::default()
+                })
+                .torque(Load::Viscous(damping))
+                .start(0.4, speed)
+                .revolutions(turns)
+                .tolerance(tolerance);
+            let options = Options {
+                method: Method::Angle,
+                ..Options::default()
+            };
+            let mut rows: Vec<Row> = Vec::new();
+            let summary = simulate_rows(&scene, &options, &mut rows).unwrap().summary;
+            let stated = summary.rows_error.unwrap();
+            let stated = [stated.theta_rad, stated.omega_rad_per_s];
+            let mut errors = [0.0f64; 2];
+            for row in &rows {
+                let left = (-k * row.t).exp();
+                let angle = 0.4 - speed / k * (-k * row.t).exp_m1();
+                errors[0] = errors[0].max((row.theta - angle).abs());
+                errors[1] = errors[1].max((row.omega - speed * left).abs());
+            }
+            for k in 0..2 {
+                let (error, stated) = (errors[k], stated[k]);
+                assert!(
+                    error <= 2.0 * stated,
+                    "{tolerance} {turns}: {error:e} {stated:e}"
+                );
+                worst[k] = [worst[k][0].max(error), worst[k][1].max(stated)];
+            }
+        }
+        for [error, stated] in worst {
+            assert!(stated <= 10.0 * error, "{tolerance}: {error:e} {stated:e}");
+        }
+    }
+}
+
 /// The root of the kinetic energy of a crank alone, braked by viscous torque, falls linearly with the angle whatever it
 /// is: the first sweep over a panel is right and a second finds nothing to change.
 #[test]
@@ -203,7 +250,7 @@ fn driven_mechanism() -> impl Strategy<Value = Scene> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 250, max_shrink_iters: 30, failure_persistence: None, rng_seed: proptest::test_runner::RngSeed::Fixed(1), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 250, max_shrink_iters: 30, failure_persistence: None, rng_seed: crate::support::seed::seed(1), ..ProptestConfig::default() })]
 
     #[test]
     fn angle_and_time_agree_to_their_stated_errors(scene in driven_mechanism()) {

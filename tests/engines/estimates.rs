@@ -6,7 +6,7 @@ use crate::support::judged::{Judged, estimates};
 use crate::support::machines::machine;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
-use proptest::test_runner::{RngSeed, TestRunner};
+use proptest::test_runner::TestRunner;
 use slider_crank::scene::{Expression, Gravity, Load, Scene};
 use slider_crank::study::{Options, simulate};
 
@@ -106,7 +106,7 @@ fn case() -> impl Strategy<Value = (Scene, [f64; 2])> {
 
 fn cases(seed: u64, count: usize) -> Vec<(Scene, [f64; 2])> {
     let mut runner = TestRunner::new(ProptestConfig {
-        rng_seed: RngSeed::Fixed(seed),
+        rng_seed: crate::support::seed::seed(seed),
         ..ProptestConfig::default()
     });
     let case = case();

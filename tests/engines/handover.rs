@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use crate::support::machines::machine;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
-use proptest::test_runner::{RngSeed, TestRunner};
+use proptest::test_runner::TestRunner;
 use slider_crank::error::Error;
 use slider_crank::plan::Method;
 use slider_crank::scene::{Crank, Every, Expression, Gravity, Load, Scene};
@@ -85,7 +85,7 @@ fn mechanism() -> impl Strategy<Value = Scene> {
 
 fn scenes(seed: u64, count: usize) -> Vec<Scene> {
     let mut runner = TestRunner::new(ProptestConfig {
-        rng_seed: RngSeed::Fixed(seed),
+        rng_seed: crate::support::seed::seed(seed),
         ..ProptestConfig::default()
     });
     let one = mechanism();

@@ -136,7 +136,7 @@ fn by_energy(scene: &Scene) -> Simulation {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 40, max_shrink_iters: 20, failure_persistence: None, rng_seed: proptest::test_runner::RngSeed::Fixed(11), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 40, max_shrink_iters: 20, failure_persistence: None, rng_seed: crate::support::seed::seed(11), ..ProptestConfig::default() })]
 
     #[test]
     fn turns_add_up_as_if_each_were_computed((scene, torque) in mechanism(), most in 40..2000u32) {

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use slider_crank::mechanism::Equation;
 use slider_crank::plan::Method;
 use slider_crank::scene::{
-    Branch, Clearance, Crank, Friction, Gravity, Joint, Load, Period, Rod, Scene, Slider, Variables,
+    Branch, Clearance, Crank, Gravity, Joint, Load, Period, Rod, Scene, Slider, Variables,
 };
 use slider_crank::study::{Options, SteadyOptions, SteadyState, Summary, simulate, steady_state};
 
@@ -391,12 +391,6 @@ fn what_has_no_steady_state_is_refused_with_the_reason() {
     refused(&timed, None, &["time t"]);
     let unstated = viscous().torque(Load::function(Variables::THETA, |now| now.theta.sin()));
     refused(&unstated, None, &["torque[2]", "states no period"]);
-    let mut rubbing = viscous();
-    rubbing.friction = Some(Friction {
-        coefficient: 0.1,
-        static_coefficient: 0.1,
-    });
-    refused(&rubbing, None, &["friction"]);
     let mut loose = viscous();
     loose.clearance = Some(Clearance::new(Joint::CrankPin, 1e-4));
     refused(&loose, None, &["clearance"]);

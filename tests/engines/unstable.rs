@@ -7,7 +7,7 @@ use crate::support::judged::{Judged, estimates};
 use crate::support::machines::{machine, weighted_crank};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
-use proptest::test_runner::{RngSeed, TestRunner};
+use proptest::test_runner::TestRunner;
 use slider_crank::mechanism::Equation;
 use slider_crank::plan::Method;
 use slider_crank::scene::{Crank, Expression, Gravity, Load, Scene, Slider};
@@ -206,7 +206,7 @@ fn scene(
 
 fn cases(seed: u64, count: usize) -> Vec<(Scene, [f64; 2])> {
     let mut runner = TestRunner::new(ProptestConfig {
-        rng_seed: RngSeed::Fixed(seed),
+        rng_seed: crate::support::seed::seed(seed),
         ..ProptestConfig::default()
     });
     let case = case();

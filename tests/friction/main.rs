@@ -3,6 +3,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod dry_loads;
 mod friction_dips;
 mod friction_law;
 mod friction_motion;

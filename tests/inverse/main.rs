@@ -3,7 +3,6 @@
 #[path = "../support/mod.rs"]
 mod support;
 
-mod fit;
 mod hard_data;
 mod inverse;
 mod inverse_friction;

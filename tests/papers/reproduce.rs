@@ -390,7 +390,7 @@ fn every_figure_has_data_and_names() {
     let result = all();
     for (paper, numbers) in [
         ("obaseki-alfred", (5..=19).collect::<Vec<_>>()),
-        ("gupta", (4..=12).chain(19..=22).collect()),
+        ("gupta", (4..=12).chain(14..=16).chain(19..=22).collect()),
         ("ng", vec![7, 8]),
         ("duarte", (2..=6).collect()),
     ] {
@@ -444,4 +444,48 @@ fn the_motion_of_duarte_turns_where_its_polynomial_says() {
         .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
         .unwrap();
     assert!((peak.0 - turns[1]).abs() < 0.02, "{peak:?}");
+}
+
+/// What the papers say of a clearance, of an energy and of a torque in words.
+#[test]
+fn what_is_said_in_words_has_a_row() {
+    let result = all();
+    let rows = |paper: &str, place: &str| {
+        let rows = result
+            .entries
+            .iter()
+            .filter(|e| e.paper == paper && e.place == place);
+        rows.cloned().collect::<Vec<_>>()
+    };
+    let clearance = rows("gupta", "2.3, figure 14");
+    assert_eq!(clearance.len(), 5);
+    for row in &clearance {
+        // 1 mm of a stroke of 289.8 mm, a little more where the pressed joint yields.
+        let off = row.ours.unwrap();
+        assert!(off > 0.02 && off < 0.8, "{row:?}");
+    }
+    // M at 0.7 rad as (7) has it, and complete: worked out beside the program.
+    let [energy] = &rows("duarte", "(7)")[..] else {
+        panic!("one row of (7)")
+    };
+    close(
+        "(7)",
+        energy.printed.parse().unwrap(),
+        0.02876701070,
+        1.0,
+        1e-9,
+    );
+    close(
+        "(7), complete",
+        energy.ours.unwrap(),
+        0.03006015904,
+        1.0,
+        1e-9,
+    );
+    let torques = rows("obaseki-alfred", "4.3, figure 16");
+    let less = torques
+        .iter()
+        .find(|e| e.printed == "less than 50")
+        .unwrap();
+    assert!(less.what.contains("advance stroke, e = 20 mm"), "{less:?}");
 }

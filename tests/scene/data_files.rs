@@ -1,4 +1,4 @@
-//! Data files as instruments write them: stamps of a clock that counts from long ago, sensors at the end of their range.
+//! Data files as instruments write them: stamps of a clock that counts from long ago.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -107,39 +107,6 @@ fn a_cell_behind_quotes_is_found() {
     );
 }
 
-/// x of a crank of 50 mm and a rod of 150 mm in line, as a sensor shows it that ends at these values, m.
-fn clipped(range: [f64; 2], step: f64) -> Measurement {
-    let times: Vec<f64> = (0..600).map(|i| 1e-3 * f64::from(i)).collect();
-    let x = |t: &f64| {
-        let theta = 0.3 + 25.0 * t;
-        let x = 0.05 * theta.cos() + (0.0225 - (0.05 * theta.sin()).powi(2)).sqrt();
-        (x.clamp(range[0], range[1]) / step).round() * step
-    };
-    let values = times.iter().map(x).collect();
-    Measurement::new(Measured::X, times, values).expect("samples")
-}
-
-#[test]
-fn a_sensor_at_the_end_of_its_range_is_noted() {
-    let notes = |range: [f64; 2], step: f64| clipped(range, step).notes().join("\n");
-    for step in [1e-9, 1e-5] {
-        let said = notes([0.0, 0.19], step);
-        assert!(
-            said.contains("3 times, the first from sample 1 to sample 11 "),
-            "{said}"
-        );
-        let said = notes([0.12, 0.19], step);
-        assert!(
-            said.contains("equal extreme values follow each other 6 times"),
-            "{said}"
-        );
-    }
-    // Turns at dead centres, finely and coarsely rounded, are none.
-    for step in [1e-9, 1e-5, 1e-4, 1e-3, 3e-3] {
-        assert_eq!(notes([0.0, 1.0], step), "", "{step}");
-    }
-}
-
 /// A crank that stops, and one that rests before it starts, show equal extreme values too.
 #[test]
 fn a_rest_is_no_end_of_a_range() {
@@ -163,33 +130,6 @@ fn plain_rows() -> Vec<String> {
     let rows = (1..=40).map(row);
     rows.map(|(t, theta)| format!("{t:.6},{theta:.6}"))
         .collect()
-}
-
-/// A file that was cut off in a number says so; one that ends in a whole number does not, and the end of the last line makes
-/// any number a whole one.
-#[test]
-fn a_number_that_is_cut_short_is_noted() {
-    let whole = format!("t [s],theta [rad]\n{}", plain_rows().join("\n"));
-    let last = "1.260000";
-    assert!(whole.ends_with(last));
-    for (cut, expected) in [(0, false), (1, true), (4, true), (6, true), (7, true)] {
-        let text = &whole[..whole.len() - cut];
-        let notes = read(text).notes().join("\n");
-        let said = format!("its last number, {}, has fewer", &last[..last.len() - cut]);
-        assert_eq!(notes.contains(&said), expected, "{cut}: {notes}");
-        assert_eq!(read(&format!("{text}\n")).notes().join("\n"), "", "{cut}");
-    }
-    let noted: Vec<String> = plain_rows()
-        .iter()
-        .map(|row| format!("{row},0.123"))
-        .collect();
-    let text = format!("t [s],theta [rad],note [1]\n{}", noted.join("\n"));
-    let text = &text[..text.len() - ".123".len()];
-    assert_eq!(
-        read(text).notes().join("\n"),
-        "",
-        "of a column that is not used"
-    );
 }
 
 /// Samples without motion are taken, and said to be such.

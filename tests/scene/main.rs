@@ -5,5 +5,8 @@ mod support;
 
 mod bad_scenes;
 mod data_files;
+mod odd_files;
 mod refusals;
 mod scene_files;
+#[path = "../support/seed.rs"]
+mod seed;

@@ -15,6 +15,7 @@ pub mod random;
 pub mod rubbing;
 pub mod run;
 pub mod scenes;
+pub mod seed;
 
 use exact::{Dd, Jet};
 use slider_crank::scene::{Branch, Geometry, InertiaAbout, Rod};

@@ -1,27 +1,23 @@
-//! Random mechanisms, the same in every run.
+//! Random mechanisms, the same in every run with the same seed.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 use slider_crank::scene::{
     Branch, Crank, Geometry, Gravity, InertiaAbout, Load, Period, Rod, RodModel, Scene, Slider,
     Variables,
 };
 
-/// This many cases from a fixed seed, or from that in the environment variable PROPTEST_RNG_SEED.
+use super::seed::seed;
+
+/// This many cases from one seed.
 pub fn cases(cases: u32) -> ProptestConfig {
-    let given = ProptestConfig::default();
-    let rng_seed = match given.rng_seed {
-        RngSeed::Random => RngSeed::Fixed(20_260_101),
-        seed => seed,
-    };
     ProptestConfig {
         cases,
         failure_persistence: None,
-        rng_seed,
+        rng_seed: seed(20_260_101),
         max_global_rejects: 100 * cases,
-        ..given
+        ..ProptestConfig::default()
     }
 }
 

@@ -37,8 +37,8 @@ use crate::numeric::chebyshev::{MOST, Values};
 use crate::numeric::enclosure::{Detail, Reach};
 pub use errors::Errors;
 use march::{Done, March};
-pub use one_turn::{Cycle, one_turn};
-pub use steady::{NoCycle, steady};
+pub use one_turn::{Cycle, Turns};
+pub use steady::{CycleMap, FixedPoint, NoCycle, fixed_point};
 
 /// What the engine needs of a mechanism.
 pub trait Driven {

@@ -55,6 +55,7 @@ pub(super) fn hides<D: Driven>(
         nodes: degree,
         ellipse: ellipse(degree, fine.tail),
         allowed: rounding.max(fine.tail * start.kinetic / station.half().abs()),
+        compares: true,
     };
     hidden(&way, look).map(|hidden| hidden.at)
 }
@@ -95,6 +96,7 @@ impl<D: Driven> Way for OnPanel<'_, D> {
             t: Interval::between(self.time(from), self.time(to)),
             angle: Interval::between(self.angle(from).radians(), self.angle(to).radians()),
             speed: Interval::between(self.speed(low), self.speed(slowness.high.max(low))),
+            parts: 1.0,
         }
     }
 

@@ -109,11 +109,7 @@ impl<P: Copy> Station<P> {
     pub fn empty(turns: f64, [from, to]: [f64; 2], rule: &'static Rule, side: f64) -> Station<P> {
         Station {
             turns,
-            piece: Piece {
-                from,
-                to,
-                turning: Turning::Nowhere,
-            },
+            piece: Piece::between(from, to, Turning::Nowhere),
             rule,
             table: Table::default(),
             side,

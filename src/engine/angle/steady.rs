@@ -1,12 +1,9 @@
-//! The periodic motion itself: the root of the energy that a turn gains.
+//! The periodic motion itself: the root of the energy that a cycle gains.
 //!
-//! The map of the kinetic energy over a turn rises, as two motions cannot cross. So a motion approaches the
-//! nearest energy, up where it gains and down where it loses, whose turn gains nothing.
+//! The map of the kinetic energy over a cycle rises, as two motions cannot cross. So a motion approaches the
+//! nearest energy, up where it gains and down where it loses, whose cycle gains nothing.
 
-use super::one_turn::{Cycle, NOISE, Turns};
-use super::{Driven, Resolution};
 use crate::engine::energy::Unserved;
-use crate::numeric::angle::Angle;
 use crate::numeric::root;
 
 /// How far from the first energy it is looked for: ln of the ratio.
@@ -33,21 +30,46 @@ impl From<Unserved> for NoCycle {
     }
 }
 
-/// The periodic motion that a motion from `angle` with `speed` (rad/s) approaches, or the next faster one if it
-/// stops; `step` is the first step in the logarithm of the energy.
+/// The kinetic energy at the end of a cycle, from that at its start.
+pub trait CycleMap {
+    /// The energy that is looked at first, J.
+    fn first(&self) -> f64;
+
+    /// Energy that a cycle from this one on gains, J.
+    ///
+    /// # Errors
+    /// [`Unserved`] where the crank does not complete it.
+    fn gain(&mut self, kinetic: f64) -> Result<f64, Unserved>;
+
+    /// Largest kinetic energy in the last cycle, J.
+    fn largest(&self) -> f64;
+
+    /// Error of a gain, relative to that.
+    fn noise(&self) -> f64;
+}
+
+/// An energy whose cycle gains nothing.
+#[derive(Clone, Copy, Debug)]
+pub struct FixedPoint {
+    /// At the start of the cycle, J.
+    pub kinetic: f64,
+    /// d gain/d energy there.
+    pub slope: f64,
+    /// Error of the slope.
+    pub slope_error: f64,
+    /// Whether the motion from the first energy approaches it.
+    pub approached: bool,
+}
+
+/// The periodic motion that a motion from the first energy approaches, or the next faster one if it stops; `step` is the
+/// first step in the logarithm of the energy.
 ///
 /// # Errors
 /// [`NoCycle`] with the reason.
-pub fn steady<D: Driven>(
-    driven: &D,
-    angle: Angle,
-    speed: f64,
-    step: f64,
-    resolution: Resolution,
-) -> Result<Cycle, NoCycle> {
-    let mut turns = Turns::new(driven, angle, speed, resolution)?;
-    let first = turns.march.kinetic;
-    let (low, high, approached) = turns.bracket(first, step)?;
+pub fn fixed_point(map: &mut dyn CycleMap, step: f64) -> Result<FixedPoint, NoCycle> {
+    let first = map.first();
+    let mut search = Search { map };
+    let (low, high, approached) = search.bracket(first, step)?;
     // Close to the root rounding may give another sign: the values that made the bracket stay.
     let known = |kinetic: f64| {
         let mut ends = [low, high].into_iter();
@@ -56,7 +78,7 @@ pub fn steady<D: Driven>(
     let mut failed = None;
     let kinetic = root::bracketed(
         |kinetic| {
-            let gain = known(kinetic).map_or_else(|| turns.gain(kinetic), Ok);
+            let gain = known(kinetic).map_or_else(|| search.map.gain(kinetic), Ok);
             gain.unwrap_or_else(|unserved| {
                 failed = Some(unserved);
                 f64::NAN
@@ -66,20 +88,21 @@ pub fn steady<D: Driven>(
         high.kinetic,
     );
     let kinetic = kinetic.ok_or(failed.unwrap_or(Unserved::NotSmooth))?;
-    let (slope, slope_error) = turns.slope(kinetic)?;
-    let cycle = turns.turn(kinetic)?;
-    let uncertain = cycle.uncertain / slope.abs().max(NOISE);
-    Ok(Cycle {
-        uncertain,
-        // Motions do not cross: what is below zero is rounding.
-        multiplier: (1.0 + slope).max(0.0),
-        multiplier_error: slope_error,
+    let (slope, slope_error) = search.slope(kinetic)?;
+    Ok(FixedPoint {
+        kinetic,
+        slope,
+        slope_error,
         approached,
-        ..cycle
     })
 }
 
-/// A turn that was looked at.
+/// What looks for it.
+struct Search<'a> {
+    map: &'a mut dyn CycleMap,
+}
+
+/// A cycle that was looked at.
 #[derive(Clone, Copy, Debug)]
 struct Looked {
     /// At its start, J.
@@ -88,10 +111,38 @@ struct Looked {
     gain: f64,
 }
 
-impl<D: Driven> Turns<'_, D> {
-    /// The same; none if the crank does not complete the turn.
+impl Search<'_> {
+    /// d gain/d energy, by differences over three distances, and its error.
+    fn slope(&mut self, kinetic: f64) -> Result<(f64, f64), Unserved> {
+        let mut slope = Err(Unserved::TooSlow);
+        for part in [2.5e-3, 1e-5, 1e-7] {
+            slope = self.slope_over(kinetic, part);
+            if slope.is_ok() {
+                break;
+            }
+        }
+        slope
+    }
+
+    fn slope_over(&mut self, kinetic: f64, part: f64) -> Result<(f64, f64), Unserved> {
+        let mut slopes = [0.0; 3];
+        let mut largest = kinetic;
+        for (slope, times) in slopes.iter_mut().zip([1.0, 2.0, 4.0]) {
+            let way = times * part * kinetic;
+            let ahead = self.map.gain(kinetic + way)?;
+            *slope = (ahead - self.map.gain(kinetic - way)?) / (2.0 * way);
+            largest = largest.max(self.map.largest());
+        }
+        // Richardson: the errors go with the second and fourth power of the distance.
+        let better = [0, 1].map(|i| (4.0 * slopes[i] - slopes[i + 1]) / 3.0);
+        let best = (16.0 * better[0] - better[1]) / 15.0;
+        let noise = self.map.noise() * largest / (part * kinetic);
+        Ok((best, (best - better[0]).abs() + noise))
+    }
+
+    /// A cycle; none if the crank does not complete the turn.
     fn look(&mut self, kinetic: f64) -> Result<Option<Looked>, NoCycle> {
-        match self.gain(kinetic) {
+        match self.map.gain(kinetic) {
             Ok(gain) => Ok(Some(Looked { kinetic, gain })),
             Err(Unserved::TooSlow | Unserved::NotSmooth) => Ok(None),
             Err(unserved) => Err(unserved.into()),

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::home::Return;
 use super::leg::{After, Leg};
-use super::panel::{DEGREE, Panel, Tried, Uncertain};
+use super::panel::{Panel, Tried, Uncertain};
 use super::piece::{LONGEST, Piece, Turning, missing, next_end};
 use super::{Profile, Unserved};
 
@@ -28,22 +28,28 @@ const SHORTEST: f64 = 1e-13;
 /// Below this part of the largest kinetic energy its sum over the panels has lost digits.
 const NEAR_REST: f64 = 1e-3;
 
-/// A turning point is off by less than this part of the last panel: linear in the force there.
-const SLIGHT: f64 = 1e-3;
-
-/// The energy that a panel uses up goes with the square of its first speed, a sum of so many additions, each rounded by
-/// half a unit: it is seen to so many units.
-const SEEN: f64 = DEGREE as f64;
-
-/// How a turning point was found.
+/// A turning point ahead.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Known {
-    /// On a panel from this angle on which the motion would turn before its end: to the rounding of that one.
-    OnPanel(f64),
-    /// By the energy that the last panel uses up.
-    ByEnergy,
-    /// By the short way to the end of the turn.
-    FromHome,
+struct Ahead {
+    /// The way to it, rad with sign.
+    way: f64,
+    /// Whether it was found from the end of the turn.
+    from_home: bool,
+    /// Energy that the last panel to it did not use up, J.
+    missed: f64,
+}
+
+/// A last panel's energy is a mean over points that are rounded, each by some units: it is seen to so many.
+const SEEN: f64 = 2.0;
+
+/// What is better than a panel.
+enum Better {
+    /// Nothing.
+    None,
+    /// One that ends at this turning point.
+    Turning(Ahead),
+    /// A shorter one.
+    Shorter,
 }
 
 /// A leg that is being built.
@@ -67,9 +73,7 @@ struct Builder<'a> {
     off: f64,
     /// Length of the next panel at most, rad.
     length: f64,
-    turns_at: Option<f64>,
-    /// How exact that angle is.
-    known: Known,
+    ahead: Option<Ahead>,
     turns: f64,
 }
 
@@ -98,8 +102,7 @@ impl Leg {
             largest: begin.kinetic,
             off: begin.off,
             length: LONGEST,
-            turns_at: None,
-            known: Known::OnPanel(begin.start),
+            ahead: None,
             turns: 0.0,
         };
         let mut attempts = 0;
@@ -127,22 +130,30 @@ impl Builder<'_> {
     fn panel(&mut self, tolerance: f64) -> Result<(), Unserved> {
         let piece = self.piece();
         let uncertain = self.uncertain(piece.turning);
-        let (at, to) = (piece.from, piece.to);
-        let short = (to - at).abs() <= SHORTEST * at.abs().max(1.0);
+        let at = piece.from;
+        let short = piece.span().abs() <= SHORTEST * at.abs().max(1.0);
         let accepted = if short { f64::INFINITY } else { tolerance };
         match Panel::attempt(self.profile, piece, self.kinetic, accepted, uncertain)? {
-            Tried::Done(panel, off) => match self.turns_rather_at(&panel) {
-                Some(end) => self.turns_at = Some(end),
-                None => self.take(*panel, off),
+            Tried::Done(panel, off) => match self.better(&panel, uncertain) {
+                Better::None => self.take(*panel, off),
+                Better::Turning(ahead) => self.ahead = Some(ahead),
+                Better::Shorter if short => return Err(Unserved::NotFinite),
+                Better::Shorter => {
+                    self.ahead = None;
+                    self.length = 0.5 * piece.span().abs();
+                }
             },
-            Tried::TurnsAt(end) if end != at => {
+            Tried::TurnsAfter(way) if way != 0.0 => {
                 let home = self.home.as_ref();
-                let exact = home.and_then(|again| again.turning_point(at, end));
-                self.known = exact.map_or(Known::OnPanel(at), |_| Known::FromHome);
-                self.turns_at = Some(exact.unwrap_or(end));
+                let exact = home.and_then(|again| again.turning_point(at, at + way));
+                self.ahead = Some(Ahead {
+                    way: exact.map_or(way, |end| end - at),
+                    from_home: exact.is_some(),
+                    missed: f64::INFINITY,
+                });
             }
             _ if short => return Err(Unserved::NotFinite),
-            _ => self.length = 0.5 * (to - at).abs(),
+            _ => self.length = 0.5 * piece.span().abs(),
         }
         Ok(())
     }
@@ -154,25 +165,20 @@ impl Builder<'_> {
         if self.gain.is_some() && direction * (to - self.whole_turn) > -1e-12 {
             to = self.whole_turn;
         }
-        let mut turning = if self.kinetic == 0.0 {
+        let at_rest = self.kinetic == 0.0;
+        let turns = self.ahead.map(|ahead| ahead.way);
+        match turns.filter(|way| direction * (to - self.at - way) >= 0.0) {
+            // A panel cannot turn at both ends: the first half ends in the middle.
+            Some(way) if at_rest => to = self.at + 0.5 * way,
+            Some(way) => return Piece::until_turning(self.at, way),
+            None => {}
+        }
+        let turning = if at_rest {
             Turning::AtStart
         } else {
             Turning::Nowhere
         };
-        if let Some(end) = self.turns_at.filter(|end| direction * (to - end) >= 0.0) {
-            if turning == Turning::AtStart {
-                // A panel cannot turn at both ends: the first half ends in the middle.
-                to = 0.5 * (self.at + end);
-            } else {
-                to = end;
-                turning = Turning::AtEnd;
-            }
-        }
-        Piece {
-            from: self.at,
-            to,
-            turning,
-        }
+        Piece::between(self.at, to, turning)
     }
 
     /// How far the kinetic energy on the next panel may be off; near rest it is that of the way to the end of the turn,
@@ -180,7 +186,7 @@ impl Builder<'_> {
     fn uncertain(&mut self, turning: Turning) -> Uncertain {
         if let Some(home) = &self.home
             && turning == Turning::AtEnd
-            && self.known == Known::FromHome
+            && self.ahead.is_some_and(|ahead| ahead.from_home)
         {
             return Uncertain::AtTurn(home.rounding());
         }
@@ -196,29 +202,46 @@ impl Builder<'_> {
         Uncertain::AtStart(self.off + f64::EPSILON * self.largest)
     }
 
-    /// Where a motion turns, if that is not where its last panel ends, rad: a turning point found on a longer panel is
-    /// right to the rounding of that one, and the energy that the last one uses up says by how much it is off. Once:
-    /// what is left then is the rounding of this energy.
-    fn turns_rather_at(&mut self, panel: &Panel) -> Option<f64> {
-        let Piece { from, to, turning } = panel.piece;
-        // Later on the energy that is left has been rounded again.
-        if turning != Turning::AtEnd || self.known != Known::OnPanel(from) {
-            return None;
+    /// What is better than a panel. A turning point found on a longer panel is right to the rounding of that one, and
+    /// the energy that the last one does not use up says by how much it is off: Newton, where the force hardly changes
+    /// over the step, until rounding is left. Where it does change, the last panel is to begin nearer.
+    fn better(&self, panel: &Panel, uncertain: Uncertain) -> Better {
+        let (Some(ahead), Uncertain::AtStart(off)) = (self.ahead, uncertain) else {
+            return Better::None;
+        };
+        let missed = panel.missed.abs();
+        let Piece {
+            from, to, turning, ..
+        } = panel.piece;
+        if turning != Turning::AtEnd
+            || missed <= SEEN * f64::EPSILON * self.kinetic
+            || missed > 0.5 * ahead.missed
+        {
+            return Better::None;
         }
-        self.known = Known::ByEnergy;
-        let used = 0.5 * self.profile.inertia_and_force(from).0 * panel.speed(-1.0).powi(2);
-        let force = self.profile.inertia_and_force(to).1;
-        let missed = (self.kinetic - used) / force.abs();
-        let told = f64::EPSILON * to.abs() < missed.abs()
-            && missed.abs() < SLIGHT * panel.piece.span().abs()
-            && (self.kinetic - used).abs() > SEEN * f64::EPSILON * self.kinetic;
-        told.then_some(to + self.begin.direction * missed)
+        let [first, last] = [from, to].map(|theta| self.profile.inertia_and_force(theta).1);
+        let more = -panel.missed / last;
+        let slope = (last - first) / panel.piece.span();
+        if (more * slope).abs() < 0.5 * last.abs() && last * self.begin.direction < 0.0 {
+            Better::Turning(Ahead {
+                way: ahead.way + more,
+                missed,
+                ..ahead
+            })
+        } else if missed > off {
+            Better::Shorter
+        } else {
+            Better::None
+        }
     }
 
     fn take(&mut self, mut panel: Panel, off: f64) {
         self.off = self.off.hypot(off);
         let piece = panel.piece;
         self.at = piece.to;
+        if let Some(ahead) = &mut self.ahead {
+            ahead.way -= piece.span();
+        }
         panel.turns = self.begin.direction * self.turns;
         self.kinetic = panel.kinetic_at_end;
         self.largest = self.largest.max(self.kinetic);

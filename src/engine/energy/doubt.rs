@@ -3,6 +3,7 @@
 use super::Orbit;
 use super::leg::Leg;
 use super::panel::Panel;
+use super::piece::Turning;
 
 /// How far the kinetic energy (J) of a start may be off because its angle (rad) is rounded, J: next to a limit that is
 /// nearly reached the inertia is steep. `inertias`: there, and at an angle `beside` from it, rad.
@@ -33,15 +34,29 @@ impl Orbit {
         error / duration * until + left_out
     }
 
+    /// How far the place of the state at a time (s) is rounded, rad: it is a way on a panel, and an angle. None after the
+    /// first turns of many.
+    pub fn rounding(&self, t: f64) -> Option<f64> {
+        let piece = &self.panel_at(t)?.piece;
+        let most = piece.from.abs().max(piece.to.abs());
+        Some(0.5 * f64::EPSILON * (piece.span().abs() + most))
+    }
+
     /// What the series leave out of the speed at a time (s), relative to it.
     pub fn speed_error(&self, t: f64) -> f64 {
         self.panel_at(t)
             .map_or(self.forward.tail, |panel| panel.tail)
     }
 
-    /// How far the kinetic energy of all states may be off because the angle of the start is rounded, J.
-    pub fn energy_error(&self) -> f64 {
-        self.off
+    /// How far the kinetic energy (J) of the state at a time (s) may be off, J.
+    pub fn energy_error(&self, t: f64, kinetic: f64) -> f64 {
+        self.panel_at(t).map_or(self.off, |panel| {
+            panel.off
+                * match panel.piece.turning {
+                    Turning::Nowhere => 1.0,
+                    _ => kinetic,
+                }
+        })
     }
 
     /// How far the turning point next to the state at a time (s) may be off, rad, if the state is on a panel that ends

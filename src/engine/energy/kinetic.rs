@@ -94,7 +94,7 @@ impl Energy<'_> {
             points[j],
         );
         match x {
-            Some(x) if x > -1.0 => Tried::TurnsAt(self.piece.angle(x)),
+            Some(x) if x > -1.0 => Tried::TurnsAfter(self.piece.way_to(x)),
             _ => Tried::Unresolved,
         }
     }

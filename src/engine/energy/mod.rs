@@ -14,6 +14,7 @@ mod home;
 mod kinetic;
 mod later;
 pub(in crate::engine) mod leg;
+mod noise;
 mod one_turn;
 mod orbit;
 pub(in crate::engine) mod panel;

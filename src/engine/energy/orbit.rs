@@ -28,7 +28,7 @@ pub struct Orbit {
     pub(super) speed: f64,
     /// Whether the start is a turning point.
     pub(super) from_rest: bool,
-    /// How far the kinetic energy of all states may be off because the angle of the start is rounded, J.
+    /// How far the kinetic energy of the start may be off, J.
     pub(super) off: f64,
     pub(super) forward: Leg,
     /// From the start the other way, for motions that turn back.
@@ -59,8 +59,12 @@ impl Orbit {
         } else {
             speed.signum()
         };
-        let beside = profile.inertia_and_force(theta + BESIDE).0;
-        let off = off_by_place(theta, kinetic, [inertia, beside], BESIDE);
+        // The kinetic energy is a product whose factors are rounded; an angle of the first turn is not.
+        let mut off = f64::EPSILON * kinetic;
+        if start.turns != 0.0 {
+            let beside = profile.inertia_and_force(theta + BESIDE).0;
+            off = off.hypot(off_by_place(theta, kinetic, [inertia, beside], BESIDE));
+        }
         let leg = |direction: f64, until: f64, most_turns: f64| {
             let begin = Begin {
                 start: theta,

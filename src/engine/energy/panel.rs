@@ -2,6 +2,7 @@
 
 use super::extreme::{Extreme, extremes};
 use super::kinetic::Energy;
+use super::noise::Noise;
 use super::piece::{Piece, Turning};
 use super::steep::Steep;
 use super::{Profile, Unserved};
@@ -13,9 +14,6 @@ pub(super) const DEGREE: usize = chebyshev::MOST;
 /// Panels next to a balance are shorter than this, rad. Half or twice as much changes the stated errors of 200 random runs by
 /// 12 % at most.
 const SHORT: f64 = 0.1;
-
-/// Inertia and force have a rounding of their own, which is this part of what is allowed at least.
-const LEAST_SEEN: f64 = 1e-3;
 
 /// A piece with its series.
 #[derive(Clone, Debug)]
@@ -38,6 +36,10 @@ pub(in crate::engine) struct Panel {
     pub tail: f64,
     /// How far the turning point at its end may be off, rad.
     pub misplaced: f64,
+    /// Kinetic energy at its start that it does not use up until the turning point at its end, J.
+    pub missed: f64,
+    /// How far the kinetic energy on it may be off, J; beside a turning point, as part of the energy there.
+    pub off: f64,
 }
 
 /// What is found when a panel is tried.
@@ -46,8 +48,8 @@ pub(in crate::engine) enum Tried {
     Done(Box<Panel>, f64),
     /// They have not: a shorter one is needed.
     Unresolved,
-    /// The kinetic energy vanishes at this angle, before the end.
-    TurnsAt(f64),
+    /// The kinetic energy vanishes this far from the start, before the end, rad with sign.
+    TurnsAfter(f64),
 }
 
 /// Where the kinetic energy of a piece is known, and how far it may be off there, J.
@@ -77,8 +79,13 @@ impl Panel {
         if !known(&inertia) || !known(&force) {
             return Err(Unserved::NotFinite);
         }
-        // Angles are rounded, which the series of a short panel sees as noise.
-        let noise = 8.0 * f64::EPSILON * (1.0 + piece.from.abs() / piece.span().abs());
+        // Only next to a balance, where panels are short, may forces be small differences of large ones.
+        let near_balance = piece.span().abs() < SHORT;
+        let rounding = if near_balance {
+            profile.rounding(piece.from)
+        } else {
+            0.0
+        };
         let series = rule.series(&force);
         let energy = Energy {
             piece,
@@ -86,7 +93,8 @@ impl Panel {
             rule,
             force: &series,
         };
-        if !energy.is_resolved(tolerance, noise) {
+        let noise = Noise::of(&energy, &inertia, &force, rounding);
+        if !energy.is_resolved(tolerance, noise.force) {
             return Ok(Tried::Unresolved);
         }
         let kinetic: Values = match piece.turning {
@@ -108,20 +116,16 @@ impl Panel {
         }
         let slope = rule.series(&slopes);
         let tail = slope.tail();
-        let noise = noise * seen(&piece, energy.kinetic, &inertia, &force);
-        if tail > tolerance.max(noise) {
+        if tail > tolerance.max(noise.slope) {
             return Ok(Tried::Unresolved);
         }
-        // Only next to a balance, where panels are short, may forces be small differences of large ones.
-        let near_balance = piece.span().abs() < SHORT;
-        let noise = if near_balance {
-            profile.rounding(piece.from)
-        } else {
-            0.0
+        let steep = Steep::of(&piece, &force, rounding);
+        let missed = match piece.turning {
+            Turning::AtEnd => energy.kinetic + 2.0 * span * kinetic[0],
+            _ => 0.0,
         };
-        let steep = Steep::of(&piece, &force, noise);
         let off = match uncertain {
-            Uncertain::AtStart(off) => off + steep.energy,
+            Uncertain::AtStart(off) => (off + steep.energy).hypot(missed),
             Uncertain::AtTurn(off) => off,
         };
         let shaken = shaken(&energy, &steep, &slopes, &kinetic, off);
@@ -132,6 +136,12 @@ impl Panel {
         };
         let panel = Panel {
             misplaced: steep.misplaced(&piece, off),
+            missed,
+            off: match piece.turning {
+                Turning::Nowhere => off,
+                Turning::AtStart => off / kinetic_at_end,
+                Turning::AtEnd => off / energy.kinetic,
+            },
             ..Panel::from_slopes(piece, rule, &slopes, slope, shaken, kinetic_at_end)
         };
         Ok(Tried::Done(Box::new(panel), steep.energy))
@@ -163,6 +173,8 @@ impl Panel {
             error: uncertain * duration.0,
             tail,
             misplaced: 0.0,
+            missed: 0.0,
+            off: 0.0,
         }
     }
 
@@ -245,23 +257,6 @@ impl Panel {
         let x = self.piece.variable(theta);
         (self.slope.integral().value(x), self.speed(x))
     }
-}
-
-/// How much of the rounding of angles dt/dx shows: all next to a turning point; elsewhere what of the inertia and of the
-/// kinetic energy (J, at the start) changes over the piece.
-fn seen(piece: &Piece, kinetic: f64, inertia: &Values, force: &Values) -> f64 {
-    if piece.turning != Turning::Nowhere {
-        return 1.0;
-    }
-    let change = |values: &Values| {
-        let none = (f64::INFINITY, f64::NEG_INFINITY);
-        let (low, high) = values
-            .iter()
-            .fold(none, |(low, high), v| (low.min(*v), high.max(*v)));
-        (high - low, high)
-    };
-    let ((lighter, inertia), (pushed, _)) = (change(inertia), change(force));
-    (lighter / inertia + pushed * piece.span().abs() / kinetic).clamp(LEAST_SEEN, 1.0)
 }
 
 /// What errors of the kinetic energy make of the duration of a panel, relative to it. `slopes` and `kinetic` are dt/dx

@@ -20,35 +20,60 @@ pub(in crate::engine) struct Piece {
     pub from: f64,
     /// rad, in either direction
     pub to: f64,
+    /// Its length with sign, rad. A turning point is no float: next to the start the way to it has digits that the
+    /// rounded `to` has lost.
+    way: f64,
     pub turning: Turning,
 }
 
 impl Piece {
+    /// Between two angles, rad.
+    pub fn between(from: f64, to: f64, turning: Turning) -> Piece {
+        let way = to - from;
+        Piece {
+            from,
+            to,
+            way,
+            turning,
+        }
+    }
+
+    /// From an angle to the turning point so far from it, rad, with sign.
+    pub fn until_turning(from: f64, way: f64) -> Piece {
+        Piece {
+            from,
+            to: from + way,
+            way,
+            turning: Turning::AtEnd,
+        }
+    }
+
     /// Its length with sign, rad.
     pub fn span(&self) -> f64 {
-        self.to - self.from
+        self.way
     }
 
     /// The pieces before and after a part of one that turns nowhere.
     pub fn cut(&self, share: f64) -> [Piece; 2] {
         let middle = self.from + share * self.span();
-        let first = Piece {
-            to: middle,
-            ..*self
-        };
-        let second = Piece {
-            from: middle,
-            ..*self
-        };
-        [first, second]
+        let part = |from, to| Piece::between(from, to, self.turning);
+        [part(self.from, middle), part(middle, self.to)]
     }
 
     /// The angle, rad, at the variable x from −1 to 1.
     pub fn angle(&self, x: f64) -> f64 {
         match self.turning {
-            Turning::Nowhere => self.from + 0.5 * (1.0 + x) * self.span(),
-            Turning::AtStart => self.from + 0.25 * (1.0 + x) * (1.0 + x) * self.span(),
             Turning::AtEnd => self.to - 0.25 * (1.0 - x) * (1.0 - x) * self.span(),
+            _ => self.from + self.way_to(x),
+        }
+    }
+
+    /// How far it is from the start, rad, with sign.
+    pub fn way_to(&self, x: f64) -> f64 {
+        match self.turning {
+            Turning::Nowhere => 0.5 * (1.0 + x) * self.span(),
+            Turning::AtStart => 0.25 * (1.0 + x) * (1.0 + x) * self.span(),
+            Turning::AtEnd => (1.0 - 0.25 * (1.0 - x) * (1.0 - x)) * self.span(),
         }
     }
 

@@ -20,8 +20,6 @@ pub(super) struct Steep {
     rise: f64,
     /// How far the force is off at an end because angles are rounded, N m.
     rounding: f64,
-    /// By how much an angle is rounded, rad.
-    place: f64,
     /// How far the energy that is gained is off, J.
     pub energy: f64,
 }
@@ -42,7 +40,6 @@ impl Steep {
             at_turn: at_turn.abs(),
             rise: other / at_turn,
             rounding: place * (high - low) / piece.span().abs() + noise,
-            place,
             energy: AVERAGED * place * (high - low) + noise * piece.span().abs(),
         }
     }
@@ -78,8 +75,6 @@ impl Steep {
         if piece.turning == Turning::AtStart {
             return misplaced;
         }
-        // The turning point is a rounded angle, too.
-        let off = off.hypot(self.place * self.at_turn);
         misplaced.hypot(0.5 * by_energy * off / kinetic)
     }
 }

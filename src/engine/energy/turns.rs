@@ -210,7 +210,7 @@ impl Turns {
         let by_energy = |a: &&Mark, b: &&Mark| a.kinetic.total_cmp(&b.kinetic);
         let whole = || self.marks.iter().filter(|mark| mark.turns < last.turns);
         let mut range = self.last.speed_range(0.0, last.until(until));
-        let first = self.marks.first().copied();
+        let first = whole().next().copied();
         // The energies of the turns rise or fall, but not all turns have marks.
         let before_last = (last.turns >= 1.0).then(|| {
             let turns = last.turns - self.cells.first().map_or(1.0, |cell| cell.count);

@@ -258,6 +258,7 @@ impl<'a> Collocation<'a> {
             nodes: NODES,
             ellipse: self.ellipse,
             allowed: term.max(rounding(state, h, coefficients)),
+            compares: true,
         };
         let way = OnStep {
             motion: self.motion,

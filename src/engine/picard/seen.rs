@@ -37,6 +37,7 @@ impl Way for OnStep<'_> {
             t: Interval::new(begin, end),
             angle,
             speed,
+            parts: 1.0,
         }
     }
 

@@ -2,14 +2,18 @@
 
 use std::fmt::Write;
 
-use crate::inverse::{AsPrinted, FitSummary, ForceRange, Inverse};
+use crate::inverse::{AsPrinted, DataSummary, DeadCentreBand, FitSummary, ForceRange, Inverse};
 use crate::report::facts::Facts;
 
-/// Rows of the table.
+/// Lines of the whole text, those of a screen.
+const LINES: usize = 40;
+
+/// Most rows of the table.
 const ROWS: usize = 16;
 
-/// Most times without a force that are listed.
-const MOST_BANDS: usize = 24;
+/// Most coefficients and most warnings that are listed: with both there is room for a table of six rows.
+const MOST_COEFFICIENTS: usize = 13;
+const MOST_WARNINGS: usize = 6;
 
 /// Summary and some rows, with the forces as Duarte et al. print them if given.
 pub fn inverse(result: &Inverse, printed: Option<&AsPrinted>) -> String {
@@ -23,7 +27,7 @@ pub fn inverse(result: &Inverse, printed: Option<&AsPrinted>) -> String {
             data.rows, data.column, data.from_s, data.to_s, data.revolutions
         ),
     );
-    fit(&mut facts, &summary.fit, data.unit);
+    fit(&mut facts, &summary.fit, data);
     match &summary.slider_force {
         Some(force) => facts.add("slider force", range(force, "N")),
         None => facts.add("slider force", "not determined at any sample"),
@@ -33,91 +37,148 @@ pub fn inverse(result: &Inverse, printed: Option<&AsPrinted>) -> String {
         "95 % band",
         format_args!("+- {:.4} standard errors", summary.band_factor),
     );
-    for band in summary.dead_centre_bands.iter().take(MOST_BANDS) {
+    without_force(&mut facts, &summary.dead_centre_bands, data.rows);
+    let (shown, more) = summary
+        .warnings
+        .split_at(summary.warnings.len().min(MOST_WARNINGS));
+    facts.warnings(shown);
+    if !more.is_empty() {
         facts.add(
-            "no slider force",
-            format_args!(
-                "t = {} to {} s, theta = {:.4} to {:.4} deg, {} row{}: {}",
-                band.from_s,
-                band.to_s,
-                band.from_theta_rad.to_degrees(),
-                band.to_theta_rad.to_degrees(),
-                band.rows,
-                if band.rows == 1 { "" } else { "s" },
-                band.reason
-            ),
+            "warning",
+            format_args!("{} more: --json has all", more.len()),
         );
     }
-    let more = summary.dead_centre_bands.len().saturating_sub(MOST_BANDS);
-    if more > 0 {
-        facts.add(
-            "no slider force",
-            format_args!("{more} more times; --json and near_dead_centre of the rows have all"),
-        );
-    }
-    facts.warnings(&summary.warnings);
     let mut text = facts.lines(22);
-    table(&mut text, result, printed);
+    let room = LINES.saturating_sub(text.lines().count() + 2);
+    table(&mut text, result, printed, room.clamp(1, ROWS));
     text
 }
 
-fn fit(facts: &mut Facts, fit: &FitSummary, unit: &str) {
-    let (kind, degree, parameters) = (fit.kind, fit.degree, fit.parameters);
-    match fit.kind {
+/// Stretches without a force, a line for each reason.
+fn without_force(facts: &mut Facts, bands: &[DeadCentreBand], rows: usize) {
+    let mut rest: Vec<&DeadCentreBand> = bands.iter().collect();
+    while let Some(reason) = rest.first().map(|band| band.reason) {
+        let (alike, others): (Vec<_>, Vec<_>) =
+            rest.into_iter().partition(|band| band.reason == reason);
+        let count: usize = alike.iter().map(|band| band.rows).sum();
+        if let Some(longest) = alike.iter().max_by_key(|band| band.rows) {
+            let (stretches, the) = match alike.len() {
+                1 => ("1 stretch".to_owned(), ""),
+                more => (format!("{more} stretches"), "the longest "),
+            };
+            facts.add(
+                "no slider force",
+                format_args!(
+                    "{stretches}, {:.1} % of the rows, {the}from t = {} to {} s, theta = {:.2} to {:.2} deg: {reason}",
+                    100.0 * count as f64 / rows as f64,
+                    longest.from_s,
+                    longest.to_s,
+                    longest.from_theta_rad.to_degrees(),
+                    longest.to_theta_rad.to_degrees(),
+                ),
+            );
+        }
+        rest = others;
+    }
+}
+
+fn fit(facts: &mut Facts, fit: &FitSummary, data: &DataSummary) {
+    let unit = data.unit;
+    let (kind, reason) = (fit.kind, &fit.reason);
+    match kind {
         "polynomial" => facts.add(
             "fit",
-            format_args!("{kind}, degree {degree}, {parameters:.4} parameters"),
+            format_args!("{kind}, degree {}: {reason}", fit.degree),
         ),
         _ => facts.add(
             "fit",
-            format_args!("{kind}, {}, worth {parameters:.4} parameters", fit.prior),
+            format_args!(
+                "{kind}, {}: {reason}; worth {:.1} parameters",
+                fit.prior, fit.parameters
+            ),
         ),
     }
     let errors = fit.standard_errors.iter();
-    for (power, (c, e)) in fit.coefficients.iter().zip(errors).enumerate() {
+    let coefficients = fit.coefficients.iter().zip(errors).enumerate();
+    for (power, (c, e)) in coefficients.take(MOST_COEFFICIENTS) {
         let value = match (c, e) {
             (Some(c), Some(e)) => format!("{c:.15e} +- {e:.2e}"),
             _ => "no digits in plain time".to_owned(),
         };
         facts.add(format_args!("  coefficient {power}"), value);
     }
+    let more = fit.coefficients.len().saturating_sub(MOST_COEFFICIENTS);
+    if more > 0 {
+        facts.add(
+            "  coefficients",
+            format_args!("{more} more: --json has all"),
+        );
+    }
     facts.add("  R^2", format_args!("{:.9}", fit.r_squared));
-    facts.add("  residual rms", format_args!("{:.6e} {unit}", fit.rms));
+    let free = (data.rows as f64 - fit.parameters).max(1.0);
+    facts.add(
+        "  residuals",
+        format_args!(
+            "rms {:.6e} {unit}, noise {:.4e} +- {:.1e} {unit}",
+            fit.rms,
+            fit.sigma,
+            // Of normal noise.
+            fit.sigma / (2.0 * free).sqrt()
+        ),
+    );
     if let Some(condition) = fit.condition {
         facts.add("  condition", format_args!("{condition:.3e}"));
     }
+    if let Some(time) = fit.noise_correlation_s {
+        facts.add("  noise", format_args!("correlated over {time:.3e} s"));
+    }
+    if fit.outliers > 0 {
+        let samples = if fit.outliers == 1 {
+            "sample"
+        } else {
+            "samples"
+        };
+        facts.add(
+            "  outliers",
+            format_args!("{} {samples} far off that hardly count", fit.outliers),
+        );
+    }
 }
 
+/// The least and the largest value with their standard errors.
 fn range(range: &ForceRange, unit: &str) -> String {
+    let [least, most] = [(range.min, range.min_se), (range.max, range.max_se)]
+        .map(|(value, se)| format!("{value:.6} +- {se:.1e} {unit}"));
     format!(
-        "{:.6} {unit} at {} s to {:.6} {unit} at {} s, median standard error {:.2e} {unit}",
-        range.min, range.min_t_s, range.max, range.max_t_s, range.median_se
+        "{least} at {} s to {most} at {} s, median error {:.1e}",
+        range.min_t_s, range.max_t_s, range.median_se
     )
 }
 
-fn table(text: &mut String, result: &Inverse, printed: Option<&AsPrinted>) {
+fn table(text: &mut String, result: &Inverse, printed: Option<&AsPrinted>, rows: usize) {
     let _ = write!(
         text,
-        "\n{:>12} {:>12} {:>13} {:>13} {:>13} {:>13} {:>13}",
+        "\n{:>12} {:>12} {:>13} {:>13} {:>13} {:>13} {:>13} {:>10}",
         "t [s]",
         "theta [deg]",
         "omega [rad/s]",
         "alpha [1/s2]",
         "force [N]",
         "std error [N]",
-        "torque [N m]"
+        "torque [N m]",
+        "std error"
     );
     if printed.is_some() {
         let _ = write!(text, " {:>13} {:>13}", "spin-only [N]", "their (9) [N]");
     }
     text.push('\n');
-    let stride = result.rows.len().div_ceil(ROWS);
+    let stride = result.rows.len().div_ceil(rows);
     let cell = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |v| format!("{v:.5}"));
     let error = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |v| format!("{v:.2e}"));
     for row in result.rows.iter().step_by(stride) {
         let _ = write!(
             text,
-            "{:>12.6} {:>12.4} {:>13.6} {:>13.6} {:>13} {:>13} {:>13}",
+            "{:>12.6} {:>12.4} {:>13.6} {:>13.6} {:>13} {:>13} {:>13} {:>10}",
             row.t,
             row.theta.to_degrees(),
             row.omega,
@@ -125,7 +186,8 @@ fn table(text: &mut String, result: &Inverse, printed: Option<&AsPrinted>) {
             cell(row.slider_force),
             error(row.slider_force_se),
             row.crank_torque
-                .map_or_else(|| "-".to_owned(), |torque| format!("{torque:.6}"))
+                .map_or_else(|| "-".to_owned(), |torque| format!("{torque:.6}")),
+            error(row.crank_torque_se)
         );
         if let Some(printed) = printed {
             let forces = printed.forces(row);

@@ -1,7 +1,7 @@
 //! Columns of a sweep.
 
 use super::cell;
-use crate::study::{Design, Kinematics, Summary, Sweep};
+use crate::study::{Design, Kinematics, SteadyState, Summary, Sweep};
 
 /// Columns of the closed form of one turn, after the varied values and the status; velocities and
 /// accelerations are those at the scene's speed.
@@ -46,6 +46,18 @@ const PEAKS: [&str; 5] = [
     "shaking_peak_n",
 ];
 
+/// Columns of the periodic steady state, and of its flywheel.
+const STEADY: [&str; 7] = [
+    "cycle_turns",
+    "steady_omega_mean_rad_per_s",
+    "steady_omega_min_rad_per_s",
+    "steady_omega_max_rad_per_s",
+    "fluctuation",
+    "error_fluctuation",
+    "steady_power_in_w",
+];
+const FLYWHEEL: &str = "flywheel_added_inertia_kg_m2";
+
 /// Number of columns before the key figures: the design and its values, then `status`.
 pub(super) fn before_figures(sweep: &Sweep) -> usize {
     sweep.varied().len() + 2
@@ -61,6 +73,10 @@ pub(super) fn header(sweep: &Sweep) -> Vec<String> {
     }
     if sweep.has_reactions() {
         names.extend(PEAKS.map(str::to_owned));
+    }
+    if let Some(asked) = sweep.steady() {
+        names.extend(STEADY.map(str::to_owned));
+        names.extend(asked.fluctuation.map(|_| FLYWHEEL.to_owned()));
     }
     names.push("notes".to_owned());
     names
@@ -89,6 +105,13 @@ pub(super) fn cells(sweep: &Sweep, design: &Design) -> Vec<String> {
             None => cells.extend(PEAKS.map(|_| String::new())),
         }
     }
+    if let Some(asked) = sweep.steady() {
+        let found = design.steady.as_ref();
+        cells.extend(found.map_or(STEADY.map(|_| String::new()), steady));
+        let wheel = found.and_then(|steady| steady.flywheel.as_ref());
+        let inertia = wheel.map_or(String::new(), |wheel| cell(wheel.added_inertia_kg_m2.value));
+        cells.extend(asked.fluctuation.map(|_| inertia));
+    }
     // A row is a line.
     cells.push(design.notes.join("; ").replace(['\n', '\r'], " "));
     cells
@@ -111,6 +134,18 @@ fn turn(turn: &Kinematics) -> [String; TURN.len()] {
         at_speed(turn.velocity_min),
         at_speed(turn.acceleration_max),
         at_speed(turn.acceleration_min),
+    ]
+}
+
+fn steady(steady: &SteadyState) -> [String; STEADY.len()] {
+    [
+        steady.cycle_turns.to_string(),
+        cell(steady.omega_mean_rad_per_s.value),
+        cell(steady.slowest.omega_rad_per_s.value),
+        cell(steady.fastest.omega_rad_per_s.value),
+        cell(steady.fluctuation.value),
+        cell(steady.fluctuation.error),
+        cell(steady.power_in_w.value),
     ]
 }
 

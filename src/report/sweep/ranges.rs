@@ -7,8 +7,7 @@ use std::ops::Range;
 use serde::Serialize;
 
 use super::columns::{before_figures, header};
-use crate::report::facts::Facts;
-use crate::report::shortest_number;
+use crate::report::facts::{Facts, six};
 use crate::study::Sweep;
 
 /// What a sweep found.
@@ -179,16 +178,16 @@ pub fn sweep_text(summary: &SweepSummary) -> String {
     let mut text = facts.lines(17);
     let _ = writeln!(
         text,
-        "\n{:<26} {:>24} {:>10} {:>24} {:>10}",
+        "\n{:<26} {:>12} {:>10} {:>12} {:>10}",
         "", "least", "in design", "largest", "in design"
     );
     for SweepRange { column, min, max } in &summary.figures {
         let _ = writeln!(
             text,
-            "{column:<26} {:>24} {:>10} {:>24} {:>10}",
-            shortest_number(min.value),
+            "{column:<26} {:>12} {:>10} {:>12} {:>10}",
+            six(min.value),
             min.design,
-            shortest_number(max.value),
+            six(max.value),
             max.design
         );
     }

@@ -1,28 +1,46 @@
-//! Which columns of a data file hold the time and the measured value.
+//! Which columns of a data file hold the time and the motion, and in which units.
 
-use std::borrow::Cow;
+use std::f64::consts::TAU;
 
-use csv::ByteRecord;
-
+use super::clock::is_clock;
 use super::{Measured, Reading};
+use crate::scene::number::counted;
 use crate::scene::table::header::{self, Header};
 use crate::scene::table::rows::Column;
-use crate::scene::unit::Quantity;
+use crate::scene::unit::{self, Quantity};
+
+/// A column as it stands in a file.
+#[derive(Clone, Debug)]
+pub(super) struct Named {
+    /// Its header as written, or its number.
+    pub raw: String,
+    /// Name in lower case; empty if there is no header.
+    pub name: String,
+    /// Its unit as written, empty if there is none.
+    pub unit: String,
+    /// Whether its values are dates or hours of the day.
+    pub is_clock: bool,
+}
 
 /// The columns of a data file.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Columns {
     pub measured: Measured,
     /// Positions of time and value.
     pub at: [usize; 2],
     pub time: Column,
     pub value: Column,
-    /// Whether numbers have decimal commas.
-    pub decimal_comma: bool,
-    /// How many columns the header has.
+    /// What is subtracted from a value in SI.
+    pub zero: f64,
+    /// Whether the times are dates or hours of the day.
+    pub is_clock: bool,
+    /// How many columns there are.
     pub count: usize,
+    /// How many there are, for messages.
+    pub counted: String,
+    pub decimal_comma: bool,
     /// What the reader should know.
-    pub note: Option<String>,
+    pub notes: Vec<String>,
 }
 
 /// A problem with a column, or with the header as a whole.
@@ -33,99 +51,324 @@ pub(super) struct ColumnProblem {
     pub help: String,
 }
 
-const HELP: &str = "the header names the columns with their units, as `t [s],theta [deg]`; the motion is theta, gamma or x";
+const HELP: &str = "the header names the columns with their units, as `t [s],theta [deg]`, the motion theta, gamma or x; or say which they are, by name or number: --time \"1[s]\" --motion \"2[deg]\"; lines above the header: --skip 3";
 
-/// Finds the columns in a header.
-pub(super) fn columns(header: &ByteRecord, reading: &Reading) -> Result<Columns, ColumnProblem> {
-    let cells: Vec<String> = header
-        .iter()
-        .map(|cell| String::from_utf8_lossy(cell).into_owned())
-        .collect();
-    let wrong = |column: Option<usize>, what: String| ColumnProblem {
+/// Words of headers for the time.
+const TIME: [&str; 6] = ["t", "time", "zeit", "temps", "tiempo", "elapsed time"];
+
+/// Words of headers for what is measured, beside its name.
+const WORDS: [(&str, Measured); 8] = [
+    ("crank angle", Measured::Theta),
+    ("crankangle", Measured::Theta),
+    ("angle", Measured::Theta),
+    ("kurbelwinkel", Measured::Theta),
+    ("winkel", Measured::Theta),
+    ("crank pin angle", Measured::Gamma),
+    ("slider position", Measured::X),
+    ("position", Measured::X),
+];
+
+/// Units, and names without a unit, of a column that counts the steps of an encoder.
+const COUNTS: [&str; 5] = ["count", "counts", "pulses", "ticks", "increments"];
+
+fn wrong(column: Option<usize>, what: impl Into<String>) -> ColumnProblem {
+    let help = HELP.to_owned();
+    ColumnProblem {
         column,
-        what,
-        help: HELP.to_owned(),
-    };
-    if let Some(at) = cells.iter().position(|cell| cell.parse::<f64>().is_ok()) {
-        return Err(ColumnProblem {
-            help: "put a header above the numbers, as `t [s],theta [deg]`, or say what the columns are: --columns \"t [s],theta [deg]\"".to_owned(),
-            ..wrong(Some(at), format!("there is no header: `{}` is a number", cells[at]))
-        });
+        what: what.into(),
+        help,
     }
-    let headers: Vec<Header> = cells.iter().map(|cell| header::split(cell)).collect();
-    let find = |names: &[&str]| -> Result<Option<usize>, ColumnProblem> {
-        let mut found = (0..headers.len()).filter(|i| names.contains(&headers[*i].name.as_str()));
-        let (first, second) = (found.next(), found.next());
-        match second {
-            Some(again) => Err(wrong(
-                Some(again),
-                format!("there are two columns `{}`", headers[again].name),
-            )),
-            None => Ok(first),
+}
+
+/// The columns below a header, with a row of units or none, above a first row of values.
+pub(super) fn named(names: &[&str], units: &[&str], first: &[&str]) -> Vec<Named> {
+    let column = |at: usize| {
+        let raw = names
+            .get(at)
+            .map_or_else(|| (at + 1).to_string(), |name| (*name).to_owned());
+        let Header { name, unit } = header::split(names.get(at).unwrap_or(&""));
+        let below = units
+            .get(at)
+            .map(|unit| header::bare(unit))
+            .unwrap_or_default();
+        let unit = if unit.is_empty() {
+            below.to_owned()
+        } else {
+            unit
+        };
+        let is_clock = first.get(at).is_some_and(|cell| is_clock(cell));
+        Named {
+            raw,
+            name,
+            unit,
+            is_clock,
         }
     };
-    let Some(time) = find(&["t", "time"])? else {
-        let what = "no column holds the time: none is called t or time".to_owned();
-        return Err(wrong(None, only(&cells, what)));
+    let count = if names.is_empty() {
+        first.len()
+    } else {
+        names.len()
+    };
+    (0..count).map(column).collect()
+}
+
+impl Named {
+    /// Whether it holds counts of an encoder.
+    fn is_count(&self) -> bool {
+        is_count(if self.unit.is_empty() {
+            &self.name
+        } else {
+            &self.unit
+        })
+    }
+
+    /// What its header says that it holds.
+    fn measured(&self) -> Option<Measured> {
+        let own = Measured::ALL
+            .into_iter()
+            .find(|measured| measured.name() == self.name);
+        let word = || WORDS.iter().find(|(word, _)| *word == self.name);
+        own.or_else(|| Some(word()?.1))
+            .or_else(|| self.is_count().then_some(Measured::Theta))
+    }
+
+    /// What its unit says that it holds: an angle may be two of them, and is that of the crank.
+    fn measured_by_unit(&self) -> Option<Measured> {
+        let has = |quantity| unit::factor(&self.unit, quantity).is_ok();
+        if has(Quantity::Angle) {
+            Some(Measured::Theta)
+        } else {
+            has(Quantity::Length).then_some(Measured::X)
+        }
+    }
+
+    /// Its unit, which must be one of a quantity.
+    fn column(&self, at: usize, quantity: Quantity, option: &str) -> Result<Column, ColumnProblem> {
+        let name = if self.name.is_empty() {
+            self.raw.clone()
+        } else {
+            self.name.clone()
+        };
+        let column = Header {
+            name,
+            unit: self.unit.clone(),
+        }
+        .column(quantity);
+        column.map_err(|what| {
+            let help = format!(
+                "{HELP}; or here: {option} \"{}[{}]\"",
+                at + 1,
+                header::example(quantity)
+            );
+            ColumnProblem {
+                help,
+                ..wrong(Some(at), what)
+            }
+        })
+    }
+}
+
+/// Whether a word says that a column counts the steps of an encoder.
+pub(super) fn is_count(word: &str) -> bool {
+    COUNTS.contains(&word.to_lowercase().as_str())
+}
+
+/// The only column that an option `COL[unit]` names by header or number, with the unit of the option; without it the only
+/// column of a kind, if there is one.
+fn choose(
+    list: &[Named],
+    option: &str,
+    given: Option<&str>,
+    is_it: impl Fn(&Named) -> bool,
+) -> Result<Option<(usize, Named)>, ColumnProblem> {
+    let (name, unit) = given.map_or(("", ""), |text| text.split_once('[').unwrap_or((text, "")));
+    let name = name.trim();
+    let number = name.parse::<usize>().ok();
+    let is_it = |at: &usize| match (name, number) {
+        ("", _) => is_it(&list[*at]),
+        (_, Some(number)) => *at + 1 == number,
+        _ => list[*at].raw.eq_ignore_ascii_case(name) || list[*at].name == name.to_lowercase(),
+    };
+    let mut found = (0..list.len()).filter(is_it);
+    let (first, second) = (found.next(), found.next());
+    if let (Some(first), Some(second)) = (first, second) {
+        let what = format!(
+            "there are two columns `{}` and `{}`",
+            list[first].raw, list[second].raw
+        );
+        let help = format!("say which one it is: {option} \"{}\"", first + 1);
+        return Err(ColumnProblem {
+            help,
+            ..wrong(Some(second), what)
+        });
+    }
+    let Some(at) = first else {
+        let names: Vec<&str> = list.iter().map(|column| column.raw.as_str()).collect();
+        let what = format!(
+            "{option}: no column is called `{name}`; there are `{}`",
+            names.join("`, `")
+        );
+        return if name.is_empty() {
+            Ok(None)
+        } else {
+            Err(wrong(None, what))
+        };
+    };
+    let mut column = list[at].clone();
+    if !unit.is_empty() {
+        header::bare(unit).clone_into(&mut column.unit);
+    }
+    Ok(Some((at, column)))
+}
+
+/// Finds time and motion among the columns of a file.
+pub(super) fn columns(list: &[Named], reading: &Reading) -> Result<Columns, ColumnProblem> {
+    let none = |what: &str| match list {
+        [one] => format!(
+            "{what}; the header has one column, `{}`; columns are separated by comma, semicolon or tab",
+            one.raw
+        ),
+        _ => what.to_owned(),
+    };
+    let is_time = |column: &Named| TIME.contains(&column.name.as_str());
+    let Some((t, time)) = choose(list, "--time", reading.time.as_deref(), is_time)? else {
+        return Err(wrong(
+            None,
+            none("no column holds the time: none is called t or time"),
+        ));
     };
     let mut found = Vec::new();
     for measured in Measured::ALL {
-        if let Some(at) = find(&[measured.name()])? {
-            found.push((measured, at));
+        let is_it = |column: &Named| column.measured() == Some(measured);
+        let is_wanted = reading.column.is_none_or(|wanted| wanted == measured);
+        if is_wanted && (reading.motion.is_none() || found.is_empty()) {
+            found.extend(choose(list, "--motion", reading.motion.as_deref(), is_it)?);
         }
     }
-    let chosen = match reading.column {
-        Some(wanted) => found.iter().find(|(measured, _)| *measured == wanted),
-        None => found.first(),
+    let Some((at, column)) = found.first() else {
+        let what = reading
+            .column
+            .map_or("theta, gamma or x".to_owned(), |wanted| {
+                format!("`{}`", wanted.name())
+            });
+        return Err(wrong(None, none(&format!("no column is called {what}"))));
     };
-    let Some(&(measured, value)) = chosen else {
-        let what = match reading.column {
-            Some(wanted) => format!("no column is called `{}`", wanted.name()),
-            None => only(&cells, "no column is called theta, gamma or x".to_owned()),
-        };
-        return Err(wrong(None, what));
+    let (measured, value) = motion(*at, column, reading)?;
+    let mut notes = Vec::new();
+    if found.len() > 1 {
+        let others: Vec<&str> = found[1..]
+            .iter()
+            .map(|(_, other)| other.name.as_str())
+            .collect();
+        notes.push(format!(
+            "the motion is taken from the column {}; {} is not used",
+            column.name,
+            others.join(" and ")
+        ));
+    }
+    if column.name != measured.name() {
+        notes.push(format!(
+            "the column `{}` is taken as {}",
+            column.raw,
+            measured.meaning()
+        ));
+    }
+    if time.is_clock {
+        notes.push("the times are those of a clock: t counts from the first row".to_owned());
+    }
+    let seconds = Column {
+        factor: 1.0,
+        unit: "s".to_owned(),
     };
-    let others: Vec<&str> = found
-        .iter()
-        .filter(|(other, _)| *other != measured)
-        .map(|(other, _)| other.name())
-        .collect();
-    let unit = |at: usize, quantity: Quantity| {
-        let column = headers[at].clone().column(quantity);
-        column.map_err(|what| wrong(Some(at), what))
+    let who = match &reading.columns {
+        Some(_) => "--columns",
+        None if list.iter().all(|column| column.name.is_empty()) => "the first row",
+        None => "the header",
     };
     Ok(Columns {
         measured,
-        at: [time, value],
-        time: unit(time, Quantity::Time)?,
-        value: unit(value, measured.quantity())?,
+        at: [t, *at],
+        is_clock: time.is_clock,
+        time: if time.is_clock {
+            seconds
+        } else {
+            time.column(t, Quantity::Time, "--time")?
+        },
+        value,
+        zero: reading.x_zero,
+        count: list.len(),
+        counted: format!("{who} has {}", counted(list.len(), "column")),
         decimal_comma: reading.decimal_comma,
-        count: cells.len(),
-        note: (reading.column.is_none() && !others.is_empty()).then(|| {
-            format!(
-                "the motion is taken from the column {}; {} is not used",
-                measured.name(),
-                others.join(" and ")
-            )
-        }),
+        notes,
     })
 }
 
-/// The message for a header of one column, which is most often one that is not split.
-fn only(cells: &[String], what: String) -> String {
-    match cells {
-        [one] => format!(
-            "{what}; the header has one column, `{one}`; columns are separated by comma, semicolon or tab"
-        ),
-        _ => what,
+/// What a column measures, and its unit.
+fn motion(
+    at: usize,
+    column: &Named,
+    reading: &Reading,
+) -> Result<(Measured, Column), ColumnProblem> {
+    let raw = &column.raw;
+    let is_count = column.is_count() || column.unit.is_empty() && reading.counts_per_turn.is_some();
+    let measured = reading.column.or_else(|| column.measured());
+    let measured = measured.or_else(|| {
+        if is_count {
+            Some(Measured::Theta)
+        } else {
+            column.measured_by_unit()
+        }
+    });
+    let fault = |what: String, help: &str| {
+        Err(ColumnProblem {
+            help: help.to_owned(),
+            ..wrong(Some(at), what)
+        })
+    };
+    let Some(measured) = measured else {
+        let is_speed = unit::factor(&column.unit, Quantity::AngularSpeed).is_ok();
+        return Err(wrong(
+            Some(at),
+            match is_speed {
+                true => format!("`{raw}` is a speed, and the motion is theta, gamma or x"),
+                false => format!("nothing says what `{raw}` is"),
+            },
+        ));
+    };
+    if reading.x_zero != 0.0 && measured != Measured::X {
+        return fault(
+            format!(
+                "--x-zero belongs to x, and the motion is {}",
+                measured.name()
+            ),
+            "leave it out",
+        );
     }
-}
-
-/// A number with a decimal point, whatever the file has; none if that has the other one.
-pub(super) fn with_point<'a>(cell: &'a str, columns: &Columns) -> Option<Cow<'a, str>> {
-    match columns.decimal_comma {
-        false => Some(Cow::Borrowed(cell)),
-        true if cell.contains('.') => None,
-        true => Some(Cow::Owned(cell.replacen(',', ".", 1))),
+    match (
+        is_count && measured == Measured::Theta,
+        reading.counts_per_turn,
+    ) {
+        (true, Some(counts)) => Ok((
+            measured,
+            Column {
+                factor: TAU / f64::from(counts),
+                unit: "counts".to_owned(),
+            },
+        )),
+        (true, None) => fault(
+            format!("`{raw}` are counts of an encoder"),
+            "say how many there are in a turn: --counts-per-turn 1024",
+        ),
+        (false, Some(_)) => fault(
+            format!(
+                "--counts-per-turn belongs to counts, and the unit of `{raw}` is `{}`",
+                column.unit
+            ),
+            "leave it out, or give the column of the counts: --motion \"2[counts]\"",
+        ),
+        (false, None) => Ok((
+            measured,
+            column.column(at, measured.quantity(), "--motion")?,
+        )),
     }
 }

@@ -1,14 +1,12 @@
 //! Measured motion: time and crank angle, crank-pin angle or slider position, sample by sample.
 
+mod clock;
 mod columns;
-mod cut_short;
-mod digits;
-mod elapsed;
 mod even;
-mod plain;
+mod lines;
+mod number;
 mod read;
 mod rows;
-mod saturated;
 mod source;
 
 use std::path::Path;
@@ -57,6 +55,15 @@ impl Measured {
         }
     }
 
+    /// What it is, in words.
+    fn meaning(self) -> &'static str {
+        match self {
+            Measured::Theta => "the crank angle theta",
+            Measured::Gamma => "the angle gamma at the crank pin",
+            Measured::X => "the slider position x, counted from the crank pivot",
+        }
+    }
+
     fn quantity(self) -> Quantity {
         match self {
             Measured::X => Quantity::Length,
@@ -81,6 +88,16 @@ pub struct Reading {
     pub columns: Option<String>,
     /// The measured column, where the file has several.
     pub column: Option<Measured>,
+    /// The column of the time by its header or its number, with its unit: `2[ms]`.
+    pub time: Option<String>,
+    /// The column of the motion, as that of the time.
+    pub motion: Option<String>,
+    /// Counts of an encoder in a turn of the crank.
+    pub counts_per_turn: Option<u32>,
+    /// What a slider position shows where the slider is at the crank pivot, m.
+    pub x_zero: f64,
+    /// Lines above the header.
+    pub skip: usize,
     /// Whether numbers have decimal commas; columns are then separated by semicolon or tab.
     pub decimal_comma: bool,
 }
@@ -148,11 +165,14 @@ impl Measurement {
     /// [`Error::Read`] if the file cannot be read, [`Error::Scene`] with all that is wrong with it.
     pub fn load(file: impl AsRef<Path>, reading: &Reading) -> Result<Measurement, Error> {
         let file = file.as_ref();
-        let text = text::decoded(text::bytes(file)?).map_err(|what| {
+        let (text, encoding) = text::decoded_from_any(text::bytes(file)?).map_err(|what| {
             let help = "save the data as plain CSV text in UTF-8";
             Problems::in_file(file, "", vec![Problem::new("", what, help)])
         })?;
-        Ok(Measurement::parse(file, text, reading)?)
+        let mut measurement = Measurement::parse(file, text, reading)?;
+        let note = encoding.map(|name| format!("the file is not UTF-8; it is read as {name}"));
+        measurement.notes.extend(note);
+        Ok(measurement)
     }
 
     /// Reads the text of a CSV file; `file` is its name in messages.
@@ -233,11 +253,11 @@ impl Measurement {
 
     /// A value in the unit of its column, with the unit.
     pub fn shown(&self, value: f64) -> String {
-        let (factor, unit) = match &self.source {
-            Some(source) => (source.value.factor, source.value.unit.as_str()),
-            None => (1.0, self.measured.unit()),
+        let (factor, zero, unit) = match &self.source {
+            Some(source) => (source.value.factor, source.zero, source.value.unit.as_str()),
+            None => (1.0, 0.0, self.measured.unit()),
         };
-        super::number::with_unit(value / factor, unit)
+        super::number::with_unit((value + zero) / factor, unit)
     }
 
     /// Problems with the measured values of some samples (from 0): what is wrong and what would be right.

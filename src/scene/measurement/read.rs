@@ -1,21 +1,27 @@
-//! Measured motion from CSV files.
+//! Measured motion from files of text.
 
 use std::path::Path;
 
-use csv::ByteRecord;
-
-use super::columns::{Columns, columns, with_point};
-use super::digits::Digits;
-use super::plain;
-use super::source::{Records, Source, cell, line_at, no_value};
+use super::clock::Decimal;
+use super::columns::{ColumnProblem, Columns, columns, is_count, named};
+use super::lines::{Dialect, span};
+use super::number::{Digits, parse, with_point};
+use super::source::Source;
 use super::{Measurement, Reading};
-use crate::scene::number::{self, counted};
-use crate::scene::table::pairs::{OPEN_QUOTE, delimiter, open_quote};
+use crate::numeric::parallel;
+use crate::scene::number::counted;
+use crate::scene::table::header;
+use crate::scene::table::pairs::OPEN_QUOTE;
 use crate::scene::text::with_line_feeds;
-use crate::scene::{Problem, Problems};
+use crate::scene::{Problem, Problems, unit};
+
+const CLOSE_QUOTE: &str = "write numbers without quotes, and each row on a line of its own";
 
 /// Problems of one kind that are listed; all are counted.
 pub(super) const MOST_LISTED: usize = 3;
+
+/// Bytes of a piece of text that a thread reads at a time, about.
+const PIECE: usize = 1 << 18;
 
 /// A file's samples, each a number, not yet checked against each other.
 pub(super) fn measurement(
@@ -24,166 +30,183 @@ pub(super) fn measurement(
     reading: &Reading,
 ) -> Result<Measurement, Problems> {
     let text = with_line_feeds(text);
-    let (has_header, delimiter) = (reading.columns.is_none(), delimiter(&text));
-    let wrong =
-        |what: &str, help: &str| Problems::in_file(file, &text, vec![Problem::new("", what, help)]);
-    if reading.decimal_comma && delimiter == b',' {
+    let dialect = Dialect::of(&text, reading.skip);
+    let failed = |problem: Problem| Problems::in_file(file, &text, vec![problem]);
+    if reading.decimal_comma && dialect.delimiter == ',' {
         let help = "separate the columns by semicolon or tab";
-        return Err(wrong(
+        return Err(failed(Problem::new(
+            "",
             "commas cannot be decimal and separate the columns",
             help,
-        ));
+        )));
     }
-    let mut records = Records::new(&text, delimiter);
-    if !records.next() {
+    if dialect.rows(&text).next().is_none() {
         let help = "give rows of time and motion below a header, as `t [s],theta [deg]`";
-        return Err(wrong("the file is empty", help));
+        return Err(failed(Problem::new("", "the file is empty", help)));
     }
-    if runs_on(&records.record) {
-        return Err(Problems::in_file(file, &text, vec![unclosed(&text, 0)]));
+    let (columns, start) = heading(&text, dialect, reading).map_err(failed)?;
+    let mut found = samples(&text[start..], dialect, &columns);
+    if !found.problems.is_empty() {
+        return Err(found.refused(file, &text, start));
     }
-    let (header, body) = match &reading.columns {
-        Some(_) if columns(&records.record, reading).is_ok() => {
-            let help = "leave --columns out: it is for files without header";
-            return Err(wrong("the file has a header", help));
-        }
-        Some(given) => (split(given), 0),
-        None => (records.record.clone(), records.end()),
+    let step = match columns.value.unit.as_str() {
+        "counts" => 1.0,
+        _ => found.digits.step(),
     };
-    let columns = columns(&header, reading).map_err(|found| {
-        let mut problem = Problem::new("header", found.what, found.help);
-        match &reading.columns {
-            Some(_) => problem.what = format!("--columns: {}", problem.what),
-            None => {
-                let whole = line_at(&text, body);
-                let part = found.column.map(|at| cell(&text, body, delimiter, at));
-                problem.span = Some(part.unwrap_or(whole));
-            }
-        }
-        Problems::in_file(file, &text, vec![problem])
-    })?;
-    let rows = text.get(body..);
-    let plain = rows.and_then(|rows| plain::samples(rows, delimiter, &columns));
-    let (times, values, digits) = match plain {
-        Some(samples) => samples,
-        None => samples(file, &text, delimiter, has_header, &columns)?,
-    };
-    let resolution = columns.value.factor * digits.step();
-    Ok(Measurement {
+    let mut measurement = Measurement {
         measured: columns.measured,
-        times,
+        times: found.times,
         elapsed: None,
         origin: 0.0,
         spacing: 0.0,
-        values,
-        resolution,
-        notes: columns.note.into_iter().collect(),
+        values: found.values,
+        resolution: columns.value.factor * step,
+        notes: columns.notes,
         source: Some(Source {
             file: file.to_owned(),
-            delimiter,
-            has_header,
+            dialect: Dialect { start, ..dialect },
             columns: columns.at,
             time: columns.time,
             value: columns.value,
+            zero: columns.zero,
             text,
         }),
-    })
-}
-
-/// The cells of a header given as an option.
-fn split(header: &str) -> ByteRecord {
-    let separator = [';', '\t'].into_iter().find(|c| header.contains(*c));
-    header
-        .split(separator.unwrap_or(','))
-        .map(str::trim)
-        .collect::<Vec<_>>()
-        .into()
-}
-
-/// Times, values, and how finely these are printed.
-pub(super) type Samples = (Vec<f64>, Vec<f64>, Digits);
-
-/// The samples of a file, or all that is wrong with it.
-fn samples(
-    file: &Path,
-    text: &str,
-    delimiter: u8,
-    has_header: bool,
-    columns: &Columns,
-) -> Result<Samples, Problems> {
-    let mut records = Records::new(text, delimiter);
-    if has_header {
-        records.next();
+    };
+    if columns.is_clock {
+        measurement.elapsed = measurement.since_first_row();
+        measurement.times = measurement.elapsed.take().unwrap_or_default();
     }
-    let (mut times, mut values, mut digits) = (Vec::new(), Vec::new(), Digits::default());
-    let mut problems = without_values(text, delimiter);
-    let mut count = problems.len();
-    problems.truncate(MOST_LISTED);
-    let names = ["time", columns.measured.name()];
-    let mut before = records.end();
-    while records.next() {
-        let (record, end) = (&records.record, records.end());
-        let mut wrong = |column: Option<usize>, field: &str, what: String, help: String| {
-            count += 1;
-            let mut problem = Problem::new(field, what, help);
-            let alike = |other: &&Problem| other.field == field && other.help == problem.help;
-            if problems.iter().filter(alike).count() < MOST_LISTED {
-                problem.span = Some(match column {
-                    Some(column) => cell(text, end, delimiter, column),
-                    None => line_at(text, end),
-                });
-                problems.push(problem);
-            }
+    Ok(measurement)
+}
+
+/// The columns of a text, and the byte at which their rows begin.
+fn heading(text: &str, dialect: Dialect, reading: &Reading) -> Result<(Columns, usize), Problem> {
+    let is_value =
+        |cell: &str| parse(cell, reading.decimal_comma).is_ok() || Decimal::of(cell).is_some();
+    let mut rows = dialect.rows(text).peekable();
+    let above = rows.next().unwrap_or_default();
+    let mut cells = dialect.list(above);
+    let start = span(text, above).start;
+    if let Some(quote) = Dialect::open_quote(above) {
+        let mut problem = Problem::new("quote", OPEN_QUOTE, CLOSE_QUOTE);
+        problem.span = Some(span(text, quote));
+        return Err(problem);
+    }
+    let number = cells.iter().position(|cell| is_value(cell));
+    let found = |names: &[&str], units: &[&str], first: &[&str]| {
+        columns(&named(names, units, first), reading)
+    };
+    let placed = |found: ColumnProblem| {
+        let mut problem = Problem::new("header", found.what, found.help);
+        let part = found
+            .column
+            .and_then(|at| dialect.list(above).get(at).copied());
+        problem.span = Some(span(text, part.unwrap_or(above)));
+        problem
+    };
+    if let Some(given) = &reading.columns {
+        let separator = [';', '\t']
+            .into_iter()
+            .find(|c| given.contains(*c))
+            .unwrap_or(',');
+        let names: Vec<&str> = given.split(separator).map(str::trim).collect();
+        let columns = found(&names, &[], &cells).map_err(|found| {
+            Problem::new("header", format!("--columns: {}", found.what), found.help)
+        })?;
+        let help = "leave --columns out: it is for files without header";
+        let with_header = || Problem::new("", "the file has a header", help);
+        return number.map(|_| (columns, start)).ok_or_else(with_header);
+    }
+    let Some(number) = number else {
+        while cells.len() > 1 && cells.last().is_some_and(|name| name.is_empty()) {
+            cells.pop();
+        }
+        let is_bare = cells.iter().all(|cell| header::split(cell).unit.is_empty());
+        let is_unit = |cell: &&str| {
+            unit::is_unit(header::bare(cell)) || cell.is_empty() || is_count(header::bare(cell))
         };
-        if runs_on(record) {
-            count += 1;
-            problems.push(unclosed(text, before));
-            break;
-        }
-        before = end;
-        if record.len() != columns.count {
-            let what = format!(
-                "{} where {} {}",
-                counted(record.len(), "value"),
-                if has_header {
-                    "the header has"
-                } else {
-                    "--columns has"
-                },
-                counted(columns.count, "column")
-            );
-            let help = match delimiter {
-                b',' if record.len() > columns.count => {
-                    "give one value for each column; where numbers have decimal commas, separate the columns by semicolon or tab"
-                }
-                _ => "give one value for each column; leave no quote open",
-            };
-            wrong(None, "row", what, help.to_owned());
-            continue;
-        }
-        let mut pair = [f64::NAN; 2];
-        for (value, (column, name)) in pair.iter_mut().zip(columns.at.into_iter().zip(names)) {
-            match parse(&record[column], columns) {
-                Ok(found) => *value = found,
-                Err((what, help)) => wrong(Some(column), name, what, help),
-            }
-        }
-        let [time, value] = pair;
-        times.push(time * columns.time.factor);
-        values.push(value * columns.value.factor);
-        let cell = std::str::from_utf8(&record[columns.at[1]])
-            .unwrap_or_default()
-            .trim();
-        digits.take(
-            value,
-            with_point(cell, columns).unwrap_or_default().as_bytes(),
-        );
+        let units = rows.next_if(|row| is_bare && dialect.list(row).iter().all(is_unit));
+        let units = units.map(|row| dialect.list(row)).unwrap_or_default();
+        let first = rows.peek().copied();
+        let columns =
+            found(&cells, &units, &dialect.list(first.unwrap_or_default())).map_err(placed)?;
+        return Ok((
+            columns,
+            first.map_or(text.len(), |row| span(text, row).start),
+        ));
+    };
+    // What numpy and MATLAB write: the header as a comment.
+    let comment = text[..start]
+        .lines()
+        .rfind(|line| !line.trim().is_empty())
+        .unwrap_or_default();
+    let names = dialect.list(comment.trim_start_matches(['#', '%', ';', ' ']));
+    if dialect.is_comment(comment)
+        && names.len() == cells.len()
+        && let Ok(columns) = found(&names, &[], &cells)
+    {
+        return Ok((columns, start));
     }
-    problems.extend(more(count - problems.len(), text));
-    if problems.is_empty() {
-        Ok((times, values, digits))
-    } else {
-        Err(Problems::in_file(file, text, problems))
+    if reading.time.is_some() && reading.motion.is_some() {
+        return Ok((found(&[], &[], &cells).map_err(placed)?, start));
+    }
+    Err(placed(ColumnProblem {
+        column: Some(number),
+        what: format!("there is no header: `{}` is a number", cells[number]),
+        help: "put a header above the numbers, as `t [s],theta [deg]`, or say what the columns are: --columns \"t [s],theta [deg]\", or --time \"1[s]\" --motion \"2[deg]\"".to_owned(),
+    }))
+}
+
+/// Times, values, how finely these are printed, and what is wrong.
+#[derive(Default)]
+struct Samples {
+    times: Vec<f64>,
+    values: Vec<f64>,
+    digits: Digits,
+    /// With places in the text of the rows.
+    problems: Vec<Problem>,
+    /// All problems, listed or not.
+    wrong: usize,
+}
+
+/// The samples of rows, read in pieces of whole lines side by side.
+fn samples(rows: &str, dialect: Dialect, columns: &Columns) -> Samples {
+    let mut pieces = Vec::new();
+    let mut rest = rows;
+    while !rest.is_empty() {
+        let from = PIECE.min(rest.len());
+        let end = rest.as_bytes()[from..]
+            .iter()
+            .position(|byte| *byte == b'\n');
+        let (piece, after) = rest.split_at(end.map_or(rest.len(), |at| from + at + 1));
+        pieces.push(piece);
+        rest = after;
+    }
+    let count = rows.len() / 16;
+    let mut all = Samples {
+        times: Vec::with_capacity(count),
+        values: Vec::with_capacity(count),
+        ..Samples::default()
+    };
+    for found in parallel::map(pieces.into_iter(), |piece| {
+        samples_of(rows, piece, dialect, columns)
+    }) {
+        all.times.extend(found.times);
+        all.values.extend(found.values);
+        all.digits.join(&found.digits);
+        all.wrong += found.wrong;
+        for problem in found.problems {
+            list(&mut all.problems, problem);
+        }
+    }
+    all
+}
+
+/// Lists a problem, unless enough like it are listed.
+fn list(problems: &mut Vec<Problem>, problem: Problem) {
+    let alike = |other: &&Problem| other.field == problem.field && other.help == problem.help;
+    if problems.iter().filter(alike).count() < MOST_LISTED {
+        problems.push(problem);
     }
 }
 
@@ -197,81 +220,85 @@ pub(super) fn more(count: usize, text: &str) -> Option<Problem> {
     })
 }
 
-/// Rows that begin with what spreadsheets write where a formula has no value.
-fn without_values(text: &str, delimiter: u8) -> Vec<Problem> {
-    let mut start = 0;
-    let mut problems = Vec::new();
-    for line in text.split_inclusive('\n') {
-        if let Some(mark) = no_value(line, delimiter) {
-            let (what, help) = not_a_number(mark);
-            let mut problem = Problem::new("row", what, help);
-            problem.span = Some(start..start + mark.len());
-            problems.push(problem);
+fn samples_of(rows: &str, piece: &str, dialect: Dialect, columns: &Columns) -> Samples {
+    let mut samples = Samples::default();
+    for row in dialect.rows_of(piece) {
+        let (mut pair, mut count, mut excess) = ([""; 2], 0, false);
+        for (at, cell) in dialect.cells(row).enumerate() {
+            for (mine, wanted) in pair.iter_mut().zip(columns.at) {
+                if at == wanted {
+                    *mine = cell;
+                }
+            }
+            count = at + 1;
+            excess |= count > columns.count && !cell.is_empty();
         }
-        start += line.len();
+        let mut wrong = |field: &str, part: &str, what: String, help: &str| {
+            samples.wrong += 1;
+            let mut problem = Problem::new(field, what, help);
+            problem.span = Some(span(rows, part));
+            list(&mut samples.problems, problem);
+        };
+        if let Some(quote) = Dialect::open_quote(row) {
+            wrong("quote", quote, OPEN_QUOTE.to_owned(), CLOSE_QUOTE);
+            continue;
+        }
+        if count < columns.count || excess {
+            let what = format!("{} where {}", counted(count, "value"), columns.counted);
+            let help = match dialect.delimiter {
+                ',' if excess => {
+                    "give one value for each column; where numbers have decimal commas, separate the columns by semicolon or tab"
+                }
+                _ => "give one value for each column; leave no quote open",
+            };
+            wrong("row", row, what, help);
+            continue;
+        }
+        let time = match columns.is_clock {
+            true => Decimal::of(pair[0]).map(|_| 0.0).ok_or_else(|| {
+                (
+                    format!("`{}` is no time", pair[0]),
+                    "give a date and an hour, as the rows above",
+                )
+            }),
+            false => {
+                parse(pair[0], columns.decimal_comma).map_err(|wrong| (wrong.what, wrong.help))
+            }
+        };
+        let value = parse(pair[1], columns.decimal_comma);
+        match (time, value) {
+            (Ok(time), Ok(value)) => {
+                samples.times.push(time * columns.time.factor);
+                samples
+                    .values
+                    .push(value * columns.value.factor - columns.zero);
+                let text = with_point(pair[1], columns.decimal_comma);
+                samples.digits.take(value, &text.unwrap_or_default());
+            }
+            (time, value) => {
+                if let Err((what, help)) = time {
+                    wrong("time", pair[0], what, help);
+                }
+                if let Err(found) = value {
+                    wrong(columns.measured.name(), pair[1], found.what, found.help);
+                }
+            }
+        }
     }
-    problems
+    samples
 }
 
-/// A value that goes on over the end of its line, in the record that begins at or after a byte.
-fn unclosed(text: &str, from: usize) -> Problem {
-    let at = open_quote(text, from);
-    let help = "write numbers without quotes, and each row on a line of its own";
-    let mut problem = Problem::new("quote", OPEN_QUOTE, help);
-    problem.span = Some(at..at + 1);
-    problem
-}
-
-/// Whether a value of a record goes on over the end of its line.
-fn runs_on(record: &ByteRecord) -> bool {
-    record.iter().any(|cell| cell.contains(&b'\n'))
-}
-
-/// A number, or what is wrong with it and what would be right.
-fn parse(cell: &[u8], columns: &Columns) -> Result<f64, (String, String)> {
-    let whole = std::str::from_utf8(cell).unwrap_or_default().trim();
-    let Some(text) = with_point(whole, columns) else {
-        return Err((
-            format!("`{whole}` has a point where numbers have decimal commas"),
-            "write every number with a decimal comma and without separators of thousands"
-                .to_owned(),
-        ));
-    };
-    let text = text.as_ref();
-    let parsed = text.parse::<f64>().or_else(|_| number::plain(text).parse());
-    match parsed {
-        Ok(value) if value.is_finite() => Ok(value),
-        Ok(_) => Err((
-            format!("`{text}` is not a finite number"),
-            "give a number, or take the row out".to_owned(),
-        )),
-        Err(_) => Err(not_a_number(whole)),
+impl Samples {
+    /// All problems of rows that begin at a byte of a text.
+    fn refused(&mut self, file: &Path, text: &str, rows: usize) -> Problems {
+        let mut problems = std::mem::take(&mut self.problems);
+        for span in problems
+            .iter_mut()
+            .filter_map(|problem| problem.span.as_mut())
+        {
+            *span = span.start + rows..span.end + rows;
+        }
+        problems.extend(more(self.wrong - problems.len(), text));
+        Problems::in_file(file, text, problems)
     }
-}
-
-fn not_a_number(text: &str) -> (String, String) {
-    if text.is_empty() {
-        return (
-            "the value is missing".to_owned(),
-            "give a number, or take the row out".to_owned(),
-        );
-    }
-    if text.replacen(',', ".", 1).parse::<f64>().is_ok() {
-        return (
-            format!("`{text}` has a decimal comma where a point is expected"),
-            "write decimal points, or say so with --decimal comma if semicolons or tabs separate the columns".to_owned(),
-        );
-    }
-    let separates = |c: char| matches!(c, ',' | '\'' | '_') || c.is_whitespace();
-    if text.replace(separates, "").parse::<f64>().is_ok() {
-        let help = "write numbers without separators of thousands".to_owned();
-        return (format!("`{text}` is not a plain number"), help);
-    }
-    let digits = number::length(text.trim_start_matches(['+', '-', number::MINUS]));
-    let help = if digits > 0 {
-        "write the number alone, as 12.5 or 1.25e1; units belong in the header"
-    } else {
-        "give a number; units belong in the header, comments begin with #"
-    };
-    (format!("`{text}` is not a number"), help.to_owned())
 }

@@ -1,8 +1,6 @@
 //! Samples checked against each other.
 
-use super::cut_short::cut_short;
 use super::read::{MOST_LISTED, more};
-use super::saturated::saturated;
 use super::{LEAST_ROWS, Measured, Measurement};
 use crate::numeric::median::median;
 use crate::scene::number::{apart, computed, counted, show};
@@ -64,8 +62,7 @@ pub(super) fn check_rows(measurement: &mut Measurement) -> Result<(), Problems> 
     problems.extend(too_short(measurement).filter(|_| problems.is_empty()));
     if problems.is_empty() {
         let spaced = measurement.space_evenly();
-        let notes =
-            [gaps, far_from_zero, saturated, at_rest, cut_short].map(|noted| noted(measurement));
+        let notes = [gaps, far_from_zero, at_rest].map(|noted| noted(measurement));
         let notes = notes.into_iter().chain([spaced]).flatten();
         measurement.notes.extend(notes);
         return Ok(());

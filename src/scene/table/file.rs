@@ -8,6 +8,8 @@ use super::header;
 use super::pairs::Pairs;
 use super::rows::{Column, Rows, columns_error};
 use super::{Interpolation, Table, TableError};
+#[cfg(feature = "cli")]
+use crate::error::Error;
 use crate::scene::number::counted;
 use crate::scene::unit::Quantity;
 use crate::scene::{Variable, text};
@@ -49,6 +51,52 @@ impl Table {
         let file = Some(file.to_owned());
         Ok(Table { of, curve, file })
     }
+}
+
+/// A load as a table in a file of its own.
+#[cfg(feature = "cli")]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoadTable {
+    /// What it is a table of.
+    pub of: Variable,
+    /// What it gives, with its article.
+    pub gives: &'static str,
+    /// How many rows it has.
+    pub rows: usize,
+}
+
+/// The table of a load in a CSV file; none if its two columns do not say that it is one: a variable, and a torque, a
+/// force or a pressure by its unit.
+///
+/// # Errors
+/// [`Error::Read`] if the file cannot be read, [`Error::Refused`] with what is wrong with the table.
+#[cfg(feature = "cli")]
+pub fn load_table(file: &Path) -> Result<Option<LoadTable>, Error> {
+    let name = file.display().to_string();
+    let Ok(text) = text::decoded(text::bytes(file)?) else {
+        return Ok(None);
+    };
+    let Ok(pairs) = Pairs::new(&name, &text) else {
+        return Ok(None);
+    };
+    let [first, second] = [0, 1].map(|at| pairs.header().get(at).map(header::split));
+    let (Some(first), Some(second), 2) = (first, second, pairs.header().len()) else {
+        return Ok(None);
+    };
+    let loads = [Quantity::Torque, Quantity::Force, Quantity::Pressure];
+    let load = loads
+        .into_iter()
+        .find(|load| second.clone().column(*load).is_ok());
+    let (Some(of), Some(load)) = (Variable::named(&first.name), load) else {
+        return Ok(None);
+    };
+    let table = Table::read(file, of, load, Interpolation::Pchip, None)
+        .map_err(|error| Error::refused(error.what, error.help))?;
+    Ok(Some(LoadTable {
+        of,
+        gives: load.name(),
+        rows: table.rows().len(),
+    }))
 }
 
 /// Units of the two columns.

@@ -28,20 +28,36 @@ pub(in crate::scene) fn split(text: &str) -> Header {
     if let Some((name, unit)) = text.split_once(" / ") {
         return header(name, unit);
     }
-    if let Some((name, unit)) = text.split_once('_') {
-        return header(name, &unit.replace("_per_", "/").replace('_', " "));
+    for (at, _) in text.match_indices('_') {
+        let unit = text[at + 1..].replace("_per_", "/").replace('_', " ");
+        if unit::is_unit(&unit) {
+            return header(&text[..at], &unit);
+        }
+    }
+    if let Some((name, unit)) = text.rsplit_once([' ', ','])
+        && unit::is_unit(unit)
+    {
+        return header(name, unit);
     }
     let (name, unit) = text.split_once('/').unwrap_or((text, ""));
     header(name, unit)
 }
 
 fn header(name: &str, unit: &str) -> Header {
-    let name = name.trim_matches([' ', '/', '_']).to_lowercase();
+    let name = name
+        .trim_matches([' ', '/', '_', ','])
+        .to_lowercase()
+        .replace(['_', '-'], " ");
     let letter = GREEK.iter().find(|letter| letter.0 == name);
     Header {
         name: letter.map_or(name.as_str(), |letter| letter.1).to_owned(),
         unit: unit.trim().to_owned(),
     }
+}
+
+/// A unit without the brackets about it.
+pub(in crate::scene) fn bare(unit: &str) -> &str {
+    unit.trim_matches(['[', ']', '(', ')', ' '])
 }
 
 impl Header {
@@ -63,7 +79,8 @@ impl Header {
     }
 }
 
-fn example(quantity: Quantity) -> &'static str {
+/// A usual unit of a quantity.
+pub(in crate::scene) fn example(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::Time => "s",
         Quantity::Angle => "deg",
@@ -93,6 +110,12 @@ mod tests {
             ("omega/(rad/s)", "omega", "rad/s"),
             ("\u{feff}theta[deg]", "theta", "deg"),
             ("x", "x", ""),
+            ("crank_angle_deg", "crank angle", "deg"),
+            ("Crank angle (deg)", "crank angle", "deg"),
+            ("slider_position_mm", "slider position", "mm"),
+            ("time, ms", "time", "ms"),
+            ("theta deg", "theta", "deg"),
+            ("crank_angle", "crank angle", ""),
             ("θ (degrees)", "theta", "degrees"),
         ] {
             assert_eq!(split(text), header(name, unit), "{text}");

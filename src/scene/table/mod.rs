@@ -15,6 +15,8 @@ use crate::numeric::enclosure::{Enclosed, Interval};
 use crate::numeric::interpolate::Curve;
 pub use crate::numeric::interpolate::Interpolation;
 pub use calibration::calibration_points;
+#[cfg(feature = "cli")]
+pub use file::{LoadTable, load_table};
 use rows::{Column, Rows};
 
 /// Values over one variable, SI and radians.

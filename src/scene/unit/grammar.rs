@@ -104,14 +104,18 @@ fn factor_of(rest: &mut &str) -> Result<Factor, String> {
     Ok(before.times(last, power))
 }
 
-/// A symbol, or two that are written without a space, as in `kgm^2`, where that can be read in one way only. An
-/// exponent belongs to the last.
+/// A symbol, or two that are written without a space, as in `kgm^2` and `Ns`: a mass or a force, and a length or a
+/// time, where that can be read in one way only. An exponent belongs to the last.
 fn symbols_of(name: &str) -> Option<[Factor; 2]> {
     if let Some(only) = symbol(name) {
         return Some([Factor::ONE, only]);
     }
     let ends = name.char_indices().map(|(at, _)| name.split_at(at));
-    let mut pairs = ends.filter_map(|(a, b)| Some([symbol(a)?, symbol(b)?]));
+    let fits = |[first, last]: &[Factor; 2]| {
+        first.dimension[1] == 1 && matches!(last.dimension, [1, 0, 0, 0] | [0, 0, 1, 0])
+    };
+    let pairs = ends.filter_map(|(a, b)| Some([symbol(a)?, symbol(b)?]));
+    let mut pairs = pairs.filter(fits);
     let pair = pairs.next()?;
     pairs.next().is_none().then_some(pair)
 }

@@ -151,6 +151,11 @@ pub fn factor(unit: &str, quantity: Quantity) -> Result<f64, UnitError> {
     parse(&format!("1 {unit}"), quantity)
 }
 
+/// Whether a text is a unit of any quantity.
+pub(super) fn is_unit(text: &str) -> bool {
+    !text.trim().is_empty() && grammar::unit_factor(text.trim()).is_ok()
+}
+
 /// Splits `"-2.5e3 N m"` into its digits and its unit.
 fn split(text: &str) -> Result<(String, &str), String> {
     let trimmed = text.trim();

@@ -129,7 +129,7 @@ impl<const N: usize> Follow<'_, N> {
         }
     }
 
-    fn angle(&self, theta: f64) -> Angle {
+    pub(super) fn angle(&self, theta: f64) -> Angle {
         Angle {
             turns: self.asked.turns,
             rest: theta,

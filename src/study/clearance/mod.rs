@@ -25,7 +25,7 @@ use crate::engine::contact::{self, Ended, Finish, Phase, Settings, Stretch};
 use crate::error::Error;
 use crate::mechanism::{LooseMechanism, LooseState};
 use crate::numeric::angle::Angle;
-use crate::scene::{ContactLaw, Every, Extent, MotionKind};
+use crate::scene::{ContactLaw, Every, Extent, Instant as State, Load, MotionKind};
 use follow::{Asked, Follow, Seen};
 use motion::{DRIVEN, FREE, Loose};
 use record::Record;
@@ -233,10 +233,28 @@ impl<'a, const N: usize> Run<'a, N> {
             (Finish::WorkLimit, _) => Some(format!(
                 "the work limit of evaluations is reached: stopped {place}; raise --max-evaluations, shorten the run or loosen the tolerance"
             )),
-            (Finish::StepTooSmall, _) => Some(format!(
-                "a load has no finite value, or the contact is too stiff for steps in double precision: stopped {place}"
-            )),
+            (Finish::StepTooSmall, _) => Some(match self.without_value(last) {
+                Some(load) => format!("a load has no finite value ({load}): stopped {place}"),
+                None => format!(
+                    "the contact is too stiff for steps in double precision: stopped {place}"
+                ),
+            }),
         }
+    }
+
+    /// A load that ends at a state, or a few roundings after it.
+    fn without_value(&self, last: &LooseState) -> Option<&Load> {
+        let dt = 64.0 * f64::EPSILON * last.t.max(f64::MIN_POSITIVE);
+        let at = |dt: f64| State {
+            t: last.t + dt,
+            theta: self.angle(last).radians() + last.omega * dt,
+            omega: last.omega,
+            x: last.x + last.v * dt,
+            v: last.v,
+        };
+        let loads = self.task.equation().loads();
+        let found = loads.without_value(&at(0.0));
+        found.or_else(|| loads.without_value(&at(dt)))
     }
 
     fn angle(&self, s: &LooseState) -> Angle {

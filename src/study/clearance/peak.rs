@@ -57,9 +57,11 @@ impl<const N: usize> Follow<'_, N> {
                 top = (value, t);
             }
             if top.0 > peak.value_n {
+                let theta = self.model.state(&stretch.at(top.1)).theta;
                 *peak = Peak {
                     value_n: top.0,
                     t_s: top.1,
+                    theta_rad: self.angle(theta).radians(),
                     added_n: (top.0 - found[best][k]).max(0.0),
                 };
             }

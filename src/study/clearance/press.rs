@@ -4,51 +4,68 @@ use super::follow::Follow;
 use super::motion::touch;
 use super::record::{Tally, quintic};
 use crate::engine::contact::{Phase, Sample, Stretch};
+use crate::numeric::golden;
+
+/// A step with a large force is looked at in so many places.
+const PLACES: u32 = 32;
 
 impl<const N: usize> Follow<'_, N> {
     /// Time, impulse and peak of the contact force, by Simpson's rule along the depth's quintic.
     pub(super) fn follow_contact(&mut self, stretch: &mut Stretch<'_, N>) {
-        let h = stretch.length();
-        let middle = stretch.start[0] + 0.5 * h;
+        let begin = stretch.start[0];
+        let end = self.seen.ends_at.map_or(stretch.end[0], |s| s.t);
+        let h = end - begin;
         let tally = match stretch.phase {
             Phase::Flight => return,
             Phase::Release { .. } => Tally {
                 touching: h,
                 ..Tally::default()
             },
-            Phase::Contact { approach } => self.pressed(stretch, approach),
-            Phase::Link => self.linked(stretch),
+            Phase::Contact { approach } => self.pressed(stretch, approach, h),
+            Phase::Link => self.linked(stretch, h),
         };
         self.seen.total.add(&tally);
-        self.seen.record.tally(middle, &tally);
+        self.seen.record.spread(begin, end, &tally);
     }
 
-    fn pressed(&self, stretch: &Stretch<'_, N>, approach: f64) -> Tally {
-        let h = stretch.length();
+    /// Of the first `h` seconds of a step.
+    fn pressed(&self, stretch: &mut Stretch<'_, N>, approach: f64, h: f64) -> Tally {
+        let (length, begin) = (stretch.length(), stretch.start[0]);
         let end = |s: &Sample<N>| [s.depth, s.depth_rate, s.depth_acceleration];
         let (from, to) = (end(&stretch.before), end(&stretch.after));
         let law = self.model.mechanism.force();
         let at = |u: f64| {
-            let (depth, rate) = quintic(from, to, h, u);
+            let (depth, rate) = quintic(from, to, length, u);
             let force = law.elastic(depth.max(0.0)) * law.factor(rate, approach).max(0.0);
             (force, depth)
         };
-        let (first, middle, last) = (at(0.0), at(0.5), at(1.0));
+        let part = h / length;
+        let (first, middle, last) = (at(0.0), at(0.5 * part), at(part));
         let mut tally = simpson([first.0, middle.0, last.0], h);
         tally.deepest = first.1.max(middle.1).max(last.1);
         // A peak between is looked for only where it would count.
         if 1.05 * tally.peak > self.seen.total.peak {
-            for i in 1..32 {
-                let (force, depth) = at(f64::from(i) / 32.0);
-                tally.peak = tally.peak.max(force);
-                tally.deepest = tally.deepest.max(depth);
-            }
+            let place = |i: u32| part * f64::from(i) / f64::from(PLACES);
+            let top = |value: &dyn Fn(f64) -> f64| {
+                let higher = |a: &u32, b: &u32| value(place(*a)).total_cmp(&value(place(*b)));
+                let best = (0..=PLACES).max_by(higher).unwrap_or(0);
+                let (from, to) = (place(best.saturating_sub(1)), place((best + 1).min(PLACES)));
+                golden::largest(value, from, to)
+            };
+            let (u, force) = top(&|u| at(u).0);
+            // The quintic finds the place; the force there is that of the motion.
+            let s = self.model.state(&stretch.at(begin + u * length));
+            let phase = Phase::Contact { approach };
+            let moved = self.model.mechanism.rates(&s, touch(phase, None)).normal;
+            tally.peak = tally
+                .peak
+                .max(if moved.is_finite() { moved } else { force });
+            tally.deepest = tally.deepest.max(top(&|u| at(u).1).1);
         }
         tally
     }
 
-    fn linked(&self, stretch: &mut Stretch<'_, N>) -> Tally {
-        let h = stretch.length();
+    fn linked(&self, stretch: &mut Stretch<'_, N>, h: f64) -> Tally {
         let t = stretch.start[0];
         let force = [0.0, 0.5, 1.0].map(|u| {
             let s = self.model.state(&stretch.at(t + u * h));

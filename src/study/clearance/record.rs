@@ -59,7 +59,8 @@ impl ContactStatistics {
             from_s: from,
             to_s: to,
             impacts: tally.impacts,
-            contact_share: mean(tally.touching),
+            // The parts of the time add up to all of it but for rounding.
+            contact_share: mean(tally.touching).min(1.0),
             force_peak_n: tally.peak,
             force_mean_n: mean(tally.impulse),
             force_rms_n: mean(tally.squared).sqrt(),
@@ -124,6 +125,35 @@ impl Record {
         self.tallies[index.min(last)].add(tally);
     }
 
+    /// What the contact did from one time (s) to another, parted where records of shorter times meet: impacts and the
+    /// largest values belong to the middle.
+    pub fn spread(&mut self, from: f64, to: f64, tally: &Tally) {
+        self.tally(
+            0.5 * (from + to),
+            &Tally {
+                impacts: tally.impacts,
+                peak: tally.peak,
+                deepest: tally.deepest,
+                ..Tally::default()
+            },
+        );
+        let mut start = from;
+        while start < to {
+            let next = ((start / self.width).floor() + 1.0) * self.width;
+            let end = if next > start { next.min(to) } else { to };
+            let part = (end - start) / (to - from);
+            let piece = Tally {
+                touching: part * tally.touching,
+                drawn: part * tally.drawn,
+                impulse: part * tally.impulse,
+                squared: part * tally.squared,
+                ..Tally::default()
+            };
+            self.tally(0.5 * (start + end), &piece);
+            start = end;
+        }
+    }
+
     /// All tallies from time t (s) on, and where that begins.
     pub fn since(&self, t: f64) -> (Tally, f64) {
         let first = (t / self.width).round() as usize;
@@ -160,4 +190,36 @@ pub(super) fn quintic(start: [f64; 3], end: [f64; 3], h: f64, u: f64) -> (f64, f
         y0 + u * (v0 + u * (c0 + u * (k3 + u * (k4 + u * k5)))),
         (v0 + u * (2.0 * c0 + u * (3.0 * k3 + u * (4.0 * k4 + u * 5.0 * k5)))) / h,
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Steps that do not end where the record's times do, all of them in contact under a constant force.
+    #[test]
+    fn a_contact_without_end_takes_all_of_the_time() {
+        let (end, step) = (10.0, 0.7);
+        let mut record = Record::new(1.0);
+        let steps = (0..15).map(|i| step * f64::from(i));
+        for from in steps {
+            let to = f64::min(from + step, end);
+            let tally = Tally {
+                touching: to - from,
+                impulse: 3.0 * (to - from),
+                ..Tally::default()
+            };
+            record.spread(from, to, &tally);
+        }
+        for since in 0..10 {
+            let (tally, from) = record.since(f64::from(since));
+            let seen = ContactStatistics::new(&tally, from, end);
+            assert!((seen.contact_share - 1.0).abs() < 1e-14, "{seen:?}");
+            assert!(
+                (tally.touching / (end - from) - 1.0).abs() < 1e-14,
+                "{seen:?}"
+            );
+            assert!((seen.force_mean_n - 3.0).abs() < 1e-13, "{seen:?}");
+        }
+    }
 }

@@ -4,8 +4,8 @@ use std::cell::Cell;
 
 use super::arrived::{Arrived, End, Follow, Observer};
 use super::phase::{
-    AHEAD, CLEAR, CRANK, DEAD_CENTRE, InPhase, LIMIT, NORMAL, Phase, Quantities, SPEED, Signs,
-    TURNED, against, signs, sliding,
+    CLEAR, CRANK, DEAD_CENTRE, InPhase, LIMIT, NORMAL, Phase, Quantities, SPEED, Signs, TURNED,
+    sliding,
 };
 use crate::engine::guard::{self, Change, Watched};
 use crate::engine::pace::Pace;
@@ -91,34 +91,7 @@ impl Run<'_, '_> {
         self.arrived.end = end.unwrap_or(End::Done);
     }
 
-    pub fn signs_for(&self, direction: f64) -> Signs {
-        let equation = self.follow.equation;
-        if equation.loads().are_dry() {
-            // The sign of N follows from those of the speeds.
-            let seen = self.seen(direction);
-            self.quantities.against.set(against(equation, &seen));
-        }
-        self.seen(direction)
-    }
-
-    fn seen(&self, direction: f64) -> Signs {
-        let Start { t, angle, speed } = self.now;
-        let values = self.quantities.values(t, angle, speed);
-        let ahead = self
-            .quantities
-            .values(t, angle.plus(direction * AHEAD), speed);
-        let mut signs = signs(values, ahead, direction);
-        // A start without speed says nothing about its direction.
-        if speed == 0.0 && !self.follow.may_stick() {
-            let motion = self.in_phase(Phase::FREE);
-            if motion.acceleration(t, angle, speed) < 0.0 {
-                signs[SPEED] = -1.0;
-            }
-        }
-        signs
-    }
-
-    fn in_phase(&self, phase: Phase) -> InPhase<'_> {
+    pub(super) fn in_phase(&self, phase: Phase) -> InPhase<'_> {
         InPhase {
             equation: self.follow.equation,
             phase,
@@ -161,15 +134,6 @@ impl Run<'_, '_> {
             if let Some(finish) = pace.is_hopeless(spent, self.now.t, travel) {
                 return Some(End::Integrator(finish));
             }
-        }
-    }
-
-    /// Where dry loads turn round, the normal force jumps.
-    fn oppose(&mut self, index: usize) {
-        let equation = self.follow.equation;
-        if equation.loads().are_dry() && matches!(index, DEAD_CENTRE | CRANK) {
-            self.quantities.against.set(against(equation, &self.signs));
-            self.signs[NORMAL] = self.seen(self.signs[SPEED])[NORMAL];
         }
     }
 

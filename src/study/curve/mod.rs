@@ -7,6 +7,7 @@ mod noise;
 mod phase;
 mod release;
 mod rest;
+mod senses;
 mod watch;
 mod words;
 

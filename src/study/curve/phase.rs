@@ -7,6 +7,7 @@ use crate::engine::Motion;
 use crate::engine::guard::Watched;
 use crate::mechanism::{Constrained, LoadValue, Place, Sense, Touch};
 use crate::numeric::angle::Angle;
+use crate::numeric::enclosure::{Detail, Reach};
 use crate::scene::Variable;
 
 /// The watched quantities.
@@ -105,6 +106,17 @@ impl Motion for InPhase<'_> {
 
     fn next_corner(&self, t: f64) -> f64 {
         self.equation.loads().next_corner(t)
+    }
+
+    // Loads are enclosed over the crank angle.
+    fn has_detail(&self) -> bool {
+        self.equation.curve().is_crank_angle() && self.equation.loads().have_detail()
+    }
+
+    fn detail(&self, reach: &Reach, ellipse: f64) -> Detail {
+        let linkage = self.equation.curve().linkage();
+        let force = self.equation.loads().detail(linkage, reach, ellipse);
+        force.times(1.0 / self.equation.across(reach.angle.middle()).m)
     }
 }
 

@@ -55,7 +55,9 @@ pub(super) fn time(
             .fold(0.0, f64::max);
         let least = values.iter().fold(f64::INFINITY, |a, b| a.min(*b));
         // A band that is zero throughout, as at a dead centre without weight, holds.
-        let calm = least > 2.0 * bend || least >= 0.0 && bend == 0.0;
+        let even = least > 2.0 * bend || least >= 0.0 && bend == 0.0;
+        let change = equation.margin_change(angle, mu_static, [t, end]);
+        let calm = even && least >= change;
         if calm || end - t <= shortest {
             if let Some(i) = (1..5).find(|i| values[*i] < 0.0) {
                 return (Release::At(crossing(band, times[i - 1], times[i])), count);
@@ -63,6 +65,7 @@ pub(super) fn time(
             t = end;
             length = (2.0 * length).min(longest);
         } else if let Some(i) = (1..5).find(|i| values[*i] < 0.0)
+            && change == 0.0
             && values[..i].windows(2).all(|w| w[1] <= w[0])
         {
             // It falls all the way to where it is exceeded.

@@ -6,6 +6,7 @@ use crate::engine::time::Finish;
 use crate::mechanism::{Class, Constrained};
 use crate::scene::Extent;
 use crate::study::in_time::FAR;
+use crate::study::stalled;
 use crate::study::stopped;
 use crate::study::task::Task;
 
@@ -25,9 +26,18 @@ pub(in crate::study) fn why(
         (End::Done, Extent::Revolutions(turns)) if t >= FAR => Some(format!(
             "the crank does not complete {turns} turns: stopped {place}; give a duration instead"
         )),
-        (End::AtRest, Extent::Revolutions(turns)) => Some(format!(
-            "the crank comes to rest and does not complete {turns} turns: stopped {place}; give a duration instead"
-        )),
+        (End::AtRest, Extent::Revolutions(turns)) => {
+            let held = match task.limits.class {
+                Class::RotatingCrank => {
+                    let torques = stalled::torques(task, angle.radians());
+                    format!(", where friction holds {torques},")
+                }
+                _ => String::new(),
+            };
+            Some(format!(
+                "the crank comes to rest{held} and does not complete {turns} turns: stopped {place}; give a duration instead"
+            ))
+        }
         (End::Done | End::AtRest | End::Stopped, _) => None,
         (End::Jam(why), _) => Some(format!("{why}: stopped {place}")),
         (End::Integrator(Finish::WorkLimit), _) => Some(stopped::work_limit(&place)),
@@ -42,9 +52,7 @@ fn singular(task: &Task<'_>, arrived: &Arrived, equation: &Constrained, place: &
     if let Some((t, theta, omega)) = arrived.impossible
         && !task.equation().load(t, theta, omega).is_finite()
     {
-        return format!(
-            "a load has no finite value at t = {t} s, theta = {theta} rad, omega = {omega} rad/s (outside its table, or outside the domain of its formula): stopped {place}"
-        );
+        return stopped::no_value(task.equation(), t, theta, omega, place);
     }
     if arrived.vanished || equation.vanishes_at(arrived.last.end.theta) {
         return format!(

@@ -1,9 +1,9 @@
-//! What friction at the guide does at one crank angle.
+//! What friction at the guide and dry loads do at one crank angle.
 
 use serde::Serialize;
 
 use crate::error::Error;
-use crate::mechanism::{Constrained, Curve, Equation, FromRest, Statics};
+use crate::mechanism::{Constrained, Curve, Equation, FromRest, Sense, Statics};
 use crate::numeric::angle::Angle;
 use crate::scene::Scene;
 
@@ -18,26 +18,29 @@ pub struct FrictionAt {
     pub holding_max_nm: Option<f64>,
 }
 
-/// θ̈ and the holding torque with friction, for a scene that has it.
+/// θ̈ and the holding torque with friction or dry loads, for a scene that has them.
 pub(super) fn friction_at(
     scene: &Scene,
     equation: &Equation,
     theta: f64,
 ) -> Result<Option<(Option<f64>, FrictionAt)>, Error> {
     let guide = Constrained::new(scene, Curve::on_crank(equation.linkage()));
-    let Some(friction) = guide.friction() else {
+    if guide.friction().is_none() && !guide.loads().are_dry() {
         return Ok(None);
-    };
-    let (mu, mu_static) = (friction.coefficient, friction.static_coefficient);
+    }
+    let friction = guide.friction();
+    let [mu, mu_static] = friction.map_or([0.0; 2], |f| [f.coefficient, f.static_coefficient]);
     let (angle, omega) = (Angle::from(theta), scene.motion.speed);
-    let free = guide.free(0.0, angle, omega);
+    let dx = equation.terms(theta).pose.dx;
     let sliding = |direction: f64| {
-        let (alpha, touch) = free.sliding(free.opposing(mu, direction));
+        let sense = Sense::of(direction, dx * direction);
+        let free = guide.free_against(0.0, angle, omega, sense);
+        let sgn_v = free.velocity(direction).signum();
+        let (alpha, touch) = free.sliding(free.opposing(mu, sgn_v));
         (free.clear_of_jam(mu) > 0.0).then_some((alpha, touch.friction))
     };
     if omega != 0.0 {
-        let found = sliding(free.velocity(omega).signum());
-        let dx = equation.terms(theta).pose.dx;
+        let found = sliding(omega.signum());
         let driven = guide.driven(0.0, angle, omega, 0.0);
         let without = equation.driving_torque(0.0, theta, omega, 0.0);
         let holding = driven.map(|touch| without - touch.friction * dx);
@@ -48,9 +51,9 @@ pub(super) fn friction_at(
         };
         return Ok(Some((found.map(|(alpha, _)| alpha), at)));
     }
-    let found = match free.from_rest(mu, mu_static) {
+    let found = match guide.held(0.0, angle).free.from_rest(mu, mu_static) {
         FromRest::Hold(touch) => Some((0.0, touch.friction)),
-        FromRest::Move(direction) => sliding((direction * free.velocity(1.0)).signum()),
+        FromRest::Move(direction) => sliding(direction),
         FromRest::Jam(_) => None,
     };
     let band = Statics::new(scene, mu_static)?.crank_torque(theta).band;

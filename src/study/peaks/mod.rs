@@ -22,6 +22,8 @@ pub struct Peak {
     pub value_n: f64,
     /// When, s.
     pub t_s: f64,
+    /// Where the crank is then, rad, unwrapped.
+    pub theta_rad: f64,
     /// What the last refinement added, N. The error of the motion itself comes on top.
     pub added_n: f64,
 }

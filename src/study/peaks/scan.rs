@@ -9,6 +9,8 @@ use crate::study::row::{Row, RowSink};
 pub(super) struct Place {
     /// s
     pub t: f64,
+    /// Crank angle, rad.
+    pub theta: f64,
     /// Value of the row there.
     pub value: f64,
     /// Top of the parabola through it and its neighbours.
@@ -17,15 +19,24 @@ pub(super) struct Place {
 
 const NOWHERE: Place = Place {
     t: 0.0,
+    theta: 0.0,
     value: f64::NEG_INFINITY,
     top: f64::NEG_INFINITY,
 };
 
+/// The forces of a row.
+#[derive(Clone, Copy, Debug)]
+struct Values {
+    t: f64,
+    theta: f64,
+    sizes: [f64; FORCES],
+}
+
 /// The largest of each force on rows.
 #[derive(Clone, Debug)]
 pub(super) struct Track {
-    /// The two rows before: time and values.
-    before: [Option<(f64, [f64; FORCES])>; 2],
+    /// The two rows before.
+    before: [Option<Values>; 2],
     /// Rows farther apart than this are no neighbours, s.
     apart: f64,
     /// By the rows' values.
@@ -48,30 +59,33 @@ impl Track {
         }
     }
 
-    fn take(&mut self, t: f64, values: [f64; FORCES]) {
-        self.finite &= values.iter().all(|value| value.is_finite());
-        if self.before[1].is_some_and(|(last, _)| t - last > self.apart) {
+    fn take(&mut self, row: Values) {
+        let Values { t, theta, sizes } = row;
+        self.finite &= sizes.iter().all(|value| value.is_finite());
+        if self.before[1].is_some_and(|last| t - last.t > self.apart) {
             self.before = [None; 2];
         }
-        for (k, &value) in values.iter().enumerate() {
+        for (k, &value) in sizes.iter().enumerate() {
             let here = Place {
                 t,
+                theta,
                 value,
                 top: value,
             };
             higher(&mut self.largest[k], here, |place| place.value);
             higher(&mut self.highest[k], here, |place| place.top);
-            if let [Some((t0, a)), Some((t1, b))] = self.before {
-                let top = top([t0, t1, t], [a[k], b[k], value]);
+            if let [Some(a), Some(b)] = self.before {
+                let top = top([a.t, b.t, t], [a.sizes[k], b.sizes[k], value]);
                 let there = Place {
-                    t: t1,
-                    value: b[k],
+                    t: b.t,
+                    theta: b.theta,
+                    value: b.sizes[k],
                     top,
                 };
                 higher(&mut self.highest[k], there, |place| place.top);
             }
         }
-        self.before = [self.before[1], Some((t, values))];
+        self.before = [self.before[1], Some(row)];
     }
 }
 
@@ -124,10 +138,14 @@ impl Scan {
 
 impl RowSink for Scan {
     fn row(&mut self, row: &Row) -> Result<(), Error> {
-        let values = of_row(row);
-        self.all.take(row.t, values);
+        let values = Values {
+            t: row.t,
+            theta: row.theta,
+            sizes: of_row(row),
+        };
+        self.all.take(values);
         if self.rows.is_multiple_of(2) {
-            self.half.take(row.t, values);
+            self.half.take(values);
         }
         self.rows += 1;
         Ok(())

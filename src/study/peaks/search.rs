@@ -104,6 +104,7 @@ fn refined(
     Ok(Some(Peaks::new(std::array::from_fn(|k| Peak {
         value_n: found.largest[k].value,
         t_s: found.largest[k].t,
+        theta_rad: found.largest[k].theta,
         added_n: added[k],
     }))))
 }

@@ -15,7 +15,7 @@ use crate::scene::Extent;
 use crate::study::by_angle::{MARGIN, ROUNDING, finer, most_evaluations};
 use crate::study::curve::{self, Noise};
 use crate::study::forward::{Forward, Rounding, tighter};
-use crate::study::over_angle::late_by;
+use crate::study::over_angle::{PLACE, late_by};
 use crate::study::spread::Spread;
 use crate::study::summary::{Cost, ErrorEstimate};
 use crate::study::task::Task;
@@ -161,7 +161,7 @@ pub(super) fn estimate(
     if best.end != End::AtGoal {
         return None;
     }
-    let floor = late_by(task, (end.angle, end.speed), end.t, ROUNDING * end.t);
+    let floor = late_by(task, (end.angle, end.speed), end.t, ROUNDING * end.t, PLACE);
     let [angle_noise, speed_noise] = shaken.noise();
     let estimate = ErrorEstimate {
         theta_rad: MARGIN * end.angle.minus(best.now.angle).abs() + floor.theta_rad + angle_noise,

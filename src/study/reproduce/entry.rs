@@ -117,6 +117,20 @@ pub(super) fn about(
     )
 }
 
+/// Words that stand for all values between two.
+pub(super) fn worded(
+    place: &str,
+    what: &str,
+    unit: &'static str,
+    words: &str,
+    [least, most]: [f64; 2],
+    ours: f64,
+) -> Claim {
+    let (middle, half) = (0.5 * (least + most), 0.5 * (most - least));
+    let printed = Printed::Number(words.to_owned(), middle, half);
+    claim(place, what, unit, printed, Some(ours))
+}
+
 /// A printed number for which the paper gives nothing to compute it from.
 pub(super) fn without_data(place: &str, what: &str, unit: &'static str, text: &str) -> Claim {
     Claim {

@@ -1,5 +1,4 @@
-//! Gupta: offset slider-crank in a multibody program and by Newton-Raphson, equations (1)-(11). Its joint
-//! clearance, figures 13 to 16, is not part of this.
+//! Gupta: offset slider-crank in a multibody program and by Newton-Raphson, equations (1)-(11).
 
 use std::f64::consts::{PI, TAU};
 

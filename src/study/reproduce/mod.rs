@@ -4,6 +4,7 @@ mod drawing;
 mod duarte;
 mod entry;
 mod gupta;
+mod gupta_clearance;
 mod ng;
 mod obaseki_alfred;
 
@@ -92,7 +93,13 @@ pub fn reproduce(papers: &[Paper]) -> Result<Reproduction, Error> {
     for paper in papers {
         let (claims, drawings) = match paper {
             Paper::ObasekiAlfred => (obaseki_alfred::claims()?, obaseki_alfred::drawings()?),
-            Paper::Gupta => (gupta::claims(), gupta::drawings()),
+            Paper::Gupta => {
+                let claims = [gupta::claims(), gupta_clearance::claims()?].concat();
+                (
+                    claims,
+                    [gupta::drawings(), gupta_clearance::drawings()?].concat(),
+                )
+            }
             Paper::Ng => (ng::claims()?, ng::drawings()?),
             Paper::Duarte => (duarte::claims(), duarte::drawings()),
         };

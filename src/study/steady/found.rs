@@ -3,9 +3,10 @@
 use std::f64::consts::TAU;
 
 use super::Estimated;
-use super::refusal::{always_gains, no_cycle, not_turned, unbounded};
-use crate::engine::angle::{self, Cycle, Resolution};
-use crate::engine::energy::Orbit;
+use super::refusal::{Over, always_gains, no_cycle, not_turned, over, unbounded};
+use super::round::{Motion, Round, Rounds};
+use super::timed::Timed;
+use crate::engine::angle::{self, FixedPoint, NoCycle, Resolution};
 use crate::error::Error;
 use crate::mechanism::{Equation, Limits};
 use crate::numeric::angle::Angle;
@@ -13,6 +14,7 @@ use crate::numeric::root;
 use crate::plan::cycle_over_angle;
 use crate::scene::{Scene, Variable};
 use crate::study::profile::Position;
+use crate::study::sliding::Sliding;
 
 /// What is stated is larger than the distance of two computations by this.
 pub(super) const MARGIN: f64 = 1.5;
@@ -38,7 +40,7 @@ pub(super) struct Extreme {
 /// A periodic motion.
 pub(super) struct Found {
     pub start: Angle,
-    pub orbit: Orbit,
+    motion: Motion,
     /// Speed at the start, rad/s.
     pub speed: f64,
     /// Turns after which it is the same again.
@@ -73,15 +75,16 @@ impl Found {
 
     /// Speed where the crank has turned by this since the start, rad, rad/s.
     pub fn omega(&self, turned: f64) -> f64 {
-        self.orbit
-            .time_of_turn(turned)
-            .map_or(f64::NAN, |t| self.orbit.state(t).1)
+        self.motion.omega(turned)
     }
 }
 
 /// What looks for the periodic motion of a scene.
 pub(super) struct Seeker {
+    scene: Scene,
     equation: Equation,
+    /// Friction at the guide.
+    sliding: Option<Sliding>,
     /// Turns after which the loads are the same again.
     cycle: u32,
     start: Angle,
@@ -93,8 +96,11 @@ pub(super) struct Seeker {
 impl Seeker {
     /// Looks from a speed on, rad/s.
     pub fn new(scene: &Scene, speed: f64, max_evaluations: u64) -> Seeker {
+        let equation = Equation::new(scene);
         Seeker {
-            equation: Equation::new(scene),
+            sliding: Sliding::new(scene, &equation),
+            equation,
+            scene: scene.clone(),
             // What has none was refused.
             cycle: cycle_over_angle(scene).unwrap_or(1),
             start: Angle::from(scene.motion.angle).reduced(),
@@ -119,52 +125,88 @@ impl Seeker {
         if limits.dead_centres.iter().any(|dc| vanishes(dc.theta)) {
             return Err(unbounded());
         }
+        if over(&self.scene) == Over::Time {
+            let (turns, most) = (self.cycle, self.max_evaluations);
+            let mut timed = Timed::new(&self.scene, self.speed, turns, other, most);
+            let found = self.solve(&mut timed, step);
+            return match (found, timed.refused) {
+                (Err(_), Some(why)) => Err(why),
+                (found, _) => found,
+            };
+        }
         let position = Position::new(&self.equation, &limits, self.start, self.speed)
-            .with_cycle(self.cycle);
+            .with_cycle(self.cycle)
+            .with_friction(self.sliding.as_ref());
         let resolution = Resolution {
             tail: TAIL,
             other,
             most_evaluations: self.max_evaluations,
         };
-        let reads = self.equation.loads().reads();
-        let any_speed = !reads.has(Variable::Omega) && !reads.has(Variable::V);
-        let cycle = if any_speed {
-            let turn = angle::one_turn(&position, self.start, self.speed, resolution);
-            let turn = turn.map_err(not_turned)?;
-            if turn.gain.abs() > NOTHING * turn.largest {
-                return Err(always_gains(turn.gain));
-            }
-            turn
-        } else {
-            angle::steady(&position, self.start, self.speed, step, resolution).map_err(no_cycle)?
-        };
-        self.found(cycle, any_speed)
+        let turns = angle::Turns::new(&position, self.start, self.speed, resolution);
+        self.solve(&mut turns.map_err(not_turned)?, step)
     }
 
-    fn found(&self, cycle: Cycle, any_speed: bool) -> Result<Found, Error> {
+    /// Whether nothing depends on the speed.
+    fn any_speed(&self) -> bool {
+        let reads = self.equation.loads().reads();
+        !reads.has(Variable::Omega) && !reads.has(Variable::V) && self.sliding.is_none()
+    }
+
+    fn solve(&self, rounds: &mut dyn Rounds, step: f64) -> Result<Found, Error> {
+        if self.any_speed() {
+            let round = rounds.round(rounds.first()).map_err(not_turned)?;
+            if round.gain.abs() > NOTHING.max(rounds.noise()) * round.largest {
+                return Err(always_gains(round.gain));
+            }
+            return self.found(round, None);
+        }
+        let fixed = angle::fixed_point(rounds, step).map_err(no_cycle)?;
+        let round = rounds.round(fixed.kinetic);
+        let round = round.map_err(|why| no_cycle(NoCycle::Unserved(why)))?;
+        self.found(round, Some((fixed, rounds.noise())))
+    }
+
+    /// From a cycle, which is a fixed point found within some noise of the gain, or begins with any speed.
+    fn found(&self, round: Round, fixed: Option<(FixedPoint, f64)>) -> Result<Found, Error> {
         let mut found = Found {
             start: self.start,
-            orbit: cycle.orbit,
-            speed: cycle.speed,
+            motion: round.motion,
+            speed: round.speed,
             turns: f64::from(self.cycle),
-            period: cycle.period,
+            period: round.period,
             extremes: [Extreme {
                 turned: 0.0,
-                omega: cycle.speed,
+                omega: round.speed,
             }; 2],
-            multiplier: cycle.multiplier,
-            multiplier_error: cycle.multiplier_error,
-            uncertain: cycle.uncertain,
-            approached: cycle.approached,
-            any_speed,
-            largest: cycle.largest,
+            multiplier: 1.0,
+            multiplier_error: 0.0,
+            uncertain: round.uncertain,
+            approached: true,
+            any_speed: fixed.is_none(),
+            largest: round.largest,
         };
+        if let Some((fixed, noise)) = fixed {
+            found.uncertain /= fixed.slope.abs().max(noise);
+            // Motions do not cross: what is below zero is rounding.
+            found.multiplier = (1.0 + fixed.slope).max(0.0);
+            found.multiplier_error = fixed.slope_error;
+            found.approached = fixed.approached;
+        }
         found.extremes = [-1.0, 1.0].map(|sign| self.extreme(&found, sign));
         let known = found
             .extremes
             .iter()
             .all(|extreme| extreme.omega.is_finite());
         if known { Ok(found) } else { Err(unbounded()) }
+    }
+
+    /// θ̈, rad/s².
+    fn acceleration(&self, angle: Angle, omega: f64) -> f64 {
+        match &self.sliding {
+            // Not at the start of a motion, where the guide is what it will be.
+            Some(sliding) => sliding.state(f64::MIN_POSITIVE, angle, omega).0,
+            None => self.equation.acceleration(0.0, angle, omega),
+        }
     }
 
     /// The largest sign·|speed|: of the angles of a fine grid, then where the acceleration vanishes beside it.
@@ -197,7 +239,7 @@ impl Seeker {
         let slope = |way: f64| {
             let way = way.rem_euclid(whole);
             let angle = self.start.plus(sense * way);
-            self.equation.acceleration(0.0, angle, found.omega(way))
+            self.acceleration(angle, found.omega(way))
         };
         let way = root::bracketed(slope, before, after)
             .filter(|way| value(*way) > value(ways[best]))

@@ -6,9 +6,11 @@ use serde::Serialize;
 
 use super::Estimated;
 use super::found::{Found, MARGIN};
-use crate::mechanism::{Limits, Linkage, single};
+use crate::mechanism::{Equation, Limits, Linkage, single};
+use crate::numeric::angle::Angle;
 use crate::numeric::gauss;
 use crate::scene::{Instant, Load, Scene};
+use crate::study::sliding::Sliding;
 
 /// Pieces of a turn beside those that dead centres and tables make.
 const PIECES: u32 = 16;
@@ -24,28 +26,66 @@ pub struct LoadWork {
     pub torque_nm: Estimated,
 }
 
-/// Each load of a scene.
+/// Each load of a scene, and friction at its guide.
 pub(super) fn works(scene: &Scene, found: &Found, check: &Found, relative: f64) -> Vec<LoadWork> {
-    let lists = [("torque", &scene.torques), ("force", &scene.forces)];
+    let linkage = Linkage::new(&scene.geometry);
+    let linkage = &linkage;
     let mut works = Vec::new();
-    for (name, list) in lists {
-        for (i, load) in list.iter().enumerate() {
-            let on_slider = name == "force";
-            let (work, size) = work(scene, load, on_slider, found);
-            let (other, _) = self::work(scene, load, on_slider, check);
-            let error = MARGIN * (work - other).abs() + 4.0 * relative * size;
-            let over = |span: f64| Estimated {
-                value: work / span,
-                error: error / span.abs(),
-            };
-            works.push(LoadWork {
-                name: format!("{name}[{}]: {load}", i + 1),
-                power_w: over(found.period),
-                torque_nm: over(found.speed.signum() * found.way()),
-            });
+    let mut add = |name: String, corners: &dyn Fn(f64, f64) -> Vec<f64>, torque: &Torque<'_>| {
+        let (work, size) = work(linkage, corners, torque, found);
+        let (other, _) = self::work(linkage, corners, torque, check);
+        let error = MARGIN * (work - other).abs() + 4.0 * relative * size;
+        let over = |span: f64| Estimated {
+            value: work / span,
+            error: error / span.abs(),
+        };
+        works.push(LoadWork {
+            name,
+            power_w: over(found.period),
+            torque_nm: over(found.speed.signum() * found.way()),
+        });
+    };
+    let lists = [("torque", &scene.torques), ("force", &scene.forces)];
+    for (list, loads) in lists {
+        for (i, load) in loads.iter().enumerate() {
+            let name = format!("{list}[{}]: {load}", i + 1);
+            let corners = |low: f64, high: f64| load.corners_between(low, high);
+            let on_slider = list == "force";
+            let torque =
+                |angle: Angle, omega: f64| crank_torque(linkage, load, on_slider, angle, omega);
+            add(name, &corners, &torque);
         }
     }
+    let equation = Equation::new(scene);
+    if let Some(sliding) = Sliding::new(scene, &equation) {
+        // Not at the start of a motion, where the guide is what it will be.
+        let force =
+            |angle: Angle, omega: f64| sliding.state(f64::MIN_POSITIVE, angle, omega).1.friction;
+        let torque = |angle: Angle, omega: f64| force(angle, omega) * linkage.pose(angle.rest).dx;
+        add(
+            "friction at the guide".to_owned(),
+            &|_, _| Vec::new(),
+            &torque,
+        );
+    }
     works
+}
+
+/// Crank torque (N m) at an angle and a speed (rad/s).
+type Torque<'a> = dyn Fn(Angle, f64) -> f64 + 'a;
+
+/// The crank torque that a load amounts to, N m.
+fn crank_torque(linkage: &Linkage, load: &Load, on_slider: bool, angle: Angle, omega: f64) -> f64 {
+    let pose = linkage.pose(angle.rest);
+    let now = Instant {
+        t: 0.0,
+        theta: angle.radians(),
+        omega,
+        x: pose.x,
+        v: pose.dx * omega,
+    };
+    let arm = if on_slider { pose.dx } else { 1.0 };
+    arm * single(load, on_slider, &now)
 }
 
 /// Powers put in and taken out.
@@ -64,25 +104,17 @@ pub(super) fn powers(loads: &[LoadWork]) -> (Estimated, Estimated) {
     (sum(1.0), sum(-1.0))
 }
 
-/// Work over a period, J, and the size of what adds up to it.
-fn work(scene: &Scene, load: &Load, on_slider: bool, found: &Found) -> (f64, f64) {
-    let linkage = Linkage::new(&scene.geometry);
+/// Work over a period, J, and the size of what adds up to it; `corners` between two angles, rad.
+fn work(
+    linkage: &Linkage,
+    corners: &dyn Fn(f64, f64) -> Vec<f64>,
+    torque: &Torque<'_>,
+    found: &Found,
+) -> (f64, f64) {
     let sense = found.speed.signum();
-    let torque = |turned: f64| {
-        let angle = found.start.plus(sense * turned);
-        let (pose, theta) = (linkage.pose(angle.rest), angle.radians());
-        let omega = found.omega(turned);
-        let now = Instant {
-            t: 0.0,
-            theta,
-            omega,
-            x: pose.x,
-            v: pose.dx * omega,
-        };
-        let arm = if on_slider { pose.dx } else { 1.0 };
-        sense * arm * single(load, on_slider, &now)
-    };
-    let limits = Limits::new(&linkage, found.speed);
+    let torque =
+        |turned: f64| sense * torque(found.start.plus(sense * turned), found.omega(turned));
+    let limits = Limits::new(linkage, found.speed);
     let begin = found.start.radians();
     let (low, high) = (
         begin.min(begin + sense * found.way()),
@@ -91,7 +123,7 @@ fn work(scene: &Scene, load: &Load, on_slider: bool, found: &Found) -> (f64, f64
     let turned = |theta: f64| sense * (theta - begin);
     let dead_centres = limits.dead_centres.iter();
     let dead_centres = dead_centres.map(|dc| turned(dc.theta).rem_euclid(TAU));
-    let rows = load.corners_between(low, high).into_iter().map(turned);
+    let rows = corners(low, high).into_iter().map(turned);
     let turns = found.turns as u32;
     let even =
         |turn: u32| (0..PIECES).map(move |i| f64::from(turn) + f64::from(i) / f64::from(PIECES));

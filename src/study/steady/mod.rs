@@ -4,6 +4,8 @@ mod flywheel;
 mod found;
 mod loads;
 mod refusal;
+mod round;
+mod timed;
 
 use serde::Serialize;
 

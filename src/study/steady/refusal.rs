@@ -4,11 +4,11 @@ use crate::engine::angle::NoCycle;
 use crate::engine::energy::Unserved;
 use crate::error::Error;
 use crate::mechanism::{Class, Limits, Linkage};
-use crate::plan::{Method, Plan};
-use crate::scene::{MotionKind, Scene, Variable};
+use crate::plan::{Cycle, Method, Plan};
+use crate::scene::{MotionKind, Scene};
 use crate::study::over_angle;
 
-/// Refuses what has no steady state, or one that the crank angle cannot serve.
+/// Refuses what has no steady state.
 pub(super) fn refuse_what_has_none(scene: &Scene) -> Result<(), Error> {
     scene.check()?;
     let refuse = |what: &str, help: &str| Err(Error::refused(what, help));
@@ -19,18 +19,10 @@ pub(super) fn refuse_what_has_none(scene: &Scene) -> Result<(), Error> {
         );
     }
     let reduced = scene.reduced();
-    let loads = reduced.torques.iter().map(|load| load.reads(false));
-    let mut reads = loads.chain(reduced.forces.iter().map(|load| load.reads(true)));
-    if reads.any(|reads| reads.has(Variable::T)) {
+    if let Some(why) = Cycle::of(scene).why_not {
         return refuse(
-            "a steady state is sought, but a load depends on the time t, so that one turn is not like the next",
-            "use loads of theta, omega, x and v",
-        );
-    }
-    if reduced.friction.is_some() {
-        return refuse(
-            "a steady state cannot be found directly with Coulomb friction at the guide",
-            "simulate until the motion repeats, or take [friction] out of the scene",
+            &format!("a steady state is sought, but no cycle is like the next: {why}"),
+            "use loads of theta that repeat, and loads of omega, x and v",
         );
     }
     if reduced.clearance.is_some() {
@@ -50,18 +42,28 @@ pub(super) fn refuse_what_has_none(scene: &Scene) -> Result<(), Error> {
             "the crank turns fully if the rod is longer than crank and offset together",
         );
     }
+    Ok(())
+}
+
+/// What the cycles are computed over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Over {
+    /// The crank angle.
+    Angle,
+    /// The time: a load may jump, has its corners elsewhere, or friction jams the guide somewhere.
+    Time,
+}
+
+/// What serves the cycles of a scene.
+pub(super) fn over(scene: &Scene) -> Over {
     let mut turning = scene.clone();
     if scene.motion.speed == 0.0 {
         turning.motion.speed = 1.0;
     }
-    let plan = Plan::new(&turning, Method::Angle);
-    plan.map(|_| ()).map_err(|error| match error {
-        Error::Refused { what, .. } => Error::refused(
-            format!("a steady state is found over the crank angle: {what}"),
-            "change that load, or simulate until the motion repeats",
-        ),
-        other => other,
-    })
+    match Plan::new(&turning, Method::Angle) {
+        Ok(_) => Over::Angle,
+        Err(_) => Over::Time,
+    }
 }
 
 /// Where the inertia vanishes the speed has no bound.
@@ -76,17 +78,17 @@ pub(super) fn unbounded() -> Error {
 pub(super) fn no_cycle(reason: NoCycle) -> Error {
     let (what, help) = match reason {
         NoCycle::Gains => (
-            "no steady state: at every speed a turn gains energy".to_owned(),
+            "no steady state: at every speed a cycle gains energy".to_owned(),
             "add a load that brakes the more the faster the crank turns",
         ),
         NoCycle::Stops => (
-            "no steady state: at every speed a turn loses energy or is not completed, the crank stops"
+            "no steady state: at every speed a cycle loses energy or is not completed, the crank stops"
                 .to_owned(),
             "add a load that drives the crank in the sense of motion.speed",
         ),
         NoCycle::Unserved(reason) => (
             format!(
-                "the steady state cannot be computed over the crank angle: {}",
+                "the steady state cannot be computed: {}",
                 over_angle::reason(reason)
             ),
             "look at the loads; or simulate until the motion repeats",
@@ -115,7 +117,7 @@ pub(super) fn always_gains(gain: f64) -> Error {
     };
     Error::refused(
         format!(
-            "no steady state: no load depends on the speed, and every turn {verb} {:.6e} J",
+            "no steady state: no load depends on the speed, and every cycle {verb} {:.6e} J",
             gain.abs()
         ),
         format!("add a load that {what} and depends on the speed"),

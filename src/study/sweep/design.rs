@@ -5,7 +5,9 @@ use serde::Serialize;
 use super::SweepOptions;
 use crate::error::Error;
 use crate::scene::Scene;
-use crate::study::{Kinematics, NoRows, Options, Summary, kinematics, simulate_rows};
+use crate::study::{
+    Kinematics, NoRows, Options, SteadyState, Summary, kinematics, simulate_rows, steady_state,
+};
 
 /// How far a design could be computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -48,6 +50,8 @@ pub struct Design {
     pub kinematics: Option<Kinematics>,
     /// The forward motion, if it was asked for and could be computed; its list of events is empty.
     pub motion: Option<Summary>,
+    /// The periodic steady state, if it was asked for and there is one.
+    pub steady: Option<SteadyState>,
 }
 
 impl Design {
@@ -64,6 +68,7 @@ impl Design {
             notes: Vec::new(),
             kinematics: None,
             motion: None,
+            steady: None,
         };
         match scene {
             Ok(scene) => design.compute(&scene, options),
@@ -79,6 +84,12 @@ impl Design {
                 self.kinematics = Some(turn);
             }
             Err(error) => return self.fail(Outcome::Impossible, &error),
+        }
+        if let Some(asked) = &options.steady {
+            match steady_state(scene, asked) {
+                Ok(steady) => self.steady = Some(steady),
+                Err(error) => self.fail(Outcome::Refused, &error),
+            }
         }
         if !options.motion {
             return;

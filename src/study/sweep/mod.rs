@@ -11,7 +11,7 @@ use crate::numeric::parallel;
 use crate::plan::Method;
 use crate::scene::{Draft, Scene, Varied};
 
-use super::Options;
+use super::{Options, SteadyOptions};
 pub use design::{Design, Outcome};
 
 /// What is asked of every design beside what the scene says.
@@ -21,6 +21,8 @@ pub struct SweepOptions {
     pub motion: bool,
     /// Whether the largest joint forces of the motion are looked for.
     pub reactions: bool,
+    /// Whether the periodic steady state is looked for, and with which flywheel.
+    pub steady: Option<SteadyOptions>,
     /// The method of the forward motion.
     pub method: Method,
     /// Whether its global error is estimated, by a second run.
@@ -35,6 +37,7 @@ impl Default for SweepOptions {
         SweepOptions {
             motion: true,
             reactions: false,
+            steady: None,
             method: one.method,
             estimate: one.estimate,
             max_evaluations: one.max_evaluations,
@@ -155,6 +158,11 @@ impl Sweep {
     /// Whether the largest joint forces are looked for.
     pub fn has_reactions(&self) -> bool {
         self.options.reactions
+    }
+
+    /// Whether the steady state is looked for, and with which flywheel.
+    pub fn steady(&self) -> Option<SteadyOptions> {
+        self.options.steady
     }
 
     /// Title of the scene.

@@ -128,30 +128,30 @@ impl Gains {
         Some(sum + (lost + cell.first.t.1 + after))
     }
 
-    /// Smallest and largest |speed| until a time: in the first turn or the last ones.
+    /// The motion of a whole turn in the cells, by the turns before it.
+    fn turn(&self, before: f64) -> Leg {
+        let cell = self.cell(|mark| mark.turns <= before);
+        cell.turn.leg(cell.kinetic(before - cell.first.turns))
+    }
+
+    /// Smallest and largest |speed| until a time: in the turn in which it lies, or in the first or the last one before.
     pub fn speed_range(&self, until: f64) -> (f64, f64) {
-        let first = &self.cells[0];
-        let mut range = first
-            .turn
-            .leg(first.first.kinetic)
-            .speed_range(0.0, f64::INFINITY);
-        let mut add = |leg: Leg, until: f64| {
-            let (low, high) = leg.speed_range(0.0, until);
-            range = (range.0.min(low), range.1.max(high));
-        };
-        let cell = self.cell(|mark| mark.until(until) >= 0.0);
-        let (turns, left) = cell.turn_at(cell.first.until(until));
-        if turns > 0.0 {
-            add(cell.turn.leg(cell.kinetic(turns - 1.0)), f64::INFINITY);
-        }
-        match self.last.as_ref().filter(|last| last.0.until(until) >= 0.0) {
-            Some((mark, leg)) => {
-                add(cell.turn.leg(cell.kinetic(turns)), f64::INFINITY);
-                add(leg.clone(), mark.until(until));
+        let last = self.last.as_ref();
+        let (before, (low, high)) = match last.filter(|last| last.0.until(until) >= 0.0) {
+            Some((mark, leg)) => (mark.turns, leg.speed_range(0.0, mark.until(until))),
+            None => {
+                let cell = self.cell(|mark| mark.until(until) >= 0.0);
+                let (turns, left) = cell.turn_at(cell.first.until(until));
+                let turns = cell.first.turns + turns;
+                (turns, self.turn(turns).speed_range(0.0, left))
             }
-            None => add(cell.turn.leg(cell.kinetic(turns)), left),
-        }
-        range
+        };
+        let whole = [self.first(), before - 1.0].into_iter();
+        let whole = whole.filter(|turn| (self.first()..before).contains(turn));
+        whole.fold((low, high), |(low, high), turn| {
+            let range = self.turn(turn).speed_range(0.0, f64::INFINITY);
+            (low.min(range.0), high.max(range.1))
+        })
     }
 
     /// Calls for each turn in order, with its start and its motion, until it says that it is enough.

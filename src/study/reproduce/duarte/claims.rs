@@ -4,7 +4,8 @@ use std::f64::consts::PI;
 
 use super::super::entry::{Claim, formula, number, without_data};
 use super::{
-    CRANK, ROD, ROD_CG, TEST_ANGLE, complete, engine, interior_angle, lever, printed, printed_share,
+    CRANK, CRANK_INERTIA, ROD, ROD_CG, ROD_INERTIA, SLIDER_MASS, TEST_ANGLE, complete, engine,
+    interior_angle, lever, printed, printed_share,
 };
 use crate::mechanism::Linkage;
 use crate::numeric::difference;
@@ -72,6 +73,17 @@ fn equation() -> Vec<Claim> {
             height_of_rod(theta),
         )
         .only_if("it is L2 sin theta (1 - r_B3c/L3)", height),
+        formula(
+            "(7)",
+            "twice the kinetic energy at 1 rad/s",
+            "kg m2",
+            CRANK_INERTIA + ROD_INERTIA * turn_ratio().powi(2) + SLIDER_MASS * lever(theta).powi(2),
+            terms.inertia.m,
+        )
+        .only_if(
+            "the rod has m3 v_G^2 + (I3 - m3 r_B3c^2) (d theta2/d theta)^2",
+            mended[0],
+        ),
         formula(
             "(9)",
             "factor of the acceleration",

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::super::entry::{Claim, about, number, without_data};
+use super::super::entry::{Claim, about, number, without_data, worded};
 use super::printed::{Printed, existing_acceleration};
 use super::{CRANK, CRANK_MASS, ROD_MASS, SLIDER_MASS, SPEED, engine};
 use crate::error::Error;
@@ -145,17 +145,14 @@ fn torques() -> Result<Vec<Claim>, Error> {
             // What can be read from a figure whose axis spans some hundreds of N m.
             let tolerance = f64::max(0.06 * printed, 6.0);
             let what = format!("largest torque of the {stroke} stroke, e = {offset} mm");
-            claims.push(
-                about(
-                    "4.3, figure 16",
-                    &what,
-                    "N m",
-                    printed,
-                    tolerance,
-                    largest(ours),
-                )
-                .only_if(condition, assumed),
-            );
+            let (place, unit, ours) = ("4.3, figure 16", "N m", largest(ours));
+            let claim = match (offset, stroke) {
+                (20.0, "advance") => {
+                    worded(place, &what, unit, "less than 50", [0.0, printed], ours)
+                }
+                _ => about(place, &what, unit, printed, tolerance, ours),
+            };
+            claims.push(claim.only_if(condition, assumed));
         }
     }
     Ok(claims)

@@ -1,0 +1,199 @@
+//! Whether the nodes of a panel or a step show the forces on it, or something is hidden between them.
+
+mod steps;
+
+use std::f64::consts::PI;
+
+use crate::numeric::enclosure::{Detail, Reach};
+
+pub use steps::Proof;
+
+/// The motion on a panel or a step, over its part from 0 to 1.
+pub trait Way {
+    /// The values that time, angle and speed have between two parts of it.
+    fn reach(&self, from: f64, to: f64) -> Reach;
+
+    /// The force there less that which the nodes show.
+    fn missed(&self, at: f64) -> f64;
+
+    /// What the force does on a piece of the motion, and in an ellipse of this size around it.
+    fn detail(&self, reach: &Reach, ellipse: f64) -> Detail;
+}
+
+/// How a panel or a step is looked at.
+#[derive(Clone, Copy, Debug)]
+pub struct Look {
+    /// Its nodes.
+    pub nodes: usize,
+    /// Size of the ellipse that they need.
+    pub ellipse: f64,
+    /// What the nodes may leave out of the force, everywhere on it.
+    pub allowed: f64,
+    /// Whether its nodes tell the force between them, to be compared; else they show what is as wide as a quarter of it.
+    pub compares: bool,
+}
+
+/// A corner or a jump is found to so many halvings of the whole.
+const HALVINGS: i32 = 46;
+/// Part of what is allowed that each corner may leave.
+const AT_CORNER: f64 = 1e-4;
+/// A step whose nodes are not to be compared shows what it shows on pieces of about a quarter: its stages are so far apart.
+const COARSE: f64 = 0.2;
+/// Most pieces of one panel that are looked at.
+const MOST_PIECES: usize = 400;
+/// Ends that are left out where a corner is at an end, off by what its place is off.
+const ENDS: [f64; 2] = [9.5367431640625e-7, 9.094947017729282e-13];
+
+/// Where a panel or a step has to end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hidden {
+    /// As part of it.
+    pub at: f64,
+    /// Whether the force has a corner or a jump there.
+    pub is_corner: bool,
+}
+
+/// Where a panel or a step has to end so that its nodes show the forces; none if they do.
+pub fn hidden(way: &impl Way, look: Look) -> Option<Hidden> {
+    if look.shows(&look.detail(way, 0.0, 1.0)) {
+        return None;
+    }
+    Search::new(look).run(way)
+}
+
+impl Look {
+    fn detail(&self, way: &impl Way, from: f64, to: f64) -> Detail {
+        way.detail(&way.reach(from, to), self.ellipse)
+    }
+
+    fn nodes_for(&self, detail: &Detail) -> Option<usize> {
+        if detail.change <= self.allowed {
+            return Some(1);
+        }
+        detail.nodes(self.ellipse, self.allowed)
+    }
+
+    /// Whether its nodes show a force.
+    pub fn shows(&self, detail: &Detail) -> bool {
+        let needed = self.nodes_for(detail);
+        needed.is_some_and(|needed| needed <= self.nodes)
+    }
+
+    /// The part at an end that may be left out for a corner there.
+    fn end(&self, way: &impl Way, piece: fn(f64) -> [f64; 2]) -> f64 {
+        let little = |end: &f64| {
+            let [from, to] = piece(*end);
+            self.detail(way, from, to).change * end <= AT_CORNER * self.allowed
+        };
+        ENDS.into_iter().find(little).unwrap_or(0.0)
+    }
+}
+
+/// A magnitude; what has no value is missed beyond all bounds.
+fn size(missed: f64) -> f64 {
+    if missed.is_nan() {
+        f64::INFINITY
+    } else {
+        missed.abs()
+    }
+}
+
+/// What was found from the start of a panel on.
+struct Search {
+    look: Look,
+    /// Integral of what the nodes miss.
+    missed: f64,
+    is_missed: bool,
+    /// The first piece on which they miss anything.
+    first: Option<[f64; 2]>,
+    corner: Option<f64>,
+}
+
+impl Search {
+    fn new(look: Look) -> Search {
+        Search {
+            look,
+            missed: 0.0,
+            is_missed: false,
+            first: None,
+            corner: None,
+        }
+    }
+
+    /// Halves the panel until each piece is shown by as many nodes as the panel has, and compares there.
+    fn run(mut self, way: &impl Way) -> Option<Hidden> {
+        let mut left = [[0.0; 2]; HALVINGS as usize + 2];
+        let begin = self.look.end(way, |end| [0.0, end]);
+        left[0] = [begin, 1.0 - self.look.end(way, |end| [1.0 - end, 1.0])];
+        let (mut count, mut pieces) = (1, 0);
+        while count > 0 {
+            let [from, to] = left[count - 1];
+            count -= 1;
+            pieces += 1;
+            if pieces > MOST_PIECES {
+                let here = Hidden {
+                    at: from,
+                    is_corner: false,
+                };
+                return self.place().or((from > 0.0).then_some(here));
+            }
+            let detail = self.look.detail(way, from, to);
+            match self.look.nodes_for(&detail) {
+                Some(nodes) if nodes <= self.look.nodes => self.compare(way, [from, to], nodes),
+                _ if self.is_least(&detail, to - from) => self.note_corner(&detail, from, to),
+                _ => {
+                    let middle = 0.5 * (from + to);
+                    left[count] = [middle, to];
+                    left[count + 1] = [from, middle];
+                    count += 2;
+                }
+            }
+            if self.corner.is_some() && self.is_missed {
+                break;
+            }
+        }
+        self.is_missed.then(|| self.place()).flatten()
+    }
+
+    /// The first corner, or else an end of the piece on which something was missed first.
+    fn place(&self) -> Option<Hidden> {
+        let inside = |at: &f64| *at > 0.0 && *at < 1.0;
+        let mut ends = self.first.into_iter().flatten();
+        let at = self.corner.or_else(|| ends.find(inside))?;
+        let is_corner = self.corner.is_some();
+        Some(Hidden { at, is_corner })
+    }
+
+    fn is_least(&self, detail: &Detail, length: f64) -> bool {
+        detail.change * length <= AT_CORNER * self.look.allowed || length < 0.5f64.powi(HALVINGS)
+    }
+
+    fn note_corner(&mut self, detail: &Detail, from: f64, to: f64) {
+        let is_at_end = from == 0.0 || to == 1.0;
+        if detail.around.is_none() && !is_at_end && self.corner.is_none() {
+            self.corner = Some(0.5 * (from + to));
+            self.is_missed |= !self.look.compares;
+        }
+    }
+
+    fn compare(&mut self, way: &impl Way, [from, to]: [f64; 2], nodes: usize) {
+        if self.is_missed {
+            return;
+        }
+        if !self.look.compares {
+            if to - from < COARSE {
+                (self.is_missed, self.first) = (true, Some([from, to]));
+            }
+            return;
+        }
+        let half = 0.5 * (to - from);
+        let at = |i: usize| from + half * (1.0 - (PI * (i as f64 + 0.5) / nodes as f64).cos());
+        let missed = (0..nodes).map(|i| size(way.missed(at(i)))).sum::<f64>();
+        let integral = missed / nodes as f64 * (to - from);
+        if integral > self.look.allowed * (to - from) && self.first.is_none() {
+            self.first = Some([from, to]);
+        }
+        self.missed += integral;
+        self.is_missed = self.missed > self.look.allowed;
+    }
+}

@@ -1,0 +1,106 @@
+//! The same for steps of a method that tells nothing about the force between its stages.
+
+use super::{Hidden, Look, Way, hidden};
+use crate::engine::step::Step;
+use crate::engine::{Counted, Motion};
+use crate::numeric::enclosure::{Detail, Interval, Reach, ellipse};
+
+/// What was proved of the steps ahead.
+pub struct Proof<'a> {
+    motion: &'a Counted<'a>,
+    tolerance: f64,
+    /// The order of the method: as many nodes it is worth.
+    order: usize,
+    ellipse: f64,
+    /// Where no step hides anything, as long as it is not larger than the parts of this.
+    known: Option<Reach>,
+    /// Into how many parts it is divided.
+    ahead: f64,
+}
+
+/// Most steps that are looked at together.
+const MOST_AHEAD: f64 = 64.0;
+/// No step ends closer to its start than this part of the time.
+const SHORTEST: f64 = 16.0 * f64::EPSILON;
+
+impl<'a> Proof<'a> {
+    /// Nothing so far, for a method of some order.
+    pub fn new(motion: &'a Counted<'a>, tolerance: f64, order: usize) -> Proof<'a> {
+        Proof {
+            motion,
+            tolerance,
+            order,
+            ellipse: ellipse(order, tolerance),
+            known: None,
+            ahead: 8.0,
+        }
+    }
+
+    /// The time at which a step has to end so that it shows the acceleration on it; none if it does, or cannot be shorter.
+    pub fn hides(&mut self, step: &Step) -> Option<f64> {
+        if !self.motion.has_detail() {
+            return None;
+        }
+        let way = OnStep {
+            motion: self.motion,
+            step,
+        };
+        let reach = way.reach(0.0, 1.0);
+        if self.known.is_some_and(|known| known.holds(&reach)) {
+            return None;
+        }
+        let h = step.length();
+        let look = Look {
+            nodes: self.order,
+            ellipse: self.ellipse,
+            allowed: self.tolerance * (1.0 + step.start.omega.abs()) / h,
+            compares: false,
+        };
+        let ahead = reach.ahead(self.ahead);
+        if look.shows(&self.motion.detail(&ahead, self.ellipse)) {
+            self.known = Some(ahead);
+            self.ahead = (2.0 * self.ahead).min(MOST_AHEAD);
+            return None;
+        }
+        self.ahead = (0.5 * self.ahead).max(2.0);
+        let Hidden { at, .. } = hidden(&way, look)?;
+        (at * h > SHORTEST * step.start.t.abs()).then_some(step.start.t + at * h)
+    }
+}
+
+/// The motion on a step.
+struct OnStep<'a> {
+    motion: &'a Counted<'a>,
+    step: &'a Step,
+}
+
+impl Way for OnStep<'_> {
+    fn reach(&self, from: f64, to: f64) -> Reach {
+        let step = self.step;
+        let time = |at: f64| step.start.t + at * step.length();
+        let [begin, end] = [from, to].map(time);
+        let [first, last] = [begin, end].map(|t| step.at(t));
+        // Between them the speed is off a straight line by less than the change of its slope makes.
+        let bent = (step.end.alpha - step.start.alpha).abs() * 0.25 * (end - begin);
+        let speed = Interval::between(first.1, last.1).widened(bent);
+        let [start, stop] = [first.0, last.0].map(|theta| step.angle(theta).radians());
+        let mut angle = Interval::between(start, stop);
+        if speed.contains(0.0) {
+            angle = angle.widened(0.5 * speed.largest() * (end - begin));
+        }
+        Reach {
+            t: Interval::new(begin, end),
+            angle,
+            speed,
+            parts: 1.0,
+        }
+    }
+
+    fn missed(&self, _at: f64) -> f64 {
+        0.0
+    }
+
+    fn detail(&self, reach: &Reach, ellipse: f64) -> Detail {
+        self.motion.detail(reach, ellipse)
+    }
+}

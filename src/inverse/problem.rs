@@ -1,0 +1,227 @@
+//! The linear model of a record about a path, and its smoothed motion.
+
+use super::kalman;
+use super::likelihood::{Linear, Noise, Scales, Stretch};
+use super::record::{Grid, Path, Record};
+use super::state_space::{Deviations, Motion, Prior, Rates, State};
+use crate::mechanism::Equation;
+use crate::numeric::parallel;
+
+/// The smoothed motion at a node.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Estimate {
+    pub state: State,
+    /// θ, ω, θ̈.
+    pub motion: [f64; 3],
+    /// Their covariance: 00, 01, 11, 02, 12, 22.
+    pub covariance: [f64; 6],
+    /// Prediction error of the samples of the node over its standard deviation; not a number without samples.
+    pub innovation: f64,
+}
+
+/// Nodes that one thread smooths at a time, at least, beside those at both ends that are shared with its neighbours.
+const PIECE: usize = 8192;
+
+/// Time constants of the smoother after which nothing is left of what was before.
+const FORGOTTEN: f64 = 60.0;
+
+/// A record with its nodes and the equation of its mechanism.
+#[derive(Debug)]
+pub(super) struct Problem<'a> {
+    pub record: Record<'a>,
+    pub grid: Grid,
+    pub equation: &'a Equation,
+}
+
+impl<'a> Problem<'a> {
+    /// The node of a sample.
+    pub fn node_of(&self, sample: usize) -> usize {
+        self.grid.first.partition_point(|first| *first <= sample) - 1
+    }
+
+    pub fn motion(&self, prior: Prior) -> Motion<'a> {
+        Motion {
+            equation: self.equation,
+            prior,
+            origin: self.record.origin,
+        }
+    }
+
+    /// The linear model of a stretch of nodes about a path.
+    fn stretch(
+        &self,
+        motion: &Motion<'_>,
+        path: &Path,
+        range: std::ops::Range<usize>,
+        sigma: f64,
+    ) -> Stretch {
+        let times = &self.grid.times;
+        let rates: Vec<Rates> = range
+            .clone()
+            .map(|k| motion.rates(times[k], &path.states[k]))
+            .collect();
+        let steps = (range.start..range.end - 1).map(|k| {
+            let at = k - range.start;
+            let ends = [&path.states[k], &path.states[k + 1]];
+            motion.linearised([times[k], times[k + 1]], ends, [&rates[at], &rates[at + 1]])
+        });
+        Stretch {
+            steps: steps.collect(),
+            observed: range
+                .clone()
+                .map(|k| self.record.observed(&self.grid, path, k, sigma))
+                .collect(),
+        }
+    }
+
+    /// The ranges of nodes by which hyper-parameters are estimated: all, or of long records a few stretches.
+    fn sampled(&self) -> Vec<std::ops::Range<usize>> {
+        const MOST: usize = 6000;
+        const PARTS: usize = 4;
+        let nodes = self.grid.len();
+        if nodes <= MOST {
+            return std::iter::once(0..nodes).collect();
+        }
+        let length = MOST / PARTS;
+        let begin = |part: usize| (nodes - length) * part / (PARTS - 1);
+        (0..PARTS)
+            .map(|part| begin(part)..begin(part) + length)
+            .collect()
+    }
+
+    /// Stretches of the linear model for the estimate of hyper-parameters.
+    pub fn stretches(&self, motion: &Motion<'_>, path: &Path, sigma: f64) -> Vec<Stretch> {
+        let ranges = self.sampled();
+        ranges
+            .into_iter()
+            .map(|range| self.stretch(motion, path, range, sigma))
+            .collect()
+    }
+
+    /// Typical sizes along a path with a prior.
+    pub fn scales(&self, motion: &Motion<'_>, path: &Path, slope: f64, shape: [f64; 2]) -> Scales {
+        let times = &self.grid.times;
+        let duration = times[times.len() - 1] - times[0];
+        let samples = self.record.times.len() as f64;
+        let stride = times.len().div_ceil(1000);
+        let (mut lever, mut count) = (0.0, 0.0);
+        for k in (0..times.len()).step_by(stride) {
+            let state = &path.states[k];
+            let rates = motion.rates(times[k], state);
+            if rates.by_unknown.is_finite() {
+                lever += rates.by_unknown * rates.by_unknown;
+                count += 1.0;
+            }
+        }
+        Scales {
+            spacing: duration / (samples - 1.0),
+            duration,
+            slope,
+            lever: (lever / count).sqrt(),
+            motion: shape,
+            speed: spread(path.states.iter().step_by(stride).map(|state| state[1])),
+            floor: self.record.floor,
+        }
+    }
+
+    /// The smoothed motion, in pieces side by side.
+    pub fn smoothed(
+        &self,
+        motion: &Motion<'_>,
+        path: &Path,
+        scales: Scales,
+        noise: &Noise,
+    ) -> Vec<Estimate> {
+        let nodes = self.grid.len();
+        let times = &self.grid.times;
+        let shared = FORGOTTEN / noise.corner;
+        let density = nodes as f64 / scales.duration;
+        let length = PIECE.max((4.0 * shared * density).min(nodes as f64) as usize);
+        let pieces = nodes.div_ceil(length);
+        let job = |piece: usize| {
+            let core = nodes * piece / pieces..nodes * (piece + 1) / pieces;
+            let from = times.partition_point(|t| *t < times[core.start] - shared);
+            let to = times.partition_point(|t| *t <= times[core.end - 1] + shared);
+            let stretch = self.stretch(motion, path, from..to, noise.sigma);
+            let linear = Linear {
+                stretches: &[],
+                prior: motion.prior,
+                scales,
+            };
+            let model = linear.deviations(&stretch, noise);
+            let mut all = self.estimates(motion, path, from, &model, noise);
+            all.truncate(core.end - from);
+            all.drain(..core.start - from);
+            all
+        };
+        parallel::map(0..pieces, job).concat()
+    }
+
+    fn estimates(
+        &self,
+        motion: &Motion<'_>,
+        path: &Path,
+        from: usize,
+        model: &Deviations<'_>,
+        noise: &Noise,
+    ) -> Vec<Estimate> {
+        match (model.order, model.correlated) {
+            (1, None) => self.estimated::<3>(motion, path, from, model, noise),
+            (1, Some(_)) | (2, None) => self.estimated::<4>(motion, path, from, model, noise),
+            _ => self.estimated::<5>(motion, path, from, model, noise),
+        }
+    }
+
+    fn estimated<const N: usize>(
+        &self,
+        motion: &Motion<'_>,
+        path: &Path,
+        from: usize,
+        model: &Deviations<'_>,
+        noise: &Noise,
+    ) -> Vec<Estimate> {
+        let (deviations, innovations) = kalman::smooth::<N>(model);
+        let variance = noise.sigma * noise.sigma;
+        let dimension = 2 + model.order;
+        let estimate =
+            |(at, (deviation, innovation)): (usize, (&kalman::Gaussian<N>, &Option<f64>))| {
+                let mut state = path.states[from + at];
+                for k in 0..dimension {
+                    state[k] += deviation.mean[k];
+                }
+                let rates = motion.rates(self.grid.times[from + at], &state);
+                let gradient = [rates.by_theta, rates.by_omega, rates.by_unknown];
+                let p = &deviation.covariance;
+                let across: [f64; 3] =
+                    std::array::from_fn(|i| (0..3).map(|k| p[i][k] * gradient[k]).sum::<f64>());
+                let own: f64 = (0..3).map(|k| gradient[k] * across[k]).sum();
+                let covariance = [p[0][0], p[0][1], p[1][1], across[0], across[1], own];
+                Estimate {
+                    state,
+                    motion: [state[0], state[1], rates.alpha],
+                    covariance: covariance.map(|value| value * variance),
+                    innovation: innovation.map_or(f64::NAN, |value| value / noise.sigma),
+                }
+            };
+        deviations
+            .iter()
+            .zip(&innovations)
+            .enumerate()
+            .map(estimate)
+            .collect()
+    }
+}
+
+/// Standard deviation of numbers.
+fn spread(numbers: impl Iterator<Item = f64>) -> f64 {
+    let (mut count, mut mean, mut squares) = (0.0, 0.0, 0.0);
+    for number in numbers {
+        count += 1.0;
+        let off = number - mean;
+        mean += off / count;
+        squares += off * (number - mean);
+    }
+    (squares / f64::max(count, 1.0))
+        .sqrt()
+        .max(f64::MIN_POSITIVE)
+}

@@ -1,0 +1,118 @@
+//! The rows of a data file: lines that are neither blank nor comments, and their cells.
+
+use std::ops::Range;
+
+/// How the lines of a data file are divided.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Dialect {
+    /// What separates the cells of a line.
+    pub delimiter: char,
+    /// The byte at which the rows, header included, begin.
+    pub start: usize,
+}
+
+/// What spreadsheets write where a formula has no value. At the beginning of a line it looks like a comment.
+const NO_VALUE: [&str; 7] = [
+    "#N/A", "#REF!", "#VALUE!", "#DIV/0!", "#NAME?", "#NUM!", "#NULL!",
+];
+
+impl Dialect {
+    /// The dialect of a text of which some lines are skipped: a line `sep=;` says the delimiter; else it is a semicolon or a
+    /// tab if the first row has one, or a comma.
+    pub fn of(text: &str, skip: usize) -> Dialect {
+        let mark = text.len() - text.trim_start_matches('\u{feff}').len();
+        let skipped: usize = text.split_inclusive('\n').take(skip).map(str::len).sum();
+        let skipped = skipped.max(mark);
+        let first = text.split_inclusive('\n').next().unwrap_or_default();
+        let bare = first[mark..].trim_matches(|c: char| c == '"' || c.is_whitespace() && c != '\t');
+        if let Some(rest) = bare.strip_prefix("sep=")
+            && let (Some(delimiter), "") = (rest.chars().next(), rest.get(1..).unwrap_or_default())
+        {
+            return Dialect {
+                delimiter,
+                start: skipped.max(first.len()),
+            };
+        }
+        let mut dialect = Dialect {
+            delimiter: ',',
+            start: skipped,
+        };
+        let row = dialect.rows(text).next().unwrap_or_default();
+        let found = [';', '\t']
+            .into_iter()
+            .find(|delimiter| row.contains(*delimiter));
+        dialect.delimiter = found.unwrap_or(',');
+        dialect
+    }
+
+    /// The rows of a whole text.
+    pub fn rows(self, text: &str) -> impl Iterator<Item = &str> {
+        self.rows_of(text.get(self.start..).unwrap_or_default())
+    }
+
+    /// The rows of a part of a text.
+    pub fn rows_of(self, part: &str) -> impl Iterator<Item = &str> {
+        let lines = part
+            .split_inclusive('\n')
+            .map(|line| line.trim_end_matches(['\n', '\r']));
+        lines.filter(move |line| !self.is_blank(line) && !self.is_comment(line))
+    }
+
+    fn is_blank(self, line: &str) -> bool {
+        line.chars()
+            .all(|c| c == self.delimiter || c.is_whitespace())
+    }
+
+    /// Whether a line begins with `#` or `%`, or with a semicolon that separates no cells.
+    pub fn is_comment(self, line: &str) -> bool {
+        let line = line.trim_start();
+        let is_value = |mark: &&str| {
+            let rest = line.strip_prefix(mark).map(str::trim_start);
+            rest.is_some_and(|rest| rest.starts_with(self.delimiter))
+        };
+        match line.chars().next() {
+            Some('#') => !NO_VALUE.iter().any(|mark| is_value(&mark)),
+            Some('%') => true,
+            Some(';') => self.delimiter != ';',
+            _ => false,
+        }
+    }
+
+    /// The first quote of a row in which one is not closed.
+    pub fn open_quote(row: &str) -> Option<&str> {
+        let at = row.find('"')?;
+        (row.matches('"').count() % 2 == 1).then(|| &row[at..=at])
+    }
+
+    /// The cells of a row.
+    pub fn list(self, row: &str) -> Vec<&str> {
+        self.cells(row).collect()
+    }
+
+    /// The cells of a row without the blanks and quotes about them; a delimiter between quotes separates none.
+    pub fn cells(self, row: &str) -> impl Iterator<Item = &str> {
+        let mut quoted = false;
+        let separates = move |c: char| {
+            quoted ^= c == '"';
+            !quoted && c == self.delimiter
+        };
+        row.split(separates).map(|cell| {
+            let cell = cell.trim_matches(|c: char| c.is_whitespace());
+            let bare = cell
+                .strip_prefix('"')
+                .and_then(|cell| cell.strip_suffix('"'));
+            bare.map_or(cell, str::trim)
+        })
+    }
+}
+
+/// The bytes of a text that a part of it has.
+pub(super) fn span(text: &str, part: &str) -> Range<usize> {
+    let start = (part.as_ptr() as usize).saturating_sub(text.as_ptr() as usize);
+    start.min(text.len())..(start + part.len()).min(text.len())
+}
+
+/// The number, from 1, of the line of a text that a part of it stands in.
+pub(super) fn line_number(text: &str, part: &str) -> usize {
+    text[..span(text, part).start].matches('\n').count() + 1
+}
