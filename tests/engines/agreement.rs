@@ -74,9 +74,20 @@ fn with(allowed: [f64; 2], slack: f64, at: [f64; 2]) -> [f64; 2] {
 
 /// A finished run with its estimate; none where the method does not serve, stops, or takes too long.
 fn run(scene: &Scene, method: Method) -> Option<Simulation> {
+    let alone = Options {
+        method,
+        estimate: false,
+        max_evaluations: EVALUATIONS,
+        ..Options::default()
+    };
+    let alone = simulate(scene, &alone).ok()?;
+    if alone.summary.stopped.is_some() {
+        return None;
+    }
+    // Its estimate takes more than the run.
     let options = Options {
         method,
-        max_evaluations: EVALUATIONS,
+        max_evaluations: 20 * EVALUATIONS,
         ..Options::default()
     };
     let run = simulate(scene, &options).ok()?;

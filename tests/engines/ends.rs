@@ -149,17 +149,23 @@ fn a_tiny_part_of_a_turn_is_no_more_work_than_a_turn() {
     }
 }
 
-/// Each row of the table ends a step.
-#[test]
-fn the_work_limit_holds_where_a_table_cuts_the_steps_short() {
+/// A table over time, each row of which ends a step.
+fn fine_table() -> Load {
     let times: Vec<f64> = (0..30_000).map(|i| f64::from(i) * 1e-5).collect();
     let torques: Vec<f64> = times.iter().map(|t| (40.0 * t).sin()).collect();
     let table = Table::new(Variable::T, &times, &torques, Interpolation::Linear, None);
+    Load::Table(table.expect("a table"))
+}
+
+const IN_TIME: [Method; 3] = [Method::Dopri5, Method::Dop853, Method::Time];
+
+#[test]
+fn the_work_limit_holds_where_a_table_cuts_the_steps_short() {
     let scene = machine(0.05, 0.15, 0.5)
-        .torque(Load::Table(table.expect("a table")))
+        .torque(fine_table())
         .start(0.3, 10.0)
         .duration(0.29);
-    for method in [Method::Dopri5, Method::Dop853, Method::Time] {
+    for method in IN_TIME {
         let summary = run(&scene, &limited(method, 20_000));
         let why = summary.stopped.expect("a reason");
         assert!(why.contains("work limit"), "{why}");
@@ -171,24 +177,21 @@ fn the_work_limit_holds_where_a_table_cuts_the_steps_short() {
     }
 }
 
-/// The second run of an estimate obeys the limit, too.
+/// The second run of an estimate obeys the limit, and so does a third where the second does not get to the end.
 #[test]
 fn an_estimate_takes_no_more_than_the_limit() {
     let scene = machine(0.05, 0.15, 0.5)
-        .torque(formula("-0.02*omega + 0.3*sin(2*theta)"))
-        .start(0.3, 100.0)
-        .duration(2.0);
-    for method in [Method::Dopri5, Method::Dop853, Method::Time, Method::Angle] {
+        .torque(fine_table())
+        .start(0.3, 10.0)
+        .duration(0.02);
+    for method in IN_TIME {
         let whole = run(&scene, &limited(method, 10_000_000));
         let limit = whole.evaluations + 200;
         let summary = run(&scene, &limited(method, limit));
         assert_eq!(summary.stopped, None);
         if let Some(cost) = summary.estimate_cost {
-            assert!(
-                cost.evaluations <= 3 * limit,
-                "{method} {} {limit}",
-                cost.evaluations
-            );
+            let taken = cost.evaluations;
+            assert!(taken <= 2 * limit + 200, "{method} {taken} {limit}");
         }
     }
 }

@@ -1,13 +1,10 @@
 //! Which way the quantities that are watched have their signs as a piece of the motion begins.
 
 use super::follow::Run;
-use super::phase::{CRANK, DEAD_CENTRE, NORMAL, Phase, SPEED, Signs, against, signs};
+use super::phase::{AHEAD, CRANK, DEAD_CENTRE, NORMAL, Phase, SPEED, Signs, against, signs};
 use crate::engine::Motion;
 use crate::engine::guard::Watched;
 use crate::engine::time::Start;
-
-/// How far ahead of a start the signs show, rad.
-const AHEAD: f64 = 1e-6;
 
 impl Run<'_, '_> {
     /// The signs with which motion in `direction` (±1 of the coordinate) begins.
