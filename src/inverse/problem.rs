@@ -79,6 +79,25 @@ impl<'a> Problem<'a> {
         }
     }
 
+    /// Root mean square of d measured/dθ.
+    pub fn slope(&self, path: &Path) -> f64 {
+        let stride = path.states.len().div_ceil(1000);
+        let slopes = path.states.iter().step_by(stride);
+        let slopes = slopes.map(|state| self.record.sensor.shown(state[0]).slope.powi(2));
+        let (sum, count) = slopes
+            .filter(|s| s.is_finite())
+            .fold((0.0, 0.0), |(s, n), x| (s + x, n + 1.0));
+        (sum / f64::max(count, 1.0)).sqrt()
+    }
+
+    /// Way of the crank from sample to sample, rad, root mean square.
+    pub fn way(&self) -> f64 {
+        let record = &self.record;
+        let squares = record.values.windows(2).map(|w| (w[1] - w[0]).powi(2));
+        let mean = squares.sum::<f64>() / record.values.len() as f64;
+        mean.sqrt() / record.sensor.size()
+    }
+
     /// The linear model of a stretch of nodes about a path.
     fn stretch(
         &self,

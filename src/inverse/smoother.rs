@@ -35,17 +35,6 @@ const MANY: usize = 100_000;
 const AT_REST: f64 = 0.05;
 
 impl Problem<'_> {
-    /// Root mean square of d measured/dθ.
-    fn slope(&self, path: &Path) -> f64 {
-        let stride = path.states.len().div_ceil(1000);
-        let slopes = path.states.iter().step_by(stride);
-        let slopes = slopes.map(|state| self.record.sensor.shown(state[0]).slope.powi(2));
-        let (sum, count) = slopes
-            .filter(|s| s.is_finite())
-            .fold((0.0, 0.0), |(s, n), x| (s + x, n + 1.0));
-        (sum / f64::max(count, 1.0)).sqrt()
-    }
-
     /// The motion without mechanics, from a first path.
     pub fn kinematic(&self, mut path: Path, sigma: f64) -> Smoothed {
         let motion = self.motion(KINEMATIC);
@@ -115,14 +104,6 @@ impl Problem<'_> {
         found.scales.motion = shape;
         found.scales.floor = self.record.floor;
         found
-    }
-
-    /// Way of the crank from sample to sample, rad, root mean square.
-    fn way(&self) -> f64 {
-        let record = &self.record;
-        let squares = record.values.windows(2).map(|w| (w[1] - w[0]).powi(2));
-        let mean = squares.sum::<f64>() / record.values.len() as f64;
-        mean.sqrt() / record.sensor.size()
     }
 
     /// The state of a prior at a node of a smoothed motion.

@@ -71,7 +71,7 @@ impl Dialect {
             rest.is_some_and(|rest| rest.starts_with(self.delimiter))
         };
         match line.chars().next() {
-            Some('#') => !NO_VALUE.iter().any(|mark| is_value(mark)),
+            Some('#') => !NO_VALUE.iter().any(is_value),
             Some('%') => true,
             Some(';') => self.delimiter != ';',
             _ => false,
