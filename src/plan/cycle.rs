@@ -8,8 +8,10 @@ use crate::scene::{Load, Period, Repeats, Scene, Variable, Variables};
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Cycle {
     /// Whole turns; none if the loads do not repeat.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub turns: Option<u32>,
     /// Why they do not.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub why_not: Option<String>,
     /// Each load.
     pub loads: Vec<LoadPeriod>,

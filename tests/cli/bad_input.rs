@@ -137,10 +137,11 @@ fn a_mechanism_that_cannot_be_assembled_is_refused() {
 #[test]
 fn a_run_has_to_say_how_long_it_is() {
     let folder = Folder::with(&free(""));
-    folder
-        .run(&["simulate", "scene.toml"])
-        .fails(2, &["how long", "help:", "duration", "revolutions"]);
-    for command in ["kinematics", "explain", "check"] {
+    for command in ["simulate", "check"] {
+        let words = ["how long", "help", "duration", "revolutions"];
+        folder.run(&[command, "scene.toml"]).fails(2, &words);
+    }
+    for command in ["kinematics", "explain"] {
         folder.run(&[command, "scene.toml"]).done();
     }
 }

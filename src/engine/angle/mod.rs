@@ -24,6 +24,7 @@ mod station;
 mod steady;
 mod sweep;
 mod switch;
+mod table;
 mod turn;
 
 use std::f64::consts::TAU;
@@ -33,12 +34,13 @@ use super::energy::{Orbit, Unserved};
 use super::pace::{Ends, Pace};
 use super::time::{FAR, Start};
 use crate::numeric::angle::Angle;
-use crate::numeric::chebyshev::{MOST, Values};
+use crate::numeric::chebyshev::Values;
 use crate::numeric::enclosure::{Detail, Reach};
 pub use errors::Errors;
 use march::{Done, March};
 pub use one_turn::{Cycle, Turns};
 pub use steady::{CycleMap, FixedPoint, NoCycle, fixed_point};
+pub use table::{Switch, Table};
 
 /// What the engine needs of a mechanism.
 pub trait Driven {
@@ -82,61 +84,6 @@ pub trait Driven {
     /// Those and others, at which they end too where the inertia nearly vanishes there: longer ones would not be
     /// resolved.
     fn corners_if_light(&self) -> &[f64];
-}
-
-/// What depends on the angle alone, at some angles.
-#[derive(Clone)]
-pub struct Table<P> {
-    /// Inertia M, kg m².
-    pub inertia: Values,
-    /// Force that has a potential, N m.
-    pub force: Values,
-    /// Force of the position alone that has none, N m.
-    pub push: Values,
-    /// Damping, N m s/rad: the force is less by this times the speed.
-    pub damping: Values,
-    /// What [`Driven::drive`] needs; empty if there is nothing to be driven.
-    pub places: Vec<P>,
-    /// What there is if the forces have two forms.
-    pub switch: Option<Box<Switch>>,
-}
-
-/// The forces may have two forms, one on each side of a zero of the switch, a function of the state. They are
-/// continuous there.
-#[derive(Clone, Debug)]
-pub struct Switch {
-    /// Force of this side by the square of the speed, N m s²/rad².
-    pub force: Values,
-    /// The switch without speed.
-    pub place: Values,
-    /// By the speed, s/rad.
-    pub rate: Values,
-    /// By its square, s²/rad².
-    pub square: Values,
-}
-
-impl Default for Switch {
-    fn default() -> Switch {
-        Switch {
-            force: [0.0; MOST + 1],
-            place: [0.0; MOST + 1],
-            rate: [0.0; MOST + 1],
-            square: [0.0; MOST + 1],
-        }
-    }
-}
-
-impl<P> Default for Table<P> {
-    fn default() -> Table<P> {
-        Table {
-            inertia: [0.0; MOST + 1],
-            force: [0.0; MOST + 1],
-            push: [0.0; MOST + 1],
-            damping: [0.0; MOST + 1],
-            places: Vec::new(),
-            switch: None,
-        }
-    }
 }
 
 /// Where a run ends.

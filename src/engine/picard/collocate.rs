@@ -1,6 +1,8 @@
 //! One step: sweeps until the motion stays, then its error and the next length.
 
+use super::attempt::{Accepted, Failed, Try};
 use super::seen::OnStep;
+use super::series::{dot, legendre, rounding};
 use super::state::State;
 use super::tableau::Tableau;
 use crate::engine::sight::{Hidden, Look, hidden};
@@ -21,24 +23,6 @@ const WELL_INSIDE: f64 = 0.9;
 /// Rounding of a state, in parts of itself.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// A step that holds.
-pub struct Accepted {
-    pub step: Step,
-    /// The state at its end.
-    pub next: State,
-    /// The next step may be longer by this.
-    pub factor: f64,
-}
-
-/// A step that does not hold.
-#[derive(Clone, Copy, Debug)]
-pub enum Failed {
-    /// The next try is to have this part of its length.
-    TooLong(f64),
-    /// Something is hidden between its nodes: it has to end at this part of it.
-    Hides(f64),
-}
-
 /// The method, with what one step leaves to the next.
 pub struct Collocation<'a> {
     motion: &'a Counted<'a>,
@@ -53,15 +37,6 @@ pub struct Collocation<'a> {
     last: Option<(f64, [f64; NODES])>,
     /// Acceleration at the start of the next step.
     alpha: f64,
-}
-
-/// A step that is to be tried.
-#[derive(Clone, Copy, Debug)]
-pub struct Try {
-    /// Length, s.
-    pub h: f64,
-    /// Whether it begins and ends at a corner, where the acceleration may jump.
-    pub corners: [bool; 2],
 }
 
 impl<'a> Collocation<'a> {
@@ -266,7 +241,10 @@ impl<'a> Collocation<'a> {
             step,
             coefficients,
         };
-        hidden(&way, look).filter(|hidden| hidden.at * h > SHORTEST * state.t.abs())
+        // A place that the time does not tell from an end of the step is that end.
+        let least = SHORTEST * state.t.abs().max((state.t + h).abs());
+        let inside = |hidden: &Hidden| hidden.at * h > least && (1.0 - hidden.at) * h > least;
+        hidden(&way, look).filter(inside)
     }
 
     /// What a term of this size beyond the last would add; rounding of the acceleration is no such term.
@@ -302,33 +280,4 @@ impl<'a> Collocation<'a> {
         let alpha = self.motion.acceleration(next.t, next.angle(), next.omega);
         (step, next.reduced(), alpha)
     }
-}
-
-/// Rounding of the accelerations of a step. They are those of rounded angles, and steep where the position
-/// is near to a limit.
-fn rounding(state: &State, h: f64, coefficients: &[f64; NODES]) -> f64 {
-    let size = coefficients.iter().map(|c| c.abs()).sum::<f64>();
-    let variation = size - coefficients[0].abs();
-    let travel = h * state.omega.abs() + 0.5 * h * h * size;
-    let steepness = 2.0 * variation / travel.max(f64::MIN_POSITIVE);
-    f64::EPSILON * (8.0 * size + 4.0 * (1.0 + state.theta.abs()) * steepness)
-}
-
-fn dot(a: &[f64; NODES], b: &[f64; NODES]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// A Legendre series at many places, by its recurrence.
-pub(super) fn legendre<const N: usize>(coefficients: &[f64; NODES], x: [f64; N]) -> [f64; N] {
-    let (mut p, mut before) = ([1.0; N], [0.0; N]);
-    let mut sum = [0.0; N];
-    for (k, coefficient) in coefficients.iter().enumerate() {
-        let n = k as f64;
-        let (by_last, by_before) = ((2.0 * n + 1.0) / (n + 1.0), n / (n + 1.0));
-        for i in 0..N {
-            sum[i] += coefficient * p[i];
-            (p[i], before[i]) = (by_last * x[i] * p[i] - by_before * before[i], p[i]);
-        }
-    }
-    sum
 }

@@ -4,8 +4,10 @@
 //! Gauss rule. Each sweep evaluates the accelerations at all nodes of a guess together, and integrates them
 //! twice for a better one (Picard, Lindelöf). The polynomial is the motion inside the step, too.
 
+mod attempt;
 mod collocate;
 mod seen;
+mod series;
 mod state;
 mod tableau;
 
@@ -14,7 +16,8 @@ use std::f64::consts::TAU;
 use super::step::{Node, Step};
 use super::time::{Finish, Settings, Start};
 use super::{Counted, Motion};
-use collocate::{Accepted, Collocation, Failed, Try};
+use attempt::{Accepted, Failed, Try};
+use collocate::Collocation;
 use state::State;
 pub use tableau::Tableau;
 

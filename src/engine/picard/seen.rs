@@ -1,6 +1,6 @@
 //! Whether the nodes of a step show the acceleration on it.
 
-use super::collocate::legendre;
+use super::series::legendre;
 use super::state::State;
 use crate::engine::sight::Way;
 use crate::engine::step::Step;

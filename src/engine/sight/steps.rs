@@ -64,7 +64,9 @@ impl<'a> Proof<'a> {
         }
         self.ahead = (0.5 * self.ahead).max(2.0);
         let Hidden { at, .. } = hidden(&way, look)?;
-        (at * h > SHORTEST * step.start.t.abs()).then_some(step.start.t + at * h)
+        let least = SHORTEST * step.start.t.abs().max(step.end.t.abs());
+        let inside = at * h > least && (1.0 - at) * h > least;
+        inside.then_some(step.start.t + at * h)
     }
 }
 

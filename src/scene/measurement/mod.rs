@@ -3,7 +3,9 @@
 mod clock;
 mod columns;
 mod even;
+mod headers;
 mod lines;
+mod listed;
 mod number;
 mod read;
 mod rows;

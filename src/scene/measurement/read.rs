@@ -3,8 +3,10 @@
 use std::path::Path;
 
 use super::clock::Decimal;
-use super::columns::{ColumnProblem, Columns, columns, is_count, named};
+use super::columns::{ColumnProblem, Columns, columns};
+use super::headers::{is_count, named};
 use super::lines::{Dialect, span};
+use super::listed::{list, more};
 use super::number::{Digits, parse, with_point};
 use super::source::Source;
 use super::{Measurement, Reading};
@@ -16,9 +18,6 @@ use crate::scene::text::with_line_feeds;
 use crate::scene::{Problem, Problems, unit};
 
 const CLOSE_QUOTE: &str = "write numbers without quotes, and each row on a line of its own";
-
-/// Problems of one kind that are listed; all are counted.
-pub(super) const MOST_LISTED: usize = 3;
 
 /// Bytes of a piece of text that a thread reads at a time, about.
 const PIECE: usize = 1 << 18;
@@ -199,24 +198,6 @@ fn samples(rows: &str, dialect: Dialect, columns: &Columns) -> Samples {
         }
     }
     all
-}
-
-/// Lists a problem, unless enough like it are listed.
-fn list(problems: &mut Vec<Problem>, problem: Problem) {
-    let alike = |other: &&Problem| other.field == problem.field && other.help == problem.help;
-    if problems.iter().filter(alike).count() < MOST_LISTED {
-        problems.push(problem);
-    }
-}
-
-/// How many problems there are beside those that are listed, if any.
-pub(super) fn more(count: usize, text: &str) -> Option<Problem> {
-    (count > 0).then(|| {
-        let what = format!("{} more like these", counted(count, "problem"));
-        let mut last = Problem::new("", what, "repair the data, or take the rows out");
-        last.span = Some(text.len()..text.len());
-        last
-    })
 }
 
 fn samples_of(rows: &str, piece: &str, dialect: Dialect, columns: &Columns) -> Samples {

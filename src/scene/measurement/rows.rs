@@ -1,6 +1,6 @@
 //! Samples checked against each other.
 
-use super::read::{MOST_LISTED, more};
+use super::listed::{MOST_LISTED, more};
 use super::{LEAST_ROWS, Measured, Measurement};
 use crate::numeric::median::median;
 use crate::scene::number::{apart, computed, counted, show};

@@ -1,0 +1,67 @@
+//! Functions of several cases, analytic where one case serves the whole interval.
+
+use super::{Enclosed, Interval};
+
+impl Enclosed {
+    /// Magnitudes.
+    pub fn abs(self) -> Enclosed {
+        let Interval { low, high } = self.real;
+        if low >= 0.0 {
+            self
+        } else if high <= 0.0 {
+            -self
+        } else {
+            Enclosed::jumps(Interval::new(0.0, self.real.largest()))
+        }
+    }
+
+    /// The whole numbers below.
+    pub fn floor(self) -> Enclosed {
+        let real = self.real.rising(f64::floor);
+        if real.low == real.high {
+            Enclosed::point(real.low)
+        } else {
+            Enclosed::jumps(real)
+        }
+    }
+
+    /// −1, 0 or 1.
+    pub fn sign(self) -> Enclosed {
+        self.of_sign(-1.0, 0.0, 1.0)
+    }
+
+    /// 0 below zero, else 1.
+    pub fn step(self) -> Enclosed {
+        self.of_sign(0.0, 1.0, 1.0)
+    }
+
+    /// The greater of two.
+    pub fn max(self, other: Enclosed) -> Enclosed {
+        let (a, b) = (self.real, other.real);
+        if a.low >= b.high {
+            self
+        } else if b.low >= a.high {
+            other
+        } else {
+            Enclosed::jumps(Interval::new(a.low.max(b.low), a.high.max(b.high)))
+        }
+    }
+
+    /// The lesser of two.
+    pub fn min(self, other: Enclosed) -> Enclosed {
+        -(-self).max(-other)
+    }
+
+    /// What is left of multiples of the other, never negative.
+    pub fn modulo(self, other: Enclosed) -> Enclosed {
+        let by = other.abs();
+        if by.real.low <= 0.0 {
+            return Enclosed::UNKNOWN;
+        }
+        let count = self.divided_by(by).floor();
+        match count.plane {
+            Some(_) => self - by * count,
+            None => Enclosed::jumps(Interval::new(0.0, by.real.high)),
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! Tests of interpolation.
+
+use super::*;
+
+/// Values of an independent implementation (scipy.interpolate.PchipInterpolator).
+#[test]
+fn pchip_matches_published_implementation() {
+    let curve = Curve::new(
+        vec![0.0, 1.0, 2.0, 4.0, 5.0],
+        vec![0.0, 1.0, 4.0, 3.0, 3.5],
+        Interpolation::Pchip,
+        None,
+    );
+    for (at, expected) in PCHIP_REFERENCE {
+        let value = curve.value(*at);
+        assert!((value - expected).abs() < 1e-14, "{at}: {value} {expected}");
+    }
+    assert!(curve.value(5.1).is_nan() && curve.value(-0.1).is_nan());
+}
+
+const PCHIP_REFERENCE: &[(f64, f64)] = &[
+    (0.25, 0.0859375),
+    (0.9, 0.8505),
+    (1.5, 2.6875),
+    (2.5, 3.84375),
+    (3.75, 3.04296875),
+    (4.2, 3.0253333333333337),
+    (5.0, 3.5),
+];
+
+/// 2π/3 less its float, from 40 digits of π; a period that is no part of a turn is what it is.
+#[test]
+fn what_the_float_of_a_period_lacks() {
+    assert_eq!(lacks(TAU), TAU_REST);
+    assert_eq!(lacks(2.0 * TAU), 2.0 * TAU_REST);
+    assert_eq!(lacks(0.5 * TAU), 0.5 * TAU_REST);
+    let third = lacks(2.0943951023931953);
+    assert!(
+        (third - 2.296_728_565_598_444e-16).abs() < 1e-30,
+        "{third:e}"
+    );
+    assert_eq!((lacks(4.269881), lacks(0.1)), (0.0, 0.0));
+}
+
+/// Up and down again like a tent, against whole numbers of 2⁻⁵⁰.
+#[test]
+fn periods_are_taken_off_without_rounding() {
+    let unit = 2f64.powi(-50);
+    let period = 4807406341574107u64;
+    let curve = Curve::new(
+        vec![0.0, period as f64 * unit * 0.5],
+        vec![0.0, period as f64 * unit * 0.5],
+        Interpolation::Linear,
+        Some(period as f64 * unit),
+    );
+    for at in [33.7, 17.3, 4.5, -0.1, -29.9, 9.0] {
+        let rest = ((at / unit) as i64).rem_euclid(period as i64);
+        let expected = rest as f64 / period as f64;
+        let expected = expected.min(1.0 - expected);
+        let value = curve.value(at) / (period as f64 * unit);
+        assert!(
+            (value - expected).abs() <= 2.5e-16,
+            "{at}: {value:e} {expected:e}"
+        );
+    }
+}
+
+#[test]
+fn a_periodic_curve_closes_smoothly() {
+    let n = 24;
+    let x: Vec<f64> = (0..n).map(|i| TAU * f64::from(i) / f64::from(n)).collect();
+    let y: Vec<f64> = x.iter().map(|x| x.sin()).collect();
+    let curve = Curve::new(x, y, Interpolation::Pchip, Some(TAU));
+    let slope = |at: f64| (curve.value(at + 1e-7) - curve.value(at - 1e-7)) / 2e-7;
+    assert!((curve.value(1.0) - curve.value(1.0 + 40.0 * TAU)).abs() < 1e-13);
+    assert!((curve.value(1.0) - curve.value(1.0 - 3.0 * TAU)).abs() < 1e-14);
+    assert!((slope(0.0) - slope(TAU - 1e-9)).abs() < 1e-6);
+}
