@@ -60,6 +60,38 @@ pub(super) fn crank_angles(
         measurement,
         settings[best.unwrap_or(0)].sigma,
     )
+    .map(|mut taken| {
+        taken
+            .warnings
+            .extend(elsewhere(sensor, measurement, motion, taken.theta[0]));
+        taken
+    })
+}
+
+/// What is said where the first sample may be at the scene's angle, and the likeliest motion begins at another.
+fn elsewhere(
+    sensor: &Sensor<'_>,
+    measurement: &Measurement,
+    motion: &Motion,
+    taken: f64,
+) -> Option<String> {
+    let value = measurement.values()[0];
+    let candidates = match sensor.measured {
+        Measured::X => sensor.linkage.angles_of_x(value),
+        _ => sensor.linkage.angles_of_gamma(value),
+    };
+    let off = |theta: f64| {
+        let off = theta - motion.angle;
+        (off - (off / TAU).round() * TAU).abs()
+    };
+    let fits = candidates.angles().iter().any(|theta| off(*theta) < NEAR);
+    (motion.angle != 0.0 && fits && off(taken) > NEAR).then(|| {
+        format!(
+            "the scene's angle belongs to the first sample, {} = {}, but the likelier motion begins at {taken:.4} rad: it may be the one on the wrong strokes",
+            sensor.measured.name(),
+            measurement.shown(value)
+        )
+    })
 }
 
 /// Samples by which noise and agility are found.
@@ -75,19 +107,36 @@ fn reachable(sensor: &Sensor<'_>, measurement: &Measurement) -> Result<(), Error
         Measured::X => sensor.linkage.excess_of_x(value),
         _ => sensor.linkage.excess_of_gamma(value),
     };
+    let is_off = |i: &usize| excess(values[*i]) > OFF * sensor.size();
+    let on_no_angle = |i: &usize| match sensor.measured {
+        Measured::X => sensor.linkage.angles_of_x(values[*i]).angles().is_empty(),
+        _ => sensor
+            .linkage
+            .angles_of_gamma(values[*i])
+            .angles()
+            .is_empty(),
+    };
+    // Single ones that are only off are outliers.
+    let many = (0..values.len()).filter(is_off).count() * 20 > values.len();
     let far: Vec<usize> = (0..values.len())
-        .filter(|i| excess(values[*i]) > OFF * sensor.size())
+        .filter(|i| many && is_off(i) || on_no_angle(i))
+        .take(20)
         .collect();
-    // Single ones are outliers.
-    if far.len() * 20 <= values.len() {
+    if far.is_empty() {
         return Ok(());
     }
-    let list = far.into_iter().take(20).map(|i| {
+    let list = far.into_iter().map(|i| {
+        let why = match excess(values[i]) {
+            0.0 => "it belongs to no crank angle of the branch of the scene".to_owned(),
+            excess => format!(
+                "it is {} beyond what the lengths of the scene allow",
+                measurement.shown(excess)
+            ),
+        };
         let what = format!(
-            "{} = {} cannot be reached: it is {} beyond what the lengths of the scene allow",
+            "{} = {} cannot be reached: {why}",
             sensor.measured.name(),
             measurement.shown(values[i]),
-            measurement.shown(excess(values[i]))
         );
         let help =
             "check the lengths of the scene, the unit of the column, and from where it counts"

@@ -33,8 +33,8 @@ pub(super) struct Fitted {
     pub patterned: bool,
     /// Whether the iterations came to rest.
     pub settled: bool,
-    /// The first row that hardly counts because it is far off.
-    pub first_outlier: Option<usize>,
+    /// The row that is farthest off, of those that hardly count because they are.
+    pub farthest_outlier: Option<usize>,
     /// Step of an encoder, rad, whose codes were told by their transitions.
     pub coded: Option<f64>,
     /// Least standard deviation of a sample, rad or m.
@@ -232,6 +232,8 @@ impl Fitted {
         let squares: f64 = residuals.iter().map(|r| r * r).sum();
         let mean = measured.iter().sum::<f64>() / n;
         let about: f64 = measured.iter().map(|v| (v - mean) * (v - mean)).sum();
+        let size = |row: &usize| residuals[*row].abs();
+        let farthest_outlier = record.outliers().max_by(|a, b| size(a).total_cmp(&size(b)));
         let summary = FitSummary {
             r_squared: if about > 0.0 {
                 1.0 - squares / about
@@ -249,7 +251,7 @@ impl Fitted {
             summary,
             patterned: false,
             settled: true,
-            first_outlier: record.outliers().next(),
+            farthest_outlier,
             coded: record.step,
             floor: record.floor,
         }

@@ -28,9 +28,10 @@ pub(super) fn keeps_clear(
         let passed = before.is_some_and(|before| passes(&limits, before, state));
         let error = state.angle_error();
         let turn = before.and_then(|before| turning_angle(before, state));
-        for theta in turn.into_iter().chain([state.value[0]]) {
+        for (theta, more) in turn.into_iter().chain([(state.value[0], 0.0)]) {
             let pose = linkage.pose(theta);
-            let far = pose.cos_phi > NEAR_LIMIT || distance(&limits, theta) > WITHIN * error;
+            let within = WITHIN * error + more;
+            let far = pose.cos_phi > NEAR_LIMIT || distance(&limits, theta) > within;
             if passed || !pose.exists() || !far {
                 return Err(refusal(linkage, measurement, sample, theta, error));
             }
@@ -76,18 +77,18 @@ fn passes(limits: &[f64], a: &MotionEstimate, b: &MotionEstimate) -> bool {
         .any(|limit| turn(a, *limit) != turn(b, *limit))
 }
 
-/// The crank angle at which the motion turns back between two samples: the vertex of the parabola of the nearer one.
-fn turning_angle(a: &MotionEstimate, b: &MotionEstimate) -> Option<f64> {
-    let vertex = |state: &MotionEstimate| {
+/// The crank angle at which the motion turns back between two samples, and how uncertain the way between them makes it, rad:
+/// the vertex of the parabola of the nearer one, and its distance from that of the other.
+fn turning_angle(a: &MotionEstimate, b: &MotionEstimate) -> Option<(f64, f64)> {
+    let [of_a, of_b] = [a, b].map(|state| {
         let [theta, omega, alpha] = state.value;
         theta - 0.5 * omega * omega / alpha
-    };
+    });
     let nearer = if a.value[1].abs() < b.value[1].abs() {
-        a
+        of_a
     } else {
-        b
+        of_b
     };
-    (a.value[1] * b.value[1] < 0.0)
-        .then(|| vertex(nearer))
-        .filter(|theta| theta.is_finite())
+    let turn = (nearer, (of_a - of_b).abs());
+    (a.value[1] * b.value[1] < 0.0 && turn.1.is_finite()).then_some(turn)
 }

@@ -84,16 +84,20 @@ mod tests {
         (0..count).map(|_| next()).collect()
     }
 
+    /// An autoregression of n samples has a correlation of c ± √((1 − c²)/n) of each with the next.
     #[test]
     fn white_noise_passes_and_correlated_noise_does_not() {
-        let white = noise(500);
+        let (count, correlation) = (5000, 0.4f64);
+        let white = noise(count);
         assert!(!Whiteness::of(white.iter().copied()).is_violated());
         let mut last = 0.0;
         let correlated = white.iter().map(|w| {
-            last = 0.4 * last + w;
+            last = correlation * last + w;
             last
         });
         let found = Whiteness::of(correlated);
-        assert!(found.is_violated() && (found.lag_one - 0.4).abs() < 0.1 && found.runs < -4.0);
+        let error = ((1.0 - correlation * correlation) / count as f64).sqrt();
+        assert!(found.is_violated() && found.runs < -4.0);
+        assert!((found.lag_one - correlation).abs() < 4.0 * error);
     }
 }

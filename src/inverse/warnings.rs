@@ -86,14 +86,15 @@ pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> 
             summary.residual_lag_one, summary.residual_runs,
         ));
     }
-    if let Some(first) = fitted.first_outlier {
-        let (samples, they) = match summary.outliers {
-            1 => ("1 sample is".to_owned(), "it"),
-            count => (format!("{count} samples are"), "they"),
+    if let Some(farthest) = fitted.farthest_outlier {
+        let samples = match summary.outliers {
+            1 => "1 sample is far off and hardly counts".to_owned(),
+            count => format!("{count} samples are far off and hardly count"),
         };
         warnings.push(format!(
-            "{samples} far off, the first at {}: {they} hardly count",
-            measurement.place(first)
+            "{samples}, the farthest at {} by {}",
+            measurement.place(farthest),
+            measurement.shown(fitted.residuals[farthest])
         ));
     }
     if let Some(step) = fitted.coded {
