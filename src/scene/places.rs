@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+#[cfg(feature = "cli")]
+use std::path::Path;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::{Problem, Problems};
@@ -22,6 +24,7 @@ struct Source {
 }
 
 impl Places {
+    #[cfg(feature = "cli")]
     pub(super) fn in_file(file: &Path, text: &str, spans: Spans) -> Places {
         Places(Some(Arc::new(Source {
             file: file.to_owned(),

@@ -454,7 +454,7 @@ fn the_scene_that_is_mutated_is_right() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 10_000, failure_persistence: None, rng_seed: super::seed::seed(7), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 10_000, failure_persistence: None, rng_seed: crate::support::seed::seed(7), ..ProptestConfig::default() })]
 
     #[test]
     fn no_text_makes_the_reader_panic(mutations in proptest::collection::vec(mutation(), 1..6)) {

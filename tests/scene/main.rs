@@ -8,5 +8,3 @@ mod data_files;
 mod odd_files;
 mod refusals;
 mod scene_files;
-#[path = "../support/seed.rs"]
-mod seed;

@@ -13,7 +13,7 @@ pub struct Table<P> {
     pub push: Values,
     /// Damping, N m s/rad: the force is less by this times the speed.
     pub damping: Values,
-    /// What [`Driven::drive`] needs; empty if there is nothing to be driven.
+    /// What [`super::Driven::drive`] needs; empty if there is nothing to be driven.
     pub places: Vec<P>,
     /// What there is if the forces have two forms.
     pub switch: Option<Box<Switch>>,
