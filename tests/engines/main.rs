@@ -21,6 +21,7 @@ mod many_turns;
 mod ode_solvers_defects;
 mod peaks;
 mod precision;
+mod pulses;
 mod reasons;
 mod rockers;
 mod rows;

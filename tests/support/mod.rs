@@ -11,6 +11,7 @@ pub mod instrument;
 pub mod judged;
 pub mod machines;
 pub mod newton;
+pub mod pulses;
 pub mod random;
 pub mod rubbing;
 pub mod run;
