@@ -8,8 +8,8 @@
 //! ```
 //!
 //! M θ̈ + ½ M' θ̇² + V' = Q, with every term built from the kinetic and potential energy of the bodies
-//! and the virtual work of the loads. [`study`] holds the questions: what [`study::simulate`] or
-//! [`study::kinematics`] do, the commands of the program do too.
+//! and the virtual work of the loads. Each question is a module: what [`simulate::simulate`] or
+//! [`kinematics::kinematics`] do, the commands of the program do too.
 //!
 //! # Example
 //!
@@ -17,7 +17,7 @@
 //!
 //! ```
 //! use slider_crank::scene::{Crank, Load, Scene, Slider, Variables};
-//! use slider_crank::study::{Options, simulate};
+//! use slider_crank::simulate::{Options, simulate};
 //!
 //! let scene = Scene::new(0.05, 0.15) // crank and rod, m
 //!     .offset(0.01)
@@ -40,12 +40,12 @@
 //!
 //! - A scene comes from code, as above, from a text ([`scene::Scene::parse`]) or from a file
 //!   ([`scene::Scene::load`]).
-//! - [`study::simulate`] keeps the dense motion; [`study::simulate_rows`] hands on its rows, in memory that does not
+//! - [`simulate::simulate`] keeps the dense motion; [`simulate::simulate_rows`] hands on its rows, in memory that does not
 //!   grow with the run.
-//! - [`study::kinematics`], [`study::forces`] and [`study::statics`] look at one turn of the crank.
+//! - [`kinematics::kinematics`], [`kinematics::forces`] and [`statics::statics`] look at one turn of the crank.
 //! - [`inverse::inverse`] takes measured samples, from arrays ([`scene::Measurement::new`]) or from a file
 //!   ([`scene::Measurement::load`]).
-//! - [`study::Sweep`] computes many designs; [`study::explain`] shows the equation, its terms and the plan.
+//! - [`sweep::Sweep`] computes many designs; [`explain::explain`] shows the equation, its terms and the plan.
 //!
 //! Without the default feature `cli` the library has neither the program nor scene files, sweeps and reports; scenes are
 //! then written in Rust.
@@ -56,14 +56,22 @@
 pub mod cli;
 pub mod engine;
 pub mod error;
+pub mod explain;
 pub mod inverse;
+pub mod kinematics;
 pub mod mechanism;
 pub mod numeric;
 pub mod plan;
+pub mod precision;
 #[cfg(feature = "cli")]
 pub mod report;
+#[cfg(feature = "cli")]
+pub mod reproduce;
 pub mod scene;
-pub mod study;
+pub mod simulate;
+pub mod statics;
+#[cfg(feature = "cli")]
+pub mod sweep;
 pub mod trajectory;
 
 #[cfg(all(doctest, feature = "cli"))]

@@ -7,7 +7,7 @@ use clap::Args;
 use super::{Outcome, angle, print, scene};
 use crate::error::Error;
 use crate::plan::Method;
-use crate::{report, study};
+use crate::report;
 
 /// Arguments of `explain`.
 #[derive(Debug, Args)]
@@ -27,7 +27,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let scene = scene(arguments.scene.as_ref())?;
-    let result = study::explain(&scene, arguments.method, arguments.at)?;
+    let result = crate::explain::explain(&scene, arguments.method, arguments.at)?;
     if arguments.json {
         print(&report::json(&result)?)?;
     } else {

@@ -9,9 +9,10 @@ use super::{
     positive_angle, quantity, say,
 };
 use crate::error::Error;
+use crate::kinematics::Length;
+use crate::kinematics::TurnOptions;
 use crate::report::{self, TurnWriter};
 use crate::scene::unit::Quantity;
-use crate::study::{self, Length, TurnOptions};
 
 /// Arguments of `kinematics`.
 #[derive(Debug, Args)]
@@ -69,11 +70,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let mut scene = streams.scene(arguments.scene.as_ref())?;
     check_ending(arguments.plot.as_ref(), &["svg"])?;
     if let Some((stroke, ratio)) = arguments.stroke.zip(arguments.rod_ratio) {
-        let (crank, rod) = study::size_from_stroke(stroke, ratio, scene.geometry.offset)?;
+        let (crank, rod) =
+            crate::kinematics::size_from_stroke(stroke, ratio, scene.geometry.offset)?;
         (scene.geometry.crank, scene.geometry.rod) = (crank, rod);
         say(&report::sized(crank, rod));
     }
-    let result = study::one_turn(&scene, &arguments.options())?;
+    let result = crate::kinematics::one_turn(&scene, &arguments.options())?;
     let (out, plot) = (
         create(arguments.out.as_ref())?,
         create(arguments.plot.as_ref())?,

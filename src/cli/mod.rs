@@ -1,4 +1,4 @@
-//! The commands: arguments -> study -> report. One file each.
+//! The commands: arguments -> question -> report. One file each.
 
 mod check;
 mod explain;

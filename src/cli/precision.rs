@@ -7,9 +7,9 @@ use clap::Args;
 
 use super::{Outcome, check_ending, check_files, create, fill, is_standard, print, say, scene};
 use crate::error::Error;
+use crate::precision::{Precision, PrecisionOptions};
 use crate::report;
 use crate::scene::Scene;
-use crate::study::{self, Precision, PrecisionOptions};
 
 /// Arguments of `precision`.
 #[derive(Debug, Args)]
@@ -124,7 +124,7 @@ fn compare(
             let title = scene.title.as_deref().unwrap_or_default();
             say(&format!("{} of {}: {title}", number + 1, scenes.len()));
         }
-        let result = match study::precision(scene, options) {
+        let result = match crate::precision::precision(scene, options) {
             Err(error @ (Error::Refused { .. } | Error::Scene(_))) if scenes.len() > 1 => {
                 Precision::refused(scene, &error)
             }

@@ -7,7 +7,7 @@ use clap::Args;
 use super::{Outcome, print, say};
 use crate::error::Error;
 use crate::report::{self, Output, ReproductionSummary};
-use crate::study::{self, Paper};
+use crate::reproduce::Paper;
 
 /// Arguments of `reproduce`.
 #[derive(Debug, Args)]
@@ -32,7 +32,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let papers = arguments
         .paper
         .map_or(Paper::ALL.to_vec(), |paper| vec![paper]);
-    let result = study::reproduce(&papers)?;
+    let result = crate::reproduce::reproduce(&papers)?;
     if let Some(folder) = &arguments.out {
         let files = write_files(folder, &result)?;
         say(&format!("{files} files written to {}", folder.display()));
@@ -50,7 +50,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     })
 }
 
-fn write_files(folder: &Path, result: &study::Reproduction) -> Result<usize, Error> {
+fn write_files(folder: &Path, result: &crate::reproduce::Reproduction) -> Result<usize, Error> {
     std::fs::create_dir_all(folder).map_err(|source| Error::Write {
         target: folder.display().to_string(),
         source,

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{self, PlotRows, Preview, RowWriter};
 use crate::scene::Scene;
-use crate::study::{self, Options, Row, RowSink, SteadyOptions};
+use crate::simulate::{Options, Row, RowSink, SteadyOptions};
 
 /// Arguments of `simulate`.
 #[derive(Debug, Args)]
@@ -125,7 +125,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     }
     let steady = arguments
         .steady_state
-        .then(|| study::steady_state(&scene, &arguments.steady_options()))
+        .then(|| crate::simulate::steady_state(&scene, &arguments.steady_options()))
         .transpose()?;
     if let Some(steady) = &steady {
         scene = steady.start(&scene);
@@ -138,7 +138,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         writer: output.map(RowWriter::new),
         preview: (streams.text_on_stdout() || page.is_some()).then(Preview::default),
     };
-    let result = study::simulate_rows(&scene, &arguments.options(), &mut rows)?;
+    let result = crate::simulate::simulate_rows(&scene, &arguments.options(), &mut rows)?;
     if let Some(writer) = rows.writer {
         writer.finish()?;
     }

@@ -11,7 +11,7 @@ use super::{
 use crate::error::Error;
 use crate::report::{self, StaticsWriter};
 use crate::scene::unit::Quantity;
-use crate::study::{self, StaticsOptions};
+use crate::statics::StaticsOptions;
 
 /// Arguments of `statics`.
 #[derive(Debug, Args)]
@@ -89,19 +89,21 @@ fn tilt(text: &str) -> Result<f64, String> {
 impl Arguments {
     fn options(&self) -> StaticsOptions {
         let hung = self.weight.zip(self.drum_radius);
-        let hung = hung.map(|(weight, radius)| study::drum_torque(weight, radius));
+        let hung = hung.map(|(weight, radius)| crate::statics::drum_torque(weight, radius));
         let nothing = self.scene.is_none() && self.force.is_none();
         StaticsOptions {
             torque: self.torque.or(hung).or(nothing.then_some(1.0)),
             force: self.force,
-            friction: self.friction.or(self.tilt.map(study::friction_from_tilt)),
+            friction: self
+                .friction
+                .or(self.tilt.map(crate::statics::friction_from_tilt)),
         }
     }
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     if let Some(file) = &arguments.calibration {
-        let result = study::calibrate(file, &arguments.reading)?;
+        let result = crate::statics::calibrate(file, &arguments.reading)?;
         print(&if arguments.json {
             report::json(&result)?
         } else {
@@ -118,7 +120,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     check_rows_of_turn(arguments.every)?;
     let scene = streams.scene(arguments.scene.as_ref())?;
     check_ending(arguments.plot.as_ref(), &["svg"])?;
-    let result = study::statics(&scene, &arguments.options())?;
+    let result = crate::statics::statics(&scene, &arguments.options())?;
     let (out, plot) = (
         create(arguments.out.as_ref())?,
         create(arguments.plot.as_ref())?,

@@ -11,7 +11,8 @@ use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{self, SweepWriter};
 use crate::scene::{Draft, Varied};
-use crate::study::{SteadyOptions, Sweep, SweepOptions};
+use crate::simulate::SteadyOptions;
+use crate::sweep::{Sweep, SweepOptions};
 
 /// Arguments of `sweep`.
 #[derive(Debug, Args)]

@@ -1,16 +1,16 @@
 //! Integrators. They see a motion with one coordinate, its acceleration and power; no mechanics.
 
 pub mod angle;
+pub mod collocation;
 pub mod contact;
 pub mod energy;
+pub mod event_functions;
 pub mod events;
-pub mod guard;
-pub mod library;
-pub mod pace;
-pub mod picard;
+pub mod runge_kutta;
 pub mod sight;
 pub mod step;
 pub mod time;
+pub mod work_forecast;
 
 use std::cell::Cell;
 

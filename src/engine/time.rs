@@ -2,11 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use super::library::{self, Call, Ended};
-use super::pace::{Ends, Pace};
-use super::picard;
+use super::collocation;
+use super::runge_kutta;
+use super::runge_kutta::{Call, Ended};
 use super::sight::Proof;
 use super::step::{Node, Step};
+use super::work_forecast::{Ends, WorkForecast};
 use super::{Counted, Motion};
 use crate::numeric::angle::Angle;
 
@@ -16,7 +17,7 @@ pub enum Method {
     /// Gauss collocation of order 24 by sweeps.
     Picard,
     /// One of ode_solvers.
-    Library(library::Method),
+    Library(runge_kutta::Method),
 }
 
 /// How to integrate.
@@ -95,7 +96,7 @@ pub fn run(
     settings: &Settings,
     sink: &mut dyn FnMut(&Step) -> bool,
 ) -> (Finish, Step, u64) {
-    let mut pace = Pace::new(
+    let mut pace = WorkForecast::new(
         start.t,
         motion.evaluations(),
         settings.ends(),
@@ -111,7 +112,7 @@ pub fn run(
         hopeless.is_some()
     };
     let (finish, last, steps) = match settings.method {
-        Method::Picard => picard::run(motion, start, settings, watched),
+        Method::Picard => collocation::run(motion, start, settings, watched),
         Method::Library(method) => in_calls(motion, start, settings, method, watched),
     };
     let finish = match finish {
@@ -125,7 +126,7 @@ fn in_calls(
     motion: &Counted<'_>,
     start: Start,
     settings: &Settings,
-    method: library::Method,
+    method: runge_kutta::Method,
     sink: &mut dyn FnMut(&Step) -> bool,
 ) -> (Finish, Step, u64) {
     let mut angle = start.angle.reduced();
@@ -154,7 +155,7 @@ fn in_calls(
         }
         let (mut in_call, mut ended_by_sink, mut rejected) = (0, false, None);
         let left = (settings.max_evaluations - spent) / method.evaluations_in_a_step();
-        let ended = library::integrate(Call {
+        let ended = runge_kutta::integrate(Call {
             motion,
             method,
             tolerance: settings.tolerance,

@@ -1,6 +1,6 @@
 //! What loads do between the nodes of a panel or a step.
 
-use super::called::Called;
+use super::nonlinear_loads::NonlinearLoads;
 use super::{Linkage, Loads};
 use crate::numeric::enclosure::{Detail, Enclosed, Interval, Reach};
 use crate::scene::{Load, Variable, Variables};
@@ -76,7 +76,7 @@ impl Around<'_> {
         }
     }
 
-    fn loads(&self, loads: &Called) -> Detail {
+    fn loads(&self, loads: &NonlinearLoads) -> Detail {
         let sum = |list: &[Load]| {
             let details = list.iter().map(|load| Detail::of(self.load(load)));
             details.fold(Detail::NONE, Detail::plus)
@@ -139,7 +139,7 @@ impl Loads {
 
     fn detail_of(
         &self,
-        classes: &[&Called],
+        classes: &[&NonlinearLoads],
         linkage: &Linkage,
         reach: &Reach,
         ellipse: f64,

@@ -4,7 +4,7 @@
 //! and beyond that motion begins in the direction of Q − V' (Filippov's solution of the equation with their signs).
 
 use super::friction::Free;
-use super::{Across, Constrained, LoadValue, Loads, Place};
+use super::{CurveEquation, CurveTerms, LoadValue, Loads, Place};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{Interval, Reach};
 use crate::scene::Instant;
@@ -113,7 +113,7 @@ impl Loads {
     }
 }
 
-impl Constrained {
+impl CurveEquation {
     /// Torque and force of the loads, without friction; dry ones against this speed.
     pub fn load(&self, place: &Place, t: f64, q: Angle, speed: f64) -> LoadValue {
         let sense = Sense::of(place.dtheta * speed, place.dx * speed);
@@ -145,7 +145,7 @@ impl Constrained {
 
     pub(super) fn against(
         &self,
-        terms: &Across,
+        terms: &CurveTerms,
         t: f64,
         q: Angle,
         speed: f64,
@@ -186,7 +186,7 @@ impl Constrained {
     }
 
     /// What rounding leaves open of the generalized force of the loads at rest, N m.
-    fn rounding(&self, terms: &Across, q: Angle, t: f64) -> f64 {
+    fn rounding(&self, terms: &CurveTerms, q: Angle, t: f64) -> f64 {
         let place = &terms.place;
         let LoadValue { torque, force } = self.load(place, t, q, 0.0);
         let most = self.loads().dry_magnitude(&self.instant(place, t, q, 0.0));
@@ -229,7 +229,7 @@ impl Constrained {
 
 impl Free {
     /// Adds a load to a motion at a speed (rad/s) of the coordinate.
-    fn push(&mut self, terms: &Across, load: LoadValue, speed: f64) {
+    fn push(&mut self, terms: &CurveTerms, load: LoadValue, speed: f64) {
         let place = &terms.place;
         let along = load.torque * place.dtheta + load.force * place.dx;
         let aside = load.torque * terms.theta_n + load.force * terms.x_n;

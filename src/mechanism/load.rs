@@ -1,6 +1,6 @@
 //! Virtual work of the loads: all that is linear is summed once, the rest is called.
 
-use super::called::Called;
+use super::nonlinear_loads::NonlinearLoads;
 use super::{LoadValue, Pose};
 use crate::numeric::angle::Angle;
 use crate::scene::{Instant, Load, Scene, Variables};
@@ -17,13 +17,13 @@ pub struct Loads {
     /// −d force/d v, N s/m
     linear_damping: f64,
     /// Loads of the position alone, without a potential that is known.
-    pub(super) placed: Called,
+    pub(super) placed: NonlinearLoads,
     /// Loads of the time alone.
-    pub(super) timed: Called,
+    pub(super) timed: NonlinearLoads,
     /// All others.
-    pub(super) mixed: Called,
+    pub(super) mixed: NonlinearLoads,
     /// Those that oppose motion.
-    pub(super) dry: Called,
+    pub(super) dry: NonlinearLoads,
     reads: Variables,
     pub(super) on_slider: bool,
 }
@@ -91,7 +91,7 @@ impl Loads {
         self.rotary_damping == 0.0 && self.linear_damping == 0.0 && self.called().next().is_none()
     }
 
-    fn class(&mut self, load: &Load, on_slider: bool) -> &mut Called {
+    fn class(&mut self, load: &Load, on_slider: bool) -> &mut NonlinearLoads {
         let reads = load.reads(on_slider);
         let position = Variables::THETA.or(Variables::X);
         if matches!(load, Load::Dry(_)) {
@@ -107,7 +107,7 @@ impl Loads {
 
     pub(super) fn called(&self) -> impl Iterator<Item = &Load> {
         let classes = [&self.placed, &self.timed, &self.mixed, &self.dry];
-        classes.into_iter().flat_map(Called::loads)
+        classes.into_iter().flat_map(NonlinearLoads::loads)
     }
 
     /// Whether there are loads that depend on speed or time otherwise than by damping.

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::choice::{self, Choice};
 use super::{Engine, Method, Stepper};
 use crate::error::Error;
-use crate::mechanism::{Class, Constrained, Curve, Linkage};
+use crate::mechanism::{Class, Curve, CurveEquation, Linkage};
 use crate::scene::Scene;
 
 /// Angles of a turn at which the guide is looked at.
@@ -49,7 +49,7 @@ fn why_not_angle(scene: &Scene, class: Class) -> Option<String> {
 /// Whether rigid bodies jam at one of some angles of the turn.
 fn jams(scene: &Scene) -> bool {
     let linkage = Linkage::new(&scene.geometry);
-    let guide = Constrained::new(scene, Curve::on_crank(&linkage));
+    let guide = CurveEquation::new(scene, Curve::on_crank(&linkage));
     let mu = guide
         .friction()
         .map_or(0.0, |friction| friction.coefficient);

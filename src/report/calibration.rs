@@ -1,7 +1,7 @@
 //! A calibration in words.
 
-use super::facts::{Facts, given, six, with_error};
-use crate::study::Calibration;
+use super::key_values::{Facts, given, six, with_error};
+use crate::statics::Calibration;
 
 /// The line, its statistics, and the forces of the readings.
 pub fn calibration(result: &Calibration) -> String {

@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use super::facts::{Facts, degrees, given, six};
-use crate::study::{Explanation, FrictionAt, TermsAt};
+use super::key_values::{Facts, degrees, given, six};
+use crate::explain::{Explanation, FrictionAt, TermsAt};
 
 /// Characters of a name, with what it is indented by.
 const NAMES: usize = 24;

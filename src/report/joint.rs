@@ -1,7 +1,7 @@
 //! A loose joint in words.
 
-use super::facts::{Facts, given, six, with_error};
-use crate::study::{ClearanceSummary, ContactStatistics};
+use super::key_values::{Facts, given, six, with_error};
+use crate::simulate::{ClearanceSummary, ContactStatistics};
 
 /// The loose joint.
 pub(super) fn clearance(facts: &mut Facts, joint: &ClearanceSummary) {

@@ -1,11 +1,13 @@
 //! Results on paper: CSV rows, text, figures, JSON. Knows neither mechanics nor integrators.
 
+mod atomic_file;
 mod calibration;
+mod decimate;
 mod explain;
-mod facts;
 mod figure;
 mod inverse;
 mod joint;
+mod key_values;
 mod motion;
 mod one_turn;
 mod output;
@@ -17,8 +19,6 @@ mod statics;
 mod steady;
 mod sweep;
 mod text;
-mod thinned;
-mod unfinished;
 
 pub use calibration::calibration;
 pub use explain::explanation;

@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
+use super::decimate::Thinned;
 use super::figure::{Axis, Figure, panels};
-use super::thinned::Thinned;
 use crate::error::Error;
-use crate::study::{Row, Summary};
+use crate::simulate::{Row, Summary};
 
 /// Rows for a figure, evenly thinned out where there are more than a figure can show.
 #[derive(Debug)]

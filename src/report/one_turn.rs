@@ -2,12 +2,12 @@
 
 use std::fmt::Write;
 
-use super::facts::{Facts, degrees, given, six};
+use super::key_values::{Facts, degrees, given, six};
 use super::rows::{REACTIONS, reactions, write};
 use super::text::{NAMES, extreme, kinematics};
 use super::{Axis, Figure, Output, panels};
 use crate::error::Error;
-use crate::study::{ForceAnalysis, Located, OffsetExtremes, OneTurn, StrokeTorque, TurnRow};
+use crate::kinematics::{ForceAnalysis, Located, OffsetExtremes, OneTurn, StrokeTorque, TurnRow};
 
 const POSITION: &str =
     "theta_rad,x_m,dx_m_per_rad,d2x_m_per_rad2,phi_rad,dphi,d2phi,transmission_rad";

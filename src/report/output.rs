@@ -3,7 +3,7 @@
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use super::unfinished::Unfinished;
+use super::atomic_file::Unfinished;
 use crate::error::Error;
 
 /// Names of standard output.

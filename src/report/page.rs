@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::motion::PlotRows;
 use super::text::{facts, table};
 use crate::error::Error;
-use crate::study::{Event, Row, Summary};
+use crate::simulate::{Event, Row, Summary};
 
 /// Most events that are listed.
 const EVENTS: usize = 200;

@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use super::facts::six;
 use super::figure::{Axis, Figure, panels};
+use super::key_values::six;
 use super::rows::shortest;
 use crate::error::Error;
-use crate::study::{Precision, PrecisionRow};
+use crate::precision::{Precision, PrecisionRow};
 
 /// The comparison of several scenes as CSV: one row for each method and tolerance, times the least; cells of
 /// what does not exist are empty.

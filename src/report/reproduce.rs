@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::{Axis, Figure, panels};
 use crate::error::Error;
-use crate::study::{Drawing, Entry, Plot, Reproduction, Style, Verdict};
+use crate::reproduce::{Drawing, Entry, Plot, Reproduction, Style, Verdict};
 
 /// A summary of the verdicts for JSON.
 #[derive(Clone, Debug, Serialize)]

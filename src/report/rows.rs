@@ -1,9 +1,10 @@
 //! Rows as CSV: header, shortest numbers that read back the same, empty cells for what does not exist.
 
 use super::Output;
-use super::thinned::Thinned;
+use super::decimate::Thinned;
 use crate::error::Error;
-use crate::study::{Reactions, Row, RowSink};
+use crate::simulate::Reactions;
+use crate::simulate::{Row, RowSink};
 
 const MOTION: &str =
     "t_s,theta_rad,omega_rad_per_s,alpha_rad_per_s2,x_m,v_m_per_s,a_m_per_s2,phi_rad";

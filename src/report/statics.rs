@@ -2,12 +2,12 @@
 
 use std::fmt::Write;
 
-use super::facts::{Facts, given};
+use super::key_values::{Facts, given};
 use super::rows::write;
 use super::text::{NAMES, extreme, place};
 use super::{Axis, Figure, Output, panels};
 use crate::error::Error;
-use crate::study::{StaticAnalysis, StaticsRow};
+use crate::statics::{StaticAnalysis, StaticsRow};
 
 const FORCE: &str = "slider_force_n,slider_force_min_n,slider_force_max_n";
 const TORQUE: &str = "crank_torque_nm,crank_torque_min_nm,crank_torque_max_nm";

@@ -1,7 +1,7 @@
 //! The periodic steady state in words.
 
-use super::facts::{Facts, given, with_error};
-use crate::study::{Estimated, Flywheel, SpeedExtreme, SteadyState};
+use super::key_values::{Facts, given, with_error};
+use crate::simulate::{Estimated, Flywheel, SpeedExtreme, SteadyState};
 
 fn shown(estimated: Estimated, unit: &str) -> String {
     let Estimated { value, error } = estimated;

@@ -3,10 +3,11 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-use super::facts::{Facts, degrees, in_turn, six, with_error};
 use super::joint::clearance;
+use super::key_values::{Facts, degrees, in_turn, six, with_error};
 use super::steady::steady_state;
-use crate::study::{Kinematics, Located, NamedPosition, Row, Summary, TorqueRange};
+use crate::kinematics::{Kinematics, Located, NamedPosition};
+use crate::simulate::{Row, Summary, TorqueRange};
 
 /// Characters of the longest name of a position.
 pub(super) const NAMES: usize = 24;

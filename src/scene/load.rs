@@ -80,7 +80,7 @@ impl Load {
     ///
     /// ```
     /// use slider_crank::scene::{Crank, Load, Scene};
-    /// use slider_crank::study::{Options, simulate};
+    /// use slider_crank::simulate::simulate::{Options, simulate};
     ///
     /// // 0.5 N m bring 0.02 kg m^2 at 100 rad/s to rest after 4 s.
     /// let brake = Scene::new(0.05, 0.15)

@@ -11,7 +11,7 @@ use slider_crank::plan::Method;
 use slider_crank::scene::{
     Branch, Clearance, ContactLaw, Crank, Every, Friction, Gravity, Joint, Load, Rod, Scene, Slider,
 };
-use slider_crank::study::{Options, Row, Summary, simulate, simulate_rows};
+use slider_crank::simulate::{Options, Row, Summary, simulate, simulate_rows};
 
 fn data(name: &str) -> Scene {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("data");

@@ -3,7 +3,7 @@
 
 use crate::support::machines::engine;
 use slider_crank::scene::{Branch, Clearance, Every, Friction, Joint, Load, Scene, Slider};
-use slider_crank::study::{Options, Row, Summary, simulate, simulate_rows};
+use slider_crank::simulate::{Options, Row, Summary, simulate, simulate_rows};
 
 const GRAVITY: f64 = 9.80665;
 const SLIDER: f64 = 0.3;

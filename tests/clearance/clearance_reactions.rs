@@ -4,7 +4,7 @@
 use slider_crank::scene::{
     Branch, Clearance, ContactLaw, Crank, Every, Gravity, Joint, Load, Rod, Scene, Slider,
 };
-use slider_crank::study::{Options, Row, simulate_rows};
+use slider_crank::simulate::{Options, Row, simulate_rows};
 
 const CRANK: Crank = Crank {
     mass: 0.8,

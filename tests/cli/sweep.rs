@@ -348,8 +348,8 @@ fn wherever_it_was_cut_off_the_result_is_the_same() {
 fn mark(folder: &Folder) -> String {
     let varied = [VARY[1], VARY[3]].map(|text| text.parse().expect("values"));
     let draft = slider_crank::scene::Draft::load(&folder.path("scene.toml")).expect("a scene");
-    let options = slider_crank::study::SweepOptions::default();
-    let sweep = slider_crank::study::Sweep::new(draft, varied.to_vec(), options).expect("a sweep");
+    let options = slider_crank::sweep::SweepOptions::default();
+    let sweep = slider_crank::sweep::Sweep::new(draft, varied.to_vec(), options).expect("a sweep");
     format!("# slider-crank sweep {:016x} 0..8\n", sweep.identity())
 }
 

@@ -10,7 +10,7 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use slider_crank::plan::Method;
 use slider_crank::scene::{Extent, Scene};
-use slider_crank::study::{Event, Options, Simulation, simulate};
+use slider_crank::simulate::{Event, Options, Simulation, simulate};
 
 const SCENES: usize = 320;
 /// What a method may cost that is compared.

@@ -7,7 +7,7 @@ use slider_crank::error::Error;
 use slider_crank::numeric::angle::Angle;
 use slider_crank::plan::Method;
 use slider_crank::scene::{Load, Scene, Variables};
-use slider_crank::study::{Options, Row, RowSink, simulate_rows};
+use slider_crank::simulate::{Options, Row, RowSink, simulate_rows};
 
 /// A pendulum that is driven.
 struct Pendulum;
@@ -104,7 +104,7 @@ fn of_turns(scene: &Scene, turns: f64, engine: &str) -> u64 {
         events_kept: 0,
         ..Options::default()
     };
-    let run = || slider_crank::study::simulate(&scene, &options).unwrap();
+    let run = || slider_crank::simulate::simulate(&scene, &options).unwrap();
     assert_eq!(run().summary.engine, engine);
     measure(|| assert!(run().summary.evaluations > 0)).count_total
 }

@@ -6,7 +6,7 @@ use crate::support::machines::machine;
 use proptest::prelude::*;
 use slider_crank::plan::Method;
 use slider_crank::scene::{Crank, Every, Gravity, Load, Scene, Variables};
-use slider_crank::study::{Options, Row, Simulation, simulate, simulate_rows};
+use slider_crank::simulate::{Options, Row, Simulation, simulate, simulate_rows};
 
 fn run(scene: &Scene, method: Method) -> Simulation {
     let options = Options {

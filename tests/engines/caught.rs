@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use slider_crank::plan::Method;
 use slider_crank::scene::{Crank, Expression, Friction, Gravity, Load, Scene, Slider};
-use slider_crank::study::{Options, Summary, simulate};
+use slider_crank::simulate::{Options, Summary, simulate};
 
 const INERTIA: f64 = 1e-3;
 /// Weight times its distance from the crank's axis, N m.

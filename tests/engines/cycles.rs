@@ -9,7 +9,9 @@ use slider_crank::scene::{
     Crank, Expression, Friction, Gravity, Interpolation, Load, Period, Scene, Slider, Table,
     Variable, Variables,
 };
-use slider_crank::study::{Options, SteadyOptions, SteadyState, Summary, simulate, steady_state};
+use slider_crank::simulate::{
+    Options, SteadyOptions, SteadyState, Summary, simulate, steady_state,
+};
 
 const INERTIA: f64 = 0.02;
 

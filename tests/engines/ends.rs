@@ -4,13 +4,12 @@ use crate::support::random::cases;
 use crate::support::random::magnitude;
 use proptest::prelude::*;
 use slider_crank::plan::Method;
+use slider_crank::precision::{PrecisionOptions, precision};
 use slider_crank::scene::{
     Branch, Crank, Every, Expression, Friction, Gravity, Interpolation, Load, Rod, Scene, Slider,
     Table, Variable,
 };
-use slider_crank::study::{
-    Options, PrecisionOptions, Row, Summary, precision, simulate, simulate_rows,
-};
+use slider_crank::simulate::{Options, Row, Summary, simulate, simulate_rows};
 
 const INERTIA: f64 = 0.02;
 

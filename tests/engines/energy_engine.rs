@@ -11,7 +11,7 @@ use slider_crank::scene::{
     Crank, Gravity, InertiaAbout, Interpolation, Load, Period, Rod, RodModel, Scene, Slider, Table,
     Variable, Variables,
 };
-use slider_crank::study::{Options, Simulation, simulate};
+use slider_crank::simulate::{Options, Simulation, simulate};
 
 fn with(method: Method) -> Options {
     Options {
@@ -279,7 +279,7 @@ fn inertia_that_vanishes_at_the_dead_centres_is_passed() {
         .slider(Slider { mass: 0.5 })
         .start(1.0, 30.0)
         .duration(1.0);
-    let kinematics = slider_crank::study::kinematics(&scene).unwrap();
+    let kinematics = slider_crank::kinematics::kinematics(&scene).unwrap();
     let row = kinematics.row(1.0);
     let speed = (row.dx * 30.0).abs();
     let run = by_energy(&scene);

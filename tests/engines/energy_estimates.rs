@@ -7,7 +7,7 @@ use slider_crank::numeric::angle::Angle;
 use slider_crank::numeric::chebyshev::Values;
 use slider_crank::plan::Method;
 use slider_crank::scene::{Crank, Expression, Gravity, Load, Rod, Scene, Slider};
-use slider_crank::study::{Options, simulate};
+use slider_crank::simulate::{Options, simulate};
 
 /// A scene, its end (rad, rad/s), and what half a unit in the last place of its lengths, start and duration changes there.
 ///

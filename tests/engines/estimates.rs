@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use slider_crank::scene::{Expression, Gravity, Load, Scene};
-use slider_crank::study::{Options, simulate};
+use slider_crank::simulate::{Options, simulate};
 
 const SCENES: usize = 520;
 

@@ -6,7 +6,7 @@
 use crate::energy_integral::EnergyIntegral;
 use slider_crank::plan::Method;
 use slider_crank::scene::{Branch, Crank, Gravity, InertiaAbout, Rod, RodModel, Scene, Slider};
-use slider_crank::study::{Options, simulate};
+use slider_crank::simulate::{Options, simulate};
 
 fn engine() -> Scene {
     Scene::duarte()

@@ -8,12 +8,11 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use slider_crank::error::Error;
+use slider_crank::explain::explain;
 use slider_crank::plan::Method;
+use slider_crank::precision::{PrecisionOptions, precision};
 use slider_crank::scene::{Crank, Every, Expression, Gravity, Load, Scene};
-use slider_crank::study::{
-    Options, PrecisionOptions, Row, Simulation, Summary, explain, precision, simulate,
-    simulate_rows,
-};
+use slider_crank::simulate::{Options, Row, Simulation, Summary, simulate, simulate_rows};
 
 fn run(scene: &Scene, method: Method) -> Simulation {
     let options = Options {

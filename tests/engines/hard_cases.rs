@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use slider_crank::plan::Method;
 use slider_crank::scene::Scene;
-use slider_crank::study::{Options, Simulation, simulate};
+use slider_crank::simulate::{Options, Simulation, simulate};
 
 fn scene(name: &str) -> Scene {
     let file = PathBuf::from(env!("CARGO_MANIFEST_DIR"))

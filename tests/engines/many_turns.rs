@@ -9,7 +9,7 @@ use crate::support::machines::machine;
 use proptest::prelude::*;
 use slider_crank::plan::Method;
 use slider_crank::scene::{Gravity, Load, Period, Scene, Variables};
-use slider_crank::study::{Options, Simulation, simulate};
+use slider_crank::simulate::{Options, Simulation, simulate};
 
 /// A torque over the crank angle and its integral from zero.
 #[derive(Clone, Copy, Debug)]

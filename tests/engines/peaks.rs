@@ -5,7 +5,7 @@ use slider_crank::plan::Method;
 use slider_crank::scene::{
     Clearance, Crank, Every, Friction, Joint, Load, Scene, Slider, Variables,
 };
-use slider_crank::study::{Options, Peaks, Row, Summary, simulate, simulate_rows};
+use slider_crank::simulate::{Options, Peaks, Row, Summary, simulate, simulate_rows};
 
 fn run(scene: &Scene, method: Method) -> (Summary, Vec<Row>) {
     let mut rows = Vec::new();

@@ -2,13 +2,12 @@
 
 use crate::support::machines::{leaning, rubbing};
 use slider_crank::plan::Method;
+use slider_crank::precision::{Precision, PrecisionOptions, PrecisionRow, precision};
 use slider_crank::scene::{
     Branch, Clearance, Crank, Friction, Gravity, Joint, Load, MotionKind, Rod, Scene, Slider,
     Variables,
 };
-use slider_crank::study::{
-    Options, Precision, PrecisionOptions, PrecisionRow, precision, simulate,
-};
+use slider_crank::simulate::{Options, simulate};
 
 fn compare(scene: &Scene, tolerances: &[f64]) -> Precision {
     let options = PrecisionOptions {

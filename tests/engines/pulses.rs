@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use slider_crank::plan::Method;
 use slider_crank::scene::{Crank, Expression, Interpolation, Load, Scene, Slider, Table, Variable};
-use slider_crank::study::{Options, Simulation, simulate};
+use slider_crank::simulate::{Options, Simulation, simulate};
 
 use crate::support::pulses::{Case, Chance, MACHINE, Of, Pulse, Shape};
 

@@ -3,7 +3,7 @@
 use slider_crank::scene::{
     Crank, Expression, Friction, Interpolation, Load, Scene, Slider, Table, Variable,
 };
-use slider_crank::study::{Options, simulate};
+use slider_crank::simulate::{Options, simulate};
 
 use slider_crank::plan::Method;
 

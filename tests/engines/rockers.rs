@@ -7,7 +7,7 @@ use crate::support::close;
 use slider_crank::mechanism::{Equation, Reactor};
 use slider_crank::plan::Method;
 use slider_crank::scene::{Branch, Crank, Geometry, Gravity, Load, Rod, Scene, Slider};
-use slider_crank::study::{Options, Row, simulate, simulate_rows};
+use slider_crank::simulate::{Options, Row, simulate, simulate_rows};
 
 /// Crank inertia about O; rod mass, its place along the rod and inertia; slider mass; gravity downwards.
 const BODIES: [f64; 6] = [0.02, 0.8, 0.03, 0.002, 0.5, 9.81];

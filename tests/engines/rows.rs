@@ -2,7 +2,7 @@
 
 use slider_crank::plan::Method;
 use slider_crank::scene::Scene;
-use slider_crank::study::{Options, Row, simulate_rows};
+use slider_crank::simulate::{Options, Row, simulate_rows};
 
 const SLIDER: &str = "[slider]\nmass = \"600 g\"\n";
 const FRICTION: &str = "[friction]\ncoefficient = 0.1\n";

@@ -3,7 +3,7 @@
 use crate::support::machines;
 use slider_crank::plan::Method;
 use slider_crank::scene::{Crank, Expression, Gravity, Load, Rod, Scene, Slider, Variables};
-use slider_crank::study::{Options, Summary, simulate};
+use slider_crank::simulate::{Options, Summary, simulate};
 
 fn machine() -> Scene {
     Scene::new(0.05, 0.15)

@@ -8,7 +8,9 @@ use slider_crank::plan::Method;
 use slider_crank::scene::{
     Branch, Clearance, Crank, Gravity, Joint, Load, Period, Rod, Scene, Slider, Variables,
 };
-use slider_crank::study::{Options, SteadyOptions, SteadyState, Summary, simulate, steady_state};
+use slider_crank::simulate::{
+    Options, SteadyOptions, SteadyState, Summary, simulate, steady_state,
+};
 
 fn steady(scene: &Scene) -> SteadyState {
     steady_state(scene, &SteadyOptions::default()).unwrap()

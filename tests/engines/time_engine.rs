@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 
 use crate::support::machines::machine;
 use proptest::prelude::*;
+use slider_crank::engine::collocation::Tableau;
 use slider_crank::engine::events::{self, Crossing};
-use slider_crank::engine::picard::Tableau;
 use slider_crank::engine::step::Step;
 use slider_crank::engine::time::{Finish, Method as Stepper, Settings, Start, run};
 use slider_crank::engine::{Counted, Motion, NODES};
@@ -16,7 +16,7 @@ use slider_crank::scene::{
     Branch, Crank, Expression, Gravity, Interpolation, Load, Rod, Scene, Slider, Table, Variable,
     Variables,
 };
-use slider_crank::study::{Options, Simulation, simulate};
+use slider_crank::simulate::{Options, Simulation, simulate};
 
 /// A rooted tree: its branches.
 #[derive(Clone, Debug, PartialEq)]

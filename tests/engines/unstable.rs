@@ -11,7 +11,7 @@ use proptest::test_runner::TestRunner;
 use slider_crank::mechanism::Equation;
 use slider_crank::plan::Method;
 use slider_crank::scene::{Crank, Expression, Gravity, Load, Scene, Slider};
-use slider_crank::study::{Options, simulate};
+use slider_crank::simulate::{Options, simulate};
 
 const SCENES: usize = 30;
 

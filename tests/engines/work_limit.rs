@@ -3,7 +3,7 @@
 use crate::support::machines;
 use slider_crank::plan::Method;
 use slider_crank::scene::{Crank, Expression, Friction, Gravity, Load, Scene, Slider};
-use slider_crank::study::{Options, Summary, simulate};
+use slider_crank::simulate::{Options, Summary, simulate};
 
 const INERTIA: f64 = 2e-6;
 

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use slider_crank::scene::{
     Crank, Expression, Friction, Gravity, Interpolation, Load, Rod, Scene, Slider, Table, Variable,
 };
-use slider_crank::study::{Options, Row, Simulation, Summary, simulate, simulate_rows};
+use slider_crank::simulate::{Options, Row, Simulation, Summary, simulate, simulate_rows};
 
 use crate::support::machines::machine;
 use crate::support::random::cases;

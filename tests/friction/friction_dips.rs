@@ -5,12 +5,13 @@ use std::f64::consts::PI;
 
 use crate::support::close;
 use slider_crank::engine::Motion;
-use slider_crank::engine::guard::{self, Watched};
+use slider_crank::engine::event_functions;
+use slider_crank::engine::event_functions::EventFunction;
 use slider_crank::engine::step::{Node, Step};
 use slider_crank::numeric::angle::Angle;
 use slider_crank::plan::Method;
 use slider_crank::scene::{Crank, Every, Friction, Gravity, Rod, Scene, Slider};
-use slider_crank::study::{Options, Row, Simulation, simulate, simulate_rows};
+use slider_crank::simulate::{Options, Row, Simulation, simulate, simulate_rows};
 
 const R: f64 = 0.05;
 const L: f64 = 0.15;
@@ -180,7 +181,7 @@ struct Dip {
     length: f64,
 }
 
-impl Watched<1> for Dip {
+impl EventFunction<1> for Dip {
     fn values(&self, _: f64, angle: Angle, _: f64) -> [f64; 1] {
         let x = angle.rest - self.from;
         [x * (x - self.length) * (1.0 + 0.3 * (2.0 * x).sin())]
@@ -196,7 +197,7 @@ fn changes(dip: &Dip, sign: f64) -> Vec<f64> {
     };
     let mut step = Step::new(0.0, node(0.0), node(1.3));
     let mut signs = [sign];
-    let found = guard::changes(&mut step, &Steady, dip, &mut signs);
+    let found = event_functions::changes(&mut step, &Steady, dip, &mut signs);
     assert_eq!(signs, [1.0]);
     found.into_iter().map(|change| change.t).collect()
 }

@@ -5,13 +5,13 @@ use crate::support::random::{Case, any_class, case, cases, magnitude, rotating_c
 use crate::support::run::Run;
 use crate::support::{close, condition};
 use proptest::prelude::*;
-use slider_crank::mechanism::{Constrained, Curve, Free, FromRest, Linkage};
+use slider_crank::mechanism::{Curve, CurveEquation, Free, FromRest, Linkage};
 use slider_crank::numeric::angle::Angle;
 use slider_crank::scene::{Friction, Scene};
 
 /// A case on its curve: the equation, the coordinate, the speed along it, θ' and θ''.
 struct OnCurve {
-    equation: Constrained,
+    equation: CurveEquation,
     q: Angle,
     speed: f64,
     dtheta: f64,
@@ -23,7 +23,7 @@ fn on_curve(case: &Case, omega: f64) -> OnCurve {
     let (curve, q) = Curve::through(&linkage, Angle::from(case.theta)).expect("a position");
     let place = curve.place(q.rest);
     OnCurve {
-        equation: Constrained::new(&case.scene, curve),
+        equation: CurveEquation::new(&case.scene, curve),
         q,
         speed: omega / place.dtheta,
         dtheta: place.dtheta,
@@ -200,7 +200,7 @@ proptest! {
             ..case.scene.clone()
         };
         let linkage = Linkage::new(&scene.geometry);
-        let equation = Constrained::new(&scene, Curve::on_crank(&linkage));
+        let equation = CurveEquation::new(&scene, Curve::on_crank(&linkage));
         let run = Run::new(&case);
         let slope = run.parts.exact.sin_phi.value() / run.parts.exact.cos_phi.value();
         let touch = equation.driven(case.t, Angle::from(case.theta), case.omega, alpha);

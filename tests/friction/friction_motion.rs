@@ -7,10 +7,11 @@ use crate::support::close;
 use crate::support::machines::{leaning, rubbing};
 use crate::support::random::{cases, magnitude};
 use proptest::prelude::*;
+use slider_crank::explain::explain;
 use slider_crank::mechanism::Equation;
 use slider_crank::plan::Method;
 use slider_crank::scene::{Branch, Crank, Gravity, Instant, Load, Rod, Scene, Slider, Variables};
-use slider_crank::study::{Options, Row, Simulation, explain, simulate, simulate_rows};
+use slider_crank::simulate::{Options, Row, Simulation, simulate, simulate_rows};
 
 fn run(scene: &Scene) -> Simulation {
     let run = simulate(scene, &Options::default()).expect("a run");

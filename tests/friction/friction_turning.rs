@@ -9,7 +9,7 @@ use crate::support::random::{cases, magnitude};
 use proptest::prelude::*;
 use slider_crank::plan::{Engine, Method, Plan};
 use slider_crank::scene::{Branch, Crank, Every, Gravity, Load, Rod, Scene, Slider, Variables};
-use slider_crank::study::{Options, Row, Simulation, simulate, simulate_rows};
+use slider_crank::simulate::{Options, Row, Simulation, simulate, simulate_rows};
 
 fn rubbing(scene: Scene, coefficient: f64) -> Scene {
     machines::rubbing(scene, coefficient, 1.2 * coefficient)

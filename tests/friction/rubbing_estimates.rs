@@ -10,8 +10,8 @@ use crate::support::rubbing::{Without, rubbing};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
+use slider_crank::precision::{PrecisionOptions, precision};
 use slider_crank::scene::Scene;
-use slider_crank::study::{PrecisionOptions, precision};
 
 /// Of 240 the same is true; it takes longer.
 const SCENES: usize = 100;

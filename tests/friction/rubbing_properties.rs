@@ -10,7 +10,7 @@ use crate::support::rubbing::{Without, rubbing};
 use proptest::prelude::*;
 use slider_crank::plan::Method;
 use slider_crank::scene::{InertiaAbout, Load, Scene};
-use slider_crank::study::{Options, Row, simulate_rows};
+use slider_crank::simulate::{Options, Row, simulate_rows};
 
 const ANY: Kind = Kind {
     method: Method::Auto,

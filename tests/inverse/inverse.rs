@@ -8,7 +8,7 @@ use slider_crank::mechanism::Linkage;
 use slider_crank::scene::{
     Branch, Crank, Gravity, Load, Measured, Measurement, Scene, Slider, Variables,
 };
-use slider_crank::study::{Options, Simulation, simulate};
+use slider_crank::simulate::{Options, Simulation, simulate};
 
 fn pump() -> Scene {
     Scene::new(0.05, 0.15)

@@ -8,7 +8,7 @@ use slider_crank::inverse::{FitKind, InverseOptions, inverse};
 use slider_crank::scene::{
     Crank, Friction, Gravity, Load, Measured, Measurement, Rod, Scene, Slider, Variables,
 };
-use slider_crank::study::{Options, simulate};
+use slider_crank::simulate::{Options, simulate};
 
 fn rubbing(scene: Scene, mu: f64) -> Scene {
     let mut scene = scene

@@ -9,7 +9,7 @@ use slider_crank::mechanism::Linkage;
 use slider_crank::scene::{
     Branch, Crank, Gravity, Load, Measured, Measurement, Scene, Slider, Variables,
 };
-use slider_crank::study::{Options, simulate};
+use slider_crank::simulate::{Options, simulate};
 
 const CRANK: f64 = 0.05;
 const INERTIA: f64 = 2e-3;

@@ -161,7 +161,7 @@ enum Sensor {
     /// Steps in a turn.
     Encoder(f64),
     /// x with noise in cranks; the lengths of the scene are stretched.
-    Position(f64, f64),
+    AngleModel(f64, f64),
 }
 
 /// A record: what is measured, values at times, the rows of the truth, and whether each row is sound.
@@ -190,11 +190,11 @@ fn measure(truth: &Truth, sensor: Sensor, random: &mut Random) -> Record {
             Sensor::Outliers(sigma) => theta + sigma * error + if far { 0.2 } else { 0.0 },
             Sensor::Correlated(sigma) => theta + sigma * last,
             Sensor::Encoder(steps) => (theta * steps / TAU).round() * TAU / steps,
-            Sensor::Position(sigma, _) => position(theta)[0] + sigma * CRANK * error,
+            Sensor::AngleModel(sigma, _) => position(theta)[0] + sigma * CRANK * error,
         });
     }
     let measured = match sensor {
-        Sensor::Position(..) => Measured::X,
+        Sensor::AngleModel(..) => Measured::X,
         _ => Measured::Theta,
     };
     Record {
@@ -309,7 +309,7 @@ fn slider_positions() {
     for motion in &MOTIONS {
         let truth = motion.run();
         for (noise, stretch) in [(1e-4, 1.0), (1e-3, 1.0), (1e-3, 1.003), (1e-3, 0.997)] {
-            let record = measure(&truth, Sensor::Position(noise, stretch), &mut random);
+            let record = measure(&truth, Sensor::AngleModel(noise, stretch), &mut random);
             let found = found(motion, &record, stretch);
             let turns = |list: &[f64]| (list[list.len() - 1] - list[0]) / TAU;
             let angles: Vec<f64> = found.rows.iter().map(|row| row.theta).collect();

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use crate::support::random::{angle, any_class, cases};
 use proptest::prelude::*;
-use slider_crank::mechanism::{Candidates, Linkage};
+use slider_crank::mechanism::{InversePosition, Linkage};
 use slider_crank::scene::Geometry;
 
 /// Reading an angle at a dead centre costs half the digits.
@@ -18,7 +18,7 @@ fn turned_back(angle: f64) -> f64 {
 }
 
 /// The angle is among those found, and all of them show the same.
-fn check(found: &Candidates, theta: f64, off: impl Fn(f64) -> Option<f64>) {
+fn check(found: &InversePosition, theta: f64, off: impl Fn(f64) -> Option<f64>) {
     let angles = found.angles();
     let nearest = angles
         .iter()

@@ -6,9 +6,9 @@ use crate::support::close;
 use crate::support::newton::Parts;
 use crate::support::random::{case, cases, rotating_crank};
 use proptest::prelude::*;
+use slider_crank::kinematics::forces;
 use slider_crank::mechanism::Linkage;
 use slider_crank::scene::{Interpolation, Load, Scene, Slider, Table, Variable, Variables};
-use slider_crank::study::forces;
 
 proptest! {
     #![proptest_config(cases(2000))]

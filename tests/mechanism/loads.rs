@@ -5,7 +5,7 @@ use slider_crank::scene::{
     Crank, Expression, Friction, Gravity, Interpolation, Load, Rod, Scene, Slider, Table, Variable,
     Variables,
 };
-use slider_crank::study::{Options, Row, simulate, simulate_rows};
+use slider_crank::simulate::{Options, Row, simulate, simulate_rows};
 
 const INERTIA: f64 = 0.02;
 const DAMPING: f64 = 0.05;

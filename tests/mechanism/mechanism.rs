@@ -7,7 +7,7 @@ use crate::support::random::{Case, any_class, case, cases, rotating_crank};
 use crate::support::run::{Run, check_reactions};
 use crate::support::{close, condition, geometry};
 use proptest::prelude::*;
-use slider_crank::mechanism::{Equation, Loads, Obstacle, Reactor, single};
+use slider_crank::mechanism::{Equation, Loads, Reactor, Singularity, single};
 use slider_crank::scene::{
     Branch, Instant, Interpolation, Load, Scene, Slider, Table, Variable, Variables,
 };
@@ -144,14 +144,14 @@ fn slope(f: impl Fn(f64) -> f64, h: f64) -> f64 {
 fn an_obstacle_says_why_there_is_no_acceleration() {
     let slider_alone = Scene::new(0.1, 0.3).slider(Slider { mass: 1.0 });
     let obstacle = |scene: &Scene, theta: f64| Equation::new(scene).obstacle(0.0, theta, 1.0);
-    assert_eq!(obstacle(&slider_alone, 0.0), Some(Obstacle::NoInertia));
+    assert_eq!(obstacle(&slider_alone, 0.0), Some(Singularity::NoInertia));
     assert_eq!(obstacle(&slider_alone, 0.1), None);
     let short_rod = Scene {
         geometry: geometry(0.3, 0.1, 0.0, Branch::Right),
         ..slider_alone.clone()
     };
     assert_eq!(obstacle(&short_rod, 0.3), None);
-    assert_eq!(obstacle(&short_rod, 0.4), Some(Obstacle::Blocked));
+    assert_eq!(obstacle(&short_rod, 0.4), Some(Singularity::Blocked));
     let no_value = Load::function(Variables::THETA, |now| (0.5 - now.theta).sqrt());
     assert_eq!(
         obstacle(&slider_alone.clone().force(no_value.clone()), 0.4),
@@ -159,14 +159,17 @@ fn an_obstacle_says_why_there_is_no_acceleration() {
     );
     assert_eq!(
         obstacle(&slider_alone.clone().force(no_value.clone()), 0.6),
-        Some(Obstacle::Load)
+        Some(Singularity::Load)
     );
     let huge = Load::function(Variables::THETA, |_| 1e308);
     let light = Scene::new(0.1, 0.3).slider(Slider { mass: 1e-3 });
-    assert_eq!(obstacle(&light.torque(huge), 0.1), Some(Obstacle::TooLarge));
+    assert_eq!(
+        obstacle(&light.torque(huge), 0.1),
+        Some(Singularity::TooLarge)
+    );
     assert_eq!(
         obstacle(&slider_alone.torque(no_value), 0.6),
-        Some(Obstacle::Load)
+        Some(Singularity::Load)
     );
 }
 

@@ -12,7 +12,7 @@ use slider_crank::scene::{
     Branch, Friction, Gravity, Interpolation, Load, RodModel, Scene, Slider, Table, Variable,
     Variables,
 };
-use slider_crank::study::{StaticAnalysis, StaticsOptions, statics};
+use slider_crank::statics::{StaticAnalysis, StaticsOptions, statics};
 
 proptest! {
     #![proptest_config(cases(3000))]

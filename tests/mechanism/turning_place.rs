@@ -6,7 +6,7 @@ use std::f64::consts::FRAC_PI_2;
 use crate::support::exact::Dd;
 use slider_crank::plan::Method;
 use slider_crank::scene::{Crank, Gravity, Scene};
-use slider_crank::study::{Options, Summary, simulate};
+use slider_crank::simulate::{Options, Summary, simulate};
 
 const G: f64 = 9.80665;
 const MASS: f64 = 1.3;

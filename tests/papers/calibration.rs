@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::support::close;
 use slider_crank::numeric::line_fit::LineFit;
-use slider_crank::study::calibrate;
+use slider_crank::statics::calibrate;
 
 const NG: [(f64, f64); 6] = [
     (2.45, 50.0),

@@ -2,7 +2,7 @@
 //! computed in 40 digits outside this library.
 
 use crate::support::close;
-use slider_crank::study::{Paper, Reproduction, Verdict, reproduce};
+use slider_crank::reproduce::{Paper, Reproduction, Verdict, reproduce};
 
 fn all() -> Reproduction {
     reproduce(&Paper::ALL).unwrap()

@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use slider_crank::error::Error;
 use slider_crank::plan;
 use slider_crank::scene::{Draft, Scene};
-use slider_crank::study::{Options, simulate};
+use slider_crank::simulate::{Options, simulate};
 
 use crate::support::random::cases;
 

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use slider_crank::plan::Method;
 use slider_crank::scene::{Branch, Scene};
-use slider_crank::study::{Options, Row, Simulation, Summary, simulate, simulate_rows};
+use slider_crank::simulate::{Options, Row, Simulation, Summary, simulate, simulate_rows};
 
 use super::image::{Image, Setting};
 use super::random::magnitude;

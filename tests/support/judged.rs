@@ -8,8 +8,9 @@ use std::f64::consts::TAU;
 use std::thread;
 
 use slider_crank::plan::Method;
+use slider_crank::precision::{PrecisionOptions, PrecisionRow, precision};
 use slider_crank::scene::{Extent, Scene};
-use slider_crank::study::{Options, PrecisionOptions, PrecisionRow, precision, simulate};
+use slider_crank::simulate::{Options, simulate};
 
 /// An error of angle or speed, as it is and as it was stated.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! The forces at the points of a panel.
 
 use super::Driven;
-use super::station::Station;
+use super::panel::Station;
 use super::sweep::Start;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MOST, Values};

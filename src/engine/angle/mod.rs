@@ -11,17 +11,17 @@
 //! there, and what is left of it is solved with the other form.
 
 mod errors;
+mod fixed_point;
 mod forces;
-mod map;
-mod march;
 mod newton;
 mod one_turn;
-mod past;
+mod panel;
+mod poincare_map;
+mod predictor;
 mod refine;
 mod rest;
 mod seen;
-mod station;
-mod steady;
+mod stepper;
 mod sweep;
 mod switch;
 mod table;
@@ -29,17 +29,17 @@ mod turn;
 
 use std::f64::consts::TAU;
 
-use super::energy::leg::Leg;
-use super::energy::{Orbit, Unserved};
-use super::pace::{Ends, Pace};
+use super::energy::segment::Segment;
+use super::energy::{NotApplicable, Orbit};
 use super::time::{FAR, Start};
+use super::work_forecast::{Ends, WorkForecast};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
 use crate::numeric::enclosure::{Detail, Reach};
 pub use errors::Errors;
-use march::{Done, March};
+pub use fixed_point::{CycleMap, FixedPoint, NoCycle, fixed_point};
 pub use one_turn::{Cycle, Turns};
-pub use steady::{CycleMap, FixedPoint, NoCycle, fixed_point};
+use stepper::{Done, PanelStepper};
 pub use table::{Switch, Table};
 
 /// What the engine needs of a mechanism.
@@ -115,7 +115,7 @@ pub struct Driving {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Short {
     /// Why it did.
-    pub why: Unserved,
+    pub why: NotApplicable,
     /// The angle there.
     pub angle: Angle,
     /// Kinetic energy there, J.
@@ -141,15 +141,15 @@ const TURNS_BEFORE_MAP: f64 = 48.0;
 /// Runs from a start until the goal is reached, or until the angle cannot be the independent variable any more.
 ///
 /// # Errors
-/// [`Unserved`] where it cannot be that from the start.
+/// [`NotApplicable`] where it cannot be that from the start.
 pub fn run<D: Driven>(
     driven: &D,
     from: Start,
     goal: Goal,
     resolution: Resolution,
-) -> Result<Driving, Unserved> {
+) -> Result<Driving, NotApplicable> {
     let (start, speed) = (from.angle.reduced(), from.speed);
-    let mut march = March::new(driven, start, speed, resolution)?;
+    let mut march = PanelStepper::new(driven, start, speed, resolution)?;
     march.begin = from.t;
     if from.t == 0.0 && start.turns == 0.0 {
         // An angle that is given, and not reduced, is not rounded.
@@ -160,20 +160,25 @@ pub fn run<D: Driven>(
     let repeats = !reads_time && !march.has_switch();
     let mut pace = pace(&march, goal, reads_time);
     let way = f64::from(driven.cycle()) * TAU;
-    let mut leg = Leg::open();
+    let mut leg = Segment::open();
     loop {
         let spent = march.evaluations;
         let done = march.at_cycle() && leg.len() > 0;
         if done && pace.is_hopeless(spent, march.t.0, way).is_some() {
-            return Ok(ended(march, leg, (start, speed), Unserved::TooManyTurns));
+            return Ok(ended(
+                march,
+                leg,
+                (start, speed),
+                NotApplicable::TooManyTurns,
+            ));
         }
         if repeats && march.at_cycle() && march.turns.abs() >= TURNS_BEFORE_MAP {
-            return map::run(march, leg, start, speed, goal, resolution);
+            return poincare_map::run(march, leg, start, speed, goal, resolution);
         }
         let next = if leg.len() < MOST_PANELS {
             march.panel()
         } else {
-            Err(Unserved::TooLong)
+            Err(NotApplicable::TooLong)
         };
         let Done { panel, spent, work } = match next {
             Ok(done) => done,
@@ -206,7 +211,7 @@ pub fn run<D: Driven>(
 }
 
 /// What tells whether a run whose turns are run through one by one will reach its goal.
-fn pace<D: Driven>(march: &March<'_, D>, goal: Goal, reads_time: bool) -> Pace {
+fn pace<D: Driven>(march: &PanelStepper<'_, D>, goal: Goal, reads_time: bool) -> WorkForecast {
     let (t, way) = match goal {
         Goal::Time(until) => (until, f64::INFINITY),
         Goal::Turned(way) => (FAR, way),
@@ -216,15 +221,15 @@ fn pace<D: Driven>(march: &March<'_, D>, goal: Goal, reads_time: bool) -> Pace {
         way,
         evaluations: march.most_evaluations,
     };
-    Pace::new(0.0, march.evaluations, ends, reads_time)
+    WorkForecast::new(0.0, march.evaluations, ends, reads_time)
 }
 
 /// A run that ended before its goal, from an angle with a speed (rad/s).
 fn ended<D: Driven>(
-    march: March<'_, D>,
-    leg: Leg,
+    march: PanelStepper<'_, D>,
+    leg: Segment,
     (start, speed): (Angle, f64),
-    why: Unserved,
+    why: NotApplicable,
 ) -> Driving {
     Driving {
         short: leg.last_angle(start.turns).map(|angle| Short {
@@ -241,7 +246,7 @@ fn ended<D: Driven>(
 }
 
 /// Work from the begin of the last panel until a time in it.
-fn work_until(leg: &Leg, until: f64, spent: &Values) -> f64 {
+fn work_until(leg: &Segment, until: f64, spent: &Values) -> f64 {
     let Some((panel, since)) = leg.panel_at(until) else {
         return 0.0;
     };

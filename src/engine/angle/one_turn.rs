@@ -1,10 +1,10 @@
 //! One cycle: what it gains, and its motion.
 
-use super::march::March;
-use super::steady::CycleMap;
+use super::super::energy::segment::Segment;
+use super::fixed_point::CycleMap;
+use super::stepper::PanelStepper;
 use super::{Driven, Resolution};
-use crate::engine::energy::leg::Leg;
-use crate::engine::energy::{Orbit, Unserved};
+use crate::engine::energy::{NotApplicable, Orbit};
 use crate::numeric::angle::Angle;
 
 /// Relative error of a cycle's gain by rounding, against its largest energy.
@@ -28,7 +28,7 @@ pub struct Cycle {
 
 /// Cycles of any energy over the crank angle.
 pub struct Turns<'a, D: Driven> {
-    march: March<'a, D>,
+    march: PanelStepper<'a, D>,
     start: Angle,
     direction: f64,
     /// Kinetic energy at the first speed, J.
@@ -41,15 +41,15 @@ impl<'a, D: Driven> Turns<'a, D> {
     /// From `angle` in the direction of `speed` (rad/s).
     ///
     /// # Errors
-    /// [`Unserved`] where the angle cannot be the independent variable.
+    /// [`NotApplicable`] where the angle cannot be the independent variable.
     pub fn new(
         driven: &'a D,
         angle: Angle,
         speed: f64,
         resolution: Resolution,
-    ) -> Result<Turns<'a, D>, Unserved> {
+    ) -> Result<Turns<'a, D>, NotApplicable> {
         let start = angle.reduced();
-        let march = March::new(driven, start, speed, resolution)?;
+        let march = PanelStepper::new(driven, start, speed, resolution)?;
         Ok(Turns {
             first: march.kinetic,
             inertia: 2.0 * march.kinetic / (speed * speed),
@@ -64,8 +64,8 @@ impl<'a, D: Driven> Turns<'a, D> {
     }
 
     /// The panels of a cycle, and the least energy at their points, J.
-    fn whole_turn(&mut self, kinetic: f64) -> Result<(Leg, f64), Unserved> {
-        let mut leg = Leg::open();
+    fn whole_turn(&mut self, kinetic: f64) -> Result<(Segment, f64), NotApplicable> {
+        let mut leg = Segment::open();
         let mut least = kinetic;
         self.march.restart(kinetic);
         loop {
@@ -80,8 +80,8 @@ impl<'a, D: Driven> Turns<'a, D> {
     /// The cycle that begins with a kinetic energy, J.
     ///
     /// # Errors
-    /// [`Unserved`] where the crank does not complete it.
-    pub fn turn(&mut self, kinetic: f64) -> Result<Cycle, Unserved> {
+    /// [`NotApplicable`] where the crank does not complete it.
+    pub fn turn(&mut self, kinetic: f64) -> Result<Cycle, NotApplicable> {
         let (leg, least) = self.whole_turn(kinetic)?;
         let speed = self.speed(kinetic);
         let largest = self.march.fastest();
@@ -101,7 +101,7 @@ impl<D: Driven> CycleMap for Turns<'_, D> {
         self.first
     }
 
-    fn gain(&mut self, kinetic: f64) -> Result<f64, Unserved> {
+    fn gain(&mut self, kinetic: f64) -> Result<f64, NotApplicable> {
         self.whole_turn(kinetic).map(|_| self.march.gain)
     }
 

@@ -1,9 +1,9 @@
 //! Panels that were not solved: another degree, or cut.
 
 use super::Driven;
-use super::march::March;
+use super::stepper::PanelStepper;
 use super::sweep::Unsolved;
-use crate::engine::energy::Unserved;
+use crate::engine::energy::NotApplicable;
 
 /// With less than this part of the largest kinetic energy the crank is near to rest.
 const SLOW: f64 = 1e-2;
@@ -18,9 +18,9 @@ const SOON: f64 = 0.25;
 /// the next turn too.
 const LITTLE: f64 = 0.1;
 
-impl<D: Driven> March<'_, D> {
+impl<D: Driven> PanelStepper<'_, D> {
     /// Raises the degree of the next panel, or cuts it: for this turn, and for all if it happens again or will.
-    pub(super) fn refine(&mut self, why: Unsolved) -> Result<(), Unserved> {
+    pub(super) fn refine(&mut self, why: Unsolved) -> Result<(), NotApplicable> {
         self.refined = true;
         let fastest = self.fastest();
         let for_now = !self.parts.is_empty();
@@ -38,15 +38,15 @@ impl<D: Driven> March<'_, D> {
             && self.kinetic < STOPS * fastest
             && half < SOON;
         if stops || slow && half < SHORT {
-            return Err(Unserved::TooSlow);
+            return Err(NotApplicable::TooSlow);
         }
         let Some([first, second]) = station.parts(self.driven, 0.5, self.fine)? else {
             // Its forces may have brought it to this energy within a small part of a radian.
             let force = station.table.force[0] + station.table.push[0];
             return Err(if slow || self.kinetic < SLOW * force.abs() {
-                Unserved::TooSlow
+                NotApplicable::TooSlow
             } else {
-                Unserved::NotSmooth
+                NotApplicable::NotSmooth
             });
         };
         if for_now {
@@ -64,7 +64,7 @@ impl<D: Driven> March<'_, D> {
     }
 
     /// Cuts every panel that failed for good.
-    pub fn settle(&mut self) -> Result<(), Unserved> {
+    pub fn settle(&mut self) -> Result<(), NotApplicable> {
         let stations = std::mem::take(&mut self.stations);
         for station in stations {
             let parts = if station.failed {

@@ -1,13 +1,13 @@
 //! What is left of a panel after a change of the switch.
 
 use super::Driven;
-use super::march::March;
-use super::station::Station;
-use crate::engine::energy::Unserved;
+use super::panel::Station;
+use super::stepper::PanelStepper;
+use crate::engine::energy::NotApplicable;
 
-impl<D: Driven> March<'_, D> {
+impl<D: Driven> PanelStepper<'_, D> {
     /// What is left of the next panel from an angle on.
-    pub(super) fn rest(&self, from: f64) -> Result<Station<D::Place>, Unserved> {
+    pub(super) fn rest(&self, from: f64) -> Result<Station<D::Place>, NotApplicable> {
         let whole = &self.stations[self.next];
         let station = self.parts.last().unwrap_or(whole);
         let index = station.is_rest.map_or(0, |index| index + 1);

@@ -2,7 +2,7 @@
 
 use super::Driven;
 use super::Table;
-use super::station::{Fineness, Station};
+use super::panel::{Fineness, Station};
 use super::sweep::{Start, Swept};
 use crate::engine::sight::{Look, Way, hidden};
 use crate::numeric::angle::Angle;

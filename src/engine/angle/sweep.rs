@@ -3,7 +3,7 @@
 use super::Driven;
 use super::forces::Forces;
 use super::newton::correction;
-use super::station::Station;
+use super::panel::Station;
 use crate::numeric::chebyshev::{MOST, Rule, Series, Values, largest};
 
 /// The state at the start of a panel.

@@ -1,6 +1,6 @@
 //! Where the switch changes its sign on a panel, and with it the form of the forces.
 
-use super::station::Station;
+use super::panel::Station;
 use super::sweep::{Start, Swept};
 use super::{Driven, Switch};
 use crate::numeric::angle::Angle;

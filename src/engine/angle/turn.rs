@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use super::Driven;
-use super::station::{FIRST_DEGREE, Fineness, Station};
-use crate::engine::energy::Unserved;
+use super::panel::{FIRST_DEGREE, Fineness, Station};
+use crate::engine::energy::NotApplicable;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MOST, Rule};
 
@@ -16,7 +16,7 @@ pub(super) fn stations<D: Driven>(
     driven: &D,
     start: Angle,
     fine: Fineness,
-) -> Result<Vec<Station<D::Place>>, Unserved> {
+) -> Result<Vec<Station<D::Place>>, NotApplicable> {
     let (few, all) = (driven.corners(), driven.corners_if_light());
     if few.len() < all.len() {
         // Beyond this degree more panels are no more work.
@@ -35,7 +35,7 @@ fn between<D: Driven>(
     start: Angle,
     fine: Fineness,
     most: usize,
-) -> Result<Option<Vec<Station<D::Place>>>, Unserved> {
+) -> Result<Option<Vec<Station<D::Place>>>, NotApplicable> {
     let direction = fine.speed.signum();
     let mut list: Vec<Station<D::Place>> = Vec::with_capacity(8);
     let cycle = f64::from(driven.cycle());

@@ -7,16 +7,16 @@
 //! zero, without a search.
 
 mod accept;
-mod breaks;
+mod accepted_step;
+mod contact_phase;
+mod discontinuities;
 mod dop853;
 mod flight;
 mod run;
 mod step;
-mod stretch;
-mod touch;
 
+pub use accepted_step::Stretch;
 pub use run::{Ended, Finish, run};
-pub use stretch::Stretch;
 
 /// What the motion is doing.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! The run, phase by phase.
 
-use super::breaks::Breaks;
+use super::discontinuities::Breaks;
 use super::step::Stages;
 use super::{Contact, Phase, Sample, Settings, Stretch};
 

@@ -2,11 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use super::home::Return;
-use super::leg::{After, Leg};
 use super::panel::{Panel, Tried, Uncertain};
 use super::piece::{LONGEST, Piece, Turning, missing, next_end};
-use super::{Profile, Unserved};
+use super::segment::{After, Segment};
+use super::turn_closure::Return;
+use super::{NotApplicable, Profile};
 
 /// Where a leg begins.
 #[derive(Clone, Copy, Debug)]
@@ -63,7 +63,7 @@ struct Builder<'a> {
     /// How far that may be off, J.
     gain_error: f64,
     home: Option<Return<'a>>,
-    leg: Leg,
+    leg: Segment,
     /// Where the next panel begins, rad.
     at: f64,
     /// Kinetic energy there, and the largest so far, J.
@@ -77,7 +77,7 @@ struct Builder<'a> {
     turns: f64,
 }
 
-impl Leg {
+impl Segment {
     /// Panels until the time `until` is passed or `most_turns` are complete, if the forces are the same in each;
     /// their series end where they have decayed to `tolerance`.
     pub fn build(
@@ -86,7 +86,7 @@ impl Leg {
         until: f64,
         tolerance: f64,
         most_turns: f64,
-    ) -> Result<Leg, Unserved> {
+    ) -> Result<Segment, NotApplicable> {
         let whole_turn = begin.start + begin.direction * TAU;
         let work = profile.work_of_turn();
         let mut builder = Builder {
@@ -96,7 +96,7 @@ impl Leg {
             gain: work.map(|(work, _)| begin.direction * work),
             gain_error: work.map_or(0.0, |(_, error)| error),
             home: Return::new(profile, whole_turn, begin.kinetic),
-            leg: Leg::open(),
+            leg: Segment::open(),
             at: begin.start,
             kinetic: begin.kinetic,
             largest: begin.kinetic,
@@ -111,7 +111,7 @@ impl Leg {
         {
             attempts += 1;
             if attempts > MOST_ATTEMPTS {
-                return Err(Unserved::TooLong);
+                return Err(NotApplicable::TooLong);
             }
             if builder.leg.len() > 0 && profile.is_spent() {
                 break;
@@ -127,7 +127,7 @@ impl Leg {
 
 impl Builder<'_> {
     /// Tries the next panel: takes it, or makes it shorter.
-    fn panel(&mut self, tolerance: f64) -> Result<(), Unserved> {
+    fn panel(&mut self, tolerance: f64) -> Result<(), NotApplicable> {
         let piece = self.piece();
         let uncertain = self.uncertain(piece.turning);
         let at = piece.from;
@@ -138,7 +138,7 @@ impl Builder<'_> {
                 Better::None => self.take(*panel, off),
                 Better::Turning(ahead) => self.ahead = Some(ahead),
                 Better::Shorter if self.length <= SHORTEST * at.abs().max(1.0) => {
-                    return Err(Unserved::NotFinite);
+                    return Err(NotApplicable::NotFinite);
                 }
                 Better::Shorter => {
                     // Rounding of the panel on which it was found may have made up the turning point.
@@ -155,7 +155,7 @@ impl Builder<'_> {
                     missed: f64::INFINITY,
                 });
             }
-            _ if short => return Err(Unserved::NotFinite),
+            _ if short => return Err(NotApplicable::NotFinite),
             _ => self.length = 0.5 * piece.span().abs(),
         }
         Ok(())

@@ -1,9 +1,9 @@
 //! Smallest and largest speeds.
 
 use super::Orbit;
-use super::leg::After;
 use super::panel::Panel;
 use super::piece::{Piece, Turning};
+use super::segment::After;
 use crate::numeric::chebyshev::{Rule, Values};
 use crate::numeric::root;
 

@@ -1,6 +1,6 @@
 //! The kinetic energy on a piece, from the force.
 
-use super::Unserved;
+use super::NotApplicable;
 use super::panel::Tried;
 use super::piece::{Piece, Turning};
 use crate::numeric::chebyshev::{Rule, Series, Values};
@@ -20,13 +20,13 @@ pub(super) struct Energy<'a> {
 const LEAST_WAY: f64 = 1e-12;
 
 /// The kinetic energy (J) of a start at an angle (rad) under a force (N m), if a motion can be computed from it.
-pub(super) fn at_start(theta: f64, kinetic: f64, force: f64) -> Result<f64, Unserved> {
+pub(super) fn at_start(theta: f64, kinetic: f64, force: f64) -> Result<f64, NotApplicable> {
     if !kinetic.is_finite() || !force.is_finite() {
-        Err(Unserved::NotFinite)
+        Err(NotApplicable::NotFinite)
     } else if kinetic == 0.0 && force == 0.0 {
-        Err(Unserved::Equilibrium)
+        Err(NotApplicable::Equilibrium)
     } else if kinetic > 0.0 && kinetic < LEAST_WAY * theta.abs().max(1.0) * force.abs() {
-        Err(Unserved::TooSlow)
+        Err(NotApplicable::TooSlow)
     } else {
         Ok(kinetic)
     }

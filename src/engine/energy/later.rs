@@ -1,7 +1,7 @@
 //! What follows after the first turns of a long motion.
 
-use super::gains::Gains;
-use super::leg::Leg;
+use super::euler_maclaurin::Gains;
+use super::segment::Segment;
 use super::turns::{Mark, Turns};
 use crate::numeric::angle::Angle;
 
@@ -40,7 +40,7 @@ impl Later {
     }
 
     /// Calls for each turn in order, with its start and its motion, until it says that it is enough.
-    pub fn each_turn(&self, visit: impl FnMut(&Mark, &Leg) -> bool) {
+    pub fn each_turn(&self, visit: impl FnMut(&Mark, &Segment) -> bool) {
         match self {
             Later::Mapped(turns) => turns.each_turn(visit),
             Later::Gaining(gains) => gains.each_turn(visit),

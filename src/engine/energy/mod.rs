@@ -7,20 +7,20 @@
 //! makes dt/ds smooth. Where each turn gains the same work, the time of many turns is a sum in closed form.
 
 mod build;
-pub(in crate::engine) mod doubt;
+pub(in crate::engine) mod error_bound;
+mod euler_maclaurin;
 mod extreme;
-mod gains;
-mod home;
 mod kinetic;
 mod later;
-pub(in crate::engine) mod leg;
 mod noise;
 mod one_turn;
 mod orbit;
 pub(in crate::engine) mod panel;
 mod passages;
 pub(in crate::engine) mod piece;
-mod steep;
+pub(in crate::engine) mod segment;
+mod time_sensitivity;
+mod turn_closure;
 pub(in crate::engine) mod turns;
 
 use crate::numeric::chebyshev::Values;
@@ -59,7 +59,7 @@ pub trait Profile {
 
 /// Why a motion cannot be computed from its energy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Unserved {
+pub enum NotApplicable {
     /// At rest without a force.
     Equilibrium,
     /// A value is not finite: the mechanism reaches a limit, or a load has no value.

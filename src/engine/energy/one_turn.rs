@@ -2,9 +2,9 @@
 
 use super::Profile;
 use super::build::Begin;
-use super::leg::{After, Leg};
 use super::panel::{DEGREE, Panel};
 use super::piece::{Piece, missing};
+use super::segment::{After, Segment};
 use crate::numeric::chebyshev::{Rule, Values};
 use crate::numeric::exact::two_sum;
 
@@ -40,7 +40,7 @@ impl OneTurn {
             kinetic,
             off: 0.0,
         };
-        let leg = Leg::build(profile, begin, until, TAIL, 1.0).ok()?;
+        let leg = Segment::build(profile, begin, until, TAIL, 1.0).ok()?;
         if leg.after != After::GoesOn {
             return None;
         }
@@ -94,8 +94,8 @@ impl OneTurn {
     }
 
     /// Its motion.
-    pub fn leg(&self, kinetic: f64) -> Leg {
-        let mut leg = Leg::open();
+    pub fn leg(&self, kinetic: f64) -> Segment {
+        let mut leg = Segment::open();
         for station in &self.stations {
             leg.push(station.panel(kinetic));
         }

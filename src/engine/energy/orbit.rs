@@ -3,13 +3,13 @@
 use std::f64::consts::TAU;
 
 use super::build::Begin;
-use super::doubt::off_by_place;
-use super::gains::{Course, Gains};
+use super::error_bound::off_by_place;
+use super::euler_maclaurin::{Course, Gains};
 use super::kinetic::at_start;
 use super::later::Later;
-use super::leg::{After, Leg};
+use super::segment::{After, Segment};
 use super::turns::Turns;
-use super::{Profile, Unserved};
+use super::{NotApplicable, Profile};
 use crate::numeric::angle::Angle;
 use crate::numeric::exact::two_sum;
 
@@ -30,9 +30,9 @@ pub struct Orbit {
     pub(super) from_rest: bool,
     /// How far the kinetic energy of the start may be off, J.
     pub(super) off: f64,
-    pub(super) forward: Leg,
+    pub(super) forward: Segment,
     /// From the start the other way, for motions that turn back.
-    pub(super) backward: Option<Leg>,
+    pub(super) backward: Option<Segment>,
     /// What follows after the first turns, for long motions whose turns differ.
     pub(super) later: Option<Box<Later>>,
 }
@@ -42,14 +42,14 @@ impl Orbit {
     /// `tolerance`.
     ///
     /// # Errors
-    /// [`Unserved`] where it cannot be computed from its energy.
+    /// [`NotApplicable`] where it cannot be computed from its energy.
     pub fn new(
         profile: &dyn Profile,
         angle: Angle,
         speed: f64,
         until: f64,
         tolerance: f64,
-    ) -> Result<Orbit, Unserved> {
+    ) -> Result<Orbit, NotApplicable> {
         let start = angle.reduced();
         let theta = start.rest;
         let (inertia, force) = profile.inertia_and_force(theta);
@@ -72,7 +72,7 @@ impl Orbit {
                 kinetic,
                 off,
             };
-            Leg::build(profile, begin, until, tolerance, most_turns)
+            Segment::build(profile, begin, until, tolerance, most_turns)
         };
         let mut forward = leg(direction, until, FIRST_TURNS)?;
         let mut later = None;
@@ -113,7 +113,7 @@ impl Orbit {
     }
 
     /// A motion in one direction that does not repeat.
-    pub(in crate::engine) fn one_way(start: Angle, speed: f64, leg: Leg) -> Orbit {
+    pub(in crate::engine) fn one_way(start: Angle, speed: f64, leg: Segment) -> Orbit {
         Orbit {
             start,
             direction: speed.signum(),
@@ -127,7 +127,12 @@ impl Orbit {
     }
 
     /// A motion in one direction of many turns, the first of them on a leg.
-    pub(in crate::engine) fn of_turns(start: Angle, speed: f64, leg: Leg, later: Turns) -> Orbit {
+    pub(in crate::engine) fn of_turns(
+        start: Angle,
+        speed: f64,
+        leg: Segment,
+        later: Turns,
+    ) -> Orbit {
         Orbit {
             later: Some(Box::new(Later::Mapped(later))),
             ..Orbit::one_way(start, speed, leg)
@@ -218,7 +223,7 @@ impl Orbit {
         if t <= there || self.forward.after != After::TurnsBack {
             return self.forward.state(t);
         }
-        let mirrored = |leg: &Leg, t: f64| {
+        let mirrored = |leg: &Segment, t: f64| {
             let (angle, speed) = leg.state(t);
             (angle, -speed)
         };
@@ -255,7 +260,7 @@ impl Orbit {
     }
 
     /// Its last leg.
-    pub(in crate::engine) fn last_leg(&self) -> &Leg {
+    pub(in crate::engine) fn last_leg(&self) -> &Segment {
         match self.later.as_deref() {
             Some(Later::Mapped(turns)) => &turns.last,
             _ => &self.forward,
@@ -276,7 +281,7 @@ impl Orbit {
 
     /// Largest kinetic energy at the ends of panels until a time (s), J.
     pub fn largest_kinetic(&self, until: f64) -> f64 {
-        let back = self.backward.as_ref().map_or(0.0, Leg::largest_kinetic);
+        let back = self.backward.as_ref().map_or(0.0, Segment::largest_kinetic);
         let later = self.later.as_ref();
         let later = later.map_or(0.0, |later| later.largest_kinetic(until));
         self.forward.largest_kinetic().max(back).max(later)
@@ -284,7 +289,7 @@ impl Orbit {
 
     /// Number of panels.
     pub fn panels(&self) -> usize {
-        self.forward.len() + self.backward.as_ref().map_or(0, Leg::len)
+        self.forward.len() + self.backward.as_ref().map_or(0, Segment::len)
     }
 }
 

@@ -4,8 +4,8 @@ use super::extreme::{Extreme, extremes};
 use super::kinetic::Energy;
 use super::noise::Noise;
 use super::piece::{Piece, Turning};
-use super::steep::Steep;
-use super::{Profile, Unserved};
+use super::time_sensitivity::TimeSensitivity;
+use super::{NotApplicable, Profile};
 use crate::numeric::chebyshev::{self, Rule, Series, Values};
 
 /// Degree of the series: half a turn of a usual engine is right to rounding.
@@ -70,14 +70,14 @@ impl Panel {
         kinetic: f64,
         tolerance: f64,
         uncertain: Uncertain,
-    ) -> Result<Tried, Unserved> {
+    ) -> Result<Tried, NotApplicable> {
         let rule = Rule::of(DEGREE);
         let (mut inertia, mut force) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
         let angles = rule.values(|x| piece.angle(x));
         profile.tabulate(&angles, DEGREE + 1, &mut inertia, &mut force);
         let known = |values: &Values| values.iter().all(|value| value.is_finite());
         if !known(&inertia) || !known(&force) {
-            return Err(Unserved::NotFinite);
+            return Err(NotApplicable::NotFinite);
         }
         // Only next to a balance, where panels are short, may forces be small differences of large ones.
         let near_balance = piece.span().abs() < SHORT;
@@ -119,7 +119,7 @@ impl Panel {
         if tail > tolerance.max(noise.slope) {
             return Ok(Tried::Unresolved);
         }
-        let steep = Steep::of(&piece, &force, rounding);
+        let steep = TimeSensitivity::of(&piece, &force, rounding);
         let missed = match piece.turning {
             Turning::AtEnd => energy.kinetic + 2.0 * span * kinetic[0],
             _ => 0.0,
@@ -268,7 +268,13 @@ impl Panel {
 
 /// What errors of the kinetic energy make of the duration of a panel, relative to it. `slopes` and `kinetic` are dt/dx
 /// and the kinetic energy (J) at the points, `off` (J) what it may be off.
-fn shaken(energy: &Energy<'_>, steep: &Steep, slopes: &Values, kinetic: &Values, off: f64) -> f64 {
+fn shaken(
+    energy: &Energy<'_>,
+    steep: &TimeSensitivity,
+    slopes: &Values,
+    kinetic: &Values,
+    off: f64,
+) -> f64 {
     let (piece, rule) = (&energy.piece, energy.rule);
     let left_out = energy.left_out();
     match piece.turning {

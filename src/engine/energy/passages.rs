@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use super::Orbit;
-use super::leg::{After, Leg};
 use super::panel::Panel;
 use super::piece::Piece;
+use super::segment::{After, Segment};
 use crate::numeric::angle::Angle;
 
 /// A state on the way.
@@ -71,7 +71,7 @@ impl Panel {
     }
 }
 
-impl Leg {
+impl Segment {
     /// Calls for each of some marked angles (rad, in [0, 2π)) that it passes, in order, with the time after its start
     /// and the speed, until it says that it is enough. Neither its start nor a turning point at its end is passed.
     pub fn each_mark(&self, marks: &[f64], mut visit: impl FnMut(f64, Angle, f64) -> bool) -> bool {
@@ -160,7 +160,7 @@ impl Orbit {
     }
 
     /// Adds what a leg that begins at a time (s) passes, there and back if it turns back.
-    fn run_through(&self, leg: &Leg, since: f64, marks: &[f64], found: &mut Vec<Passage>) {
+    fn run_through(&self, leg: &Segment, since: f64, marks: &[f64], found: &mut Vec<Passage>) {
         let first = found.len();
         leg.each_mark(marks, |after, angle, speed| {
             found.push(self.passage(since + after, angle, speed, false));

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::leg::Leg;
+use super::segment::Segment;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{Rule, Series};
 use crate::numeric::exact::two_sum;
@@ -64,7 +64,7 @@ pub(in crate::engine) struct Cell {
     middle: f64,
     half: f64,
     rule: &'static Rule,
-    legs: Vec<Leg>,
+    legs: Vec<Segment>,
     duration: Series,
     gain: Series,
     work: Series,
@@ -72,7 +72,7 @@ pub(in crate::engine) struct Cell {
 
 impl Cell {
     /// A cell from turns that begin with the energies `middle + half·x`, J, at the points x of a rule.
-    pub fn new(middle: f64, half: f64, rule: &'static Rule, turns: Vec<(Leg, Turn)>) -> Cell {
+    pub fn new(middle: f64, half: f64, rule: &'static Rule, turns: Vec<(Segment, Turn)>) -> Cell {
         let series = |of: fn(&Turn) -> f64| {
             let mut values = [0.0; crate::numeric::chebyshev::MOST + 1];
             for (value, (_, turn)) in values.iter_mut().zip(&turns) {
@@ -112,9 +112,9 @@ impl Cell {
         }
     }
 
-    fn leg(&self, kinetic: f64) -> Leg {
+    fn leg(&self, kinetic: f64) -> Segment {
         let x = (kinetic - self.middle) / self.half;
-        Leg::blend(&self.legs, &self.rule.shares(x)[..self.legs.len()])
+        Segment::blend(&self.legs, &self.rule.shares(x)[..self.legs.len()])
     }
 }
 
@@ -125,7 +125,7 @@ pub(in crate::engine) struct Turns {
     /// Starts of some of the turns, in order, the first and the last turn among them.
     pub marks: Vec<Mark>,
     /// The last turn, as far as it was needed.
-    pub last: Leg,
+    pub last: Segment,
     /// Whether the turns from the last mark but one on are all the same.
     pub steady: bool,
 }
@@ -174,7 +174,7 @@ impl Turns {
     }
 
     /// The motion in the turn that begins at a mark.
-    fn leg(&self, mark: &Mark) -> Leg {
+    fn leg(&self, mark: &Mark) -> Segment {
         if mark.turns >= self.last_mark().turns {
             return self.last.clone();
         }
@@ -231,7 +231,7 @@ impl Turns {
     }
 
     /// Calls for each turn in order, with its start and its motion, until it says that it is enough.
-    pub fn each_turn(&self, mut visit: impl FnMut(&Mark, &Leg) -> bool) {
+    pub fn each_turn(&self, mut visit: impl FnMut(&Mark, &Segment) -> bool) {
         let last = *self.last_mark();
         let mut mark = self.marks[0];
         while mark.turns < last.turns {

@@ -1,7 +1,7 @@
 //! Mechanisms without inertia, always or where they start.
 
 use super::problem;
-use crate::mechanism::Constrained;
+use crate::mechanism::CurveEquation;
 use crate::scene::Problem;
 
 /// Of a mechanism that has none in any position.
@@ -23,7 +23,7 @@ pub(super) fn at_start(theta: f64) -> Problem {
 }
 
 /// Whether M vanishes at coordinate `q` (rad): it is so small there that rounding `q` makes more of it.
-pub(super) fn vanishes(equation: &Constrained, q: f64) -> bool {
+pub(super) fn vanishes(equation: &CurveEquation, q: f64) -> bool {
     let m = |q: f64| equation.across(q).m;
     let rounding = 4.0 * f64::EPSILON * q.abs().max(1.0);
     !m(q).is_normal() || m(q) < 0.25 * (m(q - rounding) + m(q + rounding))

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::problem;
-use crate::mechanism::{Constrained, Curve, Limits, Linkage};
+use crate::mechanism::{Curve, CurveEquation, Limits, Linkage};
 use crate::numeric::angle::Angle;
 use crate::scene::{Extent, Load, MotionKind, Problem, Scene, Variable};
 
@@ -65,7 +65,7 @@ fn is_balanced(scene: &Scene, linkage: &Linkage) -> bool {
     }
     let theta = Angle::from(scene.motion.angle).reduced();
     Curve::through(linkage, theta).is_some_and(|(curve, q)| {
-        let equation = Constrained::new(scene, curve);
+        let equation = CurveEquation::new(scene, curve);
         !equation.loads().reads().has(Variable::T) && equation.free(0.0, q, 0.0).acceleration == 0.0
     })
 }

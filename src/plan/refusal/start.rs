@@ -2,7 +2,7 @@
 
 use super::inertia;
 use super::problem;
-use crate::mechanism::{Class, Constrained, Curve, Limits, Linkage, LooseMechanism, single};
+use crate::mechanism::{Class, Curve, CurveEquation, Limits, Linkage, LooseMechanism, single};
 use crate::numeric::angle::Angle;
 use crate::scene::{Clearance, Instant, Load, MotionKind, Problem, Scene};
 
@@ -41,7 +41,7 @@ fn free(scene: &Scene, linkage: &Linkage, list: &mut Vec<Problem>) {
         0.0 => 0.0,
         speed => speed / place.dtheta,
     };
-    let equation = Constrained::new(scene, curve);
+    let equation = CurveEquation::new(scene, curve);
     let before = list.len();
     loads(scene, &equation.instant(&place, 0.0, q, pace), list);
     if inertia::vanishes(&equation, q.rest) {

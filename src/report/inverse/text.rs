@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
+use super::super::key_values::Facts;
 use crate::inverse::{AsPrinted, DataSummary, DeadCentreBand, FitSummary, ForceRange, Inverse};
-use crate::report::facts::Facts;
 
 /// Lines of the whole text, those of a screen.
 const LINES: usize = 40;

@@ -1,7 +1,9 @@
 //! Columns of a sweep.
 
 use super::cell;
-use crate::study::{Design, Kinematics, SteadyState, Summary, Sweep};
+use crate::kinematics::Kinematics;
+use crate::simulate::{SteadyState, Summary};
+use crate::sweep::{Design, Sweep};
 
 /// Columns of the closed form of one turn, after the varied values and the status; velocities and
 /// accelerations are those at the scene's speed.
@@ -119,7 +121,7 @@ pub(super) fn cells(sweep: &Sweep, design: &Design) -> Vec<String> {
 
 fn turn(turn: &Kinematics) -> [String; TURN.len()] {
     let some = |value: Option<f64>| value.map_or(String::new(), cell);
-    let at_speed = |located: Option<crate::study::Located>| {
+    let at_speed = |located: Option<crate::kinematics::Located>| {
         let moves = turn.speed_rad_per_s.is_some();
         some(located.filter(|_| moves).map(|located| located.value))
     };

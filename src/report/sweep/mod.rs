@@ -1,9 +1,9 @@
 //! The designs of a sweep: rows, what they range over, and where they are kept until all are there.
 
-mod alone;
 mod columns;
-mod growing;
+mod file_lock;
 mod ranges;
+mod resumable_file;
 
 use std::ops::Range;
 use std::path::Path;
@@ -11,10 +11,10 @@ use std::path::Path;
 use super::output::{Output, is_standard_output, is_stream};
 use super::shortest_number;
 use crate::error::Error;
-use crate::study::{Design, Sweep};
-use growing::Growing;
+use crate::sweep::{Design, Sweep};
 use ranges::Tally;
 pub use ranges::{SweepExtreme, SweepRange, SweepSummary, VariedKey, sweep_text};
+use resumable_file::Growing;
 
 /// Rows of `sweep`, in the order of the designs.
 ///

@@ -6,9 +6,9 @@ use std::ops::Range;
 
 use serde::Serialize;
 
+use super::super::key_values::{Facts, six};
 use super::columns::{before_figures, header};
-use crate::report::facts::{Facts, six};
-use crate::study::Sweep;
+use crate::sweep::Sweep;
 
 /// What a sweep found.
 #[derive(Clone, Debug, Serialize)]

@@ -1,0 +1,82 @@
+//! A cell of the map: what turns do over a range of energies.
+
+use std::f64::consts::TAU;
+
+use super::super::Driven;
+use super::super::seen::at_speeds;
+use super::super::stepper::PanelStepper;
+use super::{DEGREE, Way};
+use crate::engine::energy::NotApplicable;
+use crate::engine::energy::segment::Segment;
+use crate::engine::energy::turns::{Cell, Turn};
+use crate::engine::sight::Look;
+use crate::numeric::chebyshev::Rule;
+use crate::numeric::enclosure::{Interval, ellipse};
+
+impl<D: Driven> Way<'_, D> {
+    /// A cell over a range of energies.
+    pub(super) fn cell(&mut self, middle: f64, half: f64) -> Result<Cell, NotApplicable> {
+        let rule = Rule::of(DEGREE);
+        let mut turns = Vec::with_capacity(DEGREE + 1);
+        let mut speeds: Option<Interval> = None;
+        while turns.len() <= DEGREE {
+            let kinetic = middle + half * rule.points()[turns.len()];
+            let (turn, its) = self.whole_turn(kinetic)?;
+            speeds = Some(speeds.map_or(its, |all| all.hull(its)));
+            // All turns of a cell are cut in the same way.
+            if self.march.refined {
+                self.march.settle()?;
+                turns.clear();
+            } else {
+                turns.push(turn);
+            }
+        }
+        match speeds {
+            Some(speeds) if self.shows(speeds, middle) => Ok(Cell::new(middle, half, rule, turns)),
+            _ => Err(NotApplicable::NotSmooth),
+        }
+    }
+
+    /// Whether turns of so many energies show the loads at all speeds (rad/s) between them, around an energy (J).
+    fn shows(&self, speeds: Interval, middle: f64) -> bool {
+        let PanelStepper {
+            driven, stations, ..
+        } = &self.march;
+        let look = Look {
+            nodes: DEGREE,
+            ellipse: ellipse(DEGREE, self.tail),
+            allowed: self.tail * middle / TAU,
+            compares: false,
+        };
+        !driven.has_detail()
+            || stations
+                .iter()
+                .all(|station| at_speeds(*driven, station, speeds, look))
+    }
+
+    /// A turn that begins with this energy, J, and its speeds, rad/s.
+    fn whole_turn(&mut self, kinetic: f64) -> Result<((Segment, Turn), Interval), NotApplicable> {
+        self.march.restart(kinetic);
+        self.march.gives_up = false;
+        let mut leg = Segment::open();
+        let mut speeds: Option<Interval> = None;
+        loop {
+            leg.push(self.march.panel()?.panel);
+            // Panels that end at a place of this energy alone make another turn of it.
+            if self.march.hid {
+                return Err(NotApplicable::NotSmooth);
+            }
+            let here = self.march.speeds();
+            speeds = Some(speeds.map_or(here, |all| all.hull(here)));
+            if self.march.at_cycle() {
+                let turn = Turn {
+                    count: self.march.turns.abs(),
+                    duration: self.march.t.0,
+                    gain: self.march.gain,
+                    work: self.march.work,
+                };
+                return Ok(((leg, turn), speeds.unwrap_or_default()));
+            }
+        }
+    }
+}

@@ -1,0 +1,266 @@
+//! Long runs: the map of the kinetic energy over one cycle, interpolated. A turn is a cycle here.
+
+mod cells;
+
+use std::f64::consts::TAU;
+
+use super::super::energy::segment::Segment;
+use super::super::energy::turns::{Mark, Turn, Turns};
+use super::super::energy::{NotApplicable, Orbit};
+use super::stepper::PanelStepper;
+use super::{Done, Driven, Driving, Errors, Goal, Resolution, Short, work_until};
+use crate::numeric::angle::Angle;
+
+/// Degree of the interpolation over the energy.
+const DEGREE: usize = 16;
+/// The widest cell, relative to the energy at its start.
+const WIDEST: f64 = 0.5;
+/// The narrowest.
+const NARROWEST: f64 = 1e-7;
+/// The next cell is made as wide as leaves this part of the tail allowed.
+const SAFETY: f64 = 0.2;
+/// Turns between the marks that are kept.
+const BETWEEN_MARKS: f64 = 64.0;
+/// Most turns that are iterated.
+const MOST_TURNS: f64 = 2e9;
+/// After so many it is seen whether there are too many; turns that rise to a steady one before gain less by then, in the
+/// same measure.
+const WINDOW: f64 = 1e6;
+
+/// Turns that are run through one by one where the map ends, before another run takes over.
+const MOST_SINGLE_TURNS: f64 = 64.0;
+
+/// Goes on from the start of a turn until the goal, or as far as the angle can be the independent variable.
+pub(super) fn run<D: Driven>(
+    march: PanelStepper<'_, D>,
+    leg: Segment,
+    start: Angle,
+    speed: f64,
+    goal: Goal,
+    resolution: Resolution,
+) -> Result<Driving, NotApplicable> {
+    let mark = Mark {
+        turns: march.turns.abs(),
+        t: march.t,
+        kinetic: march.kinetic,
+        work: march.work,
+        low: [0.0; 2],
+    };
+    let (errors, first) = (march.errors, march.t.0);
+    let mut way = Way {
+        tail: resolution.tail,
+        width: WIDEST,
+        rises: march.rises(),
+        lost: (march.gain / march.turns).abs() * f64::from(march.driven.cycle()),
+        march,
+        turns: Turns {
+            cells: Vec::new(),
+            marks: vec![mark],
+            last: Segment::open(),
+            steady: false,
+        },
+    };
+    let (last, why) = way.turn_of(goal);
+    let ended = way.last_turns(&last, goal, start, why)?;
+    let evaluations = way.march.evaluations;
+    let kinetic = way.march.kinetic;
+    let before = last.work + way.march.work;
+    let short = match &ended {
+        Ended::AtGoal(_) => None,
+        Ended::Short(why) => {
+            let turns = start.turns + speed.signum() * last.turns;
+            let angle = way.turns.last.last_angle(turns);
+            angle.map(|angle| Short {
+                why: *why,
+                angle,
+                kinetic,
+            })
+        }
+    };
+    let orbit = Orbit::of_turns(start, speed, leg, way.turns);
+    let end = match goal {
+        _ if short.is_some() => orbit.length(),
+        Goal::Time(until) => until,
+        Goal::Turned(way) => orbit.time_of_turn(way).unwrap_or(last.t.0),
+    };
+    let work = match ended {
+        Ended::Short(_) => before,
+        Ended::AtGoal(done) => {
+            let after = end - last.t.0 - last.t.1;
+            before - done.work + work_until(orbit.last_leg(), after, &done.spent)
+        }
+    };
+    Ok(Driving {
+        orbit,
+        end,
+        work,
+        // As in the first turns.
+        errors: Errors {
+            late: errors.late * end / first,
+            early: errors.early * end / first,
+            ..errors
+        },
+        evaluations,
+        short,
+    })
+}
+
+/// How the last turns end.
+enum Ended {
+    AtGoal(Box<Done>),
+    Short(NotApplicable),
+}
+
+struct Way<'a, D: Driven> {
+    march: PanelStepper<'a, D>,
+    turns: Turns,
+    tail: f64,
+    width: f64,
+    /// Whether the energy rises from turn to turn.
+    rises: bool,
+    /// By how much it changed in the last turn, J.
+    lost: f64,
+}
+
+impl<D: Driven> Way<'_, D> {
+    /// The start of the turn in which the goal lies, or of a turn before which the map ends, and why it does.
+    fn turn_of(&mut self, goal: Goal) -> (Mark, Option<NotApplicable>) {
+        let mut mark = self.turns.marks[0];
+        let first = mark.turns;
+        let mut known = mark;
+        let mut before = mark;
+        let (mut seen, mut gained) = (0.0, f64::INFINITY);
+        loop {
+            let turn = match self.turns.turn(mark.kinetic) {
+                Some(turn) => turn,
+                None => match self.extend(mark.kinetic) {
+                    Ok(turn) => turn,
+                    Err(why) => {
+                        // The turn before is one that is completed.
+                        if before.turns > known.turns {
+                            self.turns.marks.push(before);
+                        }
+                        return (before, Some(why));
+                    }
+                },
+            };
+            let left = match goal {
+                Goal::Time(until) => ((until - mark.t.0) - mark.t.1) / turn.duration,
+                Goal::Turned(way) => (way / TAU - mark.turns) / turn.count,
+            };
+            let is_steady = turn.gain.abs() <= 2.0 * f64::EPSILON * mark.kinetic;
+            if left < 1.0 || is_steady {
+                if mark.turns > known.turns {
+                    self.turns.marks.push(mark);
+                }
+                if left >= 1.0 {
+                    self.turns.steady = true;
+                    let same = Turn { gain: 0.0, ..turn };
+                    mark = mark.after(&same, left.floor());
+                    self.turns.marks.push(mark);
+                }
+                return (mark, None);
+            }
+            if mark.turns - known.turns >= BETWEEN_MARKS {
+                self.turns.marks.push(mark);
+                known = mark;
+            }
+            let done = mark.turns - first;
+            if done > MOST_TURNS {
+                return (known, Some(NotApplicable::WorkLimit));
+            }
+            if done >= seen {
+                // Turns that rise become shorter: more of them are left than this.
+                let rises = turn.gain > 0.0 && turn.gain >= gained * (1.0 - WINDOW / MOST_TURNS);
+                if rises && left > MOST_TURNS {
+                    return (known, Some(NotApplicable::TooManyTurns));
+                }
+                (seen, gained) = (seen + WINDOW, turn.gain);
+            }
+            self.rises = turn.gain > 0.0;
+            self.lost = turn.gain.abs();
+            before = mark;
+            mark = mark.after(&turn, 1.0);
+        }
+    }
+
+    /// A cell that begins at this energy, J, and what its turn does; none where it would serve fewer turns than it
+    /// takes.
+    fn extend(&mut self, kinetic: f64) -> Result<Turn, NotApplicable> {
+        loop {
+            let (ahead, behind) = (self.width * kinetic, 0.01 * self.width * kinetic);
+            let (low, high) = if self.rises {
+                (kinetic - behind, kinetic + ahead)
+            } else {
+                (kinetic - ahead, kinetic + behind)
+            };
+            let tried = self.width;
+            let why = match self.cell(0.5 * (low + high), 0.5 * (high - low)) {
+                Ok(cell) => {
+                    let share = SAFETY * self.tail / cell.tail();
+                    let factor = share.powf(1.0 / DEGREE as f64).clamp(0.5, 2.0);
+                    self.width = (factor * tried).min(WIDEST);
+                    if cell.tail() <= self.tail {
+                        let turn = cell.turn(kinetic);
+                        self.turns.cells.push(cell);
+                        return Ok(turn);
+                    }
+                    NotApplicable::NotSmooth
+                }
+                Err(why) => {
+                    self.width = 0.5 * tried;
+                    why
+                }
+            };
+            let narrows = matches!(why, NotApplicable::TooSlow | NotApplicable::NotSmooth);
+            let pays = self.width * kinetic > (DEGREE + 1) as f64 * self.lost;
+            if !narrows || !pays || tried <= NARROWEST {
+                return Err(why);
+            }
+        }
+    }
+
+    /// The turn in which the goal lies, as far as the goal; where the map ends before, single turns.
+    fn last_turns(
+        &mut self,
+        mark: &Mark,
+        goal: Goal,
+        start: Angle,
+        map_ended: Option<NotApplicable>,
+    ) -> Result<Ended, NotApplicable> {
+        self.march.restart(mark.kinetic);
+        self.march.gives_up = true;
+        let most = match map_ended {
+            None | Some(NotApplicable::WorkLimit | NotApplicable::TooManyTurns) => 1.0,
+            Some(_) => MOST_SINGLE_TURNS,
+        };
+        let limited = map_ended
+            .filter(|why| matches!(why, NotApplicable::WorkLimit | NotApplicable::TooManyTurns));
+        if limited.is_some() {
+            self.march.most_evaluations = u64::MAX;
+        }
+        loop {
+            let done = match self.march.panel() {
+                Ok(done) => done,
+                Err(why) if self.turns.last.len() == 0 => return Err(why),
+                Err(why) => return Ok(Ended::Short(why)),
+            };
+            let piece = &done.panel.piece;
+            let turned = (piece.to - start.rest).abs() + done.panel.turns.abs() * TAU;
+            self.turns.last.push(done.panel.clone());
+            let passed = match goal {
+                Goal::Time(until) => self.march.t.0 > (until - mark.t.0) - mark.t.1,
+                Goal::Turned(way) => turned + mark.turns * TAU >= way - 1e-12,
+            };
+            let all = self.march.at_cycle() && self.march.turns.abs() >= most;
+            match map_ended {
+                _ if passed => return Ok(Ended::AtGoal(done.into())),
+                None if all => return Ok(Ended::AtGoal(done.into())),
+                Some(_) if all => {
+                    return Ok(Ended::Short(limited.unwrap_or(NotApplicable::TooLong)));
+                }
+                _ => {}
+            }
+        }
+    }
+}

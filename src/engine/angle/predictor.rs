@@ -1,0 +1,96 @@
+//! The profiles of the last turns, carried on to the next.
+
+use crate::numeric::chebyshev::Values;
+
+/// Profiles that are kept.
+const KEPT: usize = 5;
+/// The sum of the shares of the profiles, as magnitudes: more would carry their errors on, not them.
+const MOST_SHARES: f64 = 40.0;
+
+/// Kinetic energy at the points of a panel in the last turns.
+#[derive(Clone)]
+pub(super) struct Predictor {
+    /// A ring: what follows the latest is the oldest.
+    profiles: Vec<Values>,
+    latest: usize,
+}
+
+impl Predictor {
+    pub fn new() -> Predictor {
+        Predictor {
+            profiles: Vec::with_capacity(KEPT),
+            latest: 0,
+        }
+    }
+
+    pub fn forget(&mut self) {
+        self.profiles.clear();
+    }
+
+    /// Keeps the kinetic energy (J) at the points.
+    pub fn remember(&mut self, kinetic: &Values) {
+        if self.profiles.len() < KEPT {
+            self.latest = self.profiles.len();
+            self.profiles.push(*kinetic);
+        } else {
+            self.latest = (self.latest + 1) % KEPT;
+            self.profiles[self.latest] = *kinetic;
+        }
+    }
+
+    /// The latest.
+    pub fn last(&self) -> Option<&Values> {
+        self.profiles.get(self.latest)
+    }
+
+    fn profile(&self, age: usize) -> &Values {
+        let count = self.profiles.len();
+        &self.profiles[(self.latest + count - age) % count]
+    }
+
+    /// The profile that starts with a kinetic energy (J), of turns that depend on this energy alone: the
+    /// polynomial over it through the last `most` profiles, or through fewer if they are too close together.
+    /// None without a past.
+    pub fn carry_on(&self, start: f64, most: usize, kinetic: &mut Values) -> Option<()> {
+        let most = self.profiles.len().min(most);
+        let Some((count, shares)) = (2..=most)
+            .rev()
+            .find_map(|count| Some((count, self.shares(start, count)?)))
+        else {
+            let last = self.last()?;
+            *kinetic = last.map(|kinetic| kinetic + (start - last[0]));
+            return Some(());
+        };
+        *kinetic = self.profile(0).map(|kinetic| shares[0] * kinetic);
+        for (age, share) in shares.iter().enumerate().take(count).skip(1) {
+            for (sum, kinetic) in kinetic.iter_mut().zip(self.profile(age)) {
+                *sum += share * kinetic;
+            }
+        }
+        Some(())
+    }
+
+    /// Shares of the last profiles in that which starts with a kinetic energy (Lagrange); none if they are too large.
+    /// Under viscous losses alone the energies are of second degree in the speed at the start: its powers are used,
+    /// unless there are too few profiles for its square.
+    fn shares(&self, start: f64, count: usize) -> Option<[f64; KEPT]> {
+        let variable = |kinetic: f64| if count > 2 { kinetic.sqrt() } else { kinetic };
+        let here = variable(start);
+        let mut at = [0.0; KEPT];
+        for (age, at) in at.iter_mut().enumerate().take(count) {
+            *at = variable(self.profile(age)[0]);
+        }
+        let mut shares = [0.0; KEPT];
+        let mut size = 0.0;
+        for i in 0..count {
+            let (mut above, mut below) = (1.0, 1.0);
+            for j in (0..count).filter(|j| *j != i) {
+                above *= here - at[j];
+                below *= at[i] - at[j];
+            }
+            shares[i] = above / below;
+            size += shares[i].abs();
+        }
+        (size <= MOST_SHARES).then_some(shares)
+    }
+}

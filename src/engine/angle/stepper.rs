@@ -1,0 +1,289 @@
+//! Panel after panel, turn after turn.
+
+use super::super::energy::NotApplicable;
+use super::super::energy::error_bound::off_by_place;
+use super::super::energy::panel::Panel;
+use super::super::energy::piece::Piece;
+use super::errors::{Errors, uncertain};
+use super::panel::{Fineness, Station};
+use super::seen::hides;
+use super::sweep::{Start, Swept, sweep};
+use super::switch::{Side, side};
+use super::turn::stations;
+use super::{Driven, Resolution};
+use crate::numeric::angle::Angle;
+use crate::numeric::chebyshev::Values;
+use crate::numeric::enclosure::Interval;
+use crate::numeric::exact::two_sum;
+
+/// A run over the angle: the panels of a cycle, and where it has come to.
+#[derive(Clone)]
+pub(super) struct PanelStepper<'a, D: Driven> {
+    pub(super) driven: &'a D,
+    pub(super) fine: Fineness,
+    direction: f64,
+    pub(super) stations: Vec<Station<D::Place>>,
+    /// Parts of a panel that was too long this time, the next one last.
+    pub(super) parts: Vec<Station<D::Place>>,
+    pub(super) next: usize,
+    /// The motion on the last panel.
+    swept: Swept,
+    /// When the run begins, s.
+    pub begin: f64,
+    /// Time since then, s; rounded value and rest.
+    pub t: (f64, f64),
+    /// J
+    pub kinetic: f64,
+    /// What its rounding left out, J.
+    kinetic_low: f64,
+    /// What rounding does to it.
+    pub errors: Errors,
+    /// Whole turns since the start, with sign.
+    pub turns: f64,
+    /// Kinetic energy gained, J.
+    pub gain: f64,
+    /// Work of the loads without a potential, J.
+    pub work: f64,
+    pub evaluations: u64,
+    fastest: f64,
+    start: Angle,
+    pub most_evaluations: u64,
+    /// Whether a panel was cut or its degree raised since this was last cleared.
+    pub refined: bool,
+    /// Whether the points of a panel did not show the loads since this was last cleared.
+    pub hid: bool,
+    /// Whether a crank that seems to stop is given up before its panels become tiny.
+    pub gives_up: bool,
+}
+
+/// A panel with the work that was done on it.
+pub(super) struct Done {
+    pub panel: Panel,
+    /// Force without a potential at the points of the panel, N m.
+    pub spent: Values,
+    /// Work of these forces on it, J.
+    pub work: f64,
+}
+
+impl<'a, D: Driven> PanelStepper<'a, D> {
+    pub fn new(
+        driven: &'a D,
+        start: Angle,
+        speed: f64,
+        resolution: Resolution,
+    ) -> Result<PanelStepper<'a, D>, NotApplicable> {
+        let fine = Fineness {
+            tail: resolution.tail,
+            speed,
+        };
+        let mut stations = stations(driven, start, fine)?;
+        if resolution.other {
+            let mut cut = Vec::with_capacity(2 * stations.len());
+            for station in stations {
+                match station.parts(driven, 0.37, fine)? {
+                    Some(parts) => cut.extend(parts),
+                    None => cut.push(station),
+                }
+            }
+            stations = cut;
+        }
+        let kinetic = 0.5 * stations[0].table.inertia[0] * speed * speed;
+        if !kinetic.is_finite() {
+            return Err(NotApplicable::NotFinite);
+        }
+        if kinetic == 0.0 {
+            return Err(NotApplicable::TooSlow);
+        }
+        let Station {
+            piece, rule, table, ..
+        } = &stations[0];
+        let beside = piece.angle(rule.points()[1]) - piece.from;
+        let [here, next, ..] = table.inertia;
+        let off = off_by_place(start.rest, kinetic, [here, next], beside);
+        Ok(PanelStepper {
+            driven,
+            fine,
+            direction: speed.signum(),
+            stations,
+            parts: Vec::new(),
+            next: 0,
+            swept: Swept::new(),
+            begin: 0.0,
+            t: (0.0, 0.0),
+            kinetic,
+            kinetic_low: 0.0,
+            errors: Errors::at(kinetic, off),
+            turns: 0.0,
+            gain: 0.0,
+            work: 0.0,
+            evaluations: 0,
+            fastest: kinetic,
+            start,
+            most_evaluations: resolution.most_evaluations,
+            refined: false,
+            hid: false,
+            gives_up: false,
+        })
+    }
+
+    /// The same panels, at the start of a cycle with another kinetic energy, J.
+    pub fn restart(&mut self, kinetic: f64) {
+        self.parts.clear();
+        self.next = 0;
+        self.t = (0.0, 0.0);
+        self.kinetic = kinetic;
+        self.kinetic_low = 0.0;
+        self.errors = Errors::at(kinetic, 0.0);
+        self.fastest = kinetic;
+        self.turns = 0.0;
+        self.gain = 0.0;
+        self.work = 0.0;
+        self.refined = false;
+        self.hid = false;
+    }
+
+    /// Whether the forces have two forms.
+    pub fn has_switch(&self) -> bool {
+        self.stations[0].table.switch.is_some()
+    }
+
+    /// Whether the kinetic energy has risen over the run.
+    pub fn rises(&self) -> bool {
+        self.gain > 0.0
+    }
+
+    /// Largest kinetic energy at the ends of panels so far, J.
+    pub fn fastest(&self) -> f64 {
+        self.fastest
+    }
+
+    /// Least kinetic energy at the points of the last panel, J.
+    pub fn least(&self) -> f64 {
+        let points = &self.swept.kinetic[..=self.swept.slope.degree()];
+        points.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Least and largest speed at the points of the last panel, rad/s.
+    pub fn speeds(&self) -> Interval {
+        let count = self.swept.slope.degree() + 1;
+        self.swept.forces.speed_range(count)
+    }
+
+    /// Whether the next panel begins a cycle.
+    pub fn at_cycle(&self) -> bool {
+        self.next == 0 && self.parts.is_empty()
+    }
+
+    /// The next panel.
+    pub fn panel(&mut self) -> Result<Done, NotApplicable> {
+        let mut turned_over = 0;
+        loop {
+            if self.evaluations > self.most_evaluations {
+                return Err(NotApplicable::WorkLimit);
+            }
+            let start = Start {
+                t: self.begin + self.t.0,
+                kinetic: self.kinetic,
+                turns: self.start.turns + self.turns,
+                direction: self.direction,
+            };
+            let station = self
+                .parts
+                .last_mut()
+                .unwrap_or(&mut self.stations[self.next]);
+            let swept = &mut self.swept;
+            if let Err(why) = sweep(self.driven, station, start, self.fine.tail, swept) {
+                self.evaluations += self.swept.evaluations;
+                self.refine(why)?;
+                continue;
+            }
+            let parts = match hides(self.driven, station, start, self.fine, swept) {
+                Some(at) => station.parts(self.driven, at, self.fine)?,
+                None => None,
+            };
+            if let Some([first, second]) = parts {
+                self.evaluations += self.swept.evaluations;
+                self.hid = true;
+                self.parts.pop();
+                self.parts.extend([second, first]);
+                continue;
+            }
+            match side(self.driven, station, start, swept) {
+                Side::Stays => {
+                    station.remember(&swept.kinetic);
+                    let piece = station.piece;
+                    self.remember_rest();
+                    return Ok(self.pass(piece, None));
+                }
+                // Once more the other way round: then it has no sign.
+                Side::Other if turned_over == 2 => {
+                    let piece = station.piece;
+                    return Ok(self.pass(piece, None));
+                }
+                Side::Other => {
+                    turned_over += 1;
+                    station.turn_over(self.driven)?;
+                }
+                Side::Leaves(share) => {
+                    station.remember(&swept.kinetic);
+                    let [first, rest] = station.piece.cut(share);
+                    swept.end_at(station.rule, start, share);
+                    let rest = self.rest(rest.from)?;
+                    self.remember_rest();
+                    return Ok(self.pass(first, Some(rest)));
+                }
+            }
+            self.evaluations += self.swept.evaluations;
+        }
+    }
+
+    /// Takes a panel over a piece of the next station, and what is left of it for this turn.
+    fn pass(&mut self, piece: Piece, rest: Option<Station<D::Place>>) -> Done {
+        let swept = &self.swept;
+        let station = self.parts.last().unwrap_or(&self.stations[self.next]);
+        let rule = station.rule;
+        let work = 0.5 * (piece.to - piece.from) * rule.rounded_integral(swept.spent());
+        // Under steep loads the end is not the start and the gain.
+        let summed = swept.end == self.kinetic + swept.gain;
+        (self.kinetic, self.kinetic_low) = if summed {
+            two_sum(self.kinetic, swept.gain + self.kinetic_low)
+        } else {
+            (swept.end, 0.0)
+        };
+        self.gain += swept.gain;
+        self.fastest = self.fastest.max(self.kinetic);
+        self.work += work;
+        self.evaluations += swept.evaluations;
+        let kept = (0.5 * work.min(0.0) / self.kinetic).exp();
+        let count = rule.degree() + 1;
+        let misplaced = [&station.table.force, &station.table.push]
+            .map(|forces| uncertain(&piece, &forces[..count]));
+        let noise = f64::EPSILON * (swept.gain.abs() + misplaced[0] + misplaced[1]);
+        let (early, most) = swept.early(rule);
+        let (slopes, slope) = (&swept.slopes, swept.slope);
+        let mut panel = Panel::from_slopes(piece, rule, slopes, slope, 0.0, self.kinetic);
+        panel.turns = self.turns;
+        let duration = panel.duration.0;
+        self.errors.pass(kept, noise, early, duration, most);
+        let (sum, lost) = two_sum(self.t.0, panel.duration.0);
+        self.t = two_sum(sum, lost + self.t.1 + panel.duration.1);
+        self.parts.pop();
+        self.parts.extend(rest);
+        if self.parts.is_empty() {
+            let turns = self.stations[self.next].turns;
+            self.next += 1;
+            let next = self.stations.get(self.next);
+            if next.is_none_or(|next| next.turns != turns) {
+                self.turns += self.direction;
+            }
+            if next.is_none() {
+                self.next = 0;
+            }
+        }
+        Done {
+            panel,
+            spent: *self.swept.spent(),
+            work,
+        }
+    }
+}

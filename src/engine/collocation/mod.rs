@@ -1,0 +1,129 @@
+//! Integration in time by Gauss collocation, solved by sweeps of fixed-point iteration.
+//!
+//! A step looks for the polynomial whose second derivative agrees with the acceleration at the nodes of the
+//! Gauss rule. Each sweep evaluates the accelerations at all nodes of a guess together, and integrates them
+//! twice for a better one (Picard, Lindelöf). The polynomial is the motion inside the step, too.
+
+mod attempt;
+mod seen;
+mod series;
+mod state;
+mod step;
+mod tableau;
+
+use std::f64::consts::TAU;
+
+use super::step::{Node, Step};
+use super::time::{Finish, Settings, Start};
+use super::{Counted, Motion};
+use attempt::{Accepted, Failed, Try};
+use state::State;
+use step::Collocation;
+pub use tableau::Tableau;
+
+/// Factors by which a step may change.
+const LEAST: f64 = 0.1;
+const MOST: f64 = 4.0;
+
+/// Integrates and hands every accepted step to `sink`, which ends the run by returning true. Returns how
+/// the run ended, the last step and the number of steps.
+pub fn run(
+    motion: &Counted<'_>,
+    start: Start,
+    settings: &Settings,
+    sink: &mut dyn FnMut(&Step) -> bool,
+) -> (Finish, Step, u64) {
+    let mut state = State::new(start);
+    let alpha = motion.acceleration(state.t, state.angle(), state.omega);
+    let node = state.node(alpha);
+    let mut last = Step::new(state.turns, node, node);
+    if !alpha.is_finite() {
+        return (Finish::NoStart, last, 0);
+    }
+    let mut collocation = Collocation::new(motion, settings.tolerance, alpha);
+    let mut wanted = first_length(&node, settings.way);
+    let (mut steps, mut at_corner) = (0, false);
+    let mut hidden = f64::INFINITY;
+    while state.t < settings.t_end {
+        if hidden <= state.t {
+            hidden = f64::INFINITY;
+        }
+        let corner = motion.next_corner(state.t).min(hidden);
+        let until = corner.min(settings.t_end);
+        let left = until - state.t;
+        let way = wanted.min(TAU / state.omega.abs());
+        let length = fitted(way, left);
+        // The length that the rounded times have.
+        let h = (state.t + length) - state.t;
+        if h <= 0.0 {
+            return (Finish::StepTooSmall, last, steps);
+        }
+        if motion.evaluations() >= settings.max_evaluations {
+            return (Finish::WorkLimit, last, steps);
+        }
+        let is_last = state.t + h >= until;
+        // The end of the run is no corner: the acceleration there must be that of the step.
+        let ends_at_corner = is_last && corner <= settings.t_end;
+        let attempt = Try {
+            h,
+            corners: [at_corner, ends_at_corner],
+        };
+        match collocation.attempt(&state, attempt) {
+            // A step of one rounding of the time cannot become shorter.
+            Err(_) if h <= 2.0 * f64::EPSILON * state.t.abs() => {
+                return (Finish::StepTooSmall, last, steps);
+            }
+            Err(Failed::TooLong(factor)) => wanted = h * factor.clamp(LEAST, 0.9),
+            Err(Failed::Hides(at)) => hidden = state.t + at * h,
+            Ok(Accepted { step, next, factor }) => {
+                let whole = length >= way;
+                // What is left of the way to a corner says little about the step that follows it.
+                wanted = if whole || factor < 1.0 {
+                    length * factor.clamp(LEAST, MOST)
+                } else {
+                    wanted
+                };
+                state = next;
+                last = step;
+                if is_last {
+                    state.t = until;
+                    last.end.t = until;
+                }
+                if ends_at_corner {
+                    collocation.begin_anew(last.end.alpha);
+                }
+                at_corner = ends_at_corner;
+                steps += 1;
+                if sink(&last) {
+                    let at_end = state.t >= settings.t_end;
+                    let finish = if at_end {
+                        Finish::AtEnd
+                    } else {
+                        Finish::Stopped
+                    };
+                    return (finish, last, steps);
+                }
+            }
+        }
+    }
+    (Finish::AtEnd, last, steps)
+}
+
+/// A tenth of a radian at the speed or the acceleration of the start, or the way of the run (rad) if that is less.
+fn first_length(start: &Node, way: f64) -> f64 {
+    let travel = way.min(0.1);
+    let by_speed = travel / start.omega.abs();
+    let by_acceleration = (2.0 * travel / start.alpha.abs()).sqrt();
+    by_speed.min(by_acceleration).min(0.1)
+}
+
+/// The step, or what is left, or half of that so that no tiny step is left.
+fn fitted(wanted: f64, left: f64) -> f64 {
+    if left <= wanted * 1.01 {
+        left
+    } else if left < 2.0 * wanted {
+        0.5 * left
+    } else {
+        wanted
+    }
+}

@@ -1,0 +1,283 @@
+//! One step: sweeps until the motion stays, then its error and the next length.
+
+use super::super::sight::{Hidden, Look, hidden};
+use super::super::step::{Step, TERMS};
+use super::super::{Batch, Counted, Motion, NODES};
+use super::attempt::{Accepted, Failed, Try};
+use super::seen::OnStep;
+use super::series::{dot, legendre, rounding};
+use super::state::State;
+use super::tableau::Tableau;
+use crate::numeric::enclosure::ellipse;
+
+/// Most sweeps of a step; one that needs more is too long.
+const SWEEPS: usize = 14;
+/// Sweeps of a step of good length.
+const FEW_SWEEPS: usize = 9;
+/// What sweeps may leave of the error allowed to a step.
+const LEFT_BY_SWEEPS: f64 = 1e-2;
+/// No step ends closer to its start than this part of the time.
+const SHORTEST: f64 = 16.0 * f64::EPSILON;
+/// A step that is too long is not made shorter for a corner behind this part of it.
+const WELL_INSIDE: f64 = 0.9;
+/// Rounding of a state, in parts of itself.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// The method, with what one step leaves to the next.
+pub struct Collocation<'a> {
+    motion: &'a Counted<'a>,
+    tableau: &'static Tableau,
+    tolerance: f64,
+    /// Size of the ellipse that the nodes need.
+    ellipse: f64,
+    has_detail: bool,
+    has_power: bool,
+    batch: Batch,
+    /// Length and Legendre coefficients of the acceleration of the last step.
+    last: Option<(f64, [f64; NODES])>,
+    /// Acceleration at the start of the next step.
+    alpha: f64,
+}
+
+impl<'a> Collocation<'a> {
+    pub fn new(motion: &'a Counted<'a>, tolerance: f64, alpha: f64) -> Collocation<'a> {
+        Collocation {
+            motion,
+            tableau: Tableau::get(),
+            tolerance,
+            ellipse: ellipse(NODES, LEFT_BY_SWEEPS * tolerance),
+            has_detail: motion.has_detail(),
+            has_power: motion.has_power(),
+            batch: Batch::default(),
+            last: None,
+            alpha,
+        }
+    }
+
+    /// The last step is no guide to the next, which begins with this acceleration.
+    pub fn begin_anew(&mut self, alpha: f64) {
+        self.last = None;
+        self.alpha = alpha;
+    }
+
+    /// Tries a step from a state. One that is too long for a corner in it is to end there.
+    pub fn attempt(&mut self, state: &State, step: Try) -> Result<Accepted, Failed> {
+        self.attempt_whole(state, step)
+            .map_err(|failed| match failed {
+                Failed::TooLong(_) if self.has_detail => {
+                    self.corner(state, step.h).map_or(failed, Failed::Hides)
+                }
+                _ => failed,
+            })
+    }
+
+    /// The part of a step that is too long at which it seems to meet a corner.
+    fn corner(&self, state: &State, h: f64) -> Option<f64> {
+        let coefficients = self.coefficients();
+        if !coefficients.iter().sum::<f64>().is_finite() {
+            return None;
+        }
+        let (step, ..) = self.finish(state, h, &coefficients);
+        let found = self.hides(state, &step, &coefficients)?;
+        (found.is_corner && found.at < WELL_INSIDE).then_some(found.at)
+    }
+
+    /// Tries a step from a state; an error says how much shorter the next one is to be.
+    fn attempt_whole(
+        &mut self,
+        state: &State,
+        Try { h, corners }: Try,
+    ) -> Result<Accepted, Failed> {
+        self.prepare(state, h);
+        let mut before = f64::INFINITY;
+        let mut sweeps = 0;
+        loop {
+            self.motion.fill(&mut self.batch);
+            sweeps += 1;
+            if !self.batch.alpha.iter().sum::<f64>().is_finite() {
+                return Err(Failed::TooLong(0.25));
+            }
+            let change = self.update(state, h);
+            let rate = change / before;
+            // What the next sweep would change.
+            let left = change * rate.min(1.0);
+            if sweeps > 1 && left <= LEFT_BY_SWEEPS && change < 1.0 {
+                break;
+            }
+            // Smaller changes are rounding.
+            if change <= ROUNDING / self.tolerance {
+                break;
+            }
+            if sweeps > 2 && rate > 0.3 {
+                let noise = rounding(state, h, &self.coefficients());
+                if change <= self.in_units(state, h * h * noise, h * noise) {
+                    break;
+                }
+            }
+            if sweeps == SWEEPS || (sweeps > 2 && rate > 0.7) {
+                return Err(Failed::TooLong(0.5));
+            }
+            if sweeps == 2 {
+                let error = self.error(state, h, &self.coefficients());
+                if error > 1e3 {
+                    return Err(Failed::TooLong(0.8 * error.powf(-1.0 / NODES as f64)));
+                }
+            }
+            before = change;
+        }
+        let coefficients = self.coefficients();
+        let (step, next, alpha) = self.finish(state, h, &coefficients);
+        // The nodes lie inside: a jump beside the outermost ones is seen at the ends only.
+        let jumps = [step.start.alpha - self.alpha, step.end.alpha - alpha];
+        let mut error = self.error(state, h, &coefficients);
+        for (jump, at_corner) in jumps.into_iter().zip(corners) {
+            if !jump.is_finite() {
+                return Err(Failed::TooLong(0.25));
+            } else if !at_corner {
+                error = error.max(self.error_of(state, h, jump, &coefficients));
+            }
+        }
+        let mut factor = 0.7 * error.max(1e-20).powf(-1.0 / NODES as f64);
+        if error > 1.0 {
+            return Err(Failed::TooLong(factor));
+        }
+        if sweeps > FEW_SWEEPS {
+            factor = factor.min(0.9);
+        } else if sweeps == FEW_SWEEPS {
+            factor = factor.min(1.0);
+        }
+        if let Some(hidden) = self.hides(state, &step, &coefficients) {
+            return Err(Failed::Hides(hidden.at));
+        }
+        self.last = Some((h, coefficients));
+        self.alpha = alpha;
+        Ok(Accepted { step, next, factor })
+    }
+
+    /// Times, and the first guess.
+    fn prepare(&mut self, state: &State, h: f64) {
+        let batch = &mut self.batch;
+        batch.turns = state.turns;
+        let timed = self.motion.depends_on_time();
+        for (i, c) in self.tableau.nodes.iter().enumerate() {
+            batch.t[i] = state.t + c * h;
+            if timed {
+                batch.of_time[i] = self.motion.of_time(batch.t[i]);
+            }
+        }
+        batch.alpha = match &self.last {
+            None => [self.alpha; NODES],
+            Some((length, coefficients)) => {
+                let ratio = 2.0 * h / length;
+                legendre(coefficients, self.tableau.nodes.map(|c| 1.0 + ratio * c))
+            }
+        };
+        self.update(state, h);
+    }
+
+    /// Angles and speeds of the accelerations; the largest change in units of the error that is allowed.
+    fn update(&mut self, state: &State, h: f64) -> f64 {
+        let (batch, tableau) = (&mut self.batch, self.tableau);
+        let (mut speed, mut angle) = ([0.0; NODES], [0.0; NODES]);
+        for j in 0..NODES {
+            let alpha = batch.alpha[j];
+            for i in 0..NODES {
+                speed[i] += tableau.speed[j][i] * alpha;
+                angle[i] += tableau.angle[j][i] * alpha;
+            }
+        }
+        let (mut angle_change, mut speed_change) = (0.0f64, 0.0f64);
+        for i in 0..NODES {
+            let omega = state.omega + (h * speed[i] + state.omega_low);
+            let travel = h * (tableau.nodes[i] * state.omega + h * angle[i]);
+            let theta = state.theta + (travel + state.theta_low);
+            angle_change = angle_change.max((theta - batch.theta[i]).abs());
+            speed_change = speed_change.max((omega - batch.omega[i]).abs());
+            batch.theta[i] = theta;
+            batch.omega[i] = omega;
+        }
+        self.in_units(state, angle_change, speed_change)
+    }
+
+    /// An error of angle and speed in units of what is allowed.
+    fn in_units(&self, state: &State, angle: f64, speed: f64) -> f64 {
+        let angle = angle / (1.0 + state.theta.abs());
+        let speed = speed / (1.0 + state.omega.abs());
+        angle.max(speed) / self.tolerance
+    }
+
+    fn coefficients(&self) -> [f64; NODES] {
+        let mut coefficients = [0.0; NODES];
+        for (alpha, row) in self.batch.alpha.iter().zip(&self.tableau.legendre) {
+            for k in 0..NODES {
+                coefficients[k] += row[k] * alpha;
+            }
+        }
+        coefficients
+    }
+
+    /// Error of the motion inside the step: what the first term beyond the last would add.
+    fn error(&self, state: &State, h: f64, coefficients: &[f64; NODES]) -> f64 {
+        let [.., a, b] = coefficients;
+        self.error_of(state, h, a.abs().max(b.abs()), coefficients)
+    }
+
+    /// Where the step has to end for its nodes to show the acceleration; none where it is as short as the time allows.
+    fn hides(&self, state: &State, step: &Step, coefficients: &[f64; NODES]) -> Option<Hidden> {
+        if !self.has_detail {
+            return None;
+        }
+        let h = step.length();
+        let term = self.tolerance * (1.0 + state.omega.abs()) * (2 * NODES) as f64 / h;
+        let look = Look {
+            nodes: NODES,
+            ellipse: self.ellipse,
+            allowed: term.max(rounding(state, h, coefficients)),
+            compares: true,
+        };
+        let way = OnStep {
+            motion: self.motion,
+            state,
+            step,
+            coefficients,
+        };
+        // A place that the time does not tell from an end of the step is that end.
+        let least = SHORTEST * state.t.abs().max((state.t + h).abs());
+        let inside = |hidden: &Hidden| hidden.at * h > least && (1.0 - hidden.at) * h > least;
+        hidden(&way, look).filter(inside)
+    }
+
+    /// What a term of this size beyond the last would add; rounding of the acceleration is no such term.
+    fn error_of(&self, state: &State, h: f64, term: f64, coefficients: &[f64; NODES]) -> f64 {
+        let term = (term.abs() - rounding(state, h, coefficients)).max(0.0);
+        let n = 2.0 * NODES as f64;
+        self.in_units(state, h * h * term / (n * n), h * term / n)
+    }
+
+    /// The step, the state at its end, and the acceleration there.
+    fn finish(&self, state: &State, h: f64, coefficients: &[f64; NODES]) -> (Step, State, f64) {
+        let (alpha, power) = (&self.batch.alpha, &self.batch.power);
+        let tableau = self.tableau;
+        let speed = h * dot(&tableau.end_speed, alpha);
+        let angle = h * h * dot(&tableau.end_angle, alpha);
+        let work = if self.has_power {
+            h * dot(&tableau.end_speed, power)
+        } else {
+            0.0
+        };
+        let next = state.moved(h, [angle, speed, work]);
+        let mut powers = [0.0; TERMS];
+        for (coefficient, row) in coefficients.iter().zip(&tableau.powers).rev() {
+            for i in 0..TERMS {
+                powers[i] += h * h * coefficient * row[i];
+            }
+        }
+        powers[0] += 0.5 * h * state.omega;
+        powers[1] += 0.5 * h * state.omega;
+        let [at_start, at_end] = legendre(coefficients, [-1.0, 1.0]);
+        let (start, end) = (state.node(at_start), next.node(at_end));
+        let step = Step::with_powers(state.turns, start, end, powers);
+        let alpha = self.motion.acceleration(next.t, next.angle(), next.omega);
+        (step, next.reduced(), alpha)
+    }
+}

@@ -1,0 +1,175 @@
+//! A leg: panels in one direction, from the start until the motion turns back, repeats or ends.
+
+use super::extreme::extreme;
+use super::panel::Panel;
+use super::piece::Piece;
+use crate::numeric::angle::Angle;
+use crate::numeric::exact::two_sum;
+
+/// How a leg goes on after its panels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::engine) enum After {
+    /// The same turn again.
+    Repeats,
+    /// Another turn, under the same forces.
+    GoesOn,
+    /// It turns back.
+    TurnsBack,
+    /// Not needed: the run ends before.
+    Ends,
+}
+
+/// Panels one after the other.
+#[derive(Clone, Debug)]
+pub(in crate::engine) struct Segment {
+    panels: Vec<Panel>,
+    /// Time at which each panel begins.
+    begins: Vec<f64>,
+    /// Its whole duration, rounded value and rest.
+    pub duration: (f64, f64),
+    pub after: After,
+    /// Bound of the error of its duration, s.
+    pub error: f64,
+    /// What the series of a panel leave out at most of the time inside it, s.
+    pub left_out: f64,
+    /// What the series of its panels leave out at most, relative to their values.
+    pub tail: f64,
+}
+
+impl Segment {
+    /// A leg without panels, that ends where the last one will.
+    pub fn open() -> Segment {
+        Segment {
+            panels: Vec::with_capacity(64),
+            begins: Vec::with_capacity(64),
+            duration: (0.0, 0.0),
+            after: After::Ends,
+            error: 0.0,
+            left_out: 0.0,
+            tail: 0.0,
+        }
+    }
+
+    /// Adds the time of the last bit of a turn, rad.
+    pub fn complete(&mut self, missing: f64) {
+        let Some(panel) = self.panels.last() else {
+            return;
+        };
+        let late = missing / panel.speed(1.0).abs();
+        if late.is_finite() {
+            self.duration = two_sum(self.duration.0, self.duration.1 + late);
+        }
+    }
+
+    /// The pieces of its panels.
+    pub fn pieces(&self) -> impl Iterator<Item = Piece> + '_ {
+        self.panels.iter().map(|panel| panel.piece)
+    }
+
+    /// Legs with the same panels, blended by shares whose sum is one.
+    pub fn blend(legs: &[Segment], shares: &[f64]) -> Segment {
+        let mut leg = Segment::open();
+        for index in 0..legs.first().map_or(0, Segment::len) {
+            let parts = legs.iter().zip(shares);
+            let panel = Panel::blend(parts.map(|(leg, share)| (&leg.panels[index], *share)));
+            if let Some(panel) = panel {
+                leg.push(panel);
+            }
+        }
+        leg
+    }
+
+    pub fn push(&mut self, panel: Panel) {
+        self.begins.push(self.duration.0);
+        let (sum, lost) = two_sum(self.duration.0, panel.duration.0);
+        self.duration = two_sum(sum, lost + self.duration.1 + panel.duration.1);
+        self.error += panel.error;
+        self.left_out = self.left_out.max(panel.left_out());
+        self.tail = self.tail.max(panel.tail);
+        self.panels.push(panel);
+    }
+
+    /// Angle (turns of the panel, rest) and speed a time after the start of the leg.
+    pub fn state(&self, after: f64) -> (Angle, f64) {
+        let index = self.begins.partition_point(|begin| *begin <= after).max(1) - 1;
+        let panel = &self.panels[index];
+        let (rest, speed) = panel.state(after - self.begins[index]);
+        let turns = panel.turns;
+        (Angle { turns, rest }, speed)
+    }
+
+    /// Calls for each panel with the time at which it begins, s, until it says that it is enough; whether it never
+    /// did.
+    pub fn each_panel(&self, mut visit: impl FnMut(&Panel, f64) -> bool) -> bool {
+        let mut pairs = self.panels.iter().zip(&self.begins);
+        pairs.all(|(panel, begin)| visit(panel, *begin))
+    }
+
+    /// Where and when (s) it turns back, if it does.
+    pub fn turning_point(&self) -> Option<(Angle, f64)> {
+        let end = self.last_angle(0.0)?;
+        (self.after == After::TurnsBack).then_some((end, self.duration.0))
+    }
+
+    /// The angle at its end, for a start with these whole turns; none without panels.
+    pub fn last_angle(&self, turns: f64) -> Option<Angle> {
+        let panel = self.panels.last()?;
+        Some(Angle {
+            turns: turns + panel.turns,
+            rest: panel.piece.to,
+        })
+    }
+
+    /// Time, s, at which an angle is reached; none if it is not on the leg.
+    pub fn time_of(&self, angle: Angle) -> Option<f64> {
+        let local = |panel: &Panel| Angle {
+            turns: angle.turns - panel.turns,
+            rest: angle.rest,
+        };
+        let mut inside = self.panels.iter().zip(&self.begins).filter(|(panel, _)| {
+            let piece = &panel.piece;
+            let theta = local(panel).radians();
+            (piece.from.min(piece.to)..=piece.from.max(piece.to)).contains(&theta)
+        });
+        let (panel, begin) = inside.next()?;
+        Some(begin + panel.time_of(local(panel).radians()))
+    }
+
+    /// Smallest and largest |speed| between two times.
+    pub fn speed_range(&self, from: f64, until: f64) -> (f64, f64) {
+        let mut whole = Vec::with_capacity(self.panels.len());
+        let mut parts = Vec::new();
+        for (panel, begin) in self.panels.iter().zip(&self.begins) {
+            let end = begin + panel.duration.0;
+            if from <= *begin && end <= until {
+                whole.push(panel);
+            } else if from < end && *begin <= until {
+                parts.push((panel, (from - begin).max(0.0), until.min(end) - begin));
+            }
+        }
+        let largest = |sign: f64| {
+            let of_parts = parts
+                .iter()
+                .map(|(panel, from, until)| panel.extreme_between(*from, *until, sign));
+            of_parts.fold(extreme(&whole, sign), f64::max)
+        };
+        (-largest(-1.0), largest(1.0))
+    }
+
+    /// The panel in which a time lies, and the time since its begin.
+    pub fn panel_at(&self, after: f64) -> Option<(&Panel, f64)> {
+        let index = self.begins.partition_point(|begin| *begin <= after).max(1) - 1;
+        Some((self.panels.get(index)?, after - self.begins[index]))
+    }
+
+    /// Largest kinetic energy at the ends of panels, J.
+    pub fn largest_kinetic(&self) -> f64 {
+        let ends = self.panels.iter().map(|panel| panel.kinetic_at_end);
+        ends.fold(0.0, f64::max)
+    }
+
+    /// Number of panels.
+    pub fn len(&self) -> usize {
+        self.panels.len()
+    }
+}

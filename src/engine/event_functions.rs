@@ -1,0 +1,158 @@
+//! Changes of sign of watched quantities inside steps.
+
+use super::Motion;
+use super::step::Step;
+use crate::numeric::angle::Angle;
+use crate::numeric::{dip, golden, root};
+
+/// A step is looked at in pieces of this travel, rad, but in at least so many and at most so many. Between them
+/// parabolas tell where a quantity may leave its sign and come back.
+const TRAVEL: f64 = 0.1;
+const FEWEST: f64 = 8.0;
+const MOST: f64 = 64.0;
+
+/// A dip within this part of the largest value is rounding.
+const NOISE: f64 = 64.0 * f64::EPSILON;
+
+/// A quantity that starts with the wrong sign may have had the right one within 2 to the power of minus so many of
+/// the piece.
+const HALVINGS: i32 = 24;
+
+/// The quantities whose signs are watched, at time t (s), angle and speed.
+pub trait EventFunction<const N: usize> {
+    /// Their values.
+    fn values(&self, t: f64, angle: Angle, speed: f64) -> [f64; N];
+}
+
+/// A quantity that left the sign it had.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Change {
+    /// s
+    pub t: f64,
+    /// Which of the quantities.
+    pub index: usize,
+}
+
+/// All changes inside a step in the order of time. `signs` are the signs that the quantities have at its start,
+/// which rounding may hide there, and after the call those at its end. A step in which something changes is
+/// refined.
+pub fn changes<const N: usize>(
+    step: &mut Step,
+    motion: &dyn Motion,
+    watched: &dyn EventFunction<N>,
+    signs: &mut [f64; N],
+) -> Vec<Change> {
+    let travel = (step.end.theta - step.start.theta).abs();
+    let pieces = (travel / TRAVEL).ceil().clamp(FEWEST, MOST) as usize;
+    let rough = sampled(step, watched, pieces);
+    // Rounding may hide the sign at the start.
+    let left = |i: usize| {
+        rough[1..]
+            .iter()
+            .any(|look| look.values[i] * signs[i] < 0.0)
+    };
+    let dips = |i: usize| rough.windows(3).any(|w| may_dip(w, i));
+    if !(0..N).any(|i| left(i) || dips(i)) {
+        return Vec::new();
+    }
+    step.refine(motion);
+    let step = &*step;
+    let fine = sampled(step, watched, pieces);
+    let mut found = Vec::new();
+    for (index, sign) in signs.iter_mut().enumerate() {
+        let value = |t: f64| look(step, watched, t).values[index];
+        for pair in with_dips(&fine, index, value).windows(2) {
+            let [(from, before), (to, after)] = [pair[0], pair[1]];
+            if after * *sign >= 0.0 {
+                continue;
+            }
+            let leaving = |t: f64| *sign * value(t);
+            let t = if before * *sign > 0.0 {
+                root::bracketed(leaving, from, to).unwrap_or(to)
+            } else {
+                left_early(leaving, from, to, from > step.start.t)
+            };
+            found.push(Change { t, index });
+            *sign = -*sign;
+        }
+    }
+    found.sort_by(|a, b| a.t.total_cmp(&b.t));
+    found
+}
+
+/// Times and values of one quantity, and those of the lowest points of its dips between them.
+fn with_dips<const N: usize>(
+    looks: &[Look<N>],
+    index: usize,
+    value: impl Fn(f64) -> f64,
+) -> Vec<(f64, f64)> {
+    let mut all: Vec<_> = looks
+        .iter()
+        .map(|look| (look.t, look.values[index]))
+        .collect();
+    let largest = all.iter().fold(0.0f64, |m, (_, value)| m.max(value.abs()));
+    for three in looks.windows(3).filter(|three| may_dip(three, index)) {
+        let sign = three[1].values[index].signum();
+        let (t, beyond) = golden::largest(|t| -sign * value(t), three[0].t, three[2].t);
+        if beyond > NOISE * largest {
+            all.push((t, -sign * beyond));
+        }
+    }
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    all
+}
+
+/// Whether a quantity of one sign may have the other for a while between three times.
+fn may_dip<const N: usize>(three: &[Look<N>], index: usize) -> bool {
+    let values = [0, 1, 2].map(|i| three[i].values[index] * three[1].values[index].signum());
+    values.iter().all(|value| *value >= 0.0) && dip::may_dip([0, 1, 2].map(|i| three[i].t), values)
+}
+
+/// When a value becomes negative that is not positive at `from`, where rounding may hide what it is, and negative at
+/// `to`. If it does not show that it was positive, it left at `from`; next to it where that is the start of a step,
+/// so that the motion goes on.
+fn left_early(value: impl Fn(f64) -> f64, from: f64, to: f64, inside: bool) -> f64 {
+    let mut after = to;
+    for _ in 0..HALVINGS {
+        let t = from + 0.5 * (after - from);
+        if t <= from || t >= after {
+            break;
+        }
+        if value(t) > 0.0 {
+            return root::bracketed(value, t, after).unwrap_or(after);
+        }
+        after = t;
+    }
+    if inside { from } else { after }
+}
+
+/// The quantities at a time.
+struct Look<const N: usize> {
+    t: f64,
+    values: [f64; N],
+}
+
+fn look<const N: usize>(step: &Step, watched: &dyn EventFunction<N>, t: f64) -> Look<N> {
+    let (theta, omega) = step.at(t);
+    Look {
+        t,
+        values: watched.values(t, step.angle(theta), omega),
+    }
+}
+fn time(step: &Step, piece: usize, pieces: usize) -> f64 {
+    if piece == pieces {
+        step.end.t
+    } else {
+        step.start.t + step.length() * piece as f64 / pieces as f64
+    }
+}
+
+fn sampled<const N: usize>(
+    step: &Step,
+    watched: &dyn EventFunction<N>,
+    pieces: usize,
+) -> Vec<Look<N>> {
+    (0..=pieces)
+        .map(|i| look(step, watched, time(step, i, pieces)))
+        .collect()
+}

@@ -1,0 +1,197 @@
+//! One turn in closed form.
+
+use serde::Serialize;
+
+use crate::error::Error;
+pub use crate::mechanism::NamedPosition;
+use crate::mechanism::{Class, Extreme, Extremes, Limits, Linkage};
+use crate::numeric::angle;
+use crate::scene::Scene;
+
+/// What the lengths and the speed of a scene give.
+#[derive(Clone, Debug, Serialize)]
+pub struct Kinematics {
+    /// Title of the scene.
+    pub scene: String,
+    /// Class of the mechanism.
+    pub class: &'static str,
+    /// Distance between the extreme slider positions, m.
+    pub stroke_m: f64,
+    /// Dead centres, by angle.
+    pub dead_centres: Vec<DeadCentre>,
+    /// Crank angle of the outward stroke in the sense of rotation, rad.
+    pub advance_rad: Option<f64>,
+    /// Crank angle of the inward stroke, rad.
+    pub return_rad: Option<f64>,
+    /// Advance over return.
+    pub time_ratio: Option<f64>,
+    /// Least transmission angle over a turn, rad.
+    pub transmission_min_rad: f64,
+    /// Extremes at constant speed: in m/s and m/s² with a speed, else per radian.
+    pub velocity_max: Option<Located>,
+    /// Smallest velocity.
+    pub velocity_min: Option<Located>,
+    /// Largest acceleration.
+    pub acceleration_max: Option<Located>,
+    /// Smallest acceleration.
+    pub acceleration_min: Option<Located>,
+    /// Crank speed of the values, rad/s; none: per radian.
+    pub speed_rad_per_s: Option<f64>,
+    /// Reachable crank angles, rad; empty: all.
+    pub reach_rad: Vec<[f64; 2]>,
+    /// Dead centres and other positions that have a name, by angle.
+    pub positions: Vec<NamedPosition>,
+    /// What the reader should know.
+    pub warnings: Vec<String>,
+    #[serde(skip)]
+    linkage: Linkage,
+}
+
+/// A dead centre.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct DeadCentre {
+    /// rad
+    pub theta_rad: f64,
+    /// m
+    pub x_m: f64,
+    /// `outer`: crank and rod in one line; `inner`: folded.
+    pub kind: &'static str,
+}
+
+/// A value and its crank angle.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Located {
+    /// SI
+    pub value: f64,
+    /// rad
+    pub theta_rad: f64,
+}
+
+/// The position at one crank angle; values that do not exist there are not finite.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KinematicsRow {
+    /// rad
+    pub theta: f64,
+    /// m
+    pub x: f64,
+    /// m/rad
+    pub dx: f64,
+    /// m/rad²
+    pub d2x: f64,
+    /// rad
+    pub phi: f64,
+    /// φ'
+    pub dphi: f64,
+    /// φ''
+    pub d2phi: f64,
+    /// rad
+    pub transmission: f64,
+    /// Velocity (m/s), acceleration (m/s²) of the slider, angular speed (rad/s, counter-clockwise) and
+    /// acceleration (rad/s²) of the rod at the scene's speed.
+    pub rates: Option<[f64; 4]>,
+}
+
+/// Closed-form kinematics of a scene.
+///
+/// # Errors
+/// [`Error::Scene`] for impossible values.
+///
+/// ```
+/// use slider_crank::scene::Scene;
+/// let result = slider_crank::kinematics::kinematics(&Scene::duarte()).unwrap();
+/// assert!((result.stroke_m - 0.094).abs() < 1e-16);
+/// assert_eq!(result.time_ratio, Some(1.0));
+/// ```
+pub fn kinematics(scene: &Scene) -> Result<Kinematics, Error> {
+    scene.check()?;
+    let linkage = Linkage::new(&scene.geometry);
+    let speed = scene.motion.speed;
+    let limits = Limits::new(&linkage, speed);
+    let extremes = Extremes::new(&linkage);
+    let rate = if speed == 0.0 { 1.0 } else { speed };
+    let locate = |extreme: Extreme, factor: f64| Located {
+        value: extreme.value * factor,
+        theta_rad: extreme.theta,
+    };
+    let velocities = extremes.map(|e| {
+        let pair = [locate(e.velocity_min, rate), locate(e.velocity_max, rate)];
+        if rate < 0.0 { [pair[1], pair[0]] } else { pair }
+    });
+    let accelerations = extremes.map(|e| {
+        [
+            locate(e.acceleration_min, rate * rate),
+            locate(e.acceleration_max, rate * rate),
+        ]
+    });
+    let mut warnings = Vec::new();
+    if limits.class == Class::ChangePoint {
+        warnings.push(
+            "the lengths make a change point: the mechanism can leave it on either branch"
+                .to_owned(),
+        );
+    }
+    if extremes.is_none() {
+        warnings.push(
+            "velocity and acceleration grow without bound towards the limit positions of the crank"
+                .to_owned(),
+        );
+    }
+    Ok(Kinematics {
+        scene: scene.title.clone().unwrap_or_default(),
+        class: limits.class.name(),
+        stroke_m: limits.stroke,
+        dead_centres: limits
+            .dead_centres
+            .iter()
+            .map(|dead_centre| DeadCentre {
+                theta_rad: dead_centre.theta,
+                x_m: dead_centre.x,
+                kind: if dead_centre.outer { "outer" } else { "inner" },
+            })
+            .collect(),
+        advance_rad: limits.advance,
+        return_rad: limits.retreat,
+        time_ratio: limits.time_ratio(),
+        transmission_min_rad: limits.transmission_min,
+        velocity_max: velocities.map(|v| v[1]),
+        velocity_min: velocities.map(|v| v[0]),
+        acceleration_max: accelerations.map(|a| a[1]),
+        acceleration_min: accelerations.map(|a| a[0]),
+        speed_rad_per_s: (speed != 0.0).then_some(speed),
+        positions: linkage.named_positions(),
+        reach_rad: limits.reach,
+        warnings,
+        linkage,
+    })
+}
+
+impl Kinematics {
+    /// The row at a crank angle, rad.
+    pub fn row(&self, theta: f64) -> KinematicsRow {
+        let pose = self.linkage.pose(theta);
+        let s = self.linkage.s;
+        KinematicsRow {
+            theta,
+            x: pose.x,
+            dx: pose.dx,
+            d2x: pose.d2x,
+            phi: pose.phi(),
+            dphi: pose.dphi,
+            d2phi: pose.d2phi,
+            transmission: pose.transmission(),
+            rates: self.speed_rad_per_s.map(|speed| {
+                [
+                    pose.dx * speed,
+                    pose.d2x * speed * speed,
+                    -s * pose.dphi * speed,
+                    -s * pose.d2phi * speed * speed,
+                ]
+            }),
+        }
+    }
+
+    /// Rows of one turn, from 0 to 360 degrees inclusive, every `step` (rad).
+    pub fn rows(&self, step: f64) -> impl Iterator<Item = KinematicsRow> + '_ {
+        angle::turn(step).map(|theta| self.row(theta))
+    }
+}

@@ -1,0 +1,258 @@
+//! One turn, or the cycle of the loads, with all that can be asked of it: forces, sensitivities, a change of the lengths, and the loop
+//! closed by iteration as a check.
+
+use serde::Serialize;
+
+use super::closed_form::{Kinematics, KinematicsRow, kinematics};
+use super::forces::{ForceAnalysis, ForceRow, forces};
+use super::offsets::{OffsetExtremes, offset_extremes};
+use crate::error::Error;
+use crate::mechanism::{Length, Linkage, TorqueSlope};
+use crate::numeric::angle;
+use crate::scene::Scene;
+
+/// What is computed beside the kinematics.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TurnOptions {
+    /// Forces at the scene's speed.
+    pub forces: bool,
+    /// Derivatives with respect to crank, rod and offset.
+    pub sensitivity: bool,
+    /// Lengths (m) of a second mechanism that the first is compared with.
+    pub change: Vec<(Length, f64)>,
+    /// Offsets (m) whose extremes are listed.
+    pub offsets: Vec<f64>,
+    /// Guess of the rod's angle as seen from the slider, rad, for a loop closure by Newton-Raphson.
+    pub iterate_from: Option<f64>,
+}
+
+/// One turn of a mechanism.
+#[derive(Clone, Debug, Serialize)]
+pub struct OneTurn {
+    /// Closed-form kinematics.
+    #[serde(flatten)]
+    pub kinematics: Kinematics,
+    /// Forces at constant speed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub forces: Option<ForceAnalysis>,
+    /// The mechanism with changed lengths.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub changed: Option<Kinematics>,
+    /// Extremes with other offsets.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub offsets: Vec<OffsetExtremes>,
+    /// Loop closure by iteration.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub loop_closure: Option<LoopCheck>,
+    #[serde(skip)]
+    slopes: Option<Slopes>,
+}
+
+/// Loop closure by Newton-Raphson from one guess for every degree of a turn.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LoopCheck {
+    /// Guess of the rod's angle as seen from the slider, rad.
+    pub guess_rad: f64,
+    /// Least number of steps.
+    pub iterations_min: u32,
+    /// Greatest number of steps.
+    pub iterations_max: u32,
+    /// Angles that end on the scene's branch.
+    pub on_branch: usize,
+    /// Angles that end on the other branch.
+    pub on_other_branch: usize,
+    /// Angles from which the iteration does not converge.
+    pub failed: usize,
+    /// Largest distance of x from the closed form on the same branch, m.
+    pub worst_x_m: f64,
+}
+
+#[derive(Clone, Debug)]
+struct Slopes {
+    linkage: Linkage,
+    speed: f64,
+    torque: Option<TorqueSlope>,
+}
+
+/// One row: the kinematics and what was asked for beside it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TurnRow {
+    /// The position.
+    pub kinematics: KinematicsRow,
+    /// Forces.
+    pub forces: Option<ForceRow>,
+    /// Derivatives with respect to crank, rod and offset.
+    pub slopes: Option<[LengthSlope; 3]>,
+    /// x, v and a (x' and x'' without speed) of the changed mechanism minus those of the scene.
+    pub change: Option<[f64; 3]>,
+}
+
+/// Derivatives with respect to one length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LengthSlope {
+    /// of x, dimensionless
+    pub x: f64,
+    /// of v, 1/s; without speed of x', 1/rad
+    pub v: f64,
+    /// of a, 1/s²; without speed of x'', 1/rad²
+    pub a: f64,
+    /// of the driving torque at constant speed, N; none without speed, not finite where it is not known
+    pub torque: Option<f64>,
+}
+
+/// Kinematics of a scene and what `options` ask for beside it.
+///
+/// # Errors
+/// Those of [`kinematics`] and [`forces`], and those of the changed lengths.
+pub fn one_turn(scene: &Scene, options: &TurnOptions) -> Result<OneTurn, Error> {
+    let mut kinematics = kinematics(scene)?;
+    let linkage = Linkage::new(&scene.geometry);
+    let speed = scene.motion.speed;
+    let slopes = if options.sensitivity {
+        let torque = TorqueSlope::new(scene);
+        if let (Err(reason), true) = (&torque, speed != 0.0) {
+            kinematics.warnings.push(reason.to_string());
+        }
+        Some(Slopes {
+            linkage,
+            speed,
+            torque: torque.ok(),
+        })
+    } else {
+        None
+    };
+    if options.forces && scene.friction.is_some() {
+        kinematics
+            .warnings
+            .push("the friction of the scene is not in these forces".to_owned());
+    }
+    if options.forces && scene.clearance.is_some() {
+        kinematics
+            .warnings
+            .push("the clearance of the scene is not in these forces".to_owned());
+    }
+    let forces = options.forces.then(|| forces(scene)).transpose()?;
+    if let Some(why) = forces.as_ref().and_then(|f| f.not_repeating.as_ref()) {
+        let what = format!("the forces are those of the first turn, others may differ: {why}");
+        kinematics.warnings.push(what);
+    }
+    Ok(OneTurn {
+        forces,
+        changed: changed(scene, &options.change)?,
+        offsets: offset_extremes(scene, &options.offsets)?,
+        loop_closure: options
+            .iterate_from
+            .map(|guess| check_loop(&linkage, guess)),
+        kinematics,
+        slopes,
+    })
+}
+
+fn changed(scene: &Scene, change: &[(Length, f64)]) -> Result<Option<Kinematics>, Error> {
+    if change.is_empty() {
+        return Ok(None);
+    }
+    let mut scene = scene.clone();
+    for (i, (length, value)) in change.iter().enumerate() {
+        if change[..i].iter().any(|(other, _)| other == length) {
+            let name = length.name();
+            return Err(Error::refused(
+                format!("the changed {name} is given twice"),
+                format!("give one length for the {name}"),
+            ));
+        }
+        match length {
+            Length::Crank => scene.geometry.crank = *value,
+            Length::Rod => scene.geometry.rod = *value,
+            Length::Offset => scene.geometry.offset = *value,
+        }
+    }
+    // Only the lengths count; the centre of gravity of a rod may lie anywhere.
+    kinematics(&scene).map(Some)
+}
+
+fn check_loop(linkage: &Linkage, guess: f64) -> LoopCheck {
+    let mut check = LoopCheck {
+        guess_rad: guess,
+        iterations_min: u32::MAX,
+        iterations_max: 0,
+        on_branch: 0,
+        on_other_branch: 0,
+        failed: 0,
+        worst_x_m: 0.0,
+    };
+    for theta in angle::turn(1f64.to_radians()) {
+        // A tolerance of 1e-9 crank lengths is what Gupta's 1e-6 mm is for a crank of a metre.
+        let Ok(found) = linkage.close_loop(theta, (guess, 0.0), 1e-9 * linkage.r) else {
+            check.failed += 1;
+            continue;
+        };
+        check.iterations_min = check.iterations_min.min(found.iterations);
+        check.iterations_max = check.iterations_max.max(found.iterations);
+        if found.branch == linkage.s {
+            check.on_branch += 1;
+            let error = (found.x - linkage.pose(theta).x).abs();
+            check.worst_x_m = check.worst_x_m.max(error);
+        } else {
+            check.on_other_branch += 1;
+        }
+    }
+    check.iterations_min = check.iterations_min.min(check.iterations_max);
+    check
+}
+
+impl OneTurn {
+    /// The row at a crank angle, rad.
+    pub fn row(&self, theta: f64) -> TurnRow {
+        let kinematics = self.kinematics.row(theta);
+        let motion = |row: &KinematicsRow| match row.rates {
+            Some([v, a, ..]) => [row.x, v, a],
+            None => [row.x, row.dx, row.d2x],
+        };
+        TurnRow {
+            forces: self.forces.as_ref().map(|forces| forces.row(theta)),
+            slopes: self.slopes.as_ref().map(|slopes| slopes.row(theta)),
+            change: self.changed.as_ref().map(|changed| {
+                let (before, after) = (motion(&kinematics), motion(&changed.row(theta)));
+                [0, 1, 2].map(|i| after[i] - before[i])
+            }),
+            kinematics,
+        }
+    }
+
+    /// Turns of the rows: one, or those of the cycle of the loads if there are forces.
+    pub fn turns(&self) -> u32 {
+        self.forces.as_ref().map_or(1, |forces| forces.cycle_turns)
+    }
+
+    /// Rows of these turns, from 0 to their end inclusive, every `step` (rad).
+    pub fn rows(&self, step: f64) -> impl Iterator<Item = TurnRow> + '_ {
+        angle::turns(self.turns(), step).map(|theta| self.row(theta))
+    }
+
+    /// Whether rows have derivatives with respect to the lengths.
+    pub fn has_slopes(&self) -> bool {
+        self.slopes.is_some()
+    }
+}
+
+impl Slopes {
+    fn row(&self, theta: f64) -> [LengthSlope; 3] {
+        let pose = self.linkage.pose(theta);
+        let rate = if self.speed == 0.0 { 1.0 } else { self.speed };
+        Length::ALL.map(|length| {
+            let slope = self.linkage.slope(&pose, length);
+            // Without a speed there is no torque, and where it is not known its cells stay empty.
+            let torque = (self.speed != 0.0).then(|| match &self.torque {
+                Some(torque) => torque.driving_torque(theta, self.speed, length),
+                None => f64::NAN,
+            });
+            LengthSlope {
+                x: slope.x,
+                v: slope.dx * rate,
+                a: slope.d2x * rate * rate,
+                torque,
+            }
+        })
+    }
+}

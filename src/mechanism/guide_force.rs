@@ -1,0 +1,42 @@
+//! The normal force at the guide of a crank that turns, and what friction adds to the force that drives the crank.
+
+use super::curve_equation::CurveTerms;
+
+/// The normal force as it would be without friction: N = place + torque·τ + force·F + square·ω², with the loads
+/// τ (torque on the crank) and F (force on the slider).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Normal {
+    /// N
+    pub place: f64,
+    /// 1/m
+    pub torque: f64,
+    /// κ = dN/dF, dimensionless
+    pub force: f64,
+    /// N s²/rad²
+    pub square: f64,
+    /// x', m/rad
+    dx: f64,
+}
+
+impl CurveTerms {
+    /// The normal force where the coordinate is the crank angle.
+    pub fn normal(&self) -> Normal {
+        let share = self.a / self.m;
+        Normal {
+            place: self.dv_n - share * self.dv,
+            torque: share - self.theta_n,
+            force: share * self.place.dx - self.x_n,
+            square: self.b - share * self.half_dm,
+            dx: self.place.dx,
+        }
+    }
+}
+
+impl Normal {
+    /// What friction drives the crank with, N m, for one newton of the normal force without friction: x' c/(1 − c κ)
+    /// for c = −μ sgn(v) sgn(N). None where rigid bodies jam, μ |κ| ≥ 1.
+    pub fn grip(&self, c: f64) -> Option<f64> {
+        let jams = c.abs() * self.force.abs() >= 1.0;
+        (!jams).then(|| c * self.dx / (1.0 - c * self.force))
+    }
+}

@@ -1,0 +1,220 @@
+//! One method at one tolerance: its run, its times, its distance from a reference.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use super::reference::Reference;
+use super::{PrecisionOptions, PrecisionRow, first_line};
+use crate::error::Error;
+use crate::numeric::double_double::DoubleDouble;
+use crate::plan::{Engine, Method, Stepper};
+use crate::scene::Scene;
+use crate::simulate::NoRows;
+use crate::simulate::Summary;
+use crate::simulate::{Options, simulate_rows};
+
+/// The reference must be this much better than what it measures.
+const BETTER: f64 = 100.0;
+
+/// The tolerance of methods that others are measured against.
+const TIGHTEST: f64 = 1e-13;
+
+pub(super) fn run(
+    scene: &Scene,
+    method: Method,
+    estimate: bool,
+    options: &PrecisionOptions,
+) -> Result<Summary, Error> {
+    let options = Options {
+        method,
+        estimate,
+        max_evaluations: options.max_evaluations,
+        events_kept: 0,
+        ..Options::default()
+    };
+    Ok(simulate_rows(scene, &options, &mut NoRows)?.summary)
+}
+
+/// Runs of the other methods, for scenes without a reference of their own.
+pub(super) fn other_methods(
+    scene: &Scene,
+    options: &PrecisionOptions,
+) -> Vec<(Identity, Reference)> {
+    let mut scene = scene.clone();
+    scene.run.tolerance = TIGHTEST;
+    let methods = Method::each().filter(|method| *method != Method::Auto);
+    let runs = methods.filter_map(|method| {
+        let run = run(&scene, method, true, options).ok()?;
+        let error = run.error_estimate.filter(|_| run.stopped.is_none())?;
+        let reference = Reference {
+            what: format!("{method} at tolerance {TIGHTEST:e}"),
+            theta: DoubleDouble::from(run.last.theta_rad),
+            omega: DoubleDouble::from(run.last.omega_rad_per_s),
+            theta_error: error.theta_rad,
+            omega_error: error.omega_rad_per_s,
+            ends_at: None,
+            slider: None,
+        };
+        Some(((run.plan.engine, run.plan.stepper), reference))
+    });
+    runs.collect()
+}
+
+/// What computes a motion: two names may stand for the same.
+pub(super) type Identity = (Engine, Option<Stepper>);
+
+/// One method at one tolerance.
+pub(super) struct Cell {
+    scene: Scene,
+    method: Method,
+    options: PrecisionOptions,
+    result: Result<Summary, String>,
+    walls: Vec<f64>,
+}
+
+impl Cell {
+    pub(super) fn new(
+        scene: &Scene,
+        method: Method,
+        tolerance: f64,
+        options: &PrecisionOptions,
+    ) -> Result<Cell, Error> {
+        let mut scene = scene.clone();
+        scene.run.tolerance = tolerance;
+        scene.check()?;
+        let result = match run(&scene, method, true, options) {
+            Ok(summary) => Ok(summary),
+            Err(refused) => Err(first_line(&refused)),
+        };
+        Ok(Cell {
+            scene,
+            method,
+            options: options.clone(),
+            result,
+            walls: Vec::new(),
+        })
+    }
+
+    /// Whether it arrived, at the end of the run or where the equations end (`ends`).
+    fn arrived(&self, ends: bool) -> bool {
+        let summary = self.result.as_ref().ok();
+        summary.is_some_and(|summary| ends || summary.stopped.is_none())
+    }
+
+    fn run_again(&mut self) {
+        if let Ok(summary) = run(&self.scene, self.method, false, &self.options) {
+            self.walls.push(black_box(summary).wall_s);
+        }
+    }
+
+    /// The best of the others that is computed by something else.
+    pub(super) fn independent<'a>(
+        &self,
+        others: &'a [(Identity, Reference)],
+    ) -> Option<&'a Reference> {
+        let plan = &self.result.as_ref().ok()?.plan;
+        let own = (plan.engine, plan.stepper);
+        others
+            .iter()
+            .filter(|(identity, _)| *identity != own)
+            .map(|(_, reference)| reference)
+            .min_by(|a, b| a.theta_error.total_cmp(&b.theta_error))
+    }
+
+    pub(super) fn row(&self, reference: Option<&Reference>, named: bool) -> PrecisionRow {
+        let mut row = PrecisionRow::empty(self.method, self.scene.run.tolerance);
+        row.runs = self.walls.len();
+        let summary = match &self.result {
+            Ok(summary) => summary,
+            Err(why) => {
+                row.failure = Some(why.clone());
+                return row;
+            }
+        };
+        row.failure = unlike(summary, reference);
+        if row.failure.is_some() {
+            return row;
+        }
+        row.failure = summary.stopped.clone();
+        let estimate = summary.error_estimate;
+        row.estimate_theta_rad = estimate.map(|error| error.theta_rad);
+        row.estimate_omega_rad_per_s = estimate.map(|error| error.omega_rad_per_s);
+        let mut walls = self.walls.clone();
+        walls.sort_by(f64::total_cmp);
+        row.wall_s = walls.first().copied();
+        row.wall_median_s = walls.get(walls.len() / 2).copied();
+        row.evaluations = Some(summary.evaluations);
+        row.steps = Some(summary.steps);
+        let Some(reference) = reference else {
+            row.measured_against = Some("nothing: no other method reaches the end".to_owned());
+            return row;
+        };
+        if named {
+            let (what, error) = (&reference.what, reference.theta_error);
+            row.measured_against = Some(format!("{what}, its error {error:.1e} rad or less"));
+        }
+        let (theta, theta_bound) = error(
+            summary.last.theta_rad,
+            reference.theta,
+            reference.theta_error,
+        );
+        let (omega, omega_bound) = error(
+            summary.last.omega_rad_per_s,
+            reference.omega,
+            reference.omega_error,
+        );
+        row.error_theta_rad = Some(theta);
+        row.error_omega_rad_per_s = Some(omega);
+        row.error_is_bound = theta_bound || omega_bound;
+        if let (Some((x, own)), Some(joint)) = (reference.slider, &summary.clearance) {
+            let (distance, bound) = error(joint.last.x_m, x, own);
+            row.error_slider_x_m = Some(distance);
+            row.estimate_slider_x_m = joint.last.error_x_m;
+            row.error_is_bound |= bound;
+        }
+        row
+    }
+}
+
+/// Two ends at times this near, as part of the time, are the same.
+const SAME_END: f64 = 1e-3;
+
+/// Why a run does not end where the reference does.
+fn unlike(summary: &Summary, reference: Option<&Reference>) -> Option<String> {
+    match (&summary.stopped, reference.and_then(|found| found.ends_at)) {
+        (None, None) => None,
+        (None, Some(t)) => Some(format!(
+            "goes on beyond t = {t} s, where the equations of the reference end"
+        )),
+        (Some(_), Some(t)) if (summary.last.t_s - t).abs() <= SAME_END * t => None,
+        (Some(why), _) => Some(why.clone()),
+    }
+}
+
+/// Distance from a reference; with the reference's own error, if that is not much smaller.
+fn error(value: f64, reference: DoubleDouble, reference_error: f64) -> (f64, bool) {
+    let distance = (reference - value).value().abs();
+    if BETTER * reference_error > distance {
+        (distance + reference_error, true)
+    } else {
+        (distance, false)
+    }
+}
+
+/// Times all cells in turns, so that a disturbance of the machine meets all of them. `ends`: the equations end before
+/// the run.
+pub(super) fn time(cells: &mut [Cell], ends: bool, options: &PrecisionOptions) {
+    let begun = Instant::now();
+    for round in 0..options.repeats.max(1) {
+        if round > 0 && begun.elapsed().as_secs_f64() > options.most_s {
+            break;
+        }
+        let mut served: Vec<_> = cells.iter_mut().filter(|cell| cell.arrived(ends)).collect();
+        if round % 2 == 1 {
+            served.reverse();
+        }
+        for cell in served {
+            cell.run_again();
+        }
+    }
+}

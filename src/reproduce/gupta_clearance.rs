@@ -1,0 +1,126 @@
+//! Gupta, section 2.3 and figures 14 to 16: 1 mm of clearance at the crank pin B.
+//!
+//! The paper gives the clearance alone. Assumed are a radial clearance, steel, a bearing of 10 mm radius, restitution
+//! 0.9 and dry friction 0.05.
+
+use std::f64::consts::TAU;
+
+use super::drawing::{Drawing, Plot};
+use super::entry::{Claim, worded};
+use crate::error::Error;
+use crate::scene::{Clearance, Every, Joint, Rod, Scene, Slider};
+use crate::simulate::{Options, Row, simulate_rows};
+
+/// The crank's speeds, rpm: high, normal, low.
+const SPEEDS: [f64; 3] = [400.0, 300.0, 30.0];
+/// Turns before the one that is shown, in which the journal comes to the wall.
+const BEFORE: f64 = 1.0;
+/// Part of the stroke that a figure shows as very little, %: about the width of its lines.
+const VERY_LITTLE: f64 = 1.0;
+
+fn scene(speed: f64) -> Scene {
+    let mut scene = Scene::new(0.14, 0.31)
+        .offset(0.06)
+        .rod(Rod {
+            mass: 1.56,
+            cg: 0.155,
+            inertia: 14_559.334_82e-6,
+            ..Rod::default()
+        })
+        .slider(Slider { mass: 1.95 })
+        .constant_speed(0.0, speed * TAU / 60.0)
+        .revolutions(BEFORE + 1.0)
+        .output_every(Every::Angle(1f64.to_radians()));
+    scene.clearance = Some(Clearance {
+        bearing_radius: Some(0.01),
+        young_modulus: Some(207e9),
+        poisson_ratio: Some(0.3),
+        restitution: Some(0.9),
+        friction: Some(0.05),
+        ..Clearance::new(Joint::CrankPin, 1e-3)
+    });
+    scene
+}
+
+/// The rows of the turn that is shown, at each speed.
+fn turns() -> Result<Vec<Vec<Row>>, Error> {
+    let options = Options {
+        estimate: false,
+        ..Options::default()
+    };
+    let turn = |speed: &f64| {
+        let mut rows: Vec<Row> = Vec::new();
+        simulate_rows(&scene(*speed), &options, &mut rows)?;
+        rows.retain(|row| row.theta >= (BEFORE - 1e-9) * TAU);
+        Ok(rows)
+    };
+    SPEEDS.iter().map(turn).collect()
+}
+
+pub(super) fn claims() -> Result<Vec<Claim>, Error> {
+    let turns = turns()?;
+    let ideal = |row: &Row| row.clearance.map_or(f64::NAN, |joint| joint.ideal[0]);
+    let all = || turns[0].iter().map(ideal);
+    let stroke = all().fold(f64::MIN, f64::max) - all().fold(f64::MAX, f64::min);
+    let percent = |off: f64| 100.0 * off / stroke;
+    let little = |what: &str, words: &str, off: f64| {
+        let range = [0.0, VERY_LITTLE];
+        worded(
+            "2.3, figure 14",
+            what,
+            "% of stroke",
+            words,
+            range,
+            percent(off),
+        )
+    };
+    let off = |off: f64, new: f64| {
+        if new.is_nan() {
+            new
+        } else {
+            off.max(new.abs())
+        }
+    };
+    let mut claims = Vec::new();
+    for (speed, turn) in SPEEDS.iter().zip(&turns) {
+        let what = format!("effect of the clearance on the position, {speed} rpm");
+        let far = turn.iter().map(|row| row.x - ideal(row)).fold(0.0, off);
+        claims.push(little(&what, "very little", far));
+    }
+    for (speed, turn) in SPEEDS[1..].iter().zip(&turns[1..]) {
+        let what = format!("position at 400 rpm, off that at {speed} rpm");
+        let pairs = turns[0].iter().zip(turn);
+        let far = pairs.map(|(high, low)| high.x - low.x).fold(0.0, off);
+        claims.push(little(&what, "remains the same", far));
+    }
+    Ok(claims)
+}
+
+pub(super) fn drawings() -> Result<Vec<Drawing>, Error> {
+    let turns = turns()?;
+    let names = ["Displacement", "Velocity", "Acceleration"];
+    let axes = [
+        "slider position [m]",
+        "slider velocity [m/s]",
+        "slider acceleration [m/s2]",
+    ];
+    let figure = |(i, name): (usize, &str)| {
+        let over_angle = |rows: &[Row], value: &dyn Fn(&Row) -> f64| {
+            let angle = |row: &Row| (row.theta - BEFORE * TAU).to_degrees();
+            rows.iter().map(|row| (angle(row), value(row))).collect()
+        };
+        let plots = SPEEDS.iter().zip(&turns).map(|(speed, rows)| {
+            let moved = |row: &Row| [row.x, row.v, row.a][i];
+            let ideal = |row: &Row| row.clearance.map_or(f64::NAN, |joint| joint.ideal[i]);
+            Plot::new("crank angle [deg]", axes[i])
+                .line(&format!("1 mm, {speed} rpm"), over_angle(rows, &moved))
+                .dashed("without clearance", over_angle(rows, &ideal))
+        });
+        Drawing::new(
+            &format!("figure-{}", 14 + i),
+            &format!("{name} of the slider with clearance"),
+            plots.collect(),
+        )
+    };
+    Ok(names.into_iter().enumerate().map(figure).collect())
+}

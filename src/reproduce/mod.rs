@@ -1,0 +1,124 @@
+//! The four papers that the program implements, number by number and figure by figure, beside ours.
+
+mod drawing;
+mod duarte;
+mod entry;
+mod gupta;
+mod gupta_clearance;
+mod ng;
+mod obaseki_alfred;
+
+use crate::error::Error;
+pub use drawing::{Drawing, Plot, Series, Style};
+use entry::Claim;
+pub use entry::{Entry, Verdict};
+
+/// A paper.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Paper {
+    /// Obaseki and Alfred 2020, Modeling and investigating the effect of offset distance on slider-crank
+    /// mechanism.
+    ObasekiAlfred,
+    /// Gupta, Offset slider-crank mechanism.
+    Gupta,
+    /// Ng, A slider-crank experiment to determine the action of static forces.
+    Ng,
+    /// Duarte, Valencia and Obregon 2018, Application of Lagrange equations in the analysis of slider-crank
+    /// mechanisms.
+    Duarte,
+}
+
+impl Paper {
+    /// All of them.
+    pub const ALL: [Paper; 4] = [Paper::ObasekiAlfred, Paper::Gupta, Paper::Ng, Paper::Duarte];
+
+    /// Its name in arguments and file names.
+    pub fn name(self) -> &'static str {
+        match self {
+            Paper::ObasekiAlfred => "obaseki-alfred",
+            Paper::Gupta => "gupta",
+            Paper::Ng => "ng",
+            Paper::Duarte => "duarte",
+        }
+    }
+
+    /// Who wrote it.
+    pub fn authors(self) -> &'static str {
+        match self {
+            Paper::ObasekiAlfred => "Obaseki and Alfred",
+            Paper::Gupta => "Gupta",
+            Paper::Ng => "Ng",
+            Paper::Duarte => "Duarte et al.",
+        }
+    }
+
+    /// The paper of a name.
+    pub fn named(name: &str) -> Option<Paper> {
+        Paper::ALL.into_iter().find(|paper| paper.name() == name)
+    }
+}
+
+/// Numbers and figures of some papers.
+#[derive(Clone, Debug)]
+pub struct Reproduction {
+    /// Every number and formula, in the order of the papers.
+    pub entries: Vec<Entry>,
+    /// Every figure.
+    pub drawings: Vec<Drawing>,
+}
+
+impl Reproduction {
+    /// Entries whose verdict is not the known one; none if all is well.
+    pub fn surprises(&self) -> impl Iterator<Item = &Entry> {
+        let unexpected = |entry: &&Entry| entry.verdict != entry.expected;
+        self.entries.iter().filter(unexpected)
+    }
+}
+
+/// Computes every number and figure of the papers.
+///
+/// # Errors
+/// None that is known; those of the studies it is made of.
+///
+/// ```
+/// use slider_crank::reproduce::{Paper, reproduce};
+/// let ng = reproduce(&[Paper::Ng]).unwrap();
+/// assert_eq!(ng.surprises().count(), 0);
+/// ```
+pub fn reproduce(papers: &[Paper]) -> Result<Reproduction, Error> {
+    let mut result = Reproduction {
+        entries: Vec::new(),
+        drawings: Vec::new(),
+    };
+    for paper in papers {
+        let (claims, drawings) = match paper {
+            Paper::ObasekiAlfred => (obaseki_alfred::claims()?, obaseki_alfred::drawings()?),
+            Paper::Gupta => {
+                let claims = [gupta::claims(), gupta_clearance::claims()?].concat();
+                (
+                    claims,
+                    [gupta::drawings(), gupta_clearance::drawings()?].concat(),
+                )
+            }
+            Paper::Ng => (ng::claims()?, ng::drawings()?),
+            Paper::Duarte => (duarte::claims(), duarte::drawings()),
+        };
+        let name = paper.name();
+        result
+            .entries
+            .extend(claims.into_iter().map(|claim: Claim| claim.judged(name)));
+        result
+            .drawings
+            .extend(drawings.into_iter().map(|drawing| Drawing {
+                paper: name,
+                title: format!(
+                    "{}, {}: {}",
+                    paper.authors(),
+                    drawing.name.replace("figure-0", "figure ").replace('-', " "),
+                    drawing.title
+                ),
+                ..drawing
+            }));
+    }
+    Ok(result)
+}

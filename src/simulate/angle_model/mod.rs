@@ -1,0 +1,299 @@
+//! The mechanism as the energy engine sees it: inertia, potential and force over the crank angle.
+
+mod work;
+
+use std::cell::Cell;
+use std::f64::consts::TAU;
+
+use super::guide_friction::{Grip, Sliding};
+use super::marks::{Marks, in_order};
+use crate::engine::angle::{Driven, Table};
+use crate::engine::energy::Profile;
+use crate::mechanism::{Equation, Limits};
+use crate::numeric::angle::Angle;
+use crate::numeric::chebyshev::Values;
+use crate::numeric::enclosure::{Detail, Reach};
+use crate::scene::Variable;
+
+/// On each side of an angle this far, rad, the slope of a load is taken.
+const BESIDE: f64 = 1e-6;
+
+/// Inertia, potential and force of an equation whose loads depend on the position alone.
+pub(super) struct AngleModel<'a> {
+    equation: &'a Equation,
+    sliding: Option<&'a Sliding>,
+    /// Whole turns of the start, beside all angles: loads over theta need not be the same in each turn.
+    turns: f64,
+    dead_centres: Vec<f64>,
+    /// Dead centres and corners of loads.
+    corners: Vec<f64>,
+    /// Turns after which the loads are the same again.
+    cycle: u32,
+    /// Corners of loads in a cycle, and these with its dead centres.
+    of_loads: Vec<f64>,
+    of_cycle: Vec<f64>,
+    /// Corners and narrow parts of formulas, where they are no corners of each turn.
+    marks: Marks<'a>,
+    marks_are_corners: bool,
+    repeats: bool,
+    /// Work of the loads in one turn, J, and its error, if they are the same in each.
+    work_of_turn: Option<(f64, f64)>,
+    evaluations: Cell<u64>,
+    most_evaluations: u64,
+}
+
+impl<'a> AngleModel<'a> {
+    /// Angles are those beside the whole turns of `start`. Panels end at the rows of tables over the crank angle, and
+    /// may end at the dead centres, where the inertia of a mechanism without crank inertia has a corner.
+    pub fn new(
+        equation: &'a Equation,
+        limits: &Limits,
+        start: Angle,
+        speed: f64,
+    ) -> AngleModel<'a> {
+        let loads = equation.loads();
+        let dead_centres: Vec<f64> = limits.dead_centres.iter().map(|dc| dc.theta).collect();
+        let tables = loads.angle_corners().into_iter();
+        let of_loads = in_order(tables.map(|theta| theta.rem_euclid(TAU)));
+        let corners = in_order(dead_centres.iter().chain(&of_loads).copied());
+        AngleModel {
+            equation,
+            sliding: None,
+            turns: start.turns,
+            dead_centres,
+            cycle: 1,
+            of_cycle: corners.clone(),
+            corners,
+            of_loads,
+            marks: Marks::new(equation, start, speed),
+            marks_are_corners: false,
+            repeats: loads.have_potential() && !loads.turn_the_crank(),
+            work_of_turn: None,
+            evaluations: Cell::new(0),
+            most_evaluations: u64::MAX,
+        }
+    }
+
+    /// A motion made of its energy ends after so many positions.
+    pub fn with_limit(mut self, most_evaluations: u64) -> AngleModel<'a> {
+        self.most_evaluations = most_evaluations;
+        self
+    }
+
+    /// With friction at the guide.
+    pub fn with_friction(mut self, sliding: Option<&'a Sliding>) -> AngleModel<'a> {
+        self.sliding = sliding;
+        self
+    }
+
+    /// For loads that are the same again after so many turns.
+    pub fn with_cycle(mut self, turns: u32) -> AngleModel<'a> {
+        self.cycle = turns;
+        let length = f64::from(turns) * TAU;
+        let marks = self.marks.between(0.0, length);
+        if turns > 1 {
+            // Those at its start are its own.
+            let before = -1e-9;
+            let loads = self.equation.loads();
+            self.of_loads = loads.corners_between(before, length + before);
+        } else {
+            self.corners = in_order(self.corners.iter().chain(&marks).copied());
+            self.marks_are_corners = true;
+        }
+        self.of_loads = in_order(self.of_loads.iter().chain(&marks).copied());
+        let again = |turn: u32| {
+            let dead_centres = self.dead_centres.iter();
+            dead_centres.map(move |theta| theta + f64::from(turn) * TAU)
+        };
+        let all = (0..turns).flat_map(again);
+        self.of_cycle = in_order(all.chain(self.of_loads.iter().copied()));
+        self
+    }
+
+    /// Whether the loads depend on the position alone and are the same in each turn.
+    pub fn turns_are_alike(&self) -> bool {
+        self.work_of_turn.is_some()
+    }
+
+    /// Positions at which inertia and force were computed so far.
+    pub fn evaluations(&self) -> u64 {
+        self.evaluations.get()
+    }
+
+    /// The whole angle.
+    fn angle(&self, theta: f64) -> Angle {
+        Angle {
+            turns: self.turns,
+            rest: theta,
+        }
+    }
+
+    fn count(&self, positions: usize) {
+        self.evaluations
+            .set(self.evaluations.get() + positions as u64);
+    }
+}
+
+/// A position as the loads see it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spot {
+    /// x (m) and x' (m/rad).
+    at: [f64; 2],
+    /// Zero without friction.
+    pub grip: Grip,
+}
+
+impl Driven for AngleModel<'_> {
+    type Place = Spot;
+
+    fn tabulate(
+        &self,
+        turns: f64,
+        (angles, count): (&Values, usize),
+        side: f64,
+        table: &mut Table<Spot>,
+    ) {
+        self.count(count);
+        let loads = self.equation.loads();
+        let driven = self.is_driven();
+        let at = self.equation.first_positions(angles, count);
+        table.places.clear();
+        let mut of_place = Vec::new();
+        for (i, angle) in angles.iter().enumerate().take(count) {
+            let (x, dx) = (at.x[i], at.dx[i]);
+            table.inertia[i] = at.m[i];
+            let (stored, placed) = (
+                loads.with_potential_at(x),
+                loads.of_place(
+                    Angle {
+                        turns,
+                        rest: *angle,
+                    },
+                    x,
+                ),
+            );
+            table.force[i] = stored.over(dx) - at.dv[i];
+            table.push[i] = placed.over(dx);
+            table.damping[i] = loads.damping(dx);
+            if self.sliding.is_some() {
+                of_place.push(stored.plus(placed));
+            }
+            if driven {
+                let grip = Grip::default();
+                table.places.push(Spot { at: [x, dx], grip });
+            }
+        }
+        if let Some(sliding) = self.sliding {
+            let angles = &angles[..count];
+            // Panels run in the direction of the motion.
+            let direction = (angles[count - 1] - angles[0]).signum();
+            sliding.tabulate(angles, direction * side, loads, &of_place, table);
+        }
+    }
+
+    fn cycle(&self) -> u32 {
+        self.cycle
+    }
+
+    fn is_driven(&self) -> bool {
+        self.equation.loads().are_called()
+    }
+
+    fn reads_time(&self) -> bool {
+        self.equation.loads().reads().has(Variable::T)
+    }
+
+    fn drive(&self, place: &Spot, t: f64, angle: Angle, speed: f64) -> f64 {
+        let load = self.equation.loads().of_state(t, angle, speed, place.at);
+        load.over(place.at[1]) + place.grip.rubbed(load)
+    }
+
+    fn has_detail(&self) -> bool {
+        self.is_driven() && self.equation.loads().have_detail()
+    }
+
+    fn detail(&self, reach: &Reach, ellipse: f64) -> Detail {
+        let (loads, linkage) = (self.equation.loads(), self.equation.linkage());
+        loads.detail_of_state(linkage, reach, ellipse)
+    }
+
+    fn drive_switch(&self, place: &Spot, t: f64, angle: Angle, speed: f64) -> f64 {
+        let load = self.equation.loads().of_state(t, angle, speed, place.at);
+        place.grip.pressed(load)
+    }
+
+    fn corners(&self) -> &[f64] {
+        // Friction changes its sign at the dead centres.
+        match self.sliding {
+            Some(_) => &self.of_cycle,
+            None => &self.of_loads,
+        }
+    }
+
+    fn corners_if_light(&self) -> &[f64] {
+        &self.of_cycle
+    }
+}
+
+impl Profile for AngleModel<'_> {
+    fn inertia_and_force(&self, theta: f64) -> (f64, f64) {
+        self.count(1);
+        let terms = self.equation.terms(theta);
+        let angle = self.angle(theta);
+        let load = self.equation.loads().value(0.0, angle, 0.0, &terms.pose);
+        (terms.inertia.m, load.generalized(&terms.pose) - terms.dv)
+    }
+
+    fn tabulate(&self, angles: &Values, count: usize, inertia: &mut Values, force: &mut Values) {
+        self.count(count);
+        let loads = self.equation.loads();
+        let at = self.equation.positions(angles);
+        for (i, angle) in angles.iter().enumerate().take(count) {
+            let load = loads
+                .with_potential_at(at.x[i])
+                .plus(loads.of_place(self.angle(*angle), at.x[i]));
+            inertia[i] = at.m[i];
+            force[i] = load.over(at.dx[i]) - at.dv[i];
+        }
+    }
+
+    fn rounding(&self, theta: f64) -> f64 {
+        self.count(1);
+        let angle = self.angle(theta);
+        let mut size = self.equation.size_of_terms(0.0, angle, 0.0);
+        if !self.equation.loads().have_potential() {
+            // What a formula makes of the angle is rounded as the angle is.
+            let change = self.push(theta + BESIDE) - self.push(theta - BESIDE);
+            size += (0.5 * change / BESIDE * angle.radians()).abs();
+        }
+        0.5 * f64::EPSILON * size
+    }
+
+    fn corners(&self) -> &[f64] {
+        &self.corners
+    }
+
+    fn corner_between(&self, from: f64, to: f64) -> Option<f64> {
+        // The same corner again, off by rounding, is not a next one.
+        let apart = (to - from).signum() * 1e-12 * from.abs().max(1.0);
+        let turns = self.turns * TAU;
+        let loads = self.equation.loads();
+        let corner = loads.corner_out_of_step(from + apart + turns, to + turns);
+        let mark = self.mark(from + apart, to);
+        let first = |a: f64, b: f64| if (a < b) == (from < to) { a } else { b };
+        let corner = corner.map(|corner| corner - turns);
+        corner.into_iter().chain(mark).reduce(first)
+    }
+
+    fn is_spent(&self) -> bool {
+        self.evaluations() >= self.most_evaluations
+    }
+
+    fn repeats(&self) -> bool {
+        self.repeats
+    }
+
+    fn work_of_turn(&self) -> Option<(f64, f64)> {
+        self.work_of_turn
+    }
+}

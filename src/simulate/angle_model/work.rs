@@ -1,0 +1,80 @@
+//! Work of the loads, by a quadrature of its own, and where their formulas are narrow.
+
+use std::f64::consts::TAU;
+
+use super::AngleModel;
+use crate::numeric::angle::Angle;
+use crate::numeric::gauss;
+
+impl<'a> AngleModel<'a> {
+    /// The first mark of a formula after `from` on the way to `to`, in either direction, that is no corner of each turn.
+    pub(super) fn mark(&self, from: f64, to: f64) -> Option<f64> {
+        let before = self.turns * TAU;
+        let mark = || self.marks.next(from + before, to + before);
+        (!self.marks_are_corners)
+            .then(mark)?
+            .map(|mark| mark - before)
+    }
+
+    /// For loads that depend on the position alone and are the same in each turn.
+    pub fn with_turns_alike(mut self) -> AngleModel<'a> {
+        let torque = TAU * self.equation.loads().constant_torque();
+        let (mut work, mut size) = (torque, torque.abs());
+        if !self.equation.loads().have_potential() {
+            work += self.work_between(0.0, TAU);
+            size += gauss::composite(|theta| self.push(theta).abs(), 0.0, TAU, 64);
+        }
+        self.work_of_turn = Some((work, f64::EPSILON * size));
+        self
+    }
+
+    /// Work (J) of the loads without potential between two angles, by a quadrature of its own.
+    pub fn work(&self, from: Angle, to: Angle) -> f64 {
+        if self.equation.loads().have_potential() {
+            return 0.0;
+        }
+        let turns = to.turns - from.turns;
+        if !self.turns_are_alike() {
+            return self.work_between(from.rest, to.rest + turns * TAU);
+        }
+        let whole = if turns == 0.0 {
+            0.0
+        } else {
+            turns * self.work_between(0.0, TAU)
+        };
+        whole + self.work_between(from.rest, to.rest)
+    }
+
+    /// Generalized force (N m) of the loads without potential at an angle.
+    pub(super) fn push(&self, theta: f64) -> f64 {
+        let pose = self.equation.linkage().pose(theta);
+        let loads = self.equation.loads();
+        let load = loads.without_potential(0.0, self.angle(theta), 0.0, &pose);
+        load.generalized(&pose)
+    }
+
+    fn work_between(&self, from: f64, to: f64) -> f64 {
+        let force = |theta: f64| self.push(theta);
+        let (low, high) = (from.min(to), from.max(to));
+        let turns = (low / TAU).floor() as i64..=(high / TAU).floor() as i64;
+        let corners = turns.flat_map(|turn| {
+            let whole = turn as f64 * TAU;
+            self.corners.iter().map(move |corner| corner + whole)
+        });
+        let mut cuts = vec![low];
+        cuts.extend(corners.filter(|corner| low < *corner && *corner < high));
+        let before = self.turns * TAU;
+        let loads = self.equation.loads();
+        let out_of_step = loads.corners_out_of_step(low + before, high + before);
+        cuts.extend(out_of_step.iter().map(|corner| corner - before));
+        if !self.marks_are_corners {
+            let marks = self.marks.between(low + before, high + before);
+            cuts.extend(marks.iter().map(|mark| mark - before));
+        }
+        cuts.push(high);
+        cuts.sort_by(f64::total_cmp);
+        let piece = |w: &[f64]| gauss::adaptive(&force, w[0], w[1], 0.0);
+        let work: f64 = cuts.windows(2).map(piece).sum();
+        if to < from { -work } else { work }
+    }
+}

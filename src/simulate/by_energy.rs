@@ -1,0 +1,176 @@
+//! Motion from the energy integral.
+
+use std::f64::consts::TAU;
+use std::time::Instant;
+
+use super::angle_model::AngleModel;
+use super::over_angle::{Motion, PLACE, energy_residual, late_by};
+use super::result::ErrorEstimate;
+use super::run_setup::RunSetup;
+use super::stop_reason;
+use crate::engine::energy::{NotApplicable, Orbit};
+use crate::numeric::angle::Angle;
+use crate::numeric::root;
+use crate::scene::Extent;
+
+/// Series end where their coefficients have decayed to this part of the tolerance,
+const SHARE: f64 = 0.1;
+/// where rounding takes over at the latest, and early enough for all digits but the last ones at the first.
+const LEAST_TAIL: f64 = 4e-15;
+const MOST_TAIL: f64 = 1e-13;
+
+/// Relative error of times by rounding of the positions and of the kinetic energy at the start,
+const ROUNDING: f64 = f64::EPSILON;
+/// and where the crank comes to rest, next to which the time hangs on the force: a difference, which is rounded more.
+const ROUNDING_AT_REST: f64 = 4.0 * f64::EPSILON;
+
+/// Solves a task.
+pub(super) fn solve(
+    task: &RunSetup<'_>,
+    position: &AngleModel<'_>,
+) -> Result<Motion, NotApplicable> {
+    let begun = Instant::now();
+    let speed = task.scene.motion.speed;
+    let tail = (SHARE * task.scene.run.tolerance).clamp(LEAST_TAIL, MOST_TAIL);
+    let (orbit, end, stopped) = until_the_end(task, |until| {
+        Orbit::new(position, task.start(), speed, until, tail)
+    })?;
+    let wall_s = begun.elapsed().as_secs_f64();
+    let last = orbit.state(end);
+    let work = position.work(task.start(), last.0);
+    let estimate = task.options.estimate.then(|| {
+        let mut error = rounded(task, (&orbit, end), last);
+        error.omega_rad_per_s += left_out(task, (&orbit, end), last, work);
+        (error, None)
+    });
+    Ok(Motion {
+        end,
+        last,
+        work,
+        evaluations: position.evaluations(),
+        wall_s,
+        stopped,
+        estimate,
+        second: None,
+        orbit,
+    })
+}
+
+/// Error of a state by that of its time, and by the rounding of its place and of energies.
+fn rounded(task: &RunSetup<'_>, (orbit, t): (&Orbit, f64), state: (Angle, f64)) -> ErrorEstimate {
+    let rests = task.scene.motion.speed == 0.0 || orbit.turns_back();
+    let rounding = if rests { ROUNDING_AT_REST } else { ROUNDING };
+    let late = orbit.time_error(t) + rounding * t;
+    let place = orbit.rounding(t).map_or(PLACE, |place| place.min(PLACE));
+    let mut error = late_by(task, state, t, late, place);
+    error.theta_rad = error.theta_rad.hypot(orbit.misplaced(t));
+    let (angle, omega) = state;
+    let momentum = task.equation().terms(angle.rest).inertia.m * omega.abs();
+    // Not a number at rest.
+    let kinetic = 0.5 * momentum * omega.abs();
+    let by_energy = (orbit.energy_error(t, kinetic) / momentum).min(omega.abs());
+    error.omega_rad_per_s = error.omega_rad_per_s.hypot(by_energy);
+    error
+}
+
+/// How far the speed may be off that of its angle, rad/s: what the series leave out of it there, or less if
+/// the energy of the state says so.
+fn left_out(
+    task: &RunSetup<'_>,
+    (orbit, end): (&Orbit, f64),
+    last: (Angle, f64),
+    work: f64,
+) -> f64 {
+    let (angle, omega) = last;
+    let (residual, scale) = energy_residual(task, (orbit, end), last, work);
+    let momentum = task.equation().terms(angle.rest).inertia.m * omega.abs();
+    let seen = (1.5 * residual.abs() + f64::EPSILON * scale) / momentum;
+    (orbit.speed_error(end) * omega.abs()).min(seen)
+}
+
+/// Error of a row at a time, s.
+pub(super) fn row_error(task: &RunSetup<'_>, orbit: &Orbit, t: f64) -> ErrorEstimate {
+    let state = orbit.state(t);
+    let mut error = rounded(task, (orbit, t), state);
+    error.omega_rad_per_s += orbit.speed_error(t) * state.1.abs();
+    error
+}
+
+/// A motion, its last time, and why it does not complete its turns, if it does not.
+type Ended = (Orbit, f64, Option<String>);
+
+/// The motion and its last time.
+fn until_the_end(
+    task: &RunSetup<'_>,
+    mut orbit_until: impl FnMut(f64) -> Result<Orbit, NotApplicable>,
+) -> Result<Ended, NotApplicable> {
+    let turns = match task.extent {
+        Extent::Duration(duration) => {
+            let orbit = orbit_until(duration)?;
+            return Ok(match cut_short(&orbit, duration) {
+                Some((end, why)) => (orbit, end, Some(why)),
+                None => (orbit, duration, None),
+            });
+        }
+        Extent::Revolutions(turns) => turns,
+    };
+    let radians = turns * TAU;
+    let speed = task.scene.motion.speed;
+    // Long enough for the turns: twice as long again and again, unless the motion repeats.
+    let mut until = if speed == 0.0 {
+        1.0
+    } else {
+        radians / speed.abs()
+    };
+    for _ in 0..60 {
+        let orbit = orbit_until(until)?;
+        let period = orbit.period().map(|period| period.0);
+        let known = period.unwrap_or(until.min(orbit.length()));
+        let reached = if orbit.turns_back() {
+            time_of_way(task, &orbit, radians, known)
+        } else {
+            orbit.time_of_turn(radians)
+        };
+        match (reached, period) {
+            (Some(end), _) => return Ok((orbit, end, None)),
+            (None, Some(period)) => {
+                let why = format!(
+                    "the crank swings to and fro and does not complete {turns} turns: shown is one period of {period} s; give a duration instead"
+                );
+                return Ok((orbit, period, Some(why)));
+            }
+            (None, None) => match cut_short(&orbit, until) {
+                Some((end, why)) => return Ok((orbit, end, Some(why))),
+                None => until *= 2.0,
+            },
+        }
+    }
+    Err(NotApplicable::TooLong)
+}
+
+/// Where (s) the work limit ends a motion that is wanted until a time (s), and why, if it does.
+fn cut_short(orbit: &Orbit, until: f64) -> Option<(f64, String)> {
+    let end = orbit.length();
+    (end < until).then(|| {
+        let (angle, omega) = orbit.state(end);
+        (
+            end,
+            stop_reason::work_limit(&stop_reason::place(end, angle, omega)),
+        )
+    })
+}
+
+/// When a motion that turns back is first so far (rad) from its start, either way.
+fn time_of_way(task: &RunSetup<'_>, orbit: &Orbit, radians: f64, until: f64) -> Option<f64> {
+    let beyond = |t: f64| orbit.state(t).0.minus(task.start()).abs() - radians;
+    let mut from = 0.0;
+    let mut ends = orbit.turning_times(until);
+    ends.push(until);
+    for to in ends {
+        if beyond(to) >= 0.0 {
+            return root::bracketed(beyond, from, to);
+        }
+        from = to;
+    }
+    None
+}

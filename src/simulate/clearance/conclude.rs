@@ -1,0 +1,229 @@
+//! The result of a run with a loose joint.
+
+use std::f64::consts::TAU;
+
+use super::super::closed_form;
+use super::super::joint_force_maxima::Peaks;
+use super::super::result::{ErrorEstimate, Event, Final, Solved};
+use super::follow::{Seen, phi};
+use super::motion::{DRIVEN, FREE, Loose};
+use super::record::{ContactStatistics, Record};
+use super::result::{Beyond, ClearanceSummary, Horizon, LooseFinal};
+use super::{Run, Tighter};
+use crate::engine::contact::Ended;
+use crate::mechanism::LooseState;
+use crate::scene::Joint;
+use crate::trajectory::Trajectory;
+
+/// What is stated is larger than the distance of the two runs by this, for the error of the second.
+const MARGIN: f64 = 1.5;
+/// Two journals at the same place: this part of the clearance apart.
+const SAME_PLACE: f64 = 0.01;
+
+impl<const N: usize> Run<'_, N> {
+    pub(super) fn trajectory(&self, seen: &Seen, t_end: f64, record: bool) -> Option<Trajectory> {
+        if N == DRIVEN {
+            return Some(Trajectory::uniform(
+                self.task.start(),
+                self.start.omega,
+                t_end,
+            ));
+        }
+        record.then(|| Trajectory::from_steps(seen.steps.clone(), t_end))
+    }
+
+    #[allow(clippy::too_many_arguments)]
+    pub(super) fn solved(
+        &self,
+        model: &Loose<'_, N>,
+        ended: &Ended<N>,
+        seen: Seen,
+        last: LooseState,
+        tighter: Option<Tighter>,
+        wall_s: f64,
+        stopped: Option<String>,
+    ) -> Solved {
+        let [work, lost] = model.work(&ended.last);
+        let at_end = model.state(&ended.last);
+        let gained = self.mechanism.energy(&at_end) - self.mechanism.energy(&self.start);
+        let horizon = tighter.as_ref().map(|t| self.horizon(&seen, t, &last));
+        let same = horizon.is_some_and(|h| h.whole_run);
+        let against = tighter.as_ref().filter(|_| same).map(|t| &t.last);
+        // Each step rounds, independently of the others.
+        let rounding = 8.0 * f64::EPSILON * (1.0 + ended.steps as f64).sqrt();
+        let error = |value: fn(&LooseState) -> f64, size: f64| {
+            against.map(|t| MARGIN * (value(t) - value(&last)).abs() + rounding * size)
+        };
+        let reach = model.reach;
+        let struck = self.struck(&seen, f64::EPSILON * reach, last.t);
+        let summary = self.summary(
+            &seen,
+            [work, lost],
+            &last,
+            |value, length| Some(error(value, reach / length)? + struck / length),
+            horizon,
+        );
+        let ends_early = stopped.is_some();
+        let mut warnings = self.warnings(&summary, &seen, tighter.is_some() || stopped.is_some());
+        let (events, events_total) = self.events(&seen, last.t);
+        let theta = self.angle(&last).radians();
+        let estimate = match N {
+            DRIVEN => Some((2.0 * f64::EPSILON * theta.abs(), 0.0)),
+            _ => error(|s| s.theta, 1.0 + theta.abs())
+                .zip(error(|s| s.omega, 1.0 + last.omega.abs())),
+        };
+        if N == FREE && estimate.is_none() && self.task.options.estimate && stopped.is_none() {
+            warnings.push("the crank at the end lies beyond the reproducible horizon: its error is not stated".to_owned());
+        }
+        Solved {
+            last: Final {
+                t_s: last.t,
+                theta_rad: theta,
+                omega_rad_per_s: last.omega,
+            },
+            turned: last.theta - self.start.theta,
+            error_estimate: estimate.map(|(theta_rad, omega_rad_per_s)| ErrorEstimate {
+                theta_rad,
+                omega_rad_per_s,
+            }),
+            energy: (gained - work + lost, seen.energy),
+            evaluations: ended.evaluations,
+            steps: ended.steps,
+            wall_s,
+            estimate_cost: tighter.map(|t| t.cost),
+            speed: seen.speed,
+            events,
+            events_total,
+            warnings,
+            stopped,
+            peaks: seen.peaks.filter(|_| !ends_early).map(Peaks::new),
+            clearance: Some(summary),
+            ..Solved::default()
+        }
+    }
+
+    /// Until when the journal's path is that of the tighter run, and what both runs say of the time after.
+    fn horizon(&self, seen: &Seen, tighter: &Tighter, end: &LooseState) -> Horizon {
+        let distance = SAME_PLACE * self.mechanism.clearance().radial;
+        let parted = seen.record.agrees_until(&tighter.record, distance);
+        let t = parted.unwrap_or(end.t);
+        let statistics = |record: &Record| {
+            let (tally, from) = record.since(t);
+            ContactStatistics::new(&tally, from, end.t)
+        };
+        Horizon {
+            t_s: t,
+            // The mean speed will do for a number of turns.
+            revolutions: match end.t > 0.0 {
+                true => ((end.theta - self.start.theta) * t / end.t).abs() / TAU,
+                false => 0.0,
+            },
+            whole_run: parted.is_none(),
+            beyond: parted.map(|_| Beyond {
+                run: statistics(&seen.record),
+                tighter: statistics(&tighter.record),
+            }),
+        }
+    }
+
+    /// What an error of the gap (m) makes of the slider's place (m) by way of the impacts until time t, s. In the
+    /// deepest one of depth δ and force F, the energy 2Fδ/5 stopped the free bodies of mass m, v = √(4Fδ/5m), and sent
+    /// them back about as fast; the force is off by 3/2 of what the depth is, relatively, and so is 2v, until the
+    /// next impact sets them right.
+    fn struck(&self, seen: &Seen, gap: f64, t: f64) -> f64 {
+        let scene = &self.task.scene;
+        let slider = scene.slider.map_or(0.0, |slider| slider.mass);
+        let mass = match self.mechanism.clearance().joint {
+            Joint::WristPin => slider,
+            Joint::CrankPin => slider + scene.rod.map_or(0.0, |rod| rod.mass),
+        };
+        let (force, depth) = (seen.total.peak, seen.total.deepest);
+        if seen.separations == 0 || depth == 0.0 || mass == 0.0 {
+            return 0.0;
+        }
+        let change = 2.0 * (0.8 * force * depth / mass).sqrt();
+        1.5 * gap / depth * change * t / seen.separations as f64
+    }
+
+    fn summary(
+        &self,
+        seen: &Seen,
+        [work, lost]: [f64; 2],
+        last: &LooseState,
+        error: impl Fn(fn(&LooseState) -> f64, f64) -> Option<f64>,
+        horizon: Option<Horizon>,
+    ) -> ClearanceSummary {
+        let clearance = self.mechanism.clearance();
+        let whole = ContactStatistics::new(&seen.total, 0.0, last.t);
+        let linked = self.linked();
+        ClearanceSummary {
+            joint: match clearance.joint {
+                Joint::CrankPin => "crank-pin",
+                Joint::WristPin => "wrist-pin",
+            },
+            contact_law: clearance.law.name(),
+            radial_m: clearance.radial,
+            stiffness_n_per_m_1_5: (!linked).then(|| self.mechanism.force().stiffness),
+            impacts: whole.impacts,
+            separations: seen.separations,
+            contact_share: whole.contact_share,
+            drawn_share: (linked && last.t > 0.0).then(|| seen.total.drawn / last.t),
+            force_peak_n: whole.force_peak_n,
+            force_mean_n: whole.force_mean_n,
+            penetration_peak_m: seen.total.deepest,
+            dissipated_j: lost,
+            work_j: work,
+            last: LooseFinal {
+                x_m: last.x,
+                v_m_per_s: last.v,
+                phi_rad: phi(last.psi, self.task.scene.geometry.branch.sign()),
+                error_x_m: error(|s| s.x, 1.0),
+                error_phi_rad: error(|s| s.psi, self.task.scene.geometry.rod),
+            },
+            horizon,
+        }
+    }
+
+    fn warnings(&self, summary: &ClearanceSummary, seen: &Seen, compared: bool) -> Vec<String> {
+        let mut warnings = Vec::new();
+        if self.task.options.estimate && !compared {
+            warnings.push(
+                "the reproducible horizon is not known: the second, tighter run did not finish"
+                    .to_owned(),
+            );
+        }
+        if let Some(horizon) = summary.horizon.filter(|h| !h.whole_run) {
+            warnings.push(format!(
+                "the motion is reproducible up to t = {:.6} s ({:.2} turns); beyond it only its statistics mean something",
+                horizon.t_s, horizon.revolutions
+            ));
+        }
+        let deepest = seen.total.deepest;
+        if deepest > summary.radial_m {
+            warnings.push(format!(
+                "the penetration reaches {deepest:.1e} m, more than the clearance: Hertz's law for a small spot of contact does not describe it"
+            ));
+        }
+        if let Some(drawn) = summary.drawn_share.filter(|share| *share > 0.0) {
+            warnings.push(format!(
+                "the massless link is drawn for {:.1} % of the time: there a journal would leave the bearing's wall",
+                100.0 * drawn
+            ));
+        }
+        warnings
+    }
+
+    /// Impacts, separations and dead centres in the order of time.
+    fn events(&self, seen: &Seen, end: f64) -> (Vec<Event>, u64) {
+        let (mut events, mut total) = (seen.events.clone(), seen.events_total);
+        if N == DRIVEN {
+            let (passages, count) =
+                closed_form::events(self.task, self.task.start(), self.start.omega, end);
+            events.extend(passages);
+            total += count;
+            events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
+            events.truncate(self.task.options.events_kept);
+        }
+        (events, total)
+    }
+}

@@ -1,0 +1,71 @@
+//! The largest joint forces of a run with a loose joint, step by step: impacts are too short for rows.
+
+use super::super::joint_force_maxima::{FORCES, Peak, sizes};
+use super::follow::Follow;
+use super::motion::touch;
+use crate::engine::contact::{Phase, Stretch};
+use crate::numeric::golden;
+
+/// A step is looked at in so many pieces.
+const PIECES: usize = 4;
+/// A force this near to the largest so far may be larger between the places that are looked at.
+const NEAR: f64 = 0.9;
+
+impl<const N: usize> Follow<'_, N> {
+    /// Sizes of the joint forces in a state of a step, N.
+    fn sizes(&self, y: &[f64; N], phase: Phase) -> [f64; FORCES] {
+        let mechanism = self.model.mechanism;
+        let s = match phase {
+            Phase::Link => mechanism.relinked(&self.model.state(y)),
+            _ => self.model.state(y),
+        };
+        let rates = mechanism.rates(&s, touch(phase, None));
+        let reactor = self.asked.maker.reactor.as_ref();
+        reactor.map_or([0.0; FORCES], |reactor| {
+            sizes(&reactor.loose(mechanism.joint(), &s, &rates))
+        })
+    }
+
+    /// The largest sizes so far: at the places, then between the neighbours of one that may be larger.
+    pub(super) fn follow_forces(&mut self, stretch: &mut Stretch<'_, N>) {
+        if !self.asked.forces {
+            return;
+        }
+        let phase = stretch.phase;
+        let start = stretch.start[0];
+        let end = self.seen.ends_at.map_or(stretch.end[0], |s| s.t);
+        let places: [f64; PIECES + 1] = std::array::from_fn(|i| match i {
+            PIECES => end,
+            _ => start + (end - start) * i as f64 / PIECES as f64,
+        });
+        let found = places.map(|t| self.sizes(&stretch.at(t), phase));
+        let mut peaks = self.seen.peaks.unwrap_or_default();
+        for (k, peak) in peaks.iter_mut().enumerate() {
+            let best = (0..=PIECES).max_by(|i, j| found[*i][k].total_cmp(&found[*j][k]));
+            let best = best.unwrap_or(0);
+            let mut top = (found[best][k], places[best]);
+            if top.0 <= NEAR * peak.value_n {
+                continue;
+            }
+            let (from, to) = (
+                places[best.saturating_sub(1)],
+                places[(best + 1).min(PIECES)],
+            );
+            let size = |t: f64| self.sizes(&stretch.at(t), phase)[k];
+            let (t, value) = golden::largest(size, from, to);
+            if value > top.0 {
+                top = (value, t);
+            }
+            if top.0 > peak.value_n {
+                let theta = self.model.state(&stretch.at(top.1)).theta;
+                *peak = Peak {
+                    value_n: top.0,
+                    t_s: top.1,
+                    theta_rad: self.angle(theta).radians(),
+                    added_n: (top.0 - found[best][k]).max(0.0),
+                };
+            }
+        }
+        self.seen.peaks = Some(peaks);
+    }
+}

@@ -1,0 +1,109 @@
+//! Global error of a run on the curve.
+
+use std::time::Instant;
+
+use super::super::result::{Cost, ErrorEstimate};
+use super::arrived::{Arrived, End, Follow};
+use super::crank_state;
+use super::roundoff::Noise;
+use crate::engine::time::{Method, Settings};
+
+/// The second run of the estimate, by collocation, is so much tighter that its own error does not count.
+const MUCH_TIGHTER: f64 = 1e4;
+const TIGHTEST: f64 = 1e-15;
+/// Evaluations of the collocation for one of the run that it judges, and beside them.
+const MOST_EVALUATIONS: (u64, u64) = (20, 20_000);
+/// Where collocation does not get to the end, the same method again, this much tighter; tighter than the tightest
+/// only by so much, for rounding inside the steps takes over, and they would collapse.
+const TIGHTER: f64 = 50.0;
+const TIGHTEST_AGAIN: f64 = 1e-13;
+const A_LITTLE: f64 = 5.0;
+/// What is stated is larger than the distance of the two runs by this, for the error of the second.
+const MARGIN: f64 = 1.5;
+/// Standard deviations of rounding that are stated.
+const DEVIATIONS: f64 = 2.0;
+
+/// The tolerance of the same method again.
+fn tighter(tolerance: f64) -> f64 {
+    (tolerance / TIGHTER).max(TIGHTEST_AGAIN.min(tolerance / A_LITTLE))
+}
+
+/// Global error of the last state: its distance from a much better run, and what rounding may have added to both.
+pub(super) fn estimate(follow: &Follow<'_>, arrived: &Arrived) -> Option<(ErrorEstimate, Cost)> {
+    let begun = Instant::now();
+    let tolerance = follow.settings.tolerance;
+    let (factor, beside) = MOST_EVALUATIONS;
+    let collocation = Settings {
+        method: Method::Picard,
+        tolerance: (tolerance / MUCH_TIGHTER).max(TIGHTEST),
+        max_evaluations: arrived
+            .evaluations
+            .saturating_mul(factor)
+            .saturating_add(beside)
+            .min(follow.settings.max_evaluations),
+        ..follow.settings
+    };
+    let again = Settings {
+        tolerance: tighter(tolerance),
+        ..follow.settings
+    };
+    let mut evaluations = 0;
+    let mut better = |settings: &Settings| {
+        let better = Follow {
+            equation: follow.equation,
+            settings: Settings {
+                t_end: arrived.last.end.t,
+                ..*settings
+            },
+            start: follow.start,
+            turn_limit: None,
+            turned_from: follow.turned_from,
+        };
+        let mut noise = Noise::new(follow.equation);
+        let best = better.run(&mut noise);
+        evaluations += best.evaluations + noise.evaluations.get();
+        (best.end == End::Done).then_some((best, noise))
+    };
+    let (best, noise) = better(&collocation).or_else(|| better(&again))?;
+    let error = distance(follow, arrived, &best, &noise);
+    let cost = Cost {
+        evaluations,
+        wall_s: begun.elapsed().as_secs_f64(),
+    };
+    Some((error, cost))
+}
+
+fn distance(
+    follow: &Follow<'_>,
+    arrived: &Arrived,
+    best: &Arrived,
+    noise: &Noise<'_>,
+) -> ErrorEstimate {
+    let curve = follow.equation.curve();
+    let (a, b) = (
+        crank_state(curve, &arrived.last),
+        crank_state(curve, &best.last),
+    );
+    let end = &arrived.last.end;
+    let place = curve.place(end.theta);
+    // Both runs round; many short steps more often.
+    let often = 1.0 + arrived.steps as f64 / best.steps.max(1) as f64;
+    let unit = DEVIATIONS * f64::EPSILON * often.sqrt();
+    let angle = unit * noise.spread.angle();
+    let speed = unit * noise.spread.speed();
+    let dtheta = place.dtheta.abs();
+    let bend = if place.d2theta.is_finite() {
+        (place.d2theta * end.omega).abs()
+    } else {
+        0.0
+    };
+    ErrorEstimate {
+        theta_rad: MARGIN * a.0.minus(b.0).abs()
+            + dtheta * angle
+            + f64::EPSILON * a.0.radians().abs(),
+        omega_rad_per_s: MARGIN * (a.1 - b.1).abs()
+            + dtheta * speed
+            + bend * angle
+            + f64::EPSILON * a.1.abs(),
+    }
+}

@@ -1,0 +1,283 @@
+//! Motion piece by piece: between the changes of friction it is smooth.
+
+use std::cell::Cell;
+
+use super::arrived::{Arrived, End, Follow, Observer};
+use super::stick_slip::{
+    CLEAR, CRANK, DEAD_CENTRE, InPhase, LIMIT, NORMAL, Phase, Quantities, SPEED, Signs, TURNED,
+    sliding,
+};
+use crate::engine::event_functions;
+use crate::engine::event_functions::{Change, EventFunction};
+use crate::engine::step::{Node, Step};
+use crate::engine::time::{self, Finish, Settings, Start};
+use crate::engine::work_forecast::WorkForecast;
+use crate::engine::{Counted, Motion};
+use crate::scene::Friction;
+
+/// A run under way.
+pub(super) struct Run<'a, 'o> {
+    pub follow: &'a Follow<'a>,
+    pub quantities: Quantities<'a>,
+    pub observer: &'o mut dyn Observer,
+    pub now: Start,
+    pub signs: Signs,
+    pub arrived: Arrived,
+}
+
+/// What ends a piece of the motion.
+enum Cut {
+    At { t: f64, index: usize },
+    Ended(Finish),
+    Stopped,
+}
+
+impl Follow<'_> {
+    /// Follows the motion to its end.
+    pub fn run(&self, observer: &mut dyn Observer) -> Arrived {
+        let Start { t, angle, speed } = self.start;
+        let node = Node {
+            t,
+            theta: angle.rest,
+            omega: speed,
+            ..Node::default()
+        };
+        let mut run = Run {
+            follow: self,
+            quantities: Quantities {
+                equation: self.equation,
+                turning: self.turn_limit.map(|limit| (self.turned_from, limit)),
+                evaluations: Cell::new(0),
+                against: Cell::default(),
+            },
+            observer,
+            now: self.start,
+            signs: Signs::default(),
+            arrived: Arrived {
+                last: Step::new(angle.turns, node, node),
+                work: 0.0,
+                steps: 0,
+                evaluations: 0,
+                pieces: 0,
+                end: End::Done,
+                impossible: None,
+                vanished: false,
+            },
+        };
+        run.begin();
+        run.arrived.evaluations += run.quantities.evaluations.get();
+        run.arrived
+    }
+
+    pub fn friction(&self) -> Option<Friction> {
+        self.equation.friction()
+    }
+
+    /// Whether anything may hold the mechanism at rest.
+    pub fn may_stick(&self) -> bool {
+        self.friction().is_some() || self.equation.loads().are_dry()
+    }
+}
+
+impl Run<'_, '_> {
+    fn begin(&mut self) {
+        let speed = self.now.speed;
+        let end = if speed == 0.0 && self.follow.may_stick() {
+            self.leave_rest(None)
+        } else {
+            self.signs = self.signs_for(if speed < 0.0 { -1.0 } else { 1.0 });
+            self.check_jam()
+        };
+        let end = end.or_else(|| self.pieces());
+        self.arrived.end = end.unwrap_or(End::Done);
+    }
+
+    pub(super) fn in_phase(&self, phase: Phase) -> InPhase<'_> {
+        InPhase {
+            equation: self.follow.equation,
+            phase,
+        }
+    }
+
+    /// Pieces of sliding until the end.
+    fn pieces(&mut self) -> Option<End> {
+        let in_time = self.in_phase(Phase::Sticking).depends_on_time();
+        let mut pace = WorkForecast::new(self.now.t, 0, self.follow.settings.ends(), in_time);
+        loop {
+            self.arrived.pieces += 1;
+            let from = self.now.angle;
+            let end = match self.slide() {
+                Cut::Ended(Finish::AtEnd) => Some(End::Done),
+                Cut::Ended(finish) => Some(self.singular(finish)),
+                Cut::Stopped => Some(End::Stopped),
+                Cut::At { index: TURNED, .. } => Some(End::Done),
+                Cut::At { index: CLEAR, .. } => Some(self.jam()),
+                Cut::At { index: SPEED, .. } => {
+                    let before = self.signs[SPEED];
+                    self.now.speed = 0.0;
+                    self.leave_rest(Some(before))
+                }
+                Cut::At { t, index } => {
+                    self.signs[index] = -self.signs[index];
+                    self.oppose(index);
+                    self.report(index, t);
+                    None
+                }
+            };
+            if end.is_some() || self.now.t >= self.follow.settings.t_end {
+                return end.or(Some(End::Done));
+            }
+            let spent = self.arrived.evaluations + self.quantities.evaluations.get();
+            if spent >= self.follow.settings.max_evaluations {
+                return Some(End::Integrator(Finish::WorkLimit));
+            }
+            let travel = self.now.angle.minus(from);
+            if let Some(finish) = pace.is_hopeless(spent, self.now.t, travel) {
+                return Some(End::Integrator(finish));
+            }
+        }
+    }
+
+    fn report(&mut self, index: usize, t: f64) {
+        let kind = match index {
+            SPEED => "turning-point",
+            DEAD_CENTRE => "dead-centre",
+            LIMIT => "limit",
+            _ => return,
+        };
+        let speed = if index == SPEED { 0.0 } else { self.now.speed };
+        self.observer.event(kind, t, self.now.angle, speed);
+    }
+
+    /// One piece of sliding, up to the next change of friction.
+    fn slide(&mut self) -> Cut {
+        let equation = self.follow.equation;
+        let friction = self.follow.friction();
+        let [on_crank, on_slider] = equation.loads().dry_on();
+        let phase = sliding(equation, &self.signs);
+        let in_phase = InPhase { equation, phase };
+        let motion = Counted::new(&in_phase);
+        let looked_at = Counted::new(&in_phase);
+        let spent = self.arrived.evaluations + self.quantities.evaluations.get();
+        let settings = Settings {
+            max_evaluations: self.follow.settings.max_evaluations.saturating_sub(spent),
+            ..self.follow.settings
+        };
+        let mut cut = None;
+        let (mut stopped, mut vanished, mut beyond) = (false, false, false);
+        let vanishing = equation.vanishes_somewhere();
+        let (quantities, observer) = (&self.quantities, &mut *self.observer);
+        let signs = &mut self.signs;
+        let (finish, last, steps) = time::run(&motion, self.now, &settings, &mut |step| {
+            let mut step = *step;
+            let mut after = *signs;
+            for change in event_functions::changes(&mut step, &looked_at, quantities, &mut after) {
+                let (theta, speed) = step.at(change.t);
+                if vanishing && equation.vanishes_at(theta) {
+                    (vanished, beyond) = (true, true);
+                    return true;
+                }
+                let ends = match change.index {
+                    SPEED => friction.is_some() || on_crank || on_slider,
+                    DEAD_CENTRE => friction.is_some() || on_slider,
+                    NORMAL => friction.is_some(),
+                    CRANK => on_crank,
+                    LIMIT => false,
+                    _ => true,
+                };
+                if ends {
+                    cut = Some((step, change));
+                    return true;
+                }
+                signs[change.index] = -signs[change.index];
+                let from_rest = change.index == SPEED && step.start.omega == 0.0;
+                if from_rest || change.index == CRANK {
+                    continue;
+                }
+                let (kind, speed) = match change.index {
+                    SPEED => ("turning-point", 0.0),
+                    DEAD_CENTRE => ("dead-centre", speed),
+                    _ => ("limit", speed),
+                };
+                observer.event(kind, change.t, step.angle(theta), speed);
+            }
+            stopped = observer.step(&step, phase);
+            vanished = vanishing && equation.vanishes_at(step.end.theta);
+            stopped || vanished
+        });
+        self.arrived.steps += steps;
+        self.arrived.impossible = motion.impossible().map(|(t, angle, speed)| {
+            let curve = equation.curve();
+            let omega = curve.place(angle.rest).dtheta * speed;
+            (t, curve.crank_angle(angle).radians(), omega)
+        });
+        let Some((step, change)) = cut else {
+            self.arrived.evaluations += motion.evaluations();
+            self.arrive(if beyond {
+                Step::new(last.turns, last.start, last.start)
+            } else {
+                last
+            });
+            self.arrived.vanished = vanished;
+            return if stopped {
+                Cut::Stopped
+            } else if vanished {
+                Cut::Ended(Finish::StepTooSmall)
+            } else {
+                Cut::Ended(finish)
+            };
+        };
+        let last = self.shorten(&motion, &step, change, phase);
+        self.arrived.evaluations += motion.evaluations();
+        self.arrive(last);
+        Cut::At {
+            t: change.t,
+            index: change.index,
+        }
+    }
+
+    /// The step ended at a change inside it, integrated anew.
+    fn shorten(&mut self, motion: &Counted<'_>, step: &Step, change: Change, phase: Phase) -> Step {
+        let settings = &self.follow.settings;
+        let until = |t_end: f64, sink: &mut dyn FnMut(&Step) -> bool| {
+            time::shortened(motion, step, t_end, settings, sink)
+        };
+        let mut t = change.t;
+        if change.index == TURNED {
+            for _ in 0..2 {
+                let last = until(t, &mut |_| false);
+                let angle = last.angle(last.end.theta);
+                let missing = self.quantities.values(t, angle, last.end.omega)[TURNED];
+                let dtheta = self.follow.equation.curve().place(angle.rest).dtheta;
+                let pace = (dtheta * last.end.omega).abs();
+                if missing == 0.0 || pace == 0.0 {
+                    break;
+                }
+                t = (t + missing / pace).clamp(step.start.t, step.end.t);
+            }
+        }
+        let observer = &mut *self.observer;
+        let at_rest = change.index == SPEED;
+        let rested = |step: &Step| {
+            let mut step = *step;
+            if at_rest && step.end.t >= t {
+                step.end.omega = 0.0;
+            }
+            step
+        };
+        rested(&until(t, &mut |step| {
+            observer.step(&rested(step), phase);
+            false
+        }))
+    }
+
+    pub fn arrive(&mut self, last: Step) {
+        self.arrived.work += last.end.work;
+        self.now = Start {
+            t: last.end.t,
+            angle: last.angle(last.end.theta).reduced(),
+            speed: last.end.omega,
+        };
+        self.arrived.last = last;
+    }
+}

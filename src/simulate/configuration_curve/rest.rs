@@ -1,0 +1,122 @@
+//! From motion to rest and from rest to motion, and where rigid bodies do not say how it goes on.
+
+use super::arrived::End;
+use super::follow::Run;
+use super::release::{self, Release};
+use super::stick_slip::{DEAD_CENTRE, Phase, SPEED};
+use crate::engine::step::{Node, Step};
+use crate::engine::time::{Finish, Start};
+use crate::mechanism::{FromRest, Jam};
+use crate::scene::Variable;
+
+/// How far ahead a run without a last time looks for a release, in units of its time so far.
+const FAR_AHEAD: f64 = 1e3;
+
+impl Run<'_, '_> {
+    /// Goes on from rest: none if it moves. `before`: the direction in which it moved.
+    pub fn leave_rest(&mut self, before: Option<f64>) -> Option<End> {
+        if !self.follow.may_stick() {
+            return None;
+        }
+        let friction = self.follow.friction();
+        let [mu, mu_static] = friction.map_or([0.0; 2], |f| [f.coefficient, f.static_coefficient]);
+        let Start { t, angle, .. } = self.now;
+        let held = self.follow.equation.held(t, angle);
+        let direction = match held.free.from_rest(mu, mu_static) {
+            FromRest::Move(direction) => {
+                if before.is_some_and(|before| before != direction) {
+                    self.observer.event("turning-point", t, angle, 0.0);
+                }
+                direction
+            }
+            FromRest::Hold(_) => match self.rest(mu_static) {
+                Ok(direction) => direction,
+                Err(end) => return Some(end),
+            },
+            FromRest::Jam(_) => return Some(self.jam()),
+        };
+        self.signs = self.signs_for(direction);
+        self.check_jam()
+    }
+
+    /// Stays at rest until the static band does not hold any more: the direction in which it then slips, or how
+    /// the run ends.
+    fn rest(&mut self, mu_static: f64) -> Result<f64, End> {
+        let Start { t, angle, .. } = self.now;
+        let equation = self.follow.equation;
+        let end = match self.follow.turn_limit {
+            Some(_) => t + FAR_AHEAD * t.max(1.0),
+            None => self.follow.settings.t_end,
+        };
+        let changes = equation.loads().reads().has(Variable::T);
+        let (release, looked) = if changes {
+            let spent = self.arrived.evaluations + self.quantities.evaluations.get();
+            let allowed = self.follow.settings.max_evaluations.saturating_sub(spent);
+            release::time(equation, angle, mu_static, t, end, allowed)
+        } else {
+            (Release::Never, 0)
+        };
+        self.arrived.evaluations += looked;
+        let kind = match release {
+            Release::Never => "rest",
+            _ => "stick",
+        };
+        self.observer.event(kind, t, angle, 0.0);
+        let until = match release {
+            Release::Never if self.follow.turn_limit.is_some() => return Err(End::AtRest),
+            Release::Never => end,
+            Release::At(t) | Release::Unknown(t) => t,
+        };
+        let node = |t: f64| Node {
+            t,
+            theta: angle.rest,
+            ..Node::default()
+        };
+        let still = Step::new(angle.turns, node(t), node(until));
+        self.observer.step(&still, Phase::Sticking);
+        self.arrive(still);
+        match release {
+            Release::Never => return Err(End::Done),
+            Release::Unknown(_) => return Err(End::Integrator(Finish::WorkLimit)),
+            Release::At(_) => {}
+        }
+        self.observer.event("slip", until, angle, 0.0);
+        let pull = equation.free(until, angle, 0.0);
+        Ok(if pull.pulls_forward() { 1.0 } else { -1.0 })
+    }
+
+    pub fn check_jam(&mut self) -> Option<End> {
+        let friction = self.follow.friction()?;
+        let Start { t, angle, speed } = self.now;
+        let free = self.follow.equation.free(t, angle, speed);
+        (free.clear_of_jam(friction.coefficient) <= 0.0).then(|| self.jam())
+    }
+
+    pub fn jam(&self) -> End {
+        let Start { t, angle, speed } = self.now;
+        let free = self.follow.equation.free(t, angle, speed);
+        let mu = self.follow.friction().map_or(0.0, |f| f.coefficient);
+        let why = match free.jam(mu, self.signs[SPEED] * self.signs[DEAD_CENTRE]) {
+            Jam::NoSolution => "no acceleration satisfies",
+            Jam::TwoSolutions => "more than one acceleration satisfies",
+        };
+        End::Jam(format!(
+            "the slider jams in its guide: {why} the equations of rigid bodies, as the coefficient of friction {mu} times |dN/dF| = {} is 1 or more",
+            free.kappa.abs()
+        ))
+    }
+
+    /// A run whose steps became too small next to jamming has jammed.
+    pub fn singular(&self, finish: Finish) -> End {
+        let Start { t, angle, speed } = self.now;
+        if finish == Finish::StepTooSmall
+            && let Some(friction) = self.follow.friction()
+        {
+            let free = self.follow.equation.free(t, angle, speed);
+            if free.clear_of_jam(friction.coefficient) < 1e-3 {
+                return self.jam();
+            }
+        }
+        End::Integrator(finish)
+    }
+}

@@ -1,0 +1,200 @@
+//! Motion between two changes of the friction: the signs of slider velocity and normal force stay.
+
+use std::cell::Cell;
+use std::f64::consts::TAU;
+
+use crate::engine::Motion;
+use crate::engine::event_functions::EventFunction;
+use crate::mechanism::{CurveEquation, LoadValue, Place, Sense, Touch};
+use crate::numeric::angle::Angle;
+use crate::numeric::enclosure::{Detail, Reach};
+use crate::scene::Variable;
+
+/// The watched quantities.
+pub(super) const SPEED: usize = 0;
+pub(super) const DEAD_CENTRE: usize = 1;
+pub(super) const LIMIT: usize = 2;
+pub(super) const TURNED: usize = 3;
+pub(super) const NORMAL: usize = 4;
+pub(super) const CLEAR: usize = 5;
+pub(super) const CRANK: usize = 6;
+/// How many they are.
+pub(super) const QUANTITIES: usize = 7;
+
+/// Signs of the watched quantities.
+pub(super) type Signs = [f64; QUANTITIES];
+
+/// How the slider touches its guide.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::simulate) enum Phase {
+    /// It slides.
+    Sliding {
+        /// −μ sgn(v) sgn(N), zero without friction.
+        c: f64,
+        /// What dry loads oppose, if there are any.
+        against: Sense,
+    },
+    /// It sticks.
+    Sticking,
+}
+
+impl Phase {
+    /// Sliding without friction.
+    pub const FREE: Phase = Phase::Sliding {
+        c: 0.0,
+        against: Sense {
+            crank: 0.0,
+            slider: 0.0,
+        },
+    };
+}
+
+/// The equation in one phase.
+pub(super) struct InPhase<'a> {
+    pub equation: &'a CurveEquation,
+    pub phase: Phase,
+}
+
+impl InPhase<'_> {
+    /// Acceleration (rad/s² of the coordinate), forces of the guide, and power (W) of all that has no potential.
+    pub fn state(&self, t: f64, angle: Angle, speed: f64) -> (f64, Touch, f64) {
+        match self.phase {
+            Phase::Sliding { c, against } => {
+                let free = self.equation.free_against(t, angle, speed, against);
+                let (acceleration, touch) = free.sliding(c);
+                let power = free.power + touch.friction * free.velocity(speed);
+                (acceleration, touch, power)
+            }
+            Phase::Sticking => {
+                let touch = self.equation.held(t, angle).free.holding();
+                (0.0, touch.unwrap_or_default(), 0.0)
+            }
+        }
+    }
+
+    /// Torque and force of the loads at a position.
+    pub fn load(&self, place: &Place, t: f64, angle: Angle, speed: f64) -> LoadValue {
+        let equation = self.equation;
+        let dry = match self.phase {
+            Phase::Sliding { against, .. } => {
+                let now = equation.instant(place, t, angle, speed);
+                equation.loads().dry(&now, against)
+            }
+            Phase::Sticking => equation.held(t, angle).dry,
+        };
+        equation.load_beside(dry, place, t, angle, speed)
+    }
+}
+
+impl Motion for InPhase<'_> {
+    fn acceleration(&self, t: f64, angle: Angle, speed: f64) -> f64 {
+        self.state(t, angle, speed).0
+    }
+
+    fn acceleration_and_power(&self, t: f64, angle: Angle, speed: f64) -> (f64, f64) {
+        let (acceleration, _, power) = self.state(t, angle, speed);
+        (acceleration, power)
+    }
+
+    fn depends_on_time(&self) -> bool {
+        self.equation.loads().reads().has(Variable::T)
+    }
+
+    fn has_power(&self) -> bool {
+        self.equation.friction().is_some() || !self.equation.loads().have_potential()
+    }
+
+    fn next_corner(&self, t: f64) -> f64 {
+        self.equation.loads().next_corner(t)
+    }
+
+    // Loads are enclosed over the crank angle; what they do to the friction of the guide is not.
+    fn has_detail(&self) -> bool {
+        let loads = self.equation.loads();
+        let seen = self.equation.curve().is_crank_angle() && loads.are_dry();
+        seen && self.equation.friction().is_none() && loads.have_detail()
+    }
+
+    fn detail(&self, reach: &Reach, ellipse: f64) -> Detail {
+        let linkage = self.equation.curve().linkage();
+        let force = self.equation.loads().detail(linkage, reach, ellipse);
+        force.times(1.0 / self.equation.across(reach.angle.middle()).m)
+    }
+}
+
+/// What is looked at during a run.
+pub(super) struct Quantities<'a> {
+    pub equation: &'a CurveEquation,
+    /// The crank angle of the start, and how far the crank may turn, rad.
+    pub turning: Option<(Angle, f64)>,
+    pub evaluations: Cell<u64>,
+    /// What dry loads oppose.
+    pub against: Cell<Sense>,
+}
+
+impl EventFunction<QUANTITIES> for Quantities<'_> {
+    fn values(&self, t: f64, angle: Angle, speed: f64) -> Signs {
+        let curve = self.equation.curve();
+        let place = curve.place(angle.rest);
+        let (normal, clear) = match self.equation.friction() {
+            Some(friction) => {
+                self.evaluations.set(self.evaluations.get() + 1);
+                let against = self.against.get();
+                let free = self.equation.free_against(t, angle, speed, against);
+                (free.normal, free.clear_of_jam(friction.coefficient))
+            }
+            None => (1.0, 1.0),
+        };
+        let turned = self.turning.map_or(1.0, |(start, limit)| {
+            limit - curve.crank_angle(angle).minus(start).abs()
+        });
+        let mut values = [0.0; QUANTITIES];
+        values[SPEED] = speed;
+        values[DEAD_CENTRE] = place.dx;
+        values[LIMIT] = place.rod_cos;
+        values[TURNED] = turned;
+        values[NORMAL] = normal;
+        values[CLEAR] = clear;
+        values[CRANK] = place.dtheta;
+        values
+    }
+}
+
+/// How far ahead of a start the signs show, rad.
+pub(super) const AHEAD: f64 = 1e-6;
+/// An angle in its turn, and that of a dead centre, are rounded by less than this together, rad.
+const ROUNDED: f64 = 4.0 * f64::EPSILON * TAU;
+
+/// The signs with which motion in `direction` (±1 of the coordinate) begins: where a quantity is zero but for the
+/// rounding of the angle, that of `ahead`, its value a little further.
+pub(super) fn signs(values: Signs, ahead: Signs, direction: f64) -> Signs {
+    let mut signs: Signs = std::array::from_fn(|i| {
+        let nothing = values[i].abs() <= ROUNDED / AHEAD * ahead[i].abs();
+        let value = if nothing { ahead[i] } else { values[i] };
+        if value < 0.0 { -1.0 } else { 1.0 }
+    });
+    signs[SPEED] = direction;
+    (signs[TURNED], signs[CLEAR]) = (1.0, 1.0);
+    signs
+}
+
+/// The phase that goes with signs.
+pub(super) fn sliding(equation: &CurveEquation, signs: &Signs) -> Phase {
+    let friction = equation.friction();
+    let mu = friction.map_or(0.0, |friction| friction.coefficient);
+    Phase::Sliding {
+        c: -mu * signs[SPEED] * signs[DEAD_CENTRE] * signs[NORMAL],
+        against: against(equation, signs),
+    }
+}
+
+/// What dry loads oppose, if there are any.
+pub(super) fn against(equation: &CurveEquation, signs: &Signs) -> Sense {
+    match equation.loads().are_dry() {
+        true => Sense::of(
+            signs[SPEED] * signs[CRANK],
+            signs[SPEED] * signs[DEAD_CENTRE],
+        ),
+        false => Sense::default(),
+    }
+}

@@ -1,0 +1,245 @@
+//! The equation of motion as the integrators see it, and the estimate of their global error.
+
+use std::time::Instant;
+
+use super::result::{Cost, ErrorEstimate};
+use super::roundoff_propagation::Spread;
+use super::state_transition::Slopes;
+use crate::engine::step::Step;
+use crate::engine::time::{self, Finish, Settings, Start};
+use crate::engine::{Batch, Counted, Motion};
+use crate::mechanism::{Equation, Instants, LoadValue};
+use crate::numeric::angle::Angle;
+use crate::numeric::enclosure::{Detail, Reach};
+use crate::scene::Variable;
+
+/// The equation, integrated forward.
+pub(super) struct Forward<'a>(pub &'a Equation);
+
+impl Motion for Forward<'_> {
+    fn acceleration(&self, t: f64, angle: Angle, speed: f64) -> f64 {
+        self.0.acceleration(t, angle, speed)
+    }
+
+    fn acceleration_and_power(&self, t: f64, angle: Angle, speed: f64) -> (f64, f64) {
+        self.0.acceleration_and_power(t, angle, speed)
+    }
+
+    fn depends_on_time(&self) -> bool {
+        self.0.loads().reads().has(Variable::T)
+    }
+
+    fn has_power(&self) -> bool {
+        !self.0.loads().have_potential()
+    }
+
+    fn next_corner(&self, t: f64) -> f64 {
+        self.0.loads().next_corner(t)
+    }
+
+    fn has_detail(&self) -> bool {
+        self.0.loads().have_detail()
+    }
+
+    fn detail(&self, reach: &Reach, ellipse: f64) -> Detail {
+        let force = self.0.loads().detail(self.0.linkage(), reach, ellipse);
+        force.times(1.0 / self.0.terms(reach.angle.middle()).inertia.m)
+    }
+
+    fn of_time(&self, t: f64) -> [f64; 2] {
+        let LoadValue { torque, force } = self.0.loads().of_time(t);
+        [torque, force]
+    }
+
+    fn fill(&self, batch: &mut Batch) {
+        let of_time = batch
+            .of_time
+            .map(|[torque, force]| LoadValue { torque, force });
+        let at = Instants {
+            t: &batch.t,
+            of_time: &of_time,
+            turns: batch.turns,
+            theta: &batch.theta,
+            omega: &batch.omega,
+        };
+        self.0
+            .accelerations(&at, &mut batch.alpha, &mut batch.power);
+    }
+}
+
+/// The second run of the estimate is so much tighter that its own error does not count, whatever the first
+/// one's happens to be: at the order of collocation two more digits take a fifth more evaluations.
+const MUCH_TIGHTER: f64 = 1e4;
+/// A short run is far better than a loose tolerance: the second one is never looser than at the default tolerance.
+const LOOSEST: f64 = 1e-10 / MUCH_TIGHTER;
+/// Where collocation does not get to the end, the same method again, this much tighter.
+const TIGHTER: f64 = 50.0;
+/// What is stated is larger than the distance of the two runs by this, for the error of the second.
+const MARGIN: f64 = 1.5;
+/// Standard deviation of one rounding, in units of the last place.
+const ONE_ROUNDING: f64 = 0.3;
+/// Next to a balance several steps round in the same way, which adds up to this many times as much.
+const ALIKE: f64 = 2.0;
+/// The same of a step's mean acceleration: of a few units in each evaluation, averaged over the step.
+const EVALUATION: f64 = 1.0;
+/// An acceleration that is smaller than what this angle (rad) changes in it may be a difference of larger ones. Half or twice
+/// as much changes the stated errors of 200 random runs by 1 % at most.
+const BALANCED: f64 = 0.1;
+/// What is stated of rounding, in standard deviations.
+const DEVIATIONS: f64 = 1.5;
+/// Where rounding inside a step takes over.
+const TIGHTEST: f64 = 1e-15;
+/// Evaluations of the collocation for one of the run that it judges, and beside them.
+const MOST_EVALUATIONS: (u64, u64) = (20, 20_000);
+
+/// A run as it ended.
+#[derive(Clone, Copy)]
+pub(super) struct Ended<'a> {
+    /// Its last step.
+    pub last: &'a Step,
+    /// Evaluations it took.
+    pub evaluations: u64,
+}
+
+/// Global error of a run: its distance from a much better one, and what rounding may have added to both.
+///
+/// Rounding: each step rounds θ and θ̇ to half a unit in the last place, independently of the others, and a
+/// rounded angle changes the acceleration. These errors are carried to the end along the linearised motion, for
+/// near a balance they grow with it; independent ones add up by their squares.
+pub(super) fn estimate(
+    equation: &Equation,
+    start: Start,
+    settings: &Settings,
+    run: Ended<'_>,
+) -> Option<(ErrorEstimate, Cost)> {
+    let begun = Instant::now();
+    let forward = Forward(equation);
+    let t_end = run.last.end.t;
+    let (factor, beside) = MOST_EVALUATIONS;
+    let collocation = Settings {
+        method: time::Method::Picard,
+        tolerance: tighter(settings.tolerance),
+        t_end,
+        max_evaluations: run
+            .evaluations
+            .saturating_mul(factor)
+            .saturating_add(beside)
+            .min(settings.max_evaluations),
+        ..*settings
+    };
+    let same = Settings {
+        tolerance: (settings.tolerance / TIGHTER).max(TIGHTEST),
+        t_end,
+        ..*settings
+    };
+    let mut evaluations = 0;
+    let mut better = |settings: &Settings| {
+        // Counted anew: what the other one took leaves its limit as it is.
+        let motion = Counted::new(&forward);
+        let better = Better::run(equation, &motion, start, settings);
+        evaluations += motion.evaluations();
+        better
+    };
+    let better = better(&collocation).or_else(|| better(&same))?;
+    let cost = Cost {
+        evaluations,
+        wall_s: begun.elapsed().as_secs_f64(),
+    };
+    Some((better.distance(run), cost))
+}
+
+/// Tolerance of a run in time that is so much tighter that its own error does not count.
+pub(super) fn tighter(tolerance: f64) -> f64 {
+    (tolerance / MUCH_TIGHTER).clamp(TIGHTEST, LOOSEST)
+}
+
+/// What rounding does to a run in time.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rounding {
+    /// In units of the last place.
+    pub spread: Spread,
+    /// Whether the states at the ends of steps are rounded: collocation carries the digits below the last place.
+    rounds_states: bool,
+}
+
+impl Rounding {
+    /// Of a run by a method, which moves or stays in a balance. Tolerances are absolute for angles below one radian: of a
+    /// motion less than a unit in the last place of one is not resolved at the start, however small the angle.
+    pub fn new(method: time::Method, moves: bool) -> Rounding {
+        let angle = if moves { ONE_ROUNDING } else { 0.0 };
+        Rounding {
+            spread: Spread::default().plus(angle, 0.0),
+            rounds_states: !matches!(method, time::Method::Picard),
+        }
+    }
+
+    /// The state at the end of a step is rounded.
+    pub fn round(&mut self, theta: f64, omega: f64) {
+        let [angle, speed] = [theta, omega].map(|size| ONE_ROUNDING * size.abs());
+        self.spread = self.spread.plus(angle, speed);
+    }
+
+    /// Carries it over a step, and adds what that rounds.
+    pub fn step(&mut self, equation: &Equation, motion: &dyn Motion, step: &Step) {
+        let slopes = Slopes::of(motion, step);
+        let transition = slopes.transition(step);
+        let (h, end) = (step.length(), &step.end);
+        let place = ONE_ROUNDING * end.theta.abs() * slopes.by_angle();
+        let mut size = end.alpha.abs();
+        if size < BALANCED * slopes.by_angle().abs() {
+            let angle = step.angle(end.theta);
+            let inertia = equation.terms(end.theta).inertia.m;
+            size = size.max(ALIKE * equation.size_of_terms(end.t, angle, end.omega) / inertia);
+        }
+        let shaken = place.hypot(EVALUATION * size);
+        let carried = self.spread.carried(&transition);
+        self.spread = carried.pushed(shaken, &transition, h);
+        if self.rounds_states {
+            self.round(end.theta, end.omega);
+        }
+    }
+
+    /// What is stated of it, rad and rad/s. What it does to the run that is judged is seen in the distance of the two.
+    pub fn stated(&self) -> [f64; 2] {
+        [self.spread.angle(), self.spread.speed()]
+            .map(|deviation| DEVIATIONS * f64::EPSILON * deviation)
+    }
+}
+
+/// The run that another is compared with.
+struct Better {
+    last: Step,
+    rounding: Rounding,
+}
+
+impl Better {
+    fn run(
+        equation: &Equation,
+        motion: &Counted<'_>,
+        start: Start,
+        settings: &Settings,
+    ) -> Option<Better> {
+        let force = || motion.acceleration(start.t, start.angle, start.speed);
+        let moves = start.speed != 0.0 || motion.depends_on_time() || force() != 0.0;
+        let mut rounding = Rounding::new(settings.method, moves);
+        let (finish, last, _) = time::run(motion, start, settings, &mut |step| {
+            rounding.step(equation, motion, step);
+            false
+        });
+        (finish == Finish::AtEnd).then_some(Better { last, rounding })
+    }
+
+    fn distance(&self, run: Ended<'_>) -> ErrorEstimate {
+        let (best, last) = (&self.last, run.last);
+        let whole = last.angle(last.end.theta);
+        let angle = best.angle(best.end.theta).minus(whole).abs();
+        let speed = (best.end.omega - last.end.omega).abs();
+        let [angle_noise, speed_noise] = self.rounding.stated();
+        ErrorEstimate {
+            theta_rad: MARGIN * angle + angle_noise + f64::EPSILON * whole.radians().abs(),
+            omega_rad_per_s: MARGIN * speed
+                + speed_noise
+                + 0.5 * f64::EPSILON * last.end.omega.abs(),
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! Coulomb friction at the guide of a crank that turns: the slider reverses at the dead centres only.
+
+use std::cell::Cell;
+
+use super::angle_model::Spot;
+use crate::engine::angle::Table;
+use crate::mechanism::{Curve, CurveEquation, CurveTerms, Equation, LoadValue, Loads, Touch};
+use crate::numeric::angle::Angle;
+use crate::scene::Scene;
+
+/// Within this part of the crank length x' has no sign.
+const AT_DEAD_CENTRE: f64 = 1e-12;
+/// How far beside it the sign shows, rad.
+const BESIDE: f64 = 1e-6;
+
+/// Friction at the guide.
+#[derive(Clone, Debug)]
+pub(super) struct Sliding {
+    equation: CurveEquation,
+    /// Kinetic coefficient.
+    mu: f64,
+    jams: Cell<bool>,
+}
+
+/// What loads do to the guide at one position of a panel.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Grip {
+    /// dN/dτ, 1/m
+    torque: f64,
+    /// dN/dF
+    force: f64,
+    /// What friction drives the crank with for one newton of N without friction, N m/N.
+    grip: f64,
+}
+
+impl Grip {
+    /// The part of a load in the normal force without friction, N.
+    pub fn pressed(&self, load: LoadValue) -> f64 {
+        self.torque * load.torque + self.force * load.force
+    }
+
+    /// What friction by it drives the crank with, N m.
+    pub fn rubbed(&self, load: LoadValue) -> f64 {
+        self.grip * self.pressed(load)
+    }
+}
+
+impl Sliding {
+    /// The guide of a scene; none without friction.
+    pub fn new(scene: &Scene, equation: &Equation) -> Option<Sliding> {
+        let constrained = CurveEquation::new(scene, Curve::on_crank(equation.linkage()));
+        let friction = constrained.friction()?;
+        Some(Sliding {
+            equation: constrained,
+            mu: friction.coefficient,
+            jams: Cell::new(false),
+        })
+    }
+
+    /// The equation with the force of the guide.
+    pub fn equation(&self) -> &CurveEquation {
+        &self.equation
+    }
+
+    /// Whether a position was met at which rigid bodies jam.
+    pub fn jams(&self) -> bool {
+        self.jams.get()
+    }
+
+    /// Adds friction to the table of a panel between two dead centres; `signs` is sgn(ω) sgn(N), `of_place` the
+    /// loads of the position alone.
+    pub fn tabulate(
+        &self,
+        angles: &[f64],
+        signs: f64,
+        loads: &Loads,
+        of_place: &[LoadValue],
+        table: &mut Table<Spot>,
+    ) {
+        let across = |theta: &f64| self.equation.across(*theta);
+        let at: Vec<CurveTerms> = angles.iter().map(across).collect();
+        // At the ends of a panel x' is rounding.
+        let c = -self.mu * signs * at[at.len() / 2].place.dx.signum();
+        let mut switch = table.switch.take().unwrap_or_default();
+        for (i, across) in at.iter().enumerate() {
+            let normal = across.normal();
+            let grip = normal.grip(c);
+            self.jams.set(self.jams.get() || grip.is_none());
+            let grip = Grip {
+                torque: normal.torque,
+                force: normal.force,
+                grip: grip.unwrap_or(f64::NAN),
+            };
+            let [torque, force] = loads.dampings();
+            let force = force * across.place.dx;
+            let damping = LoadValue { torque, force };
+            switch.place[i] = normal.place + grip.pressed(of_place[i]);
+            switch.rate[i] = -grip.pressed(damping);
+            switch.square[i] = normal.square;
+            switch.force[i] = grip.grip * normal.square;
+            table.push[i] += grip.grip * switch.place[i];
+            table.damping[i] += grip.rubbed(damping);
+            if let Some(spot) = table.places.get_mut(i) {
+                spot.grip = grip;
+            }
+        }
+        table.switch = Some(switch);
+    }
+
+    /// θ̈ (rad/s²) and the forces of the guide; none at rest.
+    pub fn state(&self, t: f64, angle: Angle, omega: f64) -> (f64, Touch) {
+        if omega == 0.0 {
+            return (0.0, Touch::default());
+        }
+        let free = self.equation.free(t, angle, omega);
+        let crank = self.equation.curve().linkage().r;
+        let mut dx = free.velocity(1.0);
+        if dx.abs() < AT_DEAD_CENTRE * crank {
+            // At a dead centre it is that before it, but at the start.
+            let way = BESIDE.copysign(if t == 0.0 { omega } else { -omega });
+            dx = self.equation.curve().place(angle.rest + way).dx;
+        }
+        let sgn_v = (dx * omega).signum();
+        free.sliding(free.opposing(self.mu, sgn_v))
+    }
+}

@@ -1,0 +1,42 @@
+//! Forward motion: scene in, trajectory, rows and summary out; the engines of the plan take turns between located events.
+
+mod angle_model;
+mod bounded_motion;
+mod by_angle;
+mod by_energy;
+mod clearance;
+mod closed_form;
+mod configuration_curve;
+mod driving_torque;
+mod enclosed_swing;
+mod engine_switching;
+mod error_estimate;
+mod event_log;
+mod guide_friction;
+mod in_time;
+mod joint_force_maxima;
+mod last_row;
+mod marks;
+mod over_angle;
+mod passages;
+mod recorder;
+mod result;
+mod roundoff_propagation;
+mod row;
+mod run;
+mod run_setup;
+mod schedule;
+mod stalled;
+mod state_transition;
+mod steady;
+mod stop_reason;
+
+pub use crate::mechanism::Reactions;
+pub use clearance::{Beyond, ClearanceSummary, ContactStatistics, Horizon, LooseFinal};
+pub use joint_force_maxima::{Peak, Peaks};
+pub use result::{Cost, ErrorEstimate, Event, Final, Summary, TorqueRange};
+pub use row::{LooseRow, NoRows, Row, RowSink};
+pub use run::{Options, Simulation, simulate, simulate_rows};
+pub use steady::{
+    Estimated, Flywheel, LoadWork, SpeedExtreme, SteadyOptions, SteadyState, steady_state,
+};

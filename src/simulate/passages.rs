@@ -1,0 +1,202 @@
+//! Events and rows of a motion that is known as a whole.
+
+use std::f64::consts::TAU;
+
+use super::result::Event;
+use super::run_setup::RunSetup;
+use super::schedule::{passed, refuse_rows};
+use crate::engine::energy::Orbit;
+use crate::error::Error;
+use crate::numeric::angle::Angle;
+use crate::numeric::root;
+
+/// A motion over the crank angle, or a piece of one, in the time of the whole run.
+pub(super) struct Stretch<'a> {
+    /// Its own time begins at 0.
+    pub orbit: &'a Orbit,
+    /// When it begins, s.
+    pub begin: f64,
+    /// Last time of its own, s.
+    pub end: f64,
+}
+
+impl Stretch<'_> {
+    /// Sign of the turns it makes: +1 or −1.
+    fn direction(&self) -> f64 {
+        self.orbit.direction()
+    }
+
+    fn is_over(&self, t: f64) -> bool {
+        t > self.end * (1.0 + 1e-14)
+    }
+}
+
+/// Dead centres and turning points in the order of time, those of a period again and again: the first ones, at most
+/// `kept`, and how many there are.
+pub(super) fn events(task: &RunSetup<'_>, stretch: &Stretch<'_>, kept: usize) -> (Vec<Event>, u64) {
+    let Stretch {
+        orbit, begin, end, ..
+    } = *stretch;
+    let mut once: Vec<(f64, &'static str, Angle, f64)> = Vec::new();
+    let marks = dead_centres(task);
+    for passage in orbit.passages(&marks) {
+        let kind = if passage.turning {
+            "turning-point"
+        } else {
+            "dead-centre"
+        };
+        once.push((passage.t, kind, passage.angle, passage.speed));
+    }
+    let period = orbit.period().map_or(f64::INFINITY, |period| period.0);
+    let total = once
+        .iter()
+        .filter(|event| !stretch.is_over(event.0))
+        .map(|event| {
+            if period.is_finite() {
+                ((end - event.0) / period + 1e-9).floor() + 1.0
+            } else {
+                1.0
+            }
+        })
+        .sum::<f64>();
+    let mut events = Vec::new();
+    let mut round = 0.0;
+    'all: loop {
+        for (t, kind, angle, speed) in &once {
+            let t = if round == 0.0 { *t } else { t + round * period };
+            if stretch.is_over(t) || events.len() >= kept {
+                break 'all;
+            }
+            let turns = if orbit.rotates() {
+                round * stretch.direction()
+            } else {
+                0.0
+            };
+            let angle = Angle {
+                turns: angle.turns + turns,
+                rest: angle.rest,
+            };
+            events.push(Event {
+                kind,
+                t_s: begin + t,
+                theta_rad: angle.radians(),
+                omega_rad_per_s: *speed,
+            });
+        }
+        round += 1.0;
+        if !period.is_finite() || once.is_empty() {
+            break;
+        }
+    }
+    let later = later_events(&marks, stretch, kept, &mut events);
+    (events, total as u64 + later)
+}
+
+/// Crank angles of the dead centres, in [0, 2π).
+fn dead_centres(task: &RunSetup<'_>) -> Vec<f64> {
+    let dead_centres = task.limits.dead_centres.iter();
+    dead_centres.map(|dead_centre| dead_centre.theta).collect()
+}
+
+/// Whether a crank angle, rad, is that of a dead centre.
+pub(super) fn is_dead_centre(task: &RunSetup<'_>, theta: f64) -> bool {
+    task.limits.dead_centres.iter().any(|dead_centre| {
+        let apart = (theta - dead_centre.theta).rem_euclid(TAU);
+        apart.min(TAU - apart) < 1e-12
+    })
+}
+
+/// Adds the dead centres of the turns after the first ones, and says how many there are.
+fn later_events(
+    dead_centres: &[f64],
+    stretch: &Stretch<'_>,
+    kept: usize,
+    events: &mut Vec<Event>,
+) -> u64 {
+    let orbit = stretch.orbit;
+    // Each dead centre is passed once in a turn.
+    let Some(first) = orbit.later_from() else {
+        return 0;
+    };
+    orbit.later_passages(dead_centres, |passage| {
+        if stretch.is_over(passage.t) {
+            return false;
+        }
+        if events.len() < kept {
+            events.push(Event {
+                kind: "dead-centre",
+                t_s: stretch.begin + passage.t,
+                theta_rad: passage.angle.radians(),
+                omega_rad_per_s: passage.speed,
+            });
+        }
+        events.len() < kept
+    });
+    let start = orbit.start();
+    let last = orbit.state(stretch.end).0.minus(start).abs();
+    let passes = |dead_centre: &f64| {
+        let ahead = (stretch.direction() * (dead_centre - start.rest)).rem_euclid(TAU);
+        let until = |way: f64| ((way - ahead) / TAU + 1e-12).floor();
+        (until(last) - until(first)).max(0.0) as u64
+    };
+    dead_centres.iter().map(passes).sum()
+}
+
+/// Rows that are due in a stretch; `next` is the index of the next row at a time.
+pub(super) fn write_rows(
+    task: &RunSetup<'_>,
+    stretch: &Stretch<'_>,
+    next: &mut u64,
+    write: &mut dyn FnMut(f64, Angle, f64) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let Stretch {
+        orbit, begin, end, ..
+    } = *stretch;
+    let mut at = |own: f64, t: f64| {
+        let (angle, omega) = orbit.state(own);
+        write(t, angle, omega)
+    };
+    let schedule = task.schedule();
+    if let Some(step) = schedule.angle_step() {
+        if *next == 0 {
+            at(0.0, begin)?;
+            *next = 1;
+        }
+        return each_angle(task, stretch, step, &mut |own| at(own, begin + own));
+    }
+    while let Some(t) = schedule.time(*next).filter(|t| t - begin < end) {
+        at(t - begin, t)?;
+        *next += 1;
+    }
+    Ok(())
+}
+
+/// Times at which the angle from the start of the run passes multiples of `step`.
+fn each_angle(
+    task: &RunSetup<'_>,
+    stretch: &Stretch<'_>,
+    step: f64,
+    write: &mut dyn FnMut(f64) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let Stretch { orbit, end, .. } = *stretch;
+    let before = orbit.start().minus(task.start());
+    let turned = |t: f64| orbit.state(t).0.minus(task.start());
+    refuse_rows((turned(end) / step).abs(), stretch.begin + end)?;
+    let mut from = 0.0;
+    let mut turnings = orbit.turning_times(end);
+    turnings.push(end);
+    for to in turnings {
+        for k in passed(turned(from) / step, turned(to) / step) {
+            let target = k * step;
+            let t = if orbit.rotates() {
+                orbit.time_of_turn((target - before).abs())
+            } else {
+                root::bracketed(|t| turned(t) - target, from, to)
+            };
+            // A turning point may fall short of its angle by rounding.
+            write(t.unwrap_or(to))?;
+        }
+        from = to;
+    }
+    Ok(())
+}

@@ -1,0 +1,144 @@
+//! Output rows: the state of the mechanism at one time.
+
+use super::guide_friction::Sliding;
+use crate::error::Error;
+use crate::mechanism::{CurveEquation, Equation, Reactions, Reactor};
+use crate::numeric::angle::Angle;
+
+/// One output row, SI and radians.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row {
+    /// s
+    pub t: f64,
+    /// rad, unwrapped
+    pub theta: f64,
+    /// rad/s
+    pub omega: f64,
+    /// rad/s²
+    pub alpha: f64,
+    /// Slider position, m
+    pub x: f64,
+    /// Slider velocity, m/s
+    pub v: f64,
+    /// Slider acceleration, m/s²
+    pub a: f64,
+    /// Rod inclination, rad
+    pub phi: f64,
+    /// Joint and guide forces, if asked for.
+    pub reactions: Option<Reactions>,
+    /// Torque that drives the crank beside the loads, N m, if asked for.
+    pub driving_torque: Option<f64>,
+    /// What a loose joint does, if there is one; `x`, `v`, `a` and `phi` are then those of the free rod.
+    pub clearance: Option<LooseRow>,
+}
+
+/// A loose joint at one time, SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LooseRow {
+    /// Position (m), velocity (m/s) and acceleration (m/s²) of the slider with ideal joints, at the same
+    /// crank motion
+    pub ideal: [f64; 3],
+    /// Centre of the journal from the centre of the bearing, m
+    pub journal: [f64; 2],
+    /// Normal force in the joint, N
+    pub force: f64,
+}
+
+/// Takes the rows of a run as they are computed.
+pub trait RowSink {
+    /// Whether rows are wanted at all; if not, none are computed.
+    fn wants_rows(&self) -> bool {
+        true
+    }
+
+    /// Takes one row.
+    ///
+    /// # Errors
+    /// An error ends the run.
+    fn row(&mut self, row: &Row) -> Result<(), Error>;
+}
+
+/// No rows.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoRows;
+
+impl RowSink for NoRows {
+    fn wants_rows(&self) -> bool {
+        false
+    }
+
+    fn row(&mut self, _: &Row) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+impl RowSink for Vec<Row> {
+    fn row(&mut self, row: &Row) -> Result<(), Error> {
+        self.push(*row);
+        Ok(())
+    }
+}
+
+/// Makes rows from states.
+#[derive(Debug)]
+pub(super) struct RowMaker<'a> {
+    pub equation: &'a Equation,
+    pub reactor: Option<Reactor>,
+    pub driving_torque: bool,
+    /// The guide of a prescribed motion, if it has friction.
+    pub guide: Option<CurveEquation>,
+    /// The guide of a crank that turns freely, if it has friction.
+    pub sliding: Option<&'a Sliding>,
+}
+
+impl RowMaker<'_> {
+    /// Friction on the slider (N, along +x) in a prescribed motion; not a number where the guide locks itself.
+    pub fn friction(&self, t: f64, angle: Angle, omega: f64, alpha: f64) -> f64 {
+        self.guide.as_ref().map_or(0.0, |guide| {
+            let touch = guide.driven(t, angle, omega, alpha);
+            touch.map_or(f64::NAN, |touch| touch.friction)
+        })
+    }
+
+    /// θ̈ of a free motion, rad/s², and the friction on the slider, N.
+    pub fn forward(&self, t: f64, angle: Angle, omega: f64) -> (f64, f64) {
+        match self.sliding {
+            Some(sliding) => {
+                let (alpha, touch) = sliding.state(t, angle, omega);
+                (alpha, touch.friction)
+            }
+            None => (self.equation.acceleration(t, angle, omega), 0.0),
+        }
+    }
+
+    /// The row of a free motion, or with `alpha` of a prescribed one.
+    pub fn row(&self, t: f64, angle: Angle, omega: f64, alpha: Option<f64>) -> Row {
+        let pose = self.equation.linkage().pose(angle.rest);
+        let (alpha, friction) = match alpha {
+            Some(alpha) => (alpha, self.friction(t, angle, omega, alpha)),
+            None => self.forward(t, angle, omega),
+        };
+        let reactions = self.reactor.as_ref().map(|reactor| {
+            let mut load = self.equation.loads().value(t, angle, omega, &pose);
+            load.force += friction;
+            reactor.reactions(&pose, omega, alpha, &load)
+        });
+        let driving_torque = self.driving_torque.then(|| {
+            let torque = self.equation.driving_torque(t, angle, omega, alpha);
+            torque - friction * pose.dx
+        });
+        Row {
+            t,
+            theta: angle.radians(),
+            omega,
+            alpha,
+            x: pose.x,
+            v: pose.dx * omega,
+            a: pose.dx * alpha + pose.d2x * omega * omega,
+            phi: pose.phi(),
+            reactions,
+            driving_torque,
+            clearance: None,
+        }
+    }
+}

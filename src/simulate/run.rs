@@ -1,0 +1,187 @@
+//! Forward motion: scene -> mechanism -> plan -> engine -> trajectory.
+
+use super::guide_friction::Sliding;
+use super::last_row::LastRow;
+use super::result::Summary;
+use super::row::{NoRows, RowMaker, RowSink};
+use super::run_setup::RunSetup;
+use super::schedule::{self, Schedule};
+use super::{clearance, closed_form, in_time, joint_force_maxima, over_angle};
+use crate::error::Error;
+use crate::mechanism::{Curve, CurveEquation, Equation, Limits, Reactor};
+use crate::plan::{self, Engine, Method, Plan};
+use crate::scene::{Extent, MotionKind, Scene};
+use crate::trajectory::Trajectory;
+
+/// What is asked of a run beside what the scene says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// The method; [`Method::Auto`] leaves it to the plan.
+    pub method: Method,
+    /// Joint forces in the rows, and the largest of them.
+    pub reactions: bool,
+    /// Driving torque in the rows, for prescribed motions.
+    pub driving_torque: bool,
+    /// Whether the global error is estimated, by a second run.
+    pub estimate: bool,
+    /// Most evaluations of the equation; the run ends there with what it has.
+    pub max_evaluations: u64,
+    /// Most events that are listed; all are counted.
+    pub events_kept: usize,
+}
+
+impl Default for Options {
+    fn default() -> Options {
+        Options {
+            method: Method::Auto,
+            reactions: false,
+            driving_torque: false,
+            estimate: true,
+            max_evaluations: 2_000_000_000,
+            events_kept: 1000,
+        }
+    }
+}
+
+/// A finished run.
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    /// Its numbers.
+    pub summary: Summary,
+    /// Its motion, if it was recorded.
+    pub trajectory: Option<Trajectory>,
+}
+
+impl Simulation {
+    /// Unwrapped crank angle (rad) and speed (rad/s) at time `t` (s); none outside the run.
+    pub fn at(&self, t: f64) -> Option<(f64, f64)> {
+        self.trajectory.as_ref()?.at(t)
+    }
+}
+
+/// Simulates a scene and keeps its dense trajectory.
+///
+/// # Errors
+/// [`Error::Scene`] for impossible values, [`Error::Refused`] for what cannot be computed. A run that ends
+/// before its time is no error: see [`Summary::stopped`].
+///
+/// ```
+/// use slider_crank::scene::Scene;
+/// use slider_crank::simulate::{Options, simulate};
+/// let run = simulate(&Scene::duarte(), &Options::default()).unwrap();
+/// let (theta, omega) = run.at(0.5).unwrap();
+/// assert!((theta - 50.0).abs() < 1.0 && (omega - 100.0).abs() < 5.0);
+/// ```
+pub fn simulate(scene: &Scene, options: &Options) -> Result<Simulation, Error> {
+    run(scene, options, &mut NoRows, true)
+}
+
+/// Simulates a scene and hands its rows to `rows` as they are computed; memory does not grow with the run.
+///
+/// # Errors
+/// As [`simulate`], and the errors of `rows`.
+pub fn simulate_rows(
+    scene: &Scene,
+    options: &Options,
+    rows: &mut dyn RowSink,
+) -> Result<Simulation, Error> {
+    run(scene, options, rows, false)
+}
+
+fn run(
+    scene: &Scene,
+    options: &Options,
+    rows: &mut dyn RowSink,
+    record: bool,
+) -> Result<Simulation, Error> {
+    let mut run = run_with_rows_at(None, scene, options, rows, record)?;
+    let summary = &mut run.summary;
+    if options.reactions && summary.stopped.is_none() && summary.clearance.is_none() {
+        let again = Options {
+            estimate: false,
+            events_kept: 0,
+            ..*options
+        };
+        let mut look = |schedule: Schedule, scan: &mut dyn RowSink| {
+            run_with_rows_at(Some(schedule), scene, &again, scan, false).map(|_| ())
+        };
+        summary.peaks = joint_force_maxima::search(scene, summary, &mut look)?;
+        if summary.peaks.is_none() {
+            summary.warnings.push(
+                "the largest joint forces are not given: the run is too long to be looked through as closely as it takes, or a force has no finite value".to_owned(),
+            );
+        }
+    }
+    Ok(run)
+}
+
+fn run_with_rows_at(
+    looked_at: Option<Schedule>,
+    scene: &Scene,
+    options: &Options,
+    rows: &mut dyn RowSink,
+    record: bool,
+) -> Result<Simulation, Error> {
+    plan::refuse(scene)?;
+    let plan = Plan::new(scene, options.method)?;
+    let extent = match scene.run.extent {
+        None | Some(Extent::Revolutions(0.0)) => Extent::Duration(0.0),
+        Some(extent) => extent,
+    };
+    let reactor = options.reactions.then(|| Reactor::new(scene)).transpose()?;
+    let equation = Equation::new(scene);
+    let free = scene.motion.kind == MotionKind::Free;
+    let sliding = Sliding::new(scene, &equation).filter(|_| free);
+    let mut task = RunSetup {
+        scene,
+        options,
+        plan,
+        extent,
+        looked_at,
+        limits: Limits::new(equation.linkage(), scene.motion.speed),
+        maker: RowMaker {
+            equation: &equation,
+            reactor,
+            driving_torque: options.driving_torque,
+            guide: guide(scene, &equation),
+            sliding: sliding.as_ref(),
+        },
+    };
+    if is_open(&task) && rows.wants_rows() {
+        let blind = Options {
+            estimate: false,
+            reactions: false,
+            events_kept: 0,
+            ..*options
+        };
+        let seen = run_with_rows_at(None, scene, &blind, &mut NoRows, false)?.summary;
+        let end = seen.last.t_s;
+        schedule::refuse_rows(task.schedule().rows_until(end), end)?;
+    }
+    let mut rows = LastRow::new(rows);
+    let run = match task.plan.engine {
+        Engine::ClosedForm => closed_form::run(&task, &mut rows),
+        Engine::Energy | Engine::Angle => over_angle::run(&mut task, &mut rows, record),
+        Engine::Contact => clearance::run(&task, &mut rows, record),
+        Engine::Time => in_time::run(&task, &mut rows, record),
+    }?;
+    rows.finish()?;
+    Ok(run)
+}
+
+/// Whether how long a run of turns takes, and so how many rows at times it has, is known at its end only.
+fn is_open(task: &RunSetup<'_>) -> bool {
+    let at_times = matches!(task.schedule(), Schedule::Times { .. });
+    let of_turns = matches!(task.extent, Extent::Revolutions(_));
+    let asked = task.looked_at.is_none() && task.plan.engine != Engine::Contact;
+    asked && at_times && of_turns && task.scene.motion.kind == MotionKind::Free
+}
+
+/// The guide of a prescribed motion, if it has friction.
+fn guide(scene: &Scene, equation: &Equation) -> Option<CurveEquation> {
+    if scene.motion.kind != MotionKind::ConstantSpeed || scene.friction.is_none() {
+        return None;
+    }
+    let guide = CurveEquation::new(scene, Curve::on_crank(equation.linkage()));
+    guide.friction().is_some().then_some(guide)
+}

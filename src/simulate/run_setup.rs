@@ -1,0 +1,68 @@
+//! A run that is ready to be computed.
+
+use super::row::RowMaker;
+use super::run::Options;
+use super::schedule::Schedule;
+use crate::engine::time::Start;
+use crate::mechanism::{Equation, Limits};
+use crate::numeric::angle::Angle;
+use crate::plan::Plan;
+use crate::scene::{Extent, Scene};
+
+/// What is said where the second run of an estimate does not get to the end within its share of work.
+pub(super) const NOT_ESTIMATED: &str =
+    "the error could not be estimated: the second, tighter run did not finish";
+
+/// A scene with all that its engine needs.
+pub(super) struct RunSetup<'a> {
+    pub scene: &'a Scene,
+    pub options: &'a Options,
+    pub plan: Plan,
+    pub extent: Extent,
+    /// Rows that are due in place of the scene's.
+    pub looked_at: Option<Schedule>,
+    pub limits: Limits,
+    pub maker: RowMaker<'a>,
+}
+
+impl<'a> RunSetup<'a> {
+    /// When rows are due.
+    pub fn schedule(&self) -> Schedule {
+        let scene = || Schedule::new(self.scene.run.output_every, self.extent);
+        self.looked_at.unwrap_or_else(scene)
+    }
+
+    pub fn equation(&self) -> &'a Equation {
+        self.maker.equation
+    }
+
+    pub fn start(&self) -> Angle {
+        Angle::from(self.scene.motion.angle).reduced()
+    }
+
+    /// The error estimate, if one is asked for and the run was not stopped; a warning if its second run does not finish.
+    pub fn estimate<T>(
+        &self,
+        stopped: Option<&String>,
+        warnings: &mut Vec<String>,
+        second: impl FnOnce() -> Option<T>,
+    ) -> Option<T> {
+        if !self.options.estimate || stopped.is_some() {
+            return None;
+        }
+        let estimate = second();
+        if estimate.is_none() {
+            warnings.push(NOT_ESTIMATED.to_owned());
+        }
+        estimate
+    }
+
+    /// The state of the crank at the start.
+    pub fn first_state(&self) -> Start {
+        Start {
+            t: 0.0,
+            angle: self.start(),
+            speed: self.scene.motion.speed,
+        }
+    }
+}

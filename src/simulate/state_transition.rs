@@ -1,0 +1,257 @@
+//! What a small change of angle and speed at the start of a step has become at its end.
+//!
+//! δθ̈ = a δθ + b δθ̇ with the slopes a, b of the acceleration along the motion, taken at a few places of the step.
+//! Small errors would grow by themselves from turn to turn. But one perturbation is known exactly, that of a
+//! motion a little later, δ = (θ̇, θ̈), and the determinant is exp ∫ b dt (Liouville; Hairer, Nørsett, Wanner, Solving
+//! Ordinary Differential Equations I, 2nd ed., I.11): only what a perturbation across the motion gains along it is
+//! left to the slopes.
+
+use std::array::from_fn;
+
+use nalgebra::Matrix3;
+
+use crate::engine::Motion;
+use crate::engine::step::Step;
+
+/// Nodes and weights of Gauss's rule with three points on [0, 1] (Abramowitz and Stegun, 25.4.30).
+const NODES: usize = 3;
+const RULE: [(f64, f64); NODES] = [
+    (0.112_701_665_379_258_3, 5.0 / 18.0),
+    (0.5, 8.0 / 18.0),
+    (0.887_298_334_620_741_7, 5.0 / 18.0),
+];
+
+/// Changes from which slopes of the acceleration are taken: of the angle, rad, of the speed, in parts of itself,
+/// and of the time, in parts of the step. The angle changes by no more than in the step, next to a limit the slope may be
+/// steep on a way that short, but enough to stand out from rounding.
+const CHANGE: f64 = 1e-4;
+const LEAST_CHANGE: f64 = 1e-9;
+const LATER: f64 = 1e-2;
+
+/// On a way this short, rad, the motion a little later is no guide: angle and speed are rounded.
+const SHORTEST: f64 = 1e-11;
+
+/// Nothing is known of a step of which an exponent is larger.
+const STEEPEST: f64 = 1e12;
+
+/// Where the time changes the motion by more than this part of it in a step, the one a little later is another one.
+const PUSHED: f64 = 0.3;
+
+/// A 2 by 2 matrix, row by row.
+pub(super) type StateTransition = [[f64; 2]; 2];
+
+/// Slopes of the acceleration at the nodes of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Slopes {
+    /// 1/s²
+    by_angle: [f64; NODES],
+    /// 1/s
+    by_speed: [f64; NODES],
+    /// rad/s³
+    by_time: [f64; NODES],
+}
+
+impl Slopes {
+    /// Of the motion in a step.
+    pub fn of(motion: &dyn Motion, step: &Step) -> Slopes {
+        let (start, end, h) = (&step.start, &step.end, step.length());
+        let aside = (end.theta - start.theta).abs().clamp(LEAST_CHANGE, CHANGE);
+        let at = |t: f64, theta: f64, speed: f64| motion.acceleration(t, step.angle(theta), speed);
+        let mut slopes = Slopes {
+            by_angle: [0.0; NODES],
+            by_speed: [0.0; NODES],
+            by_time: [0.0; NODES],
+        };
+        for (i, (part, _)) in RULE.into_iter().enumerate() {
+            let t = start.t + part * h;
+            let (theta, speed) = step.at(t);
+            let faster = CHANGE * speed.abs().max(start.omega.abs()).max(1.0);
+            let slope = |change: f64, changed: &dyn Fn(f64) -> f64| {
+                (changed(0.5 * change) - changed(-0.5 * change)) / change
+            };
+            slopes.by_angle[i] = slope(aside, &|more| at(t, theta + more, speed));
+            slopes.by_speed[i] = slope(faster, &|more| at(t, theta, speed + more));
+            if motion.depends_on_time() {
+                slopes.by_time[i] = slope(LATER * h, &|more| at(t + more, theta, speed));
+            }
+        }
+        slopes
+    }
+
+    /// Mean slope by the angle, 1/s².
+    pub fn by_angle(&self) -> f64 {
+        mean(&self.by_angle)
+    }
+
+    /// What a perturbation at the start of the step has become at its end.
+    pub fn transition(&self, step: &Step) -> StateTransition {
+        let h = step.length();
+        let (plain, pushed) = self.plain(h);
+        let travel = (step.end.theta - step.start.theta).abs();
+        let along = [step.start.omega, step.start.alpha];
+        // What the time changes in the forces moves the motion a little later in another way.
+        let then = [step.end.omega - pushed[0], step.end.alpha - pushed[1]];
+        let size = |[angle, speed]: [f64; 2]| angle.hypot(h * speed);
+        if travel < SHORTEST || size(pushed) > PUSHED * size(along) {
+            return plain;
+        }
+        let found = self.with_motion(&plain, along, then, h);
+        let finite = found.iter().flatten().all(|entry| entry.is_finite());
+        if finite { found } else { plain }
+    }
+
+    /// What a perturbation at the start of a step of length h has become at its end, and what the time then changes in
+    /// angle and speed, in the way of Magnus at order six (Blanes, Casas, Oteo, Ros, Physics Reports 470, 2009, eq. 253):
+    /// slopes that stay are met exactly.
+    fn plain(&self, h: f64) -> (StateTransition, [f64; 2]) {
+        let largest = self.by_time.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+        let unit = if largest > 0.0 { h * h * largest } else { 1.0 };
+        // Of the angle, the speed in angles over h, and one.
+        let [first, middle, last]: [Matrix3<f64>; NODES] = from_fn(|i| {
+            let (by_angle, by_speed) = (h * h * self.by_angle[i], h * self.by_speed[i]);
+            let push = h * h * self.by_time[i] / unit;
+            Matrix3::new(0.0, 1.0, 0.0, by_angle, by_speed, push, 0.0, 0.0, 0.0)
+        });
+        let even = (first - 2.0 * middle + last) * (10.0 / 3.0);
+        let odd = (last - first) * (15f64.sqrt() / 3.0);
+        let inner = commutator(&middle, &odd);
+        let outer = commutator(&middle, &(2.0 * even + inner));
+        let mixed = commutator(&(inner - 20.0 * middle - even), &(odd - outer / 60.0));
+        let exponent = middle + even / 12.0 + mixed / 240.0;
+        let end = if exponent.iter().all(|entry| entry.abs() < STEEPEST) {
+            exponent.exp()
+        } else {
+            Matrix3::repeat(f64::NAN)
+        };
+        let transition = [
+            [end[(0, 0)], h * end[(0, 1)]],
+            [end[(1, 0)] / h, end[(1, 1)]],
+        ];
+        let pushed = [unit * end[(0, 2)], unit * end[(1, 2)] / h];
+        (transition, pushed)
+    }
+
+    /// The transition that takes `along` to `then`, with the right determinant; the rest as in another one. Speeds
+    /// are measured by angles over h.
+    fn with_motion(
+        &self,
+        other: &StateTransition,
+        along: [f64; 2],
+        then: [f64; 2],
+        h: f64,
+    ) -> StateTransition {
+        let product = |x: [f64; 2], y: [f64; 2]| x[0] * y[0] + h * h * x[1] * y[1];
+        // Across the motion, with along ∧ across = 1.
+        let across = |[speed, acceleration]: [f64; 2]| {
+            let squared = product([speed, acceleration], [speed, acceleration]);
+            [-h * h * acceleration / squared, speed / squared]
+        };
+        let [before, after] = [along, then].map(across);
+        let image = other.map(|row| row[0] * before[0] + row[1] * before[1]);
+        let gained = product(image, then) / product(then, then);
+        let left = (mean(&self.by_speed) * h).exp();
+        let square = product(along, along);
+        from_fn(|i| {
+            let of_across = gained * then[i] + left * after[i];
+            [
+                then[i] * along[0] / square - of_across * along[1],
+                then[i] * h * h * along[1] / square + of_across * along[0],
+            ]
+        })
+    }
+}
+
+fn mean(values: &[f64; NODES]) -> f64 {
+    let weighted = RULE.iter().zip(values);
+    weighted.map(|((_, weight), value)| weight * value).sum()
+}
+
+fn commutator(x: &Matrix3<f64>, y: &Matrix3<f64>) -> Matrix3<f64> {
+    x * y - y * x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::Counted;
+    use crate::engine::time::{self, Method, Settings, Start};
+    use crate::numeric::angle::Angle;
+
+    /// A pendulum with losses, pushed by so much in time.
+    struct Pendulum(f64);
+
+    impl Motion for Pendulum {
+        fn acceleration(&self, t: f64, angle: Angle, speed: f64) -> f64 {
+            self.0 * (3.0 * t).cos() - 4.0 * angle.rest.sin() - 0.1 * speed
+        }
+
+        fn acceleration_and_power(&self, t: f64, angle: Angle, speed: f64) -> (f64, f64) {
+            (self.acceleration(t, angle, speed), 0.0)
+        }
+
+        fn depends_on_time(&self) -> bool {
+            self.0 != 0.0
+        }
+
+        fn has_power(&self) -> bool {
+            false
+        }
+
+        fn next_corner(&self, _: f64) -> f64 {
+            f64::INFINITY
+        }
+    }
+
+    /// The steps from a start to a time.
+    fn steps(motion: &Pendulum, start: Start, t_end: f64) -> Vec<Step> {
+        let settings = Settings {
+            method: Method::Picard,
+            tolerance: 1e-14,
+            t_end,
+            way: f64::INFINITY,
+            max_evaluations: u64::MAX,
+            work_unit: 1.0,
+        };
+        let mut steps = Vec::new();
+        time::run(&Counted::new(motion), start, &settings, &mut |step| {
+            steps.push(*step);
+            false
+        });
+        steps
+    }
+
+    /// Swings with turning points in the steps, turns onwards, with and without a load in time: against runs from
+    /// starts to both sides of the step's.
+    #[test]
+    fn transitions_are_those_of_runs_from_starts_beside() {
+        const ASIDE: f64 = 1e-4;
+        for (push, angle, speed) in [(0.0, 2.0, 0.0), (0.0, 0.3, 9.0), (1.5, 1.0, -0.5)] {
+            let motion = Pendulum(push);
+            let start = |t: f64, angle: f64, speed: f64| Start {
+                t,
+                angle: Angle::from(angle),
+                speed,
+            };
+            for step in steps(&motion, start(0.0, angle, speed), 3.0) {
+                let found = Slopes::of(&motion, &step).transition(&step);
+                let from = step.start;
+                let end = |part: [f64; 2]| {
+                    let beside = start(from.t, from.theta + part[0], from.omega + part[1]);
+                    let last = *steps(&motion, beside, step.end.t).last().expect("a step");
+                    [
+                        last.end.theta + std::f64::consts::TAU * last.turns,
+                        last.end.omega,
+                    ]
+                };
+                for (column, part) in [[ASIDE, 0.0], [0.0, ASIDE]].into_iter().enumerate() {
+                    let (more, less) = (end(part), end(part.map(|part| -part)));
+                    for row in 0..2 {
+                        let exact = (more[row] - less[row]) / (2.0 * ASIDE);
+                        let off = (found[row][column] - exact).abs();
+                        assert!(off < 1e-4, "{step:?}: {found:?}, not {exact}");
+                    }
+                }
+            }
+        }
+    }
+}

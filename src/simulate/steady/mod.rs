@@ -1,0 +1,221 @@
+//! The periodic steady state: its speeds, its work, and the flywheel for a wanted coefficient of fluctuation.
+
+mod flywheel;
+mod loads;
+mod periodic_orbit;
+mod refusal;
+mod round;
+mod timed;
+
+use serde::Serialize;
+
+use crate::error::Error;
+use crate::scene::{Extent, Scene};
+pub use flywheel::Flywheel;
+pub use loads::LoadWork;
+use periodic_orbit::{Found, Seeker};
+
+/// What is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SteadyOptions {
+    /// Coefficient of fluctuation for which the flywheel is wanted.
+    pub fluctuation: Option<f64>,
+    /// Most evaluations of the loads in each search.
+    pub max_evaluations: u64,
+}
+
+impl Default for SteadyOptions {
+    fn default() -> SteadyOptions {
+        SteadyOptions {
+            fluctuation: None,
+            max_evaluations: 2_000_000_000,
+        }
+    }
+}
+
+/// A value with an estimate of its error, in the same unit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Estimated {
+    /// The value.
+    pub value: f64,
+    /// Its error, positive.
+    pub error: f64,
+}
+
+/// An extreme of the speed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SpeedExtreme {
+    /// Signed speed, rad/s.
+    pub omega_rad_per_s: Estimated,
+    /// Crank angle in the cycle, from 0 to 2π times its turns, rad; none if the speed does not vary by more than its error.
+    pub theta_rad: Option<Estimated>,
+}
+
+/// The periodic motion of a scene.
+#[derive(Clone, Debug, Serialize)]
+pub struct SteadyState {
+    /// Title of the scene.
+    pub scene: String,
+    /// The scene's start angle, rad.
+    pub theta_rad: f64,
+    /// The steady speed there, rad/s.
+    pub omega_rad_per_s: Estimated,
+    /// Turns of the crank after which the motion is the same again: the cycle of the loads.
+    pub cycle_turns: u32,
+    /// Time of a cycle, s.
+    pub period_s: Estimated,
+    /// Mean speed over time, 2π turns/period, with the sign of the rotation, rad/s.
+    pub omega_mean_rad_per_s: Estimated,
+    /// The least speed without regard to its sign.
+    pub slowest: SpeedExtreme,
+    /// The largest.
+    pub fastest: SpeedExtreme,
+    /// Coefficient of fluctuation: the largest minus the least speed, over the mean.
+    pub fluctuation: Estimated,
+    /// Part of a small deviation that is left after a cycle.
+    pub multiplier: Estimated,
+    /// Whether small deviations die out.
+    pub stable: bool,
+    /// Whether it is the motion that the scene's own start speed approaches; none for a start at rest.
+    pub approached_from_start: Option<bool>,
+    /// Mean power that loads put in, W: those whose work over a cycle is positive.
+    pub power_in_w: Estimated,
+    /// Mean power that loads take out, W, positive.
+    pub power_out_w: Estimated,
+    /// Each load.
+    pub loads: Vec<LoadWork>,
+    /// The flywheel, if it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flywheel: Option<Flywheel>,
+    /// What the reader should know.
+    pub notes: Vec<String>,
+}
+
+impl SteadyState {
+    /// The scene, started in the steady state; over one cycle if it does not say how long its run is.
+    pub fn start(&self, scene: &Scene) -> Scene {
+        let mut scene = scene.clone();
+        scene.motion.speed = self.omega_rad_per_s.value;
+        let cycle = Some(Extent::Revolutions(self.cycle_turns.into()));
+        scene.run.extent = scene.run.extent.or(cycle);
+        scene
+    }
+}
+
+/// Finds the periodic motion that the scene's start approaches, or the next faster one if the crank would stop.
+/// It turns as the start speed does; a start at rest leaves the sense of rotation open.
+///
+/// Where no load depends on the speed and a turn gains no energy, every speed is periodic: then the start speed is
+/// the steady one.
+///
+/// # Errors
+/// [`Error::Scene`] for impossible values, [`Error::Refused`] with the reason where there is no periodic motion
+/// or no flywheel, or where the crank angle cannot be the independent variable.
+///
+/// ```
+/// use slider_crank::scene::{Crank, Load, Scene};
+/// use slider_crank::simulate::{SteadyOptions, steady_state};
+/// let scene = Scene::new(0.05, 0.15)
+///     .crank(Crank { inertia: 0.02, ..Crank::default() })
+///     .torque(Load::Constant(3.0))
+///     .torque(Load::Viscous(0.1))
+///     .start(0.0, 5.0);
+/// let steady = steady_state(&scene, &SteadyOptions::default()).unwrap();
+/// assert!((steady.omega_mean_rad_per_s.value - 30.0).abs() < 1e-11);
+/// ```
+pub fn steady_state(scene: &Scene, options: &SteadyOptions) -> Result<SteadyState, Error> {
+    refusal::refuse_what_has_none(scene)?;
+    let rests = scene.motion.speed == 0.0;
+    let limit = options.max_evaluations;
+    let found = first(scene, rests, limit)?;
+    let check = Seeker::new(scene, found.speed, limit).again()?;
+    let starts = (!rests).then_some(found.approached);
+    let mut notes = Vec::new();
+    if rests {
+        notes
+            .push("the scene starts at rest, so its loads decide the sense of rotation".to_owned());
+    }
+    if starts == Some(false) {
+        notes.push(
+            "the motion from the scene's start stops; this is the next faster periodic one"
+                .to_owned(),
+        );
+    }
+    if found.any_speed {
+        notes.push(
+            "no load depends on the speed: every speed at which the crank turns fully is periodic, and the scene's start says which"
+                .to_owned(),
+        );
+    }
+    let mut steady = describe(scene, &found, &check);
+    steady.approached_from_start = starts;
+    steady.flywheel = options
+        .fluctuation
+        .map(|wanted| flywheel::size(scene, &found, &steady.fluctuation, wanted, limit))
+        .transpose()?;
+    steady.notes = notes;
+    Ok(steady)
+}
+
+/// The steady state in the sense of the start speed; both senses are tried for a start at rest.
+fn first(scene: &Scene, rests: bool, limit: u64) -> Result<Found, Error> {
+    if !rests {
+        return Seeker::new(scene, scene.motion.speed, limit).find();
+    }
+    // Any speed serves to begin with.
+    match [1.0, -1.0].map(|speed| Seeker::new(scene, speed, limit).find()) {
+        [Ok(found), _] | [_, Ok(found)] if found.any_speed => Err(Error::refused(
+            "the start is at rest, and no load depends on the speed: every speed is periodic",
+            "give a start speed: motion.speed",
+        )),
+        [Ok(_), Ok(_)] => Err(Error::refused(
+            "the start is at rest, and the crank has a steady state in either sense of rotation",
+            "give motion.speed the sign of the rotation that is meant",
+        )),
+        [Ok(found), Err(_)] | [Err(_), Ok(found)] => Ok(found),
+        [Err(error), Err(_)] => Err(error),
+    }
+}
+
+/// The numbers, with errors from another computation of the same motion.
+fn describe(scene: &Scene, found: &Found, check: &Found) -> SteadyState {
+    let of = |value: &dyn Fn(&Found) -> f64, floor: f64| Estimated {
+        value: value(found),
+        error: periodic_orbit::MARGIN * (value(found) - value(check)).abs() + floor,
+    };
+    // What is left open of an energy moves the speed by half as much, relative to them.
+    let relative = 0.5 * found.uncertain + periodic_orbit::ROUNDING;
+    let fluctuation = of(&|f| f.fluctuation(), relative * (2.0 + found.fluctuation()));
+    let speed = |value: &dyn Fn(&Found) -> f64| of(value, relative * value(found).abs());
+    let varies = found.fluctuation() > 4.0 * fluctuation.error;
+    let extreme = |which: usize| SpeedExtreme {
+        omega_rad_per_s: speed(&|f| f.extremes[which].omega),
+        theta_rad: varies.then(|| periodic_orbit::place(found, check, which, relative)),
+    };
+    let loads = loads::works(scene, found, check, relative);
+    let (power_in_w, power_out_w) = loads::powers(&loads);
+    let multiplier = Estimated {
+        value: found.multiplier,
+        error: periodic_orbit::MARGIN * (found.multiplier - check.multiplier).abs()
+            + found.multiplier_error.max(check.multiplier_error),
+    };
+    SteadyState {
+        scene: scene.title.clone().unwrap_or_default(),
+        theta_rad: scene.motion.angle,
+        omega_rad_per_s: speed(&|f| f.speed),
+        cycle_turns: found.turns as u32,
+        period_s: of(&|f| f.period, relative * found.period),
+        omega_mean_rad_per_s: speed(&|f| f.speed.signum() * f.way() / f.period),
+        slowest: extreme(0),
+        fastest: extreme(1),
+        fluctuation,
+        stable: multiplier.value + multiplier.error < 1.0,
+        multiplier,
+        approached_from_start: None,
+        power_in_w,
+        power_out_w,
+        loads,
+        flywheel: None,
+        notes: Vec::new(),
+    }
+}

@@ -1,0 +1,226 @@
+//! Static slider force against crank torque over one turn, and the reverse.
+
+use std::f64::consts::TAU;
+
+use serde::Serialize;
+
+use crate::error::Error;
+use crate::kinematics::Located;
+use crate::mechanism::{Balance, Limits, NamedPosition, Statics};
+use crate::numeric::{angle, difference, root};
+use crate::scene::{Load, Scene, Variables};
+
+/// What is given in place of the scene's own loads and friction.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StaticsOptions {
+    /// Crank torque in place of the scene's torques, N m.
+    pub torque: Option<f64>,
+    /// Slider force in place of the scene's forces, N; with it the crank torque is sought.
+    pub force: Option<f64>,
+    /// Friction coefficient at the guide in place of the scene's static one.
+    pub friction: Option<f64>,
+}
+
+/// Static equilibrium of a scene.
+#[derive(Clone, Debug, Serialize)]
+pub struct StaticAnalysis {
+    /// Title of the scene.
+    pub scene: String,
+    /// Class of the mechanism.
+    pub class: &'static str,
+    /// `slider-force` or `crank-torque`.
+    pub sought: &'static str,
+    /// Static friction coefficient at the guide.
+    pub friction: f64,
+    /// Where the least slider force (N) or crank torque (N m) is needed, without friction: one place in each
+    /// stroke, zero where the loads hold each other.
+    pub least: Vec<Located>,
+    /// The same of the edge of the friction band that is nearer to zero.
+    pub least_with_friction: Vec<Located>,
+    /// Crank angles at which friction at the guide locks the mechanism, from and to, rad; none without friction.
+    pub self_locking_rad: Vec<[f64; 2]>,
+    /// Dead centres, self-locking intervals and other positions that have a name, by angle.
+    pub positions: Vec<NamedPosition>,
+    /// What the reader should know.
+    pub warnings: Vec<String>,
+    #[serde(skip)]
+    statics: Statics,
+    #[serde(skip)]
+    seek_torque: bool,
+}
+
+/// The equilibrium at one crank angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StaticsRow {
+    /// rad
+    pub theta: f64,
+    /// Force or torque, side thrust, self-locking.
+    pub balance: Balance,
+    /// Transmission angle, rad; not finite where the rod does not reach the guide.
+    pub transmission: f64,
+    /// Velocity of the slider over that of the crank pin, |x'|/r (Ng (A3)).
+    pub velocity_ratio: f64,
+    /// Interior angle between crank and rod at the crank pin, rad, 0 to π (Ng (11), Duarte et al. (10)).
+    pub crank_pin_angle: f64,
+}
+
+/// Static equilibrium of a scene at rest, at any offset, branch and weight.
+///
+/// # Errors
+/// [`Error::Scene`] for impossible values, [`Error::Refused`] for a friction coefficient that is none and for
+/// what [`Statics::new`] refuses.
+///
+/// ```
+/// use slider_crank::scene::{Load, Scene};
+/// use slider_crank::statics::{StaticsOptions, statics};
+/// let scene = Scene::new(0.025, 0.072).torque(Load::Constant(0.26487));
+/// let result = statics(&scene, &StaticsOptions::default()).unwrap();
+/// let row = result.row(std::f64::consts::FRAC_PI_2);
+/// assert!((row.balance.band.unwrap().value - 0.26487 / 0.025).abs() < 1e-12);
+/// ```
+pub fn statics(scene: &Scene, options: &StaticsOptions) -> Result<StaticAnalysis, Error> {
+    let mut scene = scene.clone();
+    if let Some(torque) = options.torque {
+        scene.torques = vec![Load::Constant(torque)];
+    }
+    if let Some(force) = options.force {
+        scene.forces = vec![Load::Constant(force)];
+    }
+    scene.check()?;
+    let friction = options
+        .friction
+        .or(scene.friction.map(|friction| friction.static_coefficient))
+        .unwrap_or(0.0);
+    if !(0.0..=f64::MAX).contains(&friction) {
+        return Err(Error::refused(
+            format!("a friction coefficient of {friction} cannot be"),
+            "give a number that is zero or more, like 0.1",
+        ));
+    }
+    let statics = Statics::new(&scene, friction)?;
+    let linkage = statics.equation().linkage();
+    let limits = Limits::new(linkage, 0.0);
+    let mut positions = linkage.named_positions();
+    positions.extend(linkage.self_locking(friction));
+    positions.sort_by(|a, b| a.theta_rad.total_cmp(&b.theta_rad));
+    let locked = positions.iter().filter(|at| at.kind == "self-locking");
+    let self_locking_rad = locked
+        .filter_map(|at| Some([at.theta_rad, at.to_rad?]))
+        .collect();
+    let mut warnings = Vec::new();
+    let reads = statics.equation().loads().reads();
+    let motion = Variables::T.or(Variables::OMEGA).or(Variables::V);
+    if !reads.disjoint(motion) {
+        warnings
+            .push("loads that depend on time or speed are taken at t = 0 and at rest".to_owned());
+    }
+    if scene.clearance.is_some() {
+        warnings.push("the clearance of the scene plays no part in the equilibrium".to_owned());
+    }
+    let equation = statics.equation();
+    let without_value =
+        |theta: f64| linkage.pose(theta).exists() && !equation.load(0.0, theta, 0.0).is_finite();
+    let grid = linkage.turn_grid().into_iter();
+    if grid.map(|theta| theta.rem_euclid(TAU)).any(without_value) {
+        warnings.push(
+            "a load has no finite value at some crank angles, outside its table or the domain of its formula: their rows are left empty"
+                .to_owned(),
+        );
+    }
+    let mut result = StaticAnalysis {
+        scene: scene.title.clone().unwrap_or_default(),
+        class: limits.class.name(),
+        sought: match options.force {
+            Some(_) => "crank-torque",
+            None => "slider-force",
+        },
+        friction,
+        least: Vec::new(),
+        least_with_friction: Vec::new(),
+        self_locking_rad,
+        positions,
+        warnings,
+        statics,
+        seek_torque: options.force.is_some(),
+    };
+    result.least = result.least_of(|balance| balance.band.map(|band| band.value));
+    if friction > 0.0 {
+        result.least_with_friction = result.least_of(nearer_edge);
+    }
+    Ok(result)
+}
+
+/// The edge of the band on the side of zero; none if the band has zero in it, where friction alone holds.
+fn nearer_edge(balance: &Balance) -> Option<f64> {
+    let band = balance.band?;
+    let (min, max) = (band.min?, band.max?);
+    match (min > 0.0, max < 0.0) {
+        (true, _) => Some(min),
+        (_, true) => Some(max),
+        _ => None,
+    }
+}
+
+impl StaticAnalysis {
+    /// The equilibrium at a crank angle, rad.
+    pub fn row(&self, theta: f64) -> StaticsRow {
+        let linkage = self.statics.equation().linkage();
+        let pose = linkage.pose(theta);
+        // Between the directions from A to O and from A to P.
+        let (axis_x, axis_y) = (linkage.s * pose.cos_phi, -pose.sin_phi);
+        let along = -(pose.cos * axis_x + pose.sin * axis_y);
+        let across = pose.cos * axis_y - pose.sin * axis_x;
+        StaticsRow {
+            theta,
+            balance: self.balance(theta),
+            transmission: pose.transmission(),
+            velocity_ratio: pose.dx.abs() / linkage.r,
+            crank_pin_angle: across.abs().atan2(along),
+        }
+    }
+
+    /// Rows of one turn, from 0 to 360 degrees inclusive, every `step` (rad).
+    pub fn rows(&self, step: f64) -> impl Iterator<Item = StaticsRow> + '_ {
+        angle::turn(step).map(|theta| self.row(theta))
+    }
+
+    fn balance(&self, theta: f64) -> Balance {
+        if self.seek_torque {
+            self.statics.crank_torque(theta)
+        } else {
+            self.statics.slider_force(theta)
+        }
+    }
+
+    /// Least magnitudes of a value over the turn from 0 to 360 degrees; loads need not be the same in the next one.
+    fn least_of(&self, value: impl Fn(&Balance) -> Option<f64>) -> Vec<Located> {
+        let value = |theta: f64| value(&self.balance(theta.rem_euclid(TAU))).unwrap_or(f64::NAN);
+        let mut grid = self.statics.equation().linkage().turn_grid();
+        grid.push(grid[0] + TAU + (grid[1] - grid[0]));
+        let size: Vec<f64> = grid.iter().map(|theta| value(*theta).abs()).collect();
+        let mut found: Vec<Located> = (1..grid.len() - 1)
+            .filter(|i| size[*i] < size[i - 1] && size[*i] <= size[i + 1])
+            .filter_map(|i| {
+                let (a, b) = (grid[i - 1], grid[i + 1]);
+                // Between the end of the turn and its beginning a value may jump over zero.
+                let small = 1e-6 * size[i - 1].max(size[i + 1]);
+                let zero = root::bracketed(value, a, b);
+                let (value, theta) = match zero.filter(|theta| value(*theta).abs() <= small) {
+                    Some(theta) => (0.0, theta),
+                    None => {
+                        let slope = |theta: f64| difference::slope(value, theta, 1e-3);
+                        let theta = root::bracketed(slope, a, b)?;
+                        (value(theta), theta)
+                    }
+                };
+                let located = Located {
+                    value,
+                    theta_rad: theta.rem_euclid(TAU) % TAU,
+                };
+                located.value.is_finite().then_some(located)
+            })
+            .collect();
+        found.sort_by(|a, b| a.theta_rad.total_cmp(&b.theta_rad));
+        found
+    }
+}

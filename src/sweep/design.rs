@@ -1,0 +1,136 @@
+//! One design of a sweep.
+
+use serde::Serialize;
+
+use super::SweepOptions;
+use crate::error::Error;
+use crate::kinematics::{Kinematics, kinematics};
+use crate::scene::Scene;
+use crate::simulate::{NoRows, Options, SteadyState, Summary, simulate_rows, steady_state};
+
+/// How far a design could be computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Outcome {
+    /// All that was asked for.
+    Done,
+    /// The motion ended before its time.
+    Stopped,
+    /// There is a mechanism, but its motion cannot be computed.
+    Refused,
+    /// The values make no scene.
+    Impossible,
+}
+
+impl Outcome {
+    /// As CSV and JSON have it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Outcome::Done => "done",
+            Outcome::Stopped => "stopped",
+            Outcome::Refused => "refused",
+            Outcome::Impossible => "impossible",
+        }
+    }
+}
+
+/// The key figures of one design.
+#[derive(Clone, Debug)]
+pub struct Design {
+    /// Its place in the sweep, from 0.
+    pub index: usize,
+    /// Which of its values each varied key has, from 0.
+    pub values: Vec<usize>,
+    /// How far it could be computed.
+    pub outcome: Outcome,
+    /// Why no further, and what else the reader should know.
+    pub notes: Vec<String>,
+    /// One turn in closed form; none for an impossible design.
+    pub kinematics: Option<Kinematics>,
+    /// The forward motion, if it was asked for and could be computed; its list of events is empty.
+    pub motion: Option<Summary>,
+    /// The periodic steady state, if it was asked for and there is one.
+    pub steady: Option<SteadyState>,
+}
+
+impl Design {
+    pub(super) fn new(
+        index: usize,
+        values: Vec<usize>,
+        scene: Result<Scene, Error>,
+        options: &SweepOptions,
+    ) -> Design {
+        let mut design = Design {
+            index,
+            values,
+            outcome: Outcome::Done,
+            notes: Vec::new(),
+            kinematics: None,
+            motion: None,
+            steady: None,
+        };
+        match scene {
+            Ok(scene) => design.compute(&scene, options),
+            Err(error) => design.fail(Outcome::Impossible, &error),
+        }
+        design
+    }
+
+    fn compute(&mut self, scene: &Scene, options: &SweepOptions) {
+        match kinematics(scene) {
+            Ok(turn) => {
+                self.notes.extend(turn.warnings.iter().cloned());
+                self.kinematics = Some(turn);
+            }
+            Err(error) => return self.fail(Outcome::Impossible, &error),
+        }
+        if let Some(asked) = &options.steady {
+            match steady_state(scene, asked) {
+                Ok(steady) => self.steady = Some(steady),
+                Err(error) => self.fail(Outcome::Refused, &error),
+            }
+        }
+        if !options.motion {
+            return;
+        }
+        let run = Options {
+            method: options.method,
+            reactions: options.reactions,
+            estimate: options.estimate,
+            max_evaluations: options.max_evaluations,
+            // All that is wanted of the events is their number.
+            events_kept: 0,
+            ..Options::default()
+        };
+        match simulate_rows(scene, &run, &mut NoRows) {
+            Ok(run) => self.take(run.summary),
+            Err(error) => self.fail(Outcome::Refused, &error),
+        }
+    }
+
+    fn take(&mut self, summary: Summary) {
+        if let Some(stopped) = &summary.stopped {
+            self.outcome = Outcome::Stopped;
+            self.notes.insert(0, stopped.clone());
+        }
+        self.notes.extend(summary.warnings.iter().cloned());
+        self.motion = Some(summary);
+    }
+
+    fn fail(&mut self, outcome: Outcome, error: &Error) {
+        self.outcome = outcome;
+        let first = match error {
+            Error::Scene(problems) => {
+                let what = problems.list().iter().map(|problem| problem.what.clone());
+                what.collect::<Vec<_>>().join("; ")
+            }
+            other => other
+                .to_string()
+                .lines()
+                .next()
+                .unwrap_or_default()
+                .to_owned(),
+        };
+        self.notes.insert(0, first);
+    }
+}
