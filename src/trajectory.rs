@@ -66,7 +66,7 @@ impl Trajectory {
         Trajectory::new(Motion::Steps(steps), begin, end)
     }
 
-    /// Pieces, each beginning where the one before ends.
+    /// Pieces of the crank angle, each beginning where the one before ends.
     ///
     /// ```
     /// use slider_crank::numeric::angle::Angle;
@@ -94,6 +94,24 @@ impl Trajectory {
 
     /// Crank angle, as turns and rest, and speed (rad/s) at time `t` (s); none outside the run.
     pub fn state(&self, t: f64) -> Option<(Angle, f64)> {
+        let (angle, speed) = self.coordinate(t)?;
+        Some(match &self.view {
+            Some(View(crank)) => crank(angle, speed),
+            None => (angle, speed),
+        })
+    }
+
+    /// The time after which a motion over the crank angle repeats, s, if it does.
+    pub(crate) fn period(&self) -> Option<f64> {
+        match &self.motion {
+            Motion::Orbit(orbit) => orbit.period().map(|(period, _)| period),
+            _ => None,
+        }
+    }
+
+    /// The coordinate that was integrated, an angle as turns and rest, and its rate (rad/s) at time `t` (s): the crank
+    /// angle, or the coordinate of the configuration curve.
+    pub(crate) fn coordinate(&self, t: f64) -> Option<(Angle, f64)> {
         if !(self.begin..=self.end).contains(&t) {
             return None;
         }
@@ -102,17 +120,13 @@ impl Trajectory {
             Motion::Orbit(orbit) => Some(orbit.state(t - self.begin)),
             Motion::Pieces(pieces) => {
                 let after = pieces.partition_point(|piece| piece.end < t);
-                pieces.get(after)?.state(t)
+                pieces.get(after)?.coordinate(t)
             }
             Motion::Steps(steps) => {
                 let after = steps.partition_point(|step| step.end.t < t);
                 let step = steps.get(after)?;
                 let (theta, omega) = step.at(t);
-                let angle = step.angle(theta);
-                Some(match &self.view {
-                    Some(View(crank)) => crank(angle, omega),
-                    None => (angle, omega),
-                })
+                Some((step.angle(theta), omega))
             }
         }
     }

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::time::{Duration, Instant};
 
+use super::dense_rows::DenseRows;
 use super::driving_torque::Drive;
 use super::result::{ErrorEstimate, Event, Final, Solved, Summary};
 use super::row::RowSink;
@@ -71,12 +72,13 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
     Ok(Simulation {
         summary: Summary::new(task, solved),
         trajectory: Some(Trajectory::uniform(start, speed, end)),
+        dense: DenseRows::default(),
     })
 }
 
 /// The coefficient of friction of the guide.
 fn friction(task: &RunSetup<'_>) -> f64 {
-    let friction = task.maker.guide.as_ref().and_then(CurveEquation::friction);
+    let friction = task.maker.guide.and_then(CurveEquation::friction);
     friction.map_or(0.0, |friction| friction.coefficient)
 }
 
@@ -158,8 +160,7 @@ fn write_rows(
         return Ok(());
     }
     let every = task.scene.run.output_every;
-    let scene = || Schedule::new(every, Extent::Duration(end));
-    let schedule = match task.looked_at.unwrap_or_else(scene) {
+    let schedule = match Schedule::new(every, Extent::Duration(end)) {
         // A crank at rest passes no angles: its first state and its last are the rows.
         Schedule::Angles { .. } if speed == 0.0 => Schedule::Times { step: end, end },
         Schedule::Angles { step } => Schedule::Times {

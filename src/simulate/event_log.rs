@@ -25,13 +25,15 @@ pub(super) struct Log {
     pub next_row: u64,
     /// Time spent on rows.
     pub row_time: Duration,
-    /// The motion, if it is recorded.
+    /// Steps and pieces of the motion that may still be kept.
+    room: usize,
+    /// Pieces of the motion, while there is room for them.
     pub pieces: Option<Vec<Trajectory>>,
 }
 
 impl Log {
     /// Before a run that starts with this speed, rad/s.
-    pub fn new(task: &RunSetup<'_>, record: bool) -> Log {
+    pub fn new(task: &RunSetup<'_>) -> Log {
         let speed = task.scene.motion.speed;
         Log {
             events: Vec::new(),
@@ -40,7 +42,8 @@ impl Log {
             speed: (speed, speed),
             next_row: 0,
             row_time: Duration::ZERO,
-            pieces: record.then(Vec::new),
+            room: task.kept,
+            pieces: (task.kept > 0).then(Vec::new),
         }
     }
 
@@ -93,9 +96,21 @@ impl Log {
         Ok(())
     }
 
-    /// Keeps a piece of the motion, if it is recorded.
+    /// Takes room for a step or a piece of the motion; where there is none, nothing of it is kept.
+    pub fn take_room(&mut self) -> bool {
+        let room = self.room.checked_sub(1);
+        self.room = room.unwrap_or(0);
+        if room.is_none() {
+            self.pieces = None;
+        }
+        room.is_some()
+    }
+
+    /// Keeps a piece of the motion, if there is room.
     pub fn keep(&mut self, piece: impl FnOnce() -> Trajectory) {
-        if let Some(pieces) = &mut self.pieces {
+        if self.take_room()
+            && let Some(pieces) = &mut self.pieces
+        {
             pieces.push(piece());
         }
     }

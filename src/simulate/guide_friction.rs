@@ -1,6 +1,6 @@
 //! Coulomb friction at the guide of a crank that turns: the slider reverses at the dead centres only.
 
-use std::cell::Cell;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use super::angle_model::Spot;
 use crate::engine::angle::Table;
@@ -14,12 +14,12 @@ const AT_DEAD_CENTRE: f64 = 1e-12;
 const BESIDE: f64 = 1e-6;
 
 /// Friction at the guide.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) struct Sliding {
     equation: CurveEquation,
     /// Kinetic coefficient.
     mu: f64,
-    jams: Cell<bool>,
+    jams: AtomicBool,
 }
 
 /// What loads do to the guide at one position of a panel.
@@ -53,7 +53,7 @@ impl Sliding {
         Some(Sliding {
             equation: constrained,
             mu: friction.coefficient,
-            jams: Cell::new(false),
+            jams: AtomicBool::new(false),
         })
     }
 
@@ -64,7 +64,7 @@ impl Sliding {
 
     /// Whether a position was met at which rigid bodies jam.
     pub fn jams(&self) -> bool {
-        self.jams.get()
+        self.jams.load(Relaxed)
     }
 
     /// Adds friction to the table of a panel between two dead centres; `signs` is sgn(ω) sgn(N), `of_place` the
@@ -85,7 +85,7 @@ impl Sliding {
         for (i, across) in at.iter().enumerate() {
             let normal = across.normal();
             let grip = normal.grip(c);
-            self.jams.set(self.jams.get() || grip.is_none());
+            self.jams.fetch_or(grip.is_none(), Relaxed);
             let grip = Grip {
                 torque: normal.torque,
                 force: normal.force,

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::time::Instant;
 
 use super::bounded_motion::Swing;
+use super::dense_rows::DenseRows;
 use super::event_log::Log;
 use super::recorder::{Recorder, Seen};
 use super::result::{Final, Solved, Summary};
@@ -23,13 +24,9 @@ use crate::scene::Extent;
 use crate::trajectory::Trajectory;
 
 /// Runs a task.
-pub(super) fn run(
-    task: &RunSetup<'_>,
-    rows: &mut dyn RowSink,
-    record: bool,
-) -> Result<Simulation, Error> {
+pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
     if configuration_curve::serves(task) {
-        return configuration_curve::run(task, rows, record);
+        return configuration_curve::run(task, rows);
     }
     let begun = Instant::now();
     let equation = task.equation();
@@ -39,7 +36,7 @@ pub(super) fn run(
     let settings = settings(task, equation);
     // What rows and events cost is counted apart: it does not change how far a run goes.
     let looked_at = Counted::new(&forward);
-    let mut watch = watch(task, &looked_at, rows, record);
+    let mut watch = watch(task, &looked_at, rows);
     let (mut finish, mut last, steps) =
         time::run(&motion, start, &settings, &mut |step| watch.step(step));
     if let Some(error) = watch.seen.error.take() {
@@ -103,6 +100,7 @@ pub(super) fn run(
     Ok(Simulation {
         summary: Summary::new(task, solved),
         trajectory: recorded.map(|steps| Trajectory::from_steps(steps, t_end)),
+        dense: DenseRows::default(),
     })
 }
 
@@ -111,7 +109,6 @@ pub(super) fn watch<'a>(
     task: &'a RunSetup<'_>,
     motion: &'a Counted<'a>,
     rows: &'a mut dyn RowSink,
-    record: bool,
 ) -> Recorder<'a> {
     let reach = Limits::clear_reach(task.equation().linkage());
     let dead_centres = task.limits.dead_centres.iter().map(|dc| dc.theta);
@@ -126,9 +123,9 @@ pub(super) fn watch<'a>(
         watched: dead_centres.chain(guards).collect(),
         turn_limit: task.extent.angle(),
         swing: Swing::new(task, task.start()),
-        log: Log::new(task, false),
+        log: Log::new(task),
         seen: Seen::default(),
-        recorded: record.then(Vec::new),
+        recorded: (task.kept > 0).then(Vec::new),
     }
 }
 

@@ -7,6 +7,7 @@ mod by_energy;
 mod clearance;
 mod closed_form;
 mod configuration_curve;
+mod dense_rows;
 mod driving_torque;
 mod enclosed_swing;
 mod engine_switching;

@@ -2,6 +2,7 @@
 
 use super::angle_model::AngleModel;
 use super::by_angle::Unsolved;
+use super::dense_rows::DenseRows;
 use super::event_log::Log;
 use super::passages::Stretch;
 use super::result::{Cost, ErrorEstimate, Final, Solved, Summary};
@@ -54,11 +55,7 @@ impl Motion {
 }
 
 /// Runs a task; one that these engines cannot serve after all is run in time, and its plan says so.
-pub(super) fn run(
-    task: &mut RunSetup<'_>,
-    rows: &mut dyn RowSink,
-    record: bool,
-) -> Result<Simulation, Error> {
+pub(super) fn run(task: &mut RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
     let speed = task.scene.motion.speed;
     let cycle = cycle_over_angle(task.scene).ok();
     let mut position = AngleModel::new(task.equation(), &task.limits, task.start(), speed)
@@ -77,7 +74,7 @@ pub(super) fn run(
             Err(Unsolved { why, first })
                 if turns_fully(task) && first.is_some() || hands_over(task, why) =>
             {
-                return engine_switching::run(task, &position, first, rows, record);
+                return engine_switching::run(task, &position, first, rows);
             }
             Err(Unsolved { why, .. }) => Err(why),
         },
@@ -89,7 +86,7 @@ pub(super) fn run(
             Err(why) if hands_over(task, why) => match Plan::new(task.scene, Method::Angle) {
                 Ok(plan) => {
                     task.plan = plan;
-                    return engine_switching::run(task, &position, None, rows, record);
+                    return engine_switching::run(task, &position, None, rows);
                 }
                 Err(_) => Err(why),
             },
@@ -110,7 +107,7 @@ pub(super) fn run(
             let why = format!("integration in time, for {}", why(task, unserved));
             task.plan = Plan::new(task.scene, Method::Time)?;
             task.plan.reason = why.into();
-            in_time::run(task, rows, record)
+            in_time::run(task, rows)
         }
     }
 }
@@ -158,7 +155,7 @@ fn finish(
 ) -> Result<Simulation, Error> {
     let Motion { orbit, end, .. } = &motion;
     let (angle, omega) = motion.last;
-    let mut log = Log::new(task, false);
+    let mut log = Log::new(task);
     let stretch = Stretch {
         orbit,
         begin: 0.0,
@@ -194,6 +191,7 @@ fn finish(
     Ok(Simulation {
         summary: Summary::new(task, solved),
         trajectory: Some(Trajectory::orbit(motion.orbit, 0.0, motion.end)),
+        dense: DenseRows::default(),
     })
 }
 

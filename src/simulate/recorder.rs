@@ -32,7 +32,7 @@ pub(super) struct Recorder<'a> {
     pub swing: Option<Swing>,
     pub log: Log,
     pub seen: Seen,
-    /// Refined steps, if they are recorded.
+    /// Refined steps, while there is room for them.
     pub recorded: Option<Vec<Step>>,
 }
 
@@ -68,9 +68,12 @@ impl Recorder<'_> {
                 return true;
             }
         }
-        if let Some(recorded) = &mut self.recorded {
+        if let Some(mut recorded) = self.recorded.take()
+            && self.log.take_room()
+        {
             step.refine(self.motion);
             recorded.push(step);
+            self.recorded = Some(recorded);
         }
         self.seen.ends_at.is_some()
     }

@@ -83,10 +83,10 @@ impl RowSink for Vec<Row> {
 #[derive(Debug)]
 pub(super) struct RowMaker<'a> {
     pub equation: &'a Equation,
-    pub reactor: Option<Reactor>,
+    pub reactor: Option<&'a Reactor>,
     pub driving_torque: bool,
     /// The guide of a prescribed motion, if it has friction.
-    pub guide: Option<CurveEquation>,
+    pub guide: Option<&'a CurveEquation>,
     /// The guide of a crank that turns freely, if it has friction.
     pub sliding: Option<&'a Sliding>,
 }
@@ -94,7 +94,7 @@ pub(super) struct RowMaker<'a> {
 impl RowMaker<'_> {
     /// Friction on the slider (N, along +x) in a prescribed motion; not a number where the guide locks itself.
     pub fn friction(&self, t: f64, angle: Angle, omega: f64, alpha: f64) -> f64 {
-        self.guide.as_ref().map_or(0.0, |guide| {
+        self.guide.map_or(0.0, |guide| {
             let touch = guide.driven(t, angle, omega, alpha);
             touch.map_or(f64::NAN, |touch| touch.friction)
         })
@@ -118,7 +118,7 @@ impl RowMaker<'_> {
             Some(alpha) => (alpha, self.friction(t, angle, omega, alpha)),
             None => self.forward(t, angle, omega),
         };
-        let reactions = self.reactor.as_ref().map(|reactor| {
+        let reactions = self.reactor.map(|reactor| {
             let mut load = self.equation.loads().value(t, angle, omega, &pose);
             load.force += friction;
             reactor.reactions(&pose, omega, alpha, &load)

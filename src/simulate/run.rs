@@ -1,9 +1,12 @@
 //! Forward motion: scene -> mechanism -> plan -> engine -> trajectory.
 
+use std::sync::Arc;
+
+use super::dense_rows::{DenseRows, Frame};
 use super::guide_friction::Sliding;
 use super::last_row::LastRow;
 use super::result::Summary;
-use super::row::{NoRows, RowMaker, RowSink};
+use super::row::{NoRows, Row, RowSink};
 use super::run_setup::RunSetup;
 use super::schedule::{self, Schedule};
 use super::{clearance, closed_form, in_time, joint_force_maxima, over_angle};
@@ -50,12 +53,30 @@ pub struct Simulation {
     pub summary: Summary,
     /// Its motion, if it was recorded.
     pub trajectory: Option<Trajectory>,
+    pub(super) dense: DenseRows,
 }
 
 impl Simulation {
     /// Unwrapped crank angle (rad) and speed (rad/s) at time `t` (s); none outside the run.
     pub fn at(&self, t: f64) -> Option<(f64, f64)> {
         self.trajectory.as_ref()?.at(t)
+    }
+
+    /// The whole row at time `t` (s): crank and slider, their velocities and accelerations, and with
+    /// [`Options::reactions`] the joint forces. None outside the run, with a loose joint, and where a number is not
+    /// finite.
+    ///
+    /// ```
+    /// use slider_crank::scene::Scene;
+    /// use slider_crank::simulate::{Options, simulate};
+    /// let options = Options { reactions: true, ..Options::default() };
+    /// let run = simulate(&Scene::duarte(), &options).unwrap();
+    /// let row = run.row(0.5).unwrap();
+    /// assert_eq!(run.at(0.5), Some((row.theta, row.omega)));
+    /// println!("x = {} m, {:?} N at the wrist pin", row.x, row.reactions.unwrap().wrist_pin);
+    /// ```
+    pub fn row(&self, t: f64) -> Option<Row> {
+        self.dense.row(self.trajectory.as_ref()?, t)
     }
 }
 
@@ -73,7 +94,7 @@ impl Simulation {
 /// assert!((theta - 50.0).abs() < 1.0 && (omega - 100.0).abs() < 5.0);
 /// ```
 pub fn simulate(scene: &Scene, options: &Options) -> Result<Simulation, Error> {
-    run(scene, options, &mut NoRows, true)
+    run(scene, options, &mut NoRows, usize::MAX)
 }
 
 /// Simulates a scene and hands its rows to `rows` as they are computed; memory does not grow with the run.
@@ -85,42 +106,41 @@ pub fn simulate_rows(
     options: &Options,
     rows: &mut dyn RowSink,
 ) -> Result<Simulation, Error> {
-    run(scene, options, rows, false)
+    run(scene, options, rows, 0)
 }
 
 fn run(
     scene: &Scene,
     options: &Options,
     rows: &mut dyn RowSink,
-    record: bool,
+    kept: usize,
 ) -> Result<Simulation, Error> {
-    let mut run = run_with_rows_at(None, scene, options, rows, record)?;
-    let summary = &mut run.summary;
+    let kept = if options.reactions && scene.clearance.is_none() {
+        kept.max(joint_force_maxima::MOST_ROWS)
+    } else {
+        kept
+    };
+    let mut run = run_keeping(kept, scene, options, rows)?;
+    let summary = &run.summary;
     if options.reactions && summary.stopped.is_none() && summary.clearance.is_none() {
-        let again = Options {
-            estimate: false,
-            events_kept: 0,
-            ..*options
-        };
-        let mut look = |schedule: Schedule, scan: &mut dyn RowSink| {
-            run_with_rows_at(Some(schedule), scene, &again, scan, false).map(|_| ())
-        };
-        summary.peaks = joint_force_maxima::search(scene, summary, &mut look)?;
-        if summary.peaks.is_none() {
-            summary.warnings.push(
+        let period = run.trajectory.as_ref().and_then(Trajectory::period);
+        let peaks = joint_force_maxima::search(scene, summary, period, &|t| run.row(t));
+        if peaks.is_none() {
+            run.summary.warnings.push(
                 "the largest joint forces are not given: the run is too long to be looked through as closely as it takes, or a force has no finite value".to_owned(),
             );
         }
+        run.summary.peaks = peaks;
     }
     Ok(run)
 }
 
-fn run_with_rows_at(
-    looked_at: Option<Schedule>,
+/// A run that keeps so many steps or pieces of its motion.
+fn run_keeping(
+    kept: usize,
     scene: &Scene,
     options: &Options,
     rows: &mut dyn RowSink,
-    record: bool,
 ) -> Result<Simulation, Error> {
     plan::refuse(scene)?;
     let plan = Plan::new(scene, options.method)?;
@@ -128,24 +148,26 @@ fn run_with_rows_at(
         None | Some(Extent::Revolutions(0.0)) => Extent::Duration(0.0),
         Some(extent) => extent,
     };
-    let reactor = options.reactions.then(|| Reactor::new(scene)).transpose()?;
-    let equation = Equation::new(scene);
+    let equation = Arc::new(Equation::new(scene));
     let free = scene.motion.kind == MotionKind::Free;
+    let reactor = options.reactions.then(|| Reactor::new(scene)).transpose()?;
     let sliding = Sliding::new(scene, &equation).filter(|_| free);
+    let frame = Frame {
+        reactor: reactor.map(Arc::new),
+        driving_torque: options.driving_torque,
+        guide: guide(scene, &equation).map(Arc::new),
+        sliding: sliding.map(Arc::new),
+        alpha: (!free).then_some(0.0),
+        equation: equation.clone(),
+    };
     let mut task = RunSetup {
         scene,
         options,
         plan,
         extent,
-        looked_at,
+        kept,
         limits: Limits::new(equation.linkage(), scene.motion.speed),
-        maker: RowMaker {
-            equation: &equation,
-            reactor,
-            driving_torque: options.driving_torque,
-            guide: guide(scene, &equation),
-            sliding: sliding.as_ref(),
-        },
+        maker: frame.maker(),
     };
     if is_open(&task) && rows.wants_rows() {
         let blind = Options {
@@ -154,18 +176,21 @@ fn run_with_rows_at(
             events_kept: 0,
             ..*options
         };
-        let seen = run_with_rows_at(None, scene, &blind, &mut NoRows, false)?.summary;
+        let seen = run_keeping(0, scene, &blind, &mut NoRows)?.summary;
         let end = seen.last.t_s;
         schedule::refuse_rows(task.schedule().rows_until(end), end)?;
     }
     let mut rows = LastRow::new(rows);
-    let run = match task.plan.engine {
+    let mut run = match task.plan.engine {
         Engine::ClosedForm => closed_form::run(&task, &mut rows),
-        Engine::Energy | Engine::Angle => over_angle::run(&mut task, &mut rows, record),
-        Engine::Contact => clearance::run(&task, &mut rows, record),
-        Engine::Time => in_time::run(&task, &mut rows, record),
+        Engine::Energy | Engine::Angle => over_angle::run(&mut task, &mut rows),
+        Engine::Contact => clearance::run(&task, &mut rows),
+        Engine::Time => in_time::run(&task, &mut rows),
     }?;
     rows.finish()?;
+    if run.summary.clearance.is_none() {
+        run.dense.frame = Some(frame);
+    }
     Ok(run)
 }
 
@@ -173,8 +198,10 @@ fn run_with_rows_at(
 fn is_open(task: &RunSetup<'_>) -> bool {
     let at_times = matches!(task.schedule(), Schedule::Times { .. });
     let of_turns = matches!(task.extent, Extent::Revolutions(_));
-    let asked = task.looked_at.is_none() && task.plan.engine != Engine::Contact;
-    asked && at_times && of_turns && task.scene.motion.kind == MotionKind::Free
+    task.plan.engine != Engine::Contact
+        && at_times
+        && of_turns
+        && task.scene.motion.kind == MotionKind::Free
 }
 
 /// The guide of a prescribed motion, if it has friction.

@@ -19,8 +19,8 @@ pub(super) struct RunSetup<'a> {
     pub options: &'a Options,
     pub plan: Plan,
     pub extent: Extent,
-    /// Rows that are due in place of the scene's.
-    pub looked_at: Option<Schedule>,
+    /// Most steps or pieces of the dense motion that are kept.
+    pub kept: usize,
     pub limits: Limits,
     pub maker: RowMaker<'a>,
 }
@@ -28,8 +28,7 @@ pub(super) struct RunSetup<'a> {
 impl<'a> RunSetup<'a> {
     /// When rows are due.
     pub fn schedule(&self) -> Schedule {
-        let scene = || Schedule::new(self.scene.run.output_every, self.extent);
-        self.looked_at.unwrap_or_else(scene)
+        Schedule::new(self.scene.run.output_every, self.extent)
     }
 
     pub fn equation(&self) -> &'a Equation {

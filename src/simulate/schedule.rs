@@ -40,12 +40,6 @@ pub(super) fn refuse_rows(rows: f64, until: f64) -> Result<(), Error> {
     ))
 }
 
-/// Stretches of time that are looked at closely.
-pub(super) const WINDOWS: usize = 10;
-/// Rows in each of them, and how many lie in the distance of the rows before.
-const POINTS: u64 = 65;
-const FINER: f64 = 32.0;
-
 /// Rows at regular times or crank angles. The first and the last state are rows always.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Schedule {
@@ -53,32 +47,9 @@ pub(super) enum Schedule {
     Times { step: f64, end: f64 },
     /// Each time the angle from the start passes a multiple of this, rad.
     Angles { step: f64 },
-    /// At so many times from each of these on, until before `end`.
-    Windows {
-        from: [f64; WINDOWS],
-        step: f64,
-        end: f64,
-    },
 }
 
 impl Schedule {
-    /// Rows about times that are in order, among rows that lie `step` apart, s; and how far apart these are.
-    pub fn about(times: [f64; WINDOWS], step: f64, end: f64) -> (Schedule, f64) {
-        let finer = step / FINER;
-        let mut past = 0.0;
-        let from = times.map(|t| {
-            let from = (t - step).max(past);
-            past = from + POINTS as f64 * finer;
-            from
-        });
-        let schedule = Schedule::Windows {
-            from,
-            step: finer,
-            end,
-        };
-        (schedule, finer)
-    }
-
     pub fn new(every: Option<Every>, extent: Extent) -> Schedule {
         let intervals = f64::from(DEFAULT_ROWS - 1);
         match (every, extent) {
@@ -107,11 +78,6 @@ impl Schedule {
                 (t < end - 1e-9 * step).then_some(t)
             }
             Schedule::Angles { .. } => None,
-            Schedule::Windows { from, step, end } => {
-                let from = from.get((index / POINTS) as usize)?;
-                let t = from + (index % POINTS) as f64 * step;
-                (t < end - 1e-9 * step).then_some(t)
-            }
         }
     }
 

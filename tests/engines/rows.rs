@@ -1,8 +1,8 @@
 //! Which rows a run writes: its first state and its last, and no time twice.
 
 use slider_crank::plan::Method;
-use slider_crank::scene::Scene;
-use slider_crank::simulate::{Options, Row, simulate_rows};
+use slider_crank::scene::{Crank, Load, Scene, Slider};
+use slider_crank::simulate::{Options, Row, simulate, simulate_rows};
 
 const SLIDER: &str = "[slider]\nmass = \"600 g\"\n";
 const FRICTION: &str = "[friction]\ncoefficient = 0.1\n";
@@ -131,4 +131,77 @@ fn turns_of_a_crank_that_stays_at_rest_are_refused() {
         assert!(words.contains("a crank at rest never completes"), "{words}");
         assert!(rows.is_empty());
     }
+}
+
+/// Every engine: loads over theta, a motor, friction that sticks, constant speed, a rocker past its limits.
+#[test]
+fn a_row_asked_for_afterwards_is_the_row_that_was_written() {
+    let load = |name: &str| Scene::load(format!("data/{name}.toml")).expect("a scene");
+    let rocker = Scene::new(0.2, 0.1)
+        .offset(0.02)
+        .crank(Crank {
+            inertia: 0.02,
+            ..Crank::default()
+        })
+        .slider(Slider { mass: 0.5 })
+        .torque(Load::Constant(-2.0))
+        .start(0.2, 3.0)
+        .duration(1.0);
+    let names = [
+        "duarte-engine",
+        "spring-press",
+        "motor-and-losses",
+        "brake",
+        "gupta",
+    ];
+    for (name, scene) in names
+        .map(|name| (name, load(name)))
+        .into_iter()
+        .chain([("rocker", rocker)])
+    {
+        let options = Options {
+            reactions: true,
+            ..Options::default()
+        };
+        let mut rows: Vec<Row> = Vec::new();
+        simulate_rows(&scene, &options, &mut rows).expect("a run");
+        let run = simulate(&scene, &options).expect("a run");
+        let numbers = |row: &Row| {
+            let forces = row.reactions.expect("asked for");
+            let [x, y] = forces.wrist_pin;
+            [
+                row.theta,
+                row.omega,
+                row.alpha,
+                row.x,
+                row.v,
+                row.a,
+                x,
+                y,
+                forces.guide,
+            ]
+        };
+        let largest = rows.iter().map(numbers).fold([0f64; 9], |most, row| {
+            std::array::from_fn(|k| most[k].max(row[k].abs()))
+        });
+        let (mut compared, mut apart) = (0, 0);
+        for row in &rows {
+            let Some(again) = run.row(row.t) else {
+                continue;
+            };
+            let (said, now) = (numbers(row), numbers(&again));
+            let close = |k: usize| (said[k] - now[k]).abs() <= 1e-9 * largest[k];
+            compared += 1;
+            apart += usize::from(!(0..9).all(close));
+        }
+        assert!(
+            compared + 2 >= rows.len(),
+            "{name}: {compared} of {}",
+            rows.len()
+        );
+        // Where friction jumps, a row at the very time may be that of either side.
+        assert!(apart <= 2, "{name}: {apart} of {compared}");
+    }
+    let outside = simulate(&load("gupta"), &Options::default()).expect("a run");
+    assert!(outside.row(-1.0).is_none() && outside.row(1e9).is_none());
 }

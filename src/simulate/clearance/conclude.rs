@@ -21,7 +21,7 @@ const MARGIN: f64 = 1.5;
 const SAME_PLACE: f64 = 0.01;
 
 impl<const N: usize> Run<'_, N> {
-    pub(super) fn trajectory(&self, seen: &Seen, t_end: f64, record: bool) -> Option<Trajectory> {
+    pub(super) fn trajectory(&self, seen: &Seen, t_end: f64) -> Option<Trajectory> {
         if N == DRIVEN {
             return Some(Trajectory::uniform(
                 self.task.start(),
@@ -29,7 +29,7 @@ impl<const N: usize> Run<'_, N> {
                 t_end,
             ));
         }
-        record.then(|| Trajectory::from_steps(seen.steps.clone(), t_end))
+        (self.task.kept > 0).then(|| Trajectory::from_steps(seen.steps.clone(), t_end))
     }
 
     #[allow(clippy::too_many_arguments)]

@@ -259,7 +259,7 @@ impl<const N: usize> Follow<'_, N> {
         let s = linked.as_ref().unwrap_or(s);
         let rates = mechanism.rates(s, touch(phase, None));
         let maker = self.asked.maker;
-        let reactor = maker.reactor.as_ref();
+        let reactor = maker.reactor;
         let ideal = maker.row(s.t, self.angle(s.theta), s.omega, Some(rates.alpha));
         self.rows.row(&Row {
             x: s.x,

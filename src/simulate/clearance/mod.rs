@@ -15,6 +15,7 @@ pub use record::ContactStatistics;
 pub use result::{Beyond, ClearanceSummary, Horizon, LooseFinal};
 
 use super::closed_form;
+use super::dense_rows::DenseRows;
 use super::in_time::FAR;
 use super::result::{Cost, Summary};
 use super::row::{NoRows, RowSink};
@@ -36,11 +37,7 @@ const TIGHTER: f64 = 50.0;
 const SAMPLES_IN_A_TURN: f64 = 64.0;
 
 /// Runs a scene with a loose joint.
-pub(super) fn run(
-    task: &RunSetup<'_>,
-    rows: &mut dyn RowSink,
-    record: bool,
-) -> Result<Simulation, Error> {
+pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
     let scene = task.scene.reduced();
     let Some(clearance) = scene.clearance else {
         return Err(Error::refused(
@@ -51,8 +48,8 @@ pub(super) fn run(
     let mechanism = LooseMechanism::new(&scene, clearance)?;
     let start = mechanism.start(task.scene)?;
     match task.scene.motion.kind {
-        MotionKind::ConstantSpeed => Run::<DRIVEN>::new(task, &mechanism, start)?.all(rows, record),
-        MotionKind::Free => Run::<FREE>::new(task, &mechanism, start)?.all(rows, record),
+        MotionKind::ConstantSpeed => Run::<DRIVEN>::new(task, &mechanism, start)?.all(rows),
+        MotionKind::Free => Run::<FREE>::new(task, &mechanism, start)?.all(rows),
     }
 }
 
@@ -82,11 +79,11 @@ impl<'a, const N: usize> Run<'a, N> {
         })
     }
 
-    fn all(&self, rows: &mut dyn RowSink, record: bool) -> Result<Simulation, Error> {
+    fn all(&self, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
         let begun = Instant::now();
         let corners = |t: f64| self.task.equation().loads().next_corner(t);
         let model = self.model(&corners);
-        let asked = self.asked(record);
+        let asked = self.asked();
         let mut follow = Follow {
             model: &model,
             asked: &asked,
@@ -106,11 +103,12 @@ impl<'a, const N: usize> Run<'a, N> {
         let tighter = (self.task.options.estimate && stopped.is_none())
             .then(|| self.tighter(&model, last.t))
             .flatten();
-        let trajectory = self.trajectory(&seen, last.t, record);
+        let trajectory = self.trajectory(&seen, last.t);
         let solved = self.solved(&model, &ended, seen, last, tighter, wall_s, stopped);
         Ok(Simulation {
             summary: Summary::new(self.task, solved),
             trajectory,
+            dense: DenseRows::default(),
         })
     }
 
@@ -160,7 +158,7 @@ impl<'a, const N: usize> Run<'a, N> {
         Seen::new(width, self.start.omega, energy, Phase::Flight)
     }
 
-    fn asked(&self, record: bool) -> Asked<'a> {
+    fn asked(&self) -> Asked<'a> {
         let task = self.task;
         let speed = self.start.omega;
         let (every, extent) = match (task.scene.run.output_every, N) {
@@ -181,7 +179,7 @@ impl<'a, const N: usize> Run<'a, N> {
             watched: task.limits.dead_centres.iter().map(|dc| dc.theta).collect(),
             turn_limit: task.extent.angle(),
             events_kept: task.options.events_kept,
-            keep_steps: record,
+            keep_steps: self.task.kept > 0,
             sampled: task.options.estimate,
             forces: task.options.reactions,
         }
@@ -195,7 +193,7 @@ impl<'a, const N: usize> Run<'a, N> {
             keep_steps: false,
             forces: false,
             events_kept: 0,
-            ..self.asked(false)
+            ..self.asked()
         };
         let mut follow = Follow {
             model,

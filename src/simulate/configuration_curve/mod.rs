@@ -18,11 +18,12 @@ pub(super) use arrived::{Arrived, End, Follow, Observer};
 use end_reason::warnings;
 pub(super) use end_reason::why;
 use estimate::estimate;
-pub(super) use recorder::CurveWatch;
+pub(super) use recorder::{CurveWatch, row_on_curve};
 pub(super) use roundoff::Noise;
 pub(super) use stick_slip::Phase;
 
 use super::bounded_motion::Swing;
+use super::dense_rows::DenseRows;
 use super::event_log::Log;
 use super::in_time::settings;
 use super::result::{Final, Solved, Summary};
@@ -44,11 +45,7 @@ pub(super) fn serves(task: &RunSetup<'_>) -> bool {
 }
 
 /// Runs a task.
-pub(super) fn run(
-    task: &RunSetup<'_>,
-    rows: &mut dyn RowSink,
-    record: bool,
-) -> Result<Simulation, Error> {
+pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
     let begun = Instant::now();
     let equation = task.equation();
     let (constrained, start) = on_curve(task)?;
@@ -63,13 +60,14 @@ pub(super) fn run(
     };
     let mut watch = CurveWatch {
         equation: &constrained,
-        reactor: task.maker.reactor.as_ref(),
+        reactor: task.maker.reactor,
         rows,
         schedule: task.schedule(),
         start: task.start(),
         swing: Swing::new(task, start.angle),
-        log: Log::new(task, false),
-        recorded: record.then(Vec::new),
+        log: Log::new(task),
+        recorded: (task.kept > 0).then(Vec::new),
+        spells: Vec::new(),
         error: None,
         phase: Phase::Sticking,
     };
@@ -126,6 +124,11 @@ pub(super) fn run(
         trajectory: watch
             .recorded
             .map(|steps| Trajectory::from_steps(steps, t_end).seen_as(Arc::new(view))),
+        dense: DenseRows {
+            frame: None,
+            curve: Some(constrained.clone()),
+            spells: watch.spells,
+        },
     })
 }
 

@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use super::super::bounded_motion::Swing;
+use super::super::dense_rows::{Spell, lengthen};
 use super::super::event_log::Log;
 use super::super::result::Event;
 use super::super::row::{Row, RowSink};
@@ -27,7 +28,9 @@ pub(in crate::simulate) struct CurveWatch<'a> {
     /// Turning points of the coordinate, if they may show that the crank never completes its turns.
     pub swing: Option<Swing>,
     pub log: Log,
+    /// Refined steps, while there is room for them, and their phases.
     pub recorded: Option<Vec<Step>>,
+    pub spells: Vec<Spell>,
     pub error: Option<Error>,
     /// How the last piece touched the guide.
     pub phase: Phase,
@@ -54,9 +57,13 @@ impl Observer for CurveWatch<'_> {
                 return true;
             }
         }
-        if let Some(recorded) = &mut self.recorded {
+        if let Some(mut recorded) = self.recorded.take()
+            && self.log.take_room()
+        {
             step.refine(&motion);
             recorded.push(step);
+            lengthen(&mut self.spells, [step.start.t, step.end.t], phase);
+            self.recorded = Some(recorded);
         }
         self.swing.is_some_and(|swing| swing.is_caught())
     }
@@ -150,32 +157,9 @@ impl CurveWatch<'_> {
 
     fn write_row(&mut self, step: &Step, motion: &InPhase<'_>, t: f64) -> Result<(), Error> {
         let (theta, speed) = step.at(t);
-        let row = self.row(motion, t, step.angle(theta), speed);
+        let now = (t, step.angle(theta), speed);
+        let row = row_on_curve(self.equation, self.reactor, motion.phase, now);
         self.rows.row(&row)
-    }
-
-    fn row(&self, motion: &InPhase<'_>, t: f64, angle: Angle, speed: f64) -> Row {
-        let curve = self.equation.curve();
-        let place = curve.place(angle.rest);
-        let (acceleration, touch, _) = motion.state(t, angle, speed);
-        let reactions = self.reactor.map(|reactor| {
-            let load = motion.load(&place, t, angle, speed);
-            let force = load.force + touch.friction;
-            reactor.on_curve(&place, speed, acceleration, force, touch.normal)
-        });
-        Row {
-            clearance: None,
-            t,
-            theta: curve.crank_angle(angle).radians(),
-            omega: place.dtheta * speed,
-            alpha: place.dtheta * acceleration + place.d2theta * speed * speed,
-            x: place.x,
-            v: place.dx * speed,
-            a: place.dx * acceleration + place.d2x * speed * speed,
-            phi: place.phi(),
-            reactions,
-            driving_torque: None,
-        }
     }
 
     /// The last state is a row always.
@@ -188,6 +172,37 @@ impl CurveWatch<'_> {
             self.write_row(last, &motion, last.end.t)?;
         }
         Ok(())
+    }
+}
+
+/// The row of a time (s), a coordinate and its rate (rad/s) in one phase.
+pub(in crate::simulate) fn row_on_curve(
+    equation: &CurveEquation,
+    reactor: Option<&Reactor>,
+    phase: Phase,
+    (t, angle, speed): (f64, Angle, f64),
+) -> Row {
+    let motion = InPhase { equation, phase };
+    let curve = equation.curve();
+    let place = curve.place(angle.rest);
+    let (acceleration, touch, _) = motion.state(t, angle, speed);
+    let reactions = reactor.map(|reactor| {
+        let load = motion.load(&place, t, angle, speed);
+        let force = load.force + touch.friction;
+        reactor.on_curve(&place, speed, acceleration, force, touch.normal)
+    });
+    Row {
+        clearance: None,
+        t,
+        theta: curve.crank_angle(angle).radians(),
+        omega: place.dtheta * speed,
+        alpha: place.dtheta * acceleration + place.d2theta * speed * speed,
+        x: place.x,
+        v: place.dx * speed,
+        a: place.dx * acceleration + place.d2x * speed * speed,
+        phi: place.phi(),
+        reactions,
+        driving_torque: None,
     }
 }
 

@@ -19,6 +19,7 @@ use notes::Notes;
 use super::angle_model::AngleModel;
 use super::by_angle::{self, First};
 use super::configuration_curve;
+use super::dense_rows::DenseRows;
 use super::error_estimate::Forward;
 use super::in_time::settings;
 use super::over_angle::{balance, speeds};
@@ -43,7 +44,6 @@ pub(super) fn run(
     position: &AngleModel<'_>,
     first: Option<Box<First>>,
     rows: &mut dyn RowSink,
-    record: bool,
 ) -> Result<Simulation, Error> {
     let begun = Instant::now();
     let equation = task.equation();
@@ -61,7 +61,7 @@ pub(super) fn run(
     let (wall_s, places) = first.as_ref().map_or((0.0, 0), |f| (f.wall_s, f.places));
     let forward = Forward(equation);
     let looked_at = Counted::new(&forward);
-    let mut notes = Notes::new(task, &looked_at, rows, record);
+    let mut notes = Notes::new(task, &looked_at, rows);
     let mut arrived = course.run(first.map(|first| first.driving), &mut notes)?;
     arrived.evaluations += places;
     if arrived.end == End::Integrator(Finish::NoStart) && arrived.now == course.start {
@@ -71,7 +71,7 @@ pub(super) fn run(
         ));
     }
     let caught = notes.caught(&arrived);
-    let log = notes.finish(&arrived)?;
+    let (log, spells) = notes.finish(&arrived)?;
     let wall_s = wall_s + log.wall_s(begun);
     let stopped = caught.or_else(|| stopped(task, &arrived));
     let mut warnings = Vec::new();
@@ -109,6 +109,10 @@ pub(super) fn run(
     Ok(Simulation {
         summary: Summary::new(task, solved),
         trajectory: log.pieces.map(Trajectory::joined),
+        dense: DenseRows {
+            spells,
+            ..DenseRows::default()
+        },
     })
 }
 

@@ -2,6 +2,7 @@
 
 use super::super::configuration_curve;
 use super::super::configuration_curve::{CurveWatch, Phase};
+use super::super::dense_rows::Spell;
 use super::super::event_log::Log;
 use super::super::in_time;
 use super::super::passages::{Stretch, is_dead_centre};
@@ -20,7 +21,8 @@ use crate::trajectory::Trajectory;
 pub(super) struct Notes<'a> {
     task: &'a RunSetup<'a>,
     watch: Recorder<'a>,
-    record: bool,
+    /// Pieces in time with friction.
+    spells: Vec<Spell>,
     /// How the slider touched its guide at the end of a piece in time with friction.
     touched: Phase,
 }
@@ -30,15 +32,11 @@ impl<'a> Notes<'a> {
         task: &'a RunSetup<'a>,
         looked_at: &'a Counted<'a>,
         rows: &'a mut dyn RowSink,
-        record: bool,
     ) -> Notes<'a> {
         Notes {
             task,
-            watch: Recorder {
-                log: Log::new(task, record),
-                ..in_time::watch(task, looked_at, rows, record)
-            },
-            record,
+            watch: in_time::watch(task, looked_at, rows),
+            spells: Vec::new(),
             touched: Phase::Sticking,
         }
     }
@@ -48,8 +46,8 @@ impl<'a> Notes<'a> {
         self.watch.swing?.why(arrived.now.t, |theta| theta)
     }
 
-    /// The log, with the row of the end.
-    pub fn finish(mut self, arrived: &Arrived) -> Result<Log, Error> {
+    /// The log, with the row of the end, and the pieces in time with friction.
+    pub fn finish(mut self, arrived: &Arrived) -> Result<(Log, Vec<Spell>), Error> {
         if let Some(error) = self.watch.seen.error.take() {
             return Err(error);
         }
@@ -65,7 +63,7 @@ impl<'a> Notes<'a> {
             let Start { t, angle, speed } = arrived.now;
             self.watch.write(t, angle, speed)?;
         }
-        Ok(self.watch.log)
+        Ok((self.watch.log, self.spells))
     }
 }
 
@@ -76,16 +74,17 @@ impl Notes<'_> {
         let Some(sliding) = task.maker.sliding else {
             return;
         };
-        let log = std::mem::replace(&mut self.watch.log, Log::new(task, false));
+        let log = std::mem::replace(&mut self.watch.log, Log::new(task));
         let mut watch = CurveWatch {
             equation: sliding.equation(),
-            reactor: task.maker.reactor.as_ref(),
+            reactor: task.maker.reactor,
             rows: &mut *self.watch.rows,
             schedule: task.schedule(),
             start: task.start(),
             swing: self.watch.swing,
             log,
             recorded: None,
+            spells: Vec::new(),
             error: None,
             phase: Phase::Sticking,
         };
@@ -118,7 +117,7 @@ impl Observer for Notes<'_> {
     fn begin_in_time(&mut self, from: Start) {
         self.watch.seen.passed = (from.t > 0.0 && is_dead_centre(self.task, from.angle.rest))
             .then_some((from.angle, from.speed));
-        self.watch.recorded = self.record.then(Vec::new);
+        self.watch.recorded = self.watch.log.pieces.is_some().then(Vec::new);
     }
 
     fn step(&mut self, step: &Step) -> bool {
@@ -126,13 +125,16 @@ impl Observer for Notes<'_> {
     }
 
     fn with_friction(&mut self, run: &mut dyn FnMut(&mut dyn configuration_curve::Observer)) {
-        let record = self.record;
+        let mut spells = std::mem::take(&mut self.spells);
         let mut seen = None;
         self.rubbing(&mut |watch| {
-            watch.recorded = record.then(Vec::new);
+            watch.recorded = watch.log.pieces.is_some().then(Vec::new);
+            std::mem::swap(&mut watch.spells, &mut spells);
             run(watch);
+            std::mem::swap(&mut watch.spells, &mut spells);
             seen = Some((watch.phase, watch.error.take(), watch.recorded.take()));
         });
+        self.spells = spells;
         let Some((phase, error, recorded)) = seen else {
             return;
         };

@@ -1,7 +1,7 @@
 //! Largest joint forces of a run.
 //!
-//! They are found on rows of a run that is made again with rows of its own: at times so close that the crank turns by
-//! a degree at most between them, then ever closer about the largest, until that changes nothing.
+//! The dense motion is looked at in rows between which the crank turns by a degree at most, then by golden section
+//! beside the largest of them.
 
 mod scan;
 mod search;
@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::row::Row;
 use crate::mechanism::Reactions;
-pub(super) use search::search;
+pub(super) use search::{MOST_ROWS, search};
 
 /// Number of forces that are looked at.
 pub(super) const FORCES: usize = 5;

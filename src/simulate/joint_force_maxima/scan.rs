@@ -1,8 +1,7 @@
 //! The largest of values on rows.
 
-use super::super::row::{Row, RowSink};
+use super::super::row::Row;
 use super::{FORCES, of_row};
-use crate::error::Error;
 
 /// A place where a value may be largest.
 #[derive(Clone, Copy, Debug)]
@@ -37,8 +36,6 @@ struct Values {
 pub(super) struct Track {
     /// The two rows before.
     before: [Option<Values>; 2],
-    /// Rows farther apart than this are no neighbours, s.
-    apart: f64,
     /// By the rows' values.
     pub largest: [Place; FORCES],
     /// By the tops of the parabolas.
@@ -47,24 +44,21 @@ pub(super) struct Track {
     pub finite: bool,
 }
 
-impl Track {
-    /// Of rows this far from each other, s.
-    pub fn new(step: f64) -> Track {
+impl Default for Track {
+    fn default() -> Track {
         Track {
             before: [None; 2],
-            apart: 1.5 * step,
             largest: [NOWHERE; FORCES],
             highest: [NOWHERE; FORCES],
             finite: true,
         }
     }
+}
 
+impl Track {
     fn take(&mut self, row: Values) {
         let Values { t, theta, sizes } = row;
         self.finite &= sizes.iter().all(|value| value.is_finite());
-        if self.before[1].is_some_and(|last| t - last.t > self.apart) {
-            self.before = [None; 2];
-        }
         for (k, &value) in sizes.iter().enumerate() {
             let here = Place {
                 t,
@@ -111,7 +105,7 @@ fn top([t0, t1, t2]: [f64; 3], [a, b, c]: [f64; 3]) -> f64 {
 }
 
 /// Rows, all of them and every second one.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Scan {
     pub all: Track,
     half: Track,
@@ -119,25 +113,7 @@ pub(super) struct Scan {
 }
 
 impl Scan {
-    pub fn new(step: f64) -> Scan {
-        Scan {
-            all: Track::new(step),
-            half: Track::new(2.0 * step),
-            rows: 0,
-        }
-    }
-
-    /// Whether half of the rows say the same of the largest values, to a small part of them.
-    pub fn is_resolved(&self) -> bool {
-        const PART: f64 = 0.02;
-        let both = self.all.highest.iter().zip(&self.half.highest);
-        both.into_iter()
-            .all(|(all, half)| (all.top - half.top).abs() <= PART * all.top)
-    }
-}
-
-impl RowSink for Scan {
-    fn row(&mut self, row: &Row) -> Result<(), Error> {
+    pub fn take(&mut self, row: &Row) {
         let values = Values {
             t: row.t,
             theta: row.theta,
@@ -148,6 +124,13 @@ impl RowSink for Scan {
             self.half.take(values);
         }
         self.rows += 1;
-        Ok(())
+    }
+
+    /// Whether half of the rows say the same of the largest values, to a small part of them.
+    pub fn is_resolved(&self) -> bool {
+        const PART: f64 = 0.02;
+        let both = self.all.highest.iter().zip(&self.half.highest);
+        both.into_iter()
+            .all(|(all, half)| (all.top - half.top).abs() <= PART * all.top)
     }
 }

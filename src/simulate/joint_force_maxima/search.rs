@@ -1,49 +1,50 @@
-//! The search for the largest forces of a run that can be made again.
+//! The search for the largest forces of a finished run along its dense motion.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::super::result::Summary;
-use super::super::row::RowSink;
-use super::super::schedule::{Schedule, WINDOWS};
-use super::scan::{Scan, Track};
-use super::{FORCES, Peak, Peaks};
-use crate::error::Error;
+use super::super::row::Row;
+use super::scan::{Place, Scan, Track};
+use super::{Peak, Peaks, of_row};
 use crate::mechanism::Linkage;
+use crate::numeric::golden;
 use crate::scene::Scene;
 
-/// Most rows of a search.
-const MOST_ROWS: f64 = 4e5;
+/// Most rows of a search, and most steps that are kept for it.
+pub(in crate::simulate) const MOST_ROWS: usize = 400_000;
 /// Least rows of a search.
 const LEAST_ROWS: f64 = 720.0;
-/// Most refinements.
-const MOST_PASSES: u32 = 6;
-/// The forces are found where a refinement adds less than this part of them; the next would add a thousandth of it.
-const SETTLED: f64 = 1e-8;
+/// Part of the distance of two rows within which golden section leaves the place of a maximum.
+const LEFT: f64 = 1e-9;
 
-/// The largest forces of a finished run; none where it is too long to be looked through, or a force has no value.
-/// `look` makes the run again with these rows.
+/// The largest forces of a finished run, whose rows are known at any time (s) and repeat after a `period` (s), if they do;
+/// none where the run is too long to be looked through, or a force has no value.
 pub(in crate::simulate) fn search(
     scene: &Scene,
     summary: &Summary,
-    look: &mut dyn FnMut(Schedule, &mut dyn RowSink) -> Result<(), Error>,
-) -> Result<Option<Peaks>, Error> {
-    let end = summary.last.t_s;
+    period: Option<f64>,
+    row: &dyn Fn(f64) -> Option<Row>,
+) -> Option<Peaks> {
+    let end = period.map_or(summary.last.t_s, |period| period.min(summary.last.t_s));
     let mut step = first_step(scene, summary);
     let coarse = loop {
-        if end > MOST_ROWS * step {
-            return Ok(None);
+        let rows = (end / step).ceil();
+        if rows > MOST_ROWS as f64 {
+            return None;
         }
-        let mut scan = Scan::new(step);
-        look(Schedule::Times { step, end }, &mut scan)?;
+        let mut scan = Scan::default();
+        for index in 0..=rows as u64 {
+            scan.take(&row((index as f64 * step).min(end))?);
+        }
         if !scan.all.finite {
-            return Ok(None);
+            return None;
         }
         if scan.is_resolved() {
             break scan.all;
         }
         step *= 0.5;
     };
-    refined(coarse, step, end, look)
+    Some(refined(&coarse, step, end, row))
 }
 
 /// Time between the rows at first, s: the crank turns by a degree at most, and by less where the run has narrow peaks.
@@ -68,43 +69,30 @@ fn narrowest(linkage: &Linkage, angle: f64, way: f64) -> f64 {
     width(1.0).min(width(-1.0))
 }
 
-fn refined(
-    mut found: Track,
-    mut step: f64,
-    end: f64,
-    look: &mut dyn FnMut(Schedule, &mut dyn RowSink) -> Result<(), Error>,
-) -> Result<Option<Peaks>, Error> {
-    let mut added = [f64::INFINITY; FORCES];
-    for _ in 0..MOST_PASSES {
-        let mut times: [f64; WINDOWS] = std::array::from_fn(|i| match i < FORCES {
-            true => found.largest[i].t,
-            false => found.highest[i - FORCES].t,
-        });
-        times.sort_by(f64::total_cmp);
-        let (schedule, finer) = Schedule::about(times, step, end);
-        let mut scan = Scan::new(finer);
-        look(schedule, &mut scan)?;
-        if !scan.all.finite {
-            return Ok(None);
-        }
-        step = finer;
-        let both = found.largest.iter_mut().zip(scan.all.largest);
-        for ((best, now), added) in both.zip(&mut added) {
-            *added = (now.value - best.value).max(0.0);
-            if now.value > best.value {
-                *best = now;
+/// Each force at its top between the rows beside its largest row, and beside the row whose parabola is highest.
+fn refined(coarse: &Track, step: f64, end: f64, row: &dyn Fn(f64) -> Option<Row>) -> Peaks {
+    let size = |k: usize, t: f64| row(t).map_or(f64::NEG_INFINITY, |row| of_row(&row)[k]);
+    Peaks::new(std::array::from_fn(|k| {
+        let largest = coarse.largest[k];
+        let highest = coarse.highest[k];
+        let top = |place: &Place| {
+            let (from, to) = ((place.t - step).max(0.0), (place.t + step).min(end));
+            golden::largest(|t| size(k, t), from, to)
+        };
+        let mut best = (largest.t, largest.value);
+        for place in [Some(largest), (highest.t != largest.t).then_some(highest)] {
+            let found = place.as_ref().map_or(best, top);
+            if found.1 > best.1 {
+                best = found;
             }
         }
-        found.highest = scan.all.highest;
-        let settled = |k: usize| added[k] <= SETTLED * found.largest[k].value;
-        if (0..FORCES).all(settled) {
-            break;
+        let (t, value) = best;
+        let beside = [-LEFT, LEFT].map(|left| size(k, (t + left * step).clamp(0.0, end)));
+        Peak {
+            value_n: value,
+            t_s: t,
+            theta_rad: row(t).map_or(largest.theta, |row| row.theta),
+            added_n: (beside[0].max(beside[1]) - value).max(0.0),
         }
-    }
-    Ok(Some(Peaks::new(std::array::from_fn(|k| Peak {
-        value_n: found.largest[k].value,
-        t_s: found.largest[k].t,
-        theta_rad: found.largest[k].theta,
-        added_n: added[k],
-    }))))
+    }))
 }
