@@ -53,17 +53,21 @@
 //! Everything is SI and radians, f64; conventions are those of [`mechanism::Linkage`].
 
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;
+#[doc(hidden)]
 pub mod engine;
 pub mod error;
 pub mod explain;
 pub mod inverse;
 pub mod kinematics;
 pub mod mechanism;
+#[doc(hidden)]
 pub mod numeric;
 pub mod plan;
 pub mod precision;
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod report;
 #[cfg(feature = "cli")]
 pub mod reproduce;

@@ -1,5 +1,6 @@
 //! The physics: geometry in closed form, energy terms, loads, the Lagrange equation, joint reactions.
-//! Knows no integrator.
+//! Knows no integrator: [`Equation::acceleration`] serves any. With ode_solvers take the ends of steps
+//! (`OutputType::Sparse`), for its dense output is not to be trusted, see [`Method::Dop853`](crate::plan::Method::Dop853).
 
 mod batch;
 mod body;

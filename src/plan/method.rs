@@ -17,9 +17,13 @@ pub enum Method {
     Angle,
     /// Integration in time with the default method.
     Time,
-    /// Integration in time with Dop853 of ode_solvers.
+    /// Integration in time with Dop853 of ode_solvers, from which only the ends of steps are taken.
+    ///
+    /// The dense output of ode_solvers 0.6 is not to be trusted: it hands out states that belong to another time than it
+    /// says, extrapolates its last point, and fails where time runs backwards or is negative. Between the ends of steps
+    /// this program interpolates itself, and nothing controls that error.
     Dop853,
-    /// Integration in time with Dopri5 of ode_solvers.
+    /// Integration in time with Dopri5 of ode_solvers, as [`Method::Dop853`].
     Dopri5,
 }
 
