@@ -81,7 +81,7 @@ impl Trajectory {
         Trajectory::new(Motion::Pieces(pieces), begin, end)
     }
 
-    /// The same steps, of a coordinate from which `view` gives crank angle and speed.
+    /// Steps of another coordinate, from which `view` gives crank angle and speed.
     pub fn seen_as(mut self, view: Arc<CrankOf>) -> Trajectory {
         self.view = Some(View(view));
         self

@@ -162,7 +162,7 @@ pub(super) fn say(message: &str) {
     say_styled(&printable(message));
 }
 
-/// The same for a text with colours, whose parts are printable.
+/// Prints a text with colours, whose parts are printable.
 pub(super) fn say_styled(message: &str) {
     let _ = writeln!(std::io::stderr(), "{message}");
 }

@@ -146,13 +146,13 @@ pub fn speed_range(step: &Step, known: (f64, f64)) -> (f64, f64) {
     widened(step, known, &rates[..=pieces], value, rate)
 }
 
-/// The same. Where a new extreme may lie inside, the step is refined first.
+/// Least and largest speed over a step; where a new extreme may lie inside, the step is refined first.
 pub fn follow_speed(step: &mut Step, motion: &dyn Motion, known: (f64, f64)) -> (f64, f64) {
     refine_for(step, motion, known, |step, t| step.at(t).1, speed_range);
     speed_range(step, known)
 }
 
-/// The same for any value with its rate of change, at a time in the step.
+/// Least and largest of any value, given with its rate of change at a time in the step.
 pub fn follow(
     step: &mut Step,
     motion: &dyn Motion,

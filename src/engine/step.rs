@@ -86,7 +86,7 @@ impl Step {
         matches!(self.inside, Inside::Powers(_))
     }
 
-    /// Its length, s.
+    /// Length, s.
     pub fn length(&self) -> f64 {
         self.end.t - self.start.t
     }
@@ -136,7 +136,7 @@ impl Step {
         (self.quintic(s)[2] + self.bump(s)[2]) / (h * h)
     }
 
-    /// The same at N equally spaced times from the start to the end.
+    /// Accelerations at N equally spaced times from the start to the end.
     pub fn accelerations<const N: usize>(&self) -> [f64; N] {
         let h = self.length();
         let part = |i: usize| i as f64 / (N - 1) as f64;

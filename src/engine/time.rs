@@ -202,7 +202,7 @@ fn in_calls(
 enum Rejected {
     /// The crank turns too far in it; the length to try, s.
     TooLong(f64),
-    /// It hides part of a load; the time at which it has to end, s.
+    /// The step hides part of a load; the time at which it has to end, s.
     Hides(f64),
 }
 

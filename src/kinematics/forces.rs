@@ -27,7 +27,7 @@ pub struct ForceAnalysis {
     pub masses: EquivalentMasses,
     /// Greatest and least driving torque on the outward strokes of the cycle, N m; none for a crank that cannot turn fully.
     pub outward: Option<StrokeTorque>,
-    /// The same on the inward strokes.
+    /// Torque on the inward strokes.
     pub inward: Option<StrokeTorque>,
     #[serde(skip)]
     equation: Equation,
@@ -55,7 +55,7 @@ pub struct ForceRow {
     pub rod_axial: f64,
     /// Force of the crank on the rod along the path of the crank pin, counter-clockwise, N.
     pub crank_tangential: f64,
-    /// The same away from O, N.
+    /// Force along the crank, away from O, N.
     pub crank_radial: f64,
     /// Joint, guide and shaking forces.
     pub reactions: Reactions,

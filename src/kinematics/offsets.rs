@@ -1,4 +1,4 @@
-//! The same mechanism with other offsets: position and size of the extremes.
+//! A mechanism with other offsets: position and size of the extremes.
 
 use serde::Serialize;
 

@@ -77,7 +77,7 @@ impl Equation {
         }
     }
 
-    /// The same at the first `count` of them; what is beyond is zero.
+    /// Positions at the first `count` angles; what is beyond is zero.
     pub fn first_positions<const N: usize>(&self, theta: &[f64; N], count: usize) -> Positions<N> {
         const LANES: usize = 4;
         let mut all = Positions {

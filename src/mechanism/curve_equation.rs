@@ -161,7 +161,7 @@ impl CurveEquation {
         self.against(&terms, t, q, speed, sense)
     }
 
-    /// The same without the dry loads.
+    /// Motion without friction and without the dry loads.
     pub(super) fn without_dry(&self, terms: &CurveTerms, t: f64, q: Angle, speed: f64) -> Free {
         let place = &terms.place;
         let spent = self.loads.spent(&self.instant(place, t, q, speed));

@@ -120,7 +120,7 @@ impl Loads {
         self.detail_of(&classes, linkage, reach, ellipse)
     }
 
-    /// The same of the loads that depend on the position alone.
+    /// Detail of the loads that depend on the position alone.
     pub fn detail_of_place(&self, linkage: &Linkage, angle: Interval, ellipse: f64) -> Detail {
         let none = Interval::point(0.0);
         let reach = Reach {
@@ -132,7 +132,7 @@ impl Loads {
         self.detail_of(&[&self.placed], linkage, &reach, ellipse)
     }
 
-    /// The same of the loads that depend on speed or time.
+    /// Detail of the loads that depend on speed or time.
     pub fn detail_of_state(&self, linkage: &Linkage, reach: &Reach, ellipse: f64) -> Detail {
         self.detail_of(&[&self.timed, &self.mixed], linkage, reach, ellipse)
     }

@@ -121,7 +121,7 @@ impl CurveEquation {
         self.load_beside(dry, place, t, q, speed)
     }
 
-    /// The same beside what is known of the dry ones.
+    /// Value of the loads beside what is known of the dry ones.
     pub fn load_beside(
         &self,
         dry: LoadValue,

@@ -4,7 +4,7 @@ use crate::scene::Scene;
 
 /// Masses at the pins that stand for crank, rod and slider, Obaseki & Alfred (31)-(36).
 ///
-/// They keep mass and first moment of rod and crank, not the moments of inertia: forces of a rod follow from
+/// Equivalent masses keep mass and first moment of rod and crank, not the moments of inertia: forces of a rod follow from
 /// them only with the couple `rod_inertia_left` times the angular acceleration of the rod added.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct EquivalentMasses {

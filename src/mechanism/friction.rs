@@ -51,7 +51,7 @@ pub enum Jam {
 /// How motion begins or does not begin from rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FromRest {
-    /// It stays at rest.
+    /// The mechanism stays at rest.
     Hold(Touch),
     /// The coordinate begins to move in this direction, ±1.
     Move(f64),

@@ -153,7 +153,7 @@ fn length(along: f64, across: f64) -> f64 {
     (along * along + across * across).sqrt()
 }
 
-/// The same crank angle in [−π, π), of one between −2π and 2π.
+/// Crank angle in [−π, π), of one between −2π and 2π.
 fn in_one_turn(theta: f64) -> f64 {
     let theta = theta + PI;
     let turn = if theta < 0.0 {

@@ -125,12 +125,12 @@ impl Equation {
         self.terms_at(self.linkage.pose(theta))
     }
 
-    /// The same at a position.
+    /// Terms of the equation at a position.
     pub fn terms_at(&self, pose: Pose) -> Terms {
         self.terms_of(pose, self.rod.as_ref(), self.weight.as_ref())
     }
 
-    /// The same at many positions: without cases, a rod or a weight that is not there being zero, so that
+    /// Terms at many positions: without cases, a rod or a weight that is not there being zero, so that
     /// the compiler can work on several side by side.
     #[inline(always)]
     pub fn terms_without_cases(&self) -> impl Fn(Pose) -> Terms {

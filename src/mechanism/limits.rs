@@ -38,7 +38,7 @@ impl Class {
         }
     }
 
-    /// Its name in outputs.
+    /// Name in outputs.
     pub fn name(self) -> &'static str {
         match self {
             Class::RotatingCrank => "rotating-crank",
@@ -209,7 +209,7 @@ fn dead_centre(linkage: &Linkage, outer: bool) -> Option<DeadCentre> {
     })
 }
 
-/// The same angle in [0, 2 pi).
+/// Angle in [0, 2π).
 fn positive(theta: f64) -> f64 {
     if theta < 0.0 {
         let turned = theta + TAU;

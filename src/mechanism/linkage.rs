@@ -83,7 +83,7 @@ impl Linkage {
         }
     }
 
-    /// The same linkage with another rod length, m.
+    /// The linkage with another rod length, m.
     pub fn with_rod(&self, l: f64) -> Linkage {
         Linkage {
             l,
@@ -100,7 +100,7 @@ impl Linkage {
         (mu > 0.0 && shorter.margin() <= 0.0).then_some(shorter)
     }
 
-    /// The same lengths on another branch.
+    /// The linkage on another branch.
     pub fn on_branch(&self, branch: Branch) -> Linkage {
         Linkage {
             s: branch.sign(),
@@ -172,7 +172,7 @@ impl Linkage {
         self.margin() >= 0.25 * self.l
     }
 
-    /// The same as [`Self::pose_at`] without its cases, for many positions side by side.
+    /// Pose as by [`Self::pose_at`], without cases, for many positions side by side.
     #[inline(always)]
     pub(super) fn pose_far_from_limits(&self, sin: f64, cos: f64) -> Pose {
         let u = self.e + self.r * sin;

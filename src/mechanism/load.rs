@@ -22,7 +22,7 @@ pub struct Loads {
     pub(super) timed: NonlinearLoads,
     /// All others.
     pub(super) mixed: NonlinearLoads,
-    /// Those that oppose motion.
+    /// Loads that oppose motion.
     pub(super) dry: NonlinearLoads,
     reads: Variables,
     pub(super) on_slider: bool,
@@ -120,7 +120,7 @@ impl Loads {
         self.called().flat_map(Load::angle_corners).collect()
     }
 
-    /// Those between two, rad.
+    /// Corners between two angles, rad.
     pub fn corners_between(&self, low: f64, high: f64) -> Vec<f64> {
         let corners = |load: &Load| load.corners_between(low, high);
         self.called().flat_map(corners).collect()
@@ -169,7 +169,7 @@ impl Loads {
         self.with_potential_at(pose.x)
     }
 
-    /// The same at slider position x, m.
+    /// Loads with a potential at slider position x, m.
     pub fn with_potential_at(&self, x: f64) -> LoadValue {
         LoadValue {
             torque: self.torque,

@@ -23,7 +23,7 @@ impl LoadValue {
         self.over(pose.dx)
     }
 
-    /// The same where x' is `dx`, m/rad.
+    /// Generalized force where x' is `dx`, m/rad.
     pub fn over(&self, dx: f64) -> f64 {
         self.torque + self.force * dx
     }

@@ -20,7 +20,7 @@ impl Length {
     /// All three, in the order of the scene file.
     pub const ALL: [Length; 3] = [Length::Crank, Length::Rod, Length::Offset];
 
-    /// Its key in the scene file.
+    /// Key in the scene file.
     pub fn name(self) -> &'static str {
         match self {
             Length::Crank => "crank",

@@ -26,7 +26,7 @@ impl Angle {
         self.turns * TAU + (self.turns * TAU_REST + self.rest)
     }
 
-    /// The same angle with its rest in [−π, 2π): one that is in there is kept with all its digits, a small negative
+    /// The angle with its rest in [−π, 2π): one that is in there is kept with all its digits, a small negative
     /// one, too.
     pub fn reduced(self) -> Angle {
         if (-PI..TAU).contains(&self.rest) {
@@ -63,7 +63,7 @@ pub fn turn(step: f64) -> impl Iterator<Item = f64> {
     turns(1, step)
 }
 
-/// The same for several turns.
+/// Angles spread over several turns.
 pub fn turns(count: u32, step: f64) -> impl Iterator<Item = f64> {
     let end = f64::from(count) * TAU;
     let whole = (end / step * (1.0 - 1e-12)).floor() as u64;

@@ -75,7 +75,7 @@ pub fn adaptive(f: &dyn Fn(f64) -> f64, from: f64, to: f64, tolerance: f64) -> f
 
 /// A part of an interval.
 struct Part {
-    /// Its ends and its middle.
+    /// Ends and middle of the interval.
     ends: [f64; 3],
     /// The integrals over its halves.
     halves: [f64; 2],

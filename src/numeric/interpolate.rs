@@ -48,7 +48,7 @@ impl Curve {
         }
     }
 
-    /// Its smallest and largest argument; a periodic curve takes any.
+    /// Smallest and largest argument; a periodic curve takes any.
     pub fn range(&self) -> (f64, f64) {
         (self.x[0], self.x[self.x.len() - 1])
     }

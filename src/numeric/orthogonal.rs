@@ -179,7 +179,7 @@ impl Expansion<f64> {
 }
 
 impl<T: Copy> Expansion<T> {
-    /// The same expansion in other numbers.
+    /// The expansion in other numbers.
     pub fn convert<S>(&self, number: &impl Fn(T) -> S) -> Expansion<S> {
         let all = |list: &[T]| list.iter().map(|x| number(*x)).collect();
         Expansion {

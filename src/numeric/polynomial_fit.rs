@@ -127,7 +127,7 @@ impl PolynomialFit {
         })
     }
 
-    /// Its degree.
+    /// Degree.
     pub fn degree(&self) -> usize {
         self.coefficients.len() - 1
     }

@@ -9,7 +9,7 @@ pub fn bracketed(f: impl FnMut(f64) -> f64, a: f64, b: f64) -> Option<f64> {
     within(f, a, b, 0.0)
 }
 
-/// The same to `width`, where the last bits of the root are not needed.
+/// Root between a and b to `width`, where the last bits of the root are not needed.
 pub fn within(mut f: impl FnMut(f64) -> f64, a: f64, b: f64, width: f64) -> Option<f64> {
     let (mut a, mut b) = (a, b);
     let (mut fa, mut fb) = (f(a), f(b));

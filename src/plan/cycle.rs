@@ -22,7 +22,7 @@ pub struct Cycle {
 pub struct LoadPeriod {
     /// As `torque[1]`, with what it is.
     pub name: String,
-    /// Its period in words, or why it has none.
+    /// Period in words, or why there is none.
     pub repeats: String,
 }
 

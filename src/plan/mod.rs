@@ -44,7 +44,7 @@ pub enum Engine {
 }
 
 impl Engine {
-    /// Its name in outputs.
+    /// Name in outputs.
     pub fn name(self) -> &'static str {
         match self {
             Engine::ClosedForm => "closed-form",
@@ -69,7 +69,7 @@ pub enum Stepper {
 }
 
 impl Stepper {
-    /// Its name in words.
+    /// Name in words.
     pub fn name(self) -> &'static str {
         match self {
             Stepper::Picard => "Gauss collocation of order 24, by Picard sweeps",

@@ -11,10 +11,10 @@ use tempfile::{Builder, NamedTempFile};
 /// A file that is being written.
 #[derive(Debug)]
 pub(super) enum Unfinished {
-    /// It has no name at all: nothing is left of it where the program is stopped.
+    /// The file has no name at all: nothing is left of it where the program is stopped.
     #[cfg(target_os = "linux")]
     Nameless(File),
-    /// It has a hidden name, on systems without nameless files.
+    /// The file has a hidden name, on systems without nameless files.
     Hidden(NamedTempFile),
 }
 

@@ -108,7 +108,7 @@ impl ContactLaw {
         ("massless-link", ContactLaw::MasslessLink),
     ];
 
-    /// Its name in scene files.
+    /// Name in scene files.
     pub fn name(self) -> &'static str {
         let own = Self::ALL.iter().find(|(_, law)| *law == self);
         own.map_or("", |(name, _)| name)

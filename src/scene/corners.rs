@@ -26,7 +26,7 @@ impl Load {
         table.map_or_else(Vec::new, |(table, _)| table.rows_between(low, high))
     }
 
-    /// Those between two angles, rad, of a table that does not keep step with the turns.
+    /// Corners between two angles, rad, of a table that does not keep step with the turns.
     pub fn corners_out_of_step(&self, low: f64, high: f64) -> Vec<f64> {
         match self.angle_table() {
             Some((table, Step::Without)) => table.rows_between(low, high),
@@ -69,11 +69,11 @@ impl Load {
 /// How a table over the crank angle keeps step with the turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Step {
-    /// It does not repeat.
+    /// The load does not repeat.
     None,
-    /// It is the same again after so many turns.
+    /// The load repeats after so many turns.
     With(f64),
-    /// It repeats, but not after whole turns, or it has too many rows.
+    /// The load repeats, but not after whole turns, or it has too many rows.
     Without,
 }
 

@@ -48,7 +48,7 @@ pub struct Section {
     pub name: &'static str,
     /// `[[name]]`, any number of times.
     pub repeated: bool,
-    /// Its keys.
+    /// Keys of the table.
     pub keys: &'static [Key],
     /// Keys that must be there.
     pub required: &'static [&'static str],

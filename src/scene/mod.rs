@@ -125,7 +125,7 @@ impl Scene {
         loads.filter_map(Load::table).filter_map(Table::file)
     }
 
-    /// The same scene without what has no strength: zero masses, zero loads, zero gravity.
+    /// The scene without what has no strength: zero masses, zero loads, zero gravity.
     pub fn reduced(&self) -> Scene {
         let mut scene = self.clone();
         scene.crank = scene.crank.filter(|c| c.inertia != 0.0 || c.mass != 0.0);

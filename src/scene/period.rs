@@ -53,7 +53,7 @@ impl Period {
         self.turns
     }
 
-    /// Its length, rad.
+    /// Length of the period, rad.
     pub fn radians(self) -> f64 {
         f64::from(self.turns) * TAU / f64::from(self.parts)
     }
@@ -86,7 +86,7 @@ impl Period {
         Period::near(angle / TAU, ROUNDED)
     }
 
-    /// The same for an angle as it was written, rounded or cut off at its last digit: as calculators show a turn, it is
+    /// Period of an angle as it was written, rounded or cut off at its last digit: as calculators show a turn, it is
     /// 6.283185307 rad.
     pub(super) fn as_written(angle: f64) -> Result<Period, WhyNot> {
         Period::near(angle / TAU, (last_unit(angle) / angle).max(ROUNDED))
@@ -120,11 +120,11 @@ impl fmt::Display for Period {
 /// Whether a load is the same again after some turns of the crank, all else that it depends on being the same.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Repeats {
-    /// It does not depend on the crank angle.
+    /// The load does not depend on the crank angle.
     Always,
-    /// It is the same again after this.
+    /// The load repeats after this.
     After(Period),
-    /// It is not known to repeat.
+    /// The load is not known to repeat.
     Never(WhyNot),
 }
 
@@ -157,9 +157,9 @@ pub enum WhyNot {
     Unstated,
     /// A formula with the angle outside of all that repeats.
     Outside,
-    /// Its periods and the turn have no common multiple that its digits tell.
+    /// The periods and the turn have no common multiple that the digits tell.
     Incommensurable,
-    /// It repeats after so many turns, which are more than a cycle may have.
+    /// The load repeats after so many turns, which are more than a cycle may have.
     TooLong(f64),
 }
 

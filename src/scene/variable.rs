@@ -21,7 +21,7 @@ impl Variable {
     /// All of them, in the order of [`Instant`].
     pub const ALL: [Variable; 5] = [Self::T, Self::Theta, Self::Omega, Self::X, Self::V];
 
-    /// Its name in expressions and scene files.
+    /// Name in expressions and scene files.
     pub fn name(self) -> &'static str {
         match self {
             Self::T => "t",

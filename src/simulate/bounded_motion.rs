@@ -28,7 +28,7 @@ const ENOUGH: u64 = 10_000;
 /// The turning points of a run that ends after a number of turns.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Swing {
-    /// Those furthest out, if the loads depend on the time.
+    /// Turning points furthest out, if the loads depend on the time.
     furthest: Option<Furthest>,
     /// The last turning points, how many there were, and after how many a larger swing is tried.
     recent: [Angle; 5],

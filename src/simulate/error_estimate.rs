@@ -80,7 +80,7 @@ const MARGIN: f64 = 1.5;
 const ONE_ROUNDING: f64 = 0.3;
 /// Next to a balance several steps round in the same way, which adds up to this many times as much.
 const ALIKE: f64 = 2.0;
-/// The same of a step's mean acceleration: of a few units in each evaluation, averaged over the step.
+/// Rounding of a step's mean acceleration, in units: of a few in each evaluation, averaged over the step.
 const EVALUATION: f64 = 1.0;
 /// An acceleration that is smaller than what this angle (rad) changes in it may be a difference of larger ones. Half or twice
 /// as much changes the stated errors of 200 random runs by 1 % at most.
@@ -95,7 +95,7 @@ const MOST_EVALUATIONS: (u64, u64) = (20, 20_000);
 /// A run as it ended.
 #[derive(Clone, Copy)]
 pub(super) struct Ended<'a> {
-    /// Its last step.
+    /// Last step of the run.
     pub last: &'a Step,
     /// Evaluations it took.
     pub evaluations: u64,

@@ -33,7 +33,7 @@ impl<'a> Marks<'a> {
         }
     }
 
-    /// Those between two angles, in rising order.
+    /// Marks between two angles, in rising order.
     pub fn between(&self, low: f64, high: f64) -> Vec<f64> {
         let (loads, linkage) = (self.equation.loads(), self.equation.linkage());
         if !loads.have_detail_of_place() || low >= high {

@@ -272,7 +272,7 @@ pub(super) fn energy_residual(
     balance(task, last, work, orbit.largest_kinetic(end))
 }
 
-/// The same for a run whose largest kinetic energy is known, J.
+/// Energy residual and largest energy (J) of a run whose largest kinetic energy is known.
 pub(super) fn balance(
     task: &RunSetup<'_>,
     (angle, omega): (Angle, f64),

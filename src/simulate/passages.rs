@@ -12,7 +12,7 @@ use crate::numeric::root;
 
 /// A motion over the crank angle, or a piece of one, in the time of the whole run.
 pub(super) struct Stretch<'a> {
-    /// Its own time begins at 0.
+    /// Motion over the angle, whose own time begins at 0.
     pub orbit: &'a Orbit,
     /// When it begins, s.
     pub begin: f64,

@@ -28,7 +28,7 @@ pub(super) struct Recorder<'a> {
     pub dead_centres: usize,
     /// The run ends when the crank has turned by this, rad.
     pub turn_limit: Option<f64>,
-    /// Its turning points, if they may show that it never does.
+    /// Turning points, if they may show that the crank never does.
     pub swing: Option<Swing>,
     pub log: Log,
     pub seen: Seen,

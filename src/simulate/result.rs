@@ -28,14 +28,14 @@ pub struct Summary {
     pub revolutions: f64,
     /// Estimate of the global error of the last state; none if it was not asked for or cannot be given.
     pub error_estimate: Option<ErrorEstimate>,
-    /// The same of the worst row of a run over the crank angle, which may lie where a series is not as good as at its
+    /// Error of the worst row of a run over the crank angle, which may lie where a series is not as good as at its
     /// end; none without rows.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rows_error: Option<ErrorEstimate>,
     /// Energy at the end minus energy at the start minus work of the loads, divided by the largest of the
     /// energies that occur; not finite for a prescribed speed that runs into a limit, where they grow without bound.
     pub energy_residual: f64,
-    /// The same, J.
+    /// Energy residual, J.
     pub energy_residual_j: f64,
     /// Evaluations of the equation for the solution.
     pub evaluations: u64,

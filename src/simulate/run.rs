@@ -49,9 +49,9 @@ impl Default for Options {
 /// A finished run.
 #[derive(Clone, Debug)]
 pub struct Simulation {
-    /// Its numbers.
+    /// Key figures, error and events.
     pub summary: Summary,
-    /// Its motion, if it was recorded.
+    /// Dense motion, if it was recorded.
     pub trajectory: Option<Trajectory>,
     pub(super) dense: DenseRows,
 }

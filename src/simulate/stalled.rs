@@ -7,7 +7,7 @@ use crate::numeric::angle::Angle;
 use crate::numeric::root;
 use crate::scene::{Load, Variable};
 
-/// It stands where it cannot leave a balance by more than this part of the way it came.
+/// A crank stands where it cannot leave a balance by more than this part of the way it came.
 const OF_ITS_WAY: f64 = 1e-3;
 
 /// Why a run was stopped at a state in which the crank had stalled; none if it had not.

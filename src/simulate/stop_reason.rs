@@ -82,7 +82,7 @@ pub(super) fn reason(
     }
 }
 
-/// That a load has no finite value at a time (s), crank angle (rad) and speed (rad/s), and which.
+/// Says that a load has no finite value at a time (s), crank angle (rad) and speed (rad/s), and which.
 pub(super) fn no_value(equation: &Equation, t: f64, theta: f64, omega: f64, place: &str) -> String {
     let pose = equation.linkage().pose(theta);
     let now = Instant {

@@ -35,7 +35,7 @@ pub struct StaticAnalysis {
     /// Where the least slider force (N) or crank torque (N m) is needed, without friction: one place in each
     /// stroke, zero where the loads hold each other.
     pub least: Vec<Located>,
-    /// The same of the edge of the friction band that is nearer to zero.
+    /// Places where the edge of the friction band that is nearer to zero is least.
     pub least_with_friction: Vec<Located>,
     /// Crank angles at which friction at the guide locks the mechanism, from and to, rad; none without friction.
     pub self_locking_rad: Vec<[f64; 2]>,

@@ -37,7 +37,7 @@ impl Outcome {
 /// The key figures of one design.
 #[derive(Clone, Debug)]
 pub struct Design {
-    /// Its place in the sweep, from 0.
+    /// Place in the sweep, from 0.
     pub index: usize,
     /// Which of its values each varied key has, from 0.
     pub values: Vec<usize>,

@@ -16,7 +16,7 @@ const HALVINGS: usize = 40;
 /// Why there is no periodic motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoCycle {
-    /// It cannot be computed over the angle.
+    /// The cycle cannot be computed over the angle.
     NotApplicable(NotApplicable),
     /// Every turn gains energy, up to the largest that was looked at.
     Gains,
@@ -218,7 +218,7 @@ impl Search<'_> {
         })
     }
 
-    /// The same between an energy whose turn is not completed and a turn that loses.
+    /// Fixed point between an energy whose turn is not completed and a turn that loses.
     fn near_stop(
         &mut self,
         stops: f64,

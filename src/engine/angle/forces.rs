@@ -11,7 +11,7 @@ use crate::numeric::enclosure::Interval;
 #[derive(Clone)]
 pub(super) struct Forces {
     pub total: Values,
-    /// Those without a potential.
+    /// Forces without a potential.
     pub spent: Values,
     /// rad/s
     speeds: Values,

@@ -81,7 +81,7 @@ pub trait Driven {
     /// Angles of a cycle from zero on, in rising order, at which panels end.
     fn corners(&self) -> &[f64];
 
-    /// Those and others, at which they end too where the inertia nearly vanishes there: longer ones would not be
+    /// Corners and other angles, at which panels end too where the inertia nearly vanishes there: longer ones would not be
     /// resolved.
     fn corners_if_light(&self) -> &[f64];
 }
@@ -97,9 +97,9 @@ pub enum Goal {
 
 /// A run, to its goal or to where the angle cannot be the independent variable any more.
 pub struct Driving {
-    /// Its motion; its own time begins at 0.
+    /// Motion, whose own time begins at 0.
     pub orbit: Orbit,
-    /// Its last time, s.
+    /// Last time, s.
     pub end: f64,
     /// Work of the loads without a potential until its end, J.
     pub work: f64,

@@ -12,7 +12,7 @@ const NOISE: f64 = 4e-15;
 
 /// A cycle of some turns.
 pub struct Cycle {
-    /// Its motion.
+    /// Motion of the turn.
     pub orbit: Orbit,
     /// s
     pub period: f64,

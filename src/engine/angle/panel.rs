@@ -148,7 +148,7 @@ impl<P: Copy> Station<P> {
         Ok(station)
     }
 
-    /// It as the rest of another station.
+    /// The place as the rest of another panel.
     pub fn as_rest(&self) -> Option<(usize, Rest)> {
         let (rule, kinetic) = (self.rule, *self.past.last()?);
         Some((self.is_rest?, Rest { rule, kinetic }))

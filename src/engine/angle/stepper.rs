@@ -126,7 +126,7 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
         })
     }
 
-    /// The same panels, at the start of a cycle with another kinetic energy, J.
+    /// Starts the panels anew, at the start of a cycle with another kinetic energy, J.
     pub fn restart(&mut self, kinetic: f64) {
         self.parts.clear();
         self.next = 0;

@@ -26,7 +26,7 @@ pub(super) struct Swept {
     pub kinetic: Values,
     /// |dt/dx| at the points.
     pub slopes: Values,
-    /// Its series.
+    /// Series of the derivative.
     pub slope: Series,
     pub(super) forces: Forces,
     /// Kinetic energy that is gained, J.
@@ -64,7 +64,7 @@ const MOST_SWEEPS: u32 = 40;
 const SLOW: f64 = 0.3;
 /// Sweeps end where what they leave is this part of the tail: it adds up over the turns.
 const SETTLED: f64 = 1e-3;
-/// The same if the forces are evaluated once more, which is another sweep for the energy that is gained.
+/// Bound on the last change if the forces are evaluated once more, which is another sweep for the energy that is gained.
 const SETTLED_BEFORE_LAST: f64 = 1e-2;
 /// Least factor that a sweep is taken to leave.
 const LEAST_FACTOR: f64 = 1e-3;
@@ -76,7 +76,7 @@ const ROUNDING: f64 = 1e-14;
 /// Why a panel is not solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Unsolved {
-    /// It is too long for its degree.
+    /// The panel is too long for its degree.
     TooLong,
     /// The crank seems to stop on it.
     Stops,
@@ -208,7 +208,7 @@ impl Swept {
         change
     }
 
-    /// The same by way of w, where w² is the kinetic energy less the work of the position: w' = L/2w, which hardly
+    /// Change of the kinetic energy by way of w, where w² is the kinetic energy less the work of the position: w' = L/2w, which hardly
     /// depends on w if the other forces L are viscous. None where the work is not the smaller part: then it would
     /// gain less.
     fn change_by_root<P: Copy>(&self, station: &Station<P>, start: Start) -> Option<Values> {

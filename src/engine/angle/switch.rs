@@ -21,11 +21,11 @@ const AT_CUT: f64 = 1e-9;
 /// What the switch does on a panel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Side {
-    /// It stays on the panel's side.
+    /// The motion stays on the panel's side.
     Stays,
-    /// It is on the other side from the start.
+    /// The motion is on the other side from the start.
     Other,
-    /// It changes to the other side at this part of the panel.
+    /// The motion changes to the other side at this part of the panel.
     Leaves(f64),
 }
 

@@ -54,7 +54,7 @@ impl State {
         }
     }
 
-    /// The same as the end of a step.
+    /// The state as the end of a step.
     pub fn node(&self, alpha: f64) -> Node {
         Node {
             t: self.t,
@@ -86,7 +86,7 @@ impl State {
         }
     }
 
-    /// The same state with less than a turn of angle.
+    /// The state with less than a turn of angle.
     pub fn reduced(mut self) -> State {
         if self.theta.abs() < TAU {
             return self;

@@ -15,11 +15,11 @@ pub struct Tableau {
     pub nodes: [f64; NODES],
     /// ∫ ℓ_j from 0 to c_i, as row j: all i are summed side by side.
     pub speed: [[f64; NODES]; NODES],
-    /// The same integrated once more.
+    /// Weights integrated once more.
     pub angle: [[f64; NODES]; NODES],
     /// ∫ ℓ_j from 0 to 1.
     pub end_speed: [f64; NODES],
-    /// The same integrated once more.
+    /// Weights integrated once more.
     pub end_angle: [f64; NODES],
     /// Legendre coefficient k of ℓ_j, as row j.
     pub legendre: [[f64; NODES]; NODES],

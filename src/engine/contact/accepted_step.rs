@@ -22,7 +22,7 @@ pub struct Stretch<'a, const N: usize> {
 }
 
 impl<const N: usize> Stretch<'_, N> {
-    /// Its length, s.
+    /// Length, s.
     pub fn length(&self) -> f64 {
         self.end[0] - self.start[0]
     }

@@ -151,7 +151,7 @@ fn closing<M: Contact<N>, const N: usize>(model: &M, dense: &Dense<N>, h: f64) -
     })
 }
 
-/// The same between two places. The control points of the cubic bound it from below.
+/// First closing of the gap between two places. The control points of the cubic bound it from below.
 fn closing_between(gap: &impl Fn(f64) -> Gap, from: Gap, to: Gap, h: f64) -> Option<f64> {
     let width = (to.u - from.u) * h;
     let cubic = [
@@ -174,7 +174,7 @@ fn closing_between(gap: &impl Fn(f64) -> Gap, from: Gap, to: Gap, h: f64) -> Opt
     }
 }
 
-/// The same in a short piece: by the sign of the gap at its ends and at the least gap between them, so that a graze
+/// First closing of the gap in a short piece: by the sign of the gap at its ends and at the least gap between them, so that a graze
 /// is not missed. A gap of zero at the start of a step that opens is looked at from the end of the piece backwards:
 /// at the start its sign is rounding.
 fn closing_in(gap: &impl Fn(f64) -> Gap, start: Gap, end: Gap) -> Option<f64> {

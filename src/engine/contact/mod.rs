@@ -44,9 +44,9 @@ pub struct Sample<const N: usize> {
     pub rates: [f64; N],
     /// Depth of the contact, m, negative while apart.
     pub depth: f64,
-    /// Its rate, m/s.
+    /// Rate of the depth, m/s.
     pub depth_rate: f64,
-    /// Its second derivative, m/s².
+    /// Second derivative of the depth, m/s².
     pub depth_acceleration: f64,
 }
 
@@ -58,7 +58,7 @@ pub trait Contact<const N: usize> {
     /// Prepares evaluations near a state.
     fn near(&self, y: &[f64; N]) -> Self::Near;
 
-    /// The same at a later state, where the law of motion is that of before.
+    /// Geometry near contact at a later state, where the law of motion is that of before.
     fn near_after(&self, before: &Self::Near, y: &[f64; N]) -> Self::Near;
 
     /// What is positive while the law of motion lasts, and what leaves a kink in the rates where its sign changes;

@@ -31,7 +31,7 @@ impl Panel {
         self.extreme_at_points(sign) + self.extremes[usize::from(sign > 0.0)].step
     }
 
-    /// The same between the points, rad/s.
+    /// Extreme speed between the points, rad/s.
     pub fn extreme(&self, sign: f64) -> f64 {
         let index = self.extremes[usize::from(sign > 0.0)].point;
         self.extreme_near(self.rule.points(), index, sign)
@@ -122,7 +122,7 @@ pub(super) fn extremes(piece: &Piece, rule: &Rule, slopes: &Values) -> [Extreme;
     }
 }
 
-/// The same from the time that half the piece would take with the speed of each point, s.
+/// Extremes of the speed, from the time that half the piece would take with the speed of each point, s.
 fn extremes_of(slowness: &[f64], half: f64) -> [Extreme; 2] {
     let (mut slow, mut fast) = (0, 0);
     for (j, here) in slowness.iter().enumerate() {

@@ -34,7 +34,7 @@ pub trait Profile {
     /// need to be smooth between the corners.
     fn inertia_and_force(&self, theta: f64) -> (f64, f64);
 
-    /// The same at the first `count` of some angles.
+    /// Inertia and force at the first `count` of some angles.
     fn tabulate(&self, angles: &Values, count: usize, inertia: &mut Values, force: &mut Values);
 
     /// By how much rounding may change the force at an angle beside the rounding of the angle, N m.
@@ -64,9 +64,9 @@ pub enum NotApplicable {
     Equilibrium,
     /// A value is not finite: the mechanism reaches a limit, or a load has no value.
     NotFinite,
-    /// It takes more evaluations than are allowed.
+    /// The run takes more evaluations than are allowed.
     WorkLimit,
-    /// It would take more than are allowed long before its end, as it turns so often.
+    /// The crank turns so often that the limit would be reached long before the end.
     TooManyTurns,
     /// More panels than are kept: a long run whose turns differ from each other.
     TooLong,

@@ -93,7 +93,7 @@ impl OneTurn {
         sum + rest
     }
 
-    /// Its motion.
+    /// Motion of the turn at a kinetic energy, J.
     pub fn leg(&self, kinetic: f64) -> Segment {
         let mut leg = Segment::open();
         for station in &self.stations {

@@ -259,7 +259,7 @@ impl Orbit {
         })
     }
 
-    /// Its last leg.
+    /// Last segment.
     pub(in crate::engine) fn last_leg(&self) -> &Segment {
         match self.later.as_deref() {
             Some(Later::Mapped(turns)) => &turns.last,

@@ -24,7 +24,7 @@ pub(in crate::engine) struct Panel {
     pub rule: &'static Rule,
     /// dt/dx
     pub(super) slope: Series,
-    /// Its duration, s: rounded value and rest.
+    /// Duration, s: rounded value and rest.
     pub duration: (f64, f64),
     /// Kinetic energy at its end, J.
     pub kinetic_at_end: f64,
@@ -46,7 +46,7 @@ pub(in crate::engine) struct Panel {
 pub(in crate::engine) enum Tried {
     /// The series have converged; how far the kinetic energy at the end is off because angles are rounded, J.
     Done(Box<Panel>, f64),
-    /// They have not: a shorter one is needed.
+    /// The coefficients have not decayed: a shorter panel is needed.
     Unresolved,
     /// The kinetic energy vanishes this far from the start, before the end, rad with sign.
     TurnsAfter(f64),
@@ -259,7 +259,7 @@ impl Panel {
         self.at(theta).0
     }
 
-    /// That time, and the speed there.
+    /// Time of an angle, and the speed there.
     pub(super) fn at(&self, theta: f64) -> (f64, f64) {
         let x = self.piece.variable(theta);
         (self.slope.integral().value(x), self.speed(x))

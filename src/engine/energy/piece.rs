@@ -20,7 +20,7 @@ pub(in crate::engine) struct Piece {
     pub from: f64,
     /// rad, in either direction
     pub to: f64,
-    /// Its length with sign, rad. A turning point is no float: next to the start the way to it has digits that the
+    /// Length with sign, rad. A turning point is no float: next to the start the way to it has digits that the
     /// rounded `to` has lost.
     way: f64,
     pub turning: Turning,
@@ -48,7 +48,7 @@ impl Piece {
         }
     }
 
-    /// Its length with sign, rad.
+    /// Length with sign, rad.
     pub fn span(&self) -> f64 {
         self.way
     }

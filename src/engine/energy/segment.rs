@@ -9,11 +9,11 @@ use crate::numeric::exact::two_sum;
 /// How a leg goes on after its panels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::engine) enum After {
-    /// The same turn again.
+    /// The turn repeats.
     Repeats,
     /// Another turn, under the same forces.
     GoesOn,
-    /// It turns back.
+    /// The crank turns back.
     TurnsBack,
     /// Not needed: the run ends before.
     Ends,
@@ -25,7 +25,7 @@ pub(in crate::engine) struct Segment {
     panels: Vec<Panel>,
     /// Time at which each panel begins.
     begins: Vec<f64>,
-    /// Its whole duration, rounded value and rest.
+    /// Whole duration, s: rounded value and rest.
     pub duration: (f64, f64),
     pub after: After,
     /// Bound of the error of its duration, s.

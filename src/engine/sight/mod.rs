@@ -23,7 +23,7 @@ pub trait Way {
 /// How a panel or a step is looked at.
 #[derive(Clone, Copy, Debug)]
 pub struct Look {
-    /// Its nodes.
+    /// Number of nodes.
     pub nodes: usize,
     /// Size of the ellipse that they need.
     pub ellipse: f64,

@@ -1,4 +1,4 @@
-//! The same for steps of a method that tells nothing about the force between its stages.
+//! Loads between the stages of steps of a method that tells nothing about the force between its stages.
 
 use super::{Hidden, Look, Way, hidden};
 use crate::engine::step::Step;

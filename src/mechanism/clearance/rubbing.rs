@@ -8,9 +8,9 @@ pub enum Rubbing {
     /// Not at all: the guide has no friction.
     #[default]
     Never,
-    /// It slides, towards +x (+1) or −x (−1).
+    /// The slider slides, towards +x (+1) or −x (−1).
     Slides(f64),
-    /// It is held fast.
+    /// The slider is held fast.
     Sticks,
 }
 

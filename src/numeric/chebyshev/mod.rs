@@ -36,7 +36,7 @@ pub struct Series {
 }
 
 impl Series {
-    /// Its degree.
+    /// Degree.
     pub fn degree(&self) -> usize {
         self.degree
     }
@@ -58,7 +58,7 @@ impl Series {
         &self.coefficients[..=self.degree]
     }
 
-    /// Its value at `x` in [−1, 1], by Clenshaw's recurrence.
+    /// Value at `x` in [−1, 1], by Clenshaw's recurrence.
     pub fn value(&self, x: f64) -> f64 {
         let twice = 2.0 * x;
         let (mut b1, mut b2) = (0.0, 0.0);
@@ -68,7 +68,7 @@ impl Series {
         (self.coefficients[0] - b2) + x * b1
     }
 
-    /// Its values at many places at once.
+    /// Values at many places at once.
     pub fn values<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
         let (mut b1, mut b2) = ([0.0; N], [0.0; N]);
         for c in self.terms()[1..].iter().rev() {
@@ -80,7 +80,7 @@ impl Series {
         std::array::from_fn(|j| (self.coefficients[0] - b2[j]) + x[j] * b1[j])
     }
 
-    /// Its integral from −1; the term beyond the degree is left out, for it is as small as the tail.
+    /// Integral from −1; the term beyond the degree is left out, for it is as small as the tail.
     pub fn integral(&self) -> Series {
         let c = |k: usize| self.terms().get(k).copied().unwrap_or(0.0);
         let mut result = [0.0; MOST + 1];
@@ -108,7 +108,7 @@ impl Series {
         sum
     }
 
-    /// Its derivative.
+    /// Derivative.
     pub fn derivative(&self) -> Series {
         let mut result = [0.0; MOST + 1];
         for k in (0..self.degree).rev() {
@@ -129,7 +129,7 @@ impl Series {
         self.tail_at(self.degree)
     }
 
-    /// The same if the series ended at a smaller degree.
+    /// Tail if the series ended at a smaller degree.
     pub fn tail_at(&self, degree: usize) -> f64 {
         let largest = self.largest();
         if largest == 0.0 {

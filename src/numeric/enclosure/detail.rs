@@ -51,7 +51,7 @@ impl Reach {
 /// What a function does on a piece of a motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Detail {
-    /// Its greatest value less its least.
+    /// Greatest value less the least.
     pub change: f64,
     /// How far it is from a constant in the Bernstein ellipse around the piece; none if it may not be analytic there.
     pub around: Option<f64>,

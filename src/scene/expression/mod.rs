@@ -173,7 +173,7 @@ impl Expression {
         self.jumps
     }
 
-    /// Its value at an instant, in SI; not finite outside the domain of its functions.
+    /// Value at an instant, in SI; not finite outside the domain of its functions.
     pub fn value(&self, now: &Instant) -> f64 {
         let mut stack = [0.0; STACK];
         let mut top = 0;

@@ -120,7 +120,7 @@ impl Part {
         }
     }
 
-    /// It and another one under an operation.
+    /// Period of two parts under an operation.
     fn and(self, op: Op, other: Part) -> Part {
         let part = match (op, self.value, other.value) {
             (Op::Add, ..) => self.plus(other),

@@ -8,7 +8,7 @@ use crate::scene::unit::{self, Quantity};
 pub(in crate::scene) struct Header {
     /// What the column holds, in lower case.
     pub name: String,
-    /// Its unit as written, empty if there is none.
+    /// Unit as written, empty if there is none.
     pub unit: String,
 }
 

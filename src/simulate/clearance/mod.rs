@@ -185,7 +185,7 @@ impl<'a, const N: usize> Run<'a, N> {
         }
     }
 
-    /// The same run at a tighter tolerance: its end, its record and its cost. None if it does not get there.
+    /// A second run at a tighter tolerance: its end, its record and its cost. None if it does not get there.
     fn tighter(&self, model: &Loose<'_, N>, t_end: f64) -> Option<Tighter> {
         let begun = Instant::now();
         let asked = Asked {

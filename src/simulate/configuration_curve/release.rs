@@ -15,7 +15,7 @@ const SHORTEST: f64 = 1e-9;
 pub(super) enum Release {
     /// The static band does not hold after this time, s.
     At(f64),
-    /// It holds all the time.
+    /// The slider sticks all the time.
     Never,
     /// The search was not allowed to go further than this time, s.
     Unknown(f64),

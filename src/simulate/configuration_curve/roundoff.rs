@@ -14,7 +14,7 @@ use crate::numeric::angle::Angle;
 /// Rounding of one evaluation of the acceleration, in units of the last place.
 const EVALUATION: f64 = 8.0;
 
-/// The same of the acceleration from a rounded angle.
+/// Rounding of the acceleration by that of the angle, in units.
 const PLACE: f64 = 4.0;
 /// Standard deviation of one rounding.
 const ONE_ROUNDING: f64 = 0.3;

@@ -27,14 +27,14 @@ pub(super) type Signs = [f64; QUANTITIES];
 /// How the slider touches its guide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::simulate) enum Phase {
-    /// It slides.
+    /// The slider slides.
     Sliding {
         /// −μ sgn(v) sgn(N), zero without friction.
         c: f64,
         /// What dry loads oppose, if there are any.
         against: Sense,
     },
-    /// It sticks.
+    /// The slider sticks.
     Sticking,
 }
 

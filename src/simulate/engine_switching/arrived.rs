@@ -22,7 +22,7 @@ pub(super) trait Observer {
     /// A piece in time with friction: calls `run` with what takes it.
     fn with_friction(&mut self, run: &mut dyn FnMut(&mut dyn configuration_curve::Observer));
 
-    /// It has ended; its last step, if the run ends inside it.
+    /// A piece in time has ended; the last step, if the run ends inside it.
     fn end_in_time(
         &mut self,
         motion: &Counted<'_>,
@@ -43,7 +43,7 @@ pub(super) enum End {
 /// Where a pass arrived.
 pub(super) struct Arrived {
     pub now: Start,
-    /// Its last step, if it ended in time.
+    /// Last step, if the pass ended in time.
     pub last: Option<Step>,
     /// Work of all that has no potential, J.
     pub work: f64,

@@ -38,7 +38,7 @@ impl Default for SteadyOptions {
 pub struct Estimated {
     /// The value.
     pub value: f64,
-    /// Its error, positive.
+    /// Error of the value, positive.
     pub error: f64,
 }
 

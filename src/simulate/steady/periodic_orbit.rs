@@ -113,7 +113,7 @@ impl Seeker {
         self.search(STEP, false)
     }
 
-    /// The same motion, cut at other angles: on the same panels it would have the same error.
+    /// A second computation, cut at other angles, because equal panels would err alike.
     pub fn again(&self) -> Result<Found, Error> {
         self.search(STEP_BESIDE, true)
     }

@@ -22,7 +22,7 @@ pub(super) struct Round {
     pub uncertain: f64,
 }
 
-/// Its motion.
+/// Motion of one cycle.
 pub(super) enum Motion {
     /// Over the crank angle.
     Orbit(Box<Orbit>),

@@ -128,7 +128,7 @@ pub(super) struct Cell {
     difference: Series,
     /// What it leaves out, relative to T.
     tail: f64,
-    /// Its derivative.
+    /// Derivative of the series.
     slope: Series,
     /// The end terms of the sum.
     correction: Series,
