@@ -71,26 +71,6 @@ impl Linkage {
         found
     }
 
-    /// The crank angles, rad, at which the angle at the crank pin has this size, whatever the branch, on strokes along
-    /// which they are continuous: those with the wrist pin before the pivot (x ≥ 0), then those with it behind, each less
-    /// and plus the lean of the crank against the way to the pin.
-    pub fn strokes_of_gamma(&self, gamma: f64) -> [f64; 4] {
-        let [along, across] = self.pin(gamma);
-        let reach = length(along, across);
-        let x = ((reach - self.e) * (reach + self.e)).max(0.0).sqrt();
-        let lean = across.atan2(along);
-        let [before, behind] = [x, -x].map(|x| (-self.e).atan2(x));
-        [before - lean, before + lean, behind - lean, behind + lean]
-    }
-
-    /// The size of the angle at the crank pin, rad, at which the wrist pin is beside the pivot (x = 0), if it can be.
-    pub fn gamma_beside_pivot(&self) -> Option<f64> {
-        let Linkage { r, l, e, .. } = *self;
-        let above = (e.abs() - (l - r)) * (e.abs() + (l - r));
-        let below = ((l + r) - e.abs()) * ((l + r) + e.abs());
-        (above >= 0.0 && below >= 0.0).then(|| 2.0 * above.sqrt().atan2(below.sqrt()))
-    }
-
     /// How far a slider position, m, is from those that a crank and a rod of these lengths reach.
     pub fn excess_of_x(&self, x: f64) -> f64 {
         let (r, l) = (self.r, self.l);
@@ -110,18 +90,6 @@ impl Linkage {
         let mut found = InversePosition::default();
         self.keep(&mut found, [x, reach], lean);
         found
-    }
-
-    /// The crank angles, rad, at which the slider is at x, m, whatever the branch, on the two strokes along which they are
-    /// continuous: less and plus the lean of the crank against the way to the wrist pin.
-    pub fn strokes_of_x(&self, x: f64) -> [f64; 2] {
-        let (r, l) = (self.r, self.l);
-        let reach = length(x, self.e);
-        let above = ((l + r) - reach).max(0.0) * (reach + (l - r)).max(0.0);
-        let below = (reach - (l - r)).max(0.0) * (reach + (l + r));
-        let lean = 2.0 * above.sqrt().atan2(below.sqrt());
-        let to_pin = (-self.e).atan2(x);
-        [to_pin - lean, to_pin + lean]
     }
 
     /// Keeps the angles that belong to the branch and are not there yet: those of the direction from O to P, which is at

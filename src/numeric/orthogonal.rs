@@ -85,8 +85,8 @@ pub fn fit<T: Real>(
 const PIECE: usize = 1 << 14;
 
 /// Two sums over pieces.
-fn summed<T: Real, P>(
-    mut pieces: impl ExactSizeIterator<Item = P> + Send,
+fn summed<T: Real, P: Send>(
+    mut pieces: impl ExactSizeIterator<Item = P>,
     sums: impl Fn(P) -> [T; 2] + Sync,
 ) -> [T; 2] {
     if pieces.len() == 1
@@ -94,9 +94,9 @@ fn summed<T: Real, P>(
     {
         return sums(piece);
     }
-    let parts = parallel::map(pieces, |piece| Some(sums(piece)));
+    let parts = parallel::map(pieces, sums);
     let add = |[a, b]: [T; 2], [c, d]: [T; 2]| [a + c, b + d];
-    parts.into_iter().flatten().fold([T::from(0.0); 2], add)
+    parts.into_iter().fold([T::from(0.0); 2], add)
 }
 
 /// Sums that are formed side by side.

@@ -238,13 +238,13 @@ impl Sweep {
         while start < range.end {
             let end = range.end.min(start + count);
             let begun = Instant::now();
-            let designs = parallel::map(start..end, |index| Some(self.design(index)));
+            let designs = parallel::map(start..end, |index| self.design(index));
             if begun.elapsed() < PAUSE / 2 {
                 count = (2 * count).min(1 << 14);
             } else if begun.elapsed() > PAUSE {
                 count = (count / 2).max(16);
             }
-            take(designs.into_iter().flatten().collect())?;
+            take(designs)?;
             start = end;
         }
         Ok(())
