@@ -35,7 +35,8 @@ impl Linkage {
 }
 
 impl Around<'_> {
-    fn variable(&self, variable: Variable) -> Enclosed {
+    /// A variable over the piece, and of how many parts each has nodes of its own.
+    fn real(&self, variable: Variable) -> (Interval, f64) {
         let unknown = Interval::WHOLE;
         let place = |of: fn(&Places) -> Interval| self.places.as_ref().map_or(unknown, of);
         let real = match variable {
@@ -50,7 +51,28 @@ impl Around<'_> {
             Variable::X | Variable::V => 1.0,
             _ => self.reach.parts,
         };
+        (real, parts)
+    }
+
+    fn variable(&self, variable: Variable) -> Enclosed {
+        let (real, parts) = self.real(variable);
         Enclosed::in_parts(real, self.ellipse, parts)
+    }
+
+    /// A closure shows what it does where no part is wider than its finest scale.
+    fn closure(&self, scales: &[(Variable, f64)]) -> Detail {
+        let hides = scales.iter().any(|&(variable, scale)| {
+            let (real, parts) = self.real(variable);
+            2.0 * real.half() > scale * parts
+        });
+        if hides { Detail::HIDDEN } else { Detail::NONE }
+    }
+
+    fn detail(&self, load: &Load) -> Detail {
+        match load {
+            Load::Function { scales, .. } => self.closure(scales),
+            other => Detail::of(self.load(other)),
+        }
     }
 
     fn load(&self, load: &Load) -> Enclosed {
@@ -78,7 +100,7 @@ impl Around<'_> {
 
     fn loads(&self, loads: &NonlinearLoads) -> Detail {
         let sum = |list: &[Load]| {
-            let details = list.iter().map(|load| Detail::of(self.load(load)));
+            let details = list.iter().map(|load| self.detail(load));
             details.fold(Detail::NONE, Detail::plus)
         };
         let torque = sum(&loads.torques);
@@ -96,22 +118,28 @@ fn is_over_x(load: &Load) -> bool {
     matches!(load, Load::Table(table) if table.of() == Variable::X)
 }
 
+fn states_scale(load: &Load) -> bool {
+    matches!(load, Load::Function { scales, .. } if !scales.is_empty())
+}
+
 impl Loads {
-    /// Whether there are loads that may do something between nodes: formulas, and tables over another variable than the
-    /// crank angle or time, whose rows are known.
+    /// Whether there are loads that may do something between nodes: formulas, closures that state a scale, and tables over
+    /// another variable than the crank angle or time, whose rows are known.
     pub fn have_detail(&self) -> bool {
         self.called().any(|load| {
             matches!(
                 load,
                 Load::Expression(_) | Load::Table(_) | Load::Gas { .. } | Load::Dry(_)
-            )
+            ) || states_scale(load)
         })
     }
 
     /// Whether one of them depends on the position alone.
     pub fn have_detail_of_place(&self) -> bool {
         let mut placed = self.placed.loads();
-        placed.any(|load| matches!(load, Load::Expression(_)) || is_over_x(load))
+        placed.any(|load| {
+            matches!(load, Load::Expression(_)) || is_over_x(load) || states_scale(load)
+        })
     }
 
     /// What the generalized force (N m) of the loads does on a piece of a motion, and in an ellipse of this size around it.

@@ -24,6 +24,9 @@ pub struct LoadPeriod {
     pub name: String,
     /// Period in words, or why there is none.
     pub repeats: String,
+    /// What is not known of it between the nodes of panels and steps, if anything.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub between_nodes: Option<&'static str>,
 }
 
 impl Cycle {
@@ -77,6 +80,7 @@ impl Named<'_> {
 }
 
 const OF_TIME: &str = "depends on the time t";
+const SAMPLED: &str = "a closure is seen at the nodes of panels and steps alone, which is no guarantee: state its finest scale";
 
 /// The loads of a scene that are not zero, numbered as they stand there.
 pub(super) fn named(scene: &Scene) -> impl Iterator<Item = Named<'_>> {
@@ -109,6 +113,7 @@ impl LoadPeriod {
         LoadPeriod {
             name: load.name.clone(),
             repeats,
+            between_nodes: load.load.is_only_sampled().then_some(SAMPLED),
         }
     }
 }

@@ -58,6 +58,9 @@ fn computation(result: &Explanation) -> Facts {
     facts.add("  cycle of the loads", cycle);
     for load in &plan.cycle.loads {
         facts.add("", format_args!("{} repeats {}", load.name, load.repeats));
+        if let Some(what) = load.between_nodes {
+            facts.add("", what);
+        }
     }
     let evaluation = result.evaluation_ns;
     facts.add(

@@ -55,6 +55,8 @@ pub enum Load {
         /// After how much of a turn it is the same again, as far as it depends on the crank angle; none: it does not
         /// repeat.
         period: Option<Period>,
+        /// The finest scales that are stated, each a variable and a length in its SI unit or rad.
+        scales: Vec<(Variable, f64)>,
     },
 }
 
@@ -73,6 +75,7 @@ impl Load {
             reads,
             function: Arc::new(function),
             period: None,
+            scales: Vec::new(),
         }
     }
 
@@ -80,7 +83,7 @@ impl Load {
     ///
     /// ```
     /// use slider_crank::scene::{Crank, Load, Scene};
-    /// use slider_crank::simulate::simulate::{Options, simulate};
+    /// use slider_crank::simulate::{Options, simulate};
     ///
     /// // 0.5 N m bring 0.02 kg m^2 at 100 rad/s to rest after 4 s.
     /// let brake = Scene::new(0.05, 0.15)
@@ -108,6 +111,39 @@ impl Load {
             *period = Some(stated);
         }
         self
+    }
+
+    /// States of a load from a closure that nothing it does over a variable is narrower than `scale`, in SI units or rad:
+    /// no panel and no step of an engine goes further. A closure that states nothing is known at the nodes of panels and
+    /// steps alone, and a pulse between them is not seen. A scale that is not positive states nothing; other loads are
+    /// enclosed and need none.
+    ///
+    /// ```
+    /// use slider_crank::scene::{Load, Variable, Variables};
+    /// let blow = |t: f64| if (0.5..0.5003).contains(&t) { 2000.0 } else { 0.0 };
+    /// let load = Load::function(Variables::T, move |now| blow(now.t)).with_finest_scale(Variable::T, 1e-4);
+    /// ```
+    pub fn with_finest_scale(mut self, variable: Variable, scale: f64) -> Load {
+        if let Load::Function { scales, .. } = &mut self
+            && scale > 0.0
+        {
+            scales.push((variable, scale));
+        }
+        self
+    }
+
+    /// Whether it is a closure that states no finest scale over a variable that it reads.
+    pub fn is_only_sampled(&self) -> bool {
+        match self {
+            Load::Function { reads, scales, .. } => {
+                let stated = |variable| scales.iter().any(|(of, _)| *of == variable);
+                Variable::ALL
+                    .into_iter()
+                    .any(|variable| reads.has(variable) && !stated(variable))
+            }
+            Load::Dry(magnitude) => magnitude.is_only_sampled(),
+            _ => false,
+        }
     }
 
     /// Whether it is the same again after some turns of the crank, time and crank speed being the same.

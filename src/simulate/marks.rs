@@ -24,7 +24,7 @@ pub(super) struct Marks<'a> {
 impl<'a> Marks<'a> {
     /// None so far, of a motion from an angle and a speed (rad/s).
     pub fn new(equation: &'a Equation, start: Angle, speed: f64) -> Marks<'a> {
-        let nowhere = Interval::new(f64::NAN, f64::NAN);
+        let nowhere = Interval::new(f64::INFINITY, f64::NEG_INFINITY);
         Marks {
             equation,
             unit: equation.kinetic_energy(start.rest, speed)

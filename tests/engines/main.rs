@@ -7,6 +7,7 @@ mod agreement;
 mod allocations;
 mod angle_engine;
 mod caught;
+mod closures;
 mod cycles;
 mod ends;
 mod energy_engine;

@@ -67,6 +67,12 @@ impl Detail {
         around: Some(0.0),
     };
 
+    /// Of a function that may do anything.
+    pub const HIDDEN: Detail = Detail {
+        change: f64::INFINITY,
+        around: None,
+    };
+
     /// Of an enclosed function.
     pub fn of(function: Enclosed) -> Detail {
         let change = 2.0 * function.real.half();
