@@ -1,5 +1,7 @@
 //! Whether the points of a panel show the loads on it.
 
+use std::f64::consts::TAU;
+
 use super::Driven;
 use super::Table;
 use super::panel::{Fineness, Station};
@@ -22,6 +24,9 @@ struct OnPanel<'a, D: Driven> {
     /// How far the slope of the time over x is from its mean, and how steep it is, at most.
     varies: [f64; 2],
 }
+
+/// Rounding of an angle within two turns, by a few operations, rad.
+const ROUNDED: f64 = 8.0 * f64::EPSILON * TAU;
 
 /// Where a solved panel has to end for its points to show the loads, as part of it; none if they do.
 pub(super) fn hides<D: Driven>(
@@ -55,6 +60,7 @@ pub(super) fn hides<D: Driven>(
         nodes: degree,
         ellipse: ellipse(degree, fine.tail),
         allowed: rounding.max(fine.tail * start.kinetic / station.half().abs()),
+        least: ROUNDED / station.half().abs(),
         compares: true,
     };
     hidden(&way, look).map(|hidden| hidden.at)

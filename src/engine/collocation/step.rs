@@ -233,6 +233,7 @@ impl<'a> Collocation<'a> {
             nodes: NODES,
             ellipse: self.ellipse,
             allowed: term.max(rounding(state, h, coefficients)),
+            least: SHORTEST * state.t.abs().max((state.t + h).abs()) / h,
             compares: true,
         };
         let way = OnStep {
@@ -241,10 +242,7 @@ impl<'a> Collocation<'a> {
             step,
             coefficients,
         };
-        // A place that the time does not tell from an end of the step is that end.
-        let least = SHORTEST * state.t.abs().max((state.t + h).abs());
-        let inside = |hidden: &Hidden| hidden.at * h > least && (1.0 - hidden.at) * h > least;
-        hidden(&way, look).filter(inside)
+        hidden(&way, look)
     }
 
     /// What a term of this size beyond the last would add; rounding of the acceleration is no such term.

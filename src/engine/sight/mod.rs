@@ -29,6 +29,8 @@ pub struct Look {
     pub ellipse: f64,
     /// What the nodes may leave out of the force, everywhere on it.
     pub allowed: f64,
+    /// Part of it at either end that rounding does not tell from the end.
+    pub least: f64,
     /// Whether its nodes tell the force between them, to be compared; else they show what is as wide as a quarter of it.
     pub compares: bool,
 }
@@ -129,7 +131,9 @@ impl Search {
     fn run(mut self, way: &impl Way) -> Option<Hidden> {
         let mut left = [[0.0; 2]; HALVINGS as usize + 2];
         let begin = self.look.end(way, |end| [0.0, end]);
-        self.whole = [begin, 1.0 - self.look.end(way, |end| [1.0 - end, 1.0])];
+        let end = self.look.end(way, |end| [1.0 - end, 1.0]);
+        // A corner that rounding makes up there would hide the first one inside.
+        self.whole = [begin.max(self.look.least), 1.0 - end.max(self.look.least)];
         left[0] = self.whole;
         let (mut count, mut pieces) = (1, 0);
         while count > 0 {

@@ -54,6 +54,7 @@ impl<'a> Proof<'a> {
             nodes: self.order,
             ellipse: self.ellipse,
             allowed: self.tolerance * (1.0 + step.start.omega.abs()) / h,
+            least: SHORTEST * step.start.t.abs().max(step.end.t.abs()) / h,
             compares: false,
         };
         let ahead = reach.ahead(self.ahead);
@@ -64,9 +65,7 @@ impl<'a> Proof<'a> {
         }
         self.ahead = (0.5 * self.ahead).max(2.0);
         let Hidden { at, .. } = hidden(&way, look)?;
-        let least = SHORTEST * step.start.t.abs().max(step.end.t.abs());
-        let inside = at * h > least && (1.0 - at) * h > least;
-        inside.then_some(step.start.t + at * h)
+        Some(step.start.t + at * h)
     }
 }
 

@@ -46,6 +46,7 @@ impl<D: Driven> Way<'_, D> {
             nodes: DEGREE,
             ellipse: ellipse(DEGREE, self.tail),
             allowed: self.tail * middle / TAU,
+            least: 0.0,
             compares: false,
         };
         !driven.has_detail()
