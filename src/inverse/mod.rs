@@ -1,6 +1,31 @@
 //! Slider force and crank torque from a measured motion: samples and a scene go in, force and torque with their standard
 //! errors come out, by an iterated extended Kalman smoother whose model is the equation of motion (or by a polynomial), and by
 //! inverse dynamics along the motion that it gives.
+//!
+//! ```
+//! use slider_crank::scene::{Measurement, Reading, Scene};
+//! use slider_crank::inverse::{FitKind, InverseOptions, inverse};
+//!
+//! fn main() -> Result<(), slider_crank::error::Error> {
+//!     let scene = Scene::load("data/duarte-engine.toml")?;
+//!     let motion = Measurement::load("data/duarte-motion.csv", &Reading::default())?;
+//!     let options = InverseOptions { fit: FitKind::Smoother, reactions: true, ..InverseOptions::default() };
+//!
+//!     let found = inverse(&scene, &motion, &options)?;
+//!     for warning in &found.summary.warnings {
+//!         eprintln!("{warning}");
+//!     }
+//!     for row in &found.rows {
+//!         // None where the motion does not determine the force.
+//!         let (Some(force), Some(se)) = (row.slider_force, row.slider_force_se) else { continue };
+//!         let band = found.summary.band_factor * se;
+//!         println!("t = {} s: {force} N, 95 % within {band} N", row.t);
+//!     }
+//!     let guide = found.reactions(&found.rows[0]).map(|forces| forces.guide);
+//!     println!("the guide presses with {guide:?} N at the beginning");
+//!     Ok(())
+//! }
+//! ```
 
 mod as_printed;
 mod bands;
