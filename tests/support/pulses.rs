@@ -107,11 +107,11 @@ impl Pulse {
         Piece {
             of: self.of,
             height: self.height,
-            origin,
+            start: at - origin,
             width: self.width,
             // It begins at one of them, off by rounding.
-            low: origin + low - nudge.max(0.0),
-            high: origin + high - nudge.min(0.0),
+            low: low - nudge.max(0.0),
+            high: high - nudge.min(0.0),
             form: self.form(index, edges.len()),
         }
     }
@@ -185,7 +185,8 @@ impl Pulse {
 struct Piece {
     of: Of,
     height: f64,
-    origin: f64,
+    /// Where the motion enters it, as its edges from the centre of the pulse.
+    start: f64,
     width: f64,
     low: f64,
     high: f64,
@@ -194,16 +195,18 @@ struct Piece {
 }
 
 impl Piece {
-    fn of(&self, t: f64, [theta, omega]: [f64; 2]) -> f64 {
-        match self.of {
-            Of::T => t,
-            Of::Theta => theta,
-            Of::Omega => omega,
-        }
+    /// From the centre of the pulse.
+    fn of(&self, moved: &Moved) -> f64 {
+        self.start
+            + match self.of {
+                Of::T => moved.t,
+                Of::Theta => moved.theta,
+                Of::Omega => moved.omega,
+            }
     }
 
-    fn value(&self, t: f64, state: [f64; 2]) -> f64 {
-        let u = (self.of(t, state) - self.origin) / self.width;
+    fn value(&self, moved: &Moved) -> f64 {
+        let u = self.of(moved) / self.width;
         let [a, b, c] = self.form;
         self.height
             * if a.is_nan() {
@@ -214,8 +217,8 @@ impl Piece {
     }
 
     /// How far beyond its edges the argument is, in widths; negative inside.
-    fn beyond(&self, t: f64, state: [f64; 2]) -> f64 {
-        let at = self.of(t, state);
+    fn beyond(&self, moved: &Moved) -> f64 {
+        let at = self.of(moved);
         (self.low - at).max(at - self.high) / self.width
     }
 }
@@ -319,45 +322,85 @@ impl Case {
     /// Angle and speed at its end; none where the crank turns back, or its speed stays at a jump between torques that drive it
     /// there from both sides.
     pub fn reference(&self) -> Option<[f64; 2]> {
-        let (mut t, mut state) = (0.0, [self.angle, self.speed]);
+        let mut at = Moved {
+            t: 0.0,
+            theta: self.angle,
+            omega: self.speed,
+        };
         /// More pieces than this are a speed that stays at an edge.
         const MOST_PIECES: u32 = 5000;
         let mut rises = true;
         for _ in 0..MOST_PIECES {
             let forward = |of: Of| of != Of::Omega || rises;
             let pieces = self.pulses.iter().map(|pulse| {
-                let at = match pulse.of {
-                    Of::T => t,
-                    Of::Theta => state[0],
-                    Of::Omega => state[1],
+                let argument = match pulse.of {
+                    Of::T => at.t,
+                    Of::Theta => at.theta,
+                    Of::Omega => at.omega,
                 };
-                pulse.piece(at, forward(pulse.of))
+                pulse.piece(argument, forward(pulse.of))
             });
-            let pieces: Vec<Piece> = pieces.collect();
-            let motion = Motion { case: self, pieces };
-            (t, state) = motion.run(t, state);
-            rises = motion.slopes(t, state)[1] > 0.0;
-            if state[1] <= 0.0 {
+            let pieces = pieces.collect();
+            let motion = Motion {
+                case: self,
+                start: at,
+                pieces,
+            };
+            let moved = motion.run();
+            rises = motion.slopes(&moved)[1] > 0.0;
+            at = at.plus(moved);
+            if at.omega <= 0.0 {
                 return None;
             }
-            if t >= self.duration {
-                return Some(state);
+            if at.t >= self.duration {
+                return Some([at.theta, at.omega]);
             }
         }
         None
     }
 }
 
+/// Time, angle and speed, or how far they have changed on a piece: small changes of large numbers round on their own.
+#[derive(Clone, Copy, Debug)]
+struct Moved {
+    t: f64,
+    theta: f64,
+    omega: f64,
+}
+
+impl Moved {
+    const NOT: Moved = Moved {
+        t: 0.0,
+        theta: 0.0,
+        omega: 0.0,
+    };
+
+    fn plus(self, more: Moved) -> Moved {
+        Moved {
+            t: self.t + more.t,
+            theta: self.theta + more.theta,
+            omega: self.omega + more.omega,
+        }
+    }
+}
+
 /// The motion on one piece of each pulse.
 struct Motion<'a> {
     case: &'a Case,
+    start: Moved,
     pieces: Vec<Piece>,
 }
 
+/// A step that was tried: what it adds, and its error in units of what is allowed.
+struct Tried {
+    added: Moved,
+    error: f64,
+}
+
 impl Motion<'_> {
-    fn slopes(&self, t: f64, state: [f64; 2]) -> [f64; 2] {
+    fn slopes(&self, moved: &Moved) -> [f64; 2] {
         let [r, l, inertia, mass] = MACHINE;
-        let [theta, omega] = state;
+        let Moved { theta, omega, .. } = self.start.plus(*moved);
         let (sin, cos) = theta.sin_cos();
         let (sin_phi, dphi_by_cos) = (r * sin / l, r * cos / l);
         let cos_phi = (1.0 - sin_phi * sin_phi).sqrt();
@@ -365,58 +408,63 @@ impl Motion<'_> {
         let d2phi = (sin_phi * dphi * dphi - sin_phi) / cos_phi;
         let dx = -r * sin - l * sin_phi * dphi;
         let d2x = -r * cos - l * (cos_phi * dphi * dphi + sin_phi * d2phi);
-        let pulses: f64 = self.pieces.iter().map(|piece| piece.value(t, state)).sum();
+        let pulses: f64 = self.pieces.iter().map(|piece| piece.value(moved)).sum();
         let torque = self.case.torque - self.case.viscous * omega + pulses;
         let force = torque - mass * dx * d2x * omega * omega;
         [omega, force / (inertia + mass * dx * dx)]
     }
 
-    /// Until the first edge or the end of the run.
-    fn run(&self, mut t: f64, mut state: [f64; 2]) -> (f64, [f64; 2]) {
-        let until = self.case.duration;
-        let mut h = 1e-3 * until;
-        let (mut to_extreme, mut larger) = (false, f64::INFINITY);
+    /// How far the motion goes until the first edge or the end of the run.
+    fn run(&self) -> Moved {
+        let until = self.case.duration - self.start.t;
+        let after = |moved: Moved, h: f64| moved.plus(self.step(&moved, h).added);
+        let beyond = |moved: Moved| {
+            let all = self.pieces.iter().map(|piece| piece.beyond(&moved));
+            all.fold(f64::NEG_INFINITY, f64::max)
+        };
+        let mut moved = Moved::NOT;
+        let mut longest = 1e-3 * self.case.duration;
         loop {
-            h = h.min(until - t).min(0.2 / state[1].abs());
-            let (next, error) = self.step(t, state, h);
-            // What halving no longer makes less is rounding.
-            let is_rounding = error < 100.0 && error > 0.25 * larger;
-            if error.is_nan() || error > 1.0 && !is_rounding {
-                (h, larger) = (0.5 * h, error);
-                continue;
+            let speed = self.start.omega + moved.omega;
+            let mut h = longest.min(until - moved.t).min(0.2 / speed.abs());
+            let mut tried = self.step(&moved, h);
+            while tried.error > 1.0 || tried.error.is_nan() {
+                h *= 0.5;
+                longest = h;
+                tried = self.step(&moved, h);
             }
-            larger = f64::INFINITY;
-            let beyond = |h: f64, state: [f64; 2]| {
-                let all = self.pieces.iter().map(|piece| piece.beyond(t + h, state));
-                all.fold(f64::NEG_INFINITY, f64::max)
-            };
-            let far = beyond(h, next);
-            let extreme = |h: f64, state: [f64; 2]| self.slopes(t + h, state)[1];
-            let turns = extreme(0.0, state) * extreme(h, next) < 0.0;
-            if turns && !to_extreme {
+            if tried.error < 0.01 {
+                longest *= 1.5;
+            }
+            let [from, to] = [moved, moved.plus(tried.added)].map(|at| self.slopes(&at)[1]);
+            if from * to < 0.0 {
                 // The speed is monotone on each step, so that it passes no edge twice.
-                let sign = extreme(h, next).signum();
-                h = root(h, |h| sign * extreme(h, self.step(t, state, h).0));
-                h = h.max(1e-9 * until);
-                to_extreme = true;
+                let shorter = root(h, |h| to.signum() * self.slopes(&after(moved, h))[1]);
+                h = shorter.max(1e-9 * self.case.duration).min(h);
+            }
+            let leaves = beyond(after(moved, h)) > 0.0;
+            if leaves {
+                h = root(h, |h| beyond(after(moved, h)));
+            }
+            tried = self.step(&moved, h);
+            if tried.error > 1.0 {
+                // A longer step had missed a bell.
+                longest = 0.5 * h;
                 continue;
             }
-            to_extreme = false;
-            if far > 0.0 {
-                let at = root(h, |h| beyond(h, self.step(t, state, h).0));
-                return (t + at, self.step(t, state, at).0);
+            let next = moved.plus(tried.added);
+            if leaves {
+                return next;
             }
-            state = next;
-            if t + h >= until {
-                return (until, state);
+            moved = next;
+            if moved.t >= until {
+                return moved;
             }
-            t += h;
-            h *= if error < 0.01 { 1.5 } else { 1.0 };
         }
     }
 
-    /// A step of extrapolated midpoint rules, and its error in units of what is allowed.
-    fn step(&self, t: f64, state: [f64; 2], h: f64) -> ([f64; 2], f64) {
+    /// A step of extrapolated midpoint rules.
+    fn step(&self, moved: &Moved, h: f64) -> Tried {
         const COLUMNS: usize = 7;
         // Aitken's and Neville's scheme in the square of the length: row k from its plain rule on.
         let mut row = [[0.0; 2]; COLUMNS];
@@ -424,7 +472,7 @@ impl Motion<'_> {
         for k in 0..COLUMNS {
             let n = 2 * (k + 1);
             let last = row;
-            row[0] = self.midpoint(t, state, h, n);
+            row[0] = self.midpoint(moved, h, n);
             for j in 1..=k {
                 let ratio = ((k + 1) as f64 / (k + 1 - j) as f64).powi(2);
                 row[j] = std::array::from_fn(|i| {
@@ -438,24 +486,37 @@ impl Motion<'_> {
         let best = row[COLUMNS - 1];
         // Increments: what is small beside the angle may be much of a narrow pulse.
         let off = |i: usize| (best[i] - before[i]).abs();
-        let error = (off(0) / (2e-14 * best[0].abs())).max(off(1) / (2e-14 * (1.0 + state[1])));
-        (std::array::from_fn(|i| state[i] + best[i]), error)
+        let speed = self.start.omega + moved.omega;
+        Tried {
+            added: Moved {
+                t: h,
+                theta: best[0],
+                omega: best[1],
+            },
+            error: (off(0) / (2e-14 * best[0].abs())).max(off(1) / (2e-14 * (1.0 + speed))),
+        }
     }
 
     /// What the midpoint rule with n parts adds to the state.
-    fn midpoint(&self, t: f64, state: [f64; 2], h: f64, n: usize) -> [f64; 2] {
+    fn midpoint(&self, moved: &Moved, h: f64, n: usize) -> [f64; 2] {
         let part = h / n as f64;
-        let moved = |from: [f64; 2], slopes: [f64; 2], by: f64| -> [f64; 2] {
+        let slopes = |k: usize, by: [f64; 2]| {
+            self.slopes(&moved.plus(Moved {
+                t: k as f64 * part,
+                theta: by[0],
+                omega: by[1],
+            }))
+        };
+        let ahead = |from: [f64; 2], slopes: [f64; 2], by: f64| -> [f64; 2] {
             std::array::from_fn(|i| from[i] + by * slopes[i])
         };
-        let slopes = |t: f64, by: [f64; 2]| self.slopes(t, moved(state, by, 1.0));
         let mut before = [0.0; 2];
-        let mut here = moved(before, self.slopes(t, state), part);
+        let mut here = ahead(before, slopes(0, before), part);
         for k in 1..n {
-            let next = moved(before, slopes(t + k as f64 * part, here), 2.0 * part);
+            let next = ahead(before, slopes(k, here), 2.0 * part);
             (before, here) = (here, next);
         }
-        let end = moved(before, slopes(t + h, here), part);
+        let end = ahead(before, slopes(n, here), part);
         std::array::from_fn(|i| 0.5 * (here[i] + end[i]))
     }
 }
