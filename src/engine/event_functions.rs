@@ -34,22 +34,22 @@ pub struct Change {
 }
 
 /// All changes inside a step in the order of time. `signs` are the signs that the quantities have at its start,
-/// which rounding may hide there, and after the call those at its end. A step in which something changes is
-/// refined.
+/// which rounding may hide there, and after the call those at its end. A step that `follows` another begins with the
+/// values at the end of that one, unless a load jumps there. A step in which something changes is refined.
 pub fn changes<const N: usize>(
     step: &mut Step,
     motion: &dyn Motion,
     watched: &dyn EventFunction<N>,
+    follows: bool,
     signs: &mut [f64; N],
 ) -> Vec<Change> {
     let travel = (step.end.theta - step.start.theta).abs();
     let pieces = (travel / TRAVEL).ceil().clamp(FEWEST, MOST) as usize;
     let rough = sampled(step, watched, pieces);
-    // Rounding may hide the sign at the start.
     let left = |i: usize| {
-        rough[1..]
-            .iter()
-            .any(|look| look.values[i] * signs[i] < 0.0)
+        let mut inside = rough[1..].iter();
+        follows && has_jumped(&rough, i, signs[i])
+            || inside.any(|look| look.values[i] * signs[i] < 0.0)
     };
     let dips = |i: usize| rough.windows(3).any(|w| may_dip(w, i));
     if !(0..N).any(|i| left(i) || dips(i)) {
@@ -61,6 +61,11 @@ pub fn changes<const N: usize>(
     let mut found = Vec::new();
     for (index, sign) in signs.iter_mut().enumerate() {
         let value = |t: f64| look(step, watched, t).values[index];
+        if follows && has_jumped(&fine, index, *sign) {
+            let t = step.start.t + 0.5f64.powi(HALVINGS) * step.length();
+            found.push(Change { t, index });
+            *sign = -*sign;
+        }
         for pair in with_dips(&fine, index, value).windows(2) {
             let [(from, before), (to, after)] = [pair[0], pair[1]];
             if after * *sign >= 0.0 {
@@ -78,6 +83,13 @@ pub fn changes<const N: usize>(
     }
     found.sort_by(|a, b| a.t.total_cmp(&b.t));
     found
+}
+
+/// Whether a quantity has jumped where the step starts.
+fn has_jumped<const N: usize>(looks: &[Look<N>], index: usize, sign: f64) -> bool {
+    let values = looks.iter().map(|look| look.values[index].abs());
+    let largest = values.fold(0.0, f64::max);
+    looks[0].values[index] * sign < -NOISE * largest
 }
 
 /// Times and values of one quantity, and those of the lowest points of its dips between them.

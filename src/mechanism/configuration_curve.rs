@@ -22,13 +22,13 @@ use crate::scene::Branch;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curve {
     linkage: Linkage,
-    chart: Chart,
+    pub(super) chart: Chart,
     /// Whole turns of the crank that are added to the angle of the chart.
-    turns: f64,
+    pub(super) turns: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Chart {
+pub(super) enum Chart {
     /// q = θ.
     Crank,
     /// q = Φ; the linkage with crank and rod exchanged.

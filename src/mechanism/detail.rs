@@ -1,57 +1,36 @@
 //! What loads do between the nodes of a panel or a step.
 
 use super::nonlinear_loads::NonlinearLoads;
-use super::{Linkage, Loads};
+use super::{Arms, CurveEquation, CurveTerms, Linkage, Loads, Seen};
 use crate::numeric::enclosure::{Detail, Enclosed, Interval, Reach};
 use crate::scene::{Load, Variable, Variables};
 
-/// Slider position (m) and x' (m/rad) where the crank has these angles.
-#[derive(Clone, Copy, Debug)]
-struct Places {
-    x: Interval,
-    dx: Interval,
-}
-
-/// A piece of a motion as the loads see it.
+/// A piece of a motion as the loads see it, and the ellipse around it.
 struct Around<'a> {
-    reach: &'a Reach,
-    places: Option<Places>,
+    seen: &'a Seen,
     ellipse: f64,
-}
-
-impl Linkage {
-    fn enclose(&self, angle: Interval) -> Places {
-        let at = Interval::point;
-        let (sin, cos) = (angle.sin(), angle.cos());
-        let sin_phi = (at(self.e) + at(self.r) * sin) * at(1.0 / self.l);
-        let squared = at(1.0) - sin_phi.square();
-        let cos_phi = Interval::new(squared.low.max(0.0), squared.high.max(0.0)).rising(f64::sqrt);
-        let along = at(self.r) * cos;
-        Places {
-            x: along + at(self.s * self.l) * cos_phi,
-            dx: -(at(self.r) * sin) - at(self.s) * along * sin_phi * cos_phi.reciprocal(),
-        }
-    }
 }
 
 impl Around<'_> {
     /// A variable over the piece, and of how many parts each has nodes of its own.
     fn real(&self, variable: Variable) -> (Interval, f64) {
-        let unknown = Interval::WHOLE;
-        let place = |of: fn(&Places) -> Interval| self.places.as_ref().map_or(unknown, of);
-        let real = match variable {
-            Variable::T => self.reach.t,
-            Variable::Theta => self.reach.angle,
-            Variable::Omega => self.reach.speed,
-            Variable::X => place(|places| places.x),
-            Variable::V => place(|places| places.dx) * self.reach.speed,
-        };
-        // A part of the way may be a larger one of the stroke.
-        let parts = match variable {
-            Variable::X | Variable::V => 1.0,
-            _ => self.reach.parts,
-        };
-        (real, parts)
+        let Seen {
+            t,
+            theta,
+            omega,
+            x,
+            v,
+            parts,
+            ..
+        } = *self.seen;
+        match variable {
+            Variable::T => (t, parts),
+            Variable::Theta => (theta, parts),
+            Variable::Omega => (omega, parts),
+            // A part of the way may be a larger one of the stroke.
+            Variable::X => (x, 1.0),
+            Variable::V => (v, 1.0),
+        }
     }
 
     fn variable(&self, variable: Variable) -> Enclosed {
@@ -79,7 +58,7 @@ impl Around<'_> {
         match load {
             Load::Table(table) => table.enclose(self.variable(table.of()).real),
             Load::Gas { pressure, area, .. } => {
-                pressure.enclose(self.reach.angle) * Enclosed::point(*area)
+                pressure.enclose(self.seen.theta) * Enclosed::point(*area)
             }
             Load::Expression(expression) => expression.enclose(|variable| self.variable(variable)),
             // Its sign stays on a piece.
@@ -98,17 +77,15 @@ impl Around<'_> {
         }
     }
 
-    fn loads(&self, loads: &NonlinearLoads) -> Detail {
+    fn loads(&self, loads: &NonlinearLoads, arms: Arms) -> Detail {
         let sum = |list: &[Load]| {
             let details = list.iter().map(|load| self.detail(load));
             details.fold(Detail::NONE, Detail::plus)
         };
-        let torque = sum(&loads.torques);
-        match self.places {
-            Some(places) if !loads.forces.is_empty() => {
-                torque.plus(sum(&loads.forces).times(places.dx.largest()))
-            }
-            _ => torque,
+        let torque = sum(&loads.torques).times(arms.torque.abs());
+        match loads.forces.is_empty() {
+            true => torque,
+            false => torque.plus(sum(&loads.forces).times(arms.force.abs())),
         }
     }
 }
@@ -142,13 +119,18 @@ impl Loads {
         })
     }
 
-    /// What the generalized force (N m) of the loads does on a piece of a motion, and in an ellipse of this size around it.
-    pub fn detail(&self, linkage: &Linkage, reach: &Reach, ellipse: f64) -> Detail {
-        let classes = [&self.placed, &self.timed, &self.mixed, &self.dry];
-        self.detail_of(&classes, linkage, reach, ellipse)
+    /// Whether they act on the slider or depend on its position or velocity.
+    pub fn meet_slider(&self) -> bool {
+        self.on_slider || !self.reads().disjoint(Variables::X.or(Variables::V))
     }
 
-    /// Detail of the loads that depend on the position alone.
+    /// What the loads do on a piece of a motion, and in an ellipse of this size around it, each times its arm.
+    pub fn detail(&self, seen: &Seen, arms: Arms, ellipse: f64) -> Detail {
+        let classes = [&self.placed, &self.timed, &self.mixed, &self.dry];
+        Self::detail_of(&classes, seen, arms, ellipse)
+    }
+
+    /// Detail of the generalized force, N m, of the loads that depend on the position alone.
     pub fn detail_of_place(&self, linkage: &Linkage, angle: Interval, ellipse: f64) -> Detail {
         let none = Interval::point(0.0);
         let reach = Reach {
@@ -157,30 +139,41 @@ impl Loads {
             speed: none,
             parts: 1.0,
         };
-        self.detail_of(&[&self.placed], linkage, &reach, ellipse)
+        let seen = linkage.seen(&reach, self.meet_slider());
+        Self::detail_of(&[&self.placed], &seen, seen.arms(), ellipse)
     }
 
     /// Detail of the loads that depend on speed or time.
-    pub fn detail_of_state(&self, linkage: &Linkage, reach: &Reach, ellipse: f64) -> Detail {
-        self.detail_of(&[&self.timed, &self.mixed], linkage, reach, ellipse)
+    pub fn detail_of_state(&self, seen: &Seen, arms: Arms, ellipse: f64) -> Detail {
+        Self::detail_of(&[&self.timed, &self.mixed], seen, arms, ellipse)
     }
 
-    fn detail_of(
-        &self,
-        classes: &[&NonlinearLoads],
-        linkage: &Linkage,
-        reach: &Reach,
-        ellipse: f64,
-    ) -> Detail {
-        let by_place = Variables::X.or(Variables::V);
-        let placed = self.on_slider || !self.reads().disjoint(by_place);
-        let around = Around {
-            reach,
-            places: placed.then(|| linkage.enclose(reach.angle)),
-            ellipse,
-        };
+    fn detail_of(classes: &[&NonlinearLoads], seen: &Seen, arms: Arms, ellipse: f64) -> Detail {
+        let around = Around { seen, ellipse };
         let classes = classes.iter().filter(|loads| !loads.is_empty());
-        let details = classes.map(|loads| around.loads(loads));
+        let details = classes.map(|loads| around.loads(loads, arms));
         details.fold(Detail::NONE, Detail::plus)
+    }
+}
+
+impl CurveEquation {
+    /// How far a load of one changes q̈ (rad/s²) of a motion that slides with c = −μ sgn(v) sgn(N), at the ends and the
+    /// middle of a range of coordinates (rad): the nodes of a step show what the linkage does between them.
+    pub fn arms(&self, q: Interval, c: f64) -> Arms {
+        let at = |q: f64| {
+            let terms = self.across(q);
+            let CurveTerms { place, m, a, .. } = terms;
+            let gain = place.dx / m;
+            let rubbed = gain * c / (1.0 - c * (a * gain - terms.x_n));
+            let arm = |along: f64, aside: f64| along / m + rubbed * (a * along / m - aside);
+            Arms {
+                torque: arm(place.dtheta, terms.theta_n),
+                force: arm(place.dx, terms.x_n),
+            }
+        };
+        [q.low, q.middle(), q.high]
+            .map(at)
+            .into_iter()
+            .fold(Arms::default(), Arms::larger)
     }
 }

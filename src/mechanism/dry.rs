@@ -4,7 +4,7 @@
 //! and beyond that motion begins in the direction of Q − V' (Filippov's solution of the equation with their signs).
 
 use super::friction::Free;
-use super::{CurveEquation, CurveTerms, LoadValue, Loads, Place};
+use super::{Arms, CurveEquation, CurveTerms, LoadValue, Loads, Place};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{Interval, Reach};
 use crate::scene::Instant;
@@ -161,7 +161,7 @@ impl CurveEquation {
 
     /// How much [`Held::margin`] changes at most between two times (s), as far as the loads are enclosed.
     pub fn margin_change(&self, q: Angle, mu_static: f64, [from, to]: [f64; 2]) -> f64 {
-        if !self.curve().is_crank_angle() || !self.loads().have_detail() {
+        if !self.loads().have_detail() {
             return 0.0;
         }
         let reach = Reach {
@@ -170,10 +170,14 @@ impl CurveEquation {
             speed: Interval::point(0.0),
             parts: 1.0,
         };
-        let detail = self
-            .loads()
-            .detail(self.curve().linkage(), &reach, SOME_ELLIPSE);
+        let loads = self.loads();
+        let seen = self.curve().seen(&reach, loads.meet_slider());
         let terms = self.across(q.rest);
+        let arms = Arms {
+            torque: terms.place.dtheta,
+            force: terms.place.dx,
+        };
+        let detail = loads.detail(&seen, arms, SOME_ELLIPSE);
         let (arm, x_n) = (terms.place.dx.abs(), terms.x_n.abs());
         // What changes Q by one changes the torque by one at most and the force by 1/x'.
         let most = 1.0 + mu_static * (arm * terms.theta_n.abs() + 2.0 * x_n);

@@ -4,22 +4,23 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::{Class, Linkage, Place};
 use crate::numeric::angle::Angle;
+use crate::numeric::enclosure::Interval;
 use crate::numeric::exact::sum3;
 
 /// The double rocker and the change point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rocker {
-    crank: Half,
-    rod: Half,
+    pub(super) crank: Half,
+    pub(super) rod: Half,
     /// −1 mirrors the mechanism about the x axis: for e < 0.
-    mirror: f64,
+    pub(super) mirror: f64,
     /// −1: crank and rod of equal length on top of each other, the slider at O.
-    fold: f64,
+    pub(super) fold: f64,
 }
 
 /// Half an angle a with sin a = root · (sine or cosine of q) and cos a > 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Half {
+pub(super) struct Half {
     root: f64,
     /// 1 − root²; zero: cos a takes the sign of the other function of q.
     rest: f64,
@@ -135,6 +136,14 @@ impl Rocker {
     }
 }
 
+/// Ranges of 2a, its sine and cosine, and its derivative with respect to the argument of the sine.
+pub(super) struct DoubleRange {
+    pub angle: Interval,
+    pub sin: Interval,
+    pub cos: Interval,
+    pub slope: Interval,
+}
+
 /// Sine and cosine of 2a and its derivatives with respect to the argument of the sine.
 struct Double {
     sin: f64,
@@ -149,6 +158,30 @@ impl Half {
             cos
         } else {
             (cos * cos + self.rest * sin * sin).sqrt()
+        }
+    }
+
+    /// Over arguments of the sine.
+    pub(super) fn enclose(&self, q: Interval) -> DoubleRange {
+        let point = Interval::point;
+        let twice = point(2.0) * q;
+        if self.rest == 0.0 {
+            return DoubleRange {
+                angle: twice,
+                sin: twice.sin(),
+                cos: twice.cos(),
+                slope: point(2.0),
+            };
+        }
+        let sine = point(self.root) * q.sin();
+        // cos²a between 1 − root² and 1.
+        let squared = point(1.0) - sine.square();
+        let cosine = Interval::new(squared.low.max(self.rest), squared.high).rising(f64::sqrt);
+        DoubleRange {
+            angle: point(2.0) * sine.rising(f64::asin),
+            sin: point(2.0) * sine * cosine,
+            cos: point(1.0) - point(2.0) * sine.square(),
+            slope: point(2.0 * self.root) * q.cos() * cosine.reciprocal(),
         }
     }
 

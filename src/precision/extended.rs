@@ -5,10 +5,10 @@
 //! With unit rates (velocities for θ̇ = 1, marked ₁) and accelerations for θ̈ = 0 (marked ₀),
 //! θ̈ = (Q + Σ m g·v₁ − Σ m a₀·v₁ − Σ I ψ̈₀ ψ̇₁) / (Σ m v₁² + Σ I ψ̇₁²).
 
-use crate::numeric::double_double::DoubleDouble;
-
 use crate::mechanism::single;
-use crate::scene::{InertiaAbout, Instant, Load, RodModel, Scene};
+use crate::numeric::double_double::DoubleDouble;
+use crate::numeric::enclosure::{Detail, Enclosed, Interval, Wanted, partition};
+use crate::scene::{InertiaAbout, Instant, Load, RodModel, Scene, Variables};
 
 type Vector = [DoubleDouble; 2];
 
@@ -23,6 +23,8 @@ pub(super) struct Extended {
     /// m/s²
     pub gravity: [f64; 2],
     exact: bool,
+    /// Corners and narrow parts of formulas over time, s.
+    marks: Vec<f64>,
 }
 
 /// Mass, centre of gravity and central moment of inertia of a rod that moves as a body.
@@ -48,8 +50,8 @@ fn exactly(value: f64) -> DoubleDouble {
 }
 
 impl Extended {
-    /// The mechanism of a scene.
-    pub(super) fn new(scene: &Scene) -> Extended {
+    /// The mechanism of a scene, for a run to `t_end`, s.
+    pub(super) fn new(scene: &Scene, t_end: f64) -> Extended {
         let scene = scene.reduced();
         let zero = DoubleDouble::ZERO;
         let loads = scene.torques.iter().chain(&scene.forces);
@@ -60,6 +62,7 @@ impl Extended {
             slider_mass: exactly(scene.slider.map_or(0.0, |slider| slider.mass)),
             gravity: scene.gravity.map_or([0.0; 2], |gravity| gravity.vector()),
             exact: loads.clone().all(is_exact),
+            marks: loads.flat_map(|load| marks(load, t_end)).collect(),
             scene: scene.clone(),
         };
         if let Some(crank) = &scene.crank {
@@ -147,6 +150,13 @@ impl Extended {
         self.scene.torques.iter().chain(&self.scene.forces)
     }
 
+    /// The first time after `t` (s) at which a load is not smooth.
+    pub(super) fn next_corner(&self, t: f64) -> f64 {
+        let corners = self.loads().map(|load| load.next_corner(t));
+        let marks = self.marks.iter().copied().filter(|mark| *mark > t);
+        corners.chain(marks).fold(f64::INFINITY, f64::min)
+    }
+
     /// θ̈; not valid where there is none.
     pub(super) fn acceleration(&self, state: &State) -> DoubleDouble {
         let geometry = &self.scene.geometry;
@@ -208,6 +218,24 @@ impl Extended {
         }
         (moment - bias * squared) / inertia
     }
+}
+
+/// Ends of the steps that show a formula over time, to rounding.
+const SHOWN: Wanted = Wanted {
+    nodes: 20,
+    part: f64::EPSILON,
+};
+
+fn marks(load: &Load, t_end: f64) -> Vec<f64> {
+    let Load::Expression(formula) = load else {
+        return Vec::new();
+    };
+    if formula.reads() != Variables::T {
+        return Vec::new();
+    }
+    let detail =
+        |t: Interval, ellipse: f64| Detail::of(formula.enclose(|_| Enclosed::variable(t, ellipse)));
+    partition(detail, Interval::new(0.0, t_end), SHOWN, 0.0)
 }
 
 fn is_exact(load: &Load) -> bool {

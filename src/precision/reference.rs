@@ -78,7 +78,7 @@ pub(super) fn extended(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Re
         return in_pieces(scene, t_end, evaluations);
     }
     let motion = Motion {
-        extended: Extended::new(scene),
+        extended: Extended::new(scene, t_end),
         equation: Equation::new(scene),
     };
     let exact = motion.extended.is_exact();
@@ -132,7 +132,7 @@ const STEPS_ROUNDED: [f64; 2] = [1e-15, 1e-16];
 
 /// The same for motions with friction or past limits, which are made of pieces.
 fn in_pieces(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
-    let extended = Extended::new(scene);
+    let extended = Extended::new(scene, t_end);
     let guided = Guided::new(scene, &extended, t_end);
     let [(coarse, _), (fine, ends)] = twice(&extended, evaluations, |fineness| {
         guided.end(scene, fineness)
@@ -150,7 +150,7 @@ fn in_pieces(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
 
 /// The same for motions with a loose joint.
 fn loose(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
-    let extended = Extended::new(scene);
+    let extended = Extended::new(scene, t_end);
     let loose = Loose::new(scene, &extended)?;
     let [coarse, fine] = twice(&extended, evaluations, |fineness| {
         loose.end(t_end, fineness)
@@ -257,10 +257,7 @@ impl Acceleration for Motion {
     }
 
     fn next_time(&self, t: f64) -> f64 {
-        let loads = self.extended.loads();
-        loads
-            .map(|load| load.next_corner(t))
-            .fold(f64::INFINITY, f64::min)
+        self.extended.next_corner(t)
     }
 
     fn corner_between(&self, theta: f64, towards: f64) -> Option<f64> {

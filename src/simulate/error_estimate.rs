@@ -42,7 +42,9 @@ impl Motion for Forward<'_> {
     }
 
     fn detail(&self, reach: &Reach, ellipse: f64) -> Detail {
-        let force = self.0.loads().detail(self.0.linkage(), reach, ellipse);
+        let loads = self.0.loads();
+        let seen = self.0.linkage().seen(reach, loads.meet_slider());
+        let force = loads.detail(&seen, seen.arms(), ellipse);
         force.times(1.0 / self.0.terms(reach.angle.middle()).inertia.m)
     }
 

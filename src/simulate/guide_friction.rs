@@ -4,8 +4,9 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use super::angle_model::Spot;
 use crate::engine::angle::Table;
-use crate::mechanism::{Curve, CurveEquation, CurveTerms, Equation, LoadValue, Loads, Touch};
+use crate::mechanism::{Arms, Curve, CurveEquation, CurveTerms, Equation, LoadValue, Loads, Touch};
 use crate::numeric::angle::Angle;
+use crate::numeric::enclosure::Interval;
 use crate::scene::Scene;
 
 /// Within this part of the crank length x' has no sign.
@@ -105,6 +106,24 @@ impl Sliding {
             }
         }
         table.switch = Some(switch);
+    }
+
+    /// What friction at most drives the crank with, N m, for a load of one, at the ends and the middle of a range of angles
+    /// (rad): the points of a panel show what the linkage does between them.
+    pub fn arms(&self, angle: Interval) -> Arms {
+        let at = |theta: f64| {
+            let normal = self.equation.across(theta).normal();
+            let grip = |c| normal.grip(c).unwrap_or(f64::INFINITY).abs();
+            let most = grip(self.mu).max(grip(-self.mu));
+            Arms {
+                torque: normal.torque * most,
+                force: normal.force * most,
+            }
+        };
+        [angle.low, angle.middle(), angle.high]
+            .map(at)
+            .into_iter()
+            .fold(Arms::default(), Arms::larger)
     }
 
     /// θ̈ (rad/s²) and the forces of the guide; none at rest.

@@ -23,6 +23,7 @@ mod ode_solvers_defects;
 mod peaks;
 mod precision;
 mod pulses;
+mod pulses_guided;
 mod reasons;
 mod rockers;
 mod rows;

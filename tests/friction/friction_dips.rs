@@ -197,7 +197,7 @@ fn changes(dip: &Dip, sign: f64) -> Vec<f64> {
     };
     let mut step = Step::new(0.0, node(0.0), node(1.3));
     let mut signs = [sign];
-    let found = event_functions::changes(&mut step, &Steady, dip, &mut signs);
+    let found = event_functions::changes(&mut step, &Steady, dip, false, &mut signs);
     assert_eq!(signs, [1.0]);
     found.into_iter().map(|change| change.t).collect()
 }

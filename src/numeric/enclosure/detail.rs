@@ -99,6 +99,9 @@ impl Detail {
 
     /// The function times a factor.
     pub fn times(self, by: f64) -> Detail {
+        if self == Detail::NONE {
+            return self;
+        }
         let change = self.change * by;
         Detail {
             change: if change.is_nan() {

@@ -25,8 +25,16 @@ impl<const N: usize, const M: usize, P: Pieces<N, M>> Run<'_, N, M, P> {
         h: &mut f64,
         t_end: f64,
     ) -> Option<Option<usize>> {
+        let mut at_corner = false;
         while y[0].value() < t_end {
             let stop = self.pieces.next_time(y[0].value()).min(t_end);
+            if at_corner {
+                // A margin may have jumped there.
+                let mut margins = self.pieces.margins(mode, y).into_iter();
+                if let Some(which) = margins.position(|margin| margin.value() < 0.0) {
+                    return Some(Some(which));
+                }
+            }
             let left = DoubleDouble::from(stop) - y[0];
             let last = *h >= left.value() * (1.0 - 1e-9);
             let step = if last { left } else { DoubleDouble::from(*h) };
@@ -51,6 +59,7 @@ impl<const N: usize, const M: usize, P: Pieces<N, M>> Run<'_, N, M, P> {
             let grown = step.value() * growth(error);
             *h = if last { grown.max(*h) } else { grown };
             *y = end;
+            at_corner = last;
         }
         Some(None)
     }

@@ -67,8 +67,9 @@ impl Guided<'_> {
             equations.q[0] += mass * (rate[0] * gx + rate[1] * gy);
         }
         let x = a[0] + arm[0];
+        let between = self.between.get();
         let now = Instant {
-            t: y[0].value(),
+            t: y[0].value().max(between.low).min(between.high),
             theta: y[1].value(),
             omega: omega.value(),
             x: x.value(),

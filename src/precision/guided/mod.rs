@@ -7,9 +7,12 @@
 
 mod equations;
 
+use std::cell::Cell;
+
 use super::extended::Extended;
 use super::extrapolation::{Change, Fineness, Pieces, State, follow};
 use crate::numeric::double_double::DoubleDouble;
+use crate::numeric::enclosure::Interval;
 use crate::scene::{Friction, Scene};
 use equations::Equations;
 
@@ -31,7 +34,12 @@ pub(super) struct Guided<'a> {
     t_end: f64,
     /// Size of the angular speeds, rad/s.
     pace: f64,
+    /// Loads are those between two corners over time (s), at their ends too.
+    between: Cell<Interval>,
 }
+
+/// A corner over time is known to this part of the run.
+const AT_CORNER: f64 = 4.0 * f64::EPSILON;
 
 impl<'a> Guided<'a> {
     /// The mechanism of a scene, for a run to `t_end` (s).
@@ -41,6 +49,7 @@ impl<'a> Guided<'a> {
             friction: scene.reduced().friction,
             t_end,
             pace: scene.motion.speed.abs().max(1.0 / t_end),
+            between: Cell::new(Interval::WHOLE),
         }
     }
 
@@ -109,6 +118,7 @@ impl<'a> Guided<'a> {
         let Some(friction) = self.friction else {
             return Change::Mode(None);
         };
+        self.between.set(Interval::WHOLE);
         let mut still = self.resting(y);
         let mut band = |t: f64| {
             still[0] = DoubleDouble::from(t);
@@ -191,8 +201,10 @@ impl Pieces<NUMBERS, MARGINS> for Guided<'_> {
     }
 
     fn next_time(&self, t: f64) -> f64 {
-        let corners = self.extended.loads().map(|load| load.next_corner(t));
-        corners.fold(f64::INFINITY, f64::min)
+        let next = self.extended.next_corner(t);
+        let beside = AT_CORNER * self.t_end;
+        self.between.set(Interval::new(t + beside, next - beside));
+        next
     }
 
     fn sizes(&self, y: &State<NUMBERS>) -> [f64; NUMBERS] {

@@ -182,8 +182,7 @@ impl Pieces<NUMBERS, MARGINS> for Loose<'_> {
     }
 
     fn next_time(&self, t: f64) -> f64 {
-        let corners = self.extended.loads().map(|load| load.next_corner(t));
-        corners.fold(f64::INFINITY, f64::min)
+        self.extended.next_corner(t)
     }
 
     fn sizes(&self, _: &State<NUMBERS>) -> [f64; NUMBERS] {

@@ -110,11 +110,6 @@ impl<'a> AngleModel<'a> {
         self
     }
 
-    /// Whether the loads depend on the position alone and are the same in each turn.
-    pub fn turns_are_alike(&self) -> bool {
-        self.work_of_turn.is_some()
-    }
-
     /// Positions at which inertia and force were computed so far.
     pub fn evaluations(&self) -> u64 {
         self.evaluations.get()
@@ -213,8 +208,11 @@ impl Driven for AngleModel<'_> {
     }
 
     fn detail(&self, reach: &Reach, ellipse: f64) -> Detail {
-        let (loads, linkage) = (self.equation.loads(), self.equation.linkage());
-        loads.detail_of_state(linkage, reach, ellipse)
+        let loads = self.equation.loads();
+        let seen = self.equation.linkage().seen(reach, loads.meet_slider());
+        let rubbed = self.sliding.map(|sliding| sliding.arms(reach.angle));
+        let arms = seen.arms().plus(rubbed.unwrap_or_default());
+        loads.detail_of_state(&seen, arms, ellipse)
     }
 
     fn drive_switch(&self, place: &Spot, t: f64, angle: Angle, speed: f64) -> f64 {

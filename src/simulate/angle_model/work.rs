@@ -16,6 +16,11 @@ impl<'a> AngleModel<'a> {
             .map(|mark| mark - before)
     }
 
+    /// Whether the loads depend on the position alone and are the same in each turn.
+    pub fn turns_are_alike(&self) -> bool {
+        self.work_of_turn.is_some()
+    }
+
     /// For loads that depend on the position alone and are the same in each turn.
     pub fn with_turns_alike(mut self) -> AngleModel<'a> {
         let torque = TAU * self.equation.loads().constant_torque();

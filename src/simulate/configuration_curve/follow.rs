@@ -168,10 +168,14 @@ impl Run<'_, '_> {
         let vanishing = equation.vanishes_somewhere();
         let (quantities, observer) = (&self.quantities, &mut *self.observer);
         let signs = &mut self.signs;
+        let begin = self.now.t;
         let (finish, last, steps) = time::run(&motion, self.now, &settings, &mut |step| {
             let mut step = *step;
             let mut after = *signs;
-            for change in event_functions::changes(&mut step, &looked_at, quantities, &mut after) {
+            let follows = step.start.t > begin;
+            let changes =
+                event_functions::changes(&mut step, &looked_at, quantities, follows, &mut after);
+            for change in changes {
                 let (theta, speed) = step.at(change.t);
                 if vanishing && equation.vanishes_at(theta) {
                     (vanished, beyond) = (true, true);

@@ -108,17 +108,17 @@ impl Motion for InPhase<'_> {
         self.equation.loads().next_corner(t)
     }
 
-    // Loads are enclosed over the crank angle; what they do to the friction of the guide is not.
     fn has_detail(&self) -> bool {
-        let loads = self.equation.loads();
-        let seen = self.equation.curve().is_crank_angle() && loads.are_dry();
-        seen && self.equation.friction().is_none() && loads.have_detail()
+        matches!(self.phase, Phase::Sliding { .. }) && self.equation.loads().have_detail()
     }
 
     fn detail(&self, reach: &Reach, ellipse: f64) -> Detail {
-        let linkage = self.equation.curve().linkage();
-        let force = self.equation.loads().detail(linkage, reach, ellipse);
-        force.times(1.0 / self.equation.across(reach.angle.middle()).m)
+        let Phase::Sliding { c, .. } = self.phase else {
+            return Detail::NONE;
+        };
+        let loads = self.equation.loads();
+        let seen = self.equation.curve().seen(reach, loads.meet_slider());
+        loads.detail(&seen, self.equation.arms(reach.angle, c), ellipse)
     }
 }
 

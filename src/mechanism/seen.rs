@@ -1,0 +1,255 @@
+//! What the loads see of a piece of a motion: intervals of time, angle, speed, slider position and velocity.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use super::configuration_curve::Chart;
+use super::rocker::Rocker;
+use super::{Curve, Linkage};
+use crate::numeric::enclosure::{Interval, Reach};
+
+/// Ranges of what loads depend on. Not enclosed is what no load asks for.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen {
+    /// s
+    pub t: Interval,
+    /// Crank angle, rad, unwrapped.
+    pub theta: Interval,
+    /// rad/s
+    pub omega: Interval,
+    /// m
+    pub x: Interval,
+    /// m/s
+    pub v: Interval,
+    /// x', m/rad of the coordinate.
+    pub dx: Interval,
+    /// Nodes are those of one of so many equal parts of time, angle and speed.
+    pub parts: f64,
+}
+
+/// What a load of one does: torques, per N m, and slider forces, per N.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Arms {
+    /// Of torques.
+    pub torque: f64,
+    /// Of slider forces.
+    pub force: f64,
+}
+
+impl Seen {
+    /// Of the generalized force over the crank angle: Q = τ + F x'.
+    pub fn arms(&self) -> Arms {
+        Arms {
+            torque: 1.0,
+            force: self.dx.largest(),
+        }
+    }
+}
+
+impl Arms {
+    /// Of what acts in two ways.
+    pub fn plus(self, other: Arms) -> Arms {
+        Arms {
+            torque: self.torque.abs() + other.torque.abs(),
+            force: self.force.abs() + other.force.abs(),
+        }
+    }
+
+    /// The larger ones of two positions.
+    pub fn larger(self, other: Arms) -> Arms {
+        Arms {
+            torque: self.torque.abs().max(other.torque.abs()),
+            force: self.force.abs().max(other.force.abs()),
+        }
+    }
+}
+
+/// Positions over a range of a coordinate q.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Places {
+    /// Angle that belongs to q, rad: φ of a linkage, θ of a curve.
+    pub angle: Interval,
+    /// Derivative of the angle with respect to q.
+    pub dangle: Interval,
+    /// m
+    pub x: Interval,
+    /// m/rad
+    pub dx: Interval,
+}
+
+fn point(at: f64) -> Interval {
+    Interval::point(at)
+}
+
+fn sine(of: Interval) -> Interval {
+    Interval::new(of.low.max(-1.0), of.high.min(1.0))
+}
+
+fn root(of: Interval) -> Interval {
+    Interval::new(of.low.max(0.0), of.high.max(0.0)).rising(f64::sqrt)
+}
+
+impl Linkage {
+    /// Over crank angles: φ, φ', x and x'.
+    pub(super) fn enclose(&self, theta: Interval) -> Places {
+        let (sin, cos) = (theta.sin(), theta.cos());
+        let sin_phi = sine((point(self.e) + point(self.r) * sin) * point(1.0 / self.l));
+        let cos_phi = root(point(1.0) - sin_phi.square());
+        let along = point(self.r) * cos;
+        let per = cos_phi.reciprocal();
+        Places {
+            angle: sin_phi.rising(f64::asin),
+            dangle: along * point(1.0 / self.l) * per,
+            x: along + point(self.s * self.l) * cos_phi,
+            dx: -(point(self.r) * sin) - point(self.s) * along * sin_phi * per,
+        }
+    }
+
+    /// A motion over the crank angle; positions only where loads depend on them.
+    pub fn seen(&self, reach: &Reach, by_place: bool) -> Seen {
+        let (x, dx) = if by_place {
+            let places = self.enclose(reach.angle);
+            (places.x, places.dx)
+        } else {
+            (Interval::WHOLE, Interval::WHOLE)
+        };
+        Seen {
+            t: reach.t,
+            theta: reach.angle,
+            omega: reach.speed,
+            x,
+            v: dx * reach.speed,
+            dx,
+            parts: reach.parts,
+        }
+    }
+}
+
+impl Rocker {
+    /// Over coordinates: θ, θ', x and x'.
+    fn enclose(&self, linkage: &Linkage, q: Interval) -> Places {
+        let (mirror, fold) = (point(self.mirror), point(self.fold));
+        let quarter_less = q - point(FRAC_PI_2);
+        let crank = self.crank.enclose(q);
+        // cos q is the sine of a right angle less, to either side.
+        let rod = self.rod.enclose(-quarter_less);
+        let (r, l) = (point(linkage.r), point(linkage.l));
+        let (dtheta, drod) = (mirror * crank.slope, mirror * fold * rod.slope);
+        let (y, rod_y) = (-(r * mirror * crank.cos), l * mirror * rod.cos);
+        Places {
+            angle: mirror * (crank.angle - point(FRAC_PI_2)),
+            dangle: dtheta,
+            x: r * crank.sin + l * fold * rod.sin,
+            dx: -(y * dtheta) - rod_y * drod,
+        }
+    }
+}
+
+impl Curve {
+    fn enclose(&self, q: Interval) -> Places {
+        let turns = point(self.turns * TAU);
+        match &self.chart {
+            Chart::Crank => Places {
+                angle: q,
+                dangle: point(1.0),
+                ..self.linkage().enclose(q)
+            },
+            Chart::Rod(swapped) => {
+                let places = swapped.enclose(q);
+                let (angle, sign) = match swapped.s < 0.0 {
+                    true => (point(PI) - places.angle, -1.0),
+                    false => (places.angle, 1.0),
+                };
+                Places {
+                    angle: angle + turns,
+                    dangle: point(sign) * places.dangle,
+                    ..places
+                }
+            }
+            Chart::Rocker(rocker) => {
+                let places = rocker.enclose(self.linkage(), q);
+                Places {
+                    angle: places.angle + turns,
+                    ..places
+                }
+            }
+        }
+    }
+
+    /// A motion over the coordinate of the curve; positions only where loads depend on them.
+    pub fn seen(&self, reach: &Reach, by_place: bool) -> Seen {
+        if self.is_crank_angle() {
+            return self.linkage().seen(reach, by_place);
+        }
+        let places = self.enclose(reach.angle);
+        Seen {
+            t: reach.t,
+            theta: places.angle,
+            omega: places.dangle * reach.speed,
+            x: places.x,
+            v: places.dx * reach.speed,
+            dx: places.dx,
+            // A part of the way may be a larger one of the crank angle.
+            parts: 1.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mechanism::{Class, Limits};
+    use crate::numeric::angle::Angle;
+    use crate::scene::{Branch, Geometry};
+
+    /// Crank, rod, offset (m) and start (rad): each kind of curve.
+    const CURVES: [([f64; 3], f64); 6] = [
+        ([0.05, 0.15, 0.01], 0.3),
+        ([0.15, 0.05, 0.01], 0.2),
+        ([0.15, 0.05, -0.01], 3.0),
+        ([0.1, 0.12, 0.05], 0.4),
+        ([0.1, 0.12, -0.05], 0.4),
+        ([0.1, 0.1, 0.0], 0.4),
+    ];
+
+    #[test]
+    fn every_position_lies_in_its_enclosure() {
+        let mut kinds = std::collections::BTreeSet::new();
+        for (lengths, start) in CURVES {
+            for branch in [Branch::Right, Branch::Left] {
+                let [crank, rod, offset] = lengths;
+                let geometry = Geometry {
+                    crank,
+                    rod,
+                    offset,
+                    branch,
+                };
+                let linkage = Linkage::new(&geometry);
+                kinds.insert(format!("{:?}", Class::of(&linkage)));
+                assert!(Limits::new(&linkage, start).dead_centres.len() < 9);
+                let (curve, _) = Curve::through(&linkage, Angle::from(start)).expect("a position");
+                for k in 0..200 {
+                    let low = -7.0 + 0.07 * f64::from(k);
+                    let width = 2.0f64.powi(-(k % 12));
+                    let q = Interval::new(low, low + width);
+                    let places = curve.enclose(q);
+                    for part in 0..=20 {
+                        let q = low + width * f64::from(part) / 20.0;
+                        let place = curve.place(q);
+                        let theta = curve.crank_angle(Angle::from(q)).radians();
+                        let holds = |of: Interval, value: f64| {
+                            assert!(
+                                of.widened(1e-13).contains(value),
+                                "{of:?} {value} {curve:?}"
+                            );
+                        };
+                        holds(places.angle, theta);
+                        holds(places.dangle, place.dtheta);
+                        holds(places.x, place.x);
+                        holds(places.dx, place.dx);
+                    }
+                }
+            }
+        }
+        assert_eq!(kinds.len(), 4, "{kinds:?}");
+    }
+}
