@@ -62,7 +62,8 @@ pub fn changes<const N: usize>(
     for (index, sign) in signs.iter_mut().enumerate() {
         let value = |t: f64| look(step, watched, t).values[index];
         if follows && has_jumped(&fine, index, *sign) {
-            let t = step.start.t + 0.5f64.powi(HALVINGS) * step.length();
+            // Not at the start itself, so that the motion goes on.
+            let t = step.start.t * (1.0 + 4.0 * f64::EPSILON);
             found.push(Change { t, index });
             *sign = -*sign;
         }
@@ -151,12 +152,14 @@ fn look<const N: usize>(step: &Step, watched: &dyn EventFunction<N>, t: f64) -> 
         values: watched.values(t, step.angle(theta), omega),
     }
 }
+
+/// Steps end at jumps of loads. The first and the last look are this part of the step beside its ends, so that they show the
+/// values inside.
+const BESIDE: f64 = 1e-9;
+
 fn time(step: &Step, piece: usize, pieces: usize) -> f64 {
-    if piece == pieces {
-        step.end.t
-    } else {
-        step.start.t + step.length() * piece as f64 / pieces as f64
-    }
+    let part = (piece as f64 / pieces as f64).clamp(BESIDE, 1.0 - BESIDE);
+    step.start.t + step.length() * part
 }
 
 fn sampled<const N: usize>(
