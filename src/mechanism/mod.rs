@@ -37,7 +37,7 @@ pub use batch::Instants;
 pub use body::{Bodies, Body, Path};
 pub use clearance::{
     Depth, GuideForces, JointTouch, LooseMechanism, LooseRates, LooseState, NormalForce, Rubbing,
-    Turned,
+    SpeedSizes, Turned,
 };
 pub use configuration_curve::{Curve, Place};
 pub use curve_equation::{CurveEquation, CurveTerms};

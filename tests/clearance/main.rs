@@ -6,3 +6,4 @@ mod support;
 mod clearance;
 mod clearance_friction;
 mod clearance_reactions;
+mod narrow_loads;

@@ -107,6 +107,8 @@ impl<D: Driven> OnPanel<'_, D> {
 }
 
 impl<D: Driven> Way for OnPanel<'_, D> {
+    type Part = Reach;
+
     fn reach(&self, from: f64, to: f64) -> Reach {
         let slope = &self.swept.slope;
         let [about, steep] = self.varies;

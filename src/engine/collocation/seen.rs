@@ -23,6 +23,8 @@ impl OnStep<'_> {
 }
 
 impl Way for OnStep<'_> {
+    type Part = Reach;
+
     fn reach(&self, from: f64, to: f64) -> Reach {
         let [begin, middle, end] = [from, 0.5 * (from + to), to].map(|at| self.time(at));
         let most: f64 = self.coefficients.iter().map(|c| c.abs()).sum();

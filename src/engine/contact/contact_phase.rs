@@ -136,7 +136,8 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
                 }
                 continue;
             }
-            if end[0] > self.until || model.pressing(approach, then.depth_rate) < 0.0 {
+            let hides = self.hides(&end).is_some();
+            if hides || end[0] > self.until || model.pressing(approach, then.depth_rate) < 0.0 {
                 return Ok(false);
             }
             s = next;

@@ -13,7 +13,10 @@ mod discontinuities;
 mod dop853;
 mod flight;
 mod run;
+mod seen;
 mod step;
+
+use crate::numeric::enclosure::{Detail, Interval};
 
 pub use accepted_step::Stretch;
 pub use run::{Ended, Finish, run};
@@ -98,6 +101,13 @@ pub trait Contact<const N: usize> {
 
     /// The next time after t (s) at which the rates are not smooth in time.
     fn next_corner(&self, t: f64) -> f64;
+
+    /// Whether the rates may do something between the stages of a step that its error does not tell.
+    fn has_detail(&self) -> bool;
+
+    /// What loads change in the rates over the sizes of their numbers, 1/s, over ranges of a state, and in an ellipse of this
+    /// size around them.
+    fn detail(&self, over: &[Interval; N], ellipse: f64) -> Detail;
 
     /// Size of each number, which the tolerance is relative to; the first `counted` are under error control.
     fn sizes(&self) -> ([f64; N], usize);

@@ -219,6 +219,11 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             let stages = self.try_step(h);
             let error = self.error(&stages, &self.scale(h));
             if error <= 1.0 {
+                if let Some(shorter) = self.hides(stages.end()) {
+                    self.h = shorter;
+                    rejected = true;
+                    continue;
+                }
                 let most = if rejected { 1.0 } else { 6.0 };
                 let grown = h * growth(error).min(most);
                 // A step that was cut short says little about the next.

@@ -4,20 +4,23 @@ mod steps;
 
 use std::f64::consts::PI;
 
-use crate::numeric::enclosure::{Detail, Reach};
+use crate::numeric::enclosure::Detail;
 
 pub use steps::Proof;
 
 /// The motion on a panel or a step, over its part from 0 to 1.
 pub trait Way {
-    /// The values that time, angle and speed have between two parts of it.
-    fn reach(&self, from: f64, to: f64) -> Reach;
+    /// The values of all that forces depend on.
+    type Part;
+
+    /// The values between two parts of it.
+    fn reach(&self, from: f64, to: f64) -> Self::Part;
 
     /// The force there less that which the nodes show.
     fn missed(&self, at: f64) -> f64;
 
     /// What the force does on a piece of the motion, and in an ellipse of this size around it.
-    fn detail(&self, reach: &Reach, ellipse: f64) -> Detail;
+    fn detail(&self, part: &Self::Part, ellipse: f64) -> Detail;
 }
 
 /// How a panel or a step is looked at.

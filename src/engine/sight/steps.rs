@@ -76,6 +76,8 @@ struct OnStep<'a> {
 }
 
 impl Way for OnStep<'_> {
+    type Part = Reach;
+
     fn reach(&self, from: f64, to: f64) -> Reach {
         let step = self.step;
         let time = |at: f64| step.start.t + at * step.length();

@@ -88,11 +88,23 @@ impl LooseMechanism {
         action: Action,
         rubbing: Rubbing,
     ) -> LooseRates {
-        let load = self.load(s);
+        self.under(&self.load(s), s, f, action, rubbing)
+    }
+
+    /// The accelerations under a load.
+    #[inline(always)]
+    pub(super) fn under(
+        &self,
+        load: &LoadValue,
+        s: &LooseState,
+        f: &Frame,
+        action: Action,
+        rubbing: Rubbing,
+    ) -> LooseRates {
         // Moment on the crank beside the torque of the loads, N m.
         let (mut rates, on_crank) = match self.joint {
-            Joint::CrankPin => self.loose_at_crank(s, f, &action, &load, rubbing),
-            Joint::WristPin => self.loose_at_slider(s, f, &action, &load, rubbing),
+            Joint::CrankPin => self.loose_at_crank(s, f, &action, load, rubbing),
+            Joint::WristPin => self.loose_at_slider(s, f, &action, load, rubbing),
         };
         rates.on_rod = action.force;
         rates.power = load.force * s.v;

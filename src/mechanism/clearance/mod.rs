@@ -8,11 +8,13 @@ mod energy;
 mod forces;
 mod law;
 mod rubbing;
+mod seen;
 mod start;
 mod turn;
 
 pub use law::NormalForce;
 pub use rubbing::{GuideForces, Rubbing};
+pub use seen::SpeedSizes;
 pub use turn::Turned;
 
 use super::Loads;

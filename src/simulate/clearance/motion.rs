@@ -1,7 +1,8 @@
 //! The mechanism with a loose joint as the integrator sees it.
 
 use crate::engine::contact::{Contact, Phase, Sample};
-use crate::mechanism::{JointTouch, LooseMechanism, LooseState, Rubbing, Turned};
+use crate::mechanism::{JointTouch, LooseMechanism, LooseState, Rubbing, SpeedSizes, Turned};
+use crate::numeric::enclosure::{Detail, Interval};
 
 /// Numbers of a state whose crank moves by itself: t, θ, ψ, x and their rates, the work of the loads and the
 /// energy lost in the contact and by friction at the guide.
@@ -190,6 +191,20 @@ impl<const N: usize> Contact<N> for Loose<'_, N> {
 
     fn next_corner(&self, t: f64) -> f64 {
         (self.corners)(t)
+    }
+
+    fn has_detail(&self) -> bool {
+        self.mechanism.has_detail()
+    }
+
+    fn detail(&self, over: &[Interval; N], ellipse: f64) -> Detail {
+        let low = self.state(&over.map(|of| of.low));
+        let high = self.state(&over.map(|of| of.high));
+        let sizes = SpeedSizes {
+            turning: self.angle * self.pace,
+            sliding: self.length * self.pace,
+        };
+        self.mechanism.detail([&low, &high], sizes, ellipse)
     }
 
     fn sizes(&self) -> ([f64; N], usize) {

@@ -1,0 +1,69 @@
+//! Whether the stages of a step show the loads on it.
+
+use super::Contact;
+use super::run::Runner;
+use crate::engine::sight::{Look, Way, hidden};
+use crate::numeric::enclosure::{Detail, Interval, ellipse};
+
+/// Order of the method: as many nodes it is worth.
+const ORDER: usize = 8;
+/// No step ends closer to its start than this part of the time.
+const SHORTEST: f64 = 16.0 * f64::EPSILON;
+
+/// A step in time.
+struct OnStep<'a, M: Contact<N>, const N: usize> {
+    model: &'a M,
+    start: &'a [f64; N],
+    end: &'a [f64; N],
+    /// Rates at the start.
+    first: &'a [f64; N],
+}
+
+impl<M: Contact<N>, const N: usize> Way for OnStep<'_, M, N> {
+    type Part = [Interval; N];
+
+    /// The parabola from the start with its rates to the end; off it is less than its own bend.
+    fn reach(&self, from: f64, to: f64) -> [Interval; N] {
+        let h = self.end[0] - self.start[0];
+        std::array::from_fn(|i| {
+            let straight = h * self.first[i];
+            let bend = self.end[i] - self.start[i] - straight;
+            let at = |u: f64| self.start[i] + u * (straight + u * bend);
+            let width = to - from;
+            Interval::between(at(from), at(to)).widened(bend.abs() * width * width)
+        })
+    }
+
+    fn missed(&self, _at: f64) -> f64 {
+        0.0
+    }
+
+    fn detail(&self, part: &[Interval; N], ellipse: f64) -> Detail {
+        self.model.detail(part, ellipse)
+    }
+}
+
+impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
+    /// How long the step to a state may be (s) so that its stages show the loads; none if they do.
+    pub(super) fn hides(&self, end: &[f64; N]) -> Option<f64> {
+        if !self.model.has_detail() {
+            return None;
+        }
+        let h = end[0] - self.y[0];
+        let tolerance = self.settings.tolerance;
+        let look = Look {
+            nodes: ORDER,
+            ellipse: ellipse(ORDER, tolerance),
+            allowed: tolerance / h,
+            least: SHORTEST * end[0].abs() / h,
+            compares: false,
+        };
+        let way = OnStep {
+            model: self.model,
+            start: &self.y,
+            end,
+            first: &self.now.rates,
+        };
+        hidden(&way, look).map(|hidden| hidden.at * h)
+    }
+}

@@ -1,0 +1,66 @@
+//! What loads do between two states of a mechanism with a loose joint.
+
+use std::f64::consts::TAU;
+
+use super::rubbing::Rubbing;
+use super::{Action, LooseMechanism, LooseState};
+use crate::mechanism::{Arms, LoadValue, Seen};
+use crate::numeric::enclosure::{Detail, Interval};
+
+/// Sizes of the speeds, which their changes are measured by.
+#[derive(Clone, Copy, Debug)]
+pub struct SpeedSizes {
+    /// Of crank and rod, rad/s.
+    pub turning: f64,
+    /// Of the slider, m/s.
+    pub sliding: f64,
+}
+
+impl LooseMechanism {
+    /// Whether loads may do something between the stages of a step.
+    pub fn has_detail(&self) -> bool {
+        self.loads.as_ref().is_some_and(|loads| loads.have_detail())
+    }
+
+    /// What the loads change in the accelerations, each over the size of its speed (1/s), where all numbers of the state
+    /// lie between those of two states, and in an ellipse of this size around that.
+    pub fn detail(&self, [low, high]: [&LooseState; 2], sizes: SpeedSizes, ellipse: f64) -> Detail {
+        let Some(loads) = &self.loads else {
+            return Detail::NONE;
+        };
+        let between = |of: fn(&LooseState) -> f64| Interval::between(of(low), of(high));
+        let seen = Seen {
+            t: between(|s| s.t),
+            theta: between(|s| s.theta) + Interval::point(self.turns * TAU),
+            omega: between(|s| s.omega),
+            x: between(|s| s.x),
+            v: between(|s| s.v),
+            dx: Interval::WHOLE,
+            parts: 1.0,
+        };
+        loads.detail(&seen, self.arms(low, sizes), ellipse)
+    }
+
+    /// The largest change of an acceleration over the size of its speed by a load of one, while the joint does not touch.
+    fn arms(&self, s: &LooseState, sizes: SpeedSizes) -> Arms {
+        let frame = self.frame(s);
+        let rates = |torque: f64, force: f64| {
+            let load = LoadValue { torque, force };
+            let rates = self.under(&load, s, &frame, Action::default(), Rubbing::Never);
+            [
+                rates.alpha / sizes.turning,
+                rates.spin_rate / sizes.turning,
+                rates.a / sizes.sliding,
+            ]
+        };
+        let without = rates(0.0, 0.0);
+        let largest = |with: [f64; 3]| {
+            let changes = with.iter().zip(&without).map(|(a, b)| (a - b).abs());
+            changes.fold(0.0, f64::max)
+        };
+        Arms {
+            torque: largest(rates(1.0, 0.0)),
+            force: largest(rates(0.0, 1.0)),
+        }
+    }
+}
