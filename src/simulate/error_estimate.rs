@@ -2,7 +2,8 @@
 
 use std::time::Instant;
 
-use super::result::{Cost, ErrorEstimate};
+use super::checkpoints::{Checkpoints, Compared};
+use super::result::{Cost, ErrorEstimate, Judged};
 use super::roundoff_propagation::Spread;
 use super::state_transition::Slopes;
 use crate::engine::step::Step;
@@ -101,6 +102,8 @@ pub(super) struct Ended<'a> {
     pub last: &'a Step,
     /// Evaluations it took.
     pub evaluations: u64,
+    /// States on its way.
+    pub checkpoints: &'a Checkpoints,
 }
 
 /// Global error of a run: its distance from a much better one, and what rounding may have added to both.
@@ -113,7 +116,7 @@ pub(super) fn estimate(
     start: Start,
     settings: &Settings,
     run: Ended<'_>,
-) -> Option<(ErrorEstimate, Cost)> {
+) -> Option<Judged> {
     let begun = Instant::now();
     let forward = Forward(equation);
     let t_end = run.last.end.t;
@@ -138,7 +141,7 @@ pub(super) fn estimate(
     let mut better = |settings: &Settings| {
         // Counted anew: what the other one took leaves its limit as it is.
         let motion = Counted::new(&forward);
-        let better = Better::run(equation, &motion, start, settings);
+        let better = Better::run(equation, &motion, start, settings, run.checkpoints);
         evaluations += motion.evaluations();
         better
     };
@@ -147,7 +150,12 @@ pub(super) fn estimate(
         evaluations,
         wall_s: begun.elapsed().as_secs_f64(),
     };
-    Some((better.distance(run), cost))
+    let end = better.distance(run);
+    Some(Judged {
+        end,
+        rows: better.compared.worst(end, MARGIN),
+        cost,
+    })
 }
 
 /// Tolerance of a run in time that is so much tighter that its own error does not count.
@@ -209,26 +217,34 @@ impl Rounding {
 }
 
 /// The run that another is compared with.
-struct Better {
+struct Better<'a> {
     last: Step,
+    compared: Compared<'a>,
     rounding: Rounding,
 }
 
-impl Better {
+impl<'a> Better<'a> {
     fn run(
         equation: &Equation,
         motion: &Counted<'_>,
         start: Start,
         settings: &Settings,
-    ) -> Option<Better> {
+        checkpoints: &'a Checkpoints,
+    ) -> Option<Better<'a>> {
         let force = || motion.acceleration(start.t, start.angle, start.speed);
         let moves = start.speed != 0.0 || motion.depends_on_time() || force() != 0.0;
         let mut rounding = Rounding::new(settings.method, moves);
+        let mut compared = checkpoints.compared();
         let (finish, last, _) = time::run(motion, start, settings, &mut |step| {
             rounding.step(equation, motion, step);
+            compared.pass(step, |_| 1.0);
             false
         });
-        (finish == Finish::AtEnd).then_some(Better { last, rounding })
+        (finish == Finish::AtEnd).then_some(Better {
+            last,
+            compared,
+            rounding,
+        })
     }
 
     fn distance(&self, run: Ended<'_>) -> ErrorEstimate {

@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use super::checkpoints::Checkpoints;
 use super::passages::{self, Stretch};
 use super::result::Event;
 use super::run_setup::RunSetup;
@@ -23,6 +24,8 @@ pub(super) struct Log {
     pub speed: (f64, f64),
     /// Index of the next row at a time; 0 before the first row of all.
     pub next_row: u64,
+    /// States on the way.
+    pub checkpoints: Checkpoints,
     /// Time spent on rows.
     pub row_time: Duration,
     /// Steps and pieces of the motion that may still be kept.
@@ -41,6 +44,7 @@ impl Log {
             kept: task.options.events_kept,
             speed: (speed, speed),
             next_row: 0,
+            checkpoints: Checkpoints::default(),
             row_time: Duration::ZERO,
             room: task.kept,
             pieces: (task.kept > 0).then(Vec::new),

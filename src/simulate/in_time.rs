@@ -72,6 +72,7 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
         let run = error_estimate::Ended {
             last: &last,
             evaluations,
+            checkpoints: &log.checkpoints,
         };
         error_estimate::estimate(equation, start, &settings, run)
     });
@@ -84,12 +85,13 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
             omega_rad_per_s: last.end.omega,
         },
         turned: angle.minus(start.angle),
-        error_estimate: estimate.map(|(error, _)| error),
+        error_estimate: estimate.map(|judged| judged.end),
+        rows_error: estimate.map(|judged| judged.rows),
         energy: energy_residual(equation, start, &last, log.fastest()),
         evaluations,
         steps,
         wall_s,
-        estimate_cost: estimate.map(|(_, cost)| cost),
+        estimate_cost: estimate.map(|judged| judged.cost),
         speed: log.speed,
         events: log.events,
         events_total: log.events_total,

@@ -4,6 +4,7 @@ mod angle_model;
 mod bounded_motion;
 mod by_angle;
 mod by_energy;
+mod checkpoints;
 mod clearance;
 mod closed_form;
 mod configuration_curve;

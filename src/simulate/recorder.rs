@@ -52,6 +52,7 @@ pub(super) struct Seen {
 impl Recorder<'_> {
     /// Takes a step; true ends the run.
     pub fn step(&mut self, step: &Step) -> bool {
+        self.log.checkpoints.pass(step);
         let mut step = *step;
         self.reached_turn_limit(&mut step);
         self.look_for_events(&mut step);

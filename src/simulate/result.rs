@@ -28,8 +28,9 @@ pub struct Summary {
     pub revolutions: f64,
     /// Estimate of the global error of the last state; none if it was not asked for or cannot be given.
     pub error_estimate: Option<ErrorEstimate>,
-    /// Error of the worst row of a run over the crank angle, which may lie where a series is not as good as at its
-    /// end; none without rows.
+    /// Error of the worst state on the way, of up to 128 that a second run is compared at: a run may end better than it was
+    /// before. None for a loose joint, for a run that was handed from one engine to another, and without rows over the
+    /// crank angle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rows_error: Option<ErrorEstimate>,
     /// Energy at the end minus energy at the start minus work of the loads, divided by the largest of the
@@ -185,6 +186,17 @@ impl ErrorEstimate {
             omega_rad_per_s: self.omega_rad_per_s.max(other.omega_rad_per_s),
         }
     }
+}
+
+/// A run that was compared with a better one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Judged {
+    /// Error of its last state.
+    pub end: ErrorEstimate,
+    /// Error of the worst state on its way.
+    pub rows: ErrorEstimate,
+    /// What the better one cost.
+    pub cost: Cost,
 }
 
 /// Evaluations and time.

@@ -20,6 +20,7 @@ mod hard_cases;
 mod limits_properties;
 mod many_turns;
 mod ode_solvers_defects;
+mod on_the_way;
 mod peaks;
 mod precision;
 mod pulses;

@@ -2,11 +2,16 @@
 
 use std::time::Instant;
 
-use super::super::result::{Cost, ErrorEstimate};
-use super::arrived::{Arrived, End, Follow};
+use super::super::checkpoints::{Checkpoints, Compared};
+use super::super::result::{Cost, ErrorEstimate, Judged};
+use super::arrived::{Arrived, End, Follow, Observer};
 use super::crank_state;
 use super::roundoff::Noise;
+use super::stick_slip::Phase;
+use crate::engine::step::Step;
 use crate::engine::time::{Method, Settings};
+use crate::mechanism::Curve;
+use crate::numeric::angle::Angle;
 
 /// The second run of the estimate, by collocation, is so much tighter that its own error does not count.
 const MUCH_TIGHTER: f64 = 1e4;
@@ -29,7 +34,11 @@ fn tighter(tolerance: f64) -> f64 {
 }
 
 /// Global error of the last state: its distance from a much better run, and what rounding may have added to both.
-pub(super) fn estimate(follow: &Follow<'_>, arrived: &Arrived) -> Option<(ErrorEstimate, Cost)> {
+pub(super) fn estimate(
+    follow: &Follow<'_>,
+    arrived: &Arrived,
+    checkpoints: &Checkpoints,
+) -> Option<Judged> {
     let begun = Instant::now();
     let tolerance = follow.settings.tolerance;
     let (factor, beside) = MOST_EVALUATIONS;
@@ -59,18 +68,45 @@ pub(super) fn estimate(follow: &Follow<'_>, arrived: &Arrived) -> Option<(ErrorE
             turn_limit: None,
             turned_from: follow.turned_from,
         };
-        let mut noise = Noise::new(follow.equation);
-        let best = better.run(&mut noise);
-        evaluations += best.evaluations + noise.evaluations.get();
-        (best.end == End::Done).then_some((best, noise))
+        let mut second = Second {
+            noise: Noise::new(follow.equation),
+            curve: follow.equation.curve(),
+            compared: checkpoints.compared(),
+        };
+        let best = better.run(&mut second);
+        evaluations += best.evaluations + second.noise.evaluations.get();
+        (best.end == End::Done).then_some((best, second))
     };
-    let (best, noise) = better(&collocation).or_else(|| better(&again))?;
-    let error = distance(follow, arrived, &best, &noise);
+    let (best, second) = better(&collocation).or_else(|| better(&again))?;
+    let end = distance(follow, arrived, &best, &second.noise);
     let cost = Cost {
         evaluations,
         wall_s: begun.elapsed().as_secs_f64(),
     };
-    Some((error, cost))
+    Some(Judged {
+        end,
+        rows: second.compared.worst(end, MARGIN),
+        cost,
+    })
+}
+
+/// What is seen of the second run.
+struct Second<'a> {
+    noise: Noise<'a>,
+    curve: &'a Curve,
+    compared: Compared<'a>,
+}
+
+impl Observer for Second<'_> {
+    fn step(&mut self, step: &Step, phase: Phase) -> bool {
+        let curve = self.curve;
+        self.compared.pass(step, |q| curve.place(q).dtheta);
+        self.noise.step(step, phase)
+    }
+
+    fn event(&mut self, kind: &'static str, t: f64, angle: Angle, speed: f64) {
+        self.noise.event(kind, t, angle, speed);
+    }
 }
 
 fn distance(

@@ -87,7 +87,7 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
         .and_then(|swing| swing.why(arrived.last.end.t, crank));
     let stopped = caught.or_else(|| why(task, &arrived, &constrained));
     let mut warnings = warnings(task);
-    let second = || estimate(&follow, &arrived);
+    let second = || estimate(&follow, &arrived, &log.checkpoints);
     let estimate = task.estimate(stopped.as_ref(), &mut warnings, second);
     let t_end = arrived.last.end.t;
     let (angle, omega) = crank_state(curve, &arrived.last);
@@ -98,12 +98,13 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
             omega_rad_per_s: omega,
         },
         turned: angle.minus(task.start()),
-        error_estimate: estimate.map(|(error, _)| error),
+        error_estimate: estimate.map(|judged| judged.end),
+        rows_error: estimate.map(|judged| judged.rows),
         energy: energy_residual(&constrained, equation, start, &arrived, log.fastest()),
         evaluations: arrived.evaluations,
         steps: arrived.steps,
         wall_s,
-        estimate_cost: estimate.map(|(_, cost)| cost),
+        estimate_cost: estimate.map(|judged| judged.cost),
         speed: log.speed,
         events: log.events,
         events_total: log.events_total,

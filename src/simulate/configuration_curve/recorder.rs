@@ -42,6 +42,7 @@ const PIECES: usize = 8;
 impl Observer for CurveWatch<'_> {
     fn step(&mut self, step: &Step, phase: Phase) -> bool {
         self.phase = phase;
+        self.log.checkpoints.pass(step);
         let mut step = *step;
         let equation = self.equation;
         let motion = InPhase { equation, phase };
