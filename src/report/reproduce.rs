@@ -219,7 +219,7 @@ pub fn drawing_svg(drawing: &Drawing) -> Result<String, Error> {
 }
 
 fn figure(title: &str, plot: &Plot) -> Figure {
-    let start = Figure::new(title, Axis::linear(plot.x), Axis::linear(plot.y));
+    let start = Figure::new(title, Axis::linear(&plot.x), Axis::linear(&plot.y));
     plot.series.iter().fold(start, |figure, series| {
         let (label, points) = (series.label.as_str(), series.points.clone());
         match series.style {

@@ -17,9 +17,9 @@ pub struct Drawing {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plot {
     /// Name and unit of the horizontal axis.
-    pub x: &'static str,
+    pub x: String,
     /// Name and unit of the vertical axis.
-    pub y: &'static str,
+    pub y: String,
     /// What is drawn.
     pub series: Vec<Series>,
 }
@@ -58,40 +58,19 @@ impl Drawing {
 }
 
 impl Plot {
-    pub(super) fn new(x: &'static str, y: &'static str) -> Plot {
+    pub(super) fn new(x: &str, y: &str) -> Plot {
         Plot {
-            x,
-            y,
+            x: x.to_owned(),
+            y: y.to_owned(),
             series: Vec::new(),
         }
     }
 
-    fn with(mut self, label: &str, style: Style, points: Vec<(f64, f64)>) -> Plot {
+    pub(super) fn add(&mut self, label: &str, style: Style, points: Vec<(f64, f64)>) {
         self.series.push(Series {
             label: label.to_owned(),
             style,
             points,
         });
-        self
     }
-
-    pub(super) fn line(self, label: &str, points: Vec<(f64, f64)>) -> Plot {
-        self.with(label, Style::Line, points)
-    }
-
-    pub(super) fn dashed(self, label: &str, points: Vec<(f64, f64)>) -> Plot {
-        self.with(label, Style::Dashed, points)
-    }
-
-    pub(super) fn points(self, label: &str, points: Vec<(f64, f64)>) -> Plot {
-        self.with(label, Style::Points, points)
-    }
-}
-
-/// f over a range in equal steps, ends included.
-pub(super) fn sampled(from: f64, to: f64, steps: u32, f: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
-    (0..=steps)
-        .map(|i| from + (to - from) * f64::from(i) / f64::from(steps))
-        .map(|x| (x, f(x)))
-        .collect()
 }

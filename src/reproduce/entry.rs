@@ -40,7 +40,7 @@ pub struct Entry {
     /// What is compared.
     pub what: String,
     /// Unit of all values.
-    pub unit: &'static str,
+    pub unit: String,
     /// The number as printed; of a formula, the value that it has as printed.
     pub printed: String,
     /// Ours, by mechanics; none where the paper does not give what it would follow from.
@@ -58,20 +58,22 @@ pub struct Entry {
 /// An entry before it is judged.
 #[derive(Clone, Debug)]
 pub(super) struct Claim {
-    place: String,
-    what: String,
-    unit: &'static str,
-    printed: Printed,
-    ours: Option<f64>,
-    conditional: Option<f64>,
+    pub place: String,
+    pub what: String,
+    pub unit: String,
+    pub printed: Printed,
+    pub ours: Option<f64>,
+    /// The value under the condition.
+    pub conditional: Option<f64>,
     /// Digits were cut off rather than rounded under the condition.
-    cut: bool,
-    condition: String,
-    expected: Verdict,
+    pub cut: bool,
+    /// What has to be assumed or mended, or why nothing helps.
+    pub condition: String,
+    pub expected: Verdict,
 }
 
 #[derive(Clone, Debug)]
-enum Printed {
+pub(super) enum Printed {
     /// A number as text, and how far a value may be from it.
     Number(String, f64, f64),
     /// The value of a formula.
@@ -82,120 +84,38 @@ enum Printed {
 /// of those that are not the same the nearest differ by 7e-5.
 const SAME: f64 = 1e-9;
 
-/// A printed number, right within half of its last digit.
-pub(super) fn number(place: &str, what: &str, unit: &'static str, text: &str, ours: f64) -> Claim {
-    let value: f64 = text.parse().expect("a printed number");
-    let decimals = text
-        .split_once('.')
-        .map_or(0, |(_, decimals)| decimals.len());
-    let half = 0.5 * 10f64.powi(-(decimals as i32));
-    claim(
-        place,
-        what,
-        unit,
-        Printed::Number(text.to_owned(), value, half * (1.0 + SAME)),
-        Some(ours),
-    )
-}
-
-/// A number that is read from a figure or said to be so "about", with its tolerance.
-pub(super) fn about(
-    place: &str,
-    what: &str,
-    unit: &'static str,
-    value: f64,
-    tolerance: f64,
-    ours: f64,
-) -> Claim {
-    let text = format!("about {value}");
-    claim(
-        place,
-        what,
-        unit,
-        Printed::Number(text, value, tolerance),
-        Some(ours),
-    )
-}
-
-/// Words that stand for all values between two.
-pub(super) fn worded(
-    place: &str,
-    what: &str,
-    unit: &'static str,
-    words: &str,
-    [least, most]: [f64; 2],
-    ours: f64,
-) -> Claim {
-    let (middle, half) = (0.5 * (least + most), 0.5 * (most - least));
-    let printed = Printed::Number(words.to_owned(), middle, half);
-    claim(place, what, unit, printed, Some(ours))
-}
-
-/// A printed number for which the paper gives nothing to compute it from.
-pub(super) fn without_data(place: &str, what: &str, unit: &'static str, text: &str) -> Claim {
-    Claim {
-        ours: None,
-        ..number(place, what, unit, text, f64::NAN)
-    }
-    .cannot("the paper does not give the data it would follow from")
-}
-
-/// A printed formula, evaluated, beside the mechanics.
-pub(super) fn formula(place: &str, what: &str, unit: &'static str, value: f64, ours: f64) -> Claim {
-    claim(place, what, unit, Printed::Formula(value), Some(ours))
-}
-
-fn claim(
-    place: &str,
-    what: &str,
-    unit: &'static str,
-    printed: Printed,
-    ours: Option<f64>,
-) -> Claim {
-    Claim {
-        place: place.to_owned(),
-        what: what.to_owned(),
-        unit,
-        printed,
-        ours,
-        conditional: None,
-        cut: false,
-        condition: String::new(),
-        expected: Verdict::Reproduces,
-    }
-}
-
 impl Claim {
-    /// Known to hold only if the condition does, under which the value is another.
-    pub fn only_if(self, condition: &str, value: f64) -> Claim {
-        Claim {
-            conditional: Some(value),
-            condition: condition.to_owned(),
-            expected: Verdict::OnlyIf,
-            ..self
-        }
+    /// A printed number, right within half of its last digit.
+    pub fn number(text: &str, value: f64, ours: Option<f64>) -> Claim {
+        let decimals = text.split_once('.').map_or(0, |(_, digits)| digits.len());
+        let half = 0.5 * 10f64.powi(-(decimals as i32));
+        let printed = Printed::Number(text.to_owned(), value, half * (1.0 + SAME));
+        Claim::new(printed, ours)
     }
 
-    /// As [`Self::only_if`], with digits cut off instead of rounded.
-    pub fn only_if_cut(self, condition: &str, value: f64) -> Claim {
-        Claim {
-            cut: true,
-            ..self.only_if(&format!("{condition}, digits cut off"), value)
-        }
+    /// Words that stand for all values between two.
+    pub fn between(words: &str, [least, most]: [f64; 2], ours: Option<f64>) -> Claim {
+        let (middle, half) = (0.5 * (least + most), 0.5 * (most - least));
+        Claim::new(Printed::Number(words.to_owned(), middle, half), ours)
     }
 
-    /// Known not to hold, with the reason.
-    pub fn cannot(self, reason: &str) -> Claim {
-        Claim {
-            condition: reason.to_owned(),
-            expected: Verdict::Cannot,
-            ..self
-        }
+    /// A printed formula, evaluated, beside the mechanics.
+    pub fn formula(value: f64, ours: Option<f64>) -> Claim {
+        Claim::new(Printed::Formula(value), ours)
     }
 
-    /// What the comparison is known to say.
-    pub fn expect(self, expected: Verdict) -> Claim {
-        Claim { expected, ..self }
+    fn new(printed: Printed, ours: Option<f64>) -> Claim {
+        Claim {
+            place: String::new(),
+            what: String::new(),
+            unit: String::new(),
+            printed,
+            ours,
+            conditional: None,
+            cut: false,
+            condition: String::new(),
+            expected: Verdict::Reproduces,
+        }
     }
 
     pub fn judged(self, paper: &'static str) -> Entry {
@@ -258,41 +178,53 @@ impl Claim {
 mod tests {
     use super::*;
 
-    fn verdict(claim: Claim) -> Verdict {
+    fn verdict(claim: Claim, conditional: f64, cut: bool) -> Verdict {
+        let conditional = Some(conditional);
+        let claim = Claim {
+            conditional,
+            cut,
+            ..claim
+        };
         claim.judged("paper").verdict
     }
 
     #[test]
     fn a_number_holds_within_half_of_its_last_digit() {
-        let ours = |ours: f64| number("", "", "N", "12.50", ours);
-        assert_eq!(verdict(ours(12.5049)), Verdict::Reproduces);
-        assert_eq!(verdict(ours(12.5051)), Verdict::Cannot);
-        assert_eq!(verdict(ours(12.6).only_if("", 12.495)), Verdict::OnlyIf);
-        assert_eq!(verdict(ours(12.6).only_if("", 12.509)), Verdict::Cannot);
-        assert_eq!(verdict(ours(12.6).only_if_cut("", 12.509)), Verdict::OnlyIf);
-        assert_eq!(verdict(ours(12.6).only_if_cut("", 12.511)), Verdict::Cannot);
-        assert_eq!(verdict(ours(12.6).only_if_cut("", 12.494)), Verdict::Cannot);
-        assert_eq!(verdict(ours(f64::NAN)), Verdict::Cannot);
-        assert_eq!(verdict(without_data("", "", "N", "1.0")), Verdict::Cannot);
+        let of = |ours: f64, conditional: f64, cut: bool| {
+            verdict(Claim::number("12.50", 12.5, Some(ours)), conditional, cut)
+        };
+        assert_eq!(of(12.5049, f64::NAN, false), Verdict::Reproduces);
+        assert_eq!(of(12.5051, f64::NAN, false), Verdict::Cannot);
+        assert_eq!(of(12.6, 12.495, false), Verdict::OnlyIf);
+        assert_eq!(of(12.6, 12.509, false), Verdict::Cannot);
+        assert_eq!(of(12.6, 12.509, true), Verdict::OnlyIf);
+        assert_eq!(of(12.6, 12.511, true), Verdict::Cannot);
+        assert_eq!(of(12.6, 12.494, true), Verdict::Cannot);
+        assert_eq!(of(f64::NAN, f64::NAN, false), Verdict::Cannot);
     }
 
     #[test]
     fn a_formula_holds_or_its_mended_form_does() {
-        let printed = |value: f64| formula("", "", "N", value, 3.0);
-        assert_eq!(verdict(printed(3.0 + 1e-9)), Verdict::Reproduces);
-        assert_eq!(verdict(printed(3.0 + 1e-8)), Verdict::Cannot);
-        assert_eq!(verdict(printed(4.0).only_if("", 3.0)), Verdict::OnlyIf);
-        assert_eq!(verdict(printed(4.0).only_if("", 3.1)), Verdict::Cannot);
-        let nothing = |mended: f64| formula("", "", "N", 10.0, 0.0).only_if("", mended);
-        assert_eq!(verdict(nothing(1e-10)), Verdict::OnlyIf);
-        assert_eq!(verdict(nothing(1e-7)), Verdict::Cannot);
+        let of = |value: f64, ours: f64, mended: f64| {
+            verdict(Claim::formula(value, Some(ours)), mended, false)
+        };
+        assert_eq!(of(3.0 + 1e-9, 3.0, f64::NAN), Verdict::Reproduces);
+        assert_eq!(of(3.0 + 1e-8, 3.0, f64::NAN), Verdict::Cannot);
+        assert_eq!(of(4.0, 3.0, 3.0), Verdict::OnlyIf);
+        assert_eq!(of(4.0, 3.0, 3.1), Verdict::Cannot);
+        assert_eq!(of(10.0, 0.0, 1e-10), Verdict::OnlyIf);
+        assert_eq!(of(10.0, 0.0, 1e-7), Verdict::Cannot);
     }
 
     #[test]
     fn a_condition_is_named_only_where_it_is_needed() {
-        let entry = number("", "", "N", "1.0", 1.0)
-            .only_if("the moon is full", 2.0)
-            .judged("paper");
+        let claim = Claim {
+            condition: "the moon is full".to_owned(),
+            conditional: Some(2.0),
+            expected: Verdict::OnlyIf,
+            ..Claim::number("1.0", 1.0, Some(1.0))
+        };
+        let entry = claim.judged("paper");
         assert_eq!((entry.condition.as_str(), entry.conditional), ("", None));
         assert_eq!(entry.expected, Verdict::OnlyIf, "a surprise");
     }

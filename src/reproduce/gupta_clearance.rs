@@ -5,8 +5,8 @@
 
 use std::f64::consts::TAU;
 
-use super::drawing::{Drawing, Plot};
-use super::entry::{Claim, worded};
+use super::drawing::{Drawing, Plot, Style};
+use super::entry::Claim;
 use crate::error::Error;
 use crate::scene::{Clearance, Every, Joint, Rod, Scene, Slider};
 use crate::simulate::{Options, Row, simulate_rows};
@@ -63,16 +63,11 @@ pub(super) fn claims() -> Result<Vec<Claim>, Error> {
     let all = || turns[0].iter().map(ideal);
     let stroke = all().fold(f64::MIN, f64::max) - all().fold(f64::MAX, f64::min);
     let percent = |off: f64| 100.0 * off / stroke;
-    let little = |what: &str, words: &str, off: f64| {
-        let range = [0.0, VERY_LITTLE];
-        worded(
-            "2.3, figure 14",
-            what,
-            "% of stroke",
-            words,
-            range,
-            percent(off),
-        )
+    let little = |what: String, words: &str, off: f64| Claim {
+        place: "2.3, figure 14".to_owned(),
+        what,
+        unit: "% of stroke".to_owned(),
+        ..Claim::between(words, [0.0, VERY_LITTLE], Some(percent(off)))
     };
     let off = |off: f64, new: f64| {
         if new.is_nan() {
@@ -85,13 +80,13 @@ pub(super) fn claims() -> Result<Vec<Claim>, Error> {
     for (speed, turn) in SPEEDS.iter().zip(&turns) {
         let what = format!("effect of the clearance on the position, {speed} rpm");
         let far = turn.iter().map(|row| row.x - ideal(row)).fold(0.0, off);
-        claims.push(little(&what, "very little", far));
+        claims.push(little(what, "very little", far));
     }
     for (speed, turn) in SPEEDS[1..].iter().zip(&turns[1..]) {
         let what = format!("position at 400 rpm, off that at {speed} rpm");
         let pairs = turns[0].iter().zip(turn);
         let far = pairs.map(|(high, low)| high.x - low.x).fold(0.0, off);
-        claims.push(little(&what, "remains the same", far));
+        claims.push(little(what, "remains the same", far));
     }
     Ok(claims)
 }
@@ -112,9 +107,11 @@ pub(super) fn drawings() -> Result<Vec<Drawing>, Error> {
         let plots = SPEEDS.iter().zip(&turns).map(|(speed, rows)| {
             let moved = |row: &Row| [row.x, row.v, row.a][i];
             let ideal = |row: &Row| row.clearance.map_or(f64::NAN, |joint| joint.ideal[i]);
-            Plot::new("crank angle [deg]", axes[i])
-                .line(&format!("1 mm, {speed} rpm"), over_angle(rows, &moved))
-                .dashed("without clearance", over_angle(rows, &ideal))
+            let mut plot = Plot::new("crank angle [deg]", axes[i]);
+            let label = format!("1 mm, {speed} rpm");
+            plot.add(&label, Style::Line, over_angle(rows, &moved));
+            plot.add("without clearance", Style::Dashed, over_angle(rows, &ideal));
+            plot
         });
         Drawing::new(
             &format!("figure-{}", 14 + i),

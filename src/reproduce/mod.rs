@@ -1,5 +1,6 @@
 //! The four papers that the program implements, number by number and figure by figure, beside ours.
 
+mod book;
 mod drawing;
 mod duarte;
 mod entry;
@@ -7,8 +8,10 @@ mod gupta;
 mod gupta_clearance;
 mod ng;
 mod obaseki_alfred;
+mod quantities;
 
 use crate::error::Error;
+use book::Book;
 pub use drawing::{Drawing, Plot, Series, Style};
 use entry::Claim;
 pub use entry::{Entry, Verdict};
@@ -92,16 +95,16 @@ pub fn reproduce(papers: &[Paper]) -> Result<Reproduction, Error> {
     };
     for paper in papers {
         let (claims, drawings) = match paper {
-            Paper::ObasekiAlfred => (obaseki_alfred::claims()?, obaseki_alfred::drawings()?),
+            Paper::ObasekiAlfred => both(obaseki_alfred::book()?)?,
             Paper::Gupta => {
-                let claims = [gupta::claims(), gupta_clearance::claims()?].concat();
+                let (claims, drawings) = both(gupta::book()?)?;
                 (
-                    claims,
-                    [gupta::drawings(), gupta_clearance::drawings()?].concat(),
+                    [claims, gupta_clearance::claims()?].concat(),
+                    [drawings, gupta_clearance::drawings()?].concat(),
                 )
             }
-            Paper::Ng => (ng::claims()?, ng::drawings()?),
-            Paper::Duarte => (duarte::claims(), duarte::drawings()),
+            Paper::Ng => (ng::book()?.claims()?, ng::drawings()?),
+            Paper::Duarte => both(duarte::book()?)?,
         };
         let name = paper.name();
         result
@@ -121,4 +124,8 @@ pub fn reproduce(papers: &[Paper]) -> Result<Reproduction, Error> {
             }));
     }
     Ok(result)
+}
+
+fn both(book: Book) -> Result<(Vec<Claim>, Vec<Drawing>), Error> {
+    Ok((book.claims()?, book.drawings()?))
 }

@@ -137,7 +137,18 @@ impl Expression {
     /// assert_eq!(torque.value(&now), 1.0);
     /// ```
     pub fn parse(text: &str) -> Result<Expression, ExpressionError> {
-        let ops = Parser::parse(text)?;
+        Expression::parse_with(text, &|_| None)
+    }
+
+    /// Reads an expression in which names stand for other expressions.
+    ///
+    /// # Errors
+    /// As [`Self::parse`].
+    pub(crate) fn parse_with(
+        text: &str,
+        symbols: &dyn Fn(&str) -> Option<Expression>,
+    ) -> Result<Expression, ExpressionError> {
+        let ops = Parser::parse(text, symbols)?;
         let mut reads = Variables::NONE;
         let (mut depth, mut deepest) = (0usize, 0);
         for op in &ops {
@@ -161,6 +172,16 @@ impl Expression {
             reads,
             jumps: words(text).any(|word| JUMPING.contains(&word)),
         })
+    }
+
+    /// A number.
+    pub(crate) fn constant(value: f64) -> Expression {
+        Expression {
+            text: value.to_string(),
+            ops: vec![Op::Number(value)],
+            reads: Variables::NONE,
+            jumps: false,
+        }
     }
 
     /// The variables that occur in it.

@@ -1,6 +1,6 @@
 //! From the text of an expression to its operations, by recursive descent.
 
-use super::{ExpressionError, FUNCTIONS_1, FUNCTIONS_2, Op, STACK, TOO_DEEP};
+use super::{Expression, ExpressionError, FUNCTIONS_1, FUNCTIONS_2, Op, STACK, TOO_DEEP};
 use crate::scene::Variable;
 use crate::scene::number;
 
@@ -10,16 +10,24 @@ pub(super) struct Parser<'a> {
     at: usize,
     ops: Vec<Op>,
     nesting: usize,
+    symbols: &'a Symbols<'a>,
 }
+
+/// What a name stands for.
+pub(super) type Symbols<'a> = dyn Fn(&str) -> Option<Expression> + 'a;
 
 impl<'a> Parser<'a> {
     /// The operations of an expression in postfix order.
-    pub(super) fn parse(text: &'a str) -> Result<Vec<Op>, ExpressionError> {
+    pub(super) fn parse(
+        text: &'a str,
+        symbols: &'a Symbols<'a>,
+    ) -> Result<Vec<Op>, ExpressionError> {
         let mut parser = Parser {
             text,
             at: 0,
             ops: Vec::new(),
             nesting: 0,
+            symbols,
         };
         parser.sum()?;
         parser.skip_space();
@@ -202,6 +210,10 @@ impl<'a> Parser<'a> {
             self.sum()?;
             self.ops.push(Op::Call2(f));
             return self.close();
+        }
+        if let Some(symbol) = (self.symbols)(name) {
+            self.ops.extend(symbol.ops);
+            return Ok(());
         }
         self.at = start;
         let mut error = self.error(&format!("`{name}` is not known"));

@@ -1,0 +1,250 @@
+//! What a paper prints, as data: three CSV files that are part of the program. Their formulas are read like those of loads,
+//! with more names: the symbols of the paper, and quantities of the mechanics.
+
+use std::collections::BTreeMap;
+
+use super::drawing::{Drawing, Plot, Style};
+use super::entry::{Claim, Verdict};
+use crate::error::Error;
+use crate::numeric::difference;
+use crate::scene::{Expression, Instant};
+
+/// Value of a quantity by its name at a crank angle, rad; none for other names.
+pub(super) type Quantities = Box<dyn Fn(&str, f64) -> Option<f64>>;
+
+/// Step of numerical derivatives, rad: truncation and rounding are then about 1e-12 of the value.
+const STEP: f64 = 1e-3;
+
+/// The files of a paper.
+#[derive(Clone, Copy)]
+pub(super) struct Files {
+    /// symbol,formula,source: a formula uses symbols above it and the variables theta and t.
+    pub symbols: &'static str,
+    /// place,what,unit,at,printed,range,ours,verdict,condition,conditional
+    pub claims: &'static str,
+    /// figure,title,x_axis,y_axis,from,to,steps,theta,style,label,formula: theta as a formula of the abscissa t
+    pub figures: &'static str,
+}
+
+/// A paper, ready to be evaluated.
+pub(super) struct Book {
+    files: Files,
+    symbols: BTreeMap<String, Expression>,
+    quantities: Quantities,
+}
+
+/// Records of a table after its header, each with so many fields.
+fn records<const N: usize>(text: &'static str) -> Result<Vec<[String; N]>, Error> {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    reader
+        .deserialize::<Vec<String>>()
+        .map(|record| {
+            let fields = record.map_err(|e| wrong(&e.to_string(), "a table of a paper"))?;
+            let count = fields.len();
+            let fields = fields.try_into();
+            fields.map_err(|_| wrong(&format!("{count} fields"), &format!("{N} fields")))
+        })
+        .collect()
+}
+
+fn wrong(found: &str, wanted: &str) -> Error {
+    Error::refused(
+        format!("data of a paper: {found} in place of {wanted}"),
+        "mend data/papers",
+    )
+}
+
+impl Book {
+    /// Reads the symbols.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] for a formula that cannot be read.
+    pub fn new(files: Files) -> Result<Book, Error> {
+        let mut book = Book {
+            files,
+            symbols: BTreeMap::new(),
+            quantities: Box::new(|_, _| None),
+        };
+        for [symbol, formula, _] in records(files.symbols)? {
+            let expression = book.read(&formula, 0.0)?;
+            book.symbols.insert(symbol, expression);
+        }
+        Ok(book)
+    }
+
+    /// The book with quantities of the mechanics.
+    pub fn with(self, quantities: Quantities) -> Book {
+        Book { quantities, ..self }
+    }
+
+    fn read(&self, formula: &str, theta: f64) -> Result<Expression, Error> {
+        let symbol = |name: &str| self.symbols.get(name).cloned();
+        let slope = |name: &str| {
+            let of = symbol(name.strip_prefix("slope_")?)?;
+            let at = |theta| of.value(&now(0.0, theta));
+            Some(difference::slope(at, theta, STEP))
+        };
+        let number = |name: &str| slope(name).or_else(|| (self.quantities)(name, theta));
+        let named = |name: &str| symbol(name).or_else(|| number(name).map(Expression::constant));
+        Expression::parse_with(formula, &named).map_err(|error| wrong(formula, &error.what))
+    }
+
+    /// Value of a formula at a crank angle, rad.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] for a formula that cannot be read.
+    pub fn value(&self, formula: &str, theta: f64) -> Result<f64, Error> {
+        self.value_at(formula, &now(theta, theta))
+    }
+
+    fn value_at(&self, formula: &str, at: &Instant) -> Result<f64, Error> {
+        Ok(self.read(formula, at.theta)?.value(at))
+    }
+
+    /// Values of symbols that are numbers.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] for a name that is not known.
+    pub fn numbers<const N: usize>(&self, names: [&str; N]) -> Result<[f64; N], Error> {
+        let mut values = [0.0; N];
+        for (value, name) in values.iter_mut().zip(names) {
+            *value = self.value(name, 0.0)?;
+        }
+        Ok(values)
+    }
+
+    /// Every number and formula beside ours.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] for data that cannot be read.
+    pub fn claims(&self) -> Result<Vec<Claim>, Error> {
+        records(self.files.claims)?
+            .into_iter()
+            .map(|record| self.claim(record))
+            .collect()
+    }
+
+    fn claim(&self, record: [String; 10]) -> Result<Claim, Error> {
+        let [
+            place,
+            what,
+            unit,
+            at,
+            printed,
+            range,
+            ours,
+            verdict,
+            condition,
+            conditional,
+        ] = record;
+        let t = self.value(if at.is_empty() { "0" } else { &at }, 0.0)?;
+        // Of a paper that counts in degrees.
+        let angle = self.symbols.get("angle");
+        let at = now(t, angle.map_or(t, |angle| angle.value(&now(t, t))));
+        let value = |formula: &str| self.value_at(formula, &at);
+        let optional = |formula: &str| match formula {
+            "" => Ok(None),
+            formula => value(formula).map(Some),
+        };
+        let ours = optional(&ours)?;
+        let claim = match (printed.strip_prefix('='), range.split_once("..")) {
+            (Some(formula), _) => Claim::formula(value(formula)?, ours),
+            (None, Some((least, most))) => {
+                let ends = [value(least)?, value(most)?];
+                Claim::between(&printed, ends, ours)
+            }
+            (None, None) => {
+                let number = printed.parse().map_err(|_| wrong(&printed, "a number"))?;
+                Claim::number(&printed, number, ours)
+            }
+        };
+        let (expected, cut) = match verdict.as_str() {
+            "reproduces" => (Verdict::Reproduces, false),
+            "only if" => (Verdict::OnlyIf, false),
+            "only if, cut" => (Verdict::OnlyIf, true),
+            "cannot" => (Verdict::Cannot, false),
+            other => return Err(wrong(other, "a verdict")),
+        };
+        Ok(Claim {
+            place,
+            what,
+            unit,
+            conditional: optional(&conditional)?,
+            condition,
+            cut,
+            expected,
+            ..claim
+        })
+    }
+
+    /// A column of a printed table: where a row is, and its number.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] for data that cannot be read.
+    pub fn column(&self, table: &str, column: &str) -> Result<Vec<(f64, f64)>, Error> {
+        let records: Vec<[String; 10]> = records(self.files.claims)?;
+        let of = records
+            .iter()
+            .filter(|[place, what, ..]| place == table && what.starts_with(column));
+        of.map(|[_, _, _, at, printed, ..]| Ok((self.value(at, 0.0)?, self.value(printed, 0.0)?)))
+            .collect()
+    }
+
+    /// Every figure whose curves are formulas.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] for data that cannot be read.
+    pub fn drawings(&self) -> Result<Vec<Drawing>, Error> {
+        let mut found: Vec<Drawing> = Vec::new();
+        for record in records(self.files.figures)? {
+            let [
+                name,
+                title,
+                x,
+                y,
+                from,
+                to,
+                steps,
+                theta,
+                style,
+                label,
+                formula,
+            ] = record;
+            if found.last().is_none_or(|last| last.name != name) {
+                found.push(Drawing::new(&name, &title, Vec::new()));
+            }
+            let Some(drawing) = found.last_mut() else {
+                continue;
+            };
+            let like = |plot: &Plot| plot.x == x && plot.y == y;
+            if !drawing.plots.last().is_some_and(like) {
+                drawing.plots.push(Plot::new(&x, &y));
+            }
+            let [from, to, steps] = self.numbers([&from, &to, &steps])?;
+            let style = match style.as_str() {
+                "line" => Style::Line,
+                "dashed" => Style::Dashed,
+                _ => Style::Points,
+            };
+            let theta = self.read(&theta, 0.0)?;
+            let mut points = Vec::new();
+            for i in 0..=steps as u32 {
+                let t = from + (to - from) * f64::from(i) / steps;
+                let at = now(t, theta.value(&now(t, t)));
+                points.push((t, self.value_at(&formula, &at)?));
+            }
+            if let Some(plot) = drawing.plots.last_mut() {
+                plot.add(&label, style, points);
+            }
+        }
+        Ok(found)
+    }
+}
+
+fn now(t: f64, theta: f64) -> Instant {
+    Instant {
+        t,
+        theta,
+        ..Instant::default()
+    }
+}

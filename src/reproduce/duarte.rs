@@ -1,0 +1,24 @@
+//! Duarte, Valencia and Obregon 2018: Lagrange equation of a Diesel engine, equations (1)-(11).
+
+use super::book::{Book, Files};
+use super::quantities::{self, Ours};
+use crate::error::Error;
+use crate::scene::{Gravity, Scene};
+
+const FILES: Files = Files {
+    symbols: include_str!("../../data/papers/duarte-symbols.csv"),
+    claims: include_str!("../../data/papers/duarte.csv"),
+    figures: include_str!("../../data/papers/duarte-figures.csv"),
+};
+
+/// The complete equation of the engine; the rod's inertia is about the crank pin, the crank balanced.
+pub(super) fn book() -> Result<Book, Error> {
+    let symbols = Book::new(FILES)?;
+    let [acceleration] = symbols.numbers(["g"])?;
+    let gravity = Gravity {
+        acceleration,
+        ..Gravity::standard()
+    };
+    let engine = Ours::new(Scene::duarte().gravity(gravity));
+    Ok(symbols.with(quantities::of(vec![("engine", engine)], |_, _| None)))
+}

@@ -1,0 +1,81 @@
+//! Ng: static forces with friction, equations (1)-(11), (A1)-(A3), tables 1 and 2. Here is what is no formula: the line of
+//! the calibration, and the points of the tables in the figures.
+
+use super::book::{Book, Files};
+use super::drawing::{Drawing, Style};
+use super::quantities::{self, Ours};
+use crate::error::Error;
+use crate::mechanism::friction_from_tilt;
+use crate::numeric::line_fit::LineFit;
+use crate::scene::{Load, Scene};
+use crate::statics::{StaticsOptions, statics};
+
+const FILES: Files = Files {
+    symbols: include_str!("../../data/papers/ng-symbols.csv"),
+    claims: include_str!("../../data/papers/ng.csv"),
+    figures: include_str!("../../data/papers/ng-figures.csv"),
+};
+
+/// Table 1: weights in N and strains in 1e-6.
+const CALIBRATION: [(f64, f64); 6] = [
+    (2.45, 50.0),
+    (4.91, 95.0),
+    (7.36, 148.0),
+    (9.81, 190.0),
+    (12.27, 238.0),
+    (14.72, 290.0),
+];
+
+pub(super) fn book() -> Result<Book, Error> {
+    let symbols = Book::new(FILES)?;
+    let [k, c, torque] = symbols.numbers(["k", "c", "torque"])?;
+    let friction = friction_from_tilt(std::f64::consts::FRAC_PI_4);
+    let held = |torque: f64| -> Result<Ours, Error> {
+        let scene = Scene::new(k, c).torque(Load::Constant(torque));
+        let options = StaticsOptions {
+            friction: Some(friction),
+            ..StaticsOptions::default()
+        };
+        Ok(Ours::held(scene.clone(), statics(&scene, &options)?))
+    };
+    let mechanisms = vec![
+        ("described", held(torque)?),
+        ("doubled", held(2.0 * torque)?),
+    ];
+    let line = LineFit::new(&CALIBRATION);
+    let about_zero = LineFit::through_origin(&CALIBRATION);
+    let of_tables = move |name: &str, theta: f64| match name {
+        "friction" => Some(friction),
+        "r_squared" => line.and_then(|line| line.r_squared),
+        "r_squared_about_zero" => about_zero.map(|fit| fit.1),
+        "strain" => line.map(|line| line.value(theta)),
+        _ => None,
+    };
+    Ok(symbols.with(quantities::of(mechanisms, of_tables)))
+}
+
+/// The figures with the points of the tables.
+pub(super) fn drawings() -> Result<Vec<Drawing>, Error> {
+    let book = book()?;
+    let mut drawings = book.drawings()?;
+    let printed = |what: &str| book.column("table 2", what);
+    let (forces, found) = (printed("F at")?, printed("F' by experiment")?);
+    let at = |angle: f64| found.iter().find(|point| point.0 == angle);
+    let measured = |&(angle, _): &(f64, f64)| (angle, at(angle).map_or(f64::NAN, |point| point.1));
+    let measured = forces.iter().map(measured).collect();
+    let tables = [
+        ("table 1", CALIBRATION.to_vec()),
+        ("F printed", forces),
+        ("F' printed", printed("F' by theory")?),
+        ("F' measured", measured),
+    ];
+    for drawing in &mut drawings {
+        for series in drawing.plots.iter_mut().flat_map(|plot| &mut plot.series) {
+            let table = tables.iter().find(|(label, _)| *label == series.label);
+            if let (Style::Points, Some((_, points))) = (series.style, table) {
+                series.points.clone_from(points);
+            }
+        }
+    }
+    Ok(drawings)
+}

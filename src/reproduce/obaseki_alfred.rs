@@ -1,0 +1,114 @@
+//! Obaseki and Alfred 2020: offset slider-crank at constant speed, equations (1)-(53), tables 1 to 3. Here is what is no
+//! formula: their grid of 1 ms, and the largest torque by the sentence above (48).
+
+use std::f64::consts::TAU;
+
+use super::book::{Book, Files};
+use super::quantities::{self, Ours};
+use crate::error::Error;
+use crate::mechanism::{Linkage, size_from_stroke};
+use crate::scene::{Crank, Rod, RodModel, Scene, Slider};
+
+const FILES: Files = Files {
+    symbols: include_str!("../../data/papers/obaseki-alfred-symbols.csv"),
+    claims: include_str!("../../data/papers/obaseki-alfred.csv"),
+    figures: include_str!("../../data/papers/obaseki-alfred-figures.csv"),
+};
+
+/// Points of a turn at which the largest torque is sought: the figure is read to 2 %.
+const TURN: u32 = 36_000;
+
+/// The engine of table 1 with another offset, m, and uniform crank and rod; the rod as two masses, (31)-(33).
+fn engine(symbols: &Book, offset: f64) -> Result<Scene, Error> {
+    let names = ["k", "c", "m_crank", "m_rod", "m_slider", "w"];
+    let [k, c, crank, rod, slider, speed] = symbols.numbers(names)?;
+    Ok(Scene::new(k, c)
+        .offset(offset)
+        .crank(Crank {
+            mass: crank,
+            cg: 0.5 * k,
+            cg_lateral: 0.0,
+            inertia: crank * k * k / 3.0,
+        })
+        .rod(Rod {
+            model: RodModel::TwoMass,
+            mass: rod,
+            cg: 0.5 * c,
+            inertia: rod * c * c / 12.0,
+            ..Rod::default()
+        })
+        .slider(Slider { mass: slider })
+        .constant_speed(0.0, speed))
+}
+
+pub(super) fn book() -> Result<Book, Error> {
+    let symbols = Book::new(FILES)?;
+    let [k2, c2] = symbols.numbers(["k2", "c2"])?;
+    let two_mass = engine(&symbols, 0.02)?;
+    let mut rigid = two_mass.clone();
+    rigid.rod = rigid.rod.map(|rod| Rod {
+        model: RodModel::Rigid,
+        ..rod
+    });
+    let mechanisms = vec![
+        ("engine", Ours::new(two_mass)),
+        ("rigid", Ours::new(rigid)),
+        ("e10", Ours::new(engine(&symbols, 0.01)?)),
+        ("e0", Ours::new(engine(&symbols, 0.0)?)),
+        ("tested", Ours::new(Scene::new(k2, c2))),
+    ];
+    let (first, last) = sign_changes(&symbols)?;
+    let (crank, rod) = size_from_stroke(0.08, 1.6, 0.0)?;
+    let mut numbers = vec![
+        ("first_ms".to_owned(), first),
+        ("last_ms".to_owned(), last),
+        ("sized_crank".to_owned(), crank),
+        ("sized_rod".to_owned(), rod),
+    ];
+    for (name, offset) in [("e20", 0.02), ("e10", 0.01), ("e0", 0.0)] {
+        let [inward, outward] = perpendicular(&symbols, offset)?;
+        numbers.push((format!("assumed_inward_{name}"), inward));
+        numbers.push((format!("assumed_outward_{name}"), outward));
+    }
+    let number = move |name: &str, _: f64| {
+        let found = numbers.iter().find(|(known, _)| known == name);
+        found.map(|(_, value)| *value)
+    };
+    Ok(symbols.with(quantities::of(mechanisms, number)))
+}
+
+/// Last samples, ms, before the slider velocity (13) with e = 0 changes its sign on a grid of 1 ms.
+fn sign_changes(symbols: &Book) -> Result<(f64, f64), Error> {
+    let [speed] = symbols.numbers(["w"])?;
+    let mut last = Vec::new();
+    let mut before = f64::NAN;
+    for ms in 1..=30 {
+        let velocity = symbols.value("ds_e0", speed * f64::from(ms) * 1e-3)?;
+        if before * velocity < 0.0 {
+            last.push(f64::from(ms - 1));
+        }
+        before = velocity;
+    }
+    match last.as_slice() {
+        [first, second, ..] => Ok((*first, *second)),
+        _ => Err(Error::refused("(13) does not change its sign", "mend (13)")),
+    }
+}
+
+/// Largest k F_i sin theta on the inward and on the outward stroke, with the rod's centre of gravity at a
+/// third of it from the crank pin: what the sentence above (48) says, with exact accelerations.
+fn perpendicular(symbols: &Book, offset: f64) -> Result<[f64; 2], Error> {
+    let names = ["k", "w", "m_crank", "m_rod", "m_slider"];
+    let [k, w, crank, rod, slider] = symbols.numbers(names)?;
+    let (m2, m3) = (2.0 / 3.0 * rod + 0.5 * crank, rod / 3.0 + slider);
+    let linkage = Linkage::new(&engine(symbols, offset)?.geometry);
+    let mut found = [0.0f64; 2];
+    for i in 0..TURN {
+        let theta = TAU * f64::from(i) / f64::from(TURN);
+        let pose = linkage.pose(theta);
+        let inertia = -(m2 * w * w * k * theta.cos() + m3 * (pose.d2x * w * w));
+        let stroke = &mut found[usize::from(pose.dx > 0.0)];
+        *stroke = stroke.max((k * inertia * pose.sin).abs());
+    }
+    Ok(found)
+}

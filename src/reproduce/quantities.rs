@@ -1,0 +1,158 @@
+//! Quantities of a mechanism by name, with which formulas of a paper are compared.
+
+use std::cell::OnceCell;
+
+use crate::kinematics::{ForceAnalysis, StrokeTorque, forces};
+use crate::mechanism::{Equation, EquivalentMasses, Extremes, Limits, Linkage};
+use crate::scene::Scene;
+use crate::statics::StaticAnalysis;
+
+/// A mechanism of a paper.
+pub(super) struct Ours {
+    scene: Scene,
+    linkage: Linkage,
+    limits: Limits,
+    forces: OnceCell<Option<ForceAnalysis>>,
+    statics: Option<StaticAnalysis>,
+}
+
+impl Ours {
+    pub fn new(scene: Scene) -> Ours {
+        let linkage = Linkage::new(&scene.geometry);
+        Ours {
+            limits: Limits::new(&linkage, 1.0),
+            linkage,
+            scene,
+            forces: OnceCell::new(),
+            statics: None,
+        }
+    }
+
+    pub fn held(scene: Scene, statics: StaticAnalysis) -> Ours {
+        Ours {
+            statics: Some(statics),
+            ..Ours::new(scene)
+        }
+    }
+
+    /// Value of a quantity at a crank angle, rad; motion per unit of crank speed.
+    pub fn value(&self, name: &str, theta: f64) -> Option<f64> {
+        self.geometry(name, theta)
+            .or_else(|| self.limit(name))
+            .or_else(|| self.equation(name, theta))
+            .or_else(|| self.driven(name, theta))
+            .or_else(|| self.at_rest(name, theta))
+    }
+
+    fn geometry(&self, name: &str, theta: f64) -> Option<f64> {
+        let pose = self.linkage.pose(theta);
+        let first = self.linkage.first_order(theta);
+        Some(match name {
+            "sin" => pose.sin,
+            "cos" => pose.cos,
+            "sin_phi" => pose.sin_phi,
+            "cos_phi" => pose.cos_phi,
+            "phi" => pose.phi(),
+            "dphi" => pose.dphi,
+            "d2phi" => pose.d2phi,
+            "x" => pose.x,
+            "dx" => pose.dx,
+            "d2x" => pose.d2x,
+            "first_d2x" => first.d2x,
+            "first_dx_d2x" => first.dx_d2x,
+            _ => return None,
+        })
+    }
+
+    fn limit(&self, name: &str) -> Option<f64> {
+        let extremes = || Extremes::new(&self.linkage);
+        let centre = |outer: bool| {
+            let centres = &self.limits.dead_centres;
+            centres.iter().find(|c| c.outer == outer).map(|c| c.theta)
+        };
+        match name {
+            "stroke" => Some(self.limits.stroke),
+            "advance" => self.limits.advance,
+            "retreat" => self.limits.retreat,
+            "time_ratio" => self.limits.time_ratio(),
+            "outer" => centre(true),
+            "inner" => centre(false),
+            "d2x_max" => extremes().map(|e| e.acceleration_max.value),
+            "d2x_min" => extremes().map(|e| e.acceleration_min.value),
+            _ => None,
+        }
+    }
+
+    fn equation(&self, name: &str, theta: f64) -> Option<f64> {
+        let terms = || Equation::new(&self.scene).terms(theta);
+        let masses = || EquivalentMasses::new(&self.scene);
+        Some(match name {
+            "m" => terms().inertia.m,
+            "half_dm" => terms().inertia.half_dm,
+            "dv" => terms().dv,
+            "rotating" => masses().rotating_kg,
+            "reciprocating" => masses().reciprocating_kg,
+            "inertia_left" => masses().rod_inertia_left_kg_m2,
+            "crank_inertia" => self.scene.crank?.inertia,
+            _ => return None,
+        })
+    }
+
+    fn driven(&self, name: &str, theta: f64) -> Option<f64> {
+        let known = [
+            "torque",
+            "bearing_x",
+            "bearing_y",
+            "shaking",
+            "inward",
+            "outward",
+        ];
+        if !known.contains(&name) {
+            return None;
+        }
+        let analysis = self.forces.get_or_init(|| forces(&self.scene).ok());
+        let analysis = analysis.as_ref()?;
+        let largest = |s: StrokeTorque| s.max.value.abs().max(s.min.value.abs());
+        let reactions = || analysis.row(theta).reactions;
+        match name {
+            "torque" => Some(analysis.torque(theta)),
+            "bearing_x" => Some(reactions().crank_bearing[0]),
+            "bearing_y" => Some(reactions().crank_bearing[1]),
+            "shaking" => Some(reactions().shaking[0]),
+            "inward" => analysis.inward.map(largest),
+            _ => analysis.outward.map(largest),
+        }
+    }
+
+    fn at_rest(&self, name: &str, theta: f64) -> Option<f64> {
+        let statics = self.statics.as_ref()?;
+        let row = statics.row(theta);
+        match name {
+            "force" => row.balance.band.map(|band| band.value),
+            // The edge of the band on the side of zero.
+            "least" => row.balance.band.and_then(|band| band.min),
+            "thrust" => row.balance.side_thrust,
+            "velocity_ratio" => Some(row.velocity_ratio),
+            "gamma" => Some(row.crank_pin_angle),
+            "gamma_of_least" => {
+                let least = statics.least.first()?;
+                Some(statics.row(least.theta_rad).crank_pin_angle)
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Quantities of some mechanisms, named NAME_QUANTITY.
+pub(super) fn of(
+    mechanisms: Vec<(&'static str, Ours)>,
+    other: impl Fn(&str, f64) -> Option<f64> + 'static,
+) -> super::book::Quantities {
+    Box::new(move |name, theta| {
+        let ours = name.split_once('_').and_then(|(mechanism, quantity)| {
+            let (_, ours) = mechanisms.iter().find(|(name, _)| *name == mechanism)?;
+            ours.value(quantity, theta)
+        });
+        ours.or_else(|| other(name, theta))
+    })
+}
