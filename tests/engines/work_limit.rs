@@ -205,6 +205,7 @@ fn the_second_run_takes_a_share_of_work_only() {
         .iter()
         .any(|warning| warning.contains("could not be estimated"));
     assert!(said, "{:?}", summary.warnings);
-    // Without a limit of its own it runs for many times as long.
-    assert!(took < 3.0, "{took} s");
+    // Without a limit of its own it runs for many times as long. A busy machine makes both runs slower.
+    let most = f64::max(3.0, 100.0 * summary.wall_s);
+    assert!(took < most, "{took} s, {} s", summary.wall_s);
 }
