@@ -24,7 +24,7 @@ fn run(name: &str, method: Method) -> Simulation {
 }
 
 /// Name, crank angle and speed at the end, and the error of the reference.
-const REFERENCES: [(&str, f64, f64, f64); 17] = [
+const REFERENCES: [(&str, f64, f64, f64); 20] = [
     ("01-limit-1e-6", 18.532471601824206, 9.953636237680193, 0.0),
     ("01-limit-1e-12", 18.531035303155477, 9.951119500853299, 0.0),
     (
@@ -92,6 +92,19 @@ const REFERENCES: [(&str, f64, f64, f64); 17] = [
     ("13-micro", 10.255049782500446, 5014.562924676719, 0.0),
     ("13-ship", 180.3307094033419, 8.974006234434595, 0.0),
     ("14-zero-duration", 0.7, 3.0, 0.0),
+    ("15-one-blow", 28.59643171643871, 38.976734661955444, 0.0),
+    (
+        "15-torque-at-a-speed",
+        82.46432474848159,
+        152.99973624057386,
+        0.0,
+    ),
+    (
+        "15-pulse-in-time",
+        29.616610086226234,
+        15.749766776203369,
+        0.0,
+    ),
 ];
 
 #[track_caller]

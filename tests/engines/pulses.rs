@@ -135,7 +135,7 @@ struct Pulsed {
     end: [f64; 2],
 }
 
-const PULSED: [Pulsed; 3] = [
+const PULSED: [Pulsed; 4] = [
     Pulsed {
         torque: None,
         force: Some("-2000*exp(-((theta-20.4)/0.035)^2)"),
@@ -151,6 +151,14 @@ const PULSED: [Pulsed; 3] = [
         start: [0.0, 40.0],
         turns: 6.0,
         end: [0.9850338378692461, 45.486449265600214],
+    },
+    Pulsed {
+        torque: None,
+        force: Some("-3000*max(0, 1-((theta-27)/0.07)^2)"),
+        viscous: 0.005,
+        start: [PI, 40.0],
+        turns: 6.0,
+        end: [0.95770333554649, 45.2535095880649],
     },
     Pulsed {
         torque: Some("300*exp(-((t-0.5)/0.0003)^2)"),
