@@ -7,16 +7,17 @@
 
 use std::f64::consts::TAU;
 
-use super::hypotheses::{Track, Tracker};
+use super::hypotheses::{Hypothesis, Setting, Tracker};
 use super::measurement_model::Sensor;
-use super::unwrap;
 use crate::error::Error;
 use crate::numeric::parallel;
-use crate::scene::{Measured, Measurement, Motion};
+use crate::scene::Measurement;
 
 /// Crank angles of samples.
 #[derive(Clone, Debug)]
-pub(super) struct CrankAngles {
+pub(super) struct CrankAngles<'a> {
+    /// How the samples show them.
+    pub sensor: Sensor<'a>,
     /// rad
     pub theta: Vec<f64>,
     /// Standard deviation of a measured value that made them likeliest, rad or m.
@@ -25,97 +26,86 @@ pub(super) struct CrankAngles {
     pub warnings: Vec<String>,
 }
 
-/// The crank angles of all samples, continued over the turns.
+/// The motions that samples may stand for, of different ends, the likeliest of each agility first.
 ///
 /// # Errors
 /// [`Error::Scene`] for values that the mechanism cannot take.
-pub(super) fn crank_angles(
-    sensor: &Sensor<'_>,
+pub(super) fn motions<'a>(
+    sensor: &Sensor<'a>,
     measurement: &Measurement,
-    motion: &Motion,
-) -> Result<CrankAngles, Error> {
-    if sensor.measured == Measured::Theta {
-        return unwrap::unwrap(sensor.linkage, measurement);
-    }
-    reachable(sensor, measurement)?;
+) -> Result<Vec<CrankAngles<'a>>, Error> {
     let tracker = Tracker {
         sensor,
         times: measurement.elapsed(),
         values: measurement.values(),
         speed: typical_speed(sensor, measurement),
     };
-    let settings = tracker.settings(measurement.resolution());
     let early = measurement.len().min(EARLY);
-    let scores = parallel::map(settings.iter(), |setting| {
-        Some(tracker.followed(setting, early).first()?.score)
-    });
-    let best = (0..settings.len()).max_by(|a, b| {
-        let score = |k: usize| scores[k].unwrap_or(f64::NEG_INFINITY);
-        score(*a).total_cmp(&score(*b))
-    });
-    let tracks = tracker.tracks(&settings[best.unwrap_or(0)]);
-    chosen(
-        tracks,
-        motion,
-        measurement,
-        settings[best.unwrap_or(0)].sigma,
-    )
-    .map(|mut taken| {
-        taken
-            .warnings
-            .extend(elsewhere(sensor, measurement, motion, taken.theta[0]));
-        taken
-    })
+    let scored = parallel::map(
+        tracker.settings(measurement.resolution()).into_iter(),
+        |setting| {
+            let followed = tracker.followed(&setting, early);
+            Some((setting, *followed.first()?))
+        },
+    );
+    let mut scored: Vec<_> = scored.into_iter().flatten().collect();
+    scored.sort_by(|a, b| b.1.score.total_cmp(&a.1.score));
+    // A crank that is too agile turns back where a stiffer one goes on: the likeliest of each agility.
+    let mut likeliest: Vec<(Setting, Hypothesis)> = Vec::new();
+    for (setting, end) in scored {
+        let is_new = |(other, there): &(Setting, Hypothesis)| {
+            other.jerk != setting.jerk && (there.turned() - end.turned()).abs() > APART
+        };
+        if likeliest.iter().all(is_new) {
+            likeliest.push((setting, end));
+        }
+    }
+    let mut motions: Vec<CrankAngles<'_>> = Vec::new();
+    for (setting, _) in &likeliest {
+        for theta in tracker.tracks(setting) {
+            let turned = |theta: &[f64]| (theta[theta.len() - 1] - theta[0]).abs();
+            let alike =
+                |other: &CrankAngles<'_>| (turned(&other.theta) - turned(&theta)).abs() < APART;
+            if motions.len() < MOTIONS && !motions.iter().any(alike) {
+                motions.push(CrankAngles {
+                    sensor: *sensor,
+                    theta,
+                    sigma: setting.sigma,
+                    warnings: Vec::new(),
+                });
+            }
+        }
+    }
+    if motions.is_empty() {
+        return Err(Error::refused(
+            format!(
+                "no motion of the mechanism explains the samples of {}",
+                sensor.measured.name()
+            ),
+            "check the lengths of the scene, and the unit and zero of the column",
+        ));
+    }
+    Ok(motions)
 }
 
-/// What is said where the first sample may be at the scene's angle, and the likeliest motion begins at another.
-fn elsewhere(
-    sensor: &Sensor<'_>,
-    measurement: &Measurement,
-    motion: &Motion,
-    taken: f64,
-) -> Option<String> {
-    let value = measurement.values()[0];
-    let candidates = match sensor.measured {
-        Measured::X => sensor.linkage.angles_of_x(value),
-        _ => sensor.linkage.angles_of_gamma(value),
-    };
-    let off = |theta: f64| {
-        let off = theta - motion.angle;
-        (off - (off / TAU).round() * TAU).abs()
-    };
-    let fits = candidates.angles().iter().any(|theta| off(*theta) < NEAR);
-    (motion.angle != 0.0 && fits && off(taken) > NEAR).then(|| {
-        format!(
-            "the scene's angle belongs to the first sample, {} = {}, but the likelier motion begins at {taken:.4} rad: it may be the one on the wrong strokes",
-            sensor.measured.name(),
-            measurement.shown(value)
-        )
-    })
-}
+/// Crank angle by which motions are apart, rad.
+pub(super) const APART: f64 = 0.5;
+
+/// Most motions that are compared by their likelihoods through the equation.
+const MOTIONS: usize = 4;
 
 /// Samples by which noise and agility are found.
-const EARLY: usize = 2000;
+pub(super) const EARLY: usize = 2000;
 
 /// Part of what can be reached by which a value may be off: lengths and zero of an instrument are hardly worse.
-const OFF: f64 = 0.1;
+pub(super) const OFF: f64 = 0.1;
 
 /// Refuses values far from all that the mechanism can take.
-fn reachable(sensor: &Sensor<'_>, measurement: &Measurement) -> Result<(), Error> {
+pub(super) fn reachable(sensor: &Sensor<'_>, measurement: &Measurement) -> Result<(), Error> {
     let values = measurement.values();
-    let excess = |value: f64| match sensor.measured {
-        Measured::X => sensor.linkage.excess_of_x(value),
-        _ => sensor.linkage.excess_of_gamma(value),
-    };
+    let excess = |value: f64| sensor.angles(value).1;
     let is_off = |i: &usize| excess(values[*i]) > OFF * sensor.size();
-    let on_no_angle = |i: &usize| match sensor.measured {
-        Measured::X => sensor.linkage.angles_of_x(values[*i]).angles().is_empty(),
-        _ => sensor
-            .linkage
-            .angles_of_gamma(values[*i])
-            .angles()
-            .is_empty(),
-    };
+    let on_no_angle = |i: &usize| sensor.angles(values[*i]).0.angles().is_empty();
     // Single ones that are only off are outliers.
     let many = (0..values.len()).filter(is_off).count() * 20 > values.len();
     let far: Vec<usize> = (0..values.len())
@@ -153,91 +143,3 @@ fn typical_speed(sensor: &Sensor<'_>, measurement: &Measurement) -> f64 {
     let duration = times[times.len() - 1] - times[0];
     (0.5 * TAU * way / (2.0 * sensor.size()) / duration).max(1e-3 / duration)
 }
-
-/// The path that is taken: of those that are about as likely, the one that begins like the scene.
-///
-/// A motion may begin slowly and reverse at once, so an angle of the scene that is plainly that of one path counts before
-/// the speed. Angle 0 does not, because scenes that say nothing have it.
-fn chosen(
-    tracks: Vec<Track>,
-    motion: &Motion,
-    measurement: &Measurement,
-    sigma: f64,
-) -> Result<CrankAngles, Error> {
-    let Some(likeliest) = tracks.first() else {
-        return Err(Error::refused(
-            format!(
-                "no motion of the mechanism explains the samples of {}",
-                measurement.measured().name()
-            ),
-            "check the lengths of the scene, and the unit and zero of the column",
-        ));
-    };
-    let name = measurement.measured().name();
-    let alike: Vec<&Track> = tracks
-        .iter()
-        .filter(|track| likeliest.score - track.score < CERTAIN)
-        .collect();
-    let off = |track: &Track| {
-        let off = track.theta[0] - motion.angle;
-        (off - (off / TAU).round() * TAU).abs()
-    };
-    let nearest = alike
-        .iter()
-        .copied()
-        .min_by(|a, b| off(a).total_cmp(&off(b)))
-        .unwrap_or(likeliest);
-    let rival = alike
-        .iter()
-        .filter(|track| track.mirrors(nearest))
-        .map(|track| off(track))
-        .fold(f64::INFINITY, f64::min);
-    let with_sense = alike
-        .iter()
-        .copied()
-        .find(|track| track.sense() * motion.speed > 0.0);
-    let by_angle = motion.angle != 0.0 && off(nearest) < NEAR && off(nearest) < 0.25 * rival;
-    let taken = match with_sense {
-        _ if by_angle => nearest,
-        Some(track) => track,
-        None if motion.speed == 0.0 && motion.angle != 0.0 => nearest,
-        None => likeliest,
-    };
-    let mut warnings = Vec::new();
-    if alike.iter().any(|track| track.mirrors(taken)) {
-        warnings.push(match (by_angle, motion.speed != 0.0) {
-            (true, _) => format!("{name} does not tell a motion from the one on the other strokes: the one that begins at the scene's angle is taken"),
-            (_, true) => format!("{name} does not tell a motion from the one on the other strokes: the one with the sense of the scene's speed is taken"),
-            _ => format!("{name} does not tell a motion from the one on the other strokes, and the scene has neither speed nor angle: which one it is cannot be told"),
-        });
-    }
-    if motion.speed != 0.0 && taken.sense() * motion.speed < 0.0 {
-        warnings.push("the crank turns against the sense of the scene's [motion] speed".to_owned());
-    }
-    let turns = |track: &Track| (track.theta[track.theta.len() - 1] - track.theta[0]).abs() / TAU;
-    let doubtful = tracks
-        .iter()
-        .filter(|track| likeliest.score - track.score < DOUBTFUL)
-        .find(|track| (turns(track) - turns(taken)).abs() > 0.5);
-    if let Some(doubtful) = doubtful {
-        warnings.push(format!(
-            "whether the crank went on or turned back at a dead centre is not certain: {:.2} turns are taken, and {:.2} are hardly less likely",
-            turns(taken),
-            turns(doubtful)
-        ));
-    }
-    Ok(CrankAngles {
-        theta: taken.theta.clone(),
-        sigma,
-        warnings,
-    })
-}
-
-/// The scene's angle belongs to a path that begins this near to it, rad, where others begin four times as far from it.
-const NEAR: f64 = 0.2;
-
-/// ln of a likelihood ratio below which the scene's sense of rotation decides.
-const CERTAIN: f64 = 30.0;
-
-/// ln of a likelihood ratio below which a path with other turns is named.
-const DOUBTFUL: f64 = 7.0;

@@ -2,7 +2,6 @@
 
 use super::branch_tracking::CrankAngles;
 use super::linearised::Prior;
-use super::measurement_model::Sensor;
 use super::motion_estimate::MotionEstimate;
 use super::polynomial::Polynomial;
 use super::prior::KINEMATIC;
@@ -53,13 +52,12 @@ impl Fitted {
     /// # Errors
     /// Why the samples do not serve.
     pub fn new(
-        sensor: Sensor<'_>,
         measurement: &Measurement,
-        angles: &CrankAngles,
+        angles: &CrankAngles<'_>,
         equation: &Equation,
         options: &InverseOptions,
     ) -> Result<Fitted, String> {
-        let record = record(sensor, measurement, angles);
+        let record = record(measurement, angles);
         let degree = match options.size {
             FitSize::Auto => None,
             FitSize::Fixed(degree) => Some(degree),
@@ -106,7 +104,7 @@ impl Fitted {
         2.0 * n * spread.ln() + 2.0 * parameters * n / (n - parameters - 1.0).max(1.0)
     }
 
-    fn smoothed(record: Record<'_>, angles: &CrankAngles, equation: &Equation) -> Fitted {
+    fn smoothed(record: Record<'_>, angles: &CrankAngles<'_>, equation: &Equation) -> Fitted {
         let mut problem = problem(record, &angles.theta, equation);
         let first = first_path(&problem, angles);
         let sigma = angles.sigma.max(problem.record.floor);
@@ -258,7 +256,7 @@ impl Fitted {
     }
 }
 
-fn first_path(problem: &Problem<'_>, angles: &CrankAngles) -> Path {
+fn first_path(problem: &Problem<'_>, angles: &CrankAngles<'_>) -> Path {
     match problem.record.is_linear() {
         true => first_path::straight(problem),
         false => first_path::coarse(problem, &angles.theta),

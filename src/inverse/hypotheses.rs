@@ -5,33 +5,6 @@ use std::f64::consts::TAU;
 
 use super::kalman::{self, Matrix};
 use super::measurement_model::Sensor;
-use crate::scene::Measured;
-
-/// A path through all samples.
-#[derive(Clone, Debug)]
-pub(super) struct Track {
-    /// Crank angles, rad.
-    pub theta: Vec<f64>,
-    /// ln of its likelihood.
-    pub score: f64,
-}
-
-impl Track {
-    /// Sense of rotation, of the first part of the path in which it turns by half a turn, or of all.
-    pub fn sense(&self) -> f64 {
-        let first = self.theta[0];
-        let far = self
-            .theta
-            .iter()
-            .find(|theta| (*theta - first).abs() > 0.25 * TAU);
-        (far.unwrap_or(&self.theta[self.theta.len() - 1]) - first).signum()
-    }
-
-    /// Whether another path is one on the other strokes.
-    pub fn mirrors(&self, other: &Track) -> bool {
-        self.sense() != other.sense()
-    }
-}
 
 /// Noise of the samples and agility of the crank.
 #[derive(Clone, Copy, Debug)]
@@ -39,7 +12,7 @@ pub(super) struct Setting {
     /// rad or m
     pub sigma: f64,
     /// Spectral density of the jerk of the crank angle, rad²/s⁵.
-    jerk: f64,
+    pub jerk: f64,
 }
 
 /// A hypothesis: a path that ends here.
@@ -48,8 +21,17 @@ pub(super) struct Hypothesis {
     mean: [f64; 3],
     covariance: Matrix<3>,
     pub score: f64,
+    /// Its first angle, rad.
+    begin: f64,
     /// Its last angle in the list of all.
     last: usize,
+}
+
+impl Hypothesis {
+    /// The way from its first angle to the last, rad, without its sense.
+    pub fn turned(&self) -> f64 {
+        (self.mean[0] - self.begin).abs()
+    }
 }
 
 /// An angle of a path and the one before.
@@ -92,8 +74,8 @@ impl Tracker<'_> {
         list
     }
 
-    /// The paths of all hypotheses that are left at the end, the likeliest first.
-    pub fn tracks(&self, setting: &Setting) -> Vec<Track> {
+    /// Crank angles, rad, of all hypotheses that are left at the end, the likeliest first.
+    pub fn tracks(&self, setting: &Setting) -> Vec<Vec<f64>> {
         let mut links = Vec::with_capacity(2 * self.values.len());
         let ends = self.run(setting, self.values.len(), &mut links);
         let path = |end: &Hypothesis| {
@@ -104,10 +86,7 @@ impl Tracker<'_> {
                 at = links[at].before;
             }
             theta.reverse();
-            Track {
-                theta,
-                score: end.score,
-            }
+            theta
         };
         ends.iter().map(path).collect()
     }
@@ -143,14 +122,7 @@ impl Tracker<'_> {
     /// The crank angles that a sample may stand for.
     fn sighted(&self, sample: usize, sigma: f64) -> Vec<Sight> {
         let value = self.values[sample];
-        let linkage = self.sensor.linkage;
-        let (candidates, excess) = match self.sensor.measured {
-            Measured::X => (linkage.angles_of_x(value), linkage.excess_of_x(value)),
-            _ => (
-                linkage.angles_of_gamma(value),
-                linkage.excess_of_gamma(value),
-            ),
-        };
+        let (candidates, excess) = self.sensor.angles(value);
         let sights = candidates.angles().iter().map(|theta| {
             let shown = self.sensor.shown(*theta);
             // Of a dead centre the curvature tells the width.
@@ -178,6 +150,7 @@ impl Tracker<'_> {
                 [0.0, 0.0, speed.powi(4)],
             ],
             score: sight.score,
+            begin: sight.theta,
             last: links.len() - 1,
         }
     }

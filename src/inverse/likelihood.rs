@@ -47,7 +47,8 @@ pub(super) struct Noise {
     /// Corner frequency of the smoother, rad/s: the noise of the process is q = ω_c^(2D) σ² h/(lever² slope²) for D
     /// integrations from the white noise to θ.
     pub corner: f64,
-    /// Corner frequency of a smoother of order one whose noise u has in it as well, rad/s; 0 without.
+    /// Corner frequency of a smoother of order one whose noise u has in it as well, rad/s; 0 without. Where u follows the
+    /// speed, such noise is in g, over the spread of the speed.
     pub level: f64,
     /// First-order autoregression of the samples' noise.
     pub correlated: Option<Autoregression>,
@@ -96,7 +97,10 @@ impl Linear<'_> {
     pub fn deviations<'a>(&self, stretch: &'a Stretch, noise: &Noise) -> Deviations<'a> {
         let corner = self.scales.density(noise.corner, self.prior.noisy());
         let (rate, level) = match self.prior.follows_speed {
-            true => (0.0, corner),
+            true => (
+                self.scales.density(noise.level, 1) / self.scales.speed.powi(2),
+                corner,
+            ),
             false => (corner, self.scales.density(noise.level, 1)),
         };
         Deviations {
@@ -218,6 +222,18 @@ impl Linear<'_> {
             };
         }
         low
+    }
+
+    /// The likeliest noise of g beside that of u: a loss that is not in proportion to the speed.
+    pub fn with_drift(&self, mut noise: Noise) -> Noise {
+        for _ in 0..2 {
+            let guess = noise.level.max(noise.corner);
+            let by_level = self.over(guess, |level| self.evaluated(Noise { level, ..noise }));
+            noise = better(noise, by_level);
+            let by_corner = |corner| self.evaluated(Noise { corner, ..noise });
+            noise = better(noise, self.over(noise.corner, by_corner));
+        }
+        noise
     }
 
     /// The largest likelihood over the corner frequency, the correlation of the noise and its white part.

@@ -3,7 +3,9 @@
 //! A motion that comes to a limit may turn back just before it, on its branch, or pass it and go on along the other one:
 //! the crank angle turns back either way, and within its uncertainty it does not tell which.
 
+use super::fitted::Fitted;
 use super::inverse_dynamics::NEAR_LIMIT;
+use super::measurement_model::Sensor;
 use super::motion_estimate::MotionEstimate;
 use crate::error::Error;
 use crate::mechanism::Linkage;
@@ -13,12 +15,15 @@ use std::f64::consts::TAU;
 /// Standard errors of the crank angle within which a motion is at the limit.
 const WITHIN: f64 = 5.0;
 
-/// Refuses a motion that comes to a limit within its uncertainty, at the samples or where it turns between them.
+/// Refuses a motion that comes to a limit within its uncertainty or that of a sample, at the samples or where it turns between
+/// them: what is smoothed across a limit is another motion.
 pub(super) fn keeps_clear(
-    linkage: &Linkage,
-    motion: &[MotionEstimate],
+    sensor: &Sensor<'_>,
+    fitted: &Fitted,
     measurement: &Measurement,
 ) -> Result<(), Error> {
+    let (linkage, motion) = (sensor.linkage, &fitted.motion);
+    let values = measurement.values();
     let limits = linkage.limit_angles();
     if limits.is_empty() {
         return Ok(());
@@ -27,11 +32,22 @@ pub(super) fn keeps_clear(
         let before = sample.checked_sub(1).map(|before| &motion[before]);
         let passed = before.is_some_and(|before| passes(&limits, before, state));
         let error = state.angle_error();
+        let beside = &values[sample.saturating_sub(1)..values.len().min(sample + 2)];
+        // Between this sample and those beside it the value may go on by half their distance.
+        let steps = beside.windows(2).map(|w| 0.5 * (w[1] - w[0]).abs());
+        let reach = steps.fold(0.0, f64::max) + WITHIN * fitted.summary.sigma;
+        let shows = |limit: &f64| {
+            let limit = nearest(*limit, state.value[0]);
+            // Just inside: rounding may put the limit itself out of reach.
+            let inside = limit + 8.0 * f64::EPSILON * (state.value[0] - limit).signum();
+            sensor.residual(values[sample], inside).0.abs() < reach
+        };
+        let shown = limits.iter().any(shows);
         let turn = before.and_then(|before| turning_angle(before, state));
         for (theta, more) in turn.into_iter().chain([(state.value[0], 0.0)]) {
             let pose = linkage.pose(theta);
             let within = WITHIN * error + more;
-            let far = pose.cos_phi > NEAR_LIMIT || distance(&limits, theta) > within;
+            let far = pose.cos_phi > NEAR_LIMIT || !shown && distance(&limits, theta) > within;
             if passed || !pose.exists() || !far {
                 return Err(refusal(linkage, measurement, sample, theta, error));
             }
@@ -40,7 +56,7 @@ pub(super) fn keeps_clear(
     Ok(())
 }
 
-fn refusal(
+pub(super) fn refusal(
     linkage: &Linkage,
     measurement: &Measurement,
     sample: usize,
@@ -60,12 +76,14 @@ fn refusal(
     )
 }
 
+/// The limit in the turn of a crank angle.
+fn nearest(limit: f64, theta: f64) -> f64 {
+    limit + ((theta - limit) / TAU).round() * TAU
+}
+
 /// The way from a crank angle to the nearest limit, rad.
 fn distance(limits: &[f64], theta: f64) -> f64 {
-    let from = |limit: &f64| {
-        let off = theta - limit;
-        (off - (off / TAU).round() * TAU).abs()
-    };
+    let from = |limit: &f64| (theta - nearest(*limit, theta)).abs();
     limits.iter().map(from).fold(f64::INFINITY, f64::min)
 }
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::mechanism::Linkage;
+use crate::mechanism::{InversePosition, Linkage};
 use crate::scene::Measured;
 
 /// A measured quantity of a mechanism.
@@ -10,6 +10,23 @@ use crate::scene::Measured;
 pub(super) struct Sensor<'a> {
     pub linkage: &'a Linkage,
     pub measured: Measured,
+    /// What a sensor of slider positions shows: shift + stretch x.
+    pub scale: Scale,
+}
+
+/// Zero, m, and gain of a sensor of slider positions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Scale {
+    pub shift: f64,
+    pub stretch: f64,
+}
+
+impl Scale {
+    /// The slider is where the sensor shows it.
+    pub const TRUE: Scale = Scale {
+        shift: 0.0,
+        stretch: 1.0,
+    };
 }
 
 /// A measured value at a crank angle.
@@ -24,6 +41,20 @@ pub(super) struct Shown {
 }
 
 impl Sensor<'_> {
+    /// The crank angles at which a value is shown, and how far it is from all that can be shown.
+    pub fn angles(&self, value: f64) -> (InversePosition, f64) {
+        match self.measured {
+            Measured::X => {
+                let x = (value - self.scale.shift) / self.scale.stretch;
+                (self.linkage.angles_of_x(x), self.linkage.excess_of_x(x))
+            }
+            _ => (
+                self.linkage.angles_of_gamma(value),
+                self.linkage.excess_of_gamma(value),
+            ),
+        }
+    }
+
     /// What is shown at a crank angle, rad.
     pub fn shown(&self, theta: f64) -> Shown {
         match self.measured {
@@ -34,10 +65,11 @@ impl Sensor<'_> {
             },
             Measured::X => {
                 let pose = self.linkage.pose(theta);
+                let Scale { shift, stretch } = self.scale;
                 Shown {
-                    value: pose.x,
-                    slope: pose.dx,
-                    curvature: pose.d2x,
+                    value: shift + stretch * pose.x,
+                    slope: stretch * pose.dx,
+                    curvature: stretch * pose.d2x,
                 }
             }
             Measured::Gamma => {

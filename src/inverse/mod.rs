@@ -27,8 +27,10 @@
 //! }
 //! ```
 
+mod alignment;
 mod as_printed;
 mod bands;
+mod branch_choice;
 mod branch_tracking;
 mod first_path;
 mod fitted;
@@ -67,7 +69,7 @@ pub use summary::{CandidateSummary, DataSummary, FitSummary, ForceRange, Inverse
 use self::fitted::Fitted;
 use self::guide::Guide;
 use self::inverse_dynamics::Backwards;
-use self::measurement_model::Sensor;
+use self::measurement_model::{Scale, Sensor};
 use self::row::Rows;
 use crate::error::Error;
 use crate::mechanism::{Equation, Reactions, Reactor};
@@ -123,10 +125,11 @@ pub fn inverse(
     let sensor = Sensor {
         linkage: equation.linkage(),
         measured: measurement.measured(),
+        scale: Scale::TRUE,
     };
-    let angles = branch_tracking::crank_angles(&sensor, measurement, &scene.motion)?;
+    let angles = branch_choice::crank_angles(&sensor, measurement, &equation, &scene.motion)?;
     let noted = angles.warnings.clone();
-    let fitted = Fitted::new(sensor, measurement, &angles, &equation, options)
+    let fitted = Fitted::new(measurement, &angles, &equation, options)
         .map_err(|what| Error::refused(what, "give more samples, or another --fit or --degree"))?;
     let backwards = Backwards {
         equation: &equation,
@@ -136,7 +139,7 @@ pub fn inverse(
     let factor = student::half_band(fitted.free);
     let found = Rows::new(&backwards, &fitted, measurement, factor);
     reachable(measurement, &found)?;
-    limit::keeps_clear(equation.linkage(), &fitted.motion, measurement)?;
+    limit::keeps_clear(&angles.sensor, &fitted, measurement)?;
     let locked = finite(&backwards, measurement, &found.rows)?;
     let mut warnings = measurement.notes().to_vec();
     warnings.extend(noted);

@@ -1,6 +1,7 @@
 //! Samples at the nodes of a path.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 use super::linearised::State;
 use super::measurement_model::Sensor;
@@ -141,6 +142,13 @@ impl Grid {
 }
 
 impl Record<'_> {
+    /// Leaves out all but a range of samples.
+    pub fn keep(&mut self, range: Range<usize>) {
+        self.times = self.times[range.clone()].to_vec().into();
+        self.values = self.values[range.clone()].to_vec();
+        self.weights.truncate(range.len());
+    }
+
     /// The sample of a row of the measurement.
     pub fn sample_of(&self, row: usize) -> usize {
         self.rows.as_ref().map_or(row, |rows| rows[row])

@@ -1,7 +1,6 @@
 //! The samples of a measurement as the smoother and the polynomial take them.
 
 use super::branch_tracking::CrankAngles;
-use super::measurement_model::Sensor;
 use super::problem::Problem;
 use super::quantised;
 use super::record::{Grid, Record};
@@ -15,11 +14,8 @@ const COMPUTED: f64 = 2.0;
 const SHARP: f64 = 1e-3;
 
 /// The samples of a measurement with the crank angles that they were read as.
-pub(super) fn record<'a>(
-    sensor: Sensor<'a>,
-    measurement: &'a Measurement,
-    angles: &CrankAngles,
-) -> Record<'a> {
+pub(super) fn record<'a>(measurement: &'a Measurement, angles: &CrankAngles<'a>) -> Record<'a> {
+    let sensor = angles.sensor;
     let values = match sensor.measured {
         Measured::Theta => angles.theta.clone(),
         _ => measurement.values().to_vec(),

@@ -190,6 +190,13 @@ impl Problem<'_> {
         (found, listed(&white))
     }
 
+    /// ln of the marginal likelihood of the samples by the likeliest prior about a smoothed motion.
+    pub fn evidence(&self, kinematic: &Smoothed) -> f64 {
+        let tried = self.tried(kinematic, false);
+        let best = tried.first();
+        best.map_or(f64::NEG_INFINITY, |best| best.noise.likelihood)
+    }
+
     /// All priors about a path, the likeliest first.
     fn tried(&self, kinematic: &Smoothed, correlated: bool) -> Vec<Candidate> {
         let priors: Vec<Prior> = std::iter::once(KINEMATIC).chain(MECHANICAL).collect();
@@ -228,15 +235,19 @@ impl Problem<'_> {
         };
         for iteration in 0..ITERATIONS {
             // A path that has moved tells another noise, once.
-            if iteration == 1 {
+            if iteration <= 1 {
                 let stretches = self.stretches(&motion, &path, noise.sigma);
                 let linear = Linear {
                     stretches: &stretches,
                     prior,
                     scales,
                 };
-                noise = linear.maximised(noise.corner, noise.correlated);
-                if prior.order == 2 && !prior.follows_speed {
+                if iteration == 1 {
+                    noise = linear.maximised(noise.corner, noise.correlated);
+                }
+                if prior.follows_speed {
+                    noise = linear.with_drift(noise);
+                } else if prior.order == 2 {
                     noise = linear.with_level(&noise);
                 }
             }

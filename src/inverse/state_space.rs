@@ -157,7 +157,8 @@ impl Deviations<'_> {
         }
         // Responses of θ, ω, u, u̇ to an impulse a time s before: ψ_k = scale_k s^power_k.
         let on_level = ([0.5 * b, b, 1.0, 0.0], [2, 1, 0, 0]);
-        let on_slope = ([b / 6.0, 0.5 * b, 1.0, 1.0], [3, 2, 1, 0]);
+        let tilt = step.tilt;
+        let on_slope = ([b * tilt / 6.0, 0.5 * b * tilt, tilt, 1.0], [3, 2, 1, 0]);
         let mut add = |(scales, powers): ([f64; 4], [usize; 4]), density: f64| {
             for i in 0..2 + self.order {
                 for j in 0..2 + self.order {

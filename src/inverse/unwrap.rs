@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use super::branch_tracking::CrankAngles;
+use super::measurement_model::Sensor;
 use crate::error::Error;
-use crate::mechanism::Linkage;
 use crate::numeric::median::median;
 use crate::scene::Measurement;
 
@@ -15,7 +15,10 @@ const ONE_TURN: f64 = 1.05;
 const JUMP: f64 = 10.0;
 
 /// A measured crank angle as it is, or continued over the turns if it was reduced to one.
-pub(super) fn unwrap(linkage: &Linkage, measurement: &Measurement) -> Result<CrankAngles, Error> {
+pub(super) fn unwrap<'a>(
+    sensor: &Sensor<'a>,
+    measurement: &Measurement,
+) -> Result<CrankAngles<'a>, Error> {
     let values = measurement.values();
     let (least, most) = values
         .iter()
@@ -50,7 +53,7 @@ pub(super) fn unwrap(linkage: &Linkage, measurement: &Measurement) -> Result<Cra
         warnings.extend(jumping(measurement));
     }
     let unreachable = |(sample, theta): (usize, &f64)| {
-        (!linkage.pose(*theta).exists()).then(|| {
+        (!sensor.linkage.pose(*theta).exists()).then(|| {
             let what = format!(
                 "theta = {} cannot be reached: the rod is too short for it",
                 measurement.shown(values[sample])
@@ -72,6 +75,7 @@ pub(super) fn unwrap(linkage: &Linkage, measurement: &Measurement) -> Result<Cra
         return Err(measurement.problems(list).into());
     }
     Ok(CrankAngles {
+        sensor: *sensor,
         theta,
         sigma: 0.0,
         warnings,

@@ -316,6 +316,38 @@ fn the_speed_of_the_scene_decides_where_its_angle_says_nothing() {
     }
 }
 
+/// The mirror image of a motion has other forces; where neither they nor the scene tell, both are named. In line the image is
+/// exact; a crank that starts at rest says nothing by its speed.
+#[test]
+fn motions_and_their_mirror_images_are_told_or_both_named() {
+    let times: Vec<f64> = (0..=300).map(|i| 0.004 * f64::from(i)).collect();
+    let theta: Vec<f64> = times.iter().map(|t| 0.9 + 6.0 * t * t).collect();
+    let pump = Scene::new(0.05, 0.15).slider(Slider { mass: 1.0 });
+    let taken = |scene: Scene| {
+        let values = shown(&scene, Measured::X, &theta);
+        let motion = Measurement::new(Measured::X, times.clone(), values).expect("samples");
+        let found = inverse(&scene, &motion, &fitted(FitKind::Smoother)).expect("an inversion");
+        let mut warnings = found.summary.warnings.into_iter();
+        (
+            found.rows[0].theta,
+            warnings.find(|w| w.contains("mirror image")),
+        )
+    };
+    let (_, said) = taken(pump.clone());
+    let said = said.expect("nothing tells");
+    assert!(
+        said.contains(" 0.9000 rad") && said.contains("-0.9000 rad"),
+        "{said}"
+    );
+    for sense in [1.0, -1.0] {
+        let (begin, said) = taken(pump.clone().start(0.9 * sense, 15.0 * sense));
+        assert!((begin - 0.9 * sense).abs() < 1e-3 && said.is_none());
+        // Angle and speed of the scene contradict each other.
+        let (_, said) = taken(pump.clone().start(0.9 * sense, -15.0 * sense));
+        assert!(said.is_some());
+    }
+}
+
 #[test]
 fn angles_reduced_to_one_turn_are_continued() {
     let times: Vec<f64> = (0..200).map(|i| 0.01 * f64::from(i)).collect();

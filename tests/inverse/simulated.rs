@@ -301,7 +301,7 @@ fn crank_angles_of_many_kinds() {
 }
 
 /// Positions of the slider, in a scene whose crank is 0.3 % off too: the turns are right and the band holds, or a warning
-/// says why not.
+/// names the lengths.
 #[test]
 fn slider_positions() {
     let mut random = Random(0x0fed_cba9_8765_4321);
@@ -319,7 +319,9 @@ fn slider_positions() {
                 "{} noise {noise} stretch {stretch}: {error:.3} N, covered {covered:.3}, turns off by {off:.4}\n",
                 motion.name
             );
-            if (off.abs() > 0.05 || covered < 0.85) && found.summary.warnings.is_empty() {
+            let lengths = |warning: &String| warning.contains("dead centres of the scene");
+            let is_said = stretch != 1.0 && found.summary.warnings.iter().any(lengths);
+            if off.abs() > 0.05 || covered < 0.85 && !is_said {
                 failures += &format!(
                     "{} noise {noise} stretch {stretch}: turns off by {off:.4}, covered {covered:.3}\n",
                     motion.name

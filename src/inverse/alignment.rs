@@ -1,0 +1,126 @@
+//! Slider positions that turn back a little off the dead centres of the scene, as its lengths or the zero of the sensor are a
+//! little off: sensors that show the turning points where the samples have them.
+//!
+//! Slightly longer lengths move and stretch the slider's way, but for terms of second order: that is what a sensor's zero and
+//! gain can do. Without that, a slider that turns back before the scene's dead centre takes the crank back with it.
+
+use super::branch_tracking::OFF;
+use super::measurement_model::{Scale, Sensor};
+use crate::mechanism::Limits;
+use crate::numeric::median::median;
+use crate::numeric::polynomial_fit::{Equations, PolynomialFit};
+use crate::scene::{Measured, Measurement};
+
+/// Way of the slider about a turning point along which it is fitted, in cranks: about 0.8 rad of the crank on both sides.
+const WAY: f64 = 0.3;
+
+/// Least samples about a turning point.
+const LEAST: usize = 6;
+
+/// Standard errors by which a turning point is off a dead centre.
+const SIGNIFICANT: f64 = 3.0;
+
+/// The sensor as it is, and those that show the turning points at the dead centres, where they are off.
+pub(super) fn sensors<'a>(sensor: Sensor<'a>, measurement: &Measurement) -> Vec<Sensor<'a>> {
+    let mut list = vec![sensor];
+    if sensor.measured != Measured::X {
+        return list;
+    }
+    let dead_centres = Limits::new(sensor.linkage, 0.0).dead_centres;
+    let mut found: Vec<Turn> = Vec::new();
+    for dead_centre in dead_centres {
+        let bend = sensor.linkage.pose(dead_centre.theta).d2x;
+        let turn = turning_point(measurement, -bend.signum(), sensor.linkage.r);
+        found.extend(turn.map(|[shown, error]| Turn {
+            at: dead_centre.x,
+            shown,
+            error,
+        }));
+    }
+    found.retain(|turn| (turn.shown - turn.at).abs() < OFF * sensor.linkage.r);
+    if !found.iter().any(Turn::is_off) {
+        return list;
+    }
+    let mut scales: Vec<Scale> = Vec::new();
+    if let [a, b] = &found[..] {
+        let stretch = (a.shown - b.shown) / (a.at - b.at);
+        let shift = a.shown - stretch * a.at;
+        scales.push(Scale { shift, stretch });
+    }
+    scales.extend(found.iter().filter(|turn| turn.is_off()).map(|turn| Scale {
+        shift: turn.shown - turn.at,
+        stretch: 1.0,
+    }));
+    list.extend(scales.into_iter().map(|scale| Sensor { scale, ..sensor }));
+    list
+}
+
+/// A turning point of the slider next to a dead centre.
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    /// The dead centre, m.
+    at: f64,
+    /// What is shown where the slider turns back, m.
+    shown: f64,
+    /// Standard error of that, m.
+    error: f64,
+}
+
+impl Turn {
+    fn is_off(&self) -> bool {
+        (self.shown - self.at).abs() > SIGNIFICANT * self.error
+    }
+}
+
+/// The largest value (or the least, of sense −1) at which the samples turn back, m, with its standard error: the median of all
+/// turns next to it.
+fn turning_point(measurement: &Measurement, sense: f64, crank: f64) -> Option<[f64; 2]> {
+    let values = measurement.values();
+    // Single ones are outliers.
+    let middles = values
+        .windows(3)
+        .map(|w| sense * w[0].max(w[1]).min(w[0].min(w[1]).max(w[2])));
+    let top = middles.fold(f64::NEG_INFINITY, f64::max);
+    let mut turns: Vec<[f64; 2]> = Vec::new();
+    let is_near = |value: f64| sense * value > top - WAY * crank;
+    let mut first = 0;
+    while first < values.len() {
+        let near = values[first..].iter().take_while(|v| is_near(**v)).count();
+        if near >= LEAST {
+            turns.extend(vertex(measurement, first..first + near));
+        }
+        first += near.max(1);
+    }
+    let shown = median(turns.iter().map(|turn| turn[0]))?;
+    let error = median(turns.iter().map(|turn| turn[1]))?;
+    // The median of n normal numbers has √(π/2n) of their standard deviation.
+    Some([shown, error * (1.6 / turns.len() as f64).sqrt().min(1.0)])
+}
+
+/// Where a polynomial through samples about a turning point has its vertex, and the standard error of its value.
+fn vertex(measurement: &Measurement, range: std::ops::Range<usize>) -> Option<[f64; 2]> {
+    let t = &measurement.elapsed()[range.clone()];
+    let equations = Equations {
+        t,
+        target: &measurement.values()[range],
+        weight: None,
+        floor: measurement.resolution(),
+    };
+    let fit = PolynomialFit::new(&equations, None).ok()?;
+    let (mut low, mut high) = (t[0], t[t.len() - 1]);
+    let slope = |t: f64| fit.state(t).value[1];
+    if slope(low) * slope(high) > 0.0 {
+        return None;
+    }
+    let rising = slope(low) > 0.0;
+    for _ in 0..40 {
+        let middle = 0.5 * (low + high);
+        if (slope(middle) > 0.0) == rising {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    let state = fit.state(low);
+    Some([state.value[0], state.covariance[0].sqrt()])
+}

@@ -1,0 +1,321 @@
+//! Which of the motions that have the same samples the crank took: by the marginal likelihood of each through the equation of
+//! motion, and by what the scene says of its start.
+//!
+//! A slider position belongs to a motion and to its mirror image at the line from the crank pivot to the slider pin, which goes
+//! along the other strokes, and is as smooth. Only the force of one of them looks like a force, or the scene tells.
+
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+use super::branch_tracking::{self, APART, CrankAngles, EARLY};
+use super::measurement_model::{Scale, Sensor};
+use super::samples::{problem, record};
+use super::{alignment, first_path, limit, unwrap};
+use crate::error::Error;
+use crate::mechanism::Equation;
+use crate::numeric::parallel;
+use crate::scene::{Measured, Measurement, Motion};
+
+/// ln of the odds beyond which a choice needs no word: 1000 to 1.
+const CERTAIN: f64 = 6.9;
+
+/// ln of the odds that the likelihoods of a motion and of its mirror image can give, and that the sense of a stated speed can:
+/// forces that no prior describes make the false one likelier in one record of fifty (simulated ones of eight kinds), and a
+/// stated sense is taken for as trustworthy.
+const BOUND: f64 = 3.9;
+
+/// ln of the odds from which on something is said to speak for a motion: 2 to 1.
+const TOLD: f64 = 0.7;
+
+/// To what an angle of a scene is written, rad: half a degree.
+const WRITTEN: f64 = 0.01;
+
+/// The crank angles of all samples, continued over the turns.
+///
+/// # Errors
+/// [`Error::Scene`] for values that the mechanism cannot take, [`Error::Refused`] for a motion that leaves the branch.
+pub(super) fn crank_angles<'a>(
+    sensor: &Sensor<'a>,
+    measurement: &Measurement,
+    equation: &Equation,
+    motion: &Motion,
+) -> Result<CrankAngles<'a>, Error> {
+    if sensor.measured == Measured::Theta {
+        return unwrap::unwrap(sensor, measurement);
+    }
+    branch_tracking::reachable(sensor, measurement)?;
+    let sensors = alignment::sensors(*sensor, measurement);
+    let motions = parallel::map(sensors.iter(), |sensor| {
+        branch_tracking::motions(sensor, measurement)
+    });
+    let (found, errors): (Vec<_>, Vec<_>) = motions.into_iter().partition(Result::is_ok);
+    let motions: Vec<CrankAngles<'a>> = found.into_iter().flatten().flatten().collect();
+    let Some(first) = motions.first() else {
+        return Err(errors
+            .into_iter()
+            .find_map(Result::err)
+            .unwrap_or_else(|| unreachable!("no motion, no error")));
+    };
+    let images: Vec<Image<'a>> = motions.iter().map(image).collect();
+    let others = motions
+        .iter()
+        .chain(images.iter().map(|image| &image.angles))
+        .skip(1);
+    let fork = others
+        .filter_map(|other| fork(first, other))
+        .max()
+        .unwrap_or(0);
+    let count = EARLY.min(measurement.len());
+    let begin = fork
+        .saturating_sub(count / 2)
+        .min(measurement.len() - count);
+    let window = begin..begin + count;
+    let pairs = parallel::map(motions.into_iter().zip(images), |(angles, image)| {
+        let read =
+            |angles: CrankAngles<'a>| Reading::new(measurement, equation, motion, angles, &window);
+        let is_whole = image.leaves.is_none();
+        let taken = read(angles);
+        let other = match is_whole {
+            true => read(image.angles),
+            // Nothing is known of its likelihood.
+            false => Reading {
+                likelihood: taken.likelihood,
+                sense: -taken.sense,
+                off: off(&image.angles, motion),
+                angles: image.angles,
+            },
+        };
+        Pair::new(taken, other, image.leaves, motion, sensor.measured.name())
+    });
+    best(pairs, measurement, motion)
+}
+
+/// The likeliest of the motions, with what is to be said of it.
+fn best<'a>(
+    mut pairs: Vec<Pair<'a>>,
+    measurement: &Measurement,
+    motion: &Motion,
+) -> Result<CrankAngles<'a>, Error> {
+    pairs.sort_by(|a, b| b.likelihood.total_cmp(&a.likelihood));
+    let best = pairs.swap_remove(0);
+    let angles = best.taken.angles;
+    if let Some(sample) = best.leaves {
+        let theta = angles.theta[sample.saturating_sub(1)];
+        return Err(limit::refusal(
+            angles.sensor.linkage,
+            measurement,
+            sample,
+            theta,
+            angles.sigma / angles.sensor.size(),
+        ));
+    }
+    let mut warnings = angles.warnings;
+    warnings.extend(best.doubt);
+    let turned = |theta: &[f64]| (theta[theta.len() - 1] - theta[0]).abs();
+    let taken = turned(&angles.theta);
+    let other = pairs
+        .iter()
+        .filter(|other| best.likelihood - other.likelihood < CERTAIN)
+        .map(|other| turned(&other.taken.angles.theta))
+        .find(|turned| (turned - taken).abs() > APART);
+    if let Some(other) = other {
+        warnings.push(format!(
+            "whether the crank went on or turned back at a dead centre is not certain: {:.2} turns are taken, and {:.2} are hardly less likely",
+            taken / TAU,
+            other / TAU
+        ));
+    }
+    if best.taken.sense * motion.speed < 0.0 {
+        warnings.push("the crank turns against the sense of the scene's [motion] speed".to_owned());
+    }
+    let scale = angles.sensor.scale;
+    if scale != Scale::TRUE {
+        let x = measurement.shown(scale.shift);
+        warnings.push(format!(
+            "the slider does not turn back at the dead centres of the scene: the positions are taken as {:.6} times the slider's, and {x} more; check the lengths of the scene, and zero and gain of the sensor, for the force rests on them",
+            scale.stretch
+        ));
+    }
+    Ok(CrankAngles { warnings, ..angles })
+}
+
+/// The mirror image of a motion, and the sample at which it leaves the branch of the scene.
+#[derive(Clone, Debug)]
+struct Image<'a> {
+    angles: CrankAngles<'a>,
+    leaves: Option<usize>,
+}
+
+/// The mirror image of a motion, as far as it is on the branch.
+fn image<'a>(motion: &CrankAngles<'a>) -> Image<'a> {
+    let linkage = motion.sensor.linkage;
+    let mut theta: Vec<f64> = Vec::with_capacity(motion.theta.len());
+    for angle in &motion.theta {
+        let x = linkage.pose(*angle).x;
+        let there = 2.0 * (-linkage.e).atan2(x) - angle;
+        let last = theta.last().map_or(0.0, |last| *last);
+        theta.push(there + ((last - there) / TAU).round() * TAU);
+    }
+    // Half of the digits are lost at a limit.
+    let is_there = |k: usize| {
+        let [pose, image] = [motion.theta[k], theta[k]].map(|theta| linkage.pose(theta).x);
+        (pose - image).abs() < f64::EPSILON.sqrt() * linkage.r
+    };
+    let leaves = (0..theta.len()).find(|k| !is_there(*k));
+    Image {
+        angles: CrankAngles {
+            theta,
+            ..motion.clone()
+        },
+        leaves,
+    }
+}
+
+/// The first sample at which two motions are apart.
+fn fork(a: &CrankAngles<'_>, b: &CrankAngles<'_>) -> Option<usize> {
+    let off = |k: usize| a.theta[k] - b.theta[k];
+    let turns = (off(0) / TAU).round() * TAU;
+    (0..a.theta.len()).find(|k| (off(*k) - turns).abs() > APART)
+}
+
+/// How far the scene's angle is off the begin of a motion, rad.
+fn off(angles: &CrankAngles<'_>, motion: &Motion) -> f64 {
+    let off = angles.theta[0] - motion.angle;
+    (off - (off / TAU).round() * TAU).abs()
+}
+
+/// A motion that the samples may stand for.
+#[derive(Debug)]
+struct Reading<'a> {
+    angles: CrankAngles<'a>,
+    /// ln of the marginal likelihood of a window of samples, by the likeliest prior.
+    likelihood: f64,
+    /// How far the scene's angle is off, rad.
+    off: f64,
+    /// The sense in which it turns where it comes to half of the scene's speed first; if it never does, in its first quarter of
+    /// a turn.
+    sense: f64,
+}
+
+impl<'a> Reading<'a> {
+    fn new(
+        measurement: &Measurement,
+        equation: &Equation,
+        motion: &Motion,
+        angles: CrankAngles<'a>,
+        window: &Range<usize>,
+    ) -> Reading<'a> {
+        let mut record = record(measurement, &angles);
+        record.keep(window.clone());
+        let theta = &angles.theta[window.clone()];
+        let problem = problem(record, theta, equation);
+        let first = first_path::coarse(&problem, theta);
+        let kinematic = problem.kinematic(first, angles.sigma.max(problem.record.floor));
+        // Schwarz (1978): zero and gain are found from the samples.
+        let Scale { shift, stretch } = angles.sensor.scale;
+        let found = f64::from(u8::from(shift != 0.0) + u8::from(stretch != 1.0));
+        let cost = 0.5 * found * (measurement.len() as f64).ln();
+        let likelihood = problem.evidence(&kinematic) - cost;
+        let begin = angles.theta[0];
+        let far = |theta: &&f64| (**theta - begin).abs() > 0.25 * TAU;
+        let way = angles.theta.iter().find(far).or(angles.theta.last());
+        let speeds = kinematic.estimates.iter().map(|estimate| estimate.state[1]);
+        let stated = speeds
+            .take_while(|_| window.start == 0)
+            .find(|speed| speed.abs() > 0.5 * motion.speed.abs());
+        Reading {
+            likelihood,
+            off: off(&angles, motion),
+            sense: stated
+                .or(way.map(|way| way - begin))
+                .map_or(0.0, f64::signum),
+            angles,
+        }
+    }
+
+    /// ln of the density of the scene's angle: one that is off by an unknown size has the density 1/δ (Jeffreys).
+    fn of_angle(&self) -> f64 {
+        -(self.off + WRITTEN).ln()
+    }
+
+    /// ln of the probability of the sense of the scene's speed.
+    fn of_speed(&self, motion: &Motion) -> f64 {
+        if self.sense * motion.speed < 0.0 {
+            -BOUND
+        } else {
+            0.0
+        }
+    }
+}
+
+/// A motion and its mirror image.
+#[derive(Debug)]
+struct Pair<'a> {
+    taken: Reading<'a>,
+    /// Where the taken one leaves the branch of the scene.
+    leaves: Option<usize>,
+    doubt: Option<String>,
+    /// ln of the larger likelihood of the two.
+    likelihood: f64,
+}
+
+impl<'a> Pair<'a> {
+    fn new(
+        reading: Reading<'a>,
+        image: Reading<'a>,
+        leaves: Option<usize>,
+        motion: &Motion,
+        name: &str,
+    ) -> Pair<'a> {
+        let likelihood = reading.likelihood.max(image.likelihood);
+        // The image of the first sample is on the other branch.
+        if leaves == Some(0) {
+            return Pair {
+                taken: reading,
+                leaves: None,
+                doubt: None,
+                likelihood,
+            };
+        }
+        let speaking = [
+            (reading.of_angle() - image.of_angle(), "the scene's angle"),
+            (
+                reading.of_speed(motion) - image.of_speed(motion),
+                "the sense of the scene's speed",
+            ),
+            (
+                (reading.likelihood - image.likelihood).clamp(-BOUND, BOUND),
+                "the likelihood of its forces",
+            ),
+        ];
+        let odds: f64 = speaking.iter().map(|(odds, _)| odds).sum();
+        let (taken, other) = if odds < 0.0 {
+            (image, reading)
+        } else {
+            (reading, image)
+        };
+        let named = |sign: f64| {
+            let plainly = speaking
+                .iter()
+                .filter(|(part, _)| sign * part * odds.signum() > TOLD);
+            let list: Vec<&str> = plainly.map(|(_, words)| *words).collect();
+            match list.is_empty() {
+                true => "nothing".to_owned(),
+                false => list.join(" and "),
+            }
+        };
+        let doubt = (odds.abs() < CERTAIN).then(|| {
+            let past = if odds > 0.0 && leaves.is_some() { ", past a limit," } else { "" };
+            format!(
+                "{name} alone does not tell a motion from its mirror image on the other strokes: the one that begins at {:.4} rad is taken (for it: {}); the one that begins at {:.4} rad{past} has other forces (for it: {})",
+                taken.angles.theta[0], named(1.0), other.angles.theta[0], named(-1.0)
+            )
+        });
+        Pair {
+            taken,
+            leaves: leaves.filter(|_| odds < 0.0),
+            doubt,
+            likelihood,
+        }
+    }
+}
