@@ -9,6 +9,7 @@ use std::ops::Range;
 
 use super::branch_tracking::{self, APART, CrankAngles, EARLY};
 use super::measurement_model::{Scale, Sensor};
+use super::mirror_image::{Image, fork, image};
 use super::samples::{problem, record};
 use super::{alignment, first_path, limit, unwrap};
 use crate::error::Error;
@@ -137,45 +138,6 @@ fn best<'a>(
         ));
     }
     Ok(CrankAngles { warnings, ..angles })
-}
-
-/// The mirror image of a motion, and the sample at which it leaves the branch of the scene.
-#[derive(Clone, Debug)]
-struct Image<'a> {
-    angles: CrankAngles<'a>,
-    leaves: Option<usize>,
-}
-
-/// The mirror image of a motion, as far as it is on the branch.
-fn image<'a>(motion: &CrankAngles<'a>) -> Image<'a> {
-    let linkage = motion.sensor.linkage;
-    let mut theta: Vec<f64> = Vec::with_capacity(motion.theta.len());
-    for angle in &motion.theta {
-        let x = linkage.pose(*angle).x;
-        let there = 2.0 * (-linkage.e).atan2(x) - angle;
-        let last = theta.last().map_or(0.0, |last| *last);
-        theta.push(there + ((last - there) / TAU).round() * TAU);
-    }
-    // Half of the digits are lost at a limit.
-    let is_there = |k: usize| {
-        let [pose, image] = [motion.theta[k], theta[k]].map(|theta| linkage.pose(theta).x);
-        (pose - image).abs() < f64::EPSILON.sqrt() * linkage.r
-    };
-    let leaves = (0..theta.len()).find(|k| !is_there(*k));
-    Image {
-        angles: CrankAngles {
-            theta,
-            ..motion.clone()
-        },
-        leaves,
-    }
-}
-
-/// The first sample at which two motions are apart.
-fn fork(a: &CrankAngles<'_>, b: &CrankAngles<'_>) -> Option<usize> {
-    let off = |k: usize| a.theta[k] - b.theta[k];
-    let turns = (off(0) / TAU).round() * TAU;
-    (0..a.theta.len()).find(|k| (off(*k) - turns).abs() > APART)
 }
 
 /// How far the scene's angle is off the begin of a motion, rad.

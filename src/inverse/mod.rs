@@ -43,6 +43,7 @@ mod limit;
 mod linearised;
 mod maximum;
 mod measurement_model;
+mod mirror_image;
 mod motion_estimate;
 mod options;
 mod outliers;

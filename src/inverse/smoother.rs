@@ -3,7 +3,7 @@
 
 use super::likelihood::{Linear, Noise, Scales};
 use super::linearised::{Prior, State, Unknown};
-use super::prior::{KINEMATIC, MECHANICAL};
+use super::prior::{Candidate, KINEMATIC, MECHANICAL, likelihood, listed};
 use super::problem::{Estimate, Problem};
 use super::record::Path;
 use super::residual_tests::Whiteness;
@@ -176,12 +176,7 @@ impl Problem<'_> {
             let correlated = self.tried(&kinematic, true);
             // Two parameters more (Schwarz 1978).
             let cost = (self.record.times.len() as f64).ln();
-            let gain = |tried: &[Candidate]| {
-                tried
-                    .first()
-                    .map_or(f64::NEG_INFINITY, |c| c.noise.likelihood)
-            };
-            if gain(&correlated) > gain(&white) + cost
+            if likelihood(&correlated) > likelihood(&white) + cost
                 && let Some(found) = self.first_settled(&correlated, &kinematic)
             {
                 return (found, listed(&correlated));
@@ -192,9 +187,7 @@ impl Problem<'_> {
 
     /// ln of the marginal likelihood of the samples by the likeliest prior about a smoothed motion.
     pub fn evidence(&self, kinematic: &Smoothed) -> f64 {
-        let tried = self.tried(kinematic, false);
-        let best = tried.first();
-        best.map_or(f64::NEG_INFINITY, |best| best.noise.likelihood)
+        likelihood(&self.tried(kinematic, false))
     }
 
     /// All priors about a path, the likeliest first.
@@ -208,12 +201,23 @@ impl Problem<'_> {
         tried
     }
 
-    /// The smoothed motion with the first prior whose iterations come to rest.
+    /// The likeliest smoothed motion of those whose iterations come to rest. About the path that they come to, a prior may be less
+    /// likely than about the first one.
     fn first_settled(&self, tried: &[Candidate], kinematic: &Smoothed) -> Option<Smoothed> {
-        let smoothed = tried
-            .iter()
-            .map(|candidate| self.iterated(candidate, kinematic));
-        smoothed.into_iter().find(|found| found.settled)
+        let mut best: Option<Smoothed> = None;
+        for candidate in tried {
+            let before = best
+                .as_ref()
+                .map_or(f64::NEG_INFINITY, |b| b.noise.likelihood);
+            if before >= candidate.noise.likelihood {
+                break;
+            }
+            let found = self.iterated(candidate, kinematic);
+            if found.settled && found.noise.likelihood > before {
+                best = Some(found);
+            }
+        }
+        best
     }
 
     /// The smoothed motion with a prior, about paths that approach it.
@@ -247,7 +251,7 @@ impl Problem<'_> {
                 }
                 if prior.follows_speed {
                     noise = linear.with_drift(noise);
-                } else if prior.order == 2 {
+                } else if prior.order == 2 && iteration == 1 {
                     noise = linear.with_level(&noise);
                 }
             }
@@ -270,21 +274,6 @@ impl Problem<'_> {
         }
         result
     }
-}
-
-/// A prior with its noise, about a path.
-#[derive(Clone, Copy, Debug)]
-struct Candidate {
-    prior: Prior,
-    noise: Noise,
-    scales: Scales,
-}
-
-fn listed(tried: &[Candidate]) -> Vec<(Prior, f64)> {
-    tried
-        .iter()
-        .map(|candidate| (candidate.prior, candidate.noise.likelihood))
-        .collect()
 }
 
 /// Root mean square change of the crank angles in their standard errors.

@@ -1,0 +1,44 @@
+//! The motion of a crank mirrored at the line from its pivot to the slider pin: it has the slider at the same places.
+
+use std::f64::consts::TAU;
+
+use super::branch_tracking::{APART, CrankAngles};
+
+/// The mirror image of a motion, and the sample at which it leaves the branch of the scene.
+#[derive(Clone, Debug)]
+pub(super) struct Image<'a> {
+    pub angles: CrankAngles<'a>,
+    pub leaves: Option<usize>,
+}
+
+/// The mirror image of a motion, as far as it is on the branch.
+pub(super) fn image<'a>(motion: &CrankAngles<'a>) -> Image<'a> {
+    let linkage = motion.sensor.linkage;
+    let mut theta: Vec<f64> = Vec::with_capacity(motion.theta.len());
+    for angle in &motion.theta {
+        let x = linkage.pose(*angle).x;
+        let there = 2.0 * (-linkage.e).atan2(x) - angle;
+        let last = theta.last().map_or(0.0, |last| *last);
+        theta.push(there + ((last - there) / TAU).round() * TAU);
+    }
+    // Half of the digits are lost at a limit.
+    let is_there = |k: usize| {
+        let [pose, image] = [motion.theta[k], theta[k]].map(|theta| linkage.pose(theta).x);
+        (pose - image).abs() < f64::EPSILON.sqrt() * linkage.r
+    };
+    let leaves = (0..theta.len()).find(|k| !is_there(*k));
+    Image {
+        angles: CrankAngles {
+            theta,
+            ..motion.clone()
+        },
+        leaves,
+    }
+}
+
+/// The first sample at which two motions are apart.
+pub(super) fn fork(a: &CrankAngles<'_>, b: &CrankAngles<'_>) -> Option<usize> {
+    let off = |k: usize| a.theta[k] - b.theta[k];
+    let turns = (off(0) / TAU).round() * TAU;
+    (0..a.theta.len()).find(|k| (off(*k) - turns).abs() > APART)
+}
