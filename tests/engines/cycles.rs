@@ -160,9 +160,8 @@ fn many_cycles_follow_from_the_map_of_a_cycle() {
         let [a, b] = [Method::Angle, Method::Time].map(|method| run(&scene, method));
         let [a, b] = [a, b].map(|run| (run.last, run.error_estimate.unwrap().omega_rad_per_s));
         let off = (a.0.omega_rad_per_s - b.0.omega_rad_per_s).abs();
-        // Steps in time do not end at the rows of the table.
         assert!(
-            off <= 2.0 * a.1 + 10.0 * b.1,
+            off <= 2.0 * a.1 + 2.0 * b.1,
             "{angle} {speed}: {off:e} {} {}",
             a.1,
             b.1
