@@ -7,6 +7,7 @@ use super::key_values::six;
 use super::rows::shortest;
 use crate::error::Error;
 use crate::precision::{Precision, PrecisionRow};
+use crate::scene::printable;
 
 /// The comparison of several scenes as CSV: one row for each method and tolerance, times the least; cells of
 /// what does not exist are empty.
@@ -41,7 +42,7 @@ pub fn precision_csv(scenes: &[Precision]) -> Result<String, Error> {
             let number = |value: Option<f64>| value.map_or(String::new(), shortest);
             let count = |value: Option<u64>| value.map_or(String::new(), |value| value.to_string());
             put(&[
-                scene.scene.clone(),
+                printable(&scene.scene).into_owned(),
                 row.method.clone(),
                 shortest(row.tolerance),
                 number(row.error_theta_rad),

@@ -252,6 +252,22 @@ fn what_a_title_says_is_shown_not_obeyed() {
         .expect("a title")
         .to_owned();
     assert_eq!(title, "a\u{1b}[31mb\u{7}");
+    folder.write(
+        "free.toml",
+        "title = \"a\\u001b[31mb\"\n[geometry]\ncrank = \"5 cm\"\nrod = \"15 cm\"\n\
+         [slider]\nmass = \"1 kg\"\n[crank]\ninertia = \"0.1 kg m^2\"\n\
+         [motion]\nspeed = \"10 rad/s\"\n[run]\nduration = \"0.1 s\"\n",
+    );
+    let cells = [
+        "precision",
+        "free.toml",
+        "--tolerances",
+        "1e-8",
+        "--out",
+        "-",
+    ];
+    let table = folder.run(&cells).done().stdout;
+    assert!(table.contains("a\\u{1b}[31mb,"), "{table:?}");
     let name = "a\u{1b}[31m.toml";
     let said = folder
         .run(&["check", name])
