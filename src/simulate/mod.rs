@@ -10,7 +10,6 @@ mod closed_form;
 mod configuration_curve;
 mod dense_rows;
 mod driving_torque;
-mod enclosed_swing;
 mod engine_switching;
 mod error_estimate;
 mod event_log;

@@ -3,7 +3,6 @@
 use std::time::Instant;
 
 use super::bounded_motion::Swing;
-use super::enclosed_swing::enclosed;
 use super::event_log::Log;
 use super::result::Event;
 use super::row::{RowMaker, RowSink};
@@ -135,7 +134,7 @@ impl Recorder<'_> {
             {
                 continue;
             }
-            let (equation, at) = (self.maker.equation, step.angle(theta));
+            let at = step.angle(theta);
             self.log.event(|| Event {
                 kind: match what {
                     Crossing::Angle(_) if at_limit => "limit",
@@ -151,10 +150,12 @@ impl Recorder<'_> {
             });
             if what == Crossing::Turning
                 && let Some(swing) = &mut self.swing
-                && swing.turns_at(at, |from| enclosed(equation, from, at))
             {
-                self.seen.ends_at = Some(t);
-                break;
+                swing.turns_at(at);
+                if swing.is_caught() {
+                    self.seen.ends_at = Some(t);
+                    break;
+                }
             }
         }
         self.seen.crossings = crossings;

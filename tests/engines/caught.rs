@@ -85,7 +85,7 @@ fn between(why: &str) -> [f64; 2] {
 
 /// From rest in time; with a speed over the angle first, over the top once and then into a well.
 #[test]
-fn a_damped_crank_is_caught_where_its_swing_first_lies_inside_one_before() {
+fn a_damped_crank_is_caught_once_it_has_come_no_further_for_long() {
     for (angle, speed, loss, methods) in [
         (0.3, 0.0, 1e-3, [Method::Auto, Method::Dop853]),
         (0.3, 0.0, 1e-5, [Method::Auto, Method::Time]),
@@ -104,11 +104,15 @@ fn a_damped_crank_is_caught_where_its_swing_first_lies_inside_one_before() {
             let known = turning.iter().position(|at| (at.0 - last.t_s).abs() < 1e-4);
             let known = known.expect("it ends where it turns");
             assert_close(last.theta_rad, turning[known].1, 1e-5);
-            let (one, other) = (turning[known - 1].1, turning[known].1);
+            // What is said are the start or the turning points furthest out, and it stays between them.
+            let so_far = || turning[..=known].iter().map(|at| at.1).chain([angle]);
+            let (low, high) = (
+                so_far().fold(f64::INFINITY, f64::min),
+                so_far().fold(f64::NEG_INFINITY, f64::max),
+            );
             let said = between(&why);
-            assert_close(said[0], one, 1e-5);
-            assert_close(said[1], other, 1e-5);
-            let (low, high) = (one.min(other), one.max(other));
+            assert_close(said[0], low, 1e-3 * (high - low));
+            assert_close(said[1], high, 1e-3 * (high - low));
             let after = &turning[known + 1..];
             assert!(after.len() > 20, "it goes on");
             assert!(after.iter().all(|at| low < at.1 && at.1 < high));
@@ -149,7 +153,8 @@ fn a_swing_that_grows_to_one_that_lasts_is_caught() {
             let summary = run(&scene, method);
             let why = summary.stopped.expect("a reason");
             assert!(why.contains("does not complete 3 turns"), "{why}");
-            assert!(summary.evaluations < 200_000, "{}", summary.evaluations);
+            // It is waited for as long again as the swing took to grow.
+            assert!(summary.evaluations < 400_000, "{}", summary.evaluations);
             let said = between(&why);
             let (low, high) = (said[0].min(said[1]), said[0].max(said[1]));
             let after: Vec<_> = turning
@@ -157,7 +162,11 @@ fn a_swing_that_grows_to_one_that_lasts_is_caught() {
                 .filter(|at| at.0 > summary.last.t_s)
                 .collect();
             assert!(after.len() > 20, "it goes on");
-            assert!(after.iter().all(|at| low < at.1 && at.1 < high), "{why}");
+            let within = 1e-3 * (high - low);
+            assert!(
+                after.iter().all(|at| low - within < at.1 && at.1 < high + within),
+                "{why}"
+            );
         }
     }
     // What lasts here is beyond the top.
@@ -177,7 +186,7 @@ fn a_load_in_time_may_free_the_crank() {
     assert_eq!(run(&scene, Method::Auto).stopped, None);
 }
 
-/// Without loss one swing to and fro says it all, whichever method is asked for.
+/// Without loss each swing is as the first, whichever method is asked for.
 #[test]
 fn a_swing_without_loss_is_told_by_integration_in_time() {
     let scene = pendulum(0.3, 0.0, "0*theta");
@@ -185,7 +194,9 @@ fn a_swing_without_loss_is_told_by_integration_in_time() {
         let summary = run(&scene, method);
         let why = summary.stopped.expect("a reason");
         assert!(why.contains("does not complete 3 turns"), "{why}");
-        assert_close(summary.last.theta_rad, 0.3, 1e-9);
+        let [low, high] = between(&why);
+        assert_close(high, 0.3, 1e-9);
+        assert_close(low, -TAU / 2.0 - 0.3, 1e-6);
     }
 }
 

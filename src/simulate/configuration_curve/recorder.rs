@@ -73,7 +73,7 @@ impl Observer for CurveWatch<'_> {
         if kind == "turning-point"
             && let Some(swing) = &mut self.swing
         {
-            swing.turns_at(angle, |_| None);
+            swing.turns_at(angle);
         }
         let curve = self.equation.curve();
         self.log.event(|| Event {
