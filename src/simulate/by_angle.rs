@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::time::Instant;
 
 use super::angle_model::AngleModel;
+use super::outcome::Estimate;
 use super::over_angle::{Motion, PLACE, late_by};
 use super::result::{Cost, ErrorEstimate};
 use super::run_setup::RunSetup;
@@ -99,7 +100,7 @@ pub(super) fn solve(task: &RunSetup<'_>, position: &AngleModel<'_>) -> Result<Mo
                 wall_s: begun.elapsed().as_secs_f64(),
             };
             let error = distance(task, &driving, &better);
-            ((error, Some(cost)), better.orbit)
+            (Estimate::of_end(error, Some(cost)), better.orbit)
         })
     } else {
         None

@@ -4,11 +4,13 @@ use std::f64::consts::TAU;
 use std::time::Instant;
 
 use super::angle_model::AngleModel;
-use super::over_angle::{Motion, PLACE, energy_residual, late_by};
+use super::outcome::Estimate;
+use super::over_angle::{Motion, PLACE, balance, late_by};
 use super::result::ErrorEstimate;
 use super::run_setup::RunSetup;
 use super::stop_reason;
 use crate::engine::energy::{NotApplicable, Orbit};
+use crate::engine::time::Start;
 use crate::numeric::angle::Angle;
 use crate::numeric::root;
 use crate::scene::Extent;
@@ -41,7 +43,7 @@ pub(super) fn solve(
     let estimate = task.options.estimate.then(|| {
         let mut error = rounded(task, (&orbit, end), last);
         error.omega_rad_per_s += left_out(task, (&orbit, end), last, work);
-        (error, None)
+        Estimate::of_end(error, None)
     });
     Ok(Motion {
         end,
@@ -82,9 +84,14 @@ fn left_out(
     work: f64,
 ) -> f64 {
     let (angle, omega) = last;
-    let (residual, scale) = energy_residual(task, (orbit, end), last, work);
+    let at = Start {
+        t: end,
+        angle,
+        speed: omega,
+    };
+    let balance = balance(task, &at, work, orbit.largest_kinetic(end));
     let momentum = task.equation().terms(angle.rest).inertia.m * omega.abs();
-    let seen = (1.5 * residual.abs() + f64::EPSILON * scale) / momentum;
+    let seen = (1.5 * balance.residual.abs() + f64::EPSILON * balance.largest) / momentum;
     (orbit.speed_error(end) * omega.abs()).min(seen)
 }
 

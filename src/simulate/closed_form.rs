@@ -1,15 +1,17 @@
 //! Prescribed constant speed: nothing to integrate, the equation read backwards.
 
 use std::f64::consts::TAU;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use super::dense_rows::DenseRows;
 use super::driving_torque::Drive;
-use super::result::{ErrorEstimate, Event, Final, Solved, Summary};
+use super::outcome::{Balance, Estimate, Outcome};
+use super::recorder::Record;
+use super::result::{ErrorEstimate, Event};
 use super::row::RowSink;
 use super::run::Simulation;
 use super::run_setup::RunSetup;
 use super::schedule::Schedule;
+use crate::engine::time::Start;
 use crate::error::Error;
 use crate::mechanism::{CurveEquation, Limits};
 use crate::numeric::angle::Angle;
@@ -34,46 +36,54 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
         end,
     };
     // Towards a limit, or where the guide locks itself, torque and energy grow without bound.
-    let unbounded = (f64::NAN, f64::NAN);
-    let (torque, warning, energy) = match blocked.is_none().then(|| drive.torque_range()) {
-        Some(Ok(range)) => (Some(range), None, drive.energy_residual()),
-        Some(Err(why)) => (None, Some(why), drive.energy_residual()),
+    let unbounded = Balance {
+        residual: f64::NAN,
+        largest: f64::NAN,
+    };
+    let (torque, warning, balance) = match blocked.is_none().then(|| drive.torque_range()) {
+        Some(Ok(range)) => (Some(range), None, drive.energy_balance()),
+        Some(Err(why)) => (None, Some(why), drive.energy_balance()),
         None => (None, None, unbounded),
     };
-    let wall_s = begun.elapsed();
+    let wall_s = begun.elapsed().as_secs_f64();
     write_rows(task, rows, start, speed, end, blocked.is_some())?;
-    let solved = Solved {
-        last: Final {
-            t_s: end,
-            theta_rad: last.radians(),
-            omega_rad_per_s: speed,
+    let stopped = blocked.map(|t| {
+        let what = match equation.linkage().unlocked(friction(task)) {
+            Some(_) => "the guide locks itself from here on, as the coefficient of friction times tan phi reaches 1: no crank torque keeps up the speed",
+            None => "the crank reaches the limit of its motion: the rod stands normal to the guide there and no constant speed passes it",
+        };
+        format!("{what}; stopped at t = {t} s, theta = {} rad", last.radians())
+    });
+    let outcome = Outcome {
+        at: Start {
+            t: end,
+            angle: last,
+            speed,
         },
         turned: speed * end,
-        error_estimate: Some(ErrorEstimate {
-            theta_rad: 2.0 * f64::EPSILON * last.radians().abs(),
-            omega_rad_per_s: 0.0,
-        }),
-        energy,
-        wall_s: Duration::as_secs_f64(&wall_s),
-        speed: (speed, speed),
-        driving_torque: torque,
+        estimate: Some(Estimate::of_end(
+            ErrorEstimate {
+                theta_rad: 2.0 * f64::EPSILON * last.radians().abs(),
+                omega_rad_per_s: 0.0,
+            },
+            None,
+        )),
+        balance,
+        evaluations: 0,
+        steps: 0,
+        wall_s,
         warnings: warning.into_iter().collect(),
-        events,
-        events_total,
-        stopped: blocked.map(|t| {
-            let what = match equation.linkage().unlocked(friction(task)) {
-                Some(_) => "the guide locks itself from here on, as the coefficient of friction times tan phi reaches 1: no crank torque keeps up the speed",
-                None => "the crank reaches the limit of its motion: the rod stands normal to the guide there and no constant speed passes it",
-            };
-            format!("{what}; stopped at t = {t} s, theta = {} rad", last.radians())
-        }),
-        ..Solved::default()
+        stopped,
+        record: Record {
+            events,
+            events_total,
+            ..Record::new(speed)
+        },
     };
-    Ok(Simulation {
-        summary: Summary::new(task, solved),
-        trajectory: Some(Trajectory::uniform(start, speed, end)),
-        dense: DenseRows::default(),
-    })
+    let mut run = outcome.conclude(task);
+    run.summary.driving_torque = torque;
+    run.trajectory = Some(Trajectory::uniform(start, speed, end));
+    Ok(run)
 }
 
 /// The coefficient of friction of the guide.

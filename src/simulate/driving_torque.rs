@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use super::outcome::Balance;
 use super::result::TorqueRange;
 use super::row::RowMaker;
 use crate::mechanism::Equation;
@@ -148,17 +149,17 @@ impl Drive<'_> {
     }
 
     /// Work that the equation asks for on the way, by quadrature, against the energies at its ends, J: ½ M' and
-    /// V' against M and V; and the largest of the energies. Whole turns bring nothing.
-    pub fn energy_residual(&self) -> (f64, f64) {
+    /// V' against M and V. Whole turns bring nothing.
+    pub fn energy_balance(&self) -> Balance {
         let (equation, speed) = (self.equation, self.speed);
         let kinetic = |theta: f64| equation.kinetic_energy(theta, speed);
         let energy = |theta: f64| kinetic(theta) + equation.gravity_energy(theta);
         let (from, to) = (self.start.rest, self.start.rest + (speed * self.end) % TAU);
-        let scale = energy(from).abs().max(kinetic(from)).max(kinetic(to));
+        let largest = energy(from).abs().max(kinetic(from)).max(kinetic(to));
         let force = |theta: f64| equation.generalized_force(&equation.terms(theta), speed, 0.0);
-        let work = quarters(from, to, &force, 1e-14 * scale);
+        let work = quarters(from, to, &force, 1e-14 * largest);
         let residual = work.map_or(f64::NAN, |work| work - (energy(to) - energy(from)));
-        (residual, scale)
+        Balance { residual, largest }
     }
 }
 

@@ -1,13 +1,9 @@
 //! Motion by integration in time.
 
-use std::f64::consts::TAU;
 use std::time::Instant;
 
-use super::bounded_motion::Swing;
-use super::dense_rows::DenseRows;
-use super::event_log::Log;
-use super::recorder::{Recorder, Seen};
-use super::result::{Final, Solved, Summary};
+use super::crank_watch::{CrankWatch, EndsBy};
+use super::outcome::{Balance, Estimate, Outcome};
 use super::row::RowSink;
 use super::run::Simulation;
 use super::run_setup::RunSetup;
@@ -17,11 +13,10 @@ use crate::engine::runge_kutta;
 use crate::engine::step::Step;
 use crate::engine::time::{self, Finish, Settings, Start};
 use crate::error::Error;
-use crate::mechanism::{Equation, Limits};
+use crate::mechanism::Equation;
 use crate::numeric::angle::Angle;
 use crate::plan::Stepper;
 use crate::scene::Extent;
-use crate::trajectory::Trajectory;
 
 /// Runs a task.
 pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
@@ -36,33 +31,35 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
     let settings = settings(task, equation);
     // What rows and events cost is counted apart: it does not change how far a run goes.
     let looked_at = Counted::new(&forward);
-    let mut watch = watch(task, &looked_at, rows);
+    let mut watch = CrankWatch::new(task, &looked_at, rows);
     let (mut finish, mut last, steps) =
         time::run(&motion, start, &settings, &mut |step| watch.step(step));
-    if let Some(error) = watch.seen.error.take() {
-        return Err(error);
-    }
     if finish == Finish::NoStart {
         return Err(stop_reason::no_start(start.angle, start.speed));
     }
-    if let Some(t) = watch.seen.ends_at {
-        last = shortened(&motion, &last, t, &settings, &mut watch);
+    if watch.ends_at.is_some() {
+        last = shortened(&motion, &last, &settings, &mut watch);
         finish = Finish::AtEnd;
     }
-    watch.write_last_row(&last)?;
-    let Recorder {
-        seen,
+    let end = Start {
+        t: last.end.t,
+        angle: last.angle(last.end.theta),
+        speed: last.end.omega,
+    };
+    let CrankWatch {
+        ends_at,
         swing,
-        log,
-        recorded,
+        mut recorder,
         ..
     } = watch;
-    let wall_s = log.wall_s(begun);
+    recorder.end_piece(end.t);
+    let record = recorder.finish(|| task.maker.row(end.t, end.angle, end.speed, None))?;
+    let wall_s = record.wall_s(begun);
     let evaluations = motion.evaluations();
-    let stopped = if seen.at_limit {
+    let stopped = if let Some((_, EndsBy::Limit)) = ends_at {
         Some(stop_reason::at_limit(&last))
     } else {
-        let caught = swing.and_then(|swing| swing.why(last.end.t, |theta| theta));
+        let caught = swing.and_then(|swing| swing.why(end.t, |theta| theta));
         caught.or_else(|| {
             stop_reason::reason(finish, equation, motion.impossible(), &last, &task.extent)
         })
@@ -72,63 +69,23 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
         let run = error_estimate::Ended {
             last: &last,
             evaluations,
-            checkpoints: &log.checkpoints,
+            checkpoints: &record.checkpoints,
         };
         error_estimate::estimate(equation, start, &settings, run)
     });
-    let angle = last.angle(last.end.theta);
-    let t_end = last.end.t;
-    let solved = Solved {
-        last: Final {
-            t_s: t_end,
-            theta_rad: angle.radians(),
-            omega_rad_per_s: last.end.omega,
-        },
-        turned: angle.minus(start.angle),
-        error_estimate: estimate.map(|judged| judged.end),
-        rows_error: estimate.map(|judged| judged.rows),
-        energy: energy_residual(equation, start, &last, log.fastest()),
+    let outcome = Outcome {
+        at: end,
+        turned: end.angle.minus(start.angle),
+        estimate: estimate.map(Estimate::from),
+        balance: energy_balance(equation, start, &last, record.fastest()),
         evaluations,
         steps,
         wall_s,
-        estimate_cost: estimate.map(|judged| judged.cost),
-        speed: log.speed,
-        events: log.events,
-        events_total: log.events_total,
         warnings,
         stopped,
-        ..Solved::default()
+        record,
     };
-    Ok(Simulation {
-        summary: Summary::new(task, solved),
-        trajectory: recorded.map(|steps| Trajectory::from_steps(steps, t_end)),
-        dense: DenseRows::default(),
-    })
-}
-
-/// What follows the steps of a task.
-pub(super) fn watch<'a>(
-    task: &'a RunSetup<'_>,
-    motion: &'a Counted<'a>,
-    rows: &'a mut dyn RowSink,
-) -> Recorder<'a> {
-    let reach = Limits::clear_reach(task.equation().linkage());
-    let dead_centres = task.limits.dead_centres.iter().map(|dc| dc.theta);
-    let guards = reach.iter().flatten().map(|angle| angle.rem_euclid(TAU));
-    Recorder {
-        motion,
-        maker: &task.maker,
-        rows,
-        schedule: task.schedule(),
-        start: task.first_state(),
-        dead_centres: task.limits.dead_centres.len(),
-        watched: dead_centres.chain(guards).collect(),
-        turn_limit: task.extent.angle(),
-        swing: Swing::new(task, task.start()),
-        log: Log::new(task),
-        seen: Seen::default(),
-        recorded: (task.kept > 0).then(Vec::new),
-    }
+    Ok(outcome.conclude(task))
 }
 
 /// A run that ends after a number of turns has no last time of its own.
@@ -155,20 +112,20 @@ pub(super) fn settings(task: &RunSetup<'_>, equation: &Equation) -> Settings {
     }
 }
 
-/// The step ended at time `t` inside it, integrated anew; at a turn limit once more, to meet the limit exactly.
+/// The step ended where the run ends inside it, integrated anew; at a turn limit once more, to meet the limit exactly.
 pub(super) fn shortened(
     motion: &Counted<'_>,
     step: &Step,
-    t: f64,
     settings: &Settings,
-    watch: &mut Recorder<'_>,
+    watch: &mut CrankWatch<'_>,
 ) -> Step {
     let until = |t_end: f64, sink: &mut dyn FnMut(&Step) -> bool| {
         time::shortened(motion, step, t_end, settings, sink)
     };
-    let mut t = t;
-    let at_turns = !watch.seen.at_limit && !watch.is_caught();
-    if let Some(limit) = watch.turn_limit.filter(|_| at_turns) {
+    let Some((mut t, by)) = watch.ends_at else {
+        return *step;
+    };
+    if let Some(limit) = watch.turn_limit.filter(|_| by == EndsBy::Turns) {
         for _ in 0..3 {
             let end = until(t, &mut |_| false);
             let turned = watch.turned(&end, end.end.theta);
@@ -185,8 +142,8 @@ pub(super) fn shortened(
     })
 }
 
-/// Energy at the end minus energy at the start minus work, J, and the largest energy that occurs.
-fn energy_residual(equation: &Equation, start: Start, last: &Step, speed: f64) -> (f64, f64) {
+/// Energy at the end against that at the start and the work.
+fn energy_balance(equation: &Equation, start: Start, last: &Step, speed: f64) -> Balance {
     let angle = last.angle(last.end.theta);
     // Whole turns that both ends share are taken off, so that they cost no digits of the potential.
     let common = Angle {
@@ -207,14 +164,7 @@ fn energy_residual(equation: &Equation, start: Start, last: &Step, speed: f64) -
     ];
     let gained = (kinetic[1] - kinetic[0]) + (potential[1] - potential[0]);
     let peak = equation.kinetic_energy(angle.rest, speed);
-    let scale = [
-        kinetic[0],
-        kinetic[1],
-        potential[1] - potential[0],
-        last.end.work,
-        peak,
-    ]
-    .into_iter()
-    .fold(0.0, |largest: f64, energy| largest.max(energy.abs()));
-    (gained - last.end.work, scale)
+    let rise = potential[1] - potential[0];
+    let energies = [kinetic[0], kinetic[1], rise, last.end.work, peak];
+    Balance::new(gained - last.end.work, &energies)
 }

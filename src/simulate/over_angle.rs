@@ -2,15 +2,16 @@
 
 use super::angle_model::AngleModel;
 use super::by_angle::Unsolved;
-use super::dense_rows::DenseRows;
-use super::event_log::Log;
+use super::outcome::{Balance, Estimate, Outcome};
 use super::passages::Stretch;
-use super::result::{Cost, ErrorEstimate, Final, Solved, Summary};
+use super::recorder::Recorder;
+use super::result::ErrorEstimate;
 use super::row::RowSink;
 use super::run::Simulation;
 use super::run_setup::{NOT_ESTIMATED, RunSetup};
 use super::{by_angle, by_energy, engine_switching, in_time};
 use crate::engine::energy::{NotApplicable, Orbit};
+use crate::engine::time::Start;
 use crate::error::Error;
 use crate::mechanism::Class;
 use crate::numeric::angle::Angle;
@@ -30,7 +31,7 @@ pub(super) struct Motion {
     pub wall_s: f64,
     pub stopped: Option<String>,
     /// Error of the end, and what its estimate cost.
-    pub estimate: Option<(ErrorEstimate, Option<Cost>)>,
+    pub estimate: Option<Estimate>,
     /// The motion of the second run, if the estimate is by one.
     pub second: Option<Orbit>,
 }
@@ -44,7 +45,7 @@ impl Motion {
         // Multiples of the golden section fall everywhere in panels, however these divide the run.
         let golden = 0.5 * (5f64.sqrt() - 1.0);
         let times = (1..=LOOKED_AT).map(|i| (f64::from(i) * golden).fract() * self.end);
-        let (last, _) = self.estimate?;
+        let last = self.estimate?.error;
         Some(times.fold(last, |worst, t| {
             worst.max(match &self.second {
                 Some(second) => by_angle::row_error([&self.orbit, second], t, last),
@@ -154,62 +155,44 @@ fn finish(
     rows: &mut dyn RowSink,
 ) -> Result<Simulation, Error> {
     let Motion { orbit, end, .. } = &motion;
-    let (angle, omega) = motion.last;
-    let mut log = Log::new(task);
-    let stretch = Stretch {
+    let wants_rows = rows.wants_rows();
+    let mut recorder = Recorder::new(task, rows);
+    recorder.stretch(&Stretch {
         orbit,
         begin: 0.0,
         end: *end,
+    })?;
+    let (angle, speed) = motion.last;
+    let at = Start {
+        t: *end,
+        angle,
+        speed,
     };
-    write_rows(task, &mut log, &stretch, rows)?;
-    let rows_error = rows.wants_rows().then(|| motion.rows_error(task));
-    let (speed, mut warnings) = speeds(task, log.speed, omega);
+    let record = recorder.finish(|| {
+        let (angle, speed) = orbit.state(*end);
+        task.maker.row(*end, angle, speed, None)
+    })?;
+    let rows_error = wants_rows.then(|| motion.rows_error(task)).flatten();
+    let mut warnings = Vec::new();
     if task.options.estimate && motion.estimate.is_none() {
         warnings.push(NOT_ESTIMATED.to_owned());
     }
-    let solved = Solved {
-        last: Final {
-            t_s: *end,
-            theta_rad: angle.radians(),
-            omega_rad_per_s: omega,
-        },
+    let outcome = Outcome {
+        at,
         turned: angle.minus(task.start()),
-        error_estimate: motion.estimate.map(|(error, _)| error),
-        rows_error: rows_error.flatten(),
-        estimate_cost: motion.estimate.and_then(|(_, cost)| cost),
-        energy: energy_residual(task, (orbit, *end), motion.last, motion.work),
+        estimate: motion.estimate,
+        balance: balance(task, &at, motion.work, orbit.largest_kinetic(*end)),
         evaluations: motion.evaluations,
         steps: orbit.panels() as u64,
         wall_s: motion.wall_s,
-        speed,
         warnings,
-        events: log.events,
-        events_total: log.events_total,
-        stopped: motion.stopped.clone(),
-        ..Solved::default()
+        stopped: motion.stopped,
+        record,
     };
-    Ok(Simulation {
-        summary: Summary::new(task, solved),
-        trajectory: Some(Trajectory::orbit(motion.orbit, 0.0, motion.end)),
-        dense: DenseRows::default(),
-    })
-}
-
-/// Notes a stretch that is the whole run, and writes its rows.
-fn write_rows(
-    task: &RunSetup<'_>,
-    log: &mut Log,
-    stretch: &Stretch<'_>,
-    rows: &mut dyn RowSink,
-) -> Result<(), Error> {
-    if !rows.wants_rows() {
-        return log.stretch(task, stretch, None);
-    }
-    let mut write =
-        |t: f64, angle: Angle, omega: f64| rows.row(&task.maker.row(t, angle, omega, None));
-    log.stretch(task, stretch, Some(&mut write))?;
-    let (angle, omega) = stretch.orbit.state(stretch.end);
-    write(stretch.begin + stretch.end, angle, omega)
+    let mut run = outcome.with_bounded_speeds(task).conclude(task);
+    run.summary.rows_error = rows_error;
+    run.trajectory = Some(Trajectory::orbit(motion.orbit, 0.0, motion.end));
+    Ok(run)
 }
 
 /// How far an angle in its turn is rounded at most, rad.
@@ -233,61 +216,16 @@ pub(super) fn late_by(
     }
 }
 
-/// Smallest and largest speed. Where the inertia vanishes, at the dead centres of a crank without inertia, the
-/// speed has no bound.
-pub(super) fn speeds(
-    task: &RunSetup<'_>,
-    (low, high): (f64, f64),
-    last: f64,
-) -> ((f64, f64), Vec<String>) {
-    let inertia = |theta: f64| task.equation().terms(theta).inertia.m;
-    let vanishes = |theta: f64| inertia(theta) <= 1e-12 * inertia(theta + 1.0);
-    if !task.limits.dead_centres.iter().any(|dc| vanishes(dc.theta)) {
-        return ((low, high), Vec::new());
-    }
-    let usual = task.scene.motion.speed.abs().max(last.abs());
-    let bounded = |speed: f64| speed.abs() < 1e6 * usual;
-    let shown = |speed: f64| {
-        if bounded(speed) {
-            speed
-        } else {
-            speed * f64::INFINITY
-        }
-    };
-    let mut warnings = Vec::new();
-    if !bounded(low) || !bounded(high) {
-        let what = "the effective inertia vanishes at the dead centres, where the crank speed has no bound";
-        warnings.push(what.to_owned());
-    }
-    ((shown(low), shown(high)), warnings)
-}
-
-/// The energy of the last state against that of the first and the work (J), J, and the largest energy.
-pub(super) fn energy_residual(
-    task: &RunSetup<'_>,
-    (orbit, end): (&Orbit, f64),
-    last: (Angle, f64),
-    work: f64,
-) -> (f64, f64) {
-    balance(task, last, work, orbit.largest_kinetic(end))
-}
-
-/// Energy residual and largest energy (J) of a run whose largest kinetic energy is known.
-pub(super) fn balance(
-    task: &RunSetup<'_>,
-    (angle, omega): (Angle, f64),
-    work: f64,
-    largest_kinetic: f64,
-) -> (f64, f64) {
+/// Energy balance of a run whose largest kinetic energy (J) is known; `work` of the loads without potential, J.
+pub(super) fn balance(task: &RunSetup<'_>, at: &Start, work: f64, largest_kinetic: f64) -> Balance {
     let equation = task.equation();
     let start = task.start();
     let turned = Angle {
-        turns: angle.turns - start.turns,
-        rest: angle.rest,
+        turns: at.angle.turns - start.turns,
+        rest: at.angle.rest,
     };
     let begin = equation.kinetic_energy(start.rest, task.scene.motion.speed)
         + equation.potential_energy(start.rest);
-    let last = equation.kinetic_energy(angle.rest, omega) + equation.potential_energy(turned);
-    let largest = begin.abs().max(last.abs()).max(work.abs());
-    (last - begin - work, largest_kinetic.max(largest))
+    let last = equation.kinetic_energy(at.angle.rest, at.speed) + equation.potential_energy(turned);
+    Balance::new(last - begin - work, &[largest_kinetic, begin, last, work])
 }

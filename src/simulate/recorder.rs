@@ -1,179 +1,248 @@
-//! What a run in time gives beside its end: rows, events, extreme speeds, the dense trajectory.
+//! The recorder of a run: rows, events, extreme speeds and the dense motion, whatever engine computes the pieces.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-use super::bounded_motion::Swing;
-use super::event_log::Log;
+use super::checkpoints::Checkpoints;
+use super::configuration_curve::Phase;
+use super::dense_rows::{Spell, lengthen};
+use super::passages::{self, Stretch};
 use super::result::Event;
-use super::row::{RowMaker, RowSink};
+use super::row::{Row, RowSink};
+use super::run_setup::RunSetup;
 use super::schedule::{Schedule, passed};
-use crate::engine::events::{self, Crossing};
+use crate::engine::Motion;
 use crate::engine::step::Step;
-use crate::engine::{Counted, time::Start};
 use crate::error::Error;
 use crate::numeric::angle::Angle;
+use crate::trajectory::Trajectory;
 
-/// Follows the steps of a run.
-pub(super) struct Recorder<'a> {
-    pub motion: &'a Counted<'a>,
-    pub maker: &'a RowMaker<'a>,
-    pub rows: &'a mut dyn RowSink,
-    pub schedule: Schedule,
-    pub start: Start,
-    /// Angles that are watched, in [0, 2π): the dead centres, then the limits of the crank's motion, where
-    /// the run ends.
-    pub watched: Vec<f64>,
-    /// How many of them are dead centres.
-    pub dead_centres: usize,
-    /// The run ends when the crank has turned by this, rad.
-    pub turn_limit: Option<f64>,
-    /// Turning points, if they may show that the crank never does.
-    pub swing: Option<Swing>,
-    pub log: Log,
-    pub seen: Seen,
-    /// Refined steps, while there is room for them.
-    pub recorded: Option<Vec<Step>>,
+/// What was recorded of a run.
+#[derive(Debug)]
+pub(super) struct Record {
+    /// The first events, at most as many as were asked for.
+    pub events: Vec<Event>,
+    pub events_total: u64,
+    /// Least and largest crank speed, rad/s.
+    pub speed: (f64, f64),
+    /// Pieces of the dense motion, if there was room for all.
+    pub pieces: Option<Vec<Trajectory>>,
+    /// How the slider touched its guide, where the motion was computed along a configuration curve.
+    pub spells: Vec<Spell>,
+    /// States on the way.
+    pub checkpoints: Checkpoints,
+    /// Time spent on rows.
+    pub row_time: Duration,
 }
 
-/// What was seen so far that ends the run.
-#[derive(Debug, Default)]
-pub(super) struct Seen {
-    /// When the turn limit or a limit of the motion was reached, or the crank was caught.
-    pub ends_at: Option<f64>,
-    /// Whether it was a limit of the motion.
-    pub at_limit: bool,
-    pub error: Option<Error>,
-    /// Angle and speed (rad/s) of a start at a dead centre that was noted before.
-    pub passed: Option<(Angle, f64)>,
-    crossings: Vec<(f64, Crossing)>,
-}
-
-impl Recorder<'_> {
-    /// Takes a step; true ends the run.
-    pub fn step(&mut self, step: &Step) -> bool {
-        self.log.checkpoints.pass(step);
-        let mut step = *step;
-        self.reached_turn_limit(&mut step);
-        self.look_for_events(&mut step);
-        let until = self.seen.ends_at.unwrap_or(step.end.t);
-        if self.seen.ends_at.is_none() {
-            self.follow_speed(&mut step);
+impl Record {
+    /// Of a run that starts with this speed, rad/s.
+    pub fn new(speed: f64) -> Record {
+        Record {
+            events: Vec::new(),
+            events_total: 0,
+            speed: (speed, speed),
+            pieces: None,
+            spells: Vec::new(),
+            checkpoints: Checkpoints::default(),
+            row_time: Duration::ZERO,
         }
+    }
+
+    /// Wall time since the run began, without that of its rows, s.
+    pub fn wall_s(&self, begun: Instant) -> f64 {
+        begun.elapsed().saturating_sub(self.row_time).as_secs_f64()
+    }
+
+    /// Largest crank speed in either sense, rad/s.
+    pub fn fastest(&self) -> f64 {
+        self.speed.0.abs().max(self.speed.1.abs())
+    }
+}
+
+/// A coordinate along which steps are computed, as rows see it.
+pub(super) trait Coordinate {
+    /// The equation of motion, by which steps are refined.
+    fn motion(&self) -> &dyn Motion;
+
+    /// How far the crank has turned from the start of the run at a time (s) of a step, rad.
+    fn turned(&self, step: &Step, t: f64) -> f64;
+
+    /// When (s) it has turned so far (rad), between two times.
+    fn time_of(&self, step: &Step, turned: f64, between: [f64; 2]) -> Option<f64>;
+
+    /// When the crank turns back inside a step, s, in order.
+    fn turning_times(&self, step: &Step) -> Vec<f64>;
+
+    /// The row of a time (s), an angle of the coordinate and its rate (rad/s).
+    fn row(&self, t: f64, angle: Angle, speed: f64) -> Row;
+}
+
+/// Records a run.
+pub(super) struct Recorder<'a> {
+    task: &'a RunSetup<'a>,
+    rows: &'a mut dyn RowSink,
+    schedule: Schedule,
+    /// Index of the next row at a time; 0 before the first row of all.
+    next_row: u64,
+    /// Steps and pieces of the motion that may still be kept.
+    room: usize,
+    /// Refined steps of the piece under way.
+    steps: Vec<Step>,
+    record: Record,
+    /// What the sink of the rows said.
+    error: Option<Error>,
+}
+
+impl<'a> Recorder<'a> {
+    pub fn new(task: &'a RunSetup<'a>, rows: &'a mut dyn RowSink) -> Recorder<'a> {
+        let speed = task.scene.motion.speed;
+        Recorder {
+            task,
+            rows,
+            schedule: task.schedule(),
+            next_row: 0,
+            room: task.kept,
+            steps: Vec::new(),
+            record: Record {
+                pieces: (task.kept > 0).then(Vec::new),
+                ..Record::new(speed)
+            },
+            error: None,
+        }
+    }
+
+    pub fn task(&self) -> &'a RunSetup<'a> {
+        self.task
+    }
+
+    /// Least and largest crank speed so far, rad/s.
+    pub fn speed(&mut self) -> &mut (f64, f64) {
+        &mut self.record.speed
+    }
+
+    /// Whether there is room for another event.
+    pub fn keeps_events(&self) -> bool {
+        self.record.events.len() < self.task.options.events_kept
+    }
+
+    /// Counts an event, and keeps it if there is room.
+    pub fn event(&mut self, event: impl FnOnce() -> Event) {
+        self.record.events_total += 1;
+        if self.keeps_events() {
+            self.record.events.push(event());
+        }
+    }
+
+    /// Records a piece over the crank angle: its events, its rows, its speeds.
+    pub fn stretch(&mut self, stretch: &Stretch<'_>) -> Result<(), Error> {
+        let task = self.task;
+        let left = task.options.events_kept - self.record.events.len();
+        let (events, total) = passages::events(task, stretch, left);
+        self.record.events.extend(events);
+        self.record.events_total += total;
+        let (low, high) = stretch.orbit.speed_range(stretch.end);
+        let speed = &mut self.record.speed;
+        *speed = (speed.0.min(low), speed.1.max(high));
+        if !self.rows.wants_rows() {
+            return Ok(());
+        }
+        let begun = Instant::now();
+        let rows = &mut *self.rows;
+        let mut write =
+            |t: f64, angle: Angle, omega: f64| rows.row(&task.maker.row(t, angle, omega, None));
+        let result = passages::write_rows(task, stretch, &mut self.next_row, &mut write);
+        self.record.row_time += begun.elapsed();
+        result
+    }
+
+    /// Keeps the motion of a piece over the crank angle, if there is room.
+    pub fn keep(&mut self, piece: impl FnOnce() -> Trajectory) {
+        if self.takes_room()
+            && let Some(pieces) = &mut self.record.pieces
+        {
+            pieces.push(piece());
+        }
+    }
+
+    /// Records a step until a time (s) in it: its rows and its motion, in a phase of the configuration curve or none. True
+    /// if that failed, which ends the run.
+    pub fn step(
+        &mut self,
+        step: &mut Step,
+        until: f64,
+        along: &dyn Coordinate,
+        phase: Option<Phase>,
+    ) -> bool {
+        self.record.checkpoints.pass(step);
         if self.rows.wants_rows() {
             let begun = Instant::now();
-            let result = self.write_rows(&mut step, until);
-            self.log.row_time += begun.elapsed();
+            let result = self.write_rows(step, until, along);
+            self.record.row_time += begun.elapsed();
             if let Err(error) = result {
-                self.seen.error = Some(error);
+                self.error = Some(error);
                 return true;
             }
         }
-        if let Some(mut recorded) = self.recorded.take()
-            && self.log.take_room()
-        {
-            step.refine(self.motion);
-            recorded.push(step);
-            self.recorded = Some(recorded);
-        }
-        self.seen.ends_at.is_some()
-    }
-
-    /// Least and largest speed.
-    pub fn follow_speed(&mut self, step: &mut Step) {
-        self.log.speed = events::follow_speed(step, self.motion, self.log.speed);
-    }
-
-    /// Whether the crank swings to and fro for ever.
-    pub fn is_caught(&self) -> bool {
-        self.swing.is_some_and(|swing| swing.is_caught())
-    }
-
-    pub fn turned(&self, step: &Step, theta: f64) -> f64 {
-        step.angle(theta).minus(self.start.angle)
-    }
-
-    fn reached_turn_limit(&mut self, step: &mut Step) {
-        let Some(limit) = self.turn_limit else {
-            return;
-        };
-        if self.turned(step, step.end.theta).abs() < limit {
-            return;
-        }
-        step.refine(self.motion);
-        let beyond = self.turned(step, step.end.theta);
-        let target = step.end.theta - (beyond - limit.copysign(beyond));
-        let t = step.time_of_angle(target, step.start.t, step.end.t);
-        self.seen.ends_at = Some(t.unwrap_or(step.end.t));
-    }
-
-    fn look_for_events(&mut self, step: &mut Step) {
-        let mut crossings = std::mem::take(&mut self.seen.crossings);
-        events::crossings(step, &self.watched, &mut crossings);
-        let rough = !step.is_refined();
-        let wanted = self.log.keeps_more() || self.swing.is_some();
-        if rough && !crossings.is_empty() && wanted {
-            step.refine(self.motion);
-            events::crossings(step, &self.watched, &mut crossings);
-        }
-        for &(t, what) in &crossings {
-            // An event at the end of the run may be off it by rounding.
-            let end = self.seen.ends_at.unwrap_or(t);
-            if t > end * (1.0 + 8.0 * f64::EPSILON) {
-                break;
-            }
-            let t = t.min(end);
-            let at_limit = matches!(what, Crossing::Angle(index) if index >= self.dead_centres);
-            if at_limit {
-                self.seen.ends_at = Some(t);
-                self.seen.at_limit = true;
-            }
-            let (theta, omega) = step.at(t);
-            if let Some((angle, speed)) = self.seen.passed.take()
-                && step.angle(theta).minus(angle).abs() < 1e-9
-                && omega * speed > 0.0
-            {
-                continue;
-            }
-            let at = step.angle(theta);
-            self.log.event(|| Event {
-                kind: match what {
-                    Crossing::Angle(_) if at_limit => "limit",
-                    Crossing::Angle(_) => "dead-centre",
-                    Crossing::Turning => "turning-point",
-                },
-                t_s: t,
-                theta_rad: at.radians(),
-                omega_rad_per_s: match what {
-                    Crossing::Angle(_) => omega,
-                    Crossing::Turning => 0.0,
-                },
-            });
-            if what == Crossing::Turning
-                && let Some(swing) = &mut self.swing
-            {
-                swing.turns_at(at);
-                if swing.is_caught() {
-                    self.seen.ends_at = Some(t);
-                    break;
-                }
+        if self.record.pieces.is_some() && self.takes_room() {
+            step.refine(along.motion());
+            self.steps.push(*step);
+            if let Some(phase) = phase {
+                let times = [step.start.t, step.end.t];
+                lengthen(&mut self.record.spells, times, phase);
             }
         }
-        self.seen.crossings = crossings;
+        false
     }
 
-    fn write_rows(&mut self, step: &mut Step, until: f64) -> Result<(), Error> {
+    /// Keeps the steps since the last piece as one that ends at a time (s), or with its last step.
+    pub fn end_piece(&mut self, end: f64) {
+        let steps = std::mem::take(&mut self.steps);
+        if let (Some(last), Some(pieces)) = (steps.last(), &mut self.record.pieces) {
+            let end = end.min(last.end.t);
+            pieces.push(Trajectory::from_steps(steps, end));
+        }
+    }
+
+    /// Ends the record with the row of the last state, which is a row always.
+    pub fn finish(mut self, last: impl FnOnce() -> Row) -> Result<Record, Error> {
+        if let Some(error) = self.error.take() {
+            return Err(error);
+        }
+        if self.rows.wants_rows() {
+            self.rows.row(&last())?;
+        }
+        Ok(self.record)
+    }
+
+    /// Takes room for a step or a piece of the motion; where there is none, nothing of it is kept.
+    fn takes_room(&mut self) -> bool {
+        let room = self.room.checked_sub(1);
+        self.room = room.unwrap_or(0);
+        if room.is_none() {
+            self.record.pieces = None;
+            self.steps = Vec::new();
+        }
+        room.is_some()
+    }
+
+    fn write_rows(
+        &mut self,
+        step: &mut Step,
+        until: f64,
+        along: &dyn Coordinate,
+    ) -> Result<(), Error> {
         if let Some(spacing) = self.schedule.angle_step() {
-            return self.write_rows_at_angles(step, until, spacing);
+            return self.write_rows_at_angles(step, until, along, spacing);
         }
-        while let Some(t) = self.schedule.time(self.log.next_row) {
+        while let Some(t) = self.schedule.time(self.next_row) {
             if t > until {
                 break;
             }
             if t > step.start.t && t < step.end.t {
-                step.refine(self.motion);
+                step.refine(along.motion());
             }
-            self.write_row(step, t)?;
-            self.log.next_row += 1;
+            self.write_row(step, t, along)?;
+            self.next_row += 1;
         }
         Ok(())
     }
@@ -182,47 +251,33 @@ impl Recorder<'_> {
         &mut self,
         step: &mut Step,
         until: f64,
+        along: &dyn Coordinate,
         spacing: f64,
     ) -> Result<(), Error> {
-        if self.log.next_row == 0 {
-            self.write_row(step, step.start.t)?;
-            self.log.next_row = 1;
+        if self.next_row == 0 {
+            self.write_row(step, step.start.t, along)?;
+            self.next_row = 1;
         }
-        let turning = self.seen.crossings.iter();
-        let turning = turning.filter(|(_, what)| *what == Crossing::Turning);
-        let mut cuts: Vec<f64> = turning.map(|(t, _)| *t).filter(|t| *t < until).collect();
+        // Between the times at which the crank turns back its angle is monotone.
+        let mut cuts = along.turning_times(step);
+        cuts.retain(|t| *t < until);
         cuts.push(until);
         let mut from = step.start.t;
         for to in cuts {
-            let way = |t: f64| self.turned(step, step.at(t).0) / spacing;
+            let way = |t: f64| along.turned(step, t) / spacing;
             for k in passed(way(from), way(to)) {
-                step.refine(self.motion);
-                let theta = step.start.theta + (k * spacing - self.turned(step, step.start.theta));
+                step.refine(along.motion());
                 // A turning point may fall short of its angle by rounding.
-                let t = step.time_of_angle(theta, from, to).unwrap_or(to);
-                self.write_row(step, t)?;
+                let t = along.time_of(step, k * spacing, [from, to]).unwrap_or(to);
+                self.write_row(step, t, along)?;
             }
             from = to;
         }
         Ok(())
     }
 
-    fn write_row(&mut self, step: &Step, t: f64) -> Result<(), Error> {
-        let (theta, omega) = step.at(t);
-        self.write(t, step.angle(theta), omega)
-    }
-
-    /// Writes the row of a state.
-    pub fn write(&mut self, t: f64, angle: Angle, omega: f64) -> Result<(), Error> {
-        let row = self.maker.row(t, angle, omega, None);
-        self.rows.row(&row)
-    }
-
-    /// The last state is a row always.
-    pub fn write_last_row(&mut self, last: &Step) -> Result<(), Error> {
-        if self.rows.wants_rows() {
-            self.write(last.end.t, last.angle(last.end.theta), last.end.omega)?;
-        }
-        Ok(())
+    fn write_row(&mut self, step: &Step, t: f64, along: &dyn Coordinate) -> Result<(), Error> {
+        let (theta, speed) = step.at(t);
+        self.rows.row(&along.row(t, step.angle(theta), speed))
     }
 }

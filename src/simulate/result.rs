@@ -1,16 +1,11 @@
 //! The result of a run in numbers.
 
-use std::f64::consts::TAU;
-
 use serde::Serialize;
 
 use super::clearance::ClearanceSummary;
 use super::joint_force_maxima::Peaks;
-use super::run_setup::RunSetup;
-use super::stalled;
 use super::steady::SteadyState;
 use crate::plan::Plan;
-use crate::scene::Extent;
 
 /// Summary of a run; its JSON is the object that `simulate --json` prints.
 #[derive(Clone, Debug, Serialize)]
@@ -71,91 +66,6 @@ pub struct Summary {
     /// Why the run ended before its time, if it did.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stopped: Option<String>,
-}
-
-/// What an engine found, before it is put into words.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Solved {
-    pub last: Final,
-    /// rad, signed
-    pub turned: f64,
-    pub error_estimate: Option<ErrorEstimate>,
-    pub rows_error: Option<ErrorEstimate>,
-    /// Residual and the largest energy that occurs, J.
-    pub energy: (f64, f64),
-    pub evaluations: u64,
-    pub steps: u64,
-    pub wall_s: f64,
-    pub estimate_cost: Option<Cost>,
-    pub speed: (f64, f64),
-    pub driving_torque: Option<TorqueRange>,
-    pub peaks: Option<Peaks>,
-    pub clearance: Option<ClearanceSummary>,
-    pub events: Vec<Event>,
-    pub events_total: u64,
-    pub warnings: Vec<String>,
-    pub stopped: Option<String>,
-}
-
-impl Summary {
-    pub(super) fn new(task: &RunSetup<'_>, solved: Solved) -> Summary {
-        let (residual, scale) = solved.energy;
-        let mut warnings = solved.warnings;
-        let kept = solved.events.len();
-        if kept > 0 && solved.events_total > kept as u64 {
-            let total = solved.events_total;
-            warnings.push(format!(
-                "{total} events occurred; the first {kept} are listed"
-            ));
-        }
-        let stopped = solved
-            .stopped
-            .or_else(|| short_of(task.extent, &solved.last, solved.turned));
-        let stopped = stopped.map(|why| stalled::reason(task, &solved.last).unwrap_or(why));
-        Summary {
-            scene: task.scene.title.clone().unwrap_or_default(),
-            engine: task.plan.engine.name().to_owned(),
-            plan: task.plan.clone(),
-            last: solved.last,
-            revolutions: solved.turned / TAU,
-            error_estimate: solved.error_estimate,
-            rows_error: solved.rows_error,
-            energy_residual: if scale == 0.0 { 0.0 } else { residual / scale },
-            energy_residual_j: residual,
-            evaluations: solved.evaluations,
-            steps: solved.steps,
-            wall_s: solved.wall_s,
-            estimate_cost: solved.estimate_cost,
-            omega_min: solved.speed.0,
-            omega_max: solved.speed.1,
-            driving_torque: solved.driving_torque,
-            peaks: solved.peaks,
-            clearance: solved.clearance,
-            steady_state: None,
-            events: solved.events,
-            events_total: solved.events_total,
-            warnings,
-            stopped,
-        }
-    }
-}
-
-/// What is said of a run that ended short of its goal, or without a state, though no engine told why.
-fn short_of(extent: Extent, last: &Final, turned: f64) -> Option<String> {
-    let (goal, reached) = match extent {
-        Extent::Duration(duration) => (duration, last.t_s),
-        Extent::Revolutions(turns) => (turns * TAU, turned.abs()),
-    };
-    // Half of all digits: far more than a goal is missed by in rounding.
-    let missed = goal - reached > f64::EPSILON.sqrt() * goal;
-    let state = [last.t_s, last.theta_rad, last.omega_rad_per_s, reached];
-    let is_state = state.iter().all(|number| number.is_finite());
-    (missed || !is_state).then(|| {
-        format!(
-            "the run ended before its goal: stopped at t = {} s, theta = {} rad, omega = {} rad/s; no engine gave a reason, which is a defect of this program",
-            last.t_s, last.theta_rad, last.omega_rad_per_s
-        )
-    })
 }
 
 /// A last state.
@@ -230,26 +140,4 @@ pub struct Event {
     pub theta_rad: f64,
     /// rad/s
     pub omega_rad_per_s: f64,
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_run_short_of_its_goal_never_ends_in_silence() {
-        let says = |extent, t_s, turned| {
-            let last = Final {
-                t_s,
-                theta_rad: turned,
-                omega_rad_per_s: 1.0,
-            };
-            short_of(extent, &last, turned).is_some()
-        };
-        let (second, turn) = (Extent::Duration(1.0), Extent::Revolutions(1.0));
-        assert!(!says(second, 1.0, 0.3) && !says(turn, 0.2, -TAU) && !says(turn, 0.2, TAU));
-        assert!(says(second, 0.999, 0.3) && says(turn, 0.2, -6.2));
-        assert!(says(second, 1.0, f64::NAN) && says(second, f64::NAN, 0.3));
-        assert!(says(turn, 0.2, f64::INFINITY) && !says(Extent::Duration(0.0), 0.0, 0.3));
-    }
 }

@@ -4,13 +4,17 @@ use std::f64::consts::TAU;
 
 use super::super::closed_form;
 use super::super::joint_force_maxima::Peaks;
-use super::super::result::{ErrorEstimate, Event, Final, Solved};
+use super::super::outcome::{Balance, Estimate, Outcome};
+use super::super::recorder::Record as Recorded;
+use super::super::result::{ErrorEstimate, Event};
+use super::super::run::Simulation;
 use super::follow::{Seen, phi};
 use super::motion::{DRIVEN, FREE, Loose};
 use super::record::{ContactStatistics, Record};
 use super::result::{Beyond, ClearanceSummary, Horizon, LooseFinal};
 use super::{Run, Tighter};
 use crate::engine::contact::Ended;
+use crate::engine::time::Start;
 use crate::mechanism::LooseState;
 use crate::scene::Joint;
 use crate::trajectory::Trajectory;
@@ -21,7 +25,7 @@ const MARGIN: f64 = 1.5;
 const SAME_PLACE: f64 = 0.01;
 
 impl<const N: usize> Run<'_, N> {
-    pub(super) fn trajectory(&self, seen: &Seen, t_end: f64) -> Option<Trajectory> {
+    fn trajectory(&self, seen: &Seen, t_end: f64) -> Option<Trajectory> {
         if N == DRIVEN {
             return Some(Trajectory::uniform(
                 self.task.start(),
@@ -33,7 +37,7 @@ impl<const N: usize> Run<'_, N> {
     }
 
     #[allow(clippy::too_many_arguments)]
-    pub(super) fn solved(
+    pub(super) fn concluded(
         &self,
         model: &Loose<'_, N>,
         ended: &Ended<N>,
@@ -42,7 +46,7 @@ impl<const N: usize> Run<'_, N> {
         tighter: Option<Tighter>,
         wall_s: f64,
         stopped: Option<String>,
-    ) -> Solved {
+    ) -> Simulation {
         let [work, lost] = model.work(&ended.last);
         let at_end = model.state(&ended.last);
         let gained = self.mechanism.energy(&at_end) - self.mechanism.energy(&self.start);
@@ -63,7 +67,6 @@ impl<const N: usize> Run<'_, N> {
             |value, length| Some(error(value, reach / length)? + struck / length),
             horizon,
         );
-        let ends_early = stopped.is_some();
         let mut warnings = self.warnings(&summary, &seen, tighter.is_some() || stopped.is_some());
         let (events, events_total) = self.events(&seen, last.t);
         let theta = self.angle(&last).radians();
@@ -75,31 +78,44 @@ impl<const N: usize> Run<'_, N> {
         if N == FREE && estimate.is_none() && self.task.options.estimate && stopped.is_none() {
             warnings.push("the crank at the end lies beyond the reproducible horizon: its error is not stated".to_owned());
         }
-        Solved {
-            last: Final {
-                t_s: last.t,
-                theta_rad: theta,
-                omega_rad_per_s: last.omega,
+        let peaks = seen.peaks.filter(|_| stopped.is_none()).map(Peaks::new);
+        let trajectory = self.trajectory(&seen, last.t);
+        let outcome = Outcome {
+            at: Start {
+                t: last.t,
+                angle: self.angle(&last),
+                speed: last.omega,
             },
             turned: last.theta - self.start.theta,
-            error_estimate: estimate.map(|(theta_rad, omega_rad_per_s)| ErrorEstimate {
-                theta_rad,
-                omega_rad_per_s,
+            estimate: estimate.map(|(theta_rad, omega_rad_per_s)| {
+                let error = ErrorEstimate {
+                    theta_rad,
+                    omega_rad_per_s,
+                };
+                Estimate::of_end(error, None)
             }),
-            energy: (gained - work + lost, seen.energy),
+            balance: Balance {
+                residual: gained - work + lost,
+                largest: seen.energy,
+            },
             evaluations: ended.evaluations,
             steps: ended.steps,
             wall_s,
-            estimate_cost: tighter.map(|t| t.cost),
-            speed: seen.speed,
-            events,
-            events_total,
             warnings,
             stopped,
-            peaks: seen.peaks.filter(|_| !ends_early).map(Peaks::new),
-            clearance: Some(summary),
-            ..Solved::default()
-        }
+            record: Recorded {
+                events,
+                events_total,
+                speed: seen.speed,
+                ..Recorded::new(self.start.omega)
+            },
+        };
+        let mut run = outcome.conclude(self.task);
+        let result = &mut run.summary;
+        result.estimate_cost = tighter.map(|t| t.cost);
+        (result.peaks, result.clearance) = (peaks, Some(summary));
+        run.trajectory = trajectory;
+        run
     }
 
     /// Until when the journal's path is that of the tighter run, and what both runs say of the time after.

@@ -15,9 +15,8 @@ pub use record::ContactStatistics;
 pub use result::{Beyond, ClearanceSummary, Horizon, LooseFinal};
 
 use super::closed_form;
-use super::dense_rows::DenseRows;
 use super::in_time::FAR;
-use super::result::{Cost, Summary};
+use super::result::Cost;
 use super::row::{NoRows, RowSink};
 use super::run::Simulation;
 use super::run_setup::RunSetup;
@@ -103,13 +102,7 @@ impl<'a, const N: usize> Run<'a, N> {
         let tighter = (self.task.options.estimate && stopped.is_none())
             .then(|| self.tighter(&model, last.t))
             .flatten();
-        let trajectory = self.trajectory(&seen, last.t);
-        let solved = self.solved(&model, &ended, seen, last, tighter, wall_s, stopped);
-        Ok(Simulation {
-            summary: Summary::new(self.task, solved),
-            trajectory,
-            dense: DenseRows::default(),
-        })
+        Ok(self.concluded(&model, &ended, seen, last, tighter, wall_s, stopped))
     }
 
     fn model<'b>(&self, corners: &'b dyn Fn(f64) -> f64) -> Loose<'b, N>

@@ -18,15 +18,14 @@ pub(super) use arrived::{Arrived, End, Follow, Observer};
 use end_reason::warnings;
 pub(super) use end_reason::why;
 use estimate::estimate;
-pub(super) use recorder::{CurveWatch, row_on_curve};
+pub(super) use recorder::{CurveWatch, last_row, row_on_curve};
 pub(super) use roundoff::Noise;
 pub(super) use stick_slip::Phase;
 
 use super::bounded_motion::Swing;
-use super::dense_rows::DenseRows;
-use super::event_log::Log;
 use super::in_time::settings;
-use super::result::{Final, Solved, Summary};
+use super::outcome::{Balance, Estimate, Outcome};
+use super::recorder::Recorder;
 use super::row::RowSink;
 use super::run::Simulation;
 use super::run_setup::RunSetup;
@@ -36,7 +35,6 @@ use crate::engine::time::{Finish, Start};
 use crate::error::Error;
 use crate::mechanism::{Class, Curve, CurveEquation, Equation};
 use crate::numeric::angle::Angle;
-use crate::trajectory::Trajectory;
 
 /// Whether a free motion in time is computed here.
 pub(super) fn serves(task: &RunSetup<'_>) -> bool {
@@ -58,59 +56,45 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
         turn_limit: task.extent.angle(),
         turned_from: task.start(),
     };
+    let mut recorder = Recorder::new(task, rows);
     let mut watch = CurveWatch {
         equation: &constrained,
-        reactor: task.maker.reactor,
-        rows,
-        schedule: task.schedule(),
-        start: task.start(),
+        recorder: &mut recorder,
         swing: Swing::new(task, start.angle),
-        log: Log::new(task),
-        recorded: (task.kept > 0).then(Vec::new),
-        spells: Vec::new(),
-        error: None,
         phase: Phase::Sticking,
     };
     let arrived = follow.run(&mut watch);
-    if let Some(error) = watch.error.take() {
-        return Err(error);
-    }
+    let CurveWatch { swing, phase, .. } = watch;
+    let last = &arrived.last;
+    let t_end = last.end.t;
+    recorder.end_piece(t_end);
+    let record = recorder.finish(|| last_row(task, &constrained, phase, last))?;
     if arrived.end == End::Integrator(Finish::NoStart) {
         return Err(stop_reason::no_start(task.start(), task.scene.motion.speed));
     }
-    watch.write_last_row(&arrived.last)?;
-    let log = watch.log;
-    let wall_s = log.wall_s(begun);
+    let wall_s = record.wall_s(begun);
     let crank = |q| curve.crank_angle(q);
-    let caught = watch
-        .swing
-        .and_then(|swing| swing.why(arrived.last.end.t, crank));
+    let caught = swing.and_then(|swing| swing.why(t_end, crank));
     let stopped = caught.or_else(|| why(task, &arrived, &constrained));
     let mut warnings = warnings(task);
-    let second = || estimate(&follow, &arrived, &log.checkpoints);
+    let second = || estimate(&follow, &arrived, &record.checkpoints);
     let estimate = task.estimate(stopped.as_ref(), &mut warnings, second);
-    let t_end = arrived.last.end.t;
-    let (angle, omega) = crank_state(curve, &arrived.last);
-    let solved = Solved {
-        last: Final {
-            t_s: t_end,
-            theta_rad: angle.radians(),
-            omega_rad_per_s: omega,
+    let (angle, speed) = crank_state(curve, last);
+    let outcome = Outcome {
+        at: Start {
+            t: t_end,
+            angle,
+            speed,
         },
         turned: angle.minus(task.start()),
-        error_estimate: estimate.map(|judged| judged.end),
-        rows_error: estimate.map(|judged| judged.rows),
-        energy: energy_residual(&constrained, equation, start, &arrived, log.fastest()),
+        estimate: estimate.map(Estimate::from),
+        balance: energy_balance(&constrained, equation, start, &arrived, record.fastest()),
         evaluations: arrived.evaluations,
         steps: arrived.steps,
         wall_s,
-        estimate_cost: estimate.map(|judged| judged.cost),
-        speed: log.speed,
-        events: log.events,
-        events_total: log.events_total,
         warnings,
         stopped,
-        ..Solved::default()
+        record,
     };
     let seen = constrained.clone();
     let view = move |angle: Angle, speed: f64| {
@@ -120,17 +104,10 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
             curve.place(angle.rest).dtheta * speed,
         )
     };
-    Ok(Simulation {
-        summary: Summary::new(task, solved),
-        trajectory: watch
-            .recorded
-            .map(|steps| Trajectory::from_steps(steps, t_end).seen_as(Arc::new(view))),
-        dense: DenseRows {
-            frame: None,
-            curve: Some(constrained.clone()),
-            spells: watch.spells,
-        },
-    })
+    let mut run = outcome.conclude(task);
+    run.trajectory = run.trajectory.map(|motion| motion.seen_as(Arc::new(view)));
+    run.dense.curve = Some(constrained);
+    Ok(run)
 }
 
 /// The equation on the curve of the start, and the start on it.
@@ -159,14 +136,14 @@ fn crank_state(curve: &Curve, last: &Step) -> (Angle, f64) {
     (curve.crank_angle(angle), dtheta * last.end.omega)
 }
 
-/// Energy at the end minus energy at the start minus work, J, and the largest energy that occurs.
-fn energy_residual(
+/// Energy at the end against that at the start and the work.
+fn energy_balance(
     constrained: &CurveEquation,
     equation: &Equation,
     start: Start,
     arrived: &Arrived,
     speed: f64,
-) -> (f64, f64) {
+) -> Balance {
     let last = &arrived.last;
     let angle = last.angle(last.end.theta);
     let turns = constrained.curve().crank_angle(start.angle).turns;
@@ -179,8 +156,8 @@ fn energy_residual(
     let gained = (kinetic[1] - kinetic[0]) + rise;
     let peak = equation.kinetic_energy(constrained.curve().crank_angle(angle).rest, speed);
     let peak = if peak.is_finite() { peak } else { 0.0 };
-    let scale = [kinetic[0], kinetic[1], rise, arrived.work, peak]
-        .into_iter()
-        .fold(0.0, |largest: f64, energy| largest.max(energy.abs()));
-    (gained - arrived.work, scale)
+    Balance::new(
+        gained - arrived.work,
+        &[kinetic[0], kinetic[1], rise, arrived.work, peak],
+    )
 }

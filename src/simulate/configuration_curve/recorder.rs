@@ -1,37 +1,25 @@
-//! What a run on the curve gives beside its end: rows, events, extreme speeds, the dense trajectory.
-
-use std::time::Instant;
+//! A run on the configuration curve as it is recorded: its rows, its events, the speeds of its crank.
 
 use super::super::bounded_motion::Swing;
-use super::super::dense_rows::{Spell, lengthen};
-use super::super::event_log::Log;
+use super::super::recorder::{Coordinate, Recorder};
 use super::super::result::Event;
-use super::super::row::{Row, RowSink};
-use super::super::schedule::{Schedule, passed};
+use super::super::row::Row;
+use super::super::run_setup::RunSetup;
 use super::arrived::Observer;
 use super::stick_slip::{InPhase, Phase};
+use crate::engine::Motion;
 use crate::engine::events;
 use crate::engine::step::Step;
-use crate::error::Error;
 use crate::mechanism::{CurveEquation, Reactor};
 use crate::numeric::angle::Angle;
 use crate::numeric::root;
 
 /// Follows a run.
-pub(in crate::simulate) struct CurveWatch<'a> {
+pub(in crate::simulate) struct CurveWatch<'a, 'r> {
     pub equation: &'a CurveEquation,
-    pub reactor: Option<&'a Reactor>,
-    pub rows: &'a mut dyn RowSink,
-    pub schedule: Schedule,
-    /// Crank angle of the start.
-    pub start: Angle,
+    pub recorder: &'a mut Recorder<'r>,
     /// Turning points of the coordinate, if they may show that the crank never completes its turns.
     pub swing: Option<Swing>,
-    pub log: Log,
-    /// Refined steps, while there is room for them, and their phases.
-    pub recorded: Option<Vec<Step>>,
-    pub spells: Vec<Spell>,
-    pub error: Option<Error>,
     /// How the last piece touched the guide.
     pub phase: Phase,
 }
@@ -39,34 +27,20 @@ pub(in crate::simulate) struct CurveWatch<'a> {
 /// A step is looked at in this many pieces.
 const PIECES: usize = 8;
 
-impl Observer for CurveWatch<'_> {
+impl Observer for CurveWatch<'_, '_> {
     fn step(&mut self, step: &Step, phase: Phase) -> bool {
         self.phase = phase;
-        self.log.checkpoints.pass(step);
         let mut step = *step;
-        let equation = self.equation;
-        let motion = InPhase { equation, phase };
+        let along = self.along(phase);
         if phase != Phase::Sticking {
-            self.follow_speed(&mut step, &motion);
+            let speed = self.recorder.speed();
+            *speed = events::follow(&mut step, &along.motion, *speed, |step, t| {
+                along.crank_speed(step, t)
+            });
         }
-        if self.rows.wants_rows() {
-            let begun = Instant::now();
-            let result = self.write_rows(&mut step, &motion);
-            self.log.row_time += begun.elapsed();
-            if let Err(error) = result {
-                self.error = Some(error);
-                return true;
-            }
-        }
-        if let Some(mut recorded) = self.recorded.take()
-            && self.log.take_room()
-        {
-            step.refine(&motion);
-            recorded.push(step);
-            lengthen(&mut self.spells, [step.start.t, step.end.t], phase);
-            self.recorded = Some(recorded);
-        }
-        self.swing.is_some_and(|swing| swing.is_caught())
+        let until = step.end.t;
+        let fails = self.recorder.step(&mut step, until, &along, Some(phase));
+        fails || self.swing.is_some_and(|swing| swing.is_caught())
     }
 
     fn event(&mut self, kind: &'static str, t: f64, angle: Angle, speed: f64) {
@@ -76,7 +50,7 @@ impl Observer for CurveWatch<'_> {
             swing.turns_at(angle);
         }
         let curve = self.equation.curve();
-        self.log.event(|| Event {
+        self.recorder.event(|| Event {
             kind,
             t_s: t,
             theta_rad: curve.crank_angle(angle).radians(),
@@ -85,95 +59,83 @@ impl Observer for CurveWatch<'_> {
     }
 }
 
-impl CurveWatch<'_> {
-    fn crank_speed(&self, step: &Step, t: f64) -> f64 {
+impl<'a> CurveWatch<'a, '_> {
+    fn along(&self, phase: Phase) -> AlongCurve<'a> {
+        let task = self.recorder.task();
+        let equation = self.equation;
+        AlongCurve {
+            motion: InPhase { equation, phase },
+            reactor: task.maker.reactor,
+            start: task.start(),
+        }
+    }
+}
+
+/// The coordinate of the curve in one phase.
+struct AlongCurve<'a> {
+    motion: InPhase<'a>,
+    reactor: Option<&'a Reactor>,
+    /// Crank angle of the start.
+    start: Angle,
+}
+
+impl AlongCurve<'_> {
+    /// Crank speed (rad/s) and its rate (rad/s²) at a time of a step, s.
+    fn crank_speed(&self, step: &Step, t: f64) -> (f64, f64) {
         let (q, speed) = step.at(t);
-        self.equation.curve().place(q).dtheta * speed
+        let place = self.motion.equation.curve().place(q);
+        let rate = place.dtheta * step.acceleration_at(t) + place.d2theta * speed * speed;
+        (place.dtheta * speed, rate)
+    }
+}
+
+impl Coordinate for AlongCurve<'_> {
+    fn motion(&self) -> &dyn Motion {
+        &self.motion
     }
 
     fn turned(&self, step: &Step, t: f64) -> f64 {
         let angle = step.angle(step.at(t).0);
-        self.equation.curve().crank_angle(angle).minus(self.start)
+        let curve = self.motion.equation.curve();
+        curve.crank_angle(angle).minus(self.start)
     }
 
-    /// Least and largest crank speed.
-    fn follow_speed(&mut self, step: &mut Step, motion: &InPhase<'_>) {
-        let curve = self.equation.curve();
-        self.log.speed = events::follow(step, motion, self.log.speed, |step, t| {
+    fn time_of(&self, step: &Step, turned: f64, [from, to]: [f64; 2]) -> Option<f64> {
+        root::bracketed(|t| self.turned(step, t) - turned, from, to)
+    }
+
+    fn turning_times(&self, step: &Step) -> Vec<f64> {
+        let time = |piece: usize| match piece {
+            PIECES => step.end.t,
+            _ => step.start.t + step.length() * piece as f64 / PIECES as f64,
+        };
+        let speed = |t: f64| {
             let (q, speed) = step.at(t);
-            let place = curve.place(q);
-            let rate = place.dtheta * step.acceleration_at(t) + place.d2theta * speed * speed;
-            (place.dtheta * speed, rate)
-        });
+            self.motion.equation.curve().place(q).dtheta * speed
+        };
+        let turns = |i: usize| {
+            let (from, to) = (time(i), time(i + 1));
+            let turns = speed(from) * speed(to) < 0.0;
+            turns.then(|| root::bracketed(speed, from, to))?
+        };
+        (0..PIECES).filter_map(turns).collect()
     }
 
-    fn write_rows(&mut self, step: &mut Step, motion: &InPhase<'_>) -> Result<(), Error> {
-        if let Some(spacing) = self.schedule.angle_step() {
-            return self.write_rows_at_angles(step, motion, spacing);
-        }
-        while let Some(t) = self.schedule.time(self.log.next_row) {
-            if t > step.end.t {
-                break;
-            }
-            if t > step.start.t && t < step.end.t {
-                step.refine(motion);
-            }
-            self.write_row(step, motion, t)?;
-            self.log.next_row += 1;
-        }
-        Ok(())
+    fn row(&self, t: f64, angle: Angle, speed: f64) -> Row {
+        let InPhase { equation, phase } = self.motion;
+        row_on_curve(equation, self.reactor, phase, (t, angle, speed))
     }
+}
 
-    fn write_rows_at_angles(
-        &mut self,
-        step: &mut Step,
-        motion: &InPhase<'_>,
-        spacing: f64,
-    ) -> Result<(), Error> {
-        if self.log.next_row == 0 {
-            self.write_row(step, motion, step.start.t)?;
-            self.log.next_row = 1;
-        }
-        // Between the times at which the crank turns back its angle is monotone.
-        let mut cuts = vec![step.start.t];
-        for i in 0..PIECES {
-            let (from, to) = (time(step, i), time(step, i + 1));
-            let (a, b) = (self.crank_speed(step, from), self.crank_speed(step, to));
-            if a * b < 0.0 {
-                cuts.extend(root::bracketed(|t| self.crank_speed(step, t), from, to));
-            }
-        }
-        cuts.push(step.end.t);
-        for w in cuts.windows(2) {
-            let way = |t: f64| self.turned(step, t) / spacing;
-            for k in passed(way(w[0]), way(w[1])) {
-                step.refine(motion);
-                let target = k * spacing;
-                let t = root::bracketed(|t| self.turned(step, t) - target, w[0], w[1]);
-                self.write_row(step, motion, t.unwrap_or(w[1]))?;
-            }
-        }
-        Ok(())
-    }
-
-    fn write_row(&mut self, step: &Step, motion: &InPhase<'_>, t: f64) -> Result<(), Error> {
-        let (theta, speed) = step.at(t);
-        let now = (t, step.angle(theta), speed);
-        let row = row_on_curve(self.equation, self.reactor, motion.phase, now);
-        self.rows.row(&row)
-    }
-
-    /// The last state is a row always.
-    pub fn write_last_row(&mut self, last: &Step) -> Result<(), Error> {
-        if self.rows.wants_rows() {
-            let motion = InPhase {
-                equation: self.equation,
-                phase: self.phase,
-            };
-            self.write_row(last, &motion, last.end.t)?;
-        }
-        Ok(())
-    }
+/// The row of the end of a run in one phase.
+pub(in crate::simulate) fn last_row(
+    task: &RunSetup<'_>,
+    equation: &CurveEquation,
+    phase: Phase,
+    last: &Step,
+) -> Row {
+    let state = (last.end.t, last.angle(last.end.theta), last.end.omega);
+    row_on_curve(equation, task.maker.reactor, phase, state)
 }
 
 /// The row of a time (s), a coordinate and its rate (rad/s) in one phase.
@@ -204,13 +166,5 @@ pub(in crate::simulate) fn row_on_curve(
         phi: place.phi(),
         reactions,
         driving_torque: None,
-    }
-}
-
-fn time(step: &Step, piece: usize) -> f64 {
-    if piece == PIECES {
-        step.end.t
-    } else {
-        step.start.t + step.length() * piece as f64 / PIECES as f64
     }
 }

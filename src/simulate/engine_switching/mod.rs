@@ -19,11 +19,10 @@ use notes::Notes;
 use super::angle_model::AngleModel;
 use super::by_angle::{self, First};
 use super::configuration_curve;
-use super::dense_rows::DenseRows;
 use super::error_estimate::Forward;
 use super::in_time::settings;
-use super::over_angle::{balance, speeds};
-use super::result::{Final, Solved, Summary};
+use super::outcome::{Estimate, Outcome};
+use super::over_angle::balance;
 use super::row::RowSink;
 use super::run::Simulation;
 use super::run_setup::RunSetup;
@@ -33,7 +32,6 @@ use crate::engine::step::{Node, Step};
 use crate::engine::time::Finish;
 use crate::error::Error;
 use crate::plan::{Method, Plan};
-use crate::trajectory::Trajectory;
 
 /// How far the crank turns in one direction before the angle takes over again, rad.
 const WAIT: f64 = TAU;
@@ -71,49 +69,27 @@ pub(super) fn run(
         ));
     }
     let caught = notes.caught(&arrived);
-    let (log, spells) = notes.finish(&arrived)?;
-    let wall_s = wall_s + log.wall_s(begun);
+    let record = notes.finish(&arrived)?;
+    let wall_s = wall_s + record.wall_s(begun);
     let stopped = caught.or_else(|| stopped(task, &arrived));
     let mut warnings = Vec::new();
     let second = || estimate(task, &course, &arrived);
     let estimated = task.estimate(stopped.as_ref(), &mut warnings, second);
     name_pieces(task, &arrived)?;
     let now = arrived.now;
-    let (speed, unbounded) = speeds(task, log.speed, now.speed);
-    warnings.extend(unbounded);
-    let solved = Solved {
-        last: Final {
-            t_s: now.t,
-            theta_rad: now.angle.radians(),
-            omega_rad_per_s: now.speed,
-        },
+    let outcome = Outcome {
+        at: now,
         turned: now.angle.minus(task.start()),
-        error_estimate: estimated.map(|(error, _)| error),
-        estimate_cost: estimated.map(|(_, cost)| cost),
-        energy: balance(
-            task,
-            (now.angle, now.speed),
-            arrived.work,
-            arrived.largest_kinetic,
-        ),
+        estimate: estimated.map(|(error, cost)| Estimate::of_end(error, Some(cost))),
+        balance: balance(task, &now, arrived.work, arrived.largest_kinetic),
         evaluations: arrived.evaluations,
         steps: arrived.steps,
         wall_s,
-        speed,
         warnings,
-        events: log.events,
-        events_total: log.events_total,
         stopped,
-        ..Solved::default()
+        record,
     };
-    Ok(Simulation {
-        summary: Summary::new(task, solved),
-        trajectory: log.pieces.map(Trajectory::joined),
-        dense: DenseRows {
-            spells,
-            ..DenseRows::default()
-        },
-    })
+    Ok(outcome.with_bounded_speeds(task).conclude(task))
 }
 
 /// Why the run ended before its time, if it did.

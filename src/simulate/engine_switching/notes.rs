@@ -1,12 +1,11 @@
-//! What is noted of a run while its pieces are computed.
+//! A run that engines hand to one another as it is recorded.
 
 use super::super::configuration_curve;
 use super::super::configuration_curve::{CurveWatch, Phase};
-use super::super::dense_rows::Spell;
-use super::super::event_log::Log;
+use super::super::crank_watch::CrankWatch;
 use super::super::in_time;
 use super::super::passages::{Stretch, is_dead_centre};
-use super::super::recorder::Recorder;
+use super::super::recorder::Record;
 use super::super::row::RowSink;
 use super::super::run_setup::RunSetup;
 use super::arrived::{Arrived, Observer};
@@ -20,9 +19,7 @@ use crate::trajectory::Trajectory;
 /// Notes of a run.
 pub(super) struct Notes<'a> {
     task: &'a RunSetup<'a>,
-    watch: Recorder<'a>,
-    /// Pieces in time with friction.
-    spells: Vec<Spell>,
+    watch: CrankWatch<'a>,
     /// How the slider touched its guide at the end of a piece in time with friction.
     touched: Phase,
 }
@@ -35,8 +32,7 @@ impl<'a> Notes<'a> {
     ) -> Notes<'a> {
         Notes {
             task,
-            watch: in_time::watch(task, looked_at, rows),
-            spells: Vec::new(),
+            watch: CrankWatch::new(task, looked_at, rows),
             touched: Phase::Sticking,
         }
     }
@@ -46,78 +42,39 @@ impl<'a> Notes<'a> {
         self.watch.swing?.why(arrived.now.t, |theta| theta)
     }
 
-    /// The log, with the row of the end, and the pieces in time with friction.
-    pub fn finish(mut self, arrived: &Arrived) -> Result<(Log, Vec<Spell>), Error> {
-        if let Some(error) = self.watch.seen.error.take() {
-            return Err(error);
-        }
-        if let Some(rubbed) = &arrived.rubbed {
-            let mut result = Ok(());
-            let phase = self.touched;
-            self.rubbing(&mut |watch| {
-                watch.phase = phase;
-                result = watch.write_last_row(&rubbed.last);
-            });
-            result?;
-        } else if self.watch.rows.wants_rows() {
-            let Start { t, angle, speed } = arrived.now;
-            self.watch.write(t, angle, speed)?;
-        }
-        Ok((self.watch.log, self.spells))
-    }
-}
-
-impl Notes<'_> {
-    /// Lends rows and log to what watches a motion with friction.
-    fn rubbing(&mut self, work: &mut dyn FnMut(&mut CurveWatch<'_>)) {
-        let task = self.task;
-        let Some(sliding) = task.maker.sliding else {
-            return;
-        };
-        let log = std::mem::replace(&mut self.watch.log, Log::new(task));
-        let mut watch = CurveWatch {
-            equation: sliding.equation(),
-            reactor: task.maker.reactor,
-            rows: &mut *self.watch.rows,
-            schedule: task.schedule(),
-            start: task.start(),
-            swing: self.watch.swing,
-            log,
-            recorded: None,
-            spells: Vec::new(),
-            error: None,
-            phase: Phase::Sticking,
-        };
-        work(&mut watch);
-        self.watch.log = watch.log;
-        self.watch.swing = watch.swing;
+    /// The record, with the row of the end.
+    pub fn finish(self, arrived: &Arrived) -> Result<Record, Error> {
+        let Start { t, angle, speed } = arrived.now;
+        let maker = &self.task.maker;
+        self.watch
+            .recorder
+            .finish(|| match (&arrived.rubbed, maker.sliding) {
+                (Some(rubbed), Some(sliding)) => configuration_curve::last_row(
+                    self.task,
+                    sliding.equation(),
+                    self.touched,
+                    &rubbed.last,
+                ),
+                _ => maker.row(t, angle, speed, None),
+            })
     }
 }
 
 impl Observer for Notes<'_> {
     fn over_angle(&mut self, from: Start, until: f64, driving: Driving) -> Result<(), Error> {
-        let Recorder {
-            rows, maker, log, ..
-        } = &mut self.watch;
-        let stretch = Stretch {
+        let recorder = &mut self.watch.recorder;
+        recorder.stretch(&Stretch {
             orbit: &driving.orbit,
             begin: from.t,
             end: driving.end,
-        };
-        if rows.wants_rows() {
-            let mut write = |t: f64, angle, omega| rows.row(&maker.row(t, angle, omega, None));
-            log.stretch(self.task, &stretch, Some(&mut write))?;
-        } else {
-            log.stretch(self.task, &stretch, None)?;
-        }
-        log.keep(|| Trajectory::orbit(driving.orbit, from.t, until));
+        })?;
+        recorder.keep(|| Trajectory::orbit(driving.orbit, from.t, until));
         Ok(())
     }
 
     fn begin_in_time(&mut self, from: Start) {
-        self.watch.seen.passed = (from.t > 0.0 && is_dead_centre(self.task, from.angle.rest))
+        self.watch.passed = (from.t > 0.0 && is_dead_centre(self.task, from.angle.rest))
             .then_some((from.angle, from.speed));
-        self.watch.recorded = self.watch.log.pieces.is_some().then(Vec::new);
     }
 
     fn step(&mut self, step: &Step) -> bool {
@@ -125,25 +82,18 @@ impl Observer for Notes<'_> {
     }
 
     fn with_friction(&mut self, run: &mut dyn FnMut(&mut dyn configuration_curve::Observer)) {
-        let mut spells = std::mem::take(&mut self.spells);
-        let mut seen = None;
-        self.rubbing(&mut |watch| {
-            watch.recorded = watch.log.pieces.is_some().then(Vec::new);
-            std::mem::swap(&mut watch.spells, &mut spells);
-            run(watch);
-            std::mem::swap(&mut watch.spells, &mut spells);
-            seen = Some((watch.phase, watch.error.take(), watch.recorded.take()));
-        });
-        self.spells = spells;
-        let Some((phase, error, recorded)) = seen else {
+        let Some(sliding) = self.task.maker.sliding else {
             return;
         };
-        self.touched = phase;
-        self.watch.seen.error = error;
-        if let Some(steps) = recorded.filter(|steps| !steps.is_empty()) {
-            let end = steps[steps.len() - 1].end.t;
-            self.watch.log.keep(|| Trajectory::from_steps(steps, end));
-        }
+        let mut watch = CurveWatch {
+            equation: sliding.equation(),
+            recorder: &mut self.watch.recorder,
+            swing: self.watch.swing,
+            phase: Phase::Sticking,
+        };
+        run(&mut watch);
+        (self.touched, self.watch.swing) = (watch.phase, watch.swing);
+        self.watch.recorder.end_piece(f64::INFINITY);
     }
 
     fn end_in_time(
@@ -152,15 +102,12 @@ impl Observer for Notes<'_> {
         last: &Step,
         settings: &Settings,
     ) -> Option<Step> {
-        let watch = &mut self.watch;
-        let shortened = watch
-            .seen
+        let shortened = self
+            .watch
             .ends_at
-            .map(|t| in_time::shortened(motion, last, t, settings, watch));
+            .map(|_| in_time::shortened(motion, last, settings, &mut self.watch));
         let end = shortened.as_ref().unwrap_or(last).end.t;
-        if let Some(steps) = watch.recorded.take().filter(|steps| !steps.is_empty()) {
-            watch.log.keep(|| Trajectory::from_steps(steps, end));
-        }
+        self.watch.recorder.end_piece(end);
         shortened
     }
 }

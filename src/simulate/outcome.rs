@@ -1,0 +1,209 @@
+//! The one place where a run becomes its result, whatever engine computed it.
+
+use std::f64::consts::TAU;
+
+use super::dense_rows::DenseRows;
+use super::recorder::Record;
+use super::result::{Cost, ErrorEstimate, Final, Judged, Summary};
+use super::run::Simulation;
+use super::run_setup::RunSetup;
+use super::stalled;
+use crate::engine::time::Start;
+use crate::scene::Extent;
+use crate::trajectory::Trajectory;
+
+/// How a run ended.
+pub(super) struct Outcome {
+    /// Last time, crank angle and speed.
+    pub at: Start,
+    /// Way of the crank, rad, signed.
+    pub turned: f64,
+    pub estimate: Option<Estimate>,
+    pub balance: Balance,
+    pub evaluations: u64,
+    pub steps: u64,
+    /// Wall time of the solution itself, s.
+    pub wall_s: f64,
+    pub warnings: Vec<String>,
+    pub stopped: Option<String>,
+    pub record: Record,
+}
+
+/// Energy at the end minus energy at the start minus work of the loads.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Balance {
+    /// J
+    pub residual: f64,
+    /// Largest energy that occurs, J.
+    pub largest: f64,
+}
+
+impl Balance {
+    /// From the residual and the energies that occur, J.
+    pub fn new(residual: f64, energies: &[f64]) -> Balance {
+        let largest = |largest: f64, energy: &f64| largest.max(energy.abs());
+        Balance {
+            residual,
+            largest: energies.iter().fold(0.0, largest),
+        }
+    }
+}
+
+/// Global error of the last state, and what its estimate cost.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Estimate {
+    pub error: ErrorEstimate,
+    /// Error of the worst state on the way, where it is known.
+    pub on_the_way: Option<ErrorEstimate>,
+    /// None without a second run.
+    pub cost: Option<Cost>,
+}
+
+impl From<Judged> for Estimate {
+    fn from(judged: Judged) -> Estimate {
+        Estimate {
+            error: judged.end,
+            on_the_way: Some(judged.rows),
+            cost: Some(judged.cost),
+        }
+    }
+}
+
+impl Estimate {
+    /// Of the last state alone.
+    pub fn of_end(error: ErrorEstimate, cost: Option<Cost>) -> Estimate {
+        Estimate {
+            error,
+            on_the_way: None,
+            cost,
+        }
+    }
+}
+
+impl Outcome {
+    /// With speeds that are shown as infinite where the inertia vanishes, at the dead centres of a crank without inertia.
+    pub fn with_bounded_speeds(mut self, task: &RunSetup<'_>) -> Outcome {
+        let inertia = |theta: f64| task.equation().terms(theta).inertia.m;
+        let vanishes = |theta: f64| inertia(theta) <= 1e-12 * inertia(theta + 1.0);
+        if !task.limits.dead_centres.iter().any(|dc| vanishes(dc.theta)) {
+            return self;
+        }
+        let usual = task.scene.motion.speed.abs().max(self.at.speed.abs());
+        let is_bounded = |speed: f64| speed.abs() < 1e6 * usual;
+        let (low, high) = self.record.speed;
+        let shown = |speed: f64| match is_bounded(speed) {
+            true => speed,
+            false => speed * f64::INFINITY,
+        };
+        self.record.speed = (shown(low), shown(high));
+        if !is_bounded(low) || !is_bounded(high) {
+            let what = "the effective inertia vanishes at the dead centres, where the crank speed has no bound";
+            self.warnings.push(what.to_owned());
+        }
+        self
+    }
+
+    /// The result of the run.
+    pub fn conclude(self, task: &RunSetup<'_>) -> Simulation {
+        let Outcome {
+            at,
+            turned,
+            estimate,
+            balance,
+            mut warnings,
+            record,
+            ..
+        } = self;
+        let last = Final {
+            t_s: at.t,
+            theta_rad: at.angle.radians(),
+            omega_rad_per_s: at.speed,
+        };
+        let (kept, total) = (record.events.len(), record.events_total);
+        if kept > 0 && total > kept as u64 {
+            warnings.push(format!(
+                "{total} events occurred; the first {kept} are listed"
+            ));
+        }
+        let stopped = self
+            .stopped
+            .or_else(|| short_of(task.extent, &last, turned));
+        let stopped = stopped.map(|why| stalled::reason(task, &last).unwrap_or(why));
+        let summary = Summary {
+            scene: task.scene.title.clone().unwrap_or_default(),
+            engine: task.plan.engine.name().to_owned(),
+            plan: task.plan.clone(),
+            last,
+            revolutions: turned / TAU,
+            error_estimate: estimate.map(|estimate| estimate.error),
+            rows_error: estimate.and_then(|estimate| estimate.on_the_way),
+            energy_residual: match balance.largest {
+                0.0 => 0.0,
+                largest => balance.residual / largest,
+            },
+            energy_residual_j: balance.residual,
+            evaluations: self.evaluations,
+            steps: self.steps,
+            wall_s: self.wall_s,
+            estimate_cost: estimate.and_then(|estimate| estimate.cost),
+            omega_min: record.speed.0,
+            omega_max: record.speed.1,
+            driving_torque: None,
+            peaks: None,
+            clearance: None,
+            steady_state: None,
+            events: record.events,
+            events_total: total,
+            warnings,
+            stopped,
+        };
+        Simulation {
+            summary,
+            trajectory: record.pieces.map(Trajectory::joined),
+            dense: DenseRows {
+                spells: record.spells,
+                ..DenseRows::default()
+            },
+        }
+    }
+}
+
+/// What is said of a run that ended short of its goal, or without a state, though no engine told why.
+fn short_of(extent: Extent, last: &Final, turned: f64) -> Option<String> {
+    let (goal, reached) = match extent {
+        Extent::Duration(duration) => (duration, last.t_s),
+        Extent::Revolutions(turns) => (turns * TAU, turned.abs()),
+    };
+    // Half of all digits: far more than a goal is missed by in rounding.
+    let missed = goal - reached > f64::EPSILON.sqrt() * goal;
+    let state = [last.t_s, last.theta_rad, last.omega_rad_per_s, reached];
+    let is_state = state.iter().all(|number| number.is_finite());
+    (missed || !is_state).then(|| {
+        format!(
+            "the run ended before its goal: stopped at t = {} s, theta = {} rad, omega = {} rad/s; no engine gave a reason, which is a defect of this program",
+            last.t_s, last.theta_rad, last.omega_rad_per_s
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_short_of_its_goal_never_ends_in_silence() {
+        let says = |extent, t_s, turned| {
+            let last = Final {
+                t_s,
+                theta_rad: turned,
+                omega_rad_per_s: 1.0,
+            };
+            short_of(extent, &last, turned).is_some()
+        };
+        let (second, turn) = (Extent::Duration(1.0), Extent::Revolutions(1.0));
+        assert!(!says(second, 1.0, 0.3) && !says(turn, 0.2, -TAU) && !says(turn, 0.2, TAU));
+        assert!(says(second, 0.999, 0.3) && says(turn, 0.2, -6.2));
+        assert!(says(second, 1.0, f64::NAN) && says(second, f64::NAN, 0.3));
+        assert!(says(turn, 0.2, f64::INFINITY) && !says(Extent::Duration(0.0), 0.0, 0.3));
+    }
+}
