@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 use std::time::Instant;
 
 use super::angle_model::AngleModel;
+use super::angle_motion::{Motion, PLACE, late_by};
 use super::outcome::Estimate;
-use super::over_angle::{Motion, PLACE, late_by};
 use super::result::{Cost, ErrorEstimate};
 use super::run_setup::RunSetup;
 use crate::engine::angle::{self, Driving, Goal, Resolution};

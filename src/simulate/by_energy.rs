@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 use std::time::Instant;
 
 use super::angle_model::AngleModel;
+use super::angle_motion::{Motion, PLACE, balance, late_by};
 use super::outcome::Estimate;
-use super::over_angle::{Motion, PLACE, balance, late_by};
 use super::result::ErrorEstimate;
 use super::run_setup::RunSetup;
 use super::stop_reason;

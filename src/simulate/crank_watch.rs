@@ -9,6 +9,7 @@ use super::row::{Row, RowMaker, RowSink};
 use super::run_setup::RunSetup;
 use crate::engine::events::{self, Crossing};
 use crate::engine::step::Step;
+use crate::engine::time::{self, Settings};
 use crate::engine::{Counted, Motion};
 use crate::mechanism::Limits;
 use crate::numeric::angle::Angle;
@@ -29,7 +30,7 @@ pub(super) struct CrankWatch<'a> {
     /// How many of them are dead centres.
     dead_centres: usize,
     /// The run ends when the crank has turned by this, rad.
-    pub turn_limit: Option<f64>,
+    turn_limit: Option<f64>,
     crossings: Vec<(f64, Crossing)>,
 }
 
@@ -86,14 +87,39 @@ impl<'a> CrankWatch<'a> {
     }
 
     /// Least and largest speed.
-    pub fn follow_speed(&mut self, step: &mut Step) {
+    fn follow_speed(&mut self, step: &mut Step) {
         let speed = self.recorder.speed();
         *speed = events::follow_speed(step, self.motion, *speed);
     }
 
     /// How far the crank has turned at an angle of a step, rad.
-    pub fn turned(&self, step: &Step, theta: f64) -> f64 {
+    fn turned(&self, step: &Step, theta: f64) -> f64 {
         step.angle(theta).minus(self.start)
+    }
+
+    /// The last step up to where the run ends inside it, integrated anew; at a turn limit once more, to meet it exactly.
+    pub fn shortened(&mut self, motion: &Counted<'_>, step: &Step, settings: &Settings) -> Step {
+        let until = |t_end: f64, sink: &mut dyn FnMut(&Step) -> bool| {
+            time::shortened(motion, step, t_end, settings, sink)
+        };
+        let Some((mut t, by)) = self.ends_at else {
+            return *step;
+        };
+        if let Some(limit) = self.turn_limit.filter(|_| by == EndsBy::Turns) {
+            for _ in 0..3 {
+                let end = until(t, &mut |_| false);
+                let turned = self.turned(&end, end.end.theta);
+                let missing = limit.copysign(turned) - turned;
+                if missing == 0.0 || end.end.omega == 0.0 {
+                    break;
+                }
+                t = (t + missing / end.end.omega).clamp(step.start.t, step.end.t);
+            }
+        }
+        until(t, &mut |step| {
+            self.follow_speed(&mut step.clone());
+            false
+        })
     }
 
     fn reach_turn_limit(&mut self, step: &mut Step) {

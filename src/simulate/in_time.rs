@@ -5,18 +5,15 @@ use std::time::Instant;
 use super::crank_watch::{CrankWatch, EndsBy};
 use super::outcome::{Balance, Estimate, Outcome};
 use super::row::RowSink;
-use super::run::Simulation;
 use super::run_setup::RunSetup;
+use super::simulation::Simulation;
 use super::{configuration_curve, error_estimate, stop_reason};
 use crate::engine::Counted;
-use crate::engine::runge_kutta;
 use crate::engine::step::Step;
-use crate::engine::time::{self, Finish, Settings, Start};
+use crate::engine::time::{self, Finish, Start};
 use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::numeric::angle::Angle;
-use crate::plan::Stepper;
-use crate::scene::Extent;
 
 /// Runs a task.
 pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
@@ -28,7 +25,7 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
     let forward = error_estimate::Forward(equation);
     let motion = Counted::new(&forward);
     let start = task.first_state();
-    let settings = settings(task, equation);
+    let settings = task.settings();
     // What rows and events cost is counted apart: it does not change how far a run goes.
     let looked_at = Counted::new(&forward);
     let mut watch = CrankWatch::new(task, &looked_at, rows);
@@ -38,7 +35,7 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
         return Err(stop_reason::no_start(start.angle, start.speed));
     }
     if watch.ends_at.is_some() {
-        last = shortened(&motion, &last, &settings, &mut watch);
+        last = watch.shortened(&motion, &last, &settings);
         finish = Finish::AtEnd;
     }
     let end = Start {
@@ -86,60 +83,6 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
         record,
     };
     Ok(outcome.conclude(task))
-}
-
-/// A run that ends after a number of turns has no last time of its own.
-pub(super) const FAR: f64 = time::FAR;
-
-pub(super) fn settings(task: &RunSetup<'_>, equation: &Equation) -> Settings {
-    let motion = &task.scene.motion;
-    let inertia = equation.terms(motion.angle).inertia.m;
-    let unit = 0.5 * inertia * motion.speed.powi(2).max(1.0);
-    Settings {
-        method: match task.plan.stepper {
-            Some(Stepper::Dop853) => time::Method::Library(runge_kutta::Method::Dop853),
-            Some(Stepper::Dopri5) => time::Method::Library(runge_kutta::Method::Dopri5),
-            _ => time::Method::Picard,
-        },
-        tolerance: task.scene.run.tolerance,
-        t_end: match task.extent {
-            Extent::Duration(duration) => duration,
-            Extent::Revolutions(_) => FAR,
-        },
-        way: task.extent.angle().unwrap_or(f64::INFINITY),
-        max_evaluations: task.options.max_evaluations,
-        work_unit: if unit > 0.0 { unit } else { 1.0 },
-    }
-}
-
-/// The step ended where the run ends inside it, integrated anew; at a turn limit once more, to meet the limit exactly.
-pub(super) fn shortened(
-    motion: &Counted<'_>,
-    step: &Step,
-    settings: &Settings,
-    watch: &mut CrankWatch<'_>,
-) -> Step {
-    let until = |t_end: f64, sink: &mut dyn FnMut(&Step) -> bool| {
-        time::shortened(motion, step, t_end, settings, sink)
-    };
-    let Some((mut t, by)) = watch.ends_at else {
-        return *step;
-    };
-    if let Some(limit) = watch.turn_limit.filter(|_| by == EndsBy::Turns) {
-        for _ in 0..3 {
-            let end = until(t, &mut |_| false);
-            let turned = watch.turned(&end, end.end.theta);
-            let missing = limit.copysign(turned) - turned;
-            if missing == 0.0 || end.end.omega == 0.0 {
-                break;
-            }
-            t = (t + missing / end.end.omega).clamp(step.start.t, step.end.t);
-        }
-    }
-    until(t, &mut |step| {
-        watch.follow_speed(&mut step.clone());
-        false
-    })
 }
 
 /// Energy at the end against that at the start and the work.

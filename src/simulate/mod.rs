@@ -1,6 +1,7 @@
 //! Forward motion: scene in, trajectory, rows and summary out; the engines of the plan take turns between located events.
 
 mod angle_model;
+mod angle_motion;
 mod bounded_motion;
 mod by_angle;
 mod by_energy;
@@ -18,6 +19,7 @@ mod in_time;
 mod joint_force_maxima;
 mod last_row;
 mod marks;
+mod options;
 mod outcome;
 mod over_angle;
 mod passages;
@@ -28,6 +30,7 @@ mod row;
 mod run;
 mod run_setup;
 mod schedule;
+mod simulation;
 mod stalled;
 mod state_transition;
 mod steady;
@@ -36,9 +39,11 @@ mod stop_reason;
 pub use crate::mechanism::Reactions;
 pub use clearance::{Beyond, ClearanceSummary, ContactStatistics, Horizon, LooseFinal};
 pub use joint_force_maxima::{Peak, Peaks};
+pub use options::Options;
 pub use result::{Cost, ErrorEstimate, Event, Final, Summary, TorqueRange};
 pub use row::{LooseRow, NoRows, Row, RowSink};
-pub use run::{Options, Simulation, simulate, simulate_rows};
+pub use run::{simulate, simulate_rows};
+pub use simulation::Simulation;
 pub use steady::{
     Estimated, Flywheel, LoadWork, SpeedExtreme, SteadyOptions, SteadyState, steady_state,
 };

@@ -1,58 +1,38 @@
 //! Motion over the crank angle: what the energy and the angle engine have in common.
 
 use super::angle_model::AngleModel;
+use super::angle_motion::{Motion, balance};
 use super::by_angle::Unsolved;
-use super::outcome::{Balance, Estimate, Outcome};
+use super::outcome::Outcome;
 use super::passages::Stretch;
 use super::recorder::Recorder;
 use super::result::ErrorEstimate;
 use super::row::RowSink;
-use super::run::Simulation;
 use super::run_setup::{NOT_ESTIMATED, RunSetup};
+use super::simulation::Simulation;
 use super::{by_angle, by_energy, engine_switching, in_time};
-use crate::engine::energy::{NotApplicable, Orbit};
+use crate::engine::energy::NotApplicable;
 use crate::engine::time::Start;
 use crate::error::Error;
 use crate::mechanism::Class;
-use crate::numeric::angle::Angle;
 use crate::plan::{Engine, Method, Plan, cycle_over_angle};
 use crate::trajectory::Trajectory;
-
-/// A motion over the crank angle.
-pub(super) struct Motion {
-    pub orbit: Orbit,
-    /// Time of the end, s.
-    pub end: f64,
-    /// Angle and speed there.
-    pub last: (Angle, f64),
-    /// Work of the loads without potential, J.
-    pub work: f64,
-    pub evaluations: u64,
-    pub wall_s: f64,
-    pub stopped: Option<String>,
-    /// Error of the end, and what its estimate cost.
-    pub estimate: Option<Estimate>,
-    /// The motion of the second run, if the estimate is by one.
-    pub second: Option<Orbit>,
-}
 
 /// Times of a run at which its rows are judged.
 const LOOKED_AT: u32 = 64;
 
-impl Motion {
-    /// Error of the worst row, by that of rows spread over the run.
-    fn rows_error(&self, task: &RunSetup<'_>) -> Option<ErrorEstimate> {
-        // Multiples of the golden section fall everywhere in panels, however these divide the run.
-        let golden = 0.5 * (5f64.sqrt() - 1.0);
-        let times = (1..=LOOKED_AT).map(|i| (f64::from(i) * golden).fract() * self.end);
-        let last = self.estimate?.error;
-        Some(times.fold(last, |worst, t| {
-            worst.max(match &self.second {
-                Some(second) => by_angle::row_error([&self.orbit, second], t, last),
-                None => by_energy::row_error(task, &self.orbit, t),
-            })
-        }))
-    }
+/// Error of the worst row, by that of rows spread over the run.
+fn rows_error(motion: &Motion, task: &RunSetup<'_>) -> Option<ErrorEstimate> {
+    // Multiples of the golden section fall everywhere in panels, however these divide the run.
+    let golden = 0.5 * (5f64.sqrt() - 1.0);
+    let times = (1..=LOOKED_AT).map(|i| (f64::from(i) * golden).fract() * motion.end);
+    let last = motion.estimate?.error;
+    Some(times.fold(last, |worst, t| {
+        worst.max(match &motion.second {
+            Some(second) => by_angle::row_error([&motion.orbit, second], t, last),
+            None => by_energy::row_error(task, &motion.orbit, t),
+        })
+    }))
 }
 
 /// Runs a task; one that these engines cannot serve after all is run in time, and its plan says so.
@@ -172,7 +152,7 @@ fn finish(
         let (angle, speed) = orbit.state(*end);
         task.maker.row(*end, angle, speed, None)
     })?;
-    let rows_error = wants_rows.then(|| motion.rows_error(task)).flatten();
+    let rows_error = wants_rows.then(|| rows_error(&motion, task)).flatten();
     let mut warnings = Vec::new();
     if task.options.estimate && motion.estimate.is_none() {
         warnings.push(NOT_ESTIMATED.to_owned());
@@ -193,39 +173,4 @@ fn finish(
     run.summary.rows_error = rows_error;
     run.trajectory = Some(Trajectory::orbit(motion.orbit, 0.0, motion.end));
     Ok(run)
-}
-
-/// How far an angle in its turn is rounded at most, rad.
-pub(super) const PLACE: f64 = 2.0 * f64::EPSILON;
-
-/// Error of a state if its time may be off by `late` (s): it moves the state along the motion. The angle in its
-/// turn is right to `place` (rad), and rounded once more with its turns. The speed comes from series of 33
-/// terms, whose sum is rounded by half of √33 units. These errors are independent.
-pub(super) fn late_by(
-    task: &RunSetup<'_>,
-    (angle, omega): (Angle, f64),
-    end: f64,
-    late: f64,
-    place: f64,
-) -> ErrorEstimate {
-    let (alpha, _) = task.maker.forward(end, angle, omega);
-    let rounding = place + 0.5 * f64::EPSILON * angle.radians().abs();
-    ErrorEstimate {
-        theta_rad: (omega * late).hypot(rounding),
-        omega_rad_per_s: (alpha * late).hypot(3.0 * f64::EPSILON * omega),
-    }
-}
-
-/// Energy balance of a run whose largest kinetic energy (J) is known; `work` of the loads without potential, J.
-pub(super) fn balance(task: &RunSetup<'_>, at: &Start, work: f64, largest_kinetic: f64) -> Balance {
-    let equation = task.equation();
-    let start = task.start();
-    let turned = Angle {
-        turns: at.angle.turns - start.turns,
-        rest: at.angle.rest,
-    };
-    let begin = equation.kinetic_energy(start.rest, task.scene.motion.speed)
-        + equation.potential_energy(start.rest);
-    let last = equation.kinetic_energy(at.angle.rest, at.speed) + equation.potential_energy(turned);
-    Balance::new(last - begin - work, &[largest_kinetic, begin, last, work])
 }

@@ -2,83 +2,20 @@
 
 use std::sync::Arc;
 
-use super::dense_rows::{DenseRows, Frame};
+use super::dense_rows::Frame;
 use super::guide_friction::Sliding;
 use super::last_row::LastRow;
-use super::result::Summary;
-use super::row::{NoRows, Row, RowSink};
+use super::options::Options;
+use super::row::{NoRows, RowSink};
 use super::run_setup::RunSetup;
 use super::schedule::{self, Schedule};
+use super::simulation::Simulation;
 use super::{clearance, closed_form, in_time, joint_force_maxima, over_angle};
 use crate::error::Error;
 use crate::mechanism::{Curve, CurveEquation, Equation, Limits, Reactor};
-use crate::plan::{self, Engine, Method, Plan};
+use crate::plan::{self, Engine, Plan};
 use crate::scene::{Extent, MotionKind, Scene};
 use crate::trajectory::Trajectory;
-
-/// What is asked of a run beside what the scene says.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
-    /// The method; [`Method::Auto`] leaves it to the plan.
-    pub method: Method,
-    /// Joint forces in the rows, and the largest of them.
-    pub reactions: bool,
-    /// Driving torque in the rows, for prescribed motions.
-    pub driving_torque: bool,
-    /// Whether the global error is estimated, by a second run.
-    pub estimate: bool,
-    /// Most evaluations of the equation; the run ends there with what it has.
-    pub max_evaluations: u64,
-    /// Most events that are listed; all are counted.
-    pub events_kept: usize,
-}
-
-impl Default for Options {
-    fn default() -> Options {
-        Options {
-            method: Method::Auto,
-            reactions: false,
-            driving_torque: false,
-            estimate: true,
-            max_evaluations: 2_000_000_000,
-            events_kept: 1000,
-        }
-    }
-}
-
-/// A finished run.
-#[derive(Clone, Debug)]
-pub struct Simulation {
-    /// Key figures, error and events.
-    pub summary: Summary,
-    /// Dense motion, if it was recorded.
-    pub trajectory: Option<Trajectory>,
-    pub(super) dense: DenseRows,
-}
-
-impl Simulation {
-    /// Unwrapped crank angle (rad) and speed (rad/s) at time `t` (s); none outside the run.
-    pub fn at(&self, t: f64) -> Option<(f64, f64)> {
-        self.trajectory.as_ref()?.at(t)
-    }
-
-    /// The whole row at time `t` (s): crank and slider, their velocities and accelerations, and with
-    /// [`Options::reactions`] the joint forces. None outside the run, with a loose joint, and where a number is not
-    /// finite.
-    ///
-    /// ```
-    /// use slider_crank::scene::Scene;
-    /// use slider_crank::simulate::{Options, simulate};
-    /// let options = Options { reactions: true, ..Options::default() };
-    /// let run = simulate(&Scene::duarte(), &options).unwrap();
-    /// let row = run.row(0.5).unwrap();
-    /// assert_eq!(run.at(0.5), Some((row.theta, row.omega)));
-    /// println!("x = {} m, {:?} N at the wrist pin", row.x, row.reactions.unwrap().wrist_pin);
-    /// ```
-    pub fn row(&self, t: f64) -> Option<Row> {
-        self.dense.row(self.trajectory.as_ref()?, t)
-    }
-}
 
 /// Simulates a scene and keeps its dense trajectory.
 ///

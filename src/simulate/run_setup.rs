@@ -1,12 +1,13 @@
 //! A run that is ready to be computed.
 
+use super::options::Options;
 use super::row::RowMaker;
-use super::run::Options;
 use super::schedule::Schedule;
-use crate::engine::time::Start;
+use crate::engine::runge_kutta;
+use crate::engine::time::{self, Settings, Start};
 use crate::mechanism::{Equation, Limits};
 use crate::numeric::angle::Angle;
-use crate::plan::Plan;
+use crate::plan::{Plan, Stepper};
 use crate::scene::{Extent, Scene};
 
 /// What is said where the second run of an estimate does not get to the end within its share of work.
@@ -62,6 +63,28 @@ impl<'a> RunSetup<'a> {
             t: 0.0,
             angle: self.start(),
             speed: self.scene.motion.speed,
+        }
+    }
+
+    /// How the run is integrated in time.
+    pub fn settings(&self) -> Settings {
+        let motion = &self.scene.motion;
+        let inertia = self.equation().terms(motion.angle).inertia.m;
+        let unit = 0.5 * inertia * motion.speed.powi(2).max(1.0);
+        Settings {
+            method: match self.plan.stepper {
+                Some(Stepper::Dop853) => time::Method::Library(runge_kutta::Method::Dop853),
+                Some(Stepper::Dopri5) => time::Method::Library(runge_kutta::Method::Dopri5),
+                _ => time::Method::Picard,
+            },
+            tolerance: self.scene.run.tolerance,
+            t_end: match self.extent {
+                Extent::Duration(duration) => duration,
+                Extent::Revolutions(_) => time::FAR,
+            },
+            way: self.extent.angle().unwrap_or(f64::INFINITY),
+            max_evaluations: self.options.max_evaluations,
+            work_unit: if unit > 0.0 { unit } else { 1.0 },
         }
     }
 }

@@ -1,8 +1,7 @@
 //! Why a run in time ends before its time, or cannot begin, in words.
 
-use super::in_time::FAR;
 use crate::engine::step::Step;
-use crate::engine::time::Finish;
+use crate::engine::time::{FAR, Finish};
 use crate::error::Error;
 use crate::mechanism::{Equation, Singularity};
 use crate::numeric::angle::Angle;

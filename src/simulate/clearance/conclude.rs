@@ -7,7 +7,7 @@ use super::super::joint_force_maxima::Peaks;
 use super::super::outcome::{Balance, Estimate, Outcome};
 use super::super::recorder::Record as Recorded;
 use super::super::result::{ErrorEstimate, Event};
-use super::super::run::Simulation;
+use super::super::simulation::Simulation;
 use super::follow::{Seen, phi};
 use super::motion::{DRIVEN, FREE, Loose};
 use super::record::{ContactStatistics, Record};

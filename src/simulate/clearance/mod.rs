@@ -15,13 +15,13 @@ pub use record::ContactStatistics;
 pub use result::{Beyond, ClearanceSummary, Horizon, LooseFinal};
 
 use super::closed_form;
-use super::in_time::FAR;
 use super::result::Cost;
 use super::row::{NoRows, RowSink};
-use super::run::Simulation;
 use super::run_setup::RunSetup;
 use super::schedule::Schedule;
+use super::simulation::Simulation;
 use crate::engine::contact::{self, Ended, Finish, Phase, Settings, Stretch};
+use crate::engine::time::FAR;
 use crate::error::Error;
 use crate::mechanism::{LooseMechanism, LooseState};
 use crate::numeric::angle::Angle;

@@ -3,7 +3,7 @@
 use super::stick_slip::Phase;
 use crate::engine::step::Step;
 use crate::engine::time::{Finish, Settings, Start};
-use crate::mechanism::CurveEquation;
+use crate::mechanism::{Curve, CurveEquation};
 use crate::numeric::angle::Angle;
 
 /// Takes what is computed.
@@ -57,4 +57,11 @@ pub(in crate::simulate) struct Arrived {
     pub impossible: Option<(f64, f64, f64)>,
     /// Whether the run ended as it would pass a position without inertia.
     pub vanished: bool,
+}
+
+/// Crank angle and speed (rad/s) at the end of a step of the coordinate.
+pub(super) fn crank_state(curve: &Curve, last: &Step) -> (Angle, f64) {
+    let angle = last.angle(last.end.theta);
+    let dtheta = curve.place(angle.rest).dtheta;
+    (curve.crank_angle(angle), dtheta * last.end.omega)
 }

@@ -1,12 +1,10 @@
 //! Why a run on the curve ends before its time, and what the reader should know, in words.
 
-use super::super::in_time::FAR;
 use super::super::run_setup::RunSetup;
 use super::super::stalled;
 use super::super::stop_reason;
-use super::arrived::{Arrived, End};
-use super::crank_state;
-use crate::engine::time::Finish;
+use super::arrived::{Arrived, End, crank_state};
+use crate::engine::time::{FAR, Finish};
 use crate::mechanism::{Class, CurveEquation};
 use crate::scene::Extent;
 

@@ -4,8 +4,7 @@ use std::time::Instant;
 
 use super::super::checkpoints::{Checkpoints, Compared};
 use super::super::result::{Cost, ErrorEstimate, Judged};
-use super::arrived::{Arrived, End, Follow, Observer};
-use super::crank_state;
+use super::arrived::{Arrived, End, Follow, Observer, crank_state};
 use super::roundoff::Noise;
 use super::stick_slip::Phase;
 use crate::engine::step::Step;

@@ -8,29 +8,30 @@ mod recorder;
 mod release;
 mod rest;
 mod roundoff;
+mod row;
 mod senses;
 mod stick_slip;
 
 use std::sync::Arc;
 use std::time::Instant;
 
+use arrived::crank_state;
 pub(super) use arrived::{Arrived, End, Follow, Observer};
 use end_reason::warnings;
 pub(super) use end_reason::why;
 use estimate::estimate;
-pub(super) use recorder::{CurveWatch, last_row, row_on_curve};
+pub(super) use recorder::CurveWatch;
 pub(super) use roundoff::Noise;
+pub(super) use row::{last_row, row_on_curve};
 pub(super) use stick_slip::Phase;
 
 use super::bounded_motion::Swing;
-use super::in_time::settings;
 use super::outcome::{Balance, Estimate, Outcome};
 use super::recorder::Recorder;
 use super::row::RowSink;
-use super::run::Simulation;
 use super::run_setup::RunSetup;
+use super::simulation::Simulation;
 use super::stop_reason;
-use crate::engine::step::Step;
 use crate::engine::time::{Finish, Start};
 use crate::error::Error;
 use crate::mechanism::{Class, Curve, CurveEquation, Equation};
@@ -51,7 +52,7 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
     let curve = constrained.curve();
     let follow = Follow {
         equation: &constrained,
-        settings: settings(task, equation),
+        settings: task.settings(),
         start,
         turn_limit: task.extent.angle(),
         turned_from: task.start(),
@@ -128,12 +129,6 @@ fn on_curve(task: &RunSetup<'_>) -> Result<(CurveEquation, Start), Error> {
         speed: pace,
     };
     Ok((CurveEquation::new(task.scene, curve), start))
-}
-
-fn crank_state(curve: &Curve, last: &Step) -> (Angle, f64) {
-    let angle = last.angle(last.end.theta);
-    let dtheta = curve.place(angle.rest).dtheta;
-    (curve.crank_angle(angle), dtheta * last.end.omega)
 }
 
 /// Energy at the end against that at the start and the work.

@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 use std::time::Instant;
 
+use super::super::angle_motion::{PLACE, late_by};
 use super::super::by_angle::{MARGIN, ROUNDING, finer, most_evaluations};
 use super::super::configuration_curve;
 use super::super::configuration_curve::Noise;
 use super::super::error_estimate::{Forward, Rounding, tighter};
-use super::super::over_angle::{PLACE, late_by};
 use super::super::result::{Cost, ErrorEstimate};
 use super::super::roundoff_propagation::Spread;
 use super::super::run_setup::RunSetup;

@@ -17,15 +17,14 @@ use estimate::estimate;
 use notes::Notes;
 
 use super::angle_model::AngleModel;
+use super::angle_motion::balance;
 use super::by_angle::{self, First};
 use super::configuration_curve;
 use super::error_estimate::Forward;
-use super::in_time::settings;
 use super::outcome::{Estimate, Outcome};
-use super::over_angle::balance;
 use super::row::RowSink;
-use super::run::Simulation;
 use super::run_setup::RunSetup;
+use super::simulation::Simulation;
 use super::stop_reason;
 use crate::engine::Counted;
 use crate::engine::step::{Node, Step};
@@ -51,7 +50,7 @@ pub(super) fn run(
         start: task.first_state(),
         extent: task.extent,
         resolution: by_angle::plain(task),
-        settings: settings(task, equation),
+        settings: task.settings(),
         sliding: task.maker.sliding,
         wait: WAIT,
         max_evaluations: task.options.max_evaluations,

@@ -3,7 +3,6 @@
 use super::super::configuration_curve;
 use super::super::configuration_curve::{CurveWatch, Phase};
 use super::super::crank_watch::CrankWatch;
-use super::super::in_time;
 use super::super::passages::{Stretch, is_dead_centre};
 use super::super::recorder::Record;
 use super::super::row::RowSink;
@@ -105,7 +104,7 @@ impl Observer for Notes<'_> {
         let shortened = self
             .watch
             .ends_at
-            .map(|_| in_time::shortened(motion, last, settings, &mut self.watch));
+            .map(|_| self.watch.shortened(motion, last, settings));
         let end = shortened.as_ref().unwrap_or(last).end.t;
         self.watch.recorder.end_piece(end);
         shortened

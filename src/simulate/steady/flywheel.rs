@@ -1,9 +1,8 @@
 //! The flywheel for a wanted coefficient of fluctuation.
 
-use serde::Serialize;
-
+use super::describe;
 use super::periodic_orbit::{Found, Seeker};
-use super::{Estimated, describe};
+use super::result::{Estimated, Flywheel};
 use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::numeric::root;
@@ -15,21 +14,6 @@ const STEPS: u32 = 16;
 const MOST: f64 = 1e12;
 /// Halvings towards an inertia with which the crank stops.
 const HALVINGS: u32 = 40;
-
-/// A flywheel on the crank.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Flywheel {
-    /// Coefficient of fluctuation that was asked for.
-    pub wanted_fluctuation: f64,
-    /// Moment of inertia to be added to the crank, kg m²; negative: so much could be taken away.
-    pub added_inertia_kg_m2: Estimated,
-    /// Moment of inertia of the crank with it, kg m².
-    pub crank_inertia_kg_m2: f64,
-    /// Coefficient of fluctuation computed anew with it.
-    pub fluctuation: Estimated,
-    /// Mean speed with it, rad/s.
-    pub omega_mean_rad_per_s: Estimated,
-}
 
 /// Finds the flywheel with which the steady state has the `wanted` coefficient of fluctuation: the nearest on the way
 /// up from the crank's own inertia, or down.

@@ -2,11 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use serde::Serialize;
-
 use super::super::guide_friction::Sliding;
-use super::Estimated;
 use super::periodic_orbit::{Found, MARGIN};
+use super::result::{Estimated, LoadWork};
 use crate::mechanism::{Equation, Limits, Linkage, single};
 use crate::numeric::angle::Angle;
 use crate::numeric::gauss;
@@ -14,17 +12,6 @@ use crate::scene::{Instant, Load, Scene};
 
 /// Pieces of a turn beside those that dead centres and tables make.
 const PIECES: u32 = 16;
-
-/// One load over a period.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct LoadWork {
-    /// As `torque[1]`, with what it is.
-    pub name: String,
-    /// Mean over time of the power it puts in, W.
-    pub power_w: Estimated,
-    /// Mean over the crank angle of the crank torque that it amounts to, N m.
-    pub torque_nm: Estimated,
-}
 
 /// Each load of a scene, and friction at its guide.
 pub(super) fn works(scene: &Scene, found: &Found, check: &Found, relative: f64) -> Vec<LoadWork> {

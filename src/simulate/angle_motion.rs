@@ -1,0 +1,61 @@
+//! A solved motion over the crank angle: its errors by rounding and its energy balance.
+
+use super::outcome::{Balance, Estimate};
+use super::result::ErrorEstimate;
+use super::run_setup::RunSetup;
+use crate::engine::energy::Orbit;
+use crate::engine::time::Start;
+use crate::numeric::angle::Angle;
+
+/// A motion over the crank angle.
+pub(super) struct Motion {
+    pub orbit: Orbit,
+    /// Time of the end, s.
+    pub end: f64,
+    /// Angle and speed there.
+    pub last: (Angle, f64),
+    /// Work of the loads without potential, J.
+    pub work: f64,
+    pub evaluations: u64,
+    pub wall_s: f64,
+    pub stopped: Option<String>,
+    /// Error of the end, and what its estimate cost.
+    pub estimate: Option<Estimate>,
+    /// The motion of the second run, if the estimate is by one.
+    pub second: Option<Orbit>,
+}
+
+/// How far an angle in its turn is rounded at most, rad.
+pub(super) const PLACE: f64 = 2.0 * f64::EPSILON;
+
+/// Error of a state if its time may be off by `late` (s): it moves the state along the motion. The angle in its
+/// turn is right to `place` (rad), and rounded once more with its turns. The speed comes from series of 33
+/// terms, whose sum is rounded by half of √33 units. These errors are independent.
+pub(super) fn late_by(
+    task: &RunSetup<'_>,
+    (angle, omega): (Angle, f64),
+    end: f64,
+    late: f64,
+    place: f64,
+) -> ErrorEstimate {
+    let (alpha, _) = task.maker.forward(end, angle, omega);
+    let rounding = place + 0.5 * f64::EPSILON * angle.radians().abs();
+    ErrorEstimate {
+        theta_rad: (omega * late).hypot(rounding),
+        omega_rad_per_s: (alpha * late).hypot(3.0 * f64::EPSILON * omega),
+    }
+}
+
+/// Energy balance of a run whose largest kinetic energy (J) is known; `work` of the loads without potential, J.
+pub(super) fn balance(task: &RunSetup<'_>, at: &Start, work: f64, largest_kinetic: f64) -> Balance {
+    let equation = task.equation();
+    let start = task.start();
+    let turned = Angle {
+        turns: at.angle.turns - start.turns,
+        rest: at.angle.rest,
+    };
+    let begin = equation.kinetic_energy(start.rest, task.scene.motion.speed)
+        + equation.potential_energy(start.rest);
+    let last = equation.kinetic_energy(at.angle.rest, at.speed) + equation.potential_energy(turned);
+    Balance::new(last - begin - work, &[largest_kinetic, begin, last, work])
+}
