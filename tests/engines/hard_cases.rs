@@ -24,7 +24,7 @@ fn run(name: &str, method: Method) -> Simulation {
 }
 
 /// Name, crank angle and speed at the end, and the error of the reference.
-const REFERENCES: [(&str, f64, f64, f64); 20] = [
+const REFERENCES: [(&str, f64, f64, f64); 22] = [
     ("01-limit-1e-6", 18.532471601824206, 9.953636237680193, 0.0),
     ("01-limit-1e-12", 18.531035303155477, 9.951119500853299, 0.0),
     (
@@ -104,6 +104,18 @@ const REFERENCES: [(&str, f64, f64, f64); 20] = [
         29.616610086226234,
         15.74976677620337,
         0.0,
+    ),
+    (
+        "15-pulse-in-every-second-turn",
+        107.96794956915882,
+        66.61329264946285,
+        2e-10,
+    ),
+    (
+        "15-jump-in-each-turn",
+        72.35068998457365,
+        61.7324000891749,
+        4e-11,
     ),
 ];
 

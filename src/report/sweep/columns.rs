@@ -2,6 +2,7 @@
 
 use super::cell;
 use crate::kinematics::Kinematics;
+use crate::scene::printable;
 use crate::simulate::{SteadyState, Summary};
 use crate::sweep::{Design, Sweep};
 
@@ -87,7 +88,7 @@ pub(super) fn header(sweep: &Sweep) -> Vec<String> {
 pub(super) fn cells(sweep: &Sweep, design: &Design) -> Vec<String> {
     let mut cells = vec![(design.index + 1).to_string()];
     for (varied, value) in sweep.varied().iter().zip(&design.values) {
-        let text = || varied.text(*value).to_owned();
+        let text = || printable(varied.text(*value)).into_owned();
         cells.push(varied.number(*value).map_or_else(text, cell));
     }
     cells.push(design.outcome.name().to_owned());
@@ -115,7 +116,8 @@ pub(super) fn cells(sweep: &Sweep, design: &Design) -> Vec<String> {
         cells.extend(asked.fluctuation.map(|_| inertia));
     }
     // A row is a line.
-    cells.push(design.notes.join("; ").replace(['\n', '\r'], " "));
+    let notes = design.notes.join("; ").replace(['\n', '\r'], " ");
+    cells.push(printable(&notes).into_owned());
     cells
 }
 
