@@ -1,4 +1,4 @@
-//! Where the motion does not determine the slider force: near the dead centres, and at rest with friction.
+//! Where the motion does not determine the slider force: near the dead centres, and at rest with friction or dry loads.
 
 use crate::numeric::median::median;
 use serde::Serialize;
@@ -36,13 +36,12 @@ pub struct BandRule {
 /// The lever arm, in cranks, below which the rule applies.
 pub(super) const LONG_ARM: f64 = 0.5;
 
-const RULE: &str = "within |x'| < r/2 the slider force is left empty where half of its 95 % band is wider than the largest crank torque of the motion (or ten times the median half-width of that torque's band, if larger) over the crank length, or where x' is less than five standard errors from zero; near the limit of a rocker (cos phi < 0.3) the width alone counts, and each torque of a rocker is divided by |x'| where that is longer than the crank; it is left empty too with friction where the crank speed is less than five standard errors from zero";
+const RULE: &str = "within |x'| < r/2 the slider force is left empty where half of its 95 % band is wider than the largest crank torque of the motion (or ten times the median half-width of that torque's band, if larger) over the crank length, or where x' is less than five standard errors from zero; near the limit of a rocker (cos phi < 0.3) the width alone counts, and each torque of a rocker is divided by |x'| where that is longer than the crank; it is left empty too with friction or dry loads where the crank speed is less than five standard errors from zero";
 
 const NO_SIGN: &str = "the sign of the lever arm x' is not certain";
 const AT_LIMIT: &str =
     "the rod stands normal to the guide: the position has no certain derivatives";
-const AT_REST: &str =
-    "the crank speed is within five standard errors of zero: friction may act either way";
+const AT_REST: &str = "the crank speed is within five standard errors of zero: friction and dry loads may act either way";
 const TOO_WIDE: &str =
     "the uncertainty of the motion over the lever arm x' is wider than the force";
 

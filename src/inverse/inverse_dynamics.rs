@@ -3,7 +3,8 @@
 
 use super::guide::Guide;
 use super::motion_estimate::MotionEstimate;
-use crate::mechanism::{Equation, Pose, Terms};
+use crate::mechanism::{Equation, LoadValue, Pose, Sense, Terms};
+use crate::scene::Instant;
 
 /// Torque and lever arm at one sample.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +23,7 @@ pub(super) struct Demand {
     pub force_se: f64,
     /// Whether the rod is so near to normal to the guide that the terms of the equation grow without bound.
     pub near_limit: bool,
-    /// Whether the friction of the guide is known: without friction, or where the slider certainly slides.
+    /// Whether friction of the guide and dry loads are known: without any, or where the slider certainly slides.
     pub friction_known: bool,
 }
 
@@ -51,17 +52,44 @@ pub(super) const NEAR_LIMIT: f64 = 0.3;
 const RARE: f64 = 0.5;
 
 impl Backwards<'_> {
-    /// Torque that the scene's loads exert at a state.
-    fn known(&self, t: f64, theta: f64, omega: f64, terms: &Terms) -> f64 {
+    /// The scene's loads at a state; dry ones against a motion in this sense of the crank, zero: without them.
+    fn loads(&self, t: f64, theta: f64, omega: f64, pose: &Pose, sense: f64) -> LoadValue {
+        let loads = self.equation.loads();
+        let value = loads.value(t, theta, omega, pose);
+        if !loads.are_dry() {
+            return value;
+        }
+        let now = Instant {
+            t,
+            theta,
+            omega,
+            x: pose.x,
+            v: pose.dx * omega,
+        };
+        let [meant, own] =
+            [sense, omega].map(|speed| loads.dry(&now, Sense::of(speed, pose.dx * speed)));
+        LoadValue {
+            torque: value.torque + (meant.torque - own.torque),
+            force: value.force + (meant.force - own.force),
+        }
+    }
+
+    /// Torque that the scene's loads exert at a state, dry ones against this sense of the crank.
+    fn known(&self, t: f64, theta: f64, omega: f64, terms: &Terms, sense: f64) -> f64 {
         if self.equation.loads().are_none() {
             return 0.0;
         }
-        let load = self.equation.loads().value(t, theta, omega, &terms.pose);
+        let load = self.loads(t, theta, omega, &terms.pose, sense);
         if self.beside_forces {
             load.generalized(&terms.pose)
         } else {
             load.torque
         }
+    }
+
+    /// Whether the sense of the motion is certain.
+    fn moves(&self, state: &MotionEstimate) -> bool {
+        state.value[1].abs() > 5.0 * self.error(state, &[0.0, 1.0, 0.0], 0.0)
     }
 
     /// What one state of the motion needs.
@@ -84,16 +112,27 @@ impl Backwards<'_> {
         };
         let ((up, after), (down, before)) = (beside(1.0), beside(-1.0));
         let needed = |terms: &Terms| self.equation.generalized_force(terms, omega, alpha);
-        let known = self.known(t, theta, omega, &terms);
+        // At rest dry loads may be anything up to their magnitude: the torque is then the middle of what is possible,
+        // and its error has the rest in it.
+        let moves = self.moves(state);
+        let sense = if moves { omega.signum() } else { 0.0 };
+        let holding = match moves || !self.equation.loads().are_dry() {
+            true => 0.0,
+            false => (self.known(t, theta, omega, &terms, 1.0)
+                - self.known(t, theta, omega, &terms, 0.0))
+            .abs(),
+        };
+        let known = self.known(t, theta, omega, &terms, sense);
         let torque = needed(&terms) - known;
         let slope = |f: &dyn Fn(&Terms, f64) -> f64| {
             (f(&after, theta + up) - f(&before, theta + down)) / (up - down)
         };
-        let by_theta = slope(&|terms, theta| needed(terms) - self.known(t, theta, omega, terms));
+        let by_theta =
+            slope(&|terms, theta| needed(terms) - self.known(t, theta, omega, terms, sense));
         let faster = STEP * omega.abs().max(1e-3);
         let by_omega = 2.0 * terms.inertia.half_dm * omega
-            - (self.known(t, theta, omega + faster, &terms)
-                - self.known(t, theta, omega - faster, &terms))
+            - (self.known(t, theta, omega + faster, &terms, sense)
+                - self.known(t, theta, omega - faster, &terms, sense))
                 / (2.0 * faster);
         let gradient = [by_theta, by_omega, terms.inertia.m];
         let size = (terms.inertia.m * alpha).abs()
@@ -115,7 +154,7 @@ impl Backwards<'_> {
             let spread = state.angle_error();
             let [before, after] = [theta - spread, theta + spread].map(|theta| {
                 let terms = self.equation.terms(theta);
-                let torque = needed(&terms) - self.known(t, theta, omega, &terms);
+                let torque = needed(&terms) - self.known(t, theta, omega, &terms, sense);
                 [torque, torque / terms.pose.dx]
             });
             [0, 1].map(|i| (0.5 * (before[i] + after[i]) - [torque, force][i]).abs())
@@ -124,7 +163,7 @@ impl Backwards<'_> {
         };
         let demand = Demand {
             torque,
-            torque_se: error(&gradient, rounding) + bent[0],
+            torque_se: error(&gradient, rounding) + bent[0] + holding,
             arm,
             arm_se: error(&[bend, 0.0, 0.0], 4.0 * f64::EPSILON * r),
             force,
@@ -133,7 +172,7 @@ impl Backwards<'_> {
                 (rounding + 4.0 * f64::EPSILON * r * force.abs()) / arm.abs(),
             ) + bent[1],
             near_limit,
-            friction_known: true,
+            friction_known: moves || !self.equation.loads().are_dry(),
         };
         match self.guide {
             Some(guide) => self.beside_friction(guide, t, state, demand),
@@ -156,7 +195,7 @@ impl Backwards<'_> {
         demand: Demand,
     ) -> Demand {
         let omega = state.value[1];
-        let friction_known = omega.abs() > 5.0 * self.error(state, &[0.0, 1.0, 0.0], 0.0);
+        let friction_known = self.moves(state);
         let forwards = (demand.arm * omega).signum();
         let along = |direction: f64| move |at: [f64; 3]| self.friction(guide, t, at, direction);
         let rows = [forwards, -forwards].map(|direction| along(direction)(state.value));
@@ -204,7 +243,8 @@ impl Backwards<'_> {
     fn friction(&self, guide: &Guide, t: f64, at: [f64; 3], direction: f64) -> [f64; 2] {
         let [theta, omega, alpha] = at;
         let terms = self.equation.terms(theta);
-        let load = self.equation.loads().value(t, theta, omega, &terms.pose);
+        let sense = direction * terms.pose.dx.signum();
+        let load = self.loads(t, theta, omega, &terms.pose, sense);
         let needed = self.equation.generalized_force(&terms, omega, alpha);
         let along = (needed - load.torque) / terms.pose.dx;
         let force = if self.beside_forces { load.force } else { 0.0 };

@@ -74,7 +74,7 @@ pub(super) struct Doubt {
     pub certain: bool,
     /// Whether the rod is nearly normal to the guide.
     pub near_limit: bool,
-    /// Whether the friction of the guide is known.
+    /// Whether friction of the guide and dry loads are known.
     pub friction_known: bool,
 }
 

@@ -6,7 +6,9 @@ use proptest::prelude::*;
 use slider_crank::scene::{
     Crank, Expression, Friction, Gravity, Interpolation, Load, Rod, Scene, Slider, Table, Variable,
 };
-use slider_crank::simulate::{Options, Row, Simulation, Summary, simulate, simulate_rows};
+use slider_crank::simulate::{
+    Options, Row, Simulation, SteadyOptions, Summary, simulate, simulate_rows, steady_state,
+};
 
 use crate::support::machines::machine;
 use crate::support::random::cases;
@@ -267,6 +269,27 @@ fn a_driven_crank_works_against_them() {
             -range.max_nm
         };
         assert!((least - 0.5).abs() < 1e-6, "{range:?}");
+    }
+}
+
+/// A motor line of 5 N m at rest and none at 100 rad/s against a brake of 2 N m: 60 rad/s, and of a small deviation
+/// exp(-c T/J) is left after a turn.
+#[test]
+fn a_motor_and_a_brake_agree_on_a_speed() {
+    for sense in [1.0, -1.0] {
+        let motor = Load::Motor {
+            stall: 5.0 * sense,
+            no_load_speed: 100.0 * sense,
+        };
+        let scene = wheel(0.02).torque(motor).torque(Load::dry(2.0));
+        let found = steady_state(&scene.start(0.0, 20.0 * sense), &SteadyOptions::default());
+        let found = found.expect("a steady state");
+        let near = |value: f64, expected: f64| {
+            assert!((value - expected).abs() < 1e-9, "{value} for {expected}");
+        };
+        near(found.omega_mean_rad_per_s.value, 60.0 * sense);
+        near(found.fluctuation.value, 0.0);
+        near(found.multiplier.value, (-0.05 * TAU / 60.0 / 0.02).exp());
     }
 }
 

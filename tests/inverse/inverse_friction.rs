@@ -113,8 +113,54 @@ fn at_rest_the_force_is_empty() {
     assert!(
         found.summary.dead_centre_bands[0]
             .reason
-            .contains("friction may act either way")
+            .contains("friction and dry loads may act either way")
     );
+}
+
+/// The crank turns back at t = 0.5 s under a brake of 0.7 N m and, where it counts, a dry force of 20 N on the slider: before
+/// and after it they have their sense, next to it any value up to their magnitude.
+#[test]
+fn at_a_reversal_dry_loads_are_in_the_band() {
+    let times: Vec<f64> = (0..=200).map(|i| 0.005 * f64::from(i)).collect();
+    let angles = times
+        .iter()
+        .map(|t| 1.2 + 2.0 * (t - 0.5) * (t - 0.5))
+        .collect();
+    let motion = Measurement::new(Measured::Theta, times, angles).expect("samples");
+    for beside_forces in [false, true] {
+        let scene = Scene::new(0.05, 0.15)
+            .crank(Crank {
+                inertia: 2e-3,
+                ..Crank::default()
+            })
+            .torque(Load::dry(0.7))
+            .force(Load::dry(20.0));
+        let options = InverseOptions {
+            beside_forces,
+            ..InverseOptions::default()
+        };
+        let found = inverse(&scene, &motion, &options).expect("an inversion");
+        let force = if beside_forces { 20.0 } else { 0.0 };
+        let mut doubtful = 0;
+        for row in &found.rows {
+            let held = 0.7 + force * found.lever_arm(row).abs();
+            let [torque, error] = [row.crank_torque, row.crank_torque_se].map(Option::unwrap);
+            if (row.t - 0.5).abs() > 0.02 {
+                let expected = 2e-3 * 4.0 + held * (row.t - 0.5).signum();
+                let off = (torque - expected).abs();
+                assert!(off < 1e-6 && error < 1e-6, "{off:e} {error:e} {row:?}");
+            } else if row.slider_force.is_none() {
+                assert!((torque - 2e-3 * 4.0).abs() < 1e-6, "{row:?}");
+                assert!((error - held).abs() < 1e-6, "{row:?}");
+                doubtful += 1;
+            }
+        }
+        let bands = &found.summary.dead_centre_bands;
+        let said = bands
+            .iter()
+            .any(|band| band.reason.contains("dry loads may act either way"));
+        assert!(doubtful > 0 && said, "{bands:?}");
+    }
 }
 
 /// The guide locks itself where mu |tan phi| > 1: there is no torque there, but there is a force, and the
