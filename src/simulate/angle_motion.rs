@@ -3,7 +3,7 @@
 use super::outcome::{Balance, Estimate};
 use super::result::ErrorEstimate;
 use super::run_setup::RunSetup;
-use crate::engine::energy::Orbit;
+use crate::engine::energy::{NotApplicable, Orbit};
 use crate::engine::time::Start;
 use crate::numeric::angle::Angle;
 
@@ -58,4 +58,20 @@ pub(super) fn balance(task: &RunSetup<'_>, at: &Start, work: f64, largest_kineti
         + equation.potential_energy(start.rest);
     let last = equation.kinetic_energy(at.angle.rest, at.speed) + equation.potential_energy(turned);
     Balance::new(last - begin - work, &[largest_kinetic, begin, last, work])
+}
+
+/// Why a motion over the crank angle does not go on.
+pub(super) fn reason(unserved: NotApplicable) -> &'static str {
+    match unserved {
+        NotApplicable::Equilibrium => "it starts at rest without a force",
+        NotApplicable::NotFinite => "a load has no finite value on the way",
+        NotApplicable::NotSmooth => "a load is not smooth",
+        NotApplicable::TooSlow => "the crank comes too near to rest",
+        NotApplicable::WorkLimit | NotApplicable::TooManyTurns => {
+            "it takes more evaluations than the work limit allows"
+        }
+        NotApplicable::TooLong => {
+            "its turns differ from each other, and they are too many to be kept"
+        }
+    }
 }

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use super::driving_torque::Drive;
 use super::outcome::{Balance, Estimate, Outcome};
-use super::recorder::Record;
+use super::record::Record;
 use super::result::{ErrorEstimate, Event};
 use super::row::RowSink;
 use super::run_setup::RunSetup;

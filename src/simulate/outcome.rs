@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use super::dense_rows::DenseRows;
-use super::recorder::Record;
-use super::result::{Cost, ErrorEstimate, Final, Judged, Summary};
+use super::record::Record;
+use super::result::{Cost, ErrorEstimate, Final, Judged, Piece, Summary};
 use super::run_setup::RunSetup;
 use super::simulation::Simulation;
 use super::stalled;
@@ -125,6 +125,16 @@ impl Outcome {
                 "{total} events occurred; the first {kept} are listed"
             ));
         }
+        let mut pieces = record.engines;
+        match pieces.last_mut() {
+            Some(last) => last.to_s = last.to_s.min(at.t),
+            None => pieces.push(Piece {
+                engine: task.plan.engine.name(),
+                from_s: 0.0,
+                to_s: at.t,
+                why: task.plan.reason.clone(),
+            }),
+        }
         let stopped = self
             .stopped
             .or_else(|| short_of(task.extent, &last, turned));
@@ -133,6 +143,7 @@ impl Outcome {
             scene: task.scene.title.clone().unwrap_or_default(),
             engine: task.plan.engine.name().to_owned(),
             plan: task.plan.clone(),
+            pieces,
             last,
             revolutions: turned / TAU,
             error_estimate: estimate.map(|estimate| estimate.error),

@@ -1,7 +1,7 @@
 //! Motion over the crank angle: what the energy and the angle engine have in common.
 
 use super::angle_model::AngleModel;
-use super::angle_motion::{Motion, balance};
+use super::angle_motion::{Motion, balance, reason};
 use super::by_angle::Unsolved;
 use super::outcome::Outcome;
 use super::passages::Stretch;
@@ -110,22 +110,6 @@ fn why(task: &RunSetup<'_>, unserved: NotApplicable) -> &'static str {
             "the mechanism reaches the limit of its motion"
         }
         _ => reason(unserved),
-    }
-}
-
-/// Why these engines cannot serve.
-pub(super) fn reason(unserved: NotApplicable) -> &'static str {
-    match unserved {
-        NotApplicable::Equilibrium => "it starts at rest without a force",
-        NotApplicable::NotFinite => "a load has no finite value on the way",
-        NotApplicable::NotSmooth => "a load is not smooth",
-        NotApplicable::TooSlow => "the crank comes too near to rest",
-        NotApplicable::WorkLimit | NotApplicable::TooManyTurns => {
-            "it takes more evaluations than the work limit allows"
-        }
-        NotApplicable::TooLong => {
-            "its turns differ from each other, and they are too many to be kept"
-        }
     }
 }
 

@@ -1,5 +1,7 @@
 //! The result of a run in numbers.
 
+use std::borrow::Cow;
+
 use serde::Serialize;
 
 use super::clearance::ClearanceSummary;
@@ -16,6 +18,8 @@ pub struct Summary {
     pub engine: String,
     /// What was computed, and how.
     pub plan: Plan,
+    /// Which engine computed which part of the run, and why that one: the first parts, at most as many as events.
+    pub pieces: Vec<Piece>,
     /// Last state.
     #[serde(rename = "final")]
     pub last: Final,
@@ -107,6 +111,19 @@ pub(super) struct Judged {
     pub rows: ErrorEstimate,
     /// What the better one cost.
     pub cost: Cost,
+}
+
+/// A part of a run that one engine computed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Piece {
+    /// Name of the engine.
+    pub engine: &'static str,
+    /// s
+    pub from_s: f64,
+    /// s
+    pub to_s: f64,
+    /// Why this engine.
+    pub why: Cow<'static, str>,
 }
 
 /// Evaluations and time.

@@ -154,6 +154,14 @@ fn a_brake_that_turns_the_crank_back_makes_a_parabola() {
             follows(&result, &closed);
             let summary = &result.summary;
             assert!(summary.plan.reason.contains("once, and back once"));
+            let pieces = &summary.pieces;
+            let engines: Vec<_> = pieces.iter().map(|piece| piece.engine).collect();
+            assert_eq!(engines, ["angle", "time", "angle"]);
+            assert_eq!((pieces[0].from_s, pieces[2].to_s), (0.0, duration));
+            assert!(pieces.windows(2).all(|w| w[0].to_s == w[1].from_s));
+            // The crank stands still in the piece in time.
+            let stands = -speed / rate;
+            assert!(pieces[1].from_s < stands && stands < pieces[1].to_s);
             let ends = [speed, speed + rate * duration];
             let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
             assert!((summary.omega_min / low - 1.0).abs() < 1e-13);

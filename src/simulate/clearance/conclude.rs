@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::super::closed_form;
 use super::super::joint_force_maxima::Peaks;
 use super::super::outcome::{Balance, Estimate, Outcome};
-use super::super::recorder::Record as Recorded;
+use super::super::record::Record as Recorded;
 use super::super::result::{ErrorEstimate, Event};
 use super::super::simulation::Simulation;
 use super::follow::{Seen, phi};

@@ -7,9 +7,13 @@ use crate::engine::step::Step;
 use crate::engine::time::{Finish, Settings, Start};
 use crate::error::Error;
 use crate::numeric::angle::Angle;
+use crate::plan::Engine;
 
 /// Takes what is computed.
 pub(super) trait Observer {
+    /// An engine takes over at a time, s.
+    fn begins(&mut self, _engine: Engine, _from: f64, _why: &'static str) {}
+
     /// A piece over the angle, from a start until a time, s.
     fn over_angle(&mut self, from: Start, until: f64, driving: Driving) -> Result<(), Error>;
 

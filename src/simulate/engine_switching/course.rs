@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::super::angle_model::AngleModel;
+use super::super::angle_motion::reason;
 use super::super::error_estimate::Forward;
 use super::super::guide_friction::Sliding;
 use super::arrived::{Arrived, End, Observer};
@@ -13,6 +14,7 @@ use crate::engine::energy::NotApplicable;
 use crate::engine::time::{self, Finish, Settings, Start};
 use crate::error::Error;
 use crate::mechanism::Equation;
+use crate::plan::Engine;
 use crate::scene::Extent;
 
 /// What is run, and how finely.
@@ -81,6 +83,7 @@ impl Pass<'_, '_> {
 
     fn pieces(&mut self, mut first: Option<Driving>) -> Result<(), Error> {
         let mut turns = true;
+        let mut slow = "";
         loop {
             if turns {
                 let driven = first.take().map_or_else(|| self.drive(), Ok);
@@ -91,6 +94,7 @@ impl Pass<'_, '_> {
                         Some(why)
                     }
                 };
+                slow = why.map_or("", reason);
                 match why {
                     None => return Ok(()),
                     Some(NotApplicable::TooLong) => continue,
@@ -112,6 +116,8 @@ impl Pass<'_, '_> {
             if before.over_angle > 0 && before.last.is_none() {
                 self.arrived.to_time += 1;
             }
+            let from = self.arrived.now.t;
+            self.observer.begins(Engine::Time, from, slow);
             let back = match self.course.sliding {
                 Some(sliding) => self.with_friction(sliding, wait),
                 None => self.in_time(wait),
@@ -181,7 +187,9 @@ impl Pass<'_, '_> {
                 self.course.wait
             };
         }
-        self.observer.over_angle(begin, end, driving)?;
+        let observer = &mut self.observer;
+        observer.begins(Engine::Angle, begin.t, "the crank turns");
+        observer.over_angle(begin, end, driving)?;
         Ok(short.map(|short| short.why))
     }
 

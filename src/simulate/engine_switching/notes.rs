@@ -4,7 +4,7 @@ use super::super::configuration_curve;
 use super::super::configuration_curve::{CurveWatch, Phase};
 use super::super::crank_watch::CrankWatch;
 use super::super::passages::{Stretch, is_dead_centre};
-use super::super::recorder::Record;
+use super::super::record::Record;
 use super::super::row::RowSink;
 use super::super::run_setup::RunSetup;
 use super::arrived::{Arrived, Observer};
@@ -13,6 +13,7 @@ use crate::engine::angle::Driving;
 use crate::engine::step::Step;
 use crate::engine::time::{Settings, Start};
 use crate::error::Error;
+use crate::plan::Engine;
 use crate::trajectory::Trajectory;
 
 /// Notes of a run.
@@ -60,6 +61,10 @@ impl<'a> Notes<'a> {
 }
 
 impl Observer for Notes<'_> {
+    fn begins(&mut self, engine: Engine, from: f64, why: &'static str) {
+        self.watch.recorder.begins(engine, from, why);
+    }
+
     fn over_angle(&mut self, from: Start, until: f64, driving: Driving) -> Result<(), Error> {
         let recorder = &mut self.watch.recorder;
         recorder.stretch(&Stretch {
