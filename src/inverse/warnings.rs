@@ -81,8 +81,16 @@ pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> 
         ));
     }
     if fitted.patterned {
+        let so = match summary.kind {
+            "polynomial" => {
+                "a polynomial of this degree does not follow the motion, or the samples are not independent: force, torque and their standard errors are not to be trusted, --fit smoother follows it"
+            }
+            _ => {
+                "the fit misses part of the motion, or the samples are not independent, and the standard errors may be too small"
+            }
+        };
         warnings.push(format!(
-            "the residuals are not white noise (correlation of each with the next {:.2}, runs of one sign {:+.0} standard deviations): the fit misses part of the motion, or the samples are not independent, and the standard errors may be too small",
+            "the residuals are not white noise (correlation of each with the next {:.2}, runs of one sign {:+.0} standard deviations): {so}",
             summary.residual_lag_one, summary.residual_runs,
         ));
     }
