@@ -73,6 +73,7 @@ const MAY_NAME: &[(&str, &[&str])] = &[
     (
         "report",
         &[
+            "scene",
             "simulate",
             "kinematics",
             "statics",
