@@ -13,7 +13,7 @@ use crate::scene::{InertiaAbout, Instant, Load, RodModel, Scene, Variables};
 type Vector = [DoubleDouble; 2];
 
 /// The mechanism with its loads.
-pub(super) struct Extended {
+pub struct Extended {
     scene: Scene,
     pub crank_inertia: DoubleDouble,
     /// Mass and place along the crank and to its left, of what has weight there.
@@ -28,7 +28,7 @@ pub(super) struct Extended {
 }
 
 /// Mass, centre of gravity and central moment of inertia of a rod that moves as a body.
-pub(super) struct Rod {
+pub struct Rod {
     /// kg
     pub mass: DoubleDouble,
     /// Along the rod from the crank pin, and to the left of it, m.
@@ -39,7 +39,7 @@ pub(super) struct Rod {
 }
 
 /// Time (s), crank angle (rad) and speed (rad/s), for loads.
-pub(super) struct State {
+pub struct State {
     pub t: f64,
     pub theta: DoubleDouble,
     pub omega: DoubleDouble,
@@ -51,7 +51,7 @@ fn exactly(value: f64) -> DoubleDouble {
 
 impl Extended {
     /// The mechanism of a scene, for a run to `t_end`, s.
-    pub(super) fn new(scene: &Scene, t_end: f64) -> Extended {
+    pub fn new(scene: &Scene, t_end: f64) -> Extended {
         let scene = scene.reduced();
         let zero = DoubleDouble::ZERO;
         let loads = scene.torques.iter().chain(&scene.forces);
@@ -119,46 +119,46 @@ impl Extended {
     }
 
     /// Whether all loads are known to more digits than a float has.
-    pub(super) fn is_exact(&self) -> bool {
+    pub fn is_exact(&self) -> bool {
         self.exact
     }
 
     /// Whether a crank that turns repeats its motion with every turn: no load takes or gives work in a turn.
-    pub(super) fn repeats(&self) -> bool {
+    pub fn repeats(&self) -> bool {
         let conserves = |load: &Load| matches!(load, Load::Constant(_) | Load::Spring { .. });
         self.scene.torques.is_empty() && self.scene.forces.iter().all(conserves)
     }
 
     /// r, l and e, m.
-    pub(super) fn lengths(&self) -> (f64, f64, f64) {
+    pub fn lengths(&self) -> (f64, f64, f64) {
         let geometry = &self.scene.geometry;
         (geometry.crank, geometry.rod, geometry.offset)
     }
 
     /// Torques on the crank.
-    pub(super) fn torques(&self) -> &[Load] {
+    pub fn torques(&self) -> &[Load] {
         &self.scene.torques
     }
 
     /// Forces on the slider.
-    pub(super) fn forces(&self) -> &[Load] {
+    pub fn forces(&self) -> &[Load] {
         &self.scene.forces
     }
 
     /// The loads.
-    pub(super) fn loads(&self) -> impl Iterator<Item = &Load> {
+    pub fn loads(&self) -> impl Iterator<Item = &Load> {
         self.scene.torques.iter().chain(&self.scene.forces)
     }
 
     /// The first time after `t` (s) at which a load is not smooth.
-    pub(super) fn next_corner(&self, t: f64) -> f64 {
+    pub fn next_corner(&self, t: f64) -> f64 {
         let corners = self.loads().map(|load| load.next_corner(t));
         let marks = self.marks.iter().copied().filter(|mark| *mark > t);
         corners.chain(marks).fold(f64::INFINITY, f64::min)
     }
 
     /// θ̈; not valid where there is none.
-    pub(super) fn acceleration(&self, state: &State) -> DoubleDouble {
+    pub fn acceleration(&self, state: &State) -> DoubleDouble {
         let geometry = &self.scene.geometry;
         let (r, l, e) = (geometry.crank, geometry.rod, geometry.offset);
         let (sin, cos) = state.theta.sin_cos();
@@ -246,7 +246,7 @@ fn is_exact(load: &Load) -> bool {
 }
 
 /// Value of a load at a speed of its own body.
-pub(super) fn value(
+pub fn value(
     load: &Load,
     on_slider: bool,
     speed: DoubleDouble,

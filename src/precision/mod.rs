@@ -3,11 +3,10 @@
 
 mod cell;
 mod collocation;
-mod extended;
-mod extrapolation;
-mod guided;
-mod loose;
-mod reference;
+#[doc(hidden)]
+pub mod extended;
+#[doc(hidden)]
+pub mod reference;
 
 use serde::Serialize;
 
@@ -15,6 +14,7 @@ use crate::error::Error;
 use crate::plan::{Engine, Method, Plan};
 use crate::scene::{Extent, Places, Scene};
 use cell::{Cell, other_methods, run, time};
+use reference::Reference;
 
 /// What is asked of a comparison.
 #[derive(Clone, Debug, PartialEq)]
@@ -152,10 +152,9 @@ impl Precision {
 /// which the planned method completes them.
 ///
 /// The reference is a Gauss collocation in double-double arithmetic of equations written apart from those of
-/// the engines; with friction, past limits and in a loose joint an extrapolation, event by event. Its own error is
-/// the distance of two resolutions. Where it cannot serve (too long a run, a singularity), each method is measured
-/// against the best of the other methods, and its row says so. Where a slider jams and the equations end, a method
-/// that stops there is measured there.
+/// the engines; its own error is the distance of two resolutions. Where it cannot serve (friction, limits, a loose
+/// joint, too long a run, a singularity), each method is measured against the best of the other methods, and its row
+/// says so.
 ///
 /// # Errors
 /// [`Error::Scene`] for impossible values or tolerances, [`Error::Refused`] for a scene that cannot be
@@ -176,6 +175,23 @@ impl Precision {
 /// # Ok::<(), slider_crank::error::Error>(())
 /// ```
 pub fn precision(scene: &Scene, options: &PrecisionOptions) -> Result<Precision, Error> {
+    precision_against(scene, options, &reference::extended)
+}
+
+/// The state at the end of a scene's run to a time (s), by so many evaluations at the most.
+#[doc(hidden)]
+pub type FindReference<'a> = dyn Fn(&Scene, f64, u64) -> Option<Reference> + 'a;
+
+/// As [`precision`], with a reference of one's own.
+///
+/// # Errors
+/// As [`precision`].
+#[doc(hidden)]
+pub fn precision_against(
+    scene: &Scene,
+    options: &PrecisionOptions,
+    find: &FindReference,
+) -> Result<Precision, Error> {
     let plan = Plan::new(scene, Method::Auto)?;
     let t_end = last_time(scene, options)?;
     let mut scene = scene.clone();
@@ -197,7 +213,7 @@ pub fn precision(scene: &Scene, options: &PrecisionOptions) -> Result<Precision,
             cells.push(Cell::new(&scene, method, tolerance, options)?);
         }
     }
-    let common = reference::extended(&scene, t_end, EVALUATIONS.min(options.max_evaluations));
+    let common = find(&scene, t_end, EVALUATIONS.min(options.max_evaluations));
     let others = match &common {
         Some(_) => Vec::new(),
         None => other_methods(&scene, options),

@@ -1,4 +1,4 @@
-//! What the runs are measured against.
+//! What the runs are measured against where no friction, no limit and no loose joint make pieces of the motion.
 
 use crate::numeric::double_double::DoubleDouble;
 
@@ -6,15 +6,12 @@ use std::f64::consts::TAU;
 
 use super::collocation::{self, Acceleration, CORNER, Place, Resolution};
 use super::extended::{Extended, State};
-use super::extrapolation::Fineness;
-use super::guided::Guided;
-use super::loose::Loose;
 use crate::mechanism::{Class, Equation, Limits, Linkage};
 use crate::scene::{Load, MotionKind, Scene, Variable};
 
 /// The state at the end of a run, and how far it may be off.
 #[derive(Clone, Debug)]
-pub(super) struct Reference {
+pub struct Reference {
     pub what: String,
     /// rad
     pub theta: DoubleDouble,
@@ -43,10 +40,12 @@ const ROUNDED: [([f64; 2], f64); 1] = [([1e-9, 1e-11], 1e-15)];
 
 /// The reference in double-double arithmetic; none if it would take more evaluations than this, or the
 /// motion does not get to the end.
-pub(super) fn extended(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
-    if scene.reduced().clearance.is_some() {
-        return loose(scene, t_end, evaluations);
+pub fn extended(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
+    let reduced = scene.reduced();
+    if reduced.clearance.is_some() {
+        return None;
     }
+    let class = Limits::new(&Linkage::new(&reduced.geometry), 0.0).class;
     let motion = &scene.motion;
     let start = Place {
         t: DoubleDouble::ZERO,
@@ -65,17 +64,12 @@ pub(super) fn extended(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Re
             slider: None,
         });
     }
-    let reduced = scene.reduced();
-    let class = Limits::new(&Linkage::new(&reduced.geometry), 0.0).class;
-    if class == Class::ChangePoint {
+    // Dry loads are not written in it; friction and limits make pieces of a motion.
+    if Equation::new(scene).loads().are_dry()
+        || reduced.friction.is_some()
+        || class != Class::RotatingCrank
+    {
         return None;
-    }
-    // Dry loads are not written in it.
-    if Equation::new(scene).loads().are_dry() {
-        return None;
-    }
-    if reduced.friction.is_some() || class != Class::RotatingCrank {
-        return in_pieces(scene, t_end, evaluations);
     }
     let motion = Motion {
         extended: Extended::new(scene, t_end),
@@ -114,7 +108,7 @@ pub(super) fn extended(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Re
 }
 
 /// How far two runs are apart, and what rounding adds.
-fn distance(a: DoubleDouble, b: DoubleDouble) -> f64 {
+pub fn distance(a: DoubleDouble, b: DoubleDouble) -> f64 {
     MARGIN * (a - b).value().abs() + b.value().abs() * ROUNDING
 }
 
@@ -124,71 +118,6 @@ fn loads(exact: bool) -> &'static str {
     } else {
         ", loads in double precision"
     }
-}
-
-/// Errors of a step in the two runs; loads in floats have their rounding in them.
-const STEPS_EXACT: [f64; 2] = [1e-20, 1e-22];
-const STEPS_ROUNDED: [f64; 2] = [1e-15, 1e-16];
-
-/// The same for motions with friction or past limits, which are made of pieces.
-fn in_pieces(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
-    let extended = Extended::new(scene, t_end);
-    let guided = Guided::new(scene, &extended, t_end);
-    let [(coarse, _), (fine, ends)] = twice(&extended, evaluations, |fineness| {
-        guided.end(scene, fineness)
-    })?;
-    Some(Reference {
-        what: by_pieces(&extended),
-        theta: fine[1],
-        omega: fine[2],
-        theta_error: distance(coarse[1], fine[1]),
-        omega_error: distance(coarse[2], fine[2]),
-        ends_at: ends.then(|| fine[0].value()),
-        slider: None,
-    })
-}
-
-/// The same for motions with a loose joint.
-fn loose(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
-    let extended = Extended::new(scene, t_end);
-    let loose = Loose::new(scene, &extended)?;
-    let [coarse, fine] = twice(&extended, evaluations, |fineness| {
-        loose.end(t_end, fineness)
-    })?;
-    Some(Reference {
-        what: by_pieces(&extended),
-        theta: fine[1],
-        omega: fine[4],
-        theta_error: distance(coarse[1], fine[1]),
-        omega_error: distance(coarse[4], fine[4]),
-        ends_at: None,
-        slider: Some((fine[3], distance(coarse[3], fine[3]))),
-    })
-}
-
-/// Two runs, the second the finer.
-fn twice<T>(
-    extended: &Extended,
-    evaluations: u64,
-    run: impl Fn(Fineness) -> Option<T>,
-) -> Option<[T; 2]> {
-    let steps = if extended.is_exact() {
-        STEPS_EXACT
-    } else {
-        STEPS_ROUNDED
-    };
-    let [coarse, fine] = steps.map(|tolerance| Fineness {
-        tolerance,
-        evaluations,
-    });
-    Some([run(coarse)?, run(fine)?])
-}
-
-fn by_pieces(extended: &Extended) -> String {
-    format!(
-        "extrapolation of order 20 in double-double arithmetic, event by event{}",
-        loads(extended.is_exact())
-    )
 }
 
 /// Runs of more turns are made of one turn, if all are the same.

@@ -2,9 +2,10 @@
 
 use crate::support::random::cases;
 use crate::support::random::magnitude;
+use crate::support::reference::precision;
 use proptest::prelude::*;
 use slider_crank::plan::Method;
-use slider_crank::precision::{PrecisionOptions, precision};
+use slider_crank::precision::PrecisionOptions;
 use slider_crank::scene::{
     Branch, Crank, Every, Expression, Friction, Gravity, Interpolation, Load, Rod, Scene, Slider,
     Table, Variable,

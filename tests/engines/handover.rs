@@ -4,13 +4,14 @@
 use std::f64::consts::TAU;
 
 use crate::support::machines::machine;
+use crate::support::reference::precision;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use slider_crank::error::Error;
 use slider_crank::explain::explain;
 use slider_crank::plan::Method;
-use slider_crank::precision::{PrecisionOptions, precision};
+use slider_crank::precision::PrecisionOptions;
 use slider_crank::scene::{Crank, Every, Expression, Gravity, Load, Scene};
 use slider_crank::simulate::{Options, Row, Simulation, Summary, simulate, simulate_rows};
 

@@ -1,8 +1,9 @@
 //! The comparison of methods, and the reference it rests on.
 
 use crate::support::machines::{leaning, rubbing};
+use crate::support::reference::precision;
 use slider_crank::plan::Method;
-use slider_crank::precision::{Precision, PrecisionOptions, PrecisionRow, precision};
+use slider_crank::precision::{Precision, PrecisionOptions, PrecisionRow};
 use slider_crank::scene::{
     Branch, Clearance, Crank, Friction, Gravity, Joint, Load, MotionKind, Rod, Scene, Slider,
     Variables,

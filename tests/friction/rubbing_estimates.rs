@@ -6,11 +6,12 @@ use std::thread;
 
 use crate::support::image::Image;
 use crate::support::random::cases;
+use crate::support::reference::precision;
 use crate::support::rubbing::{Without, rubbing};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
-use slider_crank::precision::{PrecisionOptions, precision};
+use slider_crank::precision::PrecisionOptions;
 use slider_crank::scene::Scene;
 
 /// Of 240 the same is true; it takes longer.

@@ -7,8 +7,9 @@
 use std::f64::consts::TAU;
 use std::thread;
 
+use super::reference::precision;
 use slider_crank::plan::Method;
-use slider_crank::precision::{PrecisionOptions, PrecisionRow, precision};
+use slider_crank::precision::{PrecisionOptions, PrecisionRow};
 use slider_crank::scene::{Extent, Scene};
 use slider_crank::simulate::{Options, simulate};
 

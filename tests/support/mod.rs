@@ -13,6 +13,7 @@ pub mod machines;
 pub mod newton;
 pub mod pulses;
 pub mod random;
+pub mod reference;
 pub mod rubbing;
 pub mod run;
 pub mod scenes;

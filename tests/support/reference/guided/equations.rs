@@ -1,10 +1,10 @@
 //! The equations of crank, rod and slider with the force of the guide.
 
-use super::super::extended::value;
 use super::super::extrapolation::State;
 use super::{Guided, NUMBERS};
-use crate::numeric::double_double::DoubleDouble;
-use crate::scene::Instant;
+use slider_crank::numeric::double_double::DoubleDouble;
+use slider_crank::precision::extended::value;
+use slider_crank::scene::Instant;
 
 type Pair = [DoubleDouble; 2];
 

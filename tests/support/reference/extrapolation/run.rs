@@ -1,7 +1,7 @@
 //! The pieces, step by step.
 
 use super::{Fineness, Pieces, State};
-use crate::numeric::double_double::DoubleDouble;
+use slider_crank::numeric::double_double::DoubleDouble;
 
 /// Columns of the extrapolation: the order of a step is twice that.
 const COLUMNS: usize = 10;

@@ -4,8 +4,8 @@
 
 mod run;
 
-use crate::numeric::double_double::DoubleDouble;
 use run::Run;
+use slider_crank::numeric::double_double::DoubleDouble;
 
 /// Most events in a row without motion between them.
 const STALLED: usize = 20;

@@ -1,0 +1,98 @@
+//! References in double-double arithmetic for motions made of pieces: with friction, past limits, in a loose joint. Two
+//! fineness levels must agree; equations and method have nothing in common with the engines.
+
+mod extrapolation;
+mod guided;
+mod loose;
+
+use extrapolation::Fineness;
+use guided::Guided;
+use loose::Loose;
+use slider_crank::error::Error;
+use slider_crank::mechanism::{Class, Equation, Limits, Linkage};
+use slider_crank::precision::extended::Extended;
+use slider_crank::precision::reference::{self, Reference, distance};
+use slider_crank::precision::{Precision, PrecisionOptions, precision_against};
+use slider_crank::scene::{MotionKind, Scene};
+
+/// The comparison of methods, against a reference also where a motion is made of pieces.
+pub fn precision(scene: &Scene, options: &PrecisionOptions) -> Result<Precision, Error> {
+    precision_against(scene, options, &find)
+}
+
+fn find(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
+    let reduced = scene.reduced();
+    if reduced.clearance.is_some() {
+        return loose(scene, t_end, evaluations);
+    }
+    let class = Limits::new(&Linkage::new(&reduced.geometry), 0.0).class;
+    let whole = reduced.friction.is_none() && class == Class::RotatingCrank;
+    if whole || scene.motion.kind == MotionKind::ConstantSpeed {
+        return reference::extended(scene, t_end, evaluations);
+    }
+    // Dry loads are not written in it.
+    if class == Class::ChangePoint || Equation::new(scene).loads().are_dry() {
+        return None;
+    }
+    in_pieces(scene, t_end, evaluations)
+}
+
+const WHAT: &str = "extrapolation of order 20 in double-double arithmetic, event by event";
+
+/// Errors of a step in the two runs; loads in floats have their rounding in them.
+const STEPS_EXACT: [f64; 2] = [1e-20, 1e-22];
+const STEPS_ROUNDED: [f64; 2] = [1e-15, 1e-16];
+
+/// The reference of motions with friction or past limits, which are made of pieces.
+fn in_pieces(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
+    let extended = Extended::new(scene, t_end);
+    let guided = Guided::new(scene, &extended, t_end);
+    let [(coarse, _), (fine, ends)] = twice(&extended, evaluations, |fineness| {
+        guided.end(scene, fineness)
+    })?;
+    Some(Reference {
+        what: WHAT.to_owned(),
+        theta: fine[1],
+        omega: fine[2],
+        theta_error: distance(coarse[1], fine[1]),
+        omega_error: distance(coarse[2], fine[2]),
+        ends_at: ends.then(|| fine[0].value()),
+        slider: None,
+    })
+}
+
+/// The reference of motions with a loose joint.
+fn loose(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
+    let extended = Extended::new(scene, t_end);
+    let loose = Loose::new(scene, &extended)?;
+    let [coarse, fine] = twice(&extended, evaluations, |fineness| {
+        loose.end(t_end, fineness)
+    })?;
+    Some(Reference {
+        what: WHAT.to_owned(),
+        theta: fine[1],
+        omega: fine[4],
+        theta_error: distance(coarse[1], fine[1]),
+        omega_error: distance(coarse[4], fine[4]),
+        ends_at: None,
+        slider: Some((fine[3], distance(coarse[3], fine[3]))),
+    })
+}
+
+/// Two runs, the second the finer.
+fn twice<T>(
+    extended: &Extended,
+    evaluations: u64,
+    run: impl Fn(Fineness) -> Option<T>,
+) -> Option<[T; 2]> {
+    let steps = if extended.is_exact() {
+        STEPS_EXACT
+    } else {
+        STEPS_ROUNDED
+    };
+    let [coarse, fine] = steps.map(|tolerance| Fineness {
+        tolerance,
+        evaluations,
+    });
+    Some([run(coarse)?, run(fine)?])
+}
