@@ -2,6 +2,7 @@
 
 mod check;
 mod explain;
+mod identify;
 mod inverse;
 mod kinematics;
 mod precision;
@@ -40,6 +41,8 @@ enum Command {
     Simulate(simulate::Arguments),
     /// Slider force and crank torque from a measured motion
     Inverse(inverse::Arguments),
+    /// Values of a scene from a measured motion, with their errors
+    Identify(identify::Arguments),
     /// One turn in closed form: dead centres, stroke, time ratio, extremes
     Kinematics(kinematics::Arguments),
     /// Speed against error: every method at a ladder of tolerances
@@ -71,6 +74,7 @@ pub fn main() -> ExitCode {
     let result = match arguments.command {
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Inverse(arguments) => inverse::run(&arguments),
+        Command::Identify(arguments) => identify::run(&arguments),
         Command::Kinematics(arguments) => kinematics::run(&arguments),
         Command::Precision(arguments) => precision::run(&arguments),
         Command::Statics(arguments) => statics::run(&arguments),

@@ -105,32 +105,7 @@ impl Fitted {
     }
 
     fn smoothed(record: Record<'_>, angles: &CrankAngles<'_>, equation: &Equation) -> Fitted {
-        let mut problem = problem(record, &angles.theta, equation);
-        let first = first_path(&problem, angles);
-        let sigma = angles.sigma.max(problem.record.floor);
-        let mut kinematic = problem.kinematic(first, sigma);
-        if problem.grid.block * kinematic.noise.corner > SLOW {
-            problem.grid = Grid::new(&problem.record.times, &angles.theta);
-            let first = first_path(&problem, angles);
-            kinematic = problem.kinematic(first, sigma);
-        }
-        // An encoder has no outliers.
-        let rounds = match problem.record.rows {
-            Some(_) => 0,
-            None => OUTLIER_ROUNDS,
-        };
-        for _ in 0..rounds {
-            let Some(weights) = outliers::weights(&problem, &kinematic) else {
-                break;
-            };
-            let before = std::mem::replace(&mut problem.record.weights, weights);
-            let all = 0..problem.grid.len();
-            let path = problem.path_of(KINEMATIC, &kinematic, std::slice::from_ref(&all));
-            kinematic = problem.kinematic(path, kinematic.noise.sigma);
-            if outliers::alike(&before, &problem.record.weights) {
-                break;
-            }
-        }
+        let (problem, kinematic) = kinematic(record, angles, equation);
         let (smoothed, candidates) = problem.likeliest(kinematic);
         Fitted::of_smoother(&problem, &smoothed, &candidates)
     }
@@ -256,7 +231,42 @@ impl Fitted {
     }
 }
 
-fn first_path(problem: &Problem<'_>, angles: &CrankAngles<'_>) -> Path {
+/// The samples of a record with the weights that outliers leave them, and their motion without mechanics.
+pub(super) fn kinematic<'a>(
+    record: Record<'a>,
+    angles: &CrankAngles<'_>,
+    equation: &'a Equation,
+) -> (Problem<'a>, Smoothed) {
+    let mut problem = problem(record, &angles.theta, equation);
+    let first = first_path(&problem, angles);
+    let sigma = angles.sigma.max(problem.record.floor);
+    let mut kinematic = problem.kinematic(first, sigma);
+    if problem.grid.block * kinematic.noise.corner > SLOW {
+        problem.grid = Grid::new(&problem.record.times, &angles.theta);
+        let first = first_path(&problem, angles);
+        kinematic = problem.kinematic(first, sigma);
+    }
+    // An encoder has no outliers.
+    let rounds = match problem.record.rows {
+        Some(_) => 0,
+        None => OUTLIER_ROUNDS,
+    };
+    for _ in 0..rounds {
+        let Some(weights) = outliers::weights(&problem, &kinematic) else {
+            break;
+        };
+        let before = std::mem::replace(&mut problem.record.weights, weights);
+        let all = 0..problem.grid.len();
+        let path = problem.path_of(KINEMATIC, &kinematic, std::slice::from_ref(&all));
+        kinematic = problem.kinematic(path, kinematic.noise.sigma);
+        if outliers::alike(&before, &problem.record.weights) {
+            break;
+        }
+    }
+    (problem, kinematic)
+}
+
+pub(super) fn first_path(problem: &Problem<'_>, angles: &CrankAngles<'_>) -> Path {
     match problem.record.is_linear() {
         true => first_path::straight(problem),
         false => first_path::coarse(problem, &angles.theta),

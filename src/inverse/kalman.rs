@@ -128,7 +128,7 @@ pub(super) fn evidence<const N: usize>(model: &impl Model<N>) -> Evidence {
 }
 
 /// Runs the filter; `before` sees each node's distribution before its sample, `after` prediction errors and their variances.
-fn run<const N: usize>(
+pub(super) fn run<const N: usize>(
     model: &impl Model<N>,
     mut before: impl FnMut(usize, &Gaussian<N>),
     mut after: impl FnMut(usize, f64, f64),

@@ -36,6 +36,7 @@ mod first_path;
 mod fitted;
 mod guide;
 mod hypotheses;
+pub mod identify;
 mod inverse_dynamics;
 mod kalman;
 mod likelihood;

@@ -99,7 +99,7 @@ impl<'a> Problem<'a> {
     }
 
     /// The linear model of a stretch of nodes about a path.
-    fn stretch(
+    pub fn stretch(
         &self,
         motion: &Motion<'_>,
         path: &Path,

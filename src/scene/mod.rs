@@ -63,7 +63,7 @@ pub use table::{Interpolation, Table, calibration_points};
 pub use table::{LoadTable, load_table};
 pub use variable::{Instant, Variable, Variables};
 #[cfg(feature = "cli")]
-pub use vary::{Draft, Varied};
+pub use vary::{Assigned, Draft, NumberKey, Varied};
 
 /// A complete scene.
 #[derive(Clone, Debug)]

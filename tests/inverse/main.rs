@@ -4,6 +4,7 @@
 mod support;
 
 mod hard_data;
+mod identify;
 mod inverse;
 mod inverse_friction;
 mod inverse_fuzz;

@@ -123,6 +123,29 @@ impl Quantity {
         }
     }
 
+    /// The SI unit as scene files have it; empty for numbers.
+    #[cfg(feature = "cli")]
+    pub(in crate::scene) fn si(self) -> &'static str {
+        match self {
+            Self::Length => "m",
+            Self::Mass => "kg",
+            Self::Inertia => "kg m^2",
+            Self::Angle => "rad",
+            Self::AngularSpeed => "rad/s",
+            Self::Acceleration => "m/s^2",
+            Self::Time => "s",
+            Self::Force => "N",
+            Self::Torque => "N m",
+            Self::RotaryDamping => "N m s/rad",
+            Self::LinearDamping => "N s/m",
+            Self::Stiffness => "N/m",
+            Self::Pressure => "Pa",
+            Self::Density => "kg/m^3",
+            Self::Velocity => "m/s",
+            Self::Number => "",
+        }
+    }
+
     /// Radians are a dimension only where leaving them out could be a mistake:
     /// `N m s` is as good as `N m s/rad`.
     pub(super) fn accepts(self, found: Dimension) -> bool {

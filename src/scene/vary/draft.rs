@@ -20,7 +20,7 @@ use crate::scene::{DUARTE, Problem, Problems, Scene, read, text};
 /// ```
 #[derive(Clone, Debug)]
 pub struct Draft {
-    file: PathBuf,
+    pub(super) file: PathBuf,
     text: String,
 }
 
@@ -82,7 +82,14 @@ impl Draft {
         &self,
         values: impl IntoIterator<Item = (&'a Varied, usize)>,
     ) -> Result<Scene, Problems> {
-        let settings = values.into_iter().map(|(varied, i)| varied.setting(i));
+        self.with_settings(values.into_iter().map(|(varied, i)| varied.setting(i)))
+    }
+
+    /// The scene with keys set.
+    pub(super) fn with_settings<'a>(
+        &'a self,
+        settings: impl Iterator<Item = Setting<'a>>,
+    ) -> Result<Scene, Problems> {
         read::scene(&self.file, &self.text, settings)
     }
 }

@@ -1,6 +1,7 @@
 //! Scene files with other values: what a sweep varies.
 
 mod draft;
+mod free;
 mod path;
 mod values;
 
@@ -9,6 +10,7 @@ use std::str::FromStr;
 use super::unit::Quantity;
 pub use draft::Draft;
 pub(super) use draft::Setting;
+pub use free::{Assigned, NumberKey};
 use path::KeyPath;
 
 /// A key of a scene and the values it takes, read from texts like `geometry.offset=0mm:20mm:41`.

@@ -1,0 +1,180 @@
+//! Fisher information of the free values: standard errors, correlations, and what the record does not tell.
+
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+
+use super::FreeValue;
+use crate::error::Error;
+
+/// A value with its error.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct IdentifiedValue {
+    /// Name, as `crank.inertia`.
+    pub key: String,
+    /// SI unit.
+    pub unit: String,
+    /// Value from which the search set out.
+    pub start: f64,
+    /// Value found.
+    pub value: f64,
+    /// Standard error.
+    pub standard_error: f64,
+    /// Half of the 95 % band.
+    pub half_band: f64,
+}
+
+/// Least eigenvalue of the information scaled to a unit diagonal: differences of innovations are right to about 1e-6, and what is
+/// smaller than their squares is theirs.
+const ROUNDING: f64 = 1e-11;
+
+/// JᵀJ of standardised prediction errors, by its eigenvectors after scaling to a unit diagonal.
+#[derive(Clone, Debug)]
+pub(super) struct Information {
+    /// Norms of the columns of J.
+    norms: Vec<f64>,
+    scaled: DMatrix<f64>,
+    eigen: SymmetricEigen<f64, nalgebra::Dyn>,
+}
+
+impl Information {
+    /// From the columns of J.
+    ///
+    /// # Errors
+    /// [`Error::Refused`]: values that change nothing, or that the record cannot tell apart.
+    pub fn new(columns: &[Vec<f64>], free: &[FreeValue]) -> Result<Information, Error> {
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let norms: Vec<f64> = columns.iter().map(|c| dot(c, c).sqrt()).collect();
+        for (norm, one) in norms.iter().zip(free) {
+            if !norm.is_finite() {
+                return Err(Error::refused(
+                    format!(
+                        "the equation has no finite value along the motion where `{}` varies",
+                        one.key
+                    ),
+                    "let the tables of the scene cover the measured motion, and check the lengths",
+                ));
+            }
+            if *norm == 0.0 {
+                return Err(Error::refused(
+                    format!(
+                        "the record does not tell `{}`: the measured motion does not depend on it",
+                        one.key
+                    ),
+                    format!("leave `{}` out of --free", one.key),
+                ));
+            }
+        }
+        let n = norms.len();
+        let scaled = DMatrix::from_fn(n, n, |i, j| {
+            dot(&columns[i], &columns[j]) / (norms[i] * norms[j])
+        });
+        let found = Information {
+            norms,
+            eigen: SymmetricEigen::new(scaled.clone()),
+            scaled,
+        };
+        let (least, _) = found.weakest();
+        if least < ROUNDING {
+            return Err(found.alike(free));
+        }
+        Ok(found)
+    }
+
+    /// The least eigenvalue and its place.
+    fn weakest(&self) -> (f64, usize) {
+        let values = self.eigen.eigenvalues.iter().copied().enumerate();
+        values.fold((f64::INFINITY, 0), |least, (k, value)| {
+            match value < least.0 {
+                true => (value, k),
+                false => least,
+            }
+        })
+    }
+
+    /// The values of the weakest combination.
+    fn group(&self) -> Vec<usize> {
+        let vector = self.eigen.eigenvectors.column(self.weakest().1);
+        let most = vector.amax();
+        let all = 0..self.norms.len();
+        all.filter(|k| vector[*k].abs() > 0.1 * most).collect()
+    }
+
+    /// Why the weakest combination is refused.
+    fn alike(&self, free: &[FreeValue]) -> Error {
+        let names: Vec<String> = self
+            .group()
+            .into_iter()
+            .map(|k| format!("`{}`", free[k].key))
+            .collect();
+        Error::refused(
+            format!(
+                "the record cannot tell {} apart: it has the same motion for many of their values",
+                names.join(" and ")
+            ),
+            "leave one of them out of --free and state its value in the scene; a known torque or mass sets the scale of the others",
+        )
+    }
+
+    /// Refuses values that have errors larger than themselves because of each other.
+    pub fn is_told(&self, values: &[f64], sigma: f64, free: &[FreeValue]) -> Result<(), Error> {
+        let group = self.group();
+        let unclear = |k: &usize| {
+            let alone = sigma / self.norms[*k];
+            let error = sigma * self.error(*k);
+            error > values[*k].abs() && alone < 0.1 * error
+        };
+        match group.len() > 1 && group.iter().all(unclear) {
+            true => Err(self.alike(free)),
+            false => Ok(()),
+        }
+    }
+
+    /// An entry of the inverse.
+    fn covariance(&self, i: usize, j: usize) -> f64 {
+        let Information { norms, eigen, .. } = self;
+        let parts = (0..norms.len()).map(|k| {
+            eigen.eigenvectors[(i, k)] * eigen.eigenvectors[(j, k)] / eigen.eigenvalues[k]
+        });
+        parts.sum::<f64>() / (norms[i] * norms[j])
+    }
+
+    /// Standard error of a value over σ.
+    pub fn error(&self, k: usize) -> f64 {
+        self.covariance(k, k).sqrt()
+    }
+
+    /// Standard error of a value over σ if it were the only one.
+    pub fn error_alone(&self, k: usize) -> f64 {
+        1.0 / self.norms[k]
+    }
+
+    /// Correlation of two values.
+    pub fn correlation(&self, i: usize, j: usize) -> f64 {
+        if i == j {
+            return 1.0;
+        }
+        self.covariance(i, j) / (self.error(i) * self.error(j))
+    }
+
+    /// (JᵀJ + σ² diag(1/w²))⁻¹ g: a step that goes about as far as w in what the record tells little of (Levenberg).
+    pub fn damped(&self, g: &[f64], sigma: f64, widths: &[f64]) -> Vec<f64> {
+        let norms = &self.norms;
+        let mut matrix = self.scaled.clone();
+        for k in 0..g.len() {
+            matrix[(k, k)] += (sigma / (norms[k] * widths[k])).powi(2);
+        }
+        let right = DVector::from_fn(g.len(), |k, _| g[k] / norms[k]);
+        match matrix.cholesky() {
+            Some(factor) => {
+                let found = factor.solve(&right);
+                (0..g.len()).map(|k| found[k] / norms[k]).collect()
+            }
+            None => self.solved(g),
+        }
+    }
+
+    /// (JᵀJ)⁻¹ g
+    pub fn solved(&self, g: &[f64]) -> Vec<f64> {
+        let row = |i: usize| (0..g.len()).map(|j| self.covariance(i, j) * g[j]).sum();
+        (0..g.len()).map(row).collect()
+    }
+}

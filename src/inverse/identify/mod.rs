@@ -1,0 +1,173 @@
+//! Values of a scene from a measured motion: maximum of the marginal likelihood of the equation of motion, by Gauss-Newton on
+//! the prediction errors of a Kalman filter (Särkkä and Svensson, Bayesian Filtering and Smoothing, 2nd ed. 2023, chapter 16).
+//!
+//! The motion obeys the equation of the scene; what the scene misses is a torque u that begins at 0 and varies as a Wiener
+//! process, du = √q dW. q, the standard deviation σ of the samples, and the angle and speed at the begin are free as well.
+//! Standard errors are those of the curvature, σ² (JᵀJ)⁻¹ with the standardised prediction errors' derivatives J.
+
+mod gauss_newton;
+mod information;
+mod trial;
+
+pub use information::IdentifiedValue;
+
+use self::gauss_newton::{Found, Search};
+use super::branch_choice::crank_angles;
+use super::fitted::{first_path, kinematic};
+use super::measurement_model::{Scale, Sensor};
+use super::record::Grid;
+use super::residual_tests::Whiteness;
+use super::samples::record;
+use crate::error::Error;
+use crate::mechanism::Equation;
+use crate::numeric::student;
+use crate::scene::{Measured, Measurement, Scene};
+
+/// A value that is free.
+#[derive(Clone, Debug)]
+pub struct FreeValue {
+    /// Name, as `crank.inertia`.
+    pub key: String,
+    /// SI unit.
+    pub unit: String,
+    /// Value from which the search sets out.
+    pub start: f64,
+    /// Size of a change that matters where the start is 0.
+    pub scale: f64,
+    /// Whether it is what the sensor shows where it should show 0 (rad or m): the index mark of an angle, the zero of x.
+    pub is_sensor_zero: bool,
+}
+
+/// Values of a scene from a measured motion.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct Identification {
+    /// Title of the scene.
+    pub scene: String,
+    /// Number of samples.
+    pub samples: usize,
+    /// Column of the data.
+    pub column: String,
+    /// The values, in the order in which they were asked for.
+    pub values: Vec<IdentifiedValue>,
+    /// Correlation of each value with each.
+    pub correlations: Vec<Vec<f64>>,
+    /// Half of a 95 % band over the standard error.
+    pub band_factor: f64,
+    /// Standard deviation of a sample, rad or m.
+    pub sigma: f64,
+    /// Torque that the scene misses, N m, root mean square; the errors of the values have it in them.
+    pub missing_torque_rms_nm: f64,
+    /// Gauss-Newton iterations.
+    pub iterations: usize,
+    /// What the reader should know.
+    pub warnings: Vec<String>,
+}
+
+/// Largest way of the crank from node to node, rad: Simpson's rule then errs by less than 1e-9 of the motion.
+const LONGEST: f64 = 0.03;
+
+/// Free values of a scene from a measured motion; `scene_at` gives the scene for values in the order of `free`.
+///
+/// # Errors
+/// [`Error::Scene`] for impossible values of scene or data, [`Error::Refused`] for what the record does not tell.
+pub fn identify(
+    scene_at: &(dyn Fn(&[f64]) -> Result<Scene, Error> + Sync),
+    free: &[FreeValue],
+    measurement: &Measurement,
+) -> Result<Identification, Error> {
+    check(free)?;
+    let start: Vec<f64> = free.iter().map(|one| one.start).collect();
+    let scene = scene_at(&start)?;
+    modelled(&scene)?;
+    let equation = Equation::new(&scene);
+    let sensor = Sensor {
+        linkage: equation.linkage(),
+        measured: measurement.measured(),
+        scale: Scale::TRUE,
+    };
+    let angles = crank_angles(&sensor, measurement, &equation, &scene.motion)?;
+    let (mut problem, smooth) = kinematic(record(measurement, &angles), &angles, &equation);
+    if problem.grid.block == 0.0 {
+        let along = match problem.record.is_linear() {
+            true => &problem.record.values,
+            false => &angles.theta,
+        };
+        problem.grid = Grid::finer(&problem.record.times, along, LONGEST);
+    }
+    let first = first_path(&problem, &angles);
+    let smooth = problem.kinematic(first, smooth.noise.sigma);
+    let search = Search::new(scene_at, free, &problem, &smooth);
+    let found = search.run()?;
+    let mut warnings = measurement.notes().to_vec();
+    warnings.extend(angles.warnings);
+    warnings.extend(warnings_of(&found, free, measurement));
+    let samples = found.samples;
+    let freedom = samples as f64 - 2.0 - free.len() as f64;
+    let band_factor = student::half_band(freedom.max(1.0));
+    Ok(Identification {
+        scene: scene.title.unwrap_or_default(),
+        samples,
+        column: measurement.measured().name().to_owned(),
+        values: found.values(free, band_factor),
+        correlations: found.correlations(),
+        band_factor,
+        sigma: found.sigma,
+        missing_torque_rms_nm: found.missing,
+        iterations: found.iterations,
+        warnings,
+    })
+}
+
+/// Refuses a list that names nothing, or something twice.
+fn check(free: &[FreeValue]) -> Result<(), Error> {
+    let help = "name keys of the scene, like --free torque[1].coefficient,crank.inertia";
+    if free.is_empty() {
+        return Err(Error::refused("no key is free", help));
+    }
+    for (i, one) in free.iter().enumerate() {
+        if free[..i].iter().any(|other| other.key == one.key) {
+            return Err(Error::refused(format!("`{}` is free twice", one.key), help));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses what the equation of the smoother does not model.
+fn modelled(scene: &Scene) -> Result<(), Error> {
+    let reduced = scene.reduced();
+    let what = match (reduced.clearance, reduced.friction) {
+        (Some(_), _) => "clearance in a joint",
+        (_, Some(_)) => "Coulomb friction at the guide",
+        _ => return Ok(()),
+    };
+    Err(Error::refused(
+        format!("identify does not model {what}"),
+        "take it out of the scene; a [[force]] or [[torque]] of kind \"dry\" has a friction force or moment that can be free",
+    ))
+}
+
+fn warnings_of(found: &Found, free: &[FreeValue], measurement: &Measurement) -> Vec<String> {
+    let mut list = Vec::new();
+    if !found.settled {
+        list.push(
+            "the iterations did not come to rest: the values are not to be trusted".to_owned(),
+        );
+    }
+    if Whiteness::of(found.innovations.iter().copied()).is_violated() {
+        list.push("the prediction errors are not white noise: the standard errors hold for white noise, and may be too small".to_owned());
+    }
+    if found.misses_torque {
+        list.push(format!(
+            "the scene misses a torque, {:.3e} N m in root mean square: the errors of the values hold if it varies at random",
+            found.missing
+        ));
+    }
+    let zero = free.iter().any(|one| one.is_sensor_zero);
+    if zero && measurement.measured() == Measured::Gamma {
+        list.push(
+            "sensor.zero of gamma is taken with the sign that gamma has along the motion"
+                .to_owned(),
+        );
+    }
+    list
+}

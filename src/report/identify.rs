@@ -1,0 +1,75 @@
+//! Identified values as text and CSV.
+
+use super::Output;
+use super::key_values::{Facts, digits, six};
+use super::rows::shortest;
+use crate::error::Error;
+use crate::inverse::identify::Identification;
+
+/// Correlation from which on two values are named.
+const CLOSE: f64 = 0.9;
+
+/// Values with their errors and what to know of them.
+pub fn identification(result: &Identification) -> String {
+    let mut facts = Facts::of(&result.scene);
+    facts.add(
+        "data",
+        format_args!("{} samples of {}", result.samples, result.column),
+    );
+    for one in &result.values {
+        facts.add(
+            &one.key,
+            format_args!(
+                "{} +- {} {}",
+                digits(one.value, one.half_band),
+                six(one.half_band),
+                one.unit
+            ),
+        );
+    }
+    facts.add(
+        "95 % band",
+        format_args!("+- {:.4} standard errors", result.band_factor),
+    );
+    for (i, row) in result.correlations.iter().enumerate() {
+        for (j, value) in row.iter().enumerate().take(i) {
+            if value.abs() > CLOSE {
+                facts.add(
+                    "correlation",
+                    format_args!(
+                        "{value:.4} of {} and {}",
+                        result.values[j].key, result.values[i].key
+                    ),
+                );
+            }
+        }
+    }
+    let unit = if result.column == "x" { "m" } else { "rad" };
+    facts.add(
+        "noise",
+        format_args!("{} {unit} of a sample", six(result.sigma)),
+    );
+    facts.add(
+        "torque missed",
+        format_args!(
+            "{} N m, root mean square",
+            six(result.missing_torque_rms_nm)
+        ),
+    );
+    facts.warnings(&result.warnings);
+    facts.lines(22)
+}
+
+/// Writes a row for each value.
+///
+/// # Errors
+/// [`Error::Write`].
+pub fn identification_csv(result: &Identification, mut output: Output) -> Result<(), Error> {
+    let mut text = "key,unit,start,value,standard_error,half_band\n".to_owned();
+    for one in &result.values {
+        let numbers = [one.start, one.value, one.standard_error, one.half_band].map(shortest);
+        text.push_str(&format!("{},{},{}\n", one.key, one.unit, numbers.join(",")));
+    }
+    output.write(text.as_bytes())?;
+    output.finish()
+}

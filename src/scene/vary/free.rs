@@ -1,0 +1,103 @@
+//! Keys of a scene whose numbers are set by a computation.
+
+use std::fmt;
+use std::str::FromStr;
+
+use toml::de::{DeTable, DeValue};
+
+use super::draft::{Draft, Setting};
+use super::path::KeyPath;
+use crate::error::Error;
+use crate::scene::{Problem, Problems, Scene, unit};
+
+/// A key of a scene that takes a quantity, read from a text like `crank.inertia` or `torque[2].coefficient`.
+#[derive(Clone, Copy, Debug)]
+pub struct NumberKey(KeyPath);
+
+/// A number, in SI units and radians, for a key.
+#[derive(Clone, Copy, Debug)]
+pub struct Assigned {
+    /// The key.
+    pub key: NumberKey,
+    /// The number.
+    pub value: f64,
+}
+
+impl NumberKey {
+    /// The SI unit as scene files have it; empty for numbers.
+    pub fn unit(&self) -> &'static str {
+        self.0.quantity().map_or("", unit::Quantity::si)
+    }
+}
+
+impl fmt::Display for NumberKey {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl FromStr for NumberKey {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<NumberKey, String> {
+        let path = KeyPath::parse(text.trim())?;
+        match path.quantity() {
+            Some(_) => Ok(NumberKey(path)),
+            None => Err(format!("`{path}` holds no quantity")),
+        }
+    }
+}
+
+impl Draft {
+    /// The number that a key has in the file, in SI units and radians.
+    ///
+    /// # Errors
+    /// [`Problems`]: the scene has no such number.
+    pub fn number(&self, key: &NumberKey) -> Result<f64, Problems> {
+        let (document, _) = DeTable::parse_recoverable(self.text());
+        let path = key.0;
+        let found = document.get_ref().get(path.section.name);
+        let table = found.and_then(|value| match value.get_ref() {
+            DeValue::Array(list) => list.get(path.index)?.get_ref().as_table(),
+            other => other.as_table(),
+        });
+        let value = table.and_then(|table| table.get(path.key.name));
+        let text = value.and_then(|value| match value.get_ref() {
+            DeValue::String(text) => Some(text.to_string()),
+            DeValue::Float(number) => Some(number.as_str().to_owned()),
+            DeValue::Integer(number) => Some(number.as_str().to_owned()),
+            _ => None,
+        });
+        let read = text.zip(path.quantity());
+        read.and_then(|(text, quantity)| unit::parse(&text, quantity).ok())
+            .ok_or_else(|| {
+                let example = match path.key.example() {
+                    text if text.ends_with("\"...\"") => {
+                        format!("{} = \"1 {}\"", path.key.name, key.unit())
+                    }
+                    text => text,
+                };
+                let help = format!("write a first guess into the scene, like {example}");
+                let what = format!("`{key}` has no number in the scene to set out from");
+                Problems::in_file(
+                    &self.file,
+                    self.text(),
+                    vec![Problem::new(path.section.name, what, help)],
+                )
+            })
+    }
+
+    /// The scene with numbers in place of its own.
+    ///
+    /// # Errors
+    /// [`Error::Scene`]: all that is wrong with the scene that results.
+    pub fn with_numbers(&self, numbers: &[Assigned]) -> Result<Scene, Error> {
+        let text = |one: &Assigned| format!("{} {}", one.value, one.key.unit());
+        let texts: Vec<String> = numbers.iter().map(text).collect();
+        let settings = numbers.iter().zip(&texts).map(|(one, text)| Setting {
+            path: one.key.0,
+            text: text.trim_end(),
+        });
+        Ok(self.with_settings(settings)?)
+    }
+}

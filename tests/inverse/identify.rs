@@ -1,0 +1,122 @@
+//! Values of a scene from run-downs and run-ups whose motion has a closed form.
+
+use std::path::Path;
+
+use slider_crank::error::Error;
+use slider_crank::inverse::identify::{FreeValue, Identification, identify};
+use slider_crank::scene::{Assigned, Draft, Measured, Measurement, NumberKey};
+
+use super::noise::Random;
+
+/// A flywheel of J = 0.02 kg m² whose rod and slider weigh nothing.
+fn flywheel(loads: &str, inertia: f64) -> Draft {
+    let text = format!(
+        "[geometry]\ncrank = \"50 mm\"\nrod = \"150 mm\"\n[crank]\ninertia = \"{inertia} kg m^2\"\n{loads}"
+    );
+    Draft::new(Path::new("flywheel.toml"), text)
+}
+
+const VISCOUS_AND_DRY: &str = "[[torque]]\nkind = \"viscous\"\ncoefficient = \"0.004 N m s\"\n[[torque]]\nkind = \"dry\"\nvalue = \"0.2 N m\"\n";
+
+fn identified(draft: &Draft, keys: &[&str], motion: &Measurement) -> Result<Identification, Error> {
+    let keys: Vec<NumberKey> = keys.iter().map(|key| key.parse().expect("a key")).collect();
+    let free = keys.iter().map(|key| {
+        let start = draft.number(key).expect("a number");
+        FreeValue {
+            key: key.to_string(),
+            unit: key.unit().to_owned(),
+            start,
+            scale: start.abs(),
+            is_sensor_zero: false,
+        }
+    });
+    let scene_at = |values: &[f64]| {
+        let numbers = keys.iter().zip(values);
+        let numbers = numbers.map(|(key, value)| Assigned {
+            key: *key,
+            value: *value,
+        });
+        draft.with_numbers(&numbers.collect::<Vec<_>>())
+    };
+    identify(&scene_at, &free.collect::<Vec<_>>(), motion)
+}
+
+/// Samples of a motion with noise, rad.
+fn sampled(theta: impl Fn(f64) -> f64, sigma: f64, seed: u64) -> Measurement {
+    let mut random = Random(seed + 1);
+    let times: Vec<f64> = (0..400).map(|i| 0.0025 * f64::from(i)).collect();
+    let noisy = |t: &f64| theta(*t) + sigma * random.normal();
+    let values = times.iter().map(noisy).collect();
+    Measurement::new(Measured::Theta, times, values).expect("a measurement")
+}
+
+/// J ω' = -c ω - d from ω(0) = w.
+fn run_down(inertia: f64, c: f64, d: f64, w: f64) -> impl Fn(f64) -> f64 {
+    move |t| {
+        let tau = inertia / c;
+        (w + d / c) * tau * (1.0 - (-t / tau).exp()) - d / c * t
+    }
+}
+
+#[test]
+fn friction_of_a_run_down_lies_within_its_band() {
+    let (c, d) = (0.0055, 0.13);
+    let mut inside = [0; 2];
+    let records = 40;
+    for seed in 0..records {
+        let motion = sampled(run_down(0.02, c, d, 40.0), 3e-4, seed);
+        let draft = flywheel(VISCOUS_AND_DRY, 0.02);
+        let found = identified(
+            &draft,
+            &["torque[1].coefficient", "torque[2].value"],
+            &motion,
+        );
+        let found = found.expect("told");
+        for (k, truth) in [c, d].into_iter().enumerate() {
+            let one = &found.values[k];
+            inside[k] += usize::from((one.value - truth).abs() < one.half_band);
+            assert!((one.value - truth).abs() < 2.5 * one.half_band, "{one:?}");
+            assert!(one.half_band < 0.1 * truth, "{one:?}");
+        }
+        assert!(found.correlations[0][1] < -0.9);
+    }
+    // 38 of 40 are expected; fewer than 34 are one chance in a hundred.
+    assert!(inside.iter().all(|count| *count >= 34), "{inside:?}");
+}
+
+#[test]
+fn a_known_torque_sets_the_scale_of_the_inertia() {
+    let motor = "[[torque]]\nkind = \"constant\"\nvalue = \"2 N m\"\n";
+    let inertia = 0.031;
+    let motion = sampled(|t| 0.5 * 2.0 / inertia * t * t + 3.0 * t, 3e-4, 5);
+    let found = identified(&flywheel(motor, 0.02), &["crank.inertia"], &motion).expect("told");
+    let one = &found.values[0];
+    assert!((one.value - inertia).abs() < 2.0 * one.half_band, "{one:?}");
+    assert!(one.half_band < 1e-4 * inertia, "{one:?}");
+}
+
+#[track_caller]
+fn refused(draft: &Draft, keys: &[&str], motion: &Measurement, words: &[&str]) {
+    let error = identified(draft, keys, motion).expect_err("refused");
+    let text = error.to_string();
+    for word in words {
+        assert!(text.contains(word), "{word}: {text}");
+    }
+}
+
+#[test]
+fn what_the_record_cannot_tell_is_refused() {
+    let motion = sampled(run_down(0.02, 0.0055, 0.13, 40.0), 3e-4, 1);
+    let draft = flywheel(VISCOUS_AND_DRY, 0.02);
+    let all = ["torque[1].coefficient", "torque[2].value", "crank.inertia"];
+    refused(&draft, &all, &motion, &["cannot tell", "`crank.inertia`"]);
+    refused(&draft, &["geometry.rod"], &motion, &["does not depend"]);
+    refused(
+        &draft,
+        &["crank.inertia", "crank.inertia"],
+        &motion,
+        &["twice"],
+    );
+    let rubbing = flywheel("[friction]\ncoefficient = 0.1\n", 0.02);
+    refused(&rubbing, &["friction.coefficient"], &motion, &["dry"]);
+}
