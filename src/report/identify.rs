@@ -22,7 +22,7 @@ pub fn identification(result: &Identification) -> String {
             format_args!(
                 "{} +- {} {}",
                 digits(one.value, one.half_band),
-                six(one.half_band),
+                two(one.half_band),
                 one.unit
             ),
         );
@@ -58,6 +58,11 @@ pub fn identification(result: &Identification) -> String {
     );
     facts.warnings(&result.warnings);
     facts.lines(22)
+}
+
+/// Two digits.
+fn two(value: f64) -> String {
+    six(format!("{value:.1e}").parse().unwrap_or(value))
 }
 
 /// Writes a row for each value.

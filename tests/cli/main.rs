@@ -6,6 +6,7 @@ mod clearance;
 mod commands;
 mod figure;
 mod files;
+mod identify;
 mod inverse;
 mod inverse_text;
 mod kinematics;

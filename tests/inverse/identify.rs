@@ -43,7 +43,7 @@ fn identified(draft: &Draft, keys: &[&str], motion: &Measurement) -> Result<Iden
 
 /// Samples of a motion with noise, rad.
 fn sampled(theta: impl Fn(f64) -> f64, sigma: f64, seed: u64) -> Measurement {
-    let mut random = Random(seed + 1);
+    let mut random = Random((seed + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
     let times: Vec<f64> = (0..400).map(|i| 0.0025 * f64::from(i)).collect();
     let noisy = |t: &f64| theta(*t) + sigma * random.normal();
     let values = times.iter().map(noisy).collect();
