@@ -9,7 +9,7 @@ use super::sweep::{Start, Swept};
 use crate::engine::sight::{Look, Way, hidden};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MOST, Series, largest};
-use crate::numeric::enclosure::{Detail, Interval, Reach, ellipse};
+use crate::numeric::enclosure::{Detail, Interval, Reach, ellipses};
 
 /// The motion on a panel that was solved.
 struct OnPanel<'a, D: Driven> {
@@ -58,7 +58,7 @@ pub(super) fn hides<D: Driven>(
     let rounding = 64.0 * f64::EPSILON * forces;
     let look = Look {
         nodes: degree,
-        ellipse: ellipse(degree, fine.tail),
+        ellipses: ellipses(degree, fine.tail),
         allowed: rounding.max(fine.tail * start.kinetic / station.half().abs()),
         least: ROUNDED / station.half().abs(),
         compares: true,
@@ -85,7 +85,7 @@ pub(super) fn at_speeds<D: Driven>(
             speed,
             parts: 1.0,
         };
-        look.shows(&driven.detail(&reach, look.ellipse))
+        look.shows(|ellipse| driven.detail(&reach, ellipse))
     })
 }
 

@@ -8,7 +8,7 @@ use super::seen::OnStep;
 use super::series::{dot, legendre, rounding};
 use super::state::State;
 use super::tableau::Tableau;
-use crate::numeric::enclosure::ellipse;
+use crate::numeric::enclosure::ellipses;
 
 /// Most sweeps of a step; one that needs more is too long.
 const SWEEPS: usize = 14;
@@ -28,8 +28,8 @@ pub struct Collocation<'a> {
     motion: &'a Counted<'a>,
     tableau: &'static Tableau,
     tolerance: f64,
-    /// Size of the ellipse that the nodes need.
-    ellipse: f64,
+    /// Sizes of the ellipses that the nodes need.
+    ellipses: [f64; 2],
     has_detail: bool,
     has_power: bool,
     batch: Batch,
@@ -45,7 +45,7 @@ impl<'a> Collocation<'a> {
             motion,
             tableau: Tableau::get(),
             tolerance,
-            ellipse: ellipse(NODES, LEFT_BY_SWEEPS * tolerance),
+            ellipses: ellipses(NODES, LEFT_BY_SWEEPS * tolerance),
             has_detail: motion.has_detail(),
             has_power: motion.has_power(),
             batch: Batch::default(),
@@ -231,7 +231,7 @@ impl<'a> Collocation<'a> {
         let term = self.tolerance * (1.0 + state.omega.abs()) * (2 * NODES) as f64 / h;
         let look = Look {
             nodes: NODES,
-            ellipse: self.ellipse,
+            ellipses: self.ellipses,
             allowed: term.max(rounding(state, h, coefficients)),
             least: SHORTEST * state.t.abs().max((state.t + h).abs()) / h,
             compares: true,

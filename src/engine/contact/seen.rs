@@ -3,7 +3,7 @@
 use super::Contact;
 use super::run::Runner;
 use crate::engine::sight::{Look, Way, hidden};
-use crate::numeric::enclosure::{Detail, Interval, ellipse};
+use crate::numeric::enclosure::{Detail, Interval, ellipses};
 
 /// Order of the method: as many nodes it is worth.
 const ORDER: usize = 8;
@@ -53,7 +53,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         let tolerance = self.settings.tolerance;
         let look = Look {
             nodes: ORDER,
-            ellipse: ellipse(ORDER, tolerance),
+            ellipses: ellipses(ORDER, tolerance),
             allowed: tolerance / h,
             least: SHORTEST * end[0].abs() / h,
             compares: false,

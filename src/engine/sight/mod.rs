@@ -4,7 +4,7 @@ mod steps;
 
 use std::f64::consts::PI;
 
-use crate::numeric::enclosure::Detail;
+use crate::numeric::enclosure::{Detail, shown};
 
 pub use steps::Proof;
 
@@ -28,8 +28,8 @@ pub trait Way {
 pub struct Look {
     /// Number of nodes.
     pub nodes: usize,
-    /// Size of the ellipse that they need.
-    pub ellipse: f64,
+    /// Sizes of the ellipses that they need.
+    pub ellipses: [f64; 2],
     /// What the nodes may leave out of the force, everywhere on it.
     pub allowed: f64,
     /// Part of it at either end that rounding does not tell from the end.
@@ -62,35 +62,34 @@ pub struct Hidden {
 
 /// Where a panel or a step has to end so that its nodes show the forces; none if they do.
 pub fn hidden(way: &impl Way, look: Look) -> Option<Hidden> {
-    if look.shows(&look.detail(way, 0.0, 1.0)) {
+    if look.nodes_on(way, 0.0, 1.0).1.is_some() {
         return None;
     }
     Search::new(look).run(way)
 }
 
 impl Look {
-    fn detail(&self, way: &impl Way, from: f64, to: f64) -> Detail {
-        way.detail(&way.reach(from, to), self.ellipse)
+    /// What the force does on a piece, and how many nodes show it, where its own are enough.
+    fn nodes_on(&self, way: &impl Way, from: f64, to: f64) -> (Detail, Option<usize>) {
+        let part = way.reach(from, to);
+        self.nodes_for(|ellipse| way.detail(&part, ellipse))
     }
 
-    fn nodes_for(&self, detail: &Detail) -> Option<usize> {
-        if detail.change <= self.allowed {
-            return Some(1);
-        }
-        detail.nodes(self.ellipse, self.allowed)
+    fn nodes_for(&self, detail: impl Fn(f64) -> Detail) -> (Detail, Option<usize>) {
+        shown(detail, self.ellipses, self.allowed, self.nodes)
     }
 
-    /// Whether its nodes show a force.
-    pub fn shows(&self, detail: &Detail) -> bool {
-        let needed = self.nodes_for(detail);
-        needed.is_some_and(|needed| needed <= self.nodes)
+    /// Whether its nodes show a force, of which the detail in an ellipse of some size is given.
+    pub fn shows(&self, detail: impl Fn(f64) -> Detail) -> bool {
+        self.nodes_for(detail).1.is_some()
     }
 
     /// The part at an end that may be left out for a corner there.
     fn end(&self, way: &impl Way, piece: fn(f64) -> [f64; 2]) -> f64 {
         let little = |end: &f64| {
             let [from, to] = piece(*end);
-            self.detail(way, from, to).change * end <= AT_CORNER * self.allowed
+            let detail = way.detail(&way.reach(from, to), self.ellipses[0]);
+            detail.change * end <= AT_CORNER * self.allowed
         };
         ENDS.into_iter().find(little).unwrap_or(0.0)
     }
@@ -150,11 +149,11 @@ impl Search {
                 };
                 return self.place().or((from > self.whole[0]).then_some(here));
             }
-            let detail = self.look.detail(way, from, to);
-            match self.look.nodes_for(&detail) {
-                Some(nodes) if nodes <= self.look.nodes => self.compare(way, [from, to], nodes),
-                _ if self.is_least(&detail, to - from) => self.note_corner(&detail, from, to),
-                _ => {
+            let (detail, nodes) = self.look.nodes_on(way, from, to);
+            match nodes {
+                Some(nodes) => self.compare(way, [from, to], nodes),
+                None if self.is_least(&detail, to - from) => self.note_corner(&detail, from, to),
+                None => {
                     let middle = 0.5 * (from + to);
                     left[count] = [middle, to];
                     left[count + 1] = [from, middle];

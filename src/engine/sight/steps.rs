@@ -3,7 +3,7 @@
 use super::{Hidden, Look, Way, hidden};
 use crate::engine::step::Step;
 use crate::engine::{Counted, Motion};
-use crate::numeric::enclosure::{Detail, Interval, Reach, ellipse};
+use crate::numeric::enclosure::{Detail, Interval, Reach, ellipses};
 
 /// What was proved of the steps ahead.
 pub struct Proof<'a> {
@@ -11,7 +11,7 @@ pub struct Proof<'a> {
     tolerance: f64,
     /// The order of the method: as many nodes it is worth.
     order: usize,
-    ellipse: f64,
+    ellipses: [f64; 2],
     /// Where no step hides anything, as long as it is not larger than the parts of this.
     known: Option<Reach>,
     /// Into how many parts it is divided.
@@ -30,7 +30,7 @@ impl<'a> Proof<'a> {
             motion,
             tolerance,
             order,
-            ellipse: ellipse(order, tolerance),
+            ellipses: ellipses(order, tolerance),
             known: None,
             ahead: 8.0,
         }
@@ -52,13 +52,13 @@ impl<'a> Proof<'a> {
         let h = step.length();
         let look = Look {
             nodes: self.order,
-            ellipse: self.ellipse,
+            ellipses: self.ellipses,
             allowed: self.tolerance * (1.0 + step.start.omega.abs()) / h,
             least: SHORTEST * step.start.t.abs().max(step.end.t.abs()) / h,
             compares: false,
         };
         let ahead = reach.ahead(self.ahead);
-        if look.shows(&self.motion.detail(&ahead, self.ellipse)) {
+        if look.shows(|ellipse| self.motion.detail(&ahead, ellipse)) {
             self.known = Some(ahead);
             self.ahead = (2.0 * self.ahead).min(MOST_AHEAD);
             return None;

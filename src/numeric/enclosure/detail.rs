@@ -125,7 +125,35 @@ impl Detail {
     }
 }
 
-/// The size of the ellipse in which so many nodes leave this part.
-pub fn ellipse(nodes: usize, part: f64) -> f64 {
-    part.powf(-1.0 / nodes as f64)
+/// Sizes of the ellipses in which so many nodes leave less than this part. A function that grows slowly, as one with a
+/// singularity nearby may, is shown by the smaller one, an entire one rather by the larger.
+pub fn ellipses(nodes: usize, part: f64) -> [f64; 2] {
+    /// What the bound is more than the change of the function on the piece.
+    const GROWTH: f64 = 100.0;
+    let smaller = (part / GROWTH).powf(-1.0 / nodes as f64);
+    [smaller, smaller * smaller]
+}
+
+/// What a function does on a piece, and the least nodes that show it but for `allowed` by these ellipses, where that is no more
+/// than `most`.
+pub fn shown(
+    detail: impl Fn(f64) -> Detail,
+    ellipses: [f64; 2],
+    allowed: f64,
+    most: usize,
+) -> (Detail, Option<usize>) {
+    let [smaller, larger] = ellipses;
+    let first = detail(smaller);
+    if first.change <= allowed {
+        return (first, Some(1));
+    }
+    let few = |detail: Detail, ellipse: f64| {
+        let nodes = detail.nodes(ellipse, allowed);
+        nodes.filter(|nodes| *nodes <= most)
+    };
+    let nodes = few(first, smaller).or_else(|| {
+        first.around?;
+        few(detail(larger), larger)
+    });
+    (first, nodes)
 }

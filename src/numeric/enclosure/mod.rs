@@ -14,7 +14,7 @@ mod rectangle;
 use std::f64::consts::{FRAC_PI_2, LOG10_E, PI};
 use std::ops::{Add, Mul, Neg, Sub};
 
-pub use detail::{Detail, Reach, ellipse};
+pub use detail::{Detail, Reach, ellipses, shown};
 pub use interval::Interval;
 pub use partition::{Wanted, partition};
 pub use rectangle::Rectangle;

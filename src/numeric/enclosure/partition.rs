@@ -1,6 +1,6 @@
 //! Where panels have to end so that their nodes show a function.
 
-use super::{Detail, Interval, ellipse};
+use super::{Detail, Interval, ellipses, shown};
 
 /// How panels are to show a function.
 #[derive(Clone, Copy, Debug)]
@@ -32,13 +32,12 @@ pub fn partition(
     wanted: Wanted,
     unit: f64,
 ) -> Vec<f64> {
-    let ellipse = ellipse(wanted.nodes, wanted.part);
-    let detail = |part: Interval| detail(part, ellipse);
-    let allowed = wanted.part * scale(&detail, over, unit);
+    let ellipses = ellipses(wanted.nodes, wanted.part);
+    let real = |part: Interval| detail(part, ellipses[0]);
+    let allowed = wanted.part * scale(&real, over, unit);
     let is_shown = |part: Interval| {
-        let detail = detail(part);
-        let nodes = detail.nodes(ellipse, allowed);
-        detail.change <= allowed || nodes.is_some_and(|nodes| nodes <= wanted.nodes)
+        let (_, nodes) = shown(|size| detail(part, size), ellipses, allowed, wanted.nodes);
+        nodes.is_some()
     };
     if is_shown(over) {
         return Vec::new();
@@ -46,7 +45,7 @@ pub fn partition(
     let width = over.high - over.low;
     let is_corner = |part: Interval| {
         let share = (part.high - part.low) / width;
-        detail(part).change * share <= allowed || share < 0.5f64.powi(HALVINGS as i32)
+        real(part).change * share <= allowed || share < 0.5f64.powi(HALVINGS as i32)
     };
     let mut left = vec![over];
     let mut pieces: Vec<(Interval, Piece)> = Vec::new();

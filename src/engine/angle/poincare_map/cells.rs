@@ -11,7 +11,7 @@ use crate::engine::energy::segment::Segment;
 use crate::engine::energy::turns::{Cell, Turn};
 use crate::engine::sight::Look;
 use crate::numeric::chebyshev::Rule;
-use crate::numeric::enclosure::{Interval, ellipse};
+use crate::numeric::enclosure::{Interval, ellipses};
 
 impl<D: Driven> Way<'_, D> {
     /// A cell over a range of energies.
@@ -44,7 +44,7 @@ impl<D: Driven> Way<'_, D> {
         } = &self.march;
         let look = Look {
             nodes: DEGREE,
-            ellipse: ellipse(DEGREE, self.tail),
+            ellipses: ellipses(DEGREE, self.tail),
             allowed: self.tail * middle / TAU,
             least: 0.0,
             compares: false,
