@@ -175,6 +175,7 @@ impl Expression {
     }
 
     /// A number.
+    #[cfg(feature = "cli")]
     pub(crate) fn constant(value: f64) -> Expression {
         Expression {
             text: value.to_string(),
