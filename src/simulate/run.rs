@@ -21,7 +21,7 @@ use crate::trajectory::Trajectory;
 ///
 /// # Errors
 /// [`Error::Scene`] for impossible values, [`Error::Refused`] for what cannot be computed. A run that ends
-/// before its time is no error: see [`Summary::stopped`].
+/// before its time is no error: see [`Summary::stopped`](super::Summary::stopped).
 ///
 /// ```
 /// use slider_crank::scene::Scene;

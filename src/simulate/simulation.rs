@@ -22,7 +22,7 @@ impl Simulation {
     }
 
     /// The whole row at time `t` (s): crank and slider, their velocities and accelerations, and with
-    /// [`Options::reactions`] the joint forces. None outside the run, with a loose joint, and where a number is not
+    /// [`Options::reactions`](super::Options::reactions) the joint forces. None outside the run, with a loose joint, and where a number is not
     /// finite.
     ///
     /// ```
