@@ -98,7 +98,11 @@ fn events(events: &[Event]) -> String {
     for event in events.iter().take(EVENTS) {
         let _ = write!(text, "<tr><td>{}</td>", event.kind);
         for value in [event.t_s, event.theta_rad, event.omega_rad_per_s] {
-            let _ = write!(text, "<td class=\"number\">{value:.9}</td>");
+            let shown = match value.is_finite() {
+                true => format!("{value:.9}"),
+                false => "no bound".to_owned(),
+            };
+            let _ = write!(text, "<td class=\"number\">{shown}</td>");
         }
         text.push_str("</tr>\n");
     }

@@ -96,6 +96,16 @@ impl Outcome {
             false => speed * f64::INFINITY,
         };
         self.record.speed = (shown(low), shown(high));
+        for event in &mut self.record.events {
+            let speed = event.omega_rad_per_s;
+            // There rounding leaves no sign: it is that of all speeds of a crank that does not turn back.
+            event.omega_rad_per_s = match (is_bounded(speed), low > 0.0, high < 0.0) {
+                (true, ..) => speed,
+                (false, true, _) => f64::INFINITY,
+                (false, _, true) => f64::NEG_INFINITY,
+                (false, ..) => shown(speed),
+            };
+        }
         if !is_bounded(low) || !is_bounded(high) {
             let what = "the effective inertia vanishes at the dead centres, where the crank speed has no bound";
             self.warnings.push(what.to_owned());

@@ -155,6 +155,6 @@ pub struct Event {
     pub t_s: f64,
     /// rad, unwrapped
     pub theta_rad: f64,
-    /// rad/s
+    /// rad/s; infinite, and null in JSON, where the inertia vanishes and the speed has no bound
     pub omega_rad_per_s: f64,
 }

@@ -297,6 +297,11 @@ fn inertia_that_vanishes_at_the_dead_centres_is_passed() {
     let end = kinematics.row(run.summary.last.theta_rad);
     assert!((end.x - x).abs() < 1e-12, "{} {x}", end.x);
     assert_eq!(run.summary.events_total as f64, strokes);
+    // v = x' ω with x' = 0: no speed of the crank is large enough, whatever rounding leaves of x'.
+    for event in &run.summary.events {
+        assert_eq!(event.omega_rad_per_s, f64::INFINITY, "{event:?}");
+    }
+    assert!(run.summary.warnings.iter().any(|w| w.contains("no bound")));
 }
 
 #[test]
