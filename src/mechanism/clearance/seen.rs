@@ -6,6 +6,7 @@ use super::rubbing::Rubbing;
 use super::{Action, LooseMechanism, LooseState};
 use crate::mechanism::{Arms, LoadValue, Seen};
 use crate::numeric::enclosure::{Detail, Interval};
+use crate::scene::Joint;
 
 /// Sizes of the speeds, which their changes are measured by.
 #[derive(Clone, Copy, Debug)]
@@ -41,26 +42,30 @@ impl LooseMechanism {
         loads.detail(&seen, self.arms(low, sizes), ellipse)
     }
 
-    /// The largest change of an acceleration over the size of its speed by a load of one, while the joint does not touch.
+    /// The largest change of an acceleration over the size of its speed by a load of one, while the joint does not touch. Then
+    /// torque and force act on bodies of their own, and the rod goes with one of them.
     fn arms(&self, s: &LooseState, sizes: SpeedSizes) -> Arms {
         let frame = self.frame(s);
-        let rates = |torque: f64, force: f64| {
-            let load = LoadValue { torque, force };
-            let rates = self.under(&load, s, &frame, Action::default(), Rubbing::Never);
-            [
-                rates.alpha / sizes.turning,
-                rates.spin_rate / sizes.turning,
-                rates.a / sizes.sliding,
-            ]
+        let rates = |size: f64| {
+            let load = LoadValue {
+                torque: size,
+                force: size,
+            };
+            self.under(&load, s, &frame, Action::default(), Rubbing::Never)
         };
-        let without = rates(0.0, 0.0);
-        let largest = |with: [f64; 3]| {
-            let changes = with.iter().zip(&without).map(|(a, b)| (a - b).abs());
-            changes.fold(0.0, f64::max)
-        };
-        Arms {
-            torque: largest(rates(1.0, 0.0)),
-            force: largest(rates(0.0, 1.0)),
+        let (without, with) = (rates(0.0), rates(1.0));
+        let crank = (with.alpha - without.alpha).abs() / sizes.turning;
+        let rod = (with.spin_rate - without.spin_rate).abs() / sizes.turning;
+        let slider = (with.a - without.a).abs() / sizes.sliding;
+        match self.joint {
+            Joint::CrankPin => Arms {
+                torque: crank,
+                force: rod.max(slider),
+            },
+            Joint::WristPin => Arms {
+                torque: crank.max(rod),
+                force: slider,
+            },
         }
     }
 }
