@@ -11,6 +11,7 @@ mod builder;
 mod builtin;
 mod clearance;
 mod corners;
+mod csv;
 mod expression;
 #[cfg(feature = "cli")]
 mod keys;

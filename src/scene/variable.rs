@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::unit::Quantity;
+
 /// The quantities a load can depend on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Variable {
@@ -29,6 +31,16 @@ impl Variable {
             Self::Omega => "omega",
             Self::X => "x",
             Self::V => "v",
+        }
+    }
+
+    pub(super) fn quantity(self) -> Quantity {
+        match self {
+            Self::T => Quantity::Time,
+            Self::Theta => Quantity::Angle,
+            Self::Omega => Quantity::AngularSpeed,
+            Self::X => Quantity::Length,
+            Self::V => Quantity::Velocity,
         }
     }
 

@@ -300,41 +300,6 @@ fn counts_of_an_encoder_and_the_zero_of_a_ruler() {
     assert!(error.contains("--x-zero belongs to x"), "{error}");
 }
 
-#[test]
-fn clocks() {
-    let stamp = |row: usize| {
-        let milliseconds = 59_000 + 250 * row;
-        format!(
-            "{:02}:{:02}.{:03}",
-            30 + milliseconds / 60_000,
-            milliseconds % 60_000 / 1000,
-            milliseconds % 1000
-        )
-    };
-    for [before, after] in [
-        ["2024-02-29T12:", "Z"],
-        ["2024-02-29 12:", ""],
-        ["12:", ""],
-        ["2024-02-29T23:", "+02:00"],
-    ] {
-        let row = |row: usize| format!("{before}{}{after},{}\n", stamp(row), sample(row)[1]);
-        let text = format!("time,theta [rad]\n{}", (0..8).map(row).collect::<String>());
-        let found = is_read(text.as_bytes(), &Reading::default(), Measured::Theta);
-        assert!(
-            found
-                .notes()
-                .join("\n")
-                .contains("t counts from the first row")
-        );
-        let bad = text.replacen("30:59.250", "30:61.250", 1);
-        let error = load(bad.as_bytes(), &Reading::default()).unwrap_err();
-        assert!(
-            error.contains("is no time") && error.contains("data.csv:3:1"),
-            "{error}"
-        );
-    }
-}
-
 /// What nothing names is refused, with the options that say it.
 #[test]
 fn headers_that_say_nothing_are_refused() {

@@ -3,23 +3,49 @@
 use crate::scene::Problem;
 use crate::scene::number::counted;
 
-/// Problems of one kind that are listed; all are counted.
-pub(super) const MOST_LISTED: usize = 3;
+/// Problems of one kind that are listed.
+const MOST_LISTED: usize = 3;
 
-/// Lists a problem, unless enough like it are listed.
-pub(super) fn list(problems: &mut Vec<Problem>, problem: Problem) {
-    let alike = |other: &&Problem| other.field == problem.field && other.help == problem.help;
-    if problems.iter().filter(alike).count() < MOST_LISTED {
-        problems.push(problem);
-    }
+/// Problems, of which the first of each kind are listed and all are counted.
+#[derive(Default)]
+pub(super) struct Listed {
+    list: Vec<Problem>,
+    count: usize,
 }
 
-/// How many problems there are beside those that are listed, if any.
-pub(super) fn more(count: usize, text: &str) -> Option<Problem> {
-    (count > 0).then(|| {
-        let what = format!("{} more like these", counted(count, "problem"));
-        let mut last = Problem::new("", what, "repair the data, or take the rows out");
-        last.span = Some(text.len()..text.len());
-        last
-    })
+impl Listed {
+    pub fn push(&mut self, problem: Problem) {
+        self.count += 1;
+        self.list(problem);
+    }
+
+    fn list(&mut self, problem: Problem) {
+        // A problem of code has the sample in its field.
+        let name = |of: &Problem| of.field.split(',').next().map(str::to_owned);
+        let alike = |other: &&Problem| other.help == problem.help && name(other) == name(&problem);
+        if self.list.iter().filter(alike).count() < MOST_LISTED {
+            self.list.push(problem);
+        }
+    }
+
+    pub fn join(&mut self, other: Listed) {
+        self.count += other.count;
+        other
+            .list
+            .into_iter()
+            .for_each(|problem| self.list(problem));
+    }
+
+    /// The problems, at the end of the text how many there are beside those listed; none if there is no problem.
+    pub fn refused(self, text: &str) -> Option<Vec<Problem>> {
+        let mut list = self.list;
+        let rest = self.count - list.len();
+        if rest > 0 {
+            let what = format!("{} more like these", counted(rest, "problem"));
+            let mut last = Problem::new("", what, "repair the data, or take the rows out");
+            last.span = Some(text.len()..text.len());
+            list.push(last);
+        }
+        (!list.is_empty()).then_some(list)
+    }
 }

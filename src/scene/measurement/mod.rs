@@ -1,107 +1,43 @@
 //! Measured motion: time and crank angle, crank-pin angle or slider position, sample by sample.
 
-mod clock;
 mod columns;
-mod even;
-mod headers;
-mod lines;
+mod digits;
+mod heading;
 mod listed;
-mod number;
+mod measured;
 mod read;
 mod rows;
-mod source;
+mod times;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use super::csv::Column;
+use super::csv::lines::{Dialect, line_number, span};
 use super::{Problem, Problems, text};
 use crate::error::Error;
-use crate::scene::unit::Quantity;
-use rows::check_rows;
-use source::Source;
+pub use measured::{Measured, Reading};
 
 /// The motion of Duarte et al. 2018 (11), sampled; see the comments in the file.
 pub const DUARTE_MOTION: &str = include_str!("../../../data/duarte-motion.csv");
 
-/// Fewest samples of a motion.
-const LEAST_ROWS: usize = 6;
-
-/// What was measured beside the time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Measured {
-    /// Crank angle θ, rad.
-    Theta,
-    /// Angle at the crank pin between crank and rod, Duarte et al. (10), rad from 0 to π.
-    Gamma,
-    /// Slider position x, m.
-    X,
+/// The file that samples came from, which finds their lines and cells for messages.
+#[derive(Clone, Debug)]
+struct Source {
+    file: PathBuf,
+    text: String,
+    /// Where the rows of numbers begin, and how they divide.
+    dialect: Dialect,
+    /// Positions of time and value in a row, from 0.
+    at: [usize; 2],
+    time: Column,
+    value: Column,
 }
 
-impl Measured {
-    /// All of them; of several in one file the first is taken.
-    pub const ALL: [Measured; 3] = [Measured::Theta, Measured::Gamma, Measured::X];
-
-    /// Its name in headers.
-    pub fn name(self) -> &'static str {
-        match self {
-            Measured::Theta => "theta",
-            Measured::Gamma => "gamma",
-            Measured::X => "x",
-        }
+impl Source {
+    fn row(&self, sample: usize) -> &str {
+        let mut rows = self.dialect.rows(&self.text);
+        rows.nth(sample).unwrap_or_default()
     }
-
-    /// The SI unit.
-    pub fn unit(self) -> &'static str {
-        match self {
-            Measured::X => "m",
-            _ => "rad",
-        }
-    }
-
-    /// What it is, in words.
-    fn meaning(self) -> &'static str {
-        match self {
-            Measured::Theta => "the crank angle theta",
-            Measured::Gamma => "the angle gamma at the crank pin",
-            Measured::X => "the slider position x, counted from the crank pivot",
-        }
-    }
-
-    fn quantity(self) -> Quantity {
-        match self {
-            Measured::X => Quantity::Length,
-            _ => Quantity::Angle,
-        }
-    }
-}
-
-impl std::str::FromStr for Measured {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Measured, String> {
-        let found = Measured::ALL.into_iter().find(|kind| kind.name() == text);
-        found.ok_or_else(|| format!("`{text}` is none of theta, gamma and x"))
-    }
-}
-
-/// How a file of measured motion is read.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Reading {
-    /// Names and units of the columns of a file without header, written like a header: `"t [s],theta [deg]"`.
-    pub columns: Option<String>,
-    /// The measured column, where the file has several.
-    pub column: Option<Measured>,
-    /// The column of the time by its header or its number, with its unit: `2[ms]`.
-    pub time: Option<String>,
-    /// The column of the motion, as that of the time.
-    pub motion: Option<String>,
-    /// Counts of an encoder in a turn of the crank.
-    pub counts_per_turn: Option<u32>,
-    /// What a slider position shows where the slider is at the crank pivot, m.
-    pub x_zero: f64,
-    /// Lines above the header.
-    pub skip: usize,
-    /// Whether numbers have decimal commas; columns are then separated by semicolon or tab.
-    pub decimal_comma: bool,
 }
 
 /// Samples of a motion, SI and radians, in the order of time.
@@ -139,7 +75,14 @@ impl Measurement {
         times: Vec<f64>,
         values: Vec<f64>,
     ) -> Result<Measurement, Problems> {
-        let mut measurement = Measurement {
+        let mut measurement = Measurement::raw(measured, times, values);
+        measurement.check()?;
+        Ok(measurement)
+    }
+
+    /// Samples as they are.
+    fn raw(measured: Measured, times: Vec<f64>, values: Vec<f64>) -> Measurement {
+        Measurement {
             measured,
             times,
             elapsed: None,
@@ -149,9 +92,7 @@ impl Measurement {
             resolution: 0.0,
             notes: Vec::new(),
             source: None,
-        };
-        check_rows(&mut measurement)?;
-        Ok(measurement)
+        }
     }
 
     /// The motion that belongs to the built-in scene: the polynomial (11) of Duarte et al. 2018, sampled.
@@ -184,7 +125,7 @@ impl Measurement {
     pub fn parse(file: &Path, text: String, reading: &Reading) -> Result<Measurement, Problems> {
         let mut measurement = read::measurement(file, text, reading)?;
         measurement.count_from_first_row();
-        check_rows(&mut measurement)?;
+        measurement.check()?;
         Ok(measurement)
     }
 
@@ -248,32 +189,39 @@ impl Measurement {
     /// Where a sample (from 0) is: `line 12` of the file, or `sample 11`.
     pub fn place(&self, sample: usize) -> String {
         match &self.source {
-            Some(source) => format!("line {}", source.line(sample)),
+            Some(source) => format!("line {}", line_number(&source.text, source.row(sample))),
             None => format!("sample {}", sample + 1),
         }
     }
 
     /// A value in the unit of its column, with the unit.
     pub fn shown(&self, value: f64) -> String {
-        let (factor, unit) = match &self.source {
-            Some(source) => (source.value.factor, source.value.unit.as_str()),
-            None => (1.0, self.measured.unit()),
+        match &self.source {
+            Some(source) => source.value.shown(value),
+            None => Column::si(self.measured.unit()).shown(value),
+        }
+    }
+
+    /// A problem with the time (0) or the value (1) of a sample (from 0).
+    fn problem(&self, sample: usize, column: usize, what: String, help: String) -> Problem {
+        let name = ["time", self.measured.name()][column];
+        let Some(source) = &self.source else {
+            return Problem::new(&format!("{name}, {}", self.place(sample)), what, help);
         };
-        super::number::with_unit(value / factor, unit)
+        let mut problem = Problem::new(name, what, help);
+        let row = source.row(sample);
+        let cell = source.dialect.cells(row).nth(source.at[column]);
+        problem.span = Some(span(&source.text, cell.unwrap_or(row)));
+        problem
     }
 
     /// Problems with the measured values of some samples (from 0): what is wrong and what would be right.
     pub fn problems(&self, list: Vec<(usize, String, String)>) -> Problems {
-        let list = list.into_iter().map(|(sample, what, help)| {
-            let field = match &self.source {
-                Some(_) => self.measured.name().to_owned(),
-                None => format!("{}, {}", self.measured.name(), self.place(sample)),
-            };
-            let mut problem = Problem::new(&field, what, help);
-            problem.span = self.source.as_ref().map(|s| s.value_span(sample));
-            problem
-        });
-        let list = list.collect();
+        let problem = |(sample, what, help)| self.problem(sample, 1, what, help);
+        self.refused(list.into_iter().map(problem).collect())
+    }
+
+    fn refused(&self, list: Vec<Problem>) -> Problems {
         match &self.source {
             Some(source) => Problems::in_file(&source.file, &source.text, list),
             None => Problems::in_code(list),

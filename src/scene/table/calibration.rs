@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use super::header;
 use super::pairs::Pairs;
 use crate::error::Error;
+use crate::scene::csv::header;
 use crate::scene::text;
 use crate::scene::unit::Quantity;
 
@@ -24,24 +24,13 @@ pub fn calibration_points(file: &Path) -> Result<Vec<(f64, f64)>, Error> {
     };
     let text =
         text::decoded(text::bytes(file)?).map_err(|what| wrong(format!("{name}: {what}")))?;
-    let mut pairs = Pairs::new(&name, &text).map_err(wrong)?;
-    let place = pairs.place(pairs.end());
-    let header = pairs.header();
-    if header.len() != 2 || header.iter().any(|h| h.parse::<f64>().is_ok()) {
-        return Err(wrong(format!(
-            "{place}: the first line must name two columns"
-        )));
-    }
-    let load = header::split(&header[0])
-        .column(Quantity::Force)
-        .map_err(|what| wrong(format!("{place}: {what}")))?;
-    let mut points = Vec::new();
-    while let Some((x, y)) = pairs.next().map_err(wrong)? {
-        if !(x.is_finite() && y.is_finite()) {
-            let place = pairs.place(pairs.end());
-            return Err(wrong(format!("{place}: a value is not finite")));
-        }
-        points.push((x * load.factor, y));
-    }
-    Ok(points)
+    let pairs = Pairs::new(&name, &text);
+    let [load, _] = pairs.header("load [N],reading").map_err(wrong)?;
+    let unit = header::split(load).column(Quantity::Force);
+    let unit = unit.map_err(|what| wrong(pairs.at(load, &what)))?;
+    let points = pairs.numbers().map_err(wrong)?;
+    Ok(points
+        .iter()
+        .map(|pair| (pair.x * unit.factor, pair.y))
+        .collect())
 }

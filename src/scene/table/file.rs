@@ -2,15 +2,12 @@
 
 use std::path::Path;
 
-use csv::StringRecord;
-
-use super::header;
 use super::pairs::Pairs;
-use super::rows::{Column, Rows, columns_error};
+use super::rows::{Rows, columns_error};
 use super::{Interpolation, Table, TableError};
 #[cfg(feature = "cli")]
 use crate::error::Error;
-use crate::scene::number::counted;
+use crate::scene::csv::{Column, header};
 use crate::scene::unit::Quantity;
 use crate::scene::{Variable, text};
 
@@ -31,21 +28,16 @@ impl Table {
         })?;
         let wrong = |what: String| columns_error(of, what);
         let text = text::decoded(bytes).map_err(|what| wrong(format!("{name}: {what}")))?;
-        let mut pairs = Pairs::new(&name, &text).map_err(wrong)?;
-        let place = pairs.place(pairs.end());
-        let columns =
-            columns(pairs.header(), of, value).map_err(|what| wrong(format!("{place}: {what}")))?;
-        let (mut points, mut ends) = (Vec::new(), Vec::new());
-        while let Some((x, y)) = pairs.next().map_err(wrong)? {
-            points.push((x * columns[0].factor, y * columns[1].factor));
-            ends.push(pairs.end());
-        }
+        let pairs = Pairs::new(&name, &text);
+        let columns = columns(&pairs, of, value).map_err(wrong)?;
+        let list = pairs.numbers().map_err(wrong)?;
+        let [x, y] = [columns[0].factor, columns[1].factor];
         let rows = Rows {
             of,
-            points,
+            points: list.iter().map(|pair| (pair.x * x, pair.y * y)).collect(),
             columns,
             whole: format!("{name}: "),
-            place: &|row| format!("{}: ", pairs.place(ends[row])),
+            place: &|row| pairs.at(list[row].row, ""),
         };
         let curve = rows.curve(interpolation, period)?;
         let file = Some(file.to_owned());
@@ -76,13 +68,10 @@ pub fn load_table(file: &Path) -> Result<Option<LoadTable>, Error> {
     let Ok(text) = text::decoded(text::bytes(file)?) else {
         return Ok(None);
     };
-    let Ok(pairs) = Pairs::new(&name, &text) else {
+    let Ok(cells) = Pairs::new(&name, &text).header("") else {
         return Ok(None);
     };
-    let [first, second] = [0, 1].map(|at| pairs.header().get(at).map(header::split));
-    let (Some(first), Some(second), 2) = (first, second, pairs.header().len()) else {
-        return Ok(None);
-    };
+    let [first, second] = cells.map(header::split);
     let loads = [Quantity::Torque, Quantity::Force, Quantity::Pressure];
     let load = loads
         .into_iter()
@@ -100,37 +89,19 @@ pub fn load_table(file: &Path) -> Result<Option<LoadTable>, Error> {
 }
 
 /// Units of the two columns.
-fn columns(headers: &StringRecord, of: Variable, value: Quantity) -> Result<[Column; 2], String> {
-    if headers.len() != 2 {
-        return Err(format!(
-            "{} where 2 are expected: `{}` and the value",
-            counted(headers.len(), "column"),
-            of.name()
-        ));
-    }
-    if headers.iter().any(|h| h.parse::<f64>().is_ok()) {
-        return Err(format!(
-            "the first line must name the columns with their units, as `{} [unit],value [unit]`",
-            of.name()
-        ));
-    }
-    let first = header::split(&headers[0]);
+fn columns(pairs: &Pairs, of: Variable, value: Quantity) -> Result<[Column; 2], String> {
+    let cells = pairs.header(&format!("{} [unit],value [unit]", of.name()))?;
+    let [first, second] = cells.map(header::split);
+    let wrong = |what: String| pairs.at(cells[0], &what);
     if first.name != of.name() {
-        return Err(format!(
+        return Err(wrong(format!(
             "the first column is `{}` where `{}` is expected",
             first.name,
             of.name()
-        ));
+        )));
     }
-    let argument = match of {
-        Variable::T => Quantity::Time,
-        Variable::Theta => Quantity::Angle,
-        Variable::Omega => Quantity::AngularSpeed,
-        Variable::X => Quantity::Length,
-        Variable::V => Quantity::Velocity,
-    };
     Ok([
-        first.column(argument)?,
-        header::split(&headers[1]).column(value)?,
+        first.column(of.quantity()).map_err(wrong)?,
+        second.column(value).map_err(wrong)?,
     ])
 }

@@ -3,13 +3,13 @@
 mod calibration;
 #[cfg(feature = "cli")]
 pub(super) mod file;
-pub(super) mod header;
-pub(super) mod pairs;
-pub(super) mod rows;
+mod pairs;
+mod rows;
 
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use super::csv::Column;
 use super::{Period, Repeats, Variable, WhyNot};
 use crate::numeric::enclosure::{Enclosed, Interval};
 use crate::numeric::interpolate::Curve;
@@ -17,7 +17,7 @@ pub use crate::numeric::interpolate::Interpolation;
 pub use calibration::calibration_points;
 #[cfg(feature = "cli")]
 pub use file::{LoadTable, load_table};
-use rows::{Column, Rows};
+use rows::Rows;
 
 /// Values over one variable, SI and radians.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,7 +72,7 @@ impl Table {
         let rows = Rows {
             of,
             points: arguments.zip(values.iter().copied()).collect(),
-            columns: [Column::si(of), Column::NUMBER],
+            columns: [Column::si(of.quantity().si()), Column::si("")],
             whole: String::new(),
             place: &|point| format!("point {}: ", point + 1),
         };

@@ -2,48 +2,13 @@
 
 use super::{Interpolation, TableError};
 use crate::numeric::interpolate::Curve;
-use crate::scene::number::{apart, counted, show, with_unit};
+use crate::scene::csv::Column;
+use crate::scene::number::{apart, counted, show};
 use crate::scene::{Period, Variable};
 
 /// Arguments or values that differ by less than this part of the whole count as equal: the last digit of calculators, which
 /// show 2π as 6.283185307.
 const SAME: f64 = 1e-9;
-
-/// The unit in which messages show the numbers of a column.
-#[derive(Clone, Debug)]
-pub(in crate::scene) struct Column {
-    /// SI value of one unit.
-    pub factor: f64,
-    pub unit: String,
-}
-
-impl Column {
-    /// A column without a unit.
-    pub const NUMBER: Column = Column {
-        factor: 1.0,
-        unit: String::new(),
-    };
-
-    /// The SI unit of a variable.
-    pub fn si(of: Variable) -> Column {
-        let unit = match of {
-            Variable::T => "s",
-            Variable::Theta => "rad",
-            Variable::Omega => "rad/s",
-            Variable::X => "m",
-            Variable::V => "m/s",
-        };
-        Column {
-            factor: 1.0,
-            unit: unit.to_owned(),
-        }
-    }
-
-    /// A value in SI as it stands in the column.
-    fn shown(&self, value: f64) -> String {
-        with_unit(value / self.factor, &self.unit)
-    }
-}
 
 /// The rows of a table that is not checked yet.
 pub(super) struct Rows<'a> {

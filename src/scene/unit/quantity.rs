@@ -124,7 +124,6 @@ impl Quantity {
     }
 
     /// The SI unit as scene files have it; empty for numbers.
-    #[cfg(feature = "cli")]
     pub(in crate::scene) fn si(self) -> &'static str {
         match self {
             Self::Length => "m",

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 /// How the lines of a data file are divided.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Dialect {
+pub(in crate::scene) struct Dialect {
     /// What separates the cells of a line.
     pub delimiter: char,
     /// The byte at which the rows, header included, begin.
@@ -12,9 +12,10 @@ pub(super) struct Dialect {
 }
 
 /// What spreadsheets write where a formula has no value. At the beginning of a line it looks like a comment.
-const NO_VALUE: [&str; 7] = [
-    "#N/A", "#REF!", "#VALUE!", "#DIV/0!", "#NAME?", "#NUM!", "#NULL!",
-];
+const NO_VALUE: [&str; 4] = ["#N/A", "#VALUE!", "#DIV/0!", "#NUM!"];
+
+/// What is wrong with a value that goes on over the end of its line.
+pub(in crate::scene) const OPEN_QUOTE: &str = "a quote is not closed on its line";
 
 impl Dialect {
     /// The dialect of a text of which some lines are skipped: a line `sep=;` says the delimiter; else it is a semicolon or a
@@ -24,14 +25,12 @@ impl Dialect {
         let skipped: usize = text.split_inclusive('\n').take(skip).map(str::len).sum();
         let skipped = skipped.max(mark);
         let first = text.split_inclusive('\n').next().unwrap_or_default();
-        let bare = first[mark..].trim_matches(|c: char| c == '"' || c.is_whitespace() && c != '\t');
-        if let Some(rest) = bare.strip_prefix("sep=")
-            && let (Some(delimiter), "") = (rest.chars().next(), rest.get(1..).unwrap_or_default())
+        let bare = first[mark..].trim_matches(|c: char| matches!(c, '"' | '\r' | '\n'));
+        if let Some(delimiter) = bare.strip_prefix("sep=")
+            && let Ok(delimiter) = delimiter.parse()
         {
-            return Dialect {
-                delimiter,
-                start: skipped.max(first.len()),
-            };
+            let start = skipped.max(first.len());
+            return Dialect { delimiter, start };
         }
         let mut dialect = Dialect {
             delimiter: ',',
@@ -63,18 +62,14 @@ impl Dialect {
             .all(|c| c == self.delimiter || c.is_whitespace())
     }
 
-    /// Whether a line begins with `#` or `%`, or with a semicolon that separates no cells.
+    /// Whether a line begins with `%`, with `#` but not as `#N/A` of a spreadsheet, or with a semicolon that separates no cells.
     pub fn is_comment(self, line: &str) -> bool {
         let line = line.trim_start();
-        let is_value = |mark: &&str| {
-            let rest = line.strip_prefix(mark).map(str::trim_start);
-            rest.is_some_and(|rest| rest.starts_with(self.delimiter))
-        };
+        let first = line.split(self.delimiter).next().unwrap_or_default();
         match line.chars().next() {
-            Some('#') => !NO_VALUE.iter().any(is_value),
-            Some('%') => true,
-            Some(';') => self.delimiter != ';',
-            _ => false,
+            Some('#') => !NO_VALUE.contains(&first.trim()),
+            Some(mark) => mark == '%' || mark == ';' && self.delimiter != ';',
+            None => false,
         }
     }
 
@@ -107,12 +102,12 @@ impl Dialect {
 }
 
 /// The bytes of a text that a part of it has.
-pub(super) fn span(text: &str, part: &str) -> Range<usize> {
+pub(in crate::scene) fn span(text: &str, part: &str) -> Range<usize> {
     let start = (part.as_ptr() as usize).saturating_sub(text.as_ptr() as usize);
     start.min(text.len())..(start + part.len()).min(text.len())
 }
 
 /// The number, from 1, of the line of a text that a part of it stands in.
-pub(super) fn line_number(text: &str, part: &str) -> usize {
+pub(in crate::scene) fn line_number(text: &str, part: &str) -> usize {
     text[..span(text, part).start].matches('\n').count() + 1
 }

@@ -1,6 +1,6 @@
 //! Column headers with units: `t [s]`, `theta (deg)`, `omega_rad_per_s`, `pressure / bar`.
 
-use super::rows::Column;
+use super::Column;
 use crate::scene::unit::{self, Quantity};
 
 /// A header split into the name and the unit of its column.

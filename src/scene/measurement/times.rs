@@ -1,0 +1,141 @@
+//! Times to all their digits: since the first row where they are far from zero, even where they are those of even samples
+//! rounded to the decimals of a file.
+
+use super::Measurement;
+use crate::scene::number::computed;
+
+/// A number as written: `digits` times ten to the power of minus `decimals`.
+#[derive(Clone, Copy, Debug)]
+struct Decimal {
+    digits: i128,
+    decimals: usize,
+}
+
+impl Decimal {
+    /// A number without exponent.
+    fn of(cell: &str) -> Option<Decimal> {
+        let (whole, part) = cell.split_once(['.', ',']).unwrap_or((cell, ""));
+        let is_plain = part.bytes().all(|byte| byte.is_ascii_digit());
+        let digits = is_plain.then(|| format!("{whole}{part}"))?;
+        Some(Decimal {
+            digits: digits.parse().ok()?,
+            decimals: part.len(),
+        })
+    }
+
+    /// What this number is above another one, rounded once.
+    fn since(self, other: Decimal) -> Option<f64> {
+        let decimals = self.decimals.max(other.decimals);
+        let aligned = |number: Decimal| {
+            let more = u32::try_from(decimals - number.decimals).ok()?;
+            number.digits.checked_mul(10i128.checked_pow(more)?)
+        };
+        let digits = aligned(self)?.checked_sub(aligned(other)?)?;
+        format!("{digits}e-{decimals}").parse().ok()
+    }
+}
+
+/// Part of the usual step to which times have to be known.
+const COARSE: f64 = 1e-6;
+
+impl Measurement {
+    /// How far doubles as large as the times know them, s, if that is too little for steps as short as these.
+    pub(super) fn lost(&self) -> Option<f64> {
+        let times = &self.times;
+        let (first, last) = (*times.first()?, *times.last()?);
+        let step = (last - first) / times.len() as f64;
+        let known = f64::EPSILON * first.abs().max(last.abs());
+        (known > COARSE * step).then_some(known)
+    }
+
+    /// Counts times from the first row where doubles lose digits of the time stamps in the file.
+    pub(super) fn count_from_first_row(&mut self) {
+        if self.lost().is_some() {
+            self.elapsed = self.since_first_row();
+            self.origin = self.elapsed.as_ref().map_or(0.0, |_| self.times[0]);
+        }
+    }
+
+    /// Times since the first row, s, from the texts of both; none for what is not of digits alone.
+    fn since_first_row(&self) -> Option<Vec<f64>> {
+        let source = self.source.as_ref()?;
+        let mut first = None;
+        let mut since = |row: &str| {
+            let time = Decimal::of(source.dialect.cells(row).nth(source.at[0])?)?;
+            let first = *first.get_or_insert(time);
+            Some(time.since(first)? * source.time.factor)
+        };
+        source.dialect.rows(&source.text).map(&mut since).collect()
+    }
+
+    /// Takes times that are even but for rounding as even; what is to be known of it.
+    pub(super) fn space_evenly(&mut self) -> Option<String> {
+        let times = self.elapsed();
+        let even = Even::of(times)?;
+        let (count, length) = (times.len(), times[times.len() - 1] - times[0]);
+        if self.lost().is_some() {
+            self.origin = self.times[0];
+        }
+        let first = self.times[0] - self.origin + even.first;
+        self.elapsed = Some((0..count).map(|i| first + even.period * i as f64).collect());
+        self.spacing = even.step / ((count as f64).sqrt() * length);
+        Some(format!(
+            "the times are those of samples {} s apart, rounded to {} s: the fit takes them as even",
+            computed(even.period),
+            computed(even.step)
+        ))
+    }
+}
+
+/// Part of a step of rounding by which a line through rounded times, and a gap between them, may be off.
+const OFF_LINE: f64 = 0.1;
+
+/// Rounding of doubles over the whole time above which times are not even.
+const ROUNDING: f64 = 1e3 * f64::EPSILON;
+
+/// Even times that were rounded, s.
+struct Even {
+    /// Time of the first sample after its rounded one.
+    first: f64,
+    /// Time from sample to sample.
+    period: f64,
+    /// What they are rounded to.
+    step: f64,
+}
+
+impl Even {
+    /// The line by least squares through times of which these are the rounded ones, if they are.
+    fn of(times: &[f64]) -> Option<Even> {
+        let count = times.len() as f64;
+        let gaps = || times.windows(2).map(|pair| pair[1] - pair[0]);
+        let (short, long) = (
+            gaps().fold(f64::INFINITY, f64::min),
+            gaps().fold(0.0, f64::max),
+        );
+        // Rounding makes gaps that differ by one step, which leaves the order of the samples.
+        let step = long - short;
+        if step < ROUNDING * (times.last()? - times[0]) || step > 0.5 * short {
+            return None;
+        }
+        let middle = 0.5 * (count - 1.0);
+        let since = || {
+            times
+                .iter()
+                .enumerate()
+                .map(|(i, time)| (i as f64, time - times[0]))
+        };
+        let sum: f64 = since().map(|(_, time)| time).sum();
+        let moment: f64 = since().map(|(i, time)| (i - middle) * time).sum();
+        let period = 12.0 * moment / (count * (count * count - 1.0));
+        let first = sum / count - period * middle;
+        let mut off_line = since().map(|(i, time)| (time - first - period * i).abs());
+        let mut off_step = gaps().map(|gap| (gap - short).min(long - gap));
+        (off_line.all(|off| off < (0.5 + OFF_LINE) * step)
+            && off_step.all(|off| off < OFF_LINE * step))
+        .then_some(Even {
+            first,
+            period,
+            step,
+        })
+    }
+}
