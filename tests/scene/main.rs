@@ -5,6 +5,7 @@ mod support;
 
 mod bad_scenes;
 mod data_files;
+mod formulas;
 mod odd_files;
 mod refusals;
 mod scene_files;

@@ -197,36 +197,72 @@ impl Expression {
 
     /// Value at an instant, in SI; not finite outside the domain of its functions.
     pub fn value(&self, now: &Instant) -> f64 {
-        let mut stack = [0.0; STACK];
+        self.evaluate(|variable| now.get(variable))
+    }
+
+    /// The stack machine, over numbers, enclosures of them, or what is known of a part.
+    fn evaluate<N: Operand>(&self, of: impl Fn(Variable) -> N) -> N {
+        let mut stack = [N::constant(0.0); STACK];
         let mut top = 0;
         for op in &self.ops {
             match *op {
                 Op::Number(value) => {
-                    stack[top] = value;
+                    stack[top] = N::constant(value);
                     top += 1;
                 }
                 Op::Variable(variable) => {
-                    stack[top] = now.get(variable);
+                    stack[top] = of(variable);
                     top += 1;
                 }
-                Op::Negate => stack[top - 1] = -stack[top - 1],
-                Op::Call1(f) => stack[top - 1] = FUNCTIONS_1[f].1(stack[top - 1]),
+                Op::Negate => stack[top - 1] = stack[top - 1].negated(),
+                Op::Call1(f) => stack[top - 1] = stack[top - 1].called(f),
                 binary => {
                     top -= 1;
-                    let (a, b) = (stack[top - 1], stack[top]);
-                    stack[top - 1] = match binary {
-                        Op::Add => a + b,
-                        Op::Subtract => a - b,
-                        Op::Multiply => a * b,
-                        Op::Divide => a / b,
-                        Op::Power => power(a, b),
-                        Op::Call2(f) => FUNCTIONS_2[f].1(a, b),
-                        _ => f64::NAN,
-                    };
+                    stack[top - 1] = stack[top - 1].with(binary, stack[top]);
                 }
             }
         }
         stack[0]
+    }
+}
+
+/// What a formula can be evaluated with.
+trait Operand: Copy {
+    /// A number of the formula.
+    fn constant(value: f64) -> Self;
+
+    fn negated(self) -> Self;
+
+    /// Value of a function of one argument, by its place in the list.
+    fn called(self, function: usize) -> Self;
+
+    /// Value of an operation with a second operand.
+    fn with(self, op: Op, other: Self) -> Self;
+}
+
+impl Operand for f64 {
+    fn constant(value: f64) -> f64 {
+        value
+    }
+
+    fn negated(self) -> f64 {
+        -self
+    }
+
+    fn called(self, function: usize) -> f64 {
+        FUNCTIONS_1[function].1(self)
+    }
+
+    fn with(self, op: Op, other: f64) -> f64 {
+        match op {
+            Op::Add => self + other,
+            Op::Subtract => self - other,
+            Op::Multiply => self * other,
+            Op::Divide => self / other,
+            Op::Power => power(self, other),
+            Op::Call2(f) => FUNCTIONS_2[f].1(self, other),
+            _ => f64::NAN,
+        }
     }
 }
 
@@ -243,6 +279,3 @@ impl fmt::Display for Expression {
         f.write_str(&self.text)
     }
 }
-
-#[cfg(test)]
-mod tests;
