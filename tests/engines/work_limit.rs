@@ -77,7 +77,7 @@ fn every_engine_ends_at_the_limit_with_what_it_has() {
                         continue;
                     }
                     assert!(why.contains("--max-evaluations"), "{why}");
-                    // A turn of panels beyond it at most.
+                    // The tables of a turn beyond it at most.
                     assert!(
                         *evaluations < limit + 1500,
                         "{number} {method} {limit}: {evaluations}"
@@ -96,6 +96,21 @@ fn every_engine_ends_at_the_limit_with_what_it_has() {
                 }
             }
         }
+    }
+}
+
+/// Positions that are tabulated anew where panels are cut count as well: past the first tables, a panel beyond the limit at most.
+#[test]
+fn panels_that_are_cut_count_too() {
+    let scene = machine()
+        .torque(formula("20*max(0,1-abs(omega-30)*10)+3*sin(theta/7)^2"))
+        .start(0.0, 10.0)
+        .revolutions(4000.0);
+    for limit in [5000, 20_000, 40_000] {
+        let found = simulate(&scene, &options(Method::Angle, limit)).expect("a run");
+        assert!(found.summary.stopped.is_some());
+        let evaluations = found.summary.evaluations;
+        assert!(evaluations < limit + 700, "{limit}: {evaluations}");
     }
 }
 

@@ -57,6 +57,9 @@ pub trait Driven {
         table: &mut Table<Self::Place>,
     );
 
+    /// How many positions were tabulated so far.
+    fn positions(&self) -> u64;
+
     /// Whole turns after which everything that depends on the angle is the same again.
     fn cycle(&self) -> u32;
 
@@ -129,7 +132,7 @@ pub struct Resolution {
     pub tail: f64,
     /// Panels are cut unevenly once more from the start, which makes another discretization to compare with.
     pub other: bool,
-    /// Most evaluations of the loads.
+    /// Most evaluations of the loads and positions in tables.
     pub most_evaluations: u64,
 }
 
@@ -162,7 +165,7 @@ pub fn run<D: Driven>(
     let way = f64::from(driven.cycle()) * TAU;
     let mut leg = Segment::open();
     loop {
-        let spent = march.evaluations;
+        let spent = march.spent();
         let done = march.at_cycle() && leg.len() > 0;
         if done && pace.is_hopeless(spent, march.t.0, way).is_some() {
             return Ok(ended(
@@ -221,7 +224,7 @@ fn pace<D: Driven>(march: &PanelStepper<'_, D>, goal: Goal, reads_time: bool) ->
         way,
         evaluations: march.most_evaluations,
     };
-    WorkForecast::new(0.0, march.evaluations, ends, reads_time)
+    WorkForecast::new(0.0, march.spent(), ends, reads_time)
 }
 
 /// A run that ended before its goal, from an angle with a speed (rad/s).

@@ -44,7 +44,10 @@ pub(super) struct PanelStepper<'a, D: Driven> {
     pub gain: f64,
     /// Work of the loads without a potential, J.
     pub work: f64,
+    /// Of the loads.
     pub evaluations: u64,
+    /// Positions that were tabulated before it.
+    positions: u64,
     fastest: f64,
     start: Angle,
     pub most_evaluations: u64,
@@ -76,6 +79,7 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
             tail: resolution.tail,
             speed,
         };
+        let positions = driven.positions();
         let mut stations = stations(driven, start, fine)?;
         if resolution.other {
             let mut cut = Vec::with_capacity(2 * stations.len());
@@ -117,6 +121,7 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
             gain: 0.0,
             work: 0.0,
             evaluations: 0,
+            positions,
             fastest: kinetic,
             start,
             most_evaluations: resolution.most_evaluations,
@@ -157,6 +162,11 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
         self.fastest
     }
 
+    /// Evaluations of the loads and positions that were tabulated.
+    pub fn spent(&self) -> u64 {
+        self.evaluations + self.driven.positions() - self.positions
+    }
+
     /// Least kinetic energy at the points of the last panel, J.
     pub fn least(&self) -> f64 {
         let points = &self.swept.kinetic[..=self.swept.slope.degree()];
@@ -178,7 +188,7 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
     pub fn panel(&mut self) -> Result<Done, NotApplicable> {
         let mut turned_over = 0;
         loop {
-            if self.evaluations > self.most_evaluations {
+            if self.spent() > self.most_evaluations {
                 return Err(NotApplicable::WorkLimit);
             }
             let start = Start {

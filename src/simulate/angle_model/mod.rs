@@ -124,8 +124,7 @@ impl<'a> AngleModel<'a> {
     }
 
     fn count(&self, positions: usize) {
-        self.evaluations
-            .set(self.evaluations.get() + positions as u64);
+        self.evaluations.update(|before| before + positions as u64);
     }
 }
 
@@ -140,6 +139,10 @@ pub(super) struct Spot {
 
 impl Driven for AngleModel<'_> {
     type Place = Spot;
+
+    fn positions(&self) -> u64 {
+        self.evaluations()
+    }
 
     fn tabulate(
         &self,
