@@ -51,7 +51,7 @@ pub(super) fn friction_at(
         };
         return Ok(Some((found.map(|(alpha, _)| alpha), at)));
     }
-    let found = match guide.held(0.0, angle).free.from_rest(mu, mu_static) {
+    let found = match guide.at_rest(angle).held(0.0).free.from_rest(mu, mu_static) {
         FromRest::Hold(touch) => Some((0.0, touch.friction)),
         FromRest::Move(direction) => sliding(direction),
         FromRest::Jam(_) => None,

@@ -2,6 +2,7 @@
 //! Knows no integrator: [`Equation::acceleration`] serves any. With ode_solvers take the ends of steps
 //! (`OutputType::Sparse`), for its dense output is not to be trusted, see [`Method::Dop853`](crate::plan::Method::Dop853).
 
+mod at_rest;
 mod batch;
 mod body;
 mod clearance;
@@ -33,6 +34,7 @@ mod solid;
 mod statics;
 mod torque_slope;
 
+pub use at_rest::{AtRest, Held};
 pub use batch::Instants;
 pub use body::{Bodies, Body, Path};
 pub use clearance::{
@@ -41,7 +43,7 @@ pub use clearance::{
 };
 pub use configuration_curve::{Curve, Place};
 pub use curve_equation::{CurveEquation, CurveTerms};
-pub use dry::{Held, Sense};
+pub use dry::Sense;
 pub use equivalent::EquivalentMasses;
 pub use extremes::{Extreme, Extremes};
 pub use first_order::FirstOrder;

@@ -1,7 +1,6 @@
 //! When loads that change in time tear a sticking slider loose.
 
-use crate::mechanism::CurveEquation;
-use crate::numeric::angle::Angle;
+use crate::mechanism::AtRest;
 use crate::numeric::root;
 
 /// Where inside an interval the band is looked at: unevenly, so that no period of a load hides between.
@@ -24,21 +23,19 @@ pub(super) enum Release {
 /// The first time between `from` and `to` (s) after which the static band does not hold, and how often it was
 /// evaluated.
 pub(super) fn time(
-    equation: &CurveEquation,
-    angle: Angle,
+    rest: &AtRest<'_>,
     mu_static: f64,
     from: f64,
     to: f64,
     allowed: u64,
 ) -> (Release, u64) {
     let mut count = 0;
-    let dry = equation.loads().are_dry();
-    let band = |t: f64| equation.held(t, angle).margin(mu_static, dry);
+    let band = |t: f64| rest.margin(t, mu_static);
     let longest = FIRST * (to - from);
     let shortest = SHORTEST * (to - from);
     let (mut t, mut length) = (from, longest);
     while t < to && count < allowed {
-        let end = equation.loads().next_corner(t).min(to).min(t + length);
+        let end = rest.next_corner(t).min(to).min(t + length);
         let times = PLACES.map(|part| {
             if part == 1.0 {
                 end
@@ -56,7 +53,7 @@ pub(super) fn time(
         let least = values.iter().fold(f64::INFINITY, |a, b| a.min(*b));
         // A band that is zero throughout, as at a dead centre without weight, holds.
         let even = least > 2.0 * bend || least >= 0.0 && bend == 0.0;
-        let change = equation.margin_change(angle, mu_static, [t, end]);
+        let change = rest.margin_change(mu_static, [t, end]);
         let calm = even && least >= change;
         if calm || end - t <= shortest {
             if let Some(i) = (1..5).find(|i| values[*i] < 0.0) {

@@ -21,7 +21,7 @@ impl Run<'_, '_> {
         let friction = self.follow.friction();
         let [mu, mu_static] = friction.map_or([0.0; 2], |f| [f.coefficient, f.static_coefficient]);
         let Start { t, angle, .. } = self.now;
-        let held = self.follow.equation.held(t, angle);
+        let held = self.follow.equation.at_rest(angle).held(t);
         let direction = match held.free.from_rest(mu, mu_static) {
             FromRest::Move(direction) => {
                 if before.is_some_and(|before| before != direction) {
@@ -52,7 +52,7 @@ impl Run<'_, '_> {
         let (release, looked) = if changes {
             let spent = self.arrived.evaluations + self.quantities.evaluations.get();
             let allowed = self.follow.settings.max_evaluations.saturating_sub(spent);
-            release::time(equation, angle, mu_static, t, end, allowed)
+            release::time(&equation.at_rest(angle), mu_static, t, end, allowed)
         } else {
             (Release::Never, 0)
         };

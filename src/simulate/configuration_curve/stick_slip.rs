@@ -66,7 +66,7 @@ impl InPhase<'_> {
                 (acceleration, touch, power)
             }
             Phase::Sticking => {
-                let touch = self.equation.held(t, angle).free.holding();
+                let touch = self.equation.at_rest(angle).held(t).free.holding();
                 (0.0, touch.unwrap_or_default(), 0.0)
             }
         }
@@ -80,7 +80,7 @@ impl InPhase<'_> {
                 let now = equation.instant(place, t, angle, speed);
                 equation.loads().dry(&now, against)
             }
-            Phase::Sticking => equation.held(t, angle).dry,
+            Phase::Sticking => equation.at_rest(angle).held(t).dry,
         };
         equation.load_beside(dry, place, t, angle, speed)
     }

@@ -1,0 +1,148 @@
+//! The equation at a place of rest: what holds there, and for how long.
+
+use super::dry::sign;
+use super::friction::Free;
+use super::{Arms, CurveEquation, CurveTerms, LoadValue};
+use crate::numeric::angle::Angle;
+use crate::numeric::enclosure::{Interval, Reach};
+
+/// Operations that round the value of a load.
+const ROUNDINGS: f64 = 64.0;
+
+/// Of the range of a load no ellipse around it is asked for.
+const SOME_ELLIPSE: f64 = 2.0;
+
+/// The mechanism at rest at a coordinate q.
+pub struct AtRest<'a> {
+    equation: &'a CurveEquation,
+    terms: CurveTerms,
+    q: Angle,
+}
+
+impl CurveEquation {
+    /// The mechanism at rest at a coordinate.
+    pub fn at_rest(&self, q: Angle) -> AtRest<'_> {
+        AtRest {
+            equation: self,
+            terms: self.across(q.rest),
+            q,
+        }
+    }
+}
+
+/// The equation at rest, with what its dry loads hold.
+#[derive(Clone, Copy, Debug)]
+pub struct Held {
+    /// What is left for the guide to hold, or to move the mechanism.
+    pub free: Free,
+    /// What the dry loads hold with. Where several do, each does with the same part of its magnitude.
+    pub dry: LoadValue,
+    /// How much more they could hold, N m; negative: they cannot.
+    spare: f64,
+}
+
+impl Held {
+    fn margin(&self, mu_static: f64, dry: bool) -> f64 {
+        if !dry {
+            return self.free.band(mu_static);
+        }
+        let arm = self.free.dx.abs();
+        let pressed = |normal: f64| mu_static * normal.abs() * arm;
+        match (self.spare >= 0.0, self.free.holding()) {
+            (true, _) => self.spare + pressed(self.free.held),
+            (false, Some(touch)) => pressed(touch.normal) - self.free.pull.abs(),
+            (false, None) => self.spare,
+        }
+    }
+}
+
+impl AtRest<'_> {
+    /// The next time at which a load has a corner, s.
+    pub fn next_corner(&self, t: f64) -> f64 {
+        self.equation.loads().next_corner(t)
+    }
+
+    /// What is left at a time (s) of all that holds, zero where it gives way: N of static friction at the guide, or N m
+    /// with dry loads. These hold first, and the guide what they do not.
+    pub fn margin(&self, t: f64, mu_static: f64) -> f64 {
+        let dry = self.equation.loads().are_dry();
+        self.held(t).margin(mu_static, dry)
+    }
+
+    /// How much [`AtRest::margin`] changes at most between two times (s), as far as the loads are enclosed.
+    pub fn margin_change(&self, mu_static: f64, [from, to]: [f64; 2]) -> f64 {
+        let loads = self.equation.loads();
+        if !loads.have_detail() {
+            return 0.0;
+        }
+        let reach = Reach {
+            t: Interval::new(from, to),
+            angle: Interval::point(self.q.radians()),
+            speed: Interval::point(0.0),
+            parts: 1.0,
+        };
+        let seen = self.equation.curve().seen(&reach, loads.meet_slider());
+        let terms = &self.terms;
+        let arms = Arms {
+            torque: terms.place.dtheta,
+            force: terms.place.dx,
+        };
+        let detail = loads.detail(&seen, arms, SOME_ELLIPSE);
+        let (arm, x_n) = (terms.place.dx.abs(), terms.x_n.abs());
+        // What changes Q by one changes the torque by one at most and the force by 1/x'.
+        let most = 1.0 + mu_static * (arm * terms.theta_n.abs() + 2.0 * x_n);
+        let change = (detail.change - self.rounding(from)).max(0.0) * most;
+        match loads.are_dry() {
+            true => change,
+            false if arm > 0.0 => change / arm,
+            false => 0.0,
+        }
+    }
+
+    /// What rounding leaves open of the generalized force of the loads at rest, N m.
+    fn rounding(&self, t: f64) -> f64 {
+        let place = &self.terms.place;
+        let LoadValue { torque, force } = self.equation.load(place, t, self.q, 0.0);
+        let most = self.dry_magnitude(t);
+        let size = torque.abs() + most.torque + (force.abs() + most.force) * place.dx.abs();
+        ROUNDINGS * f64::EPSILON * size
+    }
+
+    /// What the dry loads oppose motion with at most, N m and N.
+    fn dry_magnitude(&self, t: f64) -> LoadValue {
+        let now = self.equation.instant(&self.terms.place, t, self.q, 0.0);
+        self.equation.loads().dry_magnitude(&now)
+    }
+
+    /// What holds it at a time, s.
+    pub fn held(&self, t: f64) -> Held {
+        let terms = &self.terms;
+        let mut free = self.equation.without_dry(terms, t, self.q, 0.0);
+        if !self.equation.loads().are_dry() {
+            return Held {
+                free,
+                dry: LoadValue::default(),
+                spare: -free.pull.abs(),
+            };
+        }
+        let place = &terms.place;
+        let most = self.dry_magnitude(t);
+        let band = most.torque * place.dtheta.abs() + most.force * place.dx.abs();
+        let spare = band - free.pull.abs();
+        let part = match spare >= 0.0 {
+            true if band > 0.0 => -free.pull / band,
+            true => 0.0,
+            false => -sign(free.pull),
+        };
+        let dry = LoadValue {
+            torque: part * most.torque * sign(place.dtheta),
+            force: part * most.force * sign(place.dx),
+        };
+        free.push(terms, dry, 0.0);
+        if spare >= 0.0 {
+            // What is held leaves nothing, not even rounding.
+            free.pull = 0.0;
+        }
+        Held { free, dry, spare }
+    }
+}
