@@ -1,6 +1,7 @@
 //! Turns that follow from the kinetic energy at their start, by interpolation between turns that were computed.
 
 use std::f64::consts::TAU;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::segment::Segment;
 use crate::numeric::angle::Angle;
@@ -128,6 +129,30 @@ pub(in crate::engine) struct Turns {
     pub last: Segment,
     /// Whether the turns from the last mark but one on are all the same.
     pub steady: bool,
+    /// The turn that was asked for last.
+    pub recent: Recent,
+}
+
+/// The motion in one turn, with the mark at which it begins: rows and events of a turn follow each other.
+#[derive(Debug, Default)]
+pub(in crate::engine) struct Recent(Mutex<Option<(Mark, Arc<Segment>)>>);
+
+impl Recent {
+    fn or_new(&self, mark: &Mark, new: impl FnOnce() -> Segment) -> Arc<Segment> {
+        let mut recent = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = recent.take().filter(|(known, _)| {
+            known.turns.to_bits() == mark.turns.to_bits()
+                && known.kinetic.to_bits() == mark.kinetic.to_bits()
+        });
+        let (_, leg) = recent.insert(known.unwrap_or_else(|| (*mark, Arc::new(new()))));
+        Arc::clone(leg)
+    }
+}
+
+impl Clone for Recent {
+    fn clone(&self) -> Recent {
+        Recent::default()
+    }
 }
 
 impl Turns {
@@ -173,20 +198,20 @@ impl Turns {
         &self.marks[self.marks.len() - 1]
     }
 
-    /// The motion in the turn that begins at a mark.
-    fn leg(&self, mark: &Mark) -> Segment {
-        if mark.turns >= self.last_mark().turns {
-            return self.last.clone();
-        }
-        self.cell(mark.kinetic)
-            .map_or_else(|| self.last.clone(), |cell| cell.leg(mark.kinetic))
+    /// What is asked for of the motion in the turn that begins at a mark.
+    fn on_leg<T>(&self, mark: &Mark, of: impl FnOnce(&Segment) -> T) -> T {
+        let whole = mark.turns < self.last_mark().turns;
+        let Some(cell) = self.cell(mark.kinetic).filter(|_| whole) else {
+            return of(&self.last);
+        };
+        of(&self.recent.or_new(mark, || cell.leg(mark.kinetic)))
     }
 
     /// Angle from the start of the run's first turn, and speed.
     pub fn state(&self, t: f64, direction: f64) -> (Angle, f64) {
         let left = |mark: &Mark, turn: &Turn| mark.until(t) / turn.duration;
         let mark = self.find(|mark| mark.until(t) >= 0.0, left);
-        let (angle, speed) = self.leg(&mark).state(mark.until(t));
+        let (angle, speed) = self.on_leg(&mark, |leg| leg.state(mark.until(t)));
         let angle = Angle {
             turns: angle.turns + direction * mark.turns,
             rest: angle.rest,
@@ -200,7 +225,8 @@ impl Turns {
         let left = |mark: &Mark, turn: &Turn| (whole - mark.turns) / turn.count;
         let mark = self.find(|mark| mark.turns <= whole, left);
         let ahead = radians - mark.turns * TAU;
-        let after = self.leg(&mark).time_of((rest + direction * ahead).into())?;
+        let angle = Angle::from(rest + direction * ahead);
+        let after = self.on_leg(&mark, |leg| leg.time_of(angle))?;
         Some(mark.t.0 + (mark.t.1 + after))
     }
 
@@ -224,7 +250,7 @@ impl Turns {
             before_last,
         ];
         for mark in marks.into_iter().flatten() {
-            let (low, high) = self.leg(&mark).speed_range(0.0, f64::INFINITY);
+            let (low, high) = self.on_leg(&mark, |leg| leg.speed_range(0.0, f64::INFINITY));
             range = (range.0.min(low), range.1.max(high));
         }
         range
@@ -235,7 +261,7 @@ impl Turns {
         let last = *self.last_mark();
         let mut mark = self.marks[0];
         while mark.turns < last.turns {
-            if !visit(&mark, &self.leg(&mark)) {
+            if !self.on_leg(&mark, |leg| visit(&mark, leg)) {
                 return;
             }
             let Some(turn) = self.turn(mark.kinetic) else {

@@ -5,7 +5,7 @@ mod cells;
 use std::f64::consts::TAU;
 
 use super::super::energy::segment::Segment;
-use super::super::energy::turns::{Mark, Turn, Turns};
+use super::super::energy::turns::{Mark, Recent, Turn, Turns};
 use super::super::energy::{NotApplicable, Orbit};
 use super::stepper::PanelStepper;
 use super::{Done, Driven, Driving, Errors, Goal, Resolution, Short, work_until};
@@ -58,6 +58,7 @@ pub(super) fn run<D: Driven>(
             marks: vec![mark],
             last: Segment::open(),
             steady: false,
+            recent: Recent::default(),
         },
     };
     let (last, why) = way.turn_of(goal);
