@@ -22,6 +22,9 @@ const PIECES: usize = 8;
 /// Most turning points that are found in a step.
 const TURNINGS: usize = 6;
 
+/// An angle in its turn, and one that is watched, are rounded by less than this together, rad.
+pub const ROUNDED: f64 = 4.0 * f64::EPSILON * TAU;
+
 /// All crossings inside a step, in the order of time, as (time, what). `watched` are angles in [0, 2π).
 pub fn crossings(step: &Step, watched: &[f64], found: &mut Vec<(f64, Crossing)>) {
     found.clear();
@@ -99,23 +102,20 @@ impl Turn {
     }
 }
 
-/// Passages of watched angles on a piece where the angle is monotone; the start does not count.
+/// Passages of watched angles on a piece where the angle is monotone. The angle of the start does not count, that of the end
+/// does, and what rounding does not tell from either is the same: steps that end at a watched angle pass it once.
 fn passages(step: &Step, watched: &[f64], from: f64, to: f64, found: &mut Vec<(f64, Crossing)>) {
     let (a, b) = (step.at(from).0, step.at(to).0);
-    let (low, high) = (a.min(b), a.max(b));
+    let direction = (b - a).signum();
     for (index, angle) in watched.iter().enumerate() {
-        let mut turn = ((low - angle) / TAU).floor();
+        let mut turn = ((a.min(b) - ROUNDED - angle) / TAU).floor();
         loop {
             let target = angle + turn * TAU;
-            if target > high {
+            if target > a.max(b) + ROUNDED {
                 break;
             }
-            let passed = if b > a { target > a } else { target < a };
-            if target >= low
-                && passed
-                && let Some(t) = step.time_of_angle(target, from, to)
-                && t > step.start.t
-            {
+            if direction * (target - a) > ROUNDED && direction * (target - b) <= ROUNDED {
+                let t = step.time_of_angle(target, from, to).unwrap_or(to);
                 found.push((t, Crossing::Angle(index)));
             }
             turn += 1.0;

@@ -44,6 +44,11 @@ pub trait Motion {
         Detail::NONE
     }
 
+    /// The first coordinate, rad, after `from` on the way to `to` at which the acceleration is known not to be smooth.
+    fn corner_on_way(&self, _from: f64, _to: f64) -> Option<f64> {
+        None
+    }
+
     /// What the motion takes from the time alone: computed once for each instant of a [`Batch`].
     fn of_time(&self, _t: f64) -> [f64; 2] {
         [0.0; 2]
@@ -156,6 +161,10 @@ impl Motion for Counted<'_> {
 
     fn detail(&self, reach: &Reach, ellipse: f64) -> Detail {
         self.motion.detail(reach, ellipse)
+    }
+
+    fn corner_on_way(&self, from: f64, to: f64) -> Option<f64> {
+        self.motion.corner_on_way(from, to)
     }
 
     fn of_time(&self, t: f64) -> [f64; 2] {

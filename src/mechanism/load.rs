@@ -134,9 +134,16 @@ impl Loads {
 
     /// The first of them, rad, after `from` on the way to `to`, in either direction.
     pub fn corner_out_of_step(&self, from: f64, to: f64) -> Option<f64> {
-        let corners = self
-            .called()
-            .filter_map(|load| load.corner_out_of_step(from, to));
+        self.first_on_way(from, |load| load.corner_out_of_step(from, to))
+    }
+
+    /// The first row, rad, of tables over the crank angle after `from` on the way to `to`, in either direction.
+    pub fn row_on_way(&self, from: f64, to: f64) -> Option<f64> {
+        self.first_on_way(from, |load| load.row_on_way(from, to))
+    }
+
+    fn first_on_way(&self, from: f64, corner: impl Fn(&Load) -> Option<f64>) -> Option<f64> {
+        let corners = self.called().filter_map(corner);
         corners.min_by(|a, b| (a - from).abs().total_cmp(&(b - from).abs()))
     }
 

@@ -70,6 +70,13 @@ impl Curve {
 
     /// The first point after `at`, where the curve is not smooth; infinite if there is none.
     pub fn next_point(&self, at: f64) -> f64 {
+        self.points_after(at)
+            .next()
+            .map_or(f64::INFINITY, |[x, _]| x)
+    }
+
+    /// The points after `at` with their values, in rising order.
+    fn points_after(&self, at: f64) -> impl Iterator<Item = [f64; 2]> {
         let turns = match self.period {
             Some(period) => ((at - self.x[0]) / period).floor() * period,
             None => 0.0,
@@ -77,11 +84,15 @@ impl Curve {
         // The same point again, off by rounding, is not a next one.
         let after = at + 1e-12 * self.spacing + 2.0 * f64::EPSILON * at.abs();
         let next = self.x.partition_point(|x| x + turns <= after);
-        match (self.x.get(next), self.period) {
-            (Some(x), _) => x + turns,
-            (None, Some(period)) => self.x[1] + turns + period,
-            (None, None) => f64::INFINITY,
-        }
+        // The last point of a period is the first one of the next.
+        let periods = self.period.into_iter();
+        let later =
+            periods.flat_map(|period| (1..u32::MAX).map(move |k| (f64::from(k) * period, 1)));
+        let starts = std::iter::once((0.0, next)).chain(later);
+        starts.flat_map(move |(further, first)| {
+            let points = self.x[first..].iter().zip(&self.y[first..]);
+            points.map(move |(x, y)| [x + (turns + further), *y])
+        })
     }
 
     /// The points between two arguments, periods counted, in rising order.
@@ -137,13 +148,12 @@ impl Curve {
         }
         let ends = [from, to].map(|at| self.value(at));
         let mut real = Interval::between(ends[0], ends[1]);
-        let mut next = self.next_point(from);
         // A point at the end, off by rounding, is not inside.
         let before = to - 1e-12 * self.spacing - 2.0 * f64::EPSILON * to.abs();
-        let smooth = next >= before;
-        while next < before {
-            real = real.hull(Interval::point(self.value(next)));
-            next = self.next_point(next);
+        let mut smooth = true;
+        for [_, y] in self.points_after(from).take_while(|[x, _]| *x < before) {
+            real = real.hull(Interval::point(y));
+            smooth = false;
         }
         if smooth && real != Interval::WHOLE {
             Enclosed {

@@ -1,6 +1,7 @@
 //! Where loads are not smooth, as far as their tables say so.
 
 use std::f64::consts::TAU;
+use std::iter::successors;
 
 use super::{Load, Repeats, Table, Variable};
 
@@ -36,18 +37,23 @@ impl Load {
 
     /// The first of them, rad, after `from` on the way to `to`, in either direction.
     pub fn corner_out_of_step(&self, from: f64, to: f64) -> Option<f64> {
-        let Some((table, Step::Without)) = self.angle_table() else {
-            return None;
-        };
-        // Within a period there is one.
-        let far = table.period()?.min((to - from).abs());
-        let reach = from + far * (to - from).signum();
-        let rows = table.rows_between(from.min(reach), from.max(reach));
-        if from < to {
-            rows.first().copied()
-        } else {
-            rows.last().copied()
+        match self.angle_table() {
+            Some((_, Step::Without)) => self.row_on_way(from, to),
+            _ => None,
         }
+    }
+
+    /// The first row, rad, of a table over the crank angle after `from` on the way to `to`, in either direction.
+    pub fn row_on_way(&self, from: f64, to: f64) -> Option<f64> {
+        let table = self.table().filter(|table| table.of() == Variable::Theta)?;
+        let way = (to - from).abs();
+        // Within a period there is one.
+        let far = table.period().map_or(way, |period| period.min(way));
+        let reach = from + far * (to - from).signum();
+        let (low, high) = (from.min(reach), from.max(reach));
+        let next = |row: &f64| Some(table.next_row(*row));
+        let mut rows = successors(next(&low), next).take_while(|row| *row < high);
+        if from < to { rows.next() } else { rows.last() }
     }
 
     /// A table over the crank angle, and how it keeps step with the turns.

@@ -49,6 +49,10 @@ impl Motion for Forward<'_> {
         force.times(1.0 / self.0.terms(reach.angle.middle()).inertia.m)
     }
 
+    fn corner_on_way(&self, from: f64, to: f64) -> Option<f64> {
+        self.0.loads().row_on_way(from, to)
+    }
+
     fn of_time(&self, t: f64) -> [f64; 2] {
         let LoadValue { torque, force } = self.0.loads().of_time(t);
         [torque, force]

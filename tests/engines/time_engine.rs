@@ -744,3 +744,35 @@ fn a_short_run_at_a_loose_tolerance_is_stated_as_exact_as_it_is() {
         }
     }
 }
+
+/// Rows of a table at 0 and 180 degrees end steps where the dead centres are.
+#[test]
+fn dead_centres_at_the_rows_of_a_table_are_passed_once_in_each_turn() {
+    let angles: Vec<f64> = (0..=12).map(|i| f64::from(i) * TAU / 12.0).collect();
+    let torques: Vec<f64> = (0..=12).map(|i| [0.3, -0.2, -0.1][i as usize % 3]).collect();
+    let linear = Interpolation::Linear;
+    let table = Table::new(Variable::Theta, &angles, &torques, linear, Some(TAU)).expect("a table");
+    for speed in [30.0, -30.0] {
+        let scene = Scene::new(0.05, 0.15)
+            .crank(Crank {
+                inertia: 0.02,
+                ..Crank::default()
+            })
+            .slider(Slider { mass: 0.6 })
+            .torque(Load::Table(table.clone()))
+            .start(0.3, speed)
+            .revolutions(200.0);
+        let options = Options {
+            method: Method::Time,
+            ..Options::default()
+        };
+        let events = simulate(&scene, &options).expect("a run").summary.events;
+        let way = speed.signum();
+        let first = if way > 0.0 { PI } else { 0.0 };
+        assert_eq!(events.len(), 400);
+        for (i, event) in events.iter().enumerate() {
+            let expected = first + way * PI * i as f64;
+            assert!((event.theta_rad - expected).abs() < 1e-10, "{speed} {i}");
+        }
+    }
+}

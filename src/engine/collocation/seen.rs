@@ -1,6 +1,6 @@
 //! Whether the nodes of a step show the acceleration on it.
 
-use super::super::sight::Way;
+use super::super::sight::{Way, corner_on_step};
 use super::super::step::Step;
 use super::super::{Counted, Motion, NODES};
 use super::series::legendre;
@@ -41,6 +41,10 @@ impl Way for OnStep<'_> {
             speed,
             parts: 1.0,
         }
+    }
+
+    fn corner(&self, from: f64, to: f64) -> Option<f64> {
+        corner_on_step(self.motion, self.step, from, to)
     }
 
     fn missed(&self, at: f64) -> f64 {

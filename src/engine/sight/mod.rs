@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use crate::numeric::enclosure::{Detail, shown};
 
-pub use steps::Proof;
+pub use steps::{Proof, corner_on_step};
 
 /// The motion on a panel or a step, over its part from 0 to 1.
 pub trait Way {
@@ -15,6 +15,11 @@ pub trait Way {
 
     /// The values between two parts of it.
     fn reach(&self, from: f64, to: f64) -> Self::Part;
+
+    /// Where a corner of the force is known to be inside a part of it, the first one.
+    fn corner(&self, _from: f64, _to: f64) -> Option<f64> {
+        None
+    }
 
     /// The force there less that which the nodes show.
     fn missed(&self, at: f64) -> f64;
@@ -154,9 +159,9 @@ impl Search {
                 Some(nodes) => self.compare(way, [from, to], nodes),
                 None if self.is_least(&detail, to - from) => self.note_corner(&detail, from, to),
                 None => {
-                    let middle = 0.5 * (from + to);
-                    left[count] = [middle, to];
-                    left[count + 1] = [from, middle];
+                    let [before, behind] = self.divided(way, from, to);
+                    left[count] = [behind, to];
+                    left[count + 1] = [from, before];
                     count += 2;
                 }
             }
@@ -167,6 +172,24 @@ impl Search {
         (self.is_missed || self.cuts_off())
             .then(|| self.place())
             .flatten()
+    }
+
+    /// Where a piece is divided: beside a corner that is known, or in the middle.
+    fn divided(&mut self, way: &impl Way, from: f64, to: f64) -> [f64; 2] {
+        let least = self.look.least;
+        let inside = |at: &f64| at - least > from && at + least < to;
+        let Some(at) = way.corner(from, to).filter(inside) else {
+            return [0.5 * (from + to); 2];
+        };
+        self.corner_at(at);
+        [at - least, at + least]
+    }
+
+    fn corner_at(&mut self, at: f64) {
+        if self.corner.is_none() {
+            self.corner = Some(at);
+            self.is_missed |= !self.look.compares;
+        }
     }
 
     /// Whether there is a corner so near to an end that the nodes are all on one side, and something on the other.
@@ -193,9 +216,8 @@ impl Search {
 
     fn note_corner(&mut self, detail: &Detail, from: f64, to: f64) {
         let is_at_end = from == self.whole[0] || to == self.whole[1];
-        if detail.around.is_none() && !is_at_end && self.corner.is_none() {
-            self.corner = Some(0.5 * (from + to));
-            self.is_missed |= !self.look.compares;
+        if detail.around.is_none() && !is_at_end {
+            self.corner_at(0.5 * (from + to));
         }
     }
 
@@ -216,7 +238,7 @@ impl Search {
         if integral > self.look.allowed * (to - from) && self.first.is_none() {
             self.first = Some([from, to]);
         }
-        self.missed[usize::from(self.corner.is_some())] += integral;
+        self.missed[usize::from(self.corner.is_some_and(|at| from >= at))] += integral;
         self.is_missed = self.missed.iter().sum::<f64>() > self.look.allowed;
     }
 }

@@ -69,6 +69,15 @@ impl<'a> Proof<'a> {
     }
 }
 
+/// The first corner of the acceleration that is known to be in a part of a step.
+pub fn corner_on_step(motion: &dyn Motion, step: &Step, from: f64, to: f64) -> Option<f64> {
+    let [begin, end] = [from, to].map(|at| step.start.t + at * step.length());
+    let [first, last] = [begin, end].map(|t| step.angle(step.at(t).0).radians());
+    let corner = motion.corner_on_way(first, last)?;
+    let t = step.time_of_angle(corner - step.angle(0.0).radians(), begin, end)?;
+    Some((t - step.start.t) / step.length())
+}
+
 /// The motion on a step.
 struct OnStep<'a> {
     motion: &'a Counted<'a>,
@@ -97,6 +106,10 @@ impl Way for OnStep<'_> {
             speed,
             parts: 1.0,
         }
+    }
+
+    fn corner(&self, from: f64, to: f64) -> Option<f64> {
+        corner_on_step(self.motion, self.step, from, to)
     }
 
     fn missed(&self, _at: f64) -> f64 {

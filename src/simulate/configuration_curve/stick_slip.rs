@@ -1,10 +1,10 @@
 //! Motion between two changes of the friction: the signs of slider velocity and normal force stay.
 
 use std::cell::Cell;
-use std::f64::consts::TAU;
 
 use crate::engine::Motion;
 use crate::engine::event_functions::EventFunction;
+use crate::engine::events::ROUNDED;
 use crate::mechanism::{CurveEquation, LoadValue, Place, Sense, Touch};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{Detail, Reach};
@@ -120,6 +120,11 @@ impl Motion for InPhase<'_> {
         let seen = self.equation.curve().seen(reach, loads.meet_slider());
         loads.detail(&seen, self.equation.arms(reach.angle, c), ellipse)
     }
+
+    fn corner_on_way(&self, from: f64, to: f64) -> Option<f64> {
+        let by_crank = self.equation.curve().is_crank_angle();
+        by_crank.then(|| self.equation.loads().row_on_way(from, to))?
+    }
 }
 
 /// What is looked at during a run.
@@ -162,8 +167,6 @@ impl EventFunction<QUANTITIES> for Quantities<'_> {
 
 /// How far ahead of a start the signs show, rad.
 pub(super) const AHEAD: f64 = 1e-6;
-/// An angle in its turn, and that of a dead centre, are rounded by less than this together, rad.
-const ROUNDED: f64 = 4.0 * f64::EPSILON * TAU;
 
 /// The signs with which motion in `direction` (±1 of the coordinate) begins: where a quantity is zero but for the
 /// rounding of the angle, that of `ahead`, its value a little further.
