@@ -34,7 +34,7 @@ pub(super) struct Fitted {
     pub settled: bool,
     /// The row that is farthest off, of those that hardly count because they are.
     pub farthest_outlier: Option<usize>,
-    /// Step of an encoder, rad, whose codes were told by their transitions.
+    /// Step of an encoder, or of rounding, rad, which is wider than the noise.
     pub coded: Option<f64>,
     /// Least standard deviation of a sample, rad or m.
     floor: f64,
@@ -105,8 +105,11 @@ impl Fitted {
     }
 
     fn smoothed(record: Record<'_>, angles: &CrankAngles<'_>, equation: &Equation) -> Fitted {
-        let (problem, kinematic) = kinematic(record, angles, equation);
-        let (smoothed, candidates) = problem.likeliest(kinematic);
+        let (mut problem, kinematic) = kinematic(record, angles, equation);
+        let (smoothed, candidates) = match problem.record.codes {
+            Some(_) => problem.likeliest_of_codes(kinematic),
+            None => problem.likeliest(kinematic),
+        };
         Fitted::of_smoother(&problem, &smoothed, &candidates)
     }
 
@@ -117,9 +120,7 @@ impl Fitted {
     ) -> Fitted {
         let record = &problem.record;
         let of_sample = |i: usize| problem.at_sample(&smoothed.estimates, i);
-        let motion = parallel::list(record.row_count(), |row| {
-            motion_of(&of_sample(record.sample_of(row)))
-        });
+        let motion = parallel::list(record.times.len(), |i| motion_of(&of_sample(i)));
         let sigma = smoothed.noise.sigma;
         let shares = (0..record.times.len()).map(|i| {
             let estimate = of_sample(i);
@@ -138,7 +139,9 @@ impl Fitted {
                 log_likelihood: *likelihood,
             });
         fitted.free = (samples - parameters).max(1.0);
-        fitted.patterned = whiteness.is_violated() && sigma > record.floor;
+        // Codes have no prediction errors that would be normal.
+        fitted.patterned =
+            whiteness.is_violated() && sigma > record.floor && record.codes.is_none();
         fitted.settled = smoothed.settled;
         fitted.summary = FitSummary {
             kind: "smoother",
@@ -193,7 +196,7 @@ impl Fitted {
     /// Measured values and residuals of a motion.
     fn of_motion(record: &Record<'_>, motion: Vec<MotionEstimate>) -> Fitted {
         let sensor = record.sensor;
-        let value = |row: usize| record.values[record.sample_of(row)];
+        let value = |row: usize| record.measured(row);
         let residuals = parallel::list(motion.len(), |row| {
             sensor.residual(value(row), motion[row].value[0]).0
         });
@@ -225,7 +228,7 @@ impl Fitted {
             patterned: false,
             settled: true,
             farthest_outlier,
-            coded: record.step,
+            coded: record.codes.as_ref().map(|codes| codes.step),
             floor: record.floor,
         }
     }
@@ -246,12 +249,7 @@ pub(super) fn kinematic<'a>(
         let first = first_path(&problem, angles);
         kinematic = problem.kinematic(first, sigma);
     }
-    // An encoder has no outliers.
-    let rounds = match problem.record.rows {
-        Some(_) => 0,
-        None => OUTLIER_ROUNDS,
-    };
-    for _ in 0..rounds {
+    for _ in 0..OUTLIER_ROUNDS {
         let Some(weights) = outliers::weights(&problem, &kinematic) else {
             break;
         };
@@ -263,7 +261,14 @@ pub(super) fn kinematic<'a>(
             break;
         }
     }
-    (problem, kinematic)
+    match problem.coded(&kinematic) {
+        Some(codes) => {
+            problem.record.codes = Some(codes);
+            let found = problem.propagated(kinematic);
+            (problem, found)
+        }
+        None => (problem, kinematic),
+    }
 }
 
 pub(super) fn first_path(problem: &Problem<'_>, angles: &CrankAngles<'_>) -> Path {

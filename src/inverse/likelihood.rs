@@ -39,6 +39,8 @@ pub(super) struct Scales {
     pub speed: f64,
     /// Least standard deviation of a sample, rad or m.
     pub floor: f64,
+    /// Standard deviation of a sample of weight 1, where it is known.
+    pub known: Option<f64>,
 }
 
 /// Noise of the process and of the samples.
@@ -144,9 +146,8 @@ impl Linear<'_> {
         let dimension = 2 + self.prior.order;
         let starts = (dimension * self.stretches.len()) as f64;
         let free = evidence.samples as f64 - starts;
-        noise.sigma = (evidence.squares / free.max(1.0))
-            .sqrt()
-            .max(self.scales.floor);
+        let profiled = (evidence.squares / free.max(1.0)).sqrt();
+        noise.sigma = self.scales.known.unwrap_or(profiled).max(self.scales.floor);
         let spread = self.spread();
         let Scales {
             lever,
@@ -224,14 +225,19 @@ impl Linear<'_> {
         low
     }
 
+    /// The likeliest corner frequency beside what else a noise has.
+    pub fn renewed(&self, noise: Noise) -> Noise {
+        let by_corner = |corner| self.evaluated(Noise { corner, ..noise });
+        self.over(noise.corner, by_corner)
+    }
+
     /// The likeliest noise of g beside that of u: a loss that is not in proportion to the speed.
     pub fn with_drift(&self, mut noise: Noise) -> Noise {
         for _ in 0..2 {
             let guess = noise.level.max(noise.corner);
             let by_level = self.over(guess, |level| self.evaluated(Noise { level, ..noise }));
             noise = better(noise, by_level);
-            let by_corner = |corner| self.evaluated(Noise { corner, ..noise });
-            noise = better(noise, self.over(noise.corner, by_corner));
+            noise = better(noise, self.renewed(noise));
         }
         noise
     }

@@ -3,6 +3,7 @@
 use super::kalman;
 use super::likelihood::{Linear, Noise, Scales, Stretch};
 use super::linearised::{Motion, Prior, Rates, State};
+use super::quantised::Codes;
 use super::record::{Grid, Path, Record, hermite};
 use super::state_space::Deviations;
 use crate::mechanism::Equation;
@@ -177,6 +178,7 @@ impl<'a> Problem<'a> {
             motion: shape,
             speed: spread((0..times.len()).step_by(stride).map(|k| state(k)[1])),
             floor: self.record.floor,
+            known: self.record.codes.as_ref().map(Codes::spread),
         }
     }
 

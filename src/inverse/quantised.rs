@@ -1,109 +1,342 @@
-//! Codes of an encoder where several samples lie in one step: the times of going from code to code tell more than the codes.
+//! Codes of an encoder: each says that the crank is within one step, with the probability Φ((b − θ)/ε) − Φ((a − θ)/ε) for the
+//! ends a, b of the step and their jitter ε. Expectation propagation (Minka 2001) puts a normal distribution in the place of
+//! each such likelihood: the one with the moments that the code leaves of what all other samples say. Where the shaft is slow
+//! the codes inside a step say nothing and the passages say much; where it is fast each is worth step²/12.
 
-/// Samples that stand for others.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Transitions {
-    /// s, rising.
-    pub times: Vec<f64>,
-    /// rad
+use super::likelihood::Linear;
+use super::linearised::Prior;
+use super::problem::Problem;
+use super::smoother::Smoothed;
+use crate::numeric::parallel;
+
+/// Codes of an encoder.
+#[derive(Clone, Debug)]
+pub(super) struct Codes {
+    /// Middles of the steps that were shown, rad; not a number of a sample that does not count.
     pub values: Vec<f64>,
-    /// Weight beside a sample whose error is spread over a step.
-    pub weights: Vec<f64>,
-    /// Where each original sample is among these.
-    pub rows: Vec<usize>,
-    /// The step, rad.
+    /// Width of a step, rad.
     pub step: f64,
 }
 
-/// Part of the samples that are equal to the one before from which on codes are told by their transitions.
-const DWELLING: f64 = 0.15;
-
-/// Part of a step to which differences are multiples of it.
-const MULTIPLE: f64 = 0.05;
-
-/// The step of which all differences are multiples, if there is one.
-fn common_step(values: &[f64]) -> Option<f64> {
-    let differences = values.windows(2).map(|w| (w[1] - w[0]).abs());
-    let step = differences
-        .clone()
-        .filter(|d| *d > 0.0)
-        .fold(f64::INFINITY, f64::min);
-    let off = |d: f64| (d / step - (d / step).round()).abs();
-    let largest = values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-    // What the digits leave of large multiples.
-    let is_multiple = |d: f64| d < 20.0 * step && off(d) < MULTIPLE || d >= 20.0 * step;
-    (step.is_finite() && step > 1e-12 * largest && differences.clone().all(is_multiple))
-        .then_some(step)
-}
-
-/// The transitions of codes, if most samples dwell on them.
-///
-/// A transition by one step lies between two samples, at a time with the variance h²/12 for the time h between them; as an angle
-/// that is (step/len)²/12 for a code that stays for len samples, the shorter stay on both sides. The samples of one stay have
-/// one error together, of the variance step²/12: each has its share of that weight.
-pub(super) fn transitions(times: &[f64], values: &[f64]) -> Option<Transitions> {
-    let equal = values.windows(2).filter(|w| w[0] == w[1]).count();
-    if (equal as f64) < DWELLING * values.len() as f64 {
-        return None;
+impl Codes {
+    /// Values as codes: of an encoder, or rounded to digits of this size, rad.
+    pub fn of(values: &[f64], digits: f64) -> Option<Codes> {
+        Codes::of_encoder(values, digits).or_else(|| Codes::rounded(values, digits))
     }
-    let mut found = Transitions {
-        step: common_step(values)?,
-        ..Transitions::default()
-    };
-    let mut first = 0;
-    let mut before: Option<(usize, usize)> = None;
-    while first < values.len() {
-        let length = values[first..]
-            .iter()
-            .take_while(|v| **v == values[first])
-            .count();
-        if let Some((last, stayed)) = before {
-            let is_one = (values[first] - values[last]).abs() < 1.5 * found.step;
-            if is_one && stayed.max(length) > 1 {
-                let stay = stayed.min(length) as f64;
-                found.times.push(0.5 * (times[last] + times[first]));
-                found.values.push(0.5 * (values[last] + values[first]));
-                found.weights.push(stay * stay);
+
+    /// Values rounded to digits of one size.
+    fn rounded(values: &[f64], digits: f64) -> Option<Codes> {
+        let is_multiple = |v: &f64| (v / digits - (v / digits).round()).abs() < MULTIPLE;
+        let largest = values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        (digits > 1e-12 * largest && values.iter().all(is_multiple)).then(|| Codes {
+            values: values.to_vec(),
+            step: digits,
+        })
+    }
+
+    /// Values of which all differences are multiples of a step that is far wider than the digits.
+    fn of_encoder(values: &[f64], digits: f64) -> Option<Codes> {
+        let largest = values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        let digits = (4.0 * digits).max(1e-13 * largest);
+        let mut step = 0.0f64;
+        for pair in values.windows(2) {
+            let mut rest = (pair[1] - pair[0]).abs();
+            // Euclid's algorithm to what the digits leave.
+            while rest > digits {
+                (step, rest) = (rest, step % rest);
+                rest = rest.min(step - rest);
+            }
+            if step > 0.0 && step < WIDE * digits {
+                return None;
             }
         }
-        for i in first..first + length {
-            found.rows.push(found.times.len());
-            found.times.push(times[i]);
-            found.values.push(values[i]);
-            found.weights.push(1.0 / length as f64);
+        if step == 0.0 {
+            return None;
         }
-        before = Some((first + length - 1, length));
-        first += length;
+        let (mut squares, mut products) = (0.0, 0.0);
+        let mut most = 0.0f64;
+        for pair in values.windows(2) {
+            let difference = pair[1] - pair[0];
+            let count = (difference / step).round();
+            squares += count * count;
+            products += count * difference;
+            most = most.max(count.abs());
+        }
+        // Differences that are all the same are a steady speed.
+        (most > 1.0 || values.windows(2).any(|pair| pair[0] == pair[1])).then(|| Codes {
+            values: values.to_vec(),
+            step: products / squares,
+        })
     }
-    Some(found)
+
+    /// Standard deviation of an error that may lie anywhere in a step, rad.
+    pub fn spread(&self) -> f64 {
+        self.step / 12f64.sqrt()
+    }
+}
+
+/// Part of a step to which numbers are multiples of it.
+const MULTIPLE: f64 = 0.01;
+
+/// Digits in a step from which on it is one of an encoder, not of rounding.
+const WIDE: f64 = 100.0;
+
+/// Jitters that are tried, in steps, and most samples by which one is chosen.
+const JITTERS: [f64; 8] = [1e-3, 0.01, 0.03, 0.1, 0.2, 0.3, 0.5, 1.0];
+const ENOUGH: usize = 4000;
+
+/// Part by which the normal distributions move towards the moments.
+const DAMPING: f64 = 0.6;
+
+/// What all other samples say of the angle at a code: mean from the middle of the step and variance, in steps.
+#[derive(Clone, Copy, Debug)]
+struct Cavity {
+    mean: f64,
+    variance: f64,
+}
+
+/// A normal distribution that stands for a code: precision, and that times the mean from the middle of the step, in steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Site {
+    precision: f64,
+    shift: f64,
+}
+
+impl Cavity {
+    /// ln of the probability of the code, and the normal distribution of the same moments in its place.
+    fn matched(&self, jitter: f64) -> (f64, Site) {
+        let variance = self.variance + jitter * jitter;
+        let spread = variance.sqrt();
+        let far = Site {
+            precision: 1.0 / (1.0 / 12.0 + jitter * jitter),
+            shift: 0.0,
+        };
+        let (a, b) = ((-0.5 - self.mean) / spread, (0.5 - self.mean) / spread);
+        let [at_a, at_b] = [a, b].map(density);
+        let probability = match a > 0.0 {
+            true => tail(a) - tail(b),
+            false => tail(-b) - tail(-a),
+        };
+        // What a narrow step leaves is a normal distribution already; one that is far away says no more than its place.
+        if 1.0 < NARROW * spread || probability < f64::MIN_POSITIVE.sqrt() {
+            let off = self.mean * self.mean / (variance + 1.0 / 12.0);
+            return (-0.5 * (off + (variance + 1.0 / 12.0).ln()) - 0.919, far);
+        }
+        let slope = (at_a - at_b) / (spread * probability);
+        let bend = slope * slope + (b * at_b - a * at_a) / (variance * probability);
+        let left = 1.0 - self.variance * bend;
+        let precision = (bend / left).max(0.0);
+        if !(precision.is_finite() && left > 0.0) {
+            return (probability.ln(), far);
+        }
+        // λ times (mean + slope/bend), without a quotient of two that vanish.
+        let shift = precision * self.mean + slope / left;
+        (probability.ln(), Site { precision, shift })
+    }
+}
+
+/// Width of a step over the spread of what the others say, below which the step is narrow.
+const NARROW: f64 = 0.3;
+
+/// The density of the standard normal distribution.
+fn density(z: f64) -> f64 {
+    (-0.5 * z * z).exp() * 0.398_942_280_401_432_7
+}
+
+/// The probability that a standard normal variable is beyond z, by the continued fraction of Mills' ratio, and by the series
+/// of the error function near zero; right to 1e-9 of itself.
+fn tail(z: f64) -> f64 {
+    if z < 0.0 {
+        return 1.0 - tail(-z);
+    }
+    if z > 2.5 {
+        let fraction = (1..=40)
+            .rev()
+            .fold(0.0, |rest, k| f64::from(k) / (z + rest));
+        return density(z) / (z + fraction);
+    }
+    let (mut term, mut sum) = (z, z);
+    for k in 1..40 {
+        term *= z * z / f64::from(2 * k + 1);
+        sum += term;
+        if term < 1e-12 * sum {
+            break;
+        }
+    }
+    0.5 - density(z) * sum
+}
+
+/// Moves the normal distributions that stand for the codes towards the moments about a smoothed motion; the largest change
+/// of a precision, in those of a step.
+fn propagate(problem: &mut Problem<'_>, smoothed: &Smoothed) -> f64 {
+    let Some(codes) = problem.record.codes.clone() else {
+        return 0.0;
+    };
+    let step = codes.step;
+    // σ of the record is a step over √12.
+    let unit = 12.0;
+    let record = &problem.record;
+    let before = |i: usize| Site {
+        precision: record.weights[i] * unit,
+        shift: record.weights[i] * unit * (record.values[i] - codes.values[i]) / step,
+    };
+    let cavity = |i: usize| {
+        let estimate = problem.at_sample(&smoothed.estimates, i);
+        let (precision, site) = (step * step / estimate.covariance[0], before(i));
+        // What is left of almost nothing is rounding.
+        let left = (precision - site.precision).max(1e-6 * precision);
+        let mean = (estimate.state[0] - codes.values[i]) / step;
+        Cavity {
+            mean: (precision * mean - site.shift) / left,
+            variance: 1.0 / left,
+        }
+    };
+    let cavities = parallel::list(codes.values.len(), cavity);
+    let some = || {
+        let some = cavities.iter().step_by(cavities.len().div_ceil(ENOUGH));
+        some.filter(|cavity| !cavity.mean.is_nan())
+    };
+    let likelihood = |jitter: f64| some().map(|c| c.matched(jitter).0).sum::<f64>();
+    let jitter = JITTERS
+        .map(|jitter| (likelihood(jitter), jitter))
+        .into_iter()
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map_or(JITTERS[0], |(_, jitter)| jitter);
+    let moved = parallel::list(cavities.len(), |i| {
+        if cavities[i].mean.is_nan() {
+            return before(i);
+        }
+        let (was, next) = (before(i), cavities[i].matched(jitter).1);
+        let between = |a: f64, b: f64| a + DAMPING * (b - a);
+        Site {
+            precision: between(was.precision, next.precision),
+            shift: between(was.shift, next.shift),
+        }
+    });
+    let mut change = 0.0f64;
+    for (i, site) in moved.into_iter().enumerate() {
+        if cavities[i].mean.is_nan() {
+            continue;
+        }
+        let weight = site.precision / unit;
+        let off = match site.precision > 0.0 {
+            true => site.shift / site.precision,
+            false => 0.0,
+        };
+        change = change.max((weight - problem.record.weights[i]).abs() / (1.0 + weight));
+        problem.record.weights[i] = weight;
+        problem.record.values[i] = codes.values[i] + off * step;
+    }
+    change
+}
+
+/// Most rounds of expectation propagation, those between two estimates of the noise of the motion, and the change of a code's
+/// weight at which they end.
+const ROUNDS: usize = 16;
+const SOME: usize = 4;
+const STILL: f64 = 0.01;
+
+impl Problem<'_> {
+    /// Codes whose steps are wider than the noise about a motion, if the samples are such.
+    pub fn coded(&self, smoothed: &Smoothed) -> Option<Codes> {
+        let record = &self.record;
+        if !record.is_linear() {
+            return None;
+        }
+        let mut codes = Codes::of(&record.values, record.digits)?;
+        for sample in record.outliers() {
+            codes.values[sample] = f64::NAN;
+        }
+        (smoothed.noise.sigma < codes.step).then_some(codes)
+    }
+
+    /// A smoothed motion about which the normal distributions that stand for codes have come to rest.
+    pub fn propagated(&mut self, mut smoothed: Smoothed) -> Smoothed {
+        let known = self.record.codes.as_ref().map(Codes::spread);
+        smoothed.scales.known = known;
+        smoothed.noise.sigma = known.unwrap_or(smoothed.noise.sigma);
+        let motion = self.motion(smoothed.prior);
+        for round in 0..ROUNDS {
+            let change = propagate(self, &smoothed);
+            let path = smoothed.path();
+            // The noise of the motion follows codes that hardly move.
+            if round % SOME == SOME - 1 {
+                let linear = Linear {
+                    stretches: &self.stretches(&motion, &path, smoothed.noise.sigma),
+                    prior: smoothed.prior,
+                    scales: smoothed.scales,
+                };
+                smoothed.noise = linear.renewed(smoothed.noise);
+            }
+            smoothed.estimates = self.smoothed(&motion, &path, smoothed.scales, &smoothed.noise);
+            if change < STILL {
+                break;
+            }
+        }
+        smoothed
+    }
+
+    /// The smoothed motion with the likeliest prior; by what that makes of the codes the priors are compared once more.
+    pub fn likeliest_of_codes(&mut self, kinematic: Smoothed) -> (Smoothed, Vec<(Prior, f64)>) {
+        let path = kinematic.path();
+        let sigma = kinematic.noise.sigma;
+        let (smoothed, _) = self.likeliest(kinematic);
+        self.propagated(smoothed);
+        let kinematic = self.kinematic(path, sigma);
+        let (smoothed, candidates) = self.likeliest(kinematic);
+        (self.propagated(smoothed), candidates)
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::transitions;
+    use super::{Cavity, Codes, density, tail};
 
+    /// Moments of a normal distribution cut off at ±½, by the midpoint rule.
     #[test]
-    fn transitions_lie_between_codes() {
-        let times: Vec<f64> = (0..12).map(|i| 0.1 * f64::from(i)).collect();
-        let codes = [0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 4.0];
-        let values: Vec<f64> = codes.iter().map(|c| 0.25 * c).collect();
-        let found = transitions(&times, &values).expect("codes");
-        assert_eq!(found.step, 0.25);
-        let rows: Vec<f64> = found.rows.iter().map(|row| found.times[*row]).collect();
-        assert_eq!(rows, times);
-        let told: Vec<_> = (0..found.times.len())
-            .filter(|i| found.weights[*i] > 1.0)
-            .collect();
-        // Two steps at once tell no transition.
-        assert_eq!(told.len(), 2);
-        assert!((found.times[told[0]] - 0.35).abs() < 1e-12 && found.values[told[0]] == 0.125);
-        assert_eq!((found.weights[0], found.weights[told[0]]), (0.25, 16.0));
+    fn a_code_leaves_the_moments_of_a_normal_distribution_that_is_cut_off() {
+        for (mean, variance) in [(0.1f64, 0.04f64), (0.6, 0.1), (-0.4, 1.0), (0.0, 3.0)] {
+            let mut moments = [0.0f64; 3];
+            let count = 200_000;
+            for k in 0..count {
+                let at = -0.5 + (f64::from(k) + 0.5) / f64::from(count);
+                let weight = density((at - mean) / variance.sqrt()) / variance.sqrt();
+                moments[0] += weight / f64::from(count);
+                moments[1] += at * weight / f64::from(count);
+                moments[2] += at * at * weight / f64::from(count);
+            }
+            let middle = moments[1] / moments[0];
+            let left = moments[2] / moments[0] - middle * middle;
+            let (likelihood, site) = Cavity { mean, variance }.matched(0.0);
+            assert!((likelihood - moments[0].ln()).abs() < 1e-7);
+            let precision = 1.0 / variance + site.precision;
+            assert!((1.0 / precision / left - 1.0).abs() < 1e-6, "{mean}");
+            assert!(((mean / variance + site.shift) / precision - middle).abs() < 1e-6);
+        }
+    }
+
+    /// Q(1), Q(3) and Q(6) of Abramowitz and Stegun, table 26.1 and 26.2.
+    #[test]
+    fn tails_of_the_normal_distribution() {
+        for (z, exact) in [
+            (1.0, 0.158_655_253_931_457_05),
+            (3.0, 1.349_898_031_630_094_6e-3),
+            (6.0, 9.865_876_450_376_98e-10),
+        ] {
+            assert!((tail(z) / exact - 1.0).abs() < 1e-9, "{z}");
+            assert!((tail(-z) - 1.0 + exact).abs() < 1e-9);
+        }
     }
 
     #[test]
-    fn noise_has_no_codes() {
-        let times: Vec<f64> = (0..50).map(f64::from).collect();
-        let values: Vec<f64> = times.iter().map(|t| (t * t).sin()).collect();
-        assert!(transitions(&times, &values).is_none());
+    fn steps_are_found_where_each_difference_is_several() {
+        let codes = [0, 2, 5, 7, 10, 12, 15, 18].map(|k| 0.3 + 0.0245 * f64::from(k));
+        let found = Codes::of(&codes, 1e-12).expect("codes");
+        assert!((found.step - 0.0245).abs() < 1e-12);
+        let noise: Vec<f64> = (0..50).map(|i| f64::from(i * i).sin()).collect();
+        assert!(Codes::of(&noise, 1e-12).is_none());
+        // Rounded to three digits.
+        let rounded = [0.0, 0.012, 0.025, 0.031, 0.055];
+        assert!(Codes::of(&rounded, 1e-3).is_none());
     }
 }

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use super::linearised::State;
 use super::measurement_model::Sensor;
+use super::quantised::Codes;
 use super::state_space::Observed;
 use crate::scene::Measured;
 
@@ -18,10 +19,10 @@ pub(super) struct Record<'a> {
     pub values: Vec<f64>,
     /// Weight of each sample: 0 for none, 1 for a full one.
     pub weights: Vec<f64>,
-    /// Where each row of the measurement is among the samples, where transitions from code to code stand between them.
-    pub rows: Option<Vec<usize>>,
-    /// Step of an encoder, rad, if its codes are told by their transitions.
-    pub step: Option<f64>,
+    /// What was measured, in steps so wide that normal distributions at `values` stand for it.
+    pub codes: Option<Codes>,
+    /// To what the digits round the values, rad or m.
+    pub digits: f64,
     /// Least standard deviation of a sample, rad or m.
     pub floor: f64,
     /// Time of the scene at time 0 of the record, s.
@@ -154,23 +155,20 @@ impl Record<'_> {
         self.weights.truncate(range.len());
     }
 
-    /// The sample of a row of the measurement.
-    pub fn sample_of(&self, row: usize) -> usize {
-        self.rows.as_ref().map_or(row, |rows| rows[row])
+    /// A measured value, rad or m.
+    pub fn measured(&self, sample: usize) -> f64 {
+        match &self.codes {
+            Some(codes) if codes.values[sample].is_finite() => codes.values[sample],
+            _ => self.values[sample],
+        }
     }
 
-    /// Number of rows of the measurement.
-    pub fn row_count(&self) -> usize {
-        self.rows.as_ref().map_or(self.times.len(), Vec::len)
-    }
-
-    /// Samples that hardly count.
+    /// Samples that hardly count because they are far off.
     pub fn outliers(&self) -> impl Iterator<Item = usize> {
-        let all = match self.rows {
-            Some(_) => 0..0,
-            None => 0..self.weights.len(),
-        };
-        all.filter(|i| self.weights[*i] < 0.5)
+        (0..self.weights.len()).filter(|i| match &self.codes {
+            Some(codes) => codes.values[*i].is_nan(),
+            None => self.weights[*i] < 0.5,
+        })
     }
 
     /// Whether what was measured is the crank angle itself.

@@ -21,6 +21,16 @@ pub(super) struct Smoothed {
     pub settled: bool,
 }
 
+impl Smoothed {
+    /// The path of the smoothed states.
+    pub fn path(&self) -> Path {
+        Path {
+            states: self.estimates.iter().map(|e| e.state).collect(),
+            variances: None,
+        }
+    }
+}
+
 /// Most iterations of Gauss and Newton.
 const ITERATIONS: usize = 12;
 
@@ -171,7 +181,7 @@ impl Problem<'_> {
             return (kinematic, listed(&white));
         };
         let innovations = found.estimates.iter().map(|e| e.innovation);
-        let is_noise = found.noise.sigma > 1.5 * self.record.floor;
+        let is_noise = found.noise.sigma > 1.5 * self.record.floor && self.record.codes.is_none();
         if is_noise && Whiteness::of(innovations).is_violated() {
             let correlated = self.tried(&kinematic, true);
             // Two parameters more (Schwarz 1978).

@@ -107,7 +107,7 @@ pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> 
     }
     if let Some(step) = fitted.coded {
         warnings.push(format!(
-            "several samples lie in one step of {}: the times of going from step to step are the samples, as of an encoder",
+            "the values go in steps of {}, and the noise is less than a step: each sample says within which step the angle is",
             measurement.shown(step)
         ));
     }

@@ -66,7 +66,7 @@ impl Trials<'_> {
                 times: Cow::Borrowed(&record.times),
                 values: record.values.iter().map(|value| value - zero).collect(),
                 weights: record.weights.clone(),
-                rows: None,
+                codes: None,
                 ..*record
             },
             grid: self.problem.grid.clone(),
