@@ -32,6 +32,7 @@ mod as_printed;
 mod bands;
 mod branch_choice;
 mod branch_tracking;
+mod code_moments;
 mod first_path;
 mod fitted;
 mod guide;

@@ -521,7 +521,7 @@ fn dead_centres_are_marked_over_all_of_many_turns() {
             turned + 0.1 * turned.sin()
         )
     };
-    let rows: Vec<String> = (0..6000).map(row).collect();
+    let rows: Vec<String> = (0..16_000).map(row).collect();
     let folder = folder(&data("t [s],theta [rad]", &rows));
     let options = ["--fit", "smoother", "--plot", "turns.svg", "--json"];
     let arguments = [&["inverse", "scene.toml", "data.csv"], &options[..]].concat();
