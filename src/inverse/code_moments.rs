@@ -7,6 +7,7 @@ use super::likelihood::Linear;
 use super::linearised::Prior;
 use super::problem::Problem;
 use super::quantised::Codes;
+use super::record::Path;
 use super::smoother::Smoothed;
 use crate::numeric::parallel;
 
@@ -164,6 +165,16 @@ fn propagate(problem: &mut Problem<'_>, smoothed: &Smoothed) -> f64 {
 const ROUNDS: usize = 16;
 const SOME: usize = 4;
 const STILL: f64 = 0.01;
+
+impl Smoothed {
+    /// The path of the smoothed states.
+    fn path(&self) -> Path {
+        Path {
+            states: self.estimates.iter().map(|e| e.state).collect(),
+            variances: None,
+        }
+    }
+}
 
 impl Problem<'_> {
     /// Codes whose steps are wider than the noise about a motion, if the samples are such.

@@ -21,16 +21,6 @@ pub(super) struct Smoothed {
     pub settled: bool,
 }
 
-impl Smoothed {
-    /// The path of the smoothed states.
-    pub fn path(&self) -> Path {
-        Path {
-            states: self.estimates.iter().map(|e| e.state).collect(),
-            variances: None,
-        }
-    }
-}
-
 /// Most iterations of Gauss and Newton.
 const ITERATIONS: usize = 12;
 

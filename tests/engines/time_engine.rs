@@ -749,7 +749,9 @@ fn a_short_run_at_a_loose_tolerance_is_stated_as_exact_as_it_is() {
 #[test]
 fn dead_centres_at_the_rows_of_a_table_are_passed_once_in_each_turn() {
     let angles: Vec<f64> = (0..=12).map(|i| f64::from(i) * TAU / 12.0).collect();
-    let torques: Vec<f64> = (0..=12).map(|i| [0.3, -0.2, -0.1][i as usize % 3]).collect();
+    let torques: Vec<f64> = (0..=12)
+        .map(|i| [0.3, -0.2, -0.1][i as usize % 3])
+        .collect();
     let linear = Interpolation::Linear;
     let table = Table::new(Variable::Theta, &angles, &torques, linear, Some(TAU)).expect("a table");
     for speed in [30.0, -30.0] {
