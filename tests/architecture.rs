@@ -104,11 +104,8 @@ const MAY_NAME: &[(&str, &[&str])] = &[
     ),
 ];
 
-/// Lines of a file that is not a table.
+/// Lines of a file.
 const MOST_LINES: usize = 300;
-
-/// Files that may be longer, and why.
-const LONGER: &[(&str, &str)] = &[("scene/keys.rs", "a table: every key of the scene file")];
 
 /// A source file: its place below `src`, its text, and its code without comments and literals.
 struct Source {
@@ -428,28 +425,11 @@ fn files_are_short() {
     for source in sources() {
         let lines = source.text.lines().count();
         let place = source.place.as_str();
-        let why = LONGER
-            .iter()
-            .find(|(name, _)| *name == place)
-            .map(|(_, why)| why);
-        match (why, lines > MOST_LINES) {
-            (None, true) => wrong.push(format!("src/{place} has {lines} lines")),
-            (Some(why), false) => wrong.push(format!("src/{place} ({why}) may come off the list")),
-            _ => (),
+        if lines > MOST_LINES {
+            wrong.push(format!("src/{place} has {lines} lines"));
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
-}
-
-#[test]
-fn files_that_may_be_longer_are_there() {
-    let sources = sources();
-    for (name, _) in LONGER {
-        assert!(
-            sources.iter().any(|source| source.place == *name),
-            "no src/{name}"
-        );
-    }
 }
 
 /// Major and minor number of a version of Rust.

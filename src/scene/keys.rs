@@ -1,12 +1,13 @@
 //! Every table and key a scene file may have: read by the reader, printed by `schema`.
 
-use super::unit::Quantity;
+use super::unit::Quantity::{self, *};
+use Kind::{Choice, Formula, Of, Text, TimeOrAngle};
 
 /// What a key's value may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     /// A quantity with its unit.
-    Quantity(Quantity),
+    Of(Quantity),
     /// A time or a crank angle.
     TimeOrAngle,
     /// One of these words.
@@ -14,7 +15,7 @@ pub enum Kind {
     /// A text: title, file name.
     Text,
     /// A quantity or, in loads of kind `expression`, a formula.
-    QuantityOrFormula(Quantity),
+    Formula(Quantity),
 }
 
 /// One key.
@@ -32,10 +33,10 @@ impl Key {
     /// The key with a value it may have, as written in the file.
     pub fn example(&self) -> String {
         let value = match self.kind {
-            Kind::Quantity(quantity) => quantity.examples().split(", ").next(),
+            Kind::Of(quantity) => quantity.examples().split(", ").next(),
             Kind::TimeOrAngle => Some("\"1 deg\""),
             Kind::Choice(words) => return format!("{} = \"{}\"", self.name, words[0]),
-            Kind::Text | Kind::QuantityOrFormula(_) => None,
+            Kind::Text | Kind::Formula(_) => None,
         };
         format!("{} = {}", self.name, value.unwrap_or("\"...\""))
     }
@@ -54,18 +55,6 @@ pub struct Section {
     pub required: &'static [&'static str],
     /// What it means, for the schema.
     pub meaning: &'static str,
-}
-
-const fn key(name: &'static str, kind: Kind, meaning: &'static str) -> Key {
-    Key {
-        name,
-        kind,
-        meaning,
-    }
-}
-
-const fn quantity(name: &'static str, quantity: Quantity, meaning: &'static str) -> Key {
-    key(name, Kind::Quantity(quantity), meaning)
 }
 
 /// Keys that a table of this kind takes beside `kind`; the first `required` must be there.
@@ -126,377 +115,135 @@ pub const MOTIONS: &[KindKeys] = &[
 const VARIABLES: &[&str] = &["theta", "t", "omega", "x", "v"];
 const INTERPOLATIONS: &[&str] = &["pchip", "linear"];
 
-const BOX: [Key; 4] = [
-    quantity(
-        "density",
-        Quantity::Density,
-        "density of a box-shaped body; with length, width and depth it gives mass and inertia",
-    ),
-    quantity("length", Quantity::Length, "box size along the body"),
-    quantity(
-        "width",
-        Quantity::Length,
-        "box size across the body, in the plane of motion",
-    ),
-    quantity(
-        "depth",
-        Quantity::Length,
-        "box size normal to the plane of motion",
-    ),
-];
+macro_rules! repeated {
+    (one) => {
+        false
+    };
+    (each) => {
+        true
+    };
+}
+
+macro_rules! keys {
+    ($($name:ident: $kind:expr, $meaning:literal;)*) => {
+        [$(Key { name: stringify!($name), kind: $kind, meaning: $meaning }),*]
+    };
+}
+
+/// Sections as `one` or `each` (written `[[name]]`), the name, the keys that must be there, the meaning, and the keys; a body
+/// may be a box.
+macro_rules! sections {
+    ($($count:ident $section:ident($($required:literal),*) $meaning:literal {
+        $($name:ident: $kind:expr, $what:literal;)*
+    } $(+ $box:ident)?)*) => {
+        &[$(Section {
+            name: stringify!($section),
+            repeated: repeated!($count),
+            required: &[$($required),*],
+            meaning: $meaning,
+            keys: &[
+                $(Key { name: stringify!($name), kind: $kind, meaning: $what },)*
+                $($box[0], $box[1], $box[2], $box[3],)?
+            ],
+        }),*]
+    };
+}
+
+const BOX: [Key; 4] = keys! {
+    density: Of(Density), "density of a box-shaped body; with length, width and depth it gives mass and inertia";
+    length: Of(Length), "box size along the body";
+    width: Of(Length), "box size across the body, in the plane of motion";
+    depth: Of(Length), "box size normal to the plane of motion";
+};
 
 /// Every table of a scene file.
-pub const SECTIONS: &[Section] = &[
-    Section {
-        name: "geometry",
-        repeated: false,
-        required: &["crank", "rod"],
-        meaning: "lengths of the mechanism",
-        keys: &[
-            quantity("crank", Quantity::Length, "crank length r"),
-            quantity("rod", Quantity::Length, "connecting rod length l"),
-            quantity(
-                "offset",
-                Quantity::Length,
-                "offset e: the slider moves along y = -e; default 0",
-            ),
-            key(
-                "branch",
-                Kind::Choice(&["right", "left"]),
-                "side of the crank pin on which the slider is assembled; default right",
-            ),
-        ],
-    },
-    Section {
-        name: "crank",
-        repeated: false,
-        required: &[],
-        meaning: "mass properties of the crank; absent: massless",
-        keys: &[
-            quantity("mass", Quantity::Mass, "mass"),
-            quantity(
-                "cg",
-                Quantity::Length,
-                "centre of gravity from O along the crank; default 0",
-            ),
-            quantity(
-                "cg_lateral",
-                Quantity::Length,
-                "centre of gravity to the left of O->A; default 0",
-            ),
-            quantity("inertia", Quantity::Inertia, "moment of inertia about O"),
-            BOX[0],
-            BOX[1],
-            BOX[2],
-            BOX[3],
-        ],
-    },
-    Section {
-        name: "rod",
-        repeated: false,
-        required: &[],
-        meaning: "mass properties of the connecting rod; absent: massless",
-        keys: &[
-            key(
-                "model",
-                Kind::Choice(&["rigid", "two-mass", "spin-only", "massless"]),
-                "how its mass is modelled; default rigid",
-            ),
-            quantity("mass", Quantity::Mass, "mass"),
-            quantity(
-                "cg",
-                Quantity::Length,
-                "centre of gravity from the crank pin along the rod; default the middle of a box",
-            ),
-            quantity(
-                "cg_lateral",
-                Quantity::Length,
-                "centre of gravity to the left of A->P; default 0",
-            ),
-            quantity(
-                "inertia",
-                Quantity::Inertia,
-                "moment of inertia about the point named by inertia_about",
-            ),
-            key(
-                "inertia_about",
-                Kind::Choice(&["cg", "crank-pin"]),
-                "reference point of the inertia; default cg",
-            ),
-            BOX[0],
-            BOX[1],
-            BOX[2],
-            BOX[3],
-        ],
-    },
-    Section {
-        name: "slider",
-        repeated: false,
-        required: &[],
-        meaning: "mass of the slider; absent: massless",
-        keys: &[
-            quantity("mass", Quantity::Mass, "mass"),
-            BOX[0],
-            BOX[1],
-            BOX[2],
-            BOX[3],
-        ],
-    },
-    Section {
-        name: "gravity",
-        repeated: false,
-        required: &["acceleration"],
-        meaning: "uniform gravity; absent: none",
-        keys: &[
-            quantity("acceleration", Quantity::Acceleration, "strength"),
-            quantity(
-                "direction",
-                Quantity::Angle,
-                "angle of the gravity vector from +x; default -90 deg, that is -y",
-            ),
-        ],
-    },
-    Section {
-        name: "torque",
-        repeated: true,
-        required: &["kind"],
-        meaning: "a torque on the crank, counter-clockwise positive; all add up",
-        keys: &[
-            key(
-                "kind",
-                Kind::Choice(&["constant", "viscous", "motor", "table", "dry", "expression"]),
-                "kind of load",
-            ),
-            key(
-                "value",
-                Kind::QuantityOrFormula(Quantity::Torque),
-                "the torque; for kind dry its magnitude against motion, for kind expression a formula in SI of t, theta, omega, x, v",
-            ),
-            quantity(
-                "coefficient",
-                Quantity::RotaryDamping,
-                "viscous: torque = -coefficient*omega",
-            ),
-            quantity("stall", Quantity::Torque, "motor: torque at rest"),
-            quantity(
-                "no_load_speed",
-                Quantity::AngularSpeed,
-                "motor: speed of zero torque",
-            ),
-            key(
-                "file",
-                Kind::Text,
-                "table: CSV file with two columns, units in the header",
-            ),
-            key(
-                "of",
-                Kind::Choice(VARIABLES),
-                "table: the variable of the first column",
-            ),
-            key(
-                "period",
-                Kind::TimeOrAngle,
-                "table over theta or t: the angle or time after which it repeats",
-            ),
-            key(
-                "interpolation",
-                Kind::Choice(INTERPOLATIONS),
-                "table: default pchip",
-            ),
-        ],
-    },
-    Section {
-        name: "force",
-        repeated: true,
-        required: &["kind"],
-        meaning: "a force on the slider, along +x; all add up",
-        keys: &[
-            key(
-                "kind",
-                Kind::Choice(&[
-                    "constant",
-                    "viscous",
-                    "spring",
-                    "table",
-                    "dry",
-                    "expression",
-                    "gas",
-                ]),
-                "kind of load",
-            ),
-            key(
-                "value",
-                Kind::QuantityOrFormula(Quantity::Force),
-                "the force; for kind dry its magnitude against motion, for kind expression a formula in SI of t, theta, omega, x, v",
-            ),
-            quantity(
-                "coefficient",
-                Quantity::LinearDamping,
-                "viscous: force = -coefficient*v",
-            ),
-            quantity(
-                "stiffness",
-                Quantity::Stiffness,
-                "spring: force = -stiffness*(x - rest)",
-            ),
-            quantity(
-                "rest",
-                Quantity::Length,
-                "spring: slider position x of zero force",
-            ),
-            key(
-                "file",
-                Kind::Text,
-                "table, gas: CSV file with two columns, units in the header",
-            ),
-            key(
-                "of",
-                Kind::Choice(VARIABLES),
-                "table: the variable of the first column",
-            ),
-            key(
-                "period",
-                Kind::TimeOrAngle,
-                "table over theta or t, gas: the angle or time after which it repeats",
-            ),
-            key(
-                "interpolation",
-                Kind::Choice(INTERPOLATIONS),
-                "table, gas: default pchip",
-            ),
-            quantity("bore", Quantity::Length, "gas: cylinder bore"),
-            quantity(
-                "ambient",
-                Quantity::Pressure,
-                "gas: pressure on the other side; default 1 atm",
-            ),
-        ],
-    },
-    Section {
-        name: "friction",
-        repeated: false,
-        required: &["coefficient"],
-        meaning: "Coulomb friction at the slider guide; absent: none",
-        keys: &[
-            quantity("coefficient", Quantity::Number, "kinetic coefficient"),
-            quantity(
-                "static_coefficient",
-                Quantity::Number,
-                "static coefficient; default the kinetic one",
-            ),
-        ],
-    },
-    Section {
-        name: "clearance",
-        repeated: false,
-        required: &["joint", "radial"],
-        meaning: "clearance at one revolute joint; absent: ideal joints",
-        keys: &[
-            key(
-                "joint",
-                Kind::Choice(&["crank-pin", "wrist-pin"]),
-                "the joint",
-            ),
-            quantity("radial", Quantity::Length, "radial clearance"),
-            quantity("bearing_radius", Quantity::Length, "radius of the bearing"),
-            quantity(
-                "young_modulus",
-                Quantity::Pressure,
-                "Young's modulus of journal and bearing",
-            ),
-            quantity(
-                "poisson_ratio",
-                Quantity::Number,
-                "Poisson's ratio of journal and bearing",
-            ),
-            quantity(
-                "restitution",
-                Quantity::Number,
-                "coefficient of restitution, 0 to 1",
-            ),
-            quantity(
-                "friction",
-                Quantity::Number,
-                "coefficient of friction in the contact; default 0",
-            ),
-            key(
-                "contact_law",
-                Kind::Choice(&[
-                    "lankarani-nikravesh",
-                    "hunt-crossley",
-                    "flores",
-                    "gonthier",
-                    "hertz",
-                    "massless-link",
-                ]),
-                "law of the normal force; default lankarani-nikravesh",
-            ),
-            quantity(
-                "friction_threshold",
-                Quantity::Velocity,
-                "sliding speed up to which friction grows linearly; default 0.01 m/s",
-            ),
-            quantity(
-                "least_approach_speed",
-                Quantity::Velocity,
-                "contacts that begin slower are damped as if they began with this speed; default 0.001 m/s",
-            ),
-            quantity(
-                "eccentricity",
-                Quantity::Length,
-                "distance of the journal's centre from the bearing's at the start; default 0",
-            ),
-            quantity(
-                "eccentricity_angle",
-                Quantity::Angle,
-                "direction from the bearing's centre to the journal's at the start, from +x; default: as the ideal joint is loaded",
-            ),
-        ],
-    },
-    Section {
-        name: "motion",
-        repeated: false,
-        required: &[],
-        meaning: "initial or prescribed motion of the crank; absent: free, at rest at 0",
-        keys: &[
-            key(
-                "kind",
-                Kind::Choice(&["free", "constant-speed"]),
-                "default free",
-            ),
-            quantity("angle", Quantity::Angle, "initial crank angle; default 0"),
-            quantity(
-                "speed",
-                Quantity::AngularSpeed,
-                "initial crank speed, default 0, or the constant one",
-            ),
-        ],
-    },
-    Section {
-        name: "run",
-        repeated: false,
-        required: &[],
-        meaning: "extent, output and accuracy of a run",
-        keys: &[
-            quantity("duration", Quantity::Time, "the run ends after this time"),
-            quantity(
-                "revolutions",
-                Quantity::Number,
-                "or after this many turns of the crank",
-            ),
-            key(
-                "output_every",
-                Kind::TimeOrAngle,
-                "distance of the output rows; default 500 rows over the run",
-            ),
-            quantity(
-                "tolerance",
-                Quantity::Number,
-                "local error target, relative and absolute; default 1e-10",
-            ),
-        ],
-    },
-];
+pub const SECTIONS: &[Section] = sections! {
+    one geometry("crank", "rod") "lengths of the mechanism" {
+        crank: Of(Length), "crank length r";
+        rod: Of(Length), "connecting rod length l";
+        offset: Of(Length), "offset e: the slider moves along y = -e; default 0";
+        branch: Choice(&["right", "left"]), "side of the crank pin on which the slider is assembled; default right";
+    }
+    one crank() "mass properties of the crank; absent: massless" {
+        mass: Of(Mass), "mass";
+        cg: Of(Length), "centre of gravity from O along the crank; default 0";
+        cg_lateral: Of(Length), "centre of gravity to the left of O->A; default 0";
+        inertia: Of(Inertia), "moment of inertia about O";
+    } + BOX
+    one rod() "mass properties of the connecting rod; absent: massless" {
+        model: Choice(&["rigid", "two-mass", "spin-only", "massless"]), "how its mass is modelled; default rigid";
+        mass: Of(Mass), "mass";
+        cg: Of(Length), "centre of gravity from the crank pin along the rod; default the middle of a box";
+        cg_lateral: Of(Length), "centre of gravity to the left of A->P; default 0";
+        inertia: Of(Inertia), "moment of inertia about the point named by inertia_about";
+        inertia_about: Choice(&["cg", "crank-pin"]), "reference point of the inertia; default cg";
+    } + BOX
+    one slider() "mass of the slider; absent: massless" {
+        mass: Of(Mass), "mass";
+    } + BOX
+    one gravity("acceleration") "uniform gravity; absent: none" {
+        acceleration: Of(Acceleration), "strength";
+        direction: Of(Angle), "angle of the gravity vector from +x; default -90 deg, that is -y";
+    }
+    each torque("kind") "a torque on the crank, counter-clockwise positive; all add up" {
+        kind: Choice(&["constant", "viscous", "motor", "table", "dry", "expression"]), "kind of load";
+        value: Formula(Torque),
+            "the torque; for kind dry its magnitude against motion, for kind expression a formula in SI of t, theta, omega, x, v";
+        coefficient: Of(RotaryDamping), "viscous: torque = -coefficient*omega";
+        stall: Of(Torque), "motor: torque at rest";
+        no_load_speed: Of(AngularSpeed), "motor: speed of zero torque";
+        file: Text, "table: CSV file with two columns, units in the header";
+        of: Choice(VARIABLES), "table: the variable of the first column";
+        period: TimeOrAngle, "table over theta or t: the angle or time after which it repeats";
+        interpolation: Choice(INTERPOLATIONS), "table: default pchip";
+    }
+    each force("kind") "a force on the slider, along +x; all add up" {
+        kind: Choice(&["constant", "viscous", "spring", "table", "dry", "expression", "gas"]), "kind of load";
+        value: Formula(Force),
+            "the force; for kind dry its magnitude against motion, for kind expression a formula in SI of t, theta, omega, x, v";
+        coefficient: Of(LinearDamping), "viscous: force = -coefficient*v";
+        stiffness: Of(Stiffness), "spring: force = -stiffness*(x - rest)";
+        rest: Of(Length), "spring: slider position x of zero force";
+        file: Text, "table, gas: CSV file with two columns, units in the header";
+        of: Choice(VARIABLES), "table: the variable of the first column";
+        period: TimeOrAngle, "table over theta or t, gas: the angle or time after which it repeats";
+        interpolation: Choice(INTERPOLATIONS), "table, gas: default pchip";
+        bore: Of(Length), "gas: cylinder bore";
+        ambient: Of(Pressure), "gas: pressure on the other side; default 1 atm";
+    }
+    one friction("coefficient") "Coulomb friction at the slider guide; absent: none" {
+        coefficient: Of(Number), "kinetic coefficient";
+        static_coefficient: Of(Number), "static coefficient; default the kinetic one";
+    }
+    one clearance("joint", "radial") "clearance at one revolute joint; absent: ideal joints" {
+        joint: Choice(&["crank-pin", "wrist-pin"]), "the joint";
+        radial: Of(Length), "radial clearance";
+        bearing_radius: Of(Length), "radius of the bearing";
+        young_modulus: Of(Pressure), "Young's modulus of journal and bearing";
+        poisson_ratio: Of(Number), "Poisson's ratio of journal and bearing";
+        restitution: Of(Number), "coefficient of restitution, 0 to 1";
+        friction: Of(Number), "coefficient of friction in the contact; default 0";
+        contact_law: Choice(&["lankarani-nikravesh", "hunt-crossley", "flores", "gonthier", "hertz", "massless-link"]),
+            "law of the normal force; default lankarani-nikravesh";
+        friction_threshold: Of(Velocity), "sliding speed up to which friction grows linearly; default 0.01 m/s";
+        least_approach_speed: Of(Velocity),
+            "contacts that begin slower are damped as if they began with this speed; default 0.001 m/s";
+        eccentricity: Of(Length), "distance of the journal's centre from the bearing's at the start; default 0";
+        eccentricity_angle: Of(Angle),
+            "direction from the bearing's centre to the journal's at the start, from +x; default: as the ideal joint is loaded";
+    }
+    one motion() "initial or prescribed motion of the crank; absent: free, at rest at 0" {
+        kind: Choice(&["free", "constant-speed"]), "default free";
+        angle: Of(Angle), "initial crank angle; default 0";
+        speed: Of(AngularSpeed), "initial crank speed, default 0, or the constant one";
+    }
+    one run() "extent, output and accuracy of a run" {
+        duration: Of(Time), "the run ends after this time";
+        revolutions: Of(Number), "or after this many turns of the crank";
+        output_every: TimeOrAngle, "distance of the output rows; default 500 rows over the run";
+        tolerance: Of(Number), "local error target, relative and absolute; default 1e-10";
+    }
+};
 
 /// The section with this name.
 pub fn section(name: &str) -> Option<&'static Section> {

@@ -64,7 +64,7 @@ fn kinds(section: &Section, kinds: &[KindKeys]) -> Value {
             let mut then = needed(kind);
             let keys = section.keys.iter();
             for key in keys.filter(|key| kind.keys.contains(&key.name)) {
-                if let Kind::QuantityOrFormula(quantity) = key.kind
+                if let Kind::Formula(quantity) = key.kind
                     && kind.name != "expression"
                 {
                     then["properties"][key.name] = measured(&[quantity]);
@@ -88,10 +88,10 @@ fn needed(kind: &KindKeys) -> Value {
 
 fn property(key: &Key) -> Value {
     let mut value = match key.kind {
-        Kind::Quantity(Quantity::Number) => json!({"type": "number"}),
-        Kind::Quantity(quantity) => measured(&[quantity]),
+        Kind::Of(Quantity::Number) => json!({"type": "number"}),
+        Kind::Of(quantity) => measured(&[quantity]),
         Kind::TimeOrAngle => measured(&[Quantity::Time, Quantity::Angle]),
-        Kind::QuantityOrFormula(quantity) => {
+        Kind::Formula(quantity) => {
             json!({"type": ["string", "number"], "examples": examples(&[quantity])})
         }
         Kind::Choice(words) => json!({"enum": words}),

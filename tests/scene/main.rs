@@ -9,3 +9,4 @@ mod formulas;
 mod odd_files;
 mod refusals;
 mod scene_files;
+mod units;

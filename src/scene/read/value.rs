@@ -34,10 +34,10 @@ pub(super) fn read(key: &Key, value: &DeValue<'_>) -> Result<Value, (String, Str
         }
     };
     match key.kind {
-        Kind::Text | Kind::QuantityOrFormula(_) if value.is_str() => Ok(Value::Text(text)),
+        Kind::Text | Kind::Formula(_) if value.is_str() => Ok(Value::Text(text)),
         Kind::Text => Err((format!("`{text}` is a number"), expected(key.kind))),
-        Kind::QuantityOrFormula(_) => Ok(Value::Bare(text)),
-        Kind::Quantity(quantity) => unit::parse(&text, quantity)
+        Kind::Formula(_) => Ok(Value::Bare(text)),
+        Kind::Of(quantity) => unit::parse(&text, quantity)
             .map(Value::Number)
             .map_err(|e| (e.what, e.help)),
         Kind::TimeOrAngle => unit::time_or_angle(&text)
@@ -60,7 +60,7 @@ fn expected(kind: Kind) -> String {
     match kind {
         Kind::Choice(words) => format!("write one of {}", quoted(words)),
         Kind::Text => "write a text in quotes".to_owned(),
-        Kind::Quantity(quantity) | Kind::QuantityOrFormula(quantity) => {
+        Kind::Of(quantity) | Kind::Formula(quantity) => {
             format!("write {} like {}", quantity.name(), quantity.examples())
         }
         Kind::TimeOrAngle => "write a time or an angle like \"1 ms\", \"1 deg\"".to_owned(),

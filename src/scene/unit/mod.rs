@@ -175,6 +175,3 @@ fn split(text: &str) -> Result<(String, &str), String> {
     }
     Ok((digits, unit.trim()))
 }
-
-#[cfg(all(test, feature = "cli"))]
-mod tests;

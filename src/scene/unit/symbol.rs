@@ -68,90 +68,79 @@ impl Factor {
     }
 }
 
-/// symbol, numerator, denominator, power of ten, power of pi, dimension, takes a prefix
-type Unit = (&'static str, f64, f64, i32, i32, Dimension, bool);
+/// A symbol and its factor.
+struct Unit {
+    symbol: &'static str,
+    factor: Factor,
+    /// Whether the symbol takes a prefix.
+    prefixed: bool,
+}
 
-const UNITS: &[Unit] = &[
-    ("m", 1.0, 1.0, 0, 0, [1, 0, 0, 0], true),
-    ("g", 1.0, 1.0, -3, 0, [0, 1, 0, 0], true),
-    ("s", 1.0, 1.0, 0, 0, [0, 0, 1, 0], true),
-    ("rad", 1.0, 1.0, 0, 0, [0, 0, 0, 1], true),
-    ("N", 1.0, 1.0, 0, 0, [1, 1, -2, 0], true),
-    ("Nm", 1.0, 1.0, 0, 0, [2, 1, -2, 0], true),
-    ("Nmm", 1.0, 1.0, -3, 0, [2, 1, -2, 0], true),
-    ("J", 1.0, 1.0, 0, 0, [2, 1, -2, 0], true),
-    ("W", 1.0, 1.0, 0, 0, [2, 1, -3, 0], true),
-    ("Pa", 1.0, 1.0, 0, 0, [-1, 1, -2, 0], true),
-    ("bar", 1.0, 1.0, 5, 0, [-1, 1, -2, 0], true),
-    ("atm", 101_325.0, 1.0, 0, 0, [-1, 1, -2, 0], false),
-    ("min", 60.0, 1.0, 0, 0, [0, 0, 1, 0], false),
-    ("h", 3600.0, 1.0, 0, 0, [0, 0, 1, 0], false),
-    ("deg", 1.0, 180.0, 0, 1, [0, 0, 0, 1], false),
-    ("°", 1.0, 180.0, 0, 1, [0, 0, 0, 1], false),
-    ("rev", 2.0, 1.0, 0, 1, [0, 0, 0, 1], false),
-    ("turn", 2.0, 1.0, 0, 1, [0, 0, 0, 1], false),
-    ("gon", 1.0, 200.0, 0, 1, [0, 0, 0, 1], true),
-    ("arcmin", 1.0, 10_800.0, 0, 1, [0, 0, 0, 1], false),
-    ("arcsec", 1.0, 648_000.0, 0, 1, [0, 0, 0, 1], false),
-    ("rpm", 1.0, 30.0, 0, 1, [0, 0, -1, 1], false),
-    ("Hz", 2.0, 1.0, 0, 1, [0, 0, -1, 1], true),
-    ("t", 1.0, 1.0, 3, 0, [0, 1, 0, 0], false),
-    ("in", 254.0, 1.0, -4, 0, [1, 0, 0, 0], false),
-    ("ft", 3048.0, 1.0, -4, 0, [1, 0, 0, 0], false),
-    ("lb", 45_359_237.0, 1.0, -8, 0, [0, 1, 0, 0], false),
-    ("lbm", 45_359_237.0, 1.0, -8, 0, [0, 1, 0, 0], false),
-    ("oz", 28_349_523_125.0, 1.0, -12, 0, [0, 1, 0, 0], false),
-    (
-        "slug",
-        44_482_216_152_605.0,
-        3048.0,
-        -9,
-        0,
-        [0, 1, 0, 0],
-        false,
-    ),
-    (
-        "lbf",
-        44_482_216_152_605.0,
-        1.0,
-        -13,
-        0,
-        [1, 1, -2, 0],
-        false,
-    ),
-    ("kgf", 980_665.0, 1.0, -5, 0, [1, 1, -2, 0], false),
-    (
-        "psi",
-        44_482_216_152_605.0,
-        64_516.0,
-        -5,
-        0,
-        [-1, 1, -2, 0],
-        false,
-    ),
-];
+macro_rules! units {
+    ($($symbol:literal: $numerator:literal / $denominator:literal, 10^$ten:literal, pi^$pi:literal, $dimension:expr, $prefixed:literal;)*) => {
+        &[$(Unit {
+            symbol: $symbol,
+            factor: Factor {
+                numerator: $numerator,
+                denominator: $denominator,
+                ten: $ten,
+                pi: $pi,
+                dimension: $dimension,
+            },
+            prefixed: $prefixed,
+        }),*]
+    };
+}
+
+/// Exact factors, and whether the symbol takes a prefix.
+const UNITS: &[Unit] = units! {
+    "m": 1.0 / 1.0, 10^0, pi^0, [1, 0, 0, 0], true;
+    "g": 1.0 / 1.0, 10^-3, pi^0, [0, 1, 0, 0], true;
+    "s": 1.0 / 1.0, 10^0, pi^0, [0, 0, 1, 0], true;
+    "rad": 1.0 / 1.0, 10^0, pi^0, [0, 0, 0, 1], true;
+    "N": 1.0 / 1.0, 10^0, pi^0, [1, 1, -2, 0], true;
+    "Nm": 1.0 / 1.0, 10^0, pi^0, [2, 1, -2, 0], true;
+    "Nmm": 1.0 / 1.0, 10^-3, pi^0, [2, 1, -2, 0], true;
+    "J": 1.0 / 1.0, 10^0, pi^0, [2, 1, -2, 0], true;
+    "W": 1.0 / 1.0, 10^0, pi^0, [2, 1, -3, 0], true;
+    "Pa": 1.0 / 1.0, 10^0, pi^0, [-1, 1, -2, 0], true;
+    "bar": 1.0 / 1.0, 10^5, pi^0, [-1, 1, -2, 0], true;
+    "atm": 101_325.0 / 1.0, 10^0, pi^0, [-1, 1, -2, 0], false;
+    "min": 60.0 / 1.0, 10^0, pi^0, [0, 0, 1, 0], false;
+    "h": 3600.0 / 1.0, 10^0, pi^0, [0, 0, 1, 0], false;
+    "deg": 1.0 / 180.0, 10^0, pi^1, [0, 0, 0, 1], false;
+    "°": 1.0 / 180.0, 10^0, pi^1, [0, 0, 0, 1], false;
+    "rev": 2.0 / 1.0, 10^0, pi^1, [0, 0, 0, 1], false;
+    "turn": 2.0 / 1.0, 10^0, pi^1, [0, 0, 0, 1], false;
+    "gon": 1.0 / 200.0, 10^0, pi^1, [0, 0, 0, 1], true;
+    "arcmin": 1.0 / 10_800.0, 10^0, pi^1, [0, 0, 0, 1], false;
+    "arcsec": 1.0 / 648_000.0, 10^0, pi^1, [0, 0, 0, 1], false;
+    "rpm": 1.0 / 30.0, 10^0, pi^1, [0, 0, -1, 1], false;
+    "Hz": 2.0 / 1.0, 10^0, pi^1, [0, 0, -1, 1], true;
+    "t": 1.0 / 1.0, 10^3, pi^0, [0, 1, 0, 0], false;
+    "in": 254.0 / 1.0, 10^-4, pi^0, [1, 0, 0, 0], false;
+    "ft": 3048.0 / 1.0, 10^-4, pi^0, [1, 0, 0, 0], false;
+    "lb": 45_359_237.0 / 1.0, 10^-8, pi^0, [0, 1, 0, 0], false;
+    "lbm": 45_359_237.0 / 1.0, 10^-8, pi^0, [0, 1, 0, 0], false;
+    "oz": 28_349_523_125.0 / 1.0, 10^-12, pi^0, [0, 1, 0, 0], false;
+    "slug": 44_482_216_152_605.0 / 3048.0, 10^-9, pi^0, [0, 1, 0, 0], false;
+    "lbf": 44_482_216_152_605.0 / 1.0, 10^-13, pi^0, [1, 1, -2, 0], false;
+    "kgf": 980_665.0 / 1.0, 10^-5, pi^0, [1, 1, -2, 0], false;
+    "psi": 44_482_216_152_605.0 / 64_516.0, 10^-5, pi^0, [-1, 1, -2, 0], false;
+};
 
 /// Names that people and instruments write in the place of symbols.
-const NAMES: &[(&str, &str)] = &[
-    ("sec", "s"),
-    ("secs", "s"),
-    ("second", "s"),
-    ("seconds", "s"),
-    ("minutes", "min"),
-    ("degree", "deg"),
-    ("degrees", "deg"),
-    ("radian", "rad"),
-    ("radians", "rad"),
-    ("revs", "rev"),
-    ("turns", "turn"),
-    ("r", "rev"),
-    ("U", "rev"),
-    ("RPM", "rpm"),
-    ("inch", "in"),
-    ("inches", "in"),
-    ("foot", "ft"),
-    ("feet", "ft"),
-    ("lbs", "lb"),
+const NAMES: &[(&str, &[&str])] = &[
+    ("s", &["sec", "secs", "second", "seconds"]),
+    ("min", &["minutes"]),
+    ("deg", &["degree", "degrees"]),
+    ("rad", &["radian", "radians"]),
+    ("rev", &["revs", "r", "U"]),
+    ("turn", &["turns"]),
+    ("rpm", &["RPM"]),
+    ("in", &["inch", "inches"]),
+    ("ft", &["foot", "feet"]),
+    ("lb", &["lbs"]),
 ];
 
 const PREFIXES: &[(&str, i32)] = &[
@@ -171,48 +160,42 @@ const PREFIXES: &[(&str, i32)] = &[
 
 /// The symbols of a dimension that have no prefix.
 pub(super) fn symbols(dimension: Dimension) -> impl Iterator<Item = &'static str> {
-    let of_it = UNITS.iter().filter(move |unit| unit.5 == dimension);
-    of_it.map(|unit| unit.0)
+    let of_it = UNITS
+        .iter()
+        .filter(move |unit| unit.factor.dimension == dimension);
+    of_it.map(|unit| unit.symbol)
 }
 
-/// Every spelling of a unit of a dimension, as a regular expression.
+/// Every spelling of the units whose dimension is one of these, as a regular expression.
 #[cfg(feature = "cli")]
-pub(super) fn spellings(dimension: Dimension) -> String {
+pub(super) fn spellings(is_one: impl Fn(Dimension) -> bool) -> String {
     let prefixes: Vec<&str> = PREFIXES.iter().map(|prefix| prefix.0).collect();
-    let prefixes = prefixes.join("|");
+    let prefixes = format!("(?:{})?", prefixes.join("|"));
     let mut all = Vec::new();
-    for unit in UNITS.iter().filter(|unit| unit.5 == dimension) {
-        let prefix = if unit.6 {
-            format!("(?:{prefixes})?")
-        } else {
-            String::new()
-        };
-        let names = NAMES.iter().filter(|name| name.1 == unit.0);
-        for name in std::iter::once(unit.0).chain(names.map(|name| name.0)) {
+    for unit in UNITS.iter().filter(|unit| is_one(unit.factor.dimension)) {
+        let names = NAMES.iter().filter(|(symbol, _)| *symbol == unit.symbol);
+        let names = names.flat_map(|(_, names)| *names);
+        for name in std::iter::once(&unit.symbol).chain(names) {
+            let prefix = if unit.prefixed { &prefixes } else { "" };
             all.push(format!("{prefix}{name}"));
         }
     }
     format!("(?:{})", all.join("|"))
 }
 
+/// The factor of a symbol or name, with a prefix or without.
 pub(super) fn symbol(name: &str) -> Option<Factor> {
     let find = |name: &str| {
-        let named = NAMES.iter().find(|entry| entry.0 == name);
-        let symbol = named.map_or(name, |entry| entry.1);
-        UNITS.iter().find(|unit| unit.0 == symbol)
-    };
-    let make = |unit: &Unit, ten: i32| Factor {
-        numerator: unit.1,
-        denominator: unit.2,
-        ten: unit.3 + ten,
-        pi: unit.4,
-        dimension: unit.5,
+        let named = NAMES.iter().find(|(_, names)| names.contains(&name));
+        let symbol = named.map_or(name, |(symbol, _)| symbol);
+        UNITS.iter().find(|unit| unit.symbol == symbol)
     };
     if let Some(unit) = find(name) {
-        return Some(make(unit, 0));
+        return Some(unit.factor);
     }
-    PREFIXES.iter().find_map(|(prefix, ten)| {
+    PREFIXES.iter().find_map(|(prefix, power)| {
         let unit = find(name.strip_prefix(prefix)?)?;
-        unit.6.then(|| make(unit, *ten))
+        let ten = unit.factor.ten + power;
+        unit.prefixed.then_some(Factor { ten, ..unit.factor })
     })
 }

@@ -49,7 +49,7 @@ impl KeyPath {
     /// What the key measures, if it takes a quantity.
     pub fn quantity(&self) -> Option<Quantity> {
         match self.key.kind {
-            Kind::Quantity(quantity) | Kind::QuantityOrFormula(quantity) => Some(quantity),
+            Kind::Of(quantity) | Kind::Formula(quantity) => Some(quantity),
             Kind::TimeOrAngle | Kind::Choice(_) | Kind::Text => None,
         }
     }

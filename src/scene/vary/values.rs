@@ -31,7 +31,7 @@ pub(super) fn read(key: &Key, text: &str) -> Result<Vec<Value>, String> {
 
 fn value(key: &Key, text: String) -> Result<Value, String> {
     let number = match key.kind {
-        Kind::Quantity(quantity) => {
+        Kind::Of(quantity) => {
             let number = unit::parse(&text, quantity);
             Some(number.map_err(|error| error.to_string())?)
         }
@@ -46,7 +46,7 @@ fn value(key: &Key, text: String) -> Result<Value, String> {
                 key.name
             ));
         }
-        Kind::QuantityOrFormula(quantity) => unit::parse(&text, quantity).ok(),
+        Kind::Formula(quantity) => unit::parse(&text, quantity).ok(),
         Kind::Choice(_) | Kind::Text => None,
     };
     if text.is_empty() {
