@@ -11,7 +11,7 @@ use super::{
 use crate::error::Error;
 use crate::kinematics::Length;
 use crate::kinematics::TurnOptions;
-use crate::report::{self, TurnWriter};
+use crate::report;
 use crate::scene::unit::Quantity;
 
 /// Arguments of `kinematics`.
@@ -81,11 +81,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         create(arguments.plot.as_ref())?,
     );
     if let Some(output) = out {
-        let mut writer = TurnWriter::new(output, &result)?;
-        for row in result.rows(arguments.every) {
-            writer.row(&row)?;
-        }
-        writer.finish()?;
+        report::turn_rows(&result, arguments.every, output)?;
     }
     fill(plot, || report::turn_figure(&result))?;
     streams.show(&result, || report::turn(&result))?;

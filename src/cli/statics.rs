@@ -9,7 +9,7 @@ use super::{
     positive_angle, print, quantity,
 };
 use crate::error::Error;
-use crate::report::{self, StaticsWriter};
+use crate::report;
 use crate::scene::unit::Quantity;
 use crate::statics::StaticsOptions;
 
@@ -126,11 +126,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         create(arguments.plot.as_ref())?,
     );
     if let Some(output) = out {
-        let mut writer = StaticsWriter::new(output, &result, arguments.details)?;
-        for row in result.rows(arguments.every) {
-            writer.row(&row)?;
-        }
-        writer.finish()?;
+        report::statics_rows(&result, arguments.every, arguments.details, output)?;
     }
     fill(plot, || report::statics_figure(&result))?;
     streams.show(&result, || report::statics(&result))?;

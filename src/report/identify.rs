@@ -1,8 +1,8 @@
 //! Identified values as text and CSV.
 
 use super::Output;
+use super::csv::{quoted, shortest};
 use super::key_values::{Facts, digits, six};
-use super::rows::shortest;
 use crate::error::Error;
 use crate::inverse::identify::Identification;
 
@@ -69,12 +69,20 @@ fn two(value: f64) -> String {
 ///
 /// # Errors
 /// [`Error::Write`].
-pub fn identification_csv(result: &Identification, mut output: Output) -> Result<(), Error> {
-    let mut text = "key,unit,start,value,standard_error,half_band\n".to_owned();
-    for one in &result.values {
+pub fn identification_csv(result: &Identification, output: Output) -> Result<(), Error> {
+    let header = [
+        "key",
+        "unit",
+        "start",
+        "value",
+        "standard_error",
+        "half_band",
+    ];
+    let rows = result.values.iter().map(|one| {
         let numbers = [one.start, one.value, one.standard_error, one.half_band].map(shortest);
-        text.push_str(&format!("{},{},{}\n", one.key, one.unit, numbers.join(",")));
-    }
-    output.write(text.as_bytes())?;
-    output.finish()
+        [one.key.clone(), one.unit.to_string()]
+            .into_iter()
+            .chain(numbers)
+    });
+    output.text(&quoted(header, rows)?)
 }

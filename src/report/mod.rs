@@ -2,6 +2,7 @@
 
 mod atomic_file;
 mod calibration;
+mod csv;
 mod decimate;
 mod explain;
 mod figure;
@@ -27,16 +28,15 @@ pub use figure::{Axis, Figure, ScaleKind, panels};
 pub use identify::{identification, identification_csv};
 pub use inverse::{inverse, inverse_figure, inverse_rows, residuals};
 pub use motion::PlotRows;
-pub use one_turn::{TurnWriter, sized, turn, turn_figure};
+pub use one_turn::{sized, turn, turn_figure, turn_rows};
 pub use output::{Output, is_standard_output};
 pub use page::page;
 pub use precision::{precision, precision_csv, precision_figure, precision_notes};
 pub use reproduce::{
     ReproductionSummary, drawing_csv, drawing_svg, file_name, reproduction, reproduction_csv,
 };
-use rows::shortest as shortest_number;
 pub use rows::{Preview, RowWriter};
-pub use statics::{StaticsWriter, statics, statics_figure};
+pub use statics::{statics, statics_figure, statics_rows};
 pub use sweep::{SweepExtreme, SweepRange, SweepSummary, SweepWriter, VariedKey, sweep_text};
 pub use text::summary;
 

@@ -2,8 +2,9 @@
 
 use std::fmt::Write;
 
+use super::csv::{line, write_all};
 use super::key_values::{Facts, degrees, given, six};
-use super::rows::{REACTIONS, reactions, write};
+use super::rows::{REACTIONS, reactions};
 use super::text::{NAMES, extreme, kinematics};
 use super::{Axis, Figure, Output, panels};
 use crate::error::Error;
@@ -15,95 +16,75 @@ const RATES: &str = "v_m_per_s,a_m_per_s2,rod_omega_rad_per_s,rod_alpha_rad_per_
 const FORCES: &str = "crank_torque_nm,crank_inertia_x_n,crank_inertia_y_n,rod_inertia_x_n,rod_inertia_y_n,rod_inertia_couple_nm,slider_inertia_n,rod_axial_n,crank_tangential_n,crank_radial_n";
 const FIRST_ORDER: &str = "a_first_order_m_per_s2,crank_torque_first_order_nm";
 
-/// Rows of `kinematics`.
-#[derive(Debug)]
-pub struct TurnWriter {
-    output: Output,
+/// Writes the rows of `kinematics`, so many radians apart.
+///
+/// # Errors
+/// [`Error::Write`].
+pub fn turn_rows(result: &OneTurn, every: f64, output: Output) -> Result<(), Error> {
+    let rows: Vec<TurnRow> = result.rows(every).collect();
+    write_all(output, &columns(result), &rows, |row, text| {
+        line(values(row), text)
+    })
 }
 
-impl TurnWriter {
-    /// Writes the header to an output.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
-    pub fn new(mut output: Output, result: &OneTurn) -> Result<TurnWriter, Error> {
-        let moves = result.kinematics.speed_rad_per_s.is_some();
-        let mut columns = vec![POSITION.to_owned()];
-        if moves {
-            columns.push(RATES.to_owned());
-        }
-        if result.forces.is_some() {
-            columns.push(format!("{FORCES},{REACTIONS},{FIRST_ORDER}"));
-        }
-        if result.has_slopes() {
-            for length in ["crank", "rod", "offset"] {
-                columns.push(if moves {
-                    format!("x_by_{length},v_by_{length}_per_s,a_by_{length}_per_s2,crank_torque_by_{length}_n")
-                } else {
-                    format!("x_by_{length},dx_by_{length}_per_rad,d2x_by_{length}_per_rad2")
-                });
-            }
-        }
-        if result.changed.is_some() {
-            columns.push(
-                if moves {
-                    "x_change_m,v_change_m_per_s,a_change_m_per_s2"
-                } else {
-                    "x_change_m,dx_change_m_per_rad,d2x_change_m_per_rad2"
-                }
-                .to_owned(),
-            );
-        }
-        output.write(format!("{}\n", columns.join(",")).as_bytes())?;
-        Ok(TurnWriter { output })
+fn columns(result: &OneTurn) -> String {
+    let moves = result.kinematics.speed_rad_per_s.is_some();
+    let mut columns = vec![POSITION.to_owned()];
+    columns.extend(moves.then(|| RATES.to_owned()));
+    if result.forces.is_some() {
+        columns.push(format!("{FORCES},{REACTIONS},{FIRST_ORDER}"));
     }
+    if result.has_slopes() {
+        for length in ["crank", "rod", "offset"] {
+            columns.push(if moves {
+                format!("x_by_{length},v_by_{length}_per_s,a_by_{length}_per_s2,crank_torque_by_{length}_n")
+            } else {
+                format!("x_by_{length},dx_by_{length}_per_rad,d2x_by_{length}_per_rad2")
+            });
+        }
+    }
+    let change = if moves {
+        "x_change_m,v_change_m_per_s,a_change_m_per_s2"
+    } else {
+        "x_change_m,dx_change_m_per_rad,d2x_change_m_per_rad2"
+    };
+    columns.extend(result.changed.as_ref().map(|_| change.to_owned()));
+    columns.join(",")
+}
 
-    /// Writes a row.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
-    pub fn row(&mut self, row: &TurnRow) -> Result<(), Error> {
-        let at = &row.kinematics;
-        let mut values = vec![
-            at.theta,
-            at.x,
-            at.dx,
-            at.d2x,
-            at.phi,
-            at.dphi,
-            at.d2phi,
-            at.transmission,
-        ];
-        values.extend(at.rates.into_iter().flatten());
-        if let Some(forces) = &row.forces {
-            values.push(forces.torque);
-            values.extend(forces.inertia.crank);
-            values.extend(forces.inertia.rod);
-            values.extend([
-                forces.inertia.rod_couple,
-                forces.inertia.slider,
-                forces.rod_axial,
-                forces.crank_tangential,
-                forces.crank_radial,
-            ]);
-            values.extend(reactions(&forces.reactions));
-            values.extend([forces.first_order_acceleration, forces.first_order_torque]);
-        }
-        for slope in row.slopes.iter().flatten() {
-            values.extend([slope.x, slope.v, slope.a]);
-            values.extend(slope.torque);
-        }
-        values.extend(row.change.into_iter().flatten());
-        write(&mut self.output, &values)
+fn values(row: &TurnRow) -> Vec<f64> {
+    let at = &row.kinematics;
+    let mut values = vec![
+        at.theta,
+        at.x,
+        at.dx,
+        at.d2x,
+        at.phi,
+        at.dphi,
+        at.d2phi,
+        at.transmission,
+    ];
+    values.extend(at.rates.into_iter().flatten());
+    if let Some(forces) = &row.forces {
+        values.push(forces.torque);
+        values.extend(forces.inertia.crank);
+        values.extend(forces.inertia.rod);
+        values.extend([
+            forces.inertia.rod_couple,
+            forces.inertia.slider,
+            forces.rod_axial,
+            forces.crank_tangential,
+            forces.crank_radial,
+        ]);
+        values.extend(reactions(&forces.reactions));
+        values.extend([forces.first_order_acceleration, forces.first_order_torque]);
     }
-
-    /// Completes the output.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
-    pub fn finish(self) -> Result<(), Error> {
-        self.output.finish()
+    for slope in row.slopes.iter().flatten() {
+        values.extend([slope.x, slope.v, slope.a]);
+        values.extend(slope.torque);
     }
+    values.extend(row.change.into_iter().flatten());
+    values
 }
 
 /// The lengths (m) that were chosen for a stroke.

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
+use super::csv::{quoted, shortest};
 use super::figure::{Axis, Figure, panels};
 use super::key_values::six;
-use super::rows::shortest;
 use crate::error::Error;
 use crate::precision::{Precision, PrecisionRow};
 use crate::scene::printable;
@@ -15,11 +15,6 @@ use crate::scene::printable;
 /// # Errors
 /// [`Error::Write`] if it cannot be made.
 pub fn precision_csv(scenes: &[Precision]) -> Result<String, Error> {
-    let failed = |source: String| Error::Write {
-        target: "CSV".to_owned(),
-        source: std::io::Error::other(source),
-    };
-    let mut writer = csv::Writer::from_writer(Vec::new());
     let header = [
         "scene",
         "method",
@@ -31,17 +26,11 @@ pub fn precision_csv(scenes: &[Precision]) -> Result<String, Error> {
         "evaluations",
         "steps",
     ];
-    let mut put = |cells: &[String]| {
-        writer
-            .write_record(cells)
-            .map_err(|e| failed(e.to_string()))
-    };
-    put(&header.map(str::to_owned))?;
-    for scene in scenes {
-        for row in &scene.rows {
-            let number = |value: Option<f64>| value.map_or(String::new(), shortest);
-            let count = |value: Option<u64>| value.map_or(String::new(), |value| value.to_string());
-            put(&[
+    let number = |value: Option<f64>| value.map_or(String::new(), shortest);
+    let count = |value: Option<u64>| value.map_or(String::new(), |value| value.to_string());
+    let rows = scenes.iter().flat_map(|scene| {
+        scene.rows.iter().map(move |row| {
+            [
                 printable(&scene.scene).into_owned(),
                 row.method.clone(),
                 shortest(row.tolerance),
@@ -51,11 +40,10 @@ pub fn precision_csv(scenes: &[Precision]) -> Result<String, Error> {
                 number(row.wall_s),
                 count(row.evaluations),
                 count(row.steps),
-            ])?;
-        }
-    }
-    let bytes = writer.into_inner().map_err(|e| failed(e.to_string()))?;
-    String::from_utf8(bytes).map_err(|e| failed(e.to_string()))
+            ]
+        })
+    });
+    quoted(header, rows)
 }
 
 /// The comparison of one scene as a table.
@@ -91,7 +79,7 @@ pub fn precision(scene: &Precision) -> String {
     for row in &scene.rows {
         put(format_args!("{}", line(row)));
     }
-    for note in notes(scene) {
+    for note in precision_notes(scene) {
         put(format_args!("note: {note}"));
     }
     text
@@ -121,10 +109,6 @@ fn line(row: &PrecisionRow) -> String {
 
 /// What the reader of the rows has to know.
 pub fn precision_notes(scene: &Precision) -> Vec<String> {
-    notes(scene)
-}
-
-fn notes(scene: &Precision) -> Vec<String> {
     let mut notes: Vec<String> = scene.left_out.clone();
     if scene.rows.iter().any(|row| row.error_is_bound) {
         notes.push(

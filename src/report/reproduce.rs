@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
+use super::csv::{quoted, shortest};
 use super::{Axis, Figure, panels};
 use crate::error::Error;
 use crate::reproduce::{Drawing, Entry, Plot, Reproduction, Style, Verdict};
@@ -126,27 +127,8 @@ pub fn reproduction(result: &Reproduction) -> String {
     text
 }
 
-fn csv_text(header: &[&str], rows: impl Iterator<Item = Vec<String>>) -> Result<String, Error> {
-    let failed = |message: String| Error::Write {
-        target: "CSV".to_owned(),
-        source: std::io::Error::other(message),
-    };
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer
-        .write_record(header)
-        .map_err(|e| failed(e.to_string()))?;
-    for row in rows {
-        writer
-            .write_record(row)
-            .map_err(|e| failed(e.to_string()))?;
-    }
-    let bytes = writer.into_inner().map_err(|e| failed(e.to_string()))?;
-    String::from_utf8(bytes).map_err(|e| failed(e.to_string()))
-}
-
 fn number(value: Option<f64>) -> String {
-    let finite = value.filter(|value| value.is_finite());
-    finite.map_or(String::new(), |value| format!("{}", value + 0.0))
+    value.map_or(String::new(), shortest)
 }
 
 /// Every entry as CSV.
@@ -180,7 +162,7 @@ pub fn reproduction_csv(result: &Reproduction) -> Result<String, Error> {
             entry.expected.name().to_owned(),
         ]
     };
-    csv_text(&header, result.entries.iter().map(row))
+    quoted(header, result.entries.iter().map(row))
 }
 
 /// The data of a figure as CSV, one row for each point.
@@ -201,7 +183,7 @@ pub fn drawing_csv(drawing: &Drawing) -> Result<String, Error> {
             })
         })
     });
-    csv_text(&["x_axis", "y_axis", "series", "x", "y"], rows)
+    quoted(["x_axis", "y_axis", "series", "x", "y"], rows)
 }
 
 /// A figure as SVG.

@@ -1,6 +1,7 @@
-//! Rows as CSV: header, shortest numbers that read back the same, empty cells for what does not exist.
+//! Rows of a run as CSV, and some of them for a table.
 
 use super::Output;
+use super::csv::line;
 use super::decimate::Thinned;
 use crate::error::Error;
 use crate::simulate::Reactions;
@@ -22,42 +23,6 @@ pub(super) fn reactions(forces: &Reactions) -> impl Iterator<Item = f64> {
         .chain([forces.guide])
         .chain(forces.shaking)
         .chain([forces.shaking_moment])
-}
-
-/// One CSV line of numbers; what is not finite is left empty.
-fn line(buffer: &mut csv::Writer<Vec<u8>>, values: &[f64]) -> Result<(), csv::Error> {
-    for value in values {
-        if value.is_finite() {
-            buffer.write_field(shortest(*value))?;
-        } else {
-            buffer.write_field("")?;
-        }
-    }
-    buffer.write_record(None::<&[u8]>)
-}
-
-/// The shortest text that reads back as the same number.
-pub(super) fn shortest(value: f64) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    let plain = value.abs() >= 1e-5 && value.abs() < 1e16;
-    if plain {
-        format!("{value}")
-    } else {
-        format!("{value:e}")
-    }
-}
-
-pub(super) fn write(output: &mut Output, values: &[f64]) -> Result<(), Error> {
-    let failed = |message: String| Error::Write {
-        target: "CSV".to_owned(),
-        source: std::io::Error::other(message),
-    };
-    let mut buffer = csv::Writer::from_writer(Vec::with_capacity(256));
-    line(&mut buffer, values).map_err(|e| failed(e.to_string()))?;
-    let bytes = buffer.into_inner().map_err(|e| failed(e.to_string()))?;
-    output.write(&bytes)
 }
 
 /// Rows of `simulate`.
@@ -115,7 +80,9 @@ impl RowSink for RowWriter {
             values.extend(joint.journal);
             values.push(joint.force);
         }
-        write(&mut self.output, &values)
+        let mut text = Vec::with_capacity(256);
+        line(values, &mut text);
+        self.output.write(&text)
     }
 }
 

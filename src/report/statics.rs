@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
+use super::csv::{self, write_all};
 use super::key_values::{Facts, given};
-use super::rows::write;
 use super::text::{NAMES, extreme, place};
 use super::{Axis, Figure, Output, panels};
 use crate::error::Error;
@@ -14,40 +14,25 @@ const TORQUE: &str = "crank_torque_nm,crank_torque_min_nm,crank_torque_max_nm";
 const REST: &str = "side_thrust_n,transmission_rad,self_locking";
 const DETAILS: &str = "velocity_ratio,crank_pin_angle_rad";
 
-/// Rows of `statics`.
-#[derive(Debug)]
-pub struct StaticsWriter {
-    output: Output,
+/// Writes the rows of `statics`, so many radians apart; with `details` also velocity ratio and angle at the crank pin.
+///
+/// # Errors
+/// [`Error::Write`].
+pub fn statics_rows(
+    result: &StaticAnalysis,
+    every: f64,
     details: bool,
-}
-
-impl StaticsWriter {
-    /// Writes the header to an output; with `details` also velocity ratio and angle at the crank pin.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
-    pub fn new(
-        mut output: Output,
-        result: &StaticAnalysis,
-        details: bool,
-    ) -> Result<StaticsWriter, Error> {
-        let sought = match result.sought {
-            "crank-torque" => TORQUE,
-            _ => FORCE,
-        };
-        let more = if details { "," } else { "" };
-        let details_header = if details { DETAILS } else { "" };
-        let header = format!("theta_rad,{sought},{REST}{more}{details_header}\n");
-        output.write(header.as_bytes())?;
-        Ok(StaticsWriter { output, details })
-    }
-
-    /// Writes a row.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
-    pub fn row(&mut self, row: &StaticsRow) -> Result<(), Error> {
-        let cell = |value: Option<f64>| value.unwrap_or(f64::NAN);
+    output: Output,
+) -> Result<(), Error> {
+    let sought = match result.sought {
+        "crank-torque" => TORQUE,
+        _ => FORCE,
+    };
+    let mut columns = vec!["theta_rad", sought, REST];
+    columns.extend(details.then_some(DETAILS));
+    let rows: Vec<StaticsRow> = result.rows(every).collect();
+    let cell = |value: Option<f64>| value.unwrap_or(f64::NAN);
+    write_all(output, &columns.join(","), &rows, |row, text| {
         let band = row.balance.band;
         let mut values = vec![
             row.theta,
@@ -58,19 +43,11 @@ impl StaticsWriter {
             row.transmission,
             f64::from(u8::from(row.balance.self_locking)),
         ];
-        if self.details {
+        if details {
             values.extend([row.velocity_ratio, row.crank_pin_angle]);
         }
-        write(&mut self.output, &values)
-    }
-
-    /// Completes the output.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
-    pub fn finish(self) -> Result<(), Error> {
-        self.output.finish()
-    }
+        csv::line(values, text);
+    })
 }
 
 /// What holds the equilibrium, in words and in a table of a few angles.

@@ -1,6 +1,6 @@
 //! Columns of a sweep.
 
-use super::cell;
+use super::super::csv::shortest as cell;
 use crate::kinematics::Kinematics;
 use crate::scene::printable;
 use crate::simulate::{SteadyState, Summary};

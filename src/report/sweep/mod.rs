@@ -8,8 +8,8 @@ mod resumable_file;
 use std::ops::Range;
 use std::path::Path;
 
+use super::csv::{failed, quoted};
 use super::output::{Output, is_standard_output, is_stream};
-use super::shortest_number;
 use crate::error::Error;
 use crate::sweep::{Design, Sweep};
 use ranges::Tally;
@@ -135,26 +135,14 @@ fn row(sweep: &Sweep, design: &Design) -> Result<String, Error> {
     line(&columns::cells(sweep, design))
 }
 
-fn failed(error: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> Error {
-    Error::Write {
-        target: "CSV".to_owned(),
-        source: std::io::Error::other(error),
-    }
-}
-
 /// Cells as one line of CSV.
 fn line(cells: &[String]) -> Result<String, Error> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(cells).map_err(failed)?;
-    let bytes = writer
-        .into_inner()
-        .map_err(|error| failed(error.to_string()))?;
-    String::from_utf8(bytes).map_err(failed)
+    quoted([], [cells.to_vec()])
 }
 
 /// One line of CSV as cells.
 fn cells(line: &str) -> Result<Vec<String>, Error> {
-    let mut reader = csv::ReaderBuilder::new();
+    let mut reader = ::csv::ReaderBuilder::new();
     let mut reader = reader.has_headers(false).from_reader(line.as_bytes());
     let record = reader.records().next().transpose().map_err(failed)?;
     Ok(record
@@ -162,13 +150,4 @@ fn cells(line: &str) -> Result<Vec<String>, Error> {
         .iter()
         .map(str::to_owned)
         .collect())
-}
-
-/// A number as a cell; what is not finite is empty.
-fn cell(number: f64) -> String {
-    if number.is_finite() {
-        shortest_number(number)
-    } else {
-        String::new()
-    }
 }
