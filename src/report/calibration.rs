@@ -1,6 +1,6 @@
 //! A calibration in words.
 
-use super::key_values::{Facts, given, six, with_error};
+use super::key_values::{Facts, fact, given, six, with_error};
 use crate::statics::Calibration;
 
 /// The line, its statistics, and the forces of the readings.
@@ -13,7 +13,7 @@ pub fn calibration(result: &Calibration) -> String {
     };
     facts.add("points", fit.points);
     let slope = shown(fit.slope, fit.slope_se);
-    facts.add("slope", format_args!("{slope} per N"));
+    fact!(facts, "slope", "{slope} per N");
     facts.add("intercept", shown(fit.intercept, fit.intercept_se));
     if let Some(r_squared) = fit.r_squared {
         facts.add("R squared", given(r_squared));
@@ -21,10 +21,7 @@ pub fn calibration(result: &Calibration) -> String {
     for measured in &result.forces {
         let force = shown(measured.force_n, measured.force_se_n);
         let reading = given(measured.reading);
-        facts.add(
-            "force",
-            format_args!("{force} N for a reading of {reading}"),
-        );
+        fact!(facts, "force", "{force} N for a reading of {reading}");
     }
     facts.warnings(&result.warnings);
     facts.lines(12)

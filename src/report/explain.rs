@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::key_values::{Facts, degrees, given, six};
+use super::key_values::{Facts, degrees, fact, given, six};
 use crate::explain::{Explanation, FrictionAt, TermsAt};
 
 /// Characters of a name, with what it is indented by.
@@ -39,7 +39,7 @@ fn computation(result: &Explanation) -> Facts {
     let plan = &result.plan;
     let mut facts = Facts::of("");
     let (engine, reason) = (plan.engine.name(), &plan.reason);
-    facts.add("  engine", format_args!("{engine}: {reason}"));
+    fact!(facts, "  engine", "{engine}: {reason}");
     if let Some(stepper) = plan.stepper {
         facts.add("  stepper", stepper.name());
     }
@@ -57,15 +57,16 @@ fn computation(result: &Explanation) -> Facts {
     };
     facts.add("  cycle of the loads", cycle);
     for load in &plan.cycle.loads {
-        facts.add("", format_args!("{} repeats {}", load.name, load.repeats));
+        fact!(facts, "", "{} repeats {}", load.name, load.repeats);
         if let Some(what) = load.between_nodes {
             facts.add("", what);
         }
     }
     let evaluation = result.evaluation_ns;
-    facts.add(
+    fact!(
+        facts,
         "  one evaluation",
-        format_args!("{evaluation:.0} ns (measured now)"),
+        "{evaluation:.0} ns (measured now)"
     );
     facts
 }
@@ -89,7 +90,7 @@ fn terms_at(at: &TermsAt) -> String {
         let _ = writeln!(text, "  Q of {} = {} N m", load.name, six(load.q_nm));
     }
     let mut facts = Facts::of("");
-    facts.add("  Q", format_args!("{} N m", six(at.q_nm)));
+    fact!(facts, "  Q", "{} N m", six(at.q_nm));
     let alpha = match at.alpha_rad_per_s2 {
         Some(alpha) => format!("{} rad/s2", six(alpha)),
         None => "not determined: no inertia here, or the guide jams".to_owned(),
@@ -97,9 +98,10 @@ fn terms_at(at: &TermsAt) -> String {
     facts.add("  theta..", alpha);
     let without = at.friction.map_or("", |_| ", without friction");
     let torque = six(at.holding_torque_nm);
-    facts.add(
+    fact!(
+        facts,
         "  holding torque",
-        format_args!("{torque} N m (torque that keeps this speed{without})"),
+        "{torque} N m (torque that keeps this speed{without})"
     );
     if let Some(friction) = &at.friction {
         facts.add("  with friction", holding(friction));

@@ -2,7 +2,7 @@
 
 use super::Output;
 use super::csv::{quoted, shortest};
-use super::key_values::{Facts, digits, six};
+use super::key_values::{Facts, digits, fact, six};
 use crate::error::Error;
 use crate::inverse::identify::Identification;
 
@@ -12,49 +12,49 @@ const CLOSE: f64 = 0.9;
 /// Values with their errors and what to know of them.
 pub fn identification(result: &Identification) -> String {
     let mut facts = Facts::of(&result.scene);
-    facts.add(
+    fact!(
+        facts,
         "data",
-        format_args!("{} samples of {}", result.samples, result.column),
+        "{} samples of {}",
+        result.samples,
+        result.column
     );
     for one in &result.values {
-        facts.add(
+        fact!(
+            facts,
             &one.key,
-            format_args!(
-                "{} +- {} {}",
-                digits(one.value, one.half_band),
-                two(one.half_band),
-                one.unit
-            ),
+            "{} +- {} {}",
+            digits(one.value, one.half_band),
+            two(one.half_band),
+            one.unit
         );
     }
-    facts.add(
+    fact!(
+        facts,
         "95 % band",
-        format_args!("+- {:.4} standard errors", result.band_factor),
+        "+- {:.4} standard errors",
+        result.band_factor
     );
     for (i, row) in result.correlations.iter().enumerate() {
         for (j, value) in row.iter().enumerate().take(i) {
             if value.abs() > CLOSE {
-                facts.add(
+                fact!(
+                    facts,
                     "correlation",
-                    format_args!(
-                        "{value:.4} of {} and {}",
-                        result.values[j].key, result.values[i].key
-                    ),
+                    "{value:.4} of {} and {}",
+                    result.values[j].key,
+                    result.values[i].key
                 );
             }
         }
     }
     let unit = if result.column == "x" { "m" } else { "rad" };
-    facts.add(
-        "noise",
-        format_args!("{} {unit} of a sample", six(result.sigma)),
-    );
-    facts.add(
+    fact!(facts, "noise", "{} {unit} of a sample", six(result.sigma));
+    fact!(
+        facts,
         "torque missed",
-        format_args!(
-            "{} N m, root mean square",
-            six(result.missing_torque_rms_nm)
-        ),
+        "{} N m, root mean square",
+        six(result.missing_torque_rms_nm)
     );
     facts.warnings(&result.warnings);
     facts.lines(22)
@@ -66,9 +66,6 @@ fn two(value: f64) -> String {
 }
 
 /// Writes a row for each value.
-///
-/// # Errors
-/// [`Error::Write`].
 pub fn identification_csv(result: &Identification, output: Output) -> Result<(), Error> {
     let header = [
         "key",

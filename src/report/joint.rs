@@ -1,30 +1,32 @@
 //! A loose joint in words.
 
-use super::key_values::{Facts, given, six, with_error};
+use super::key_values::{Facts, fact, given, six, with_error};
 use crate::simulate::{ClearanceSummary, ContactStatistics};
 
 /// The loose joint.
 pub(super) fn clearance(facts: &mut Facts, joint: &ClearanceSummary) {
     let (radial, law) = (given(joint.radial_m), joint.contact_law);
-    facts.add(
+    fact!(
+        facts,
         "loose joint",
-        format_args!("{}, {radial} m radial clearance, {law}", joint.joint),
+        "{}, {radial} m radial clearance, {law}",
+        joint.joint
     );
-    facts.add(
+    fact!(
+        facts,
         "  contact",
-        format_args!(
-            "{} impacts, {:.2} % of the time, peak {} N, mean {} N",
-            joint.impacts,
-            100.0 * joint.contact_share,
-            six(joint.force_peak_n),
-            six(joint.force_mean_n)
-        ),
+        "{} impacts, {:.2} % of the time, peak {} N, mean {} N",
+        joint.impacts,
+        100.0 * joint.contact_share,
+        six(joint.force_peak_n),
+        six(joint.force_mean_n)
     );
     let (lost, work) = (six(joint.dissipated_j), six(joint.work_j.abs()));
     let way = if joint.work_j < 0.0 { "out of" } else { "into" };
-    facts.add(
+    fact!(
+        facts,
         "  energy lost",
-        format_args!("{lost} J in contact and guide; the loads and the drive bring {work} J {way} the mechanism"),
+        "{lost} J in contact and guide; the loads and the drive bring {work} J {way} the mechanism"
     );
     let shown = |value: f64, error: Option<f64>, unit: &str| match error {
         Some(error) => with_error(value, error, unit),
@@ -36,9 +38,10 @@ pub(super) fn clearance(facts: &mut Facts, joint: &ClearanceSummary) {
     if let Some(horizon) = &joint.horizon {
         let until = if horizon.whole_run { "the end, " } else { "" };
         let (t, turns) = (six(horizon.t_s), horizon.revolutions);
-        facts.add(
+        fact!(
+            facts,
             "  reproducible",
-            format_args!("to {until}t = {t} s, {turns:.3} turns"),
+            "to {until}t = {t} s, {turns:.3} turns"
         );
         if let Some(beyond) = &horizon.beyond {
             facts.add("  beyond", statistics(&beyond.run));

@@ -41,6 +41,14 @@ impl Facts {
     }
 }
 
+/// Adds a fact whose value is formatted.
+macro_rules! fact {
+    ($facts:expr, $name:expr, $($value:tt)+) => {
+        $facts.add($name, format_args!($($value)+))
+    };
+}
+pub(super) use fact;
+
 /// A number for people: six digits; JSON and CSV have all.
 pub(super) fn six(value: f64) -> String {
     let short = format!("{value:.5e}").parse().unwrap_or(value);

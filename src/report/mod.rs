@@ -43,9 +43,6 @@ pub use text::summary;
 use crate::error::Error;
 
 /// A value as one JSON object, with a line break at its end.
-///
-/// # Errors
-/// [`Error::Write`] if it cannot be made.
 pub fn json(value: &impl serde::Serialize) -> Result<String, Error> {
     let mut text = serde_json::to_string_pretty(value).map_err(|error| Error::Write {
         target: "JSON".to_owned(),

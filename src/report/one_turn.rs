@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::csv::{line, write_all};
-use super::key_values::{Facts, degrees, given, six};
+use super::key_values::{Facts, degrees, fact, given, six};
 use super::rows::{REACTIONS, reactions};
 use super::text::{NAMES, extreme, kinematics};
 use super::{Axis, Figure, Output, panels};
@@ -17,9 +17,6 @@ const FORCES: &str = "crank_torque_nm,crank_inertia_x_n,crank_inertia_y_n,rod_in
 const FIRST_ORDER: &str = "a_first_order_m_per_s2,crank_torque_first_order_nm";
 
 /// Writes the rows of `kinematics`, so many radians apart.
-///
-/// # Errors
-/// [`Error::Write`].
 pub fn turn_rows(result: &OneTurn, every: f64, output: Output) -> Result<(), Error> {
     let rows: Vec<TurnRow> = result.rows(every).collect();
     write_all(output, &columns(result), &rows, |row, text| {
@@ -107,20 +104,19 @@ pub fn turn(result: &OneTurn) -> String {
         facts.add(name, offset(with, unit));
     }
     if let Some(check) = &result.loop_closure {
-        facts.add(
+        fact!(
+            facts,
             "Newton-Raphson",
-            format_args!(
-                "from {} deg: {} to {} steps; {} angles on the scene's branch, {} on the other, {} without end",
-                degrees(check.guess_rad),
-                check.iterations_min,
-                check.iterations_max,
-                check.on_branch,
-                check.on_other_branch,
-                check.failed
-            ),
+            "from {} deg: {} to {} steps; {} angles on the scene's branch, {} on the other, {} without end",
+            degrees(check.guess_rad),
+            check.iterations_min,
+            check.iterations_max,
+            check.on_branch,
+            check.on_other_branch,
+            check.failed
         );
         let worst = check.worst_x_m;
-        facts.add("  off the closed form", format_args!("{worst:.1e} m"));
+        fact!(facts, "  off the closed form", "{worst:.1e} m");
     }
     let mut text = facts.lines(NAMES);
     if let Some(changed) = &result.changed {
@@ -133,27 +129,26 @@ pub fn turn(result: &OneTurn) -> String {
 fn forces(facts: &mut Facts, analysis: &ForceAnalysis) {
     let masses = &analysis.masses;
     let rotating = six(masses.rotating_kg);
-    facts.add(
-        "rotating mass",
-        format_args!("{rotating} kg at the crank pin"),
-    );
+    fact!(facts, "rotating mass", "{rotating} kg at the crank pin");
     let reciprocating = six(masses.reciprocating_kg);
-    facts.add(
+    fact!(
+        facts,
         "reciprocating mass",
-        format_args!("{reciprocating} kg at the wrist pin"),
+        "{reciprocating} kg at the wrist pin"
     );
     if analysis.cycle_turns > 1 {
         let turns = analysis.cycle_turns;
-        facts.add(
+        fact!(
+            facts,
             "forces",
-            format_args!("over {turns} turns, the cycle of the loads"),
+            "over {turns} turns, the cycle of the loads"
         );
     }
     for (name, stroke) in [("outward", analysis.outward), ("inward", analysis.inward)] {
         if let Some(StrokeTorque { max, min }) = stroke {
             let [min, max] = [min, max].map(|found| extreme(&found, "N m"));
             let name = format!("torque, {name} stroke");
-            facts.add(name, format_args!("{min} to {max}"));
+            fact!(facts, name, "{min} to {max}");
         }
     }
 }
@@ -178,9 +173,6 @@ fn offset(with: &OffsetExtremes, unit: &str) -> String {
 
 /// Slider position, velocity and acceleration over the crank angle, with those of the changed lengths, and
 /// the driving torque, exact and to first order.
-///
-/// # Errors
-/// [`Error::Write`] if the figure cannot be drawn.
 pub fn turn_figure(result: &OneTurn) -> Result<String, Error> {
     let moves = result.kinematics.speed_rad_per_s.is_some();
     let quantities = if moves {

@@ -68,9 +68,6 @@ enum Stream {
 impl Output {
     /// Opens the target; `-` is standard output. A target that cannot be written fails here, before the
     /// work is done.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
     pub fn create(path: &Path) -> Result<Output, Error> {
         let target = path.display().to_string();
         if is_standard_output(path) {
@@ -123,9 +120,6 @@ impl Output {
     }
 
     /// Writes bytes.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
     pub fn write(&mut self, bytes: &[u8]) -> Result<(), Error> {
         let result = match &mut self.stream {
             Stream::Standard(writer) => writer.write_all(bytes),
@@ -136,18 +130,12 @@ impl Output {
     }
 
     /// Writes a text that is all there is to write.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
     pub fn text(mut self, text: &str) -> Result<(), Error> {
         self.write(text.as_bytes())?;
         self.finish()
     }
 
     /// Completes the output; a file gets its name now.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
     pub fn finish(self) -> Result<(), Error> {
         let failed = |source| Error::Write {
             target: self.target.clone(),

@@ -11,9 +11,6 @@ use crate::scene::printable;
 
 /// The comparison of several scenes as CSV: one row for each method and tolerance, times the least; cells of
 /// what does not exist are empty.
-///
-/// # Errors
-/// [`Error::Write`] if it cannot be made.
 pub fn precision_csv(scenes: &[Precision]) -> Result<String, Error> {
     let header = [
         "scene",
@@ -166,9 +163,6 @@ pub fn precision_notes(scene: &Precision) -> Vec<String> {
 }
 
 /// Error of the crank angle against time, one panel for each scene.
-///
-/// # Errors
-/// [`Error::Write`] if it cannot be drawn.
 pub fn precision_figure(scenes: &[Precision]) -> Result<String, Error> {
     let figures: Vec<_> = scenes.iter().map(panel).collect();
     match &figures[..] {

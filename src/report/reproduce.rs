@@ -132,9 +132,6 @@ fn number(value: Option<f64>) -> String {
 }
 
 /// Every entry as CSV.
-///
-/// # Errors
-/// [`Error::Write`] if it cannot be made.
 pub fn reproduction_csv(result: &Reproduction) -> Result<String, Error> {
     let header = [
         "paper",
@@ -166,9 +163,6 @@ pub fn reproduction_csv(result: &Reproduction) -> Result<String, Error> {
 }
 
 /// The data of a figure as CSV, one row for each point.
-///
-/// # Errors
-/// [`Error::Write`] if it cannot be made.
 pub fn drawing_csv(drawing: &Drawing) -> Result<String, Error> {
     let rows = drawing.plots.iter().flat_map(|plot| {
         plot.series.iter().flat_map(move |series| {
@@ -187,9 +181,6 @@ pub fn drawing_csv(drawing: &Drawing) -> Result<String, Error> {
 }
 
 /// A figure as SVG.
-///
-/// # Errors
-/// [`Error::Write`] if it cannot be drawn.
 pub fn drawing_svg(drawing: &Drawing) -> Result<String, Error> {
     match drawing.plots.as_slice() {
         [plot] => figure(&drawing.title, plot).to_svg(),

@@ -42,9 +42,6 @@ impl RowWriter {
     }
 
     /// Completes the output.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
     pub fn finish(self) -> Result<(), Error> {
         self.output.finish()
     }

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::csv::{self, write_all};
-use super::key_values::{Facts, given};
+use super::key_values::{Facts, fact, given};
 use super::text::{NAMES, extreme, place};
 use super::{Axis, Figure, Output, panels};
 use crate::error::Error;
@@ -15,9 +15,6 @@ const REST: &str = "side_thrust_n,transmission_rad,self_locking";
 const DETAILS: &str = "velocity_ratio,crank_pin_angle_rad";
 
 /// Writes the rows of `statics`, so many radians apart; with `details` also velocity ratio and angle at the crank pin.
-///
-/// # Errors
-/// [`Error::Write`].
 pub fn statics_rows(
     result: &StaticAnalysis,
     every: f64,
@@ -58,7 +55,7 @@ pub fn statics(result: &StaticAnalysis) -> String {
     };
     let mut facts = Facts::of(&result.scene);
     facts.add("class", result.class);
-    facts.add("sought", format_args!("{what} beside the other loads"));
+    fact!(facts, "sought", "{what} beside the other loads");
     facts.add("friction coefficient", given(result.friction));
     for found in &result.least {
         facts.add("least", extreme(found, unit));
@@ -107,9 +104,6 @@ fn line(text: &mut String, cells: &[String; 6]) {
 }
 
 /// What is sought over the crank angle, with its friction band, and the side thrust.
-///
-/// # Errors
-/// [`Error::Write`] if the figure cannot be drawn.
 pub fn statics_figure(result: &StaticAnalysis) -> Result<String, Error> {
     let rows: Vec<StaticsRow> = result.rows(1f64.to_radians()).collect();
     let of = |value: &dyn Fn(&StaticsRow) -> Option<f64>| -> Vec<(f64, f64)> {

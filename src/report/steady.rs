@@ -1,6 +1,6 @@
 //! The periodic steady state in words.
 
-use super::key_values::{Facts, given, with_error};
+use super::key_values::{Facts, fact, given, with_error};
 use crate::simulate::{Estimated, Flywheel, SpeedExtreme, SteadyState};
 
 fn shown(estimated: Estimated, unit: &str) -> String {
@@ -15,7 +15,7 @@ pub(super) fn steady_state(facts: &mut Facts, steady: &SteadyState) {
         1 => (String::new(), "turn"),
         turns => (format!(" ({turns} turns)"), "cycle"),
     };
-    facts.add("steady state", format_args!("period {period}{of_turns}"));
+    fact!(facts, "steady state", "period {period}{of_turns}");
     facts.add("  mean speed", shown(steady.omega_mean_rad_per_s, "rad/s"));
     facts.add("  slowest", extreme(&steady.slowest));
     facts.add("  fastest", extreme(&steady.fastest));
@@ -56,8 +56,9 @@ fn flywheel(facts: &mut Facts, wheel: &Flywheel) {
     };
     let inertia = with_error(value, added.error, "kg m2");
     let wanted = given(wheel.wanted_fluctuation);
-    facts.add(
+    fact!(
+        facts,
         "  flywheel",
-        format_args!("{inertia} {what}, for a fluctuation of {wanted}"),
+        "{inertia} {what}, for a fluctuation of {wanted}"
     );
 }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use super::joint::clearance;
-use super::key_values::{Facts, degrees, in_turn, six, with_error};
+use super::key_values::{Facts, degrees, fact, in_turn, six, with_error};
 use super::steady::steady_state;
 use crate::kinematics::{Kinematics, Located, NamedPosition};
 use crate::simulate::{Row, Summary, TorqueRange};
@@ -34,36 +34,37 @@ pub(super) fn facts(summary: &Summary) -> Facts {
             mean_nm,
         } = *torque;
         let [least, most, mean] = [min_nm, max_nm, mean_nm].map(six);
-        facts.add(
+        fact!(
+            facts,
             "driving torque",
-            format_args!("{least} to {most} N m, mean {mean} N m"),
+            "{least} to {most} N m, mean {mean} N m"
         );
     }
     for (name, peak) in summary.peaks.iter().flat_map(|peaks| peaks.named()) {
         let (value, t, angle) = (six(peak.value_n), six(peak.t_s), in_turn(peak.theta_rad));
-        facts.add(
-            name,
-            format_args!("at most {value} N, at t = {t} s, {angle} deg"),
-        );
+        fact!(facts, name, "at most {value} N, at t = {t} s, {angle} deg");
     }
     let (relative, residual) = (summary.energy_residual, summary.energy_residual_j);
     if relative.is_finite() {
-        facts.add(
+        fact!(
+            facts,
             "energy residual",
-            format_args!("{relative:.1e} of the largest energy ({residual:.1e} J)"),
+            "{relative:.1e} of the largest energy ({residual:.1e} J)"
         );
     }
     let (evaluations, steps) = (summary.evaluations, summary.steps);
     let time = seconds(summary.wall_s);
-    facts.add(
+    fact!(
+        facts,
         "cost",
-        format_args!("{evaluations} evaluations, {steps} steps, {time}"),
+        "{evaluations} evaluations, {steps} steps, {time}"
     );
     if let Some(cost) = &summary.estimate_cost {
         let (evaluations, time) = (cost.evaluations, seconds(cost.wall_s));
-        facts.add(
+        fact!(
+            facts,
             "  of the estimate",
-            format_args!("{evaluations} evaluations, {time}"),
+            "{evaluations} evaluations, {time}"
         );
     }
     facts.add("events", events(summary));
@@ -88,7 +89,7 @@ fn end(facts: &mut Facts, summary: &Summary) {
         Some(error) => with_error(value, error, unit),
         None => format!("{} {unit}, error not estimated", six(value)),
     };
-    facts.add("end", format_args!("t = {} s", six(last.t_s)));
+    fact!(facts, "end", "t = {} s", six(last.t_s));
     let angle = shown(last.theta_rad, error.map(|e| e.theta_rad), "rad");
     facts.add("  crank angle", angle);
     let speed = shown(
@@ -99,7 +100,7 @@ fn end(facts: &mut Facts, summary: &Summary) {
     facts.add("  crank speed", speed);
     facts.add("turns", six(summary.revolutions));
     let [least, largest] = [summary.omega_min, summary.omega_max].map(bound);
-    facts.add("crank speed", format_args!("{least} to {largest} rad/s"));
+    fact!(facts, "crank speed", "{least} to {largest} rad/s");
 }
 
 fn events(summary: &Summary) -> String {
@@ -191,7 +192,7 @@ pub(super) fn extreme(found: &Located, unit: &str) -> String {
 pub(super) fn kinematics(result: &Kinematics) -> Facts {
     let mut facts = Facts::of(&result.scene);
     facts.add("class", result.class);
-    facts.add("stroke", format_args!("{} m", six(result.stroke_m)));
+    fact!(facts, "stroke", "{} m", six(result.stroke_m));
     for dead_centre in &result.dead_centres {
         let (angle, x) = (degrees(dead_centre.theta_rad), six(dead_centre.x_m));
         facts.add(
@@ -202,13 +203,13 @@ pub(super) fn kinematics(result: &Kinematics) -> Facts {
     if let (Some(advance), Some(back), Some(ratio)) =
         (result.advance_rad, result.return_rad, result.time_ratio)
     {
-        facts.add("outward stroke", format_args!("{} deg", degrees(advance)));
-        facts.add("inward stroke", format_args!("{} deg", degrees(back)));
+        fact!(facts, "outward stroke", "{} deg", degrees(advance));
+        fact!(facts, "inward stroke", "{} deg", degrees(back));
         facts.add("time ratio", six(ratio));
     }
     for reach in &result.reach_rad {
         let [from, to] = reach.map(degrees);
-        facts.add("reachable crank angles", format_args!("{from} to {to} deg"));
+        fact!(facts, "reachable crank angles", "{from} to {to} deg");
     }
     for position in &result.positions {
         if position.kind != "dead-centre" {
@@ -216,7 +217,7 @@ pub(super) fn kinematics(result: &Kinematics) -> Facts {
         }
     }
     let transmission = degrees(result.transmission_min_rad);
-    facts.add("least transmission", format_args!("{transmission} deg"));
+    fact!(facts, "least transmission", "{transmission} deg");
     let units = match result.speed_rad_per_s {
         Some(_) => ["m/s", "m/s2"],
         None => ["m/rad", "m/rad2"],

@@ -7,6 +7,7 @@ mod bad_scenes;
 mod data_files;
 mod formulas;
 mod odd_files;
+mod periods;
 mod refusals;
 mod scene_files;
 mod units;

@@ -150,9 +150,6 @@ impl Figure {
     }
 
     /// The figure as SVG; the same figure gives the same text.
-    ///
-    /// # Errors
-    /// [`Error::Write`] if it cannot be drawn.
     pub fn to_svg(&self) -> Result<String, Error> {
         page::svg("", std::slice::from_ref(self), 1)
     }
@@ -206,9 +203,6 @@ impl Figure {
 }
 
 /// Several figures side by side in `columns` columns, row by row, under a common title.
-///
-/// # Errors
-/// [`Error::Write`] if they cannot be drawn.
 pub fn panels(title: &str, figures: &[Figure], columns: usize) -> Result<String, Error> {
     page::svg(title, figures, columns.max(1))
 }

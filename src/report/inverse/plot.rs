@@ -23,9 +23,6 @@ const LONG_ARM: f64 = 0.1;
 const MARGIN: f64 = 0.04;
 
 /// Data, fit, residuals, force and torque side by side, as SVG; with the forces as Duarte et al. print them if given.
-///
-/// # Errors
-/// [`Error::Write`] if it cannot be drawn.
 pub fn inverse_figure(result: &Inverse, printed: Option<&AsPrinted>) -> Result<String, Error> {
     let figures = [
         motion(result),

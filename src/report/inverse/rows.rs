@@ -11,9 +11,6 @@ const COLUMNS: &str = "t_s,theta_rad,omega_rad_per_s,alpha_rad_per_s2,slider_for
 const PRINTED: &str = "spin_only_force_n,duarte_9_force_n";
 
 /// Writes the rows, with joint forces if they were asked for, and with the forces as Duarte et al. print them.
-///
-/// # Errors
-/// [`Error::Write`].
 pub fn inverse_rows(
     result: &Inverse,
     printed: Option<&AsPrinted>,
@@ -39,9 +36,6 @@ pub fn inverse_rows(
 }
 
 /// Writes what was measured, what the fit gives, and the difference.
-///
-/// # Errors
-/// [`Error::Write`].
 pub fn residuals(result: &Inverse, output: Output) -> Result<(), Error> {
     let data = &result.summary.data;
     let (name, unit) = (data.column, data.unit);

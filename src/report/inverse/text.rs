@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::super::key_values::Facts;
+use super::super::key_values::{Facts, fact};
 use crate::inverse::{AsPrinted, DataSummary, DeadCentreBand, FitSummary, ForceRange, Inverse};
 
 /// Lines of the whole text, those of a screen.
@@ -20,12 +20,15 @@ pub fn inverse(result: &Inverse, printed: Option<&AsPrinted>) -> String {
     let summary = &result.summary;
     let mut facts = Facts::of(&summary.scene);
     let data = &summary.data;
-    facts.add(
+    fact!(
+        facts,
         "data",
-        format_args!(
-            "{} samples of {} from {} to {} s, {:.4} turns",
-            data.rows, data.column, data.from_s, data.to_s, data.revolutions
-        ),
+        "{} samples of {} from {} to {} s, {:.4} turns",
+        data.rows,
+        data.column,
+        data.from_s,
+        data.to_s,
+        data.revolutions
     );
     fit(&mut facts, &summary.fit, data);
     match &summary.slider_force {
@@ -33,9 +36,11 @@ pub fn inverse(result: &Inverse, printed: Option<&AsPrinted>) -> String {
         None => facts.add("slider force", "not determined at any sample"),
     }
     facts.add("crank torque", range(&summary.crank_torque, "N m"));
-    facts.add(
+    fact!(
+        facts,
         "95 % band",
-        format_args!("+- {:.4} standard errors", summary.band_factor),
+        "+- {:.4} standard errors",
+        summary.band_factor
     );
     without_force(&mut facts, &summary.dead_centre_bands, data.rows);
     let (shown, more) = summary
@@ -43,10 +48,7 @@ pub fn inverse(result: &Inverse, printed: Option<&AsPrinted>) -> String {
         .split_at(summary.warnings.len().min(MOST_WARNINGS));
     facts.warnings(shown);
     if !more.is_empty() {
-        facts.add(
-            "warning",
-            format_args!("{} more: --json has all", more.len()),
-        );
+        fact!(facts, "warning", "{} more: --json has all", more.len());
     }
     let mut text = facts.lines(22);
     let room = LINES.saturating_sub(text.lines().count() + 2);
@@ -66,16 +68,15 @@ fn without_force(facts: &mut Facts, bands: &[DeadCentreBand], rows: usize) {
                 1 => ("1 stretch".to_owned(), ""),
                 more => (format!("{more} stretches"), "the longest "),
             };
-            facts.add(
+            fact!(
+                facts,
                 "no slider force",
-                format_args!(
-                    "{stretches}, {:.1} % of the rows, {the}from t = {} to {} s, theta = {:.2} to {:.2} deg: {reason}",
-                    100.0 * count as f64 / rows as f64,
-                    longest.from_s,
-                    longest.to_s,
-                    longest.from_theta_rad.to_degrees(),
-                    longest.to_theta_rad.to_degrees(),
-                ),
+                "{stretches}, {:.1} % of the rows, {the}from t = {} to {} s, theta = {:.2} to {:.2} deg: {reason}",
+                100.0 * count as f64 / rows as f64,
+                longest.from_s,
+                longest.to_s,
+                longest.from_theta_rad.to_degrees(),
+                longest.to_theta_rad.to_degrees()
             );
         }
         rest = others;
@@ -86,16 +87,13 @@ fn fit(facts: &mut Facts, fit: &FitSummary, data: &DataSummary) {
     let unit = data.unit;
     let (kind, reason) = (fit.kind, &fit.reason);
     match kind {
-        "polynomial" => facts.add(
+        "polynomial" => fact!(facts, "fit", "{kind}, degree {}: {reason}", fit.degree),
+        _ => fact!(
+            facts,
             "fit",
-            format_args!("{kind}, degree {}: {reason}", fit.degree),
-        ),
-        _ => facts.add(
-            "fit",
-            format_args!(
-                "{kind}, {}: {reason}; worth {:.1} parameters",
-                fit.prior, fit.parameters
-            ),
+            "{kind}, {}: {reason}; worth {:.1} parameters",
+            fit.prior,
+            fit.parameters
         ),
     }
     let errors = fit.standard_errors.iter();
@@ -109,28 +107,24 @@ fn fit(facts: &mut Facts, fit: &FitSummary, data: &DataSummary) {
     }
     let more = fit.coefficients.len().saturating_sub(MOST_COEFFICIENTS);
     if more > 0 {
-        facts.add(
-            "  coefficients",
-            format_args!("{more} more: --json has all"),
-        );
+        fact!(facts, "  coefficients", "{more} more: --json has all");
     }
-    facts.add("  R^2", format_args!("{:.9}", fit.r_squared));
+    fact!(facts, "  R^2", "{:.9}", fit.r_squared);
     let free = (data.rows as f64 - fit.parameters).max(1.0);
-    facts.add(
+    fact!(
+        facts,
         "  residuals",
-        format_args!(
-            "rms {:.6e} {unit}, noise {:.4e} +- {:.1e} {unit}",
-            fit.rms,
-            fit.sigma,
-            // Of normal noise.
-            fit.sigma / (2.0 * free).sqrt()
-        ),
+        "rms {:.6e} {unit}, noise {:.4e} +- {:.1e} {unit}",
+        fit.rms,
+        fit.sigma,
+        // Of normal noise.
+        fit.sigma / (2.0 * free).sqrt()
     );
     if let Some(condition) = fit.condition {
-        facts.add("  condition", format_args!("{condition:.3e}"));
+        fact!(facts, "  condition", "{condition:.3e}");
     }
     if let Some(time) = fit.noise_correlation_s {
-        facts.add("  noise", format_args!("correlated over {time:.3e} s"));
+        fact!(facts, "  noise", "correlated over {time:.3e} s");
     }
 }
 

@@ -98,9 +98,6 @@ impl<'a> SweepWriter<'a> {
     }
 
     /// Writes rows; those of a file are safe when this returns.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
     pub fn take(&mut self, designs: &[Design]) -> Result<(), Error> {
         let mut text = String::new();
         for design in designs {
@@ -116,9 +113,6 @@ impl<'a> SweepWriter<'a> {
     }
 
     /// Completes the output and sums up, after `wall_s` seconds of computation.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
     pub fn finish(self, wall_s: f64) -> Result<SweepSummary, Error> {
         match self.target {
             Target::Nothing => {}

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use serde::Serialize;
 
-use super::super::key_values::{Facts, six};
+use super::super::key_values::{Facts, fact, six};
 use super::columns::{before_figures, header};
 use crate::sweep::Sweep;
 
@@ -156,10 +156,7 @@ pub fn sweep_text(summary: &SweepSummary) -> String {
             first,
             last,
         } = one;
-        facts.add(
-            "varied",
-            format_args!("{key}: {first} to {last}, {count} values"),
-        );
+        fact!(facts, "varied", "{key}: {first} to {last}, {count} values");
     }
     let [from, to] = summary.part;
     let part = match to - (from - 1) {
@@ -167,14 +164,14 @@ pub fn sweep_text(summary: &SweepSummary) -> String {
         count if count == summary.designs => String::new(),
         _ => format!(", of these {from} to {to}"),
     };
-    facts.add("designs", format_args!("{}{part}", summary.designs));
+    fact!(facts, "designs", "{}{part}", summary.designs);
     for (status, count) in &summary.status {
         facts.add(format_args!("  {status}"), count);
     }
     if summary.taken_up > 0 {
         facts.add("  there already", summary.taken_up);
     }
-    facts.add("time", format_args!("{:.3} s", summary.wall_s));
+    fact!(facts, "time", "{:.3} s", summary.wall_s);
     let mut text = facts.lines(17);
     let _ = writeln!(
         text,

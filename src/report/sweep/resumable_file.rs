@@ -93,18 +93,12 @@ impl Growing {
     }
 
     /// Adds whole rows.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
     pub fn append(&mut self, rows: &[u8]) -> Result<(), Error> {
         let written = self.file.write_all(rows);
         written.map_err(|source| error(&self.part, source))
     }
 
     /// Gives the rows, without the first line, the name of the target.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
     pub fn finish(mut self) -> Result<(), Error> {
         let failed = |source| error(&self.part, source);
         let mut output = Output::create(&self.target)?;

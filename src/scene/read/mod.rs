@@ -1,7 +1,7 @@
 //! Scene files: TOML to [`Scene`], with the place of everything that is wrong.
 
 mod reader;
-mod value;
+pub(super) mod value;
 mod values;
 
 use std::path::Path;

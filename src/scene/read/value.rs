@@ -8,7 +8,7 @@ use crate::scene::unit;
 
 /// A value that has been read.
 #[derive(Clone, Debug)]
-pub(super) enum Value {
+pub(in crate::scene) enum Value {
     /// SI
     Number(f64),
     Text(String),
@@ -18,8 +18,21 @@ pub(super) enum Value {
     Every(Every),
 }
 
+impl Value {
+    /// The value as a quantity, SI, if it is one.
+    pub fn number(&self, kind: Kind) -> Option<f64> {
+        match (self, kind) {
+            (Value::Number(number), _) => Some(*number),
+            (Value::Text(text) | Value::Bare(text), Kind::Formula(quantity)) => {
+                unit::parse(text, quantity).ok()
+            }
+            _ => None,
+        }
+    }
+}
+
 /// Reads the value of a key, or says what is wrong and what would be right.
-pub(super) fn read(key: &Key, value: &DeValue<'_>) -> Result<Value, (String, String)> {
+pub(in crate::scene) fn read(key: &Key, value: &DeValue<'_>) -> Result<Value, (String, String)> {
     let text = match value {
         DeValue::String(text) => text.to_string(),
         DeValue::Float(number) => number.as_str().replace('_', ""),

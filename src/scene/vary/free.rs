@@ -8,6 +8,7 @@ use toml::de::{DeTable, DeValue};
 use super::draft::{Draft, Setting};
 use super::path::KeyPath;
 use crate::error::Error;
+use crate::scene::read::value;
 use crate::scene::{Problem, Problems, Scene, unit};
 
 /// A key of a scene that takes a quantity, read from a text like `crank.inertia` or `torque[2].coefficient`.
@@ -62,14 +63,12 @@ impl Draft {
             other => other.as_table(),
         });
         let value = table.and_then(|table| table.get(path.key.name));
-        let text = value.and_then(|value| match value.get_ref() {
-            DeValue::String(text) => Some(text.to_string()),
-            DeValue::Float(number) => Some(number.as_str().to_owned()),
-            DeValue::Integer(number) => Some(number.as_str().to_owned()),
-            _ => None,
-        });
-        let read = text.zip(path.quantity());
-        read.and_then(|(text, quantity)| unit::parse(&text, quantity).ok())
+        value
+            .and_then(|text| {
+                value::read(path.key, text.get_ref())
+                    .ok()?
+                    .number(path.key.kind)
+            })
             .ok_or_else(|| {
                 let example = match path.key.example() {
                     text if text.ends_with("\"...\"") => {

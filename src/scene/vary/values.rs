@@ -1,7 +1,10 @@
 //! The values that a key takes, one after the other.
 
+use toml::de::DeValue;
+
 use crate::scene::keys::{Key, Kind};
-use crate::scene::{number, unit};
+use crate::scene::number;
+use crate::scene::read::value;
 
 /// Most values of one key.
 const MOST: usize = 1_000_000;
@@ -30,28 +33,13 @@ pub(super) fn read(key: &Key, text: &str) -> Result<Vec<Value>, String> {
 }
 
 fn value(key: &Key, text: String) -> Result<Value, String> {
-    let number = match key.kind {
-        Kind::Of(quantity) => {
-            let number = unit::parse(&text, quantity);
-            Some(number.map_err(|error| error.to_string())?)
-        }
-        Kind::TimeOrAngle => {
-            unit::time_or_angle(&text).map_err(|error| error.to_string())?;
-            None
-        }
-        Kind::Choice(words) if !words.contains(&text.as_str()) => {
-            let words = words.join(", ");
-            return Err(format!(
-                "`{}` cannot be `{text}`; it may be {words}",
-                key.name
-            ));
-        }
-        Kind::Formula(quantity) => unit::parse(&text, quantity).ok(),
-        Kind::Choice(_) | Kind::Text => None,
-    };
     if text.is_empty() {
         return Err(format!("a value of `{}` is empty", key.name));
     }
+    let found = value::read(key, &DeValue::String(text.as_str().into()));
+    let number = found
+        .map_err(|(what, help)| format!("{what}; {help}"))?
+        .number(key.kind);
     Ok(Value { text, number })
 }
 
