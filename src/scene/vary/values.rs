@@ -33,13 +33,13 @@ pub(super) fn read(key: &Key, text: &str) -> Result<Vec<Value>, String> {
 }
 
 fn value(key: &Key, text: String) -> Result<Value, String> {
-    if text.is_empty() {
-        return Err(format!("a value of `{}` is empty", key.name));
-    }
     let found = value::read(key, &DeValue::String(text.as_str().into()));
     let number = found
         .map_err(|(what, help)| format!("{what}; {help}"))?
         .number(key.kind);
+    if text.is_empty() {
+        return Err(format!("a value of `{}` is empty", key.name));
+    }
     Ok(Value { text, number })
 }
 
