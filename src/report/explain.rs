@@ -3,10 +3,8 @@
 use std::fmt::Write;
 
 use super::key_values::{Facts, degrees, fact, given, six};
+use super::text::NAMES;
 use crate::explain::{Explanation, FrictionAt, TermsAt};
-
-/// Characters of a name, with what it is indented by.
-const NAMES: usize = 24;
 
 /// The explanation as text.
 pub fn explanation(result: &Explanation) -> String {

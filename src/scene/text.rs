@@ -39,7 +39,7 @@ pub(super) fn decoded(bytes: Vec<u8>) -> Result<String, String> {
     }
     let (bytes, at) = match String::from_utf8(bytes) {
         Ok(text) => match text.find('\0') {
-            None => return Ok(text),
+            None => return Ok(with_line_feeds(text)),
             Some(zero) => (text.into_bytes(), zero),
         },
         Err(error) => {

@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 use std::path::Path;
 
-use slider_crank::scene::{Measured, Measurement, Reading};
+use slider_crank::scene::{Measured, Measurement, Reading, load_table};
 
 const TURN: f64 = 2.0 * PI;
 
@@ -400,4 +400,24 @@ fn places_are_those_of_the_file() {
         error.contains("data.csv:13:3") && error.contains("a quote is not closed"),
         "{error}"
     );
+}
+
+/// Tables of loads have the line ends, marks, comments and separators of data files.
+#[test]
+fn tables_of_loads_are_files_of_data() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("torque.csv");
+    let plain = "theta [deg],torque [N m]\n0,1\n90,2.5\n180,-1\n";
+    for text in [
+        plain.to_owned(),
+        plain.replace('\n', "\r\n"),
+        plain.replace('\n', "\r"),
+        format!("\u{feff}# of a rig\n\n{plain},\n"),
+        format!("sep=;\n{}", plain.replace(',', ";")),
+        plain.replace(',', "\t").replace("90", "\"90\""),
+    ] {
+        std::fs::write(&file, &text).expect("a file");
+        let table = load_table(&file).expect("no problem").expect("a table");
+        assert_eq!((table.rows, table.of.name()), (3, "theta"), "{text}");
+    }
 }

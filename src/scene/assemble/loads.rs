@@ -155,7 +155,7 @@ fn table(
     };
     let file = folder.join(values.text("file")?);
     Table::read(&file, of, quantity, interpolation, period)
-        .map_err(|error| reader.problem(&values.field(error.key), error.what, error.help))
+        .map_err(|error| reader.problem(&values.field(&error.field), error.what, error.help))
         .ok()
 }
 

@@ -31,11 +31,6 @@ impl Measured {
         self.quantity().si()
     }
 
-    /// Whether several crank angles have the same measured value.
-    pub fn folds(self) -> bool {
-        self != Measured::Theta
-    }
-
     /// What it is, in words.
     pub(super) fn meaning(self) -> &'static str {
         match self {

@@ -16,9 +16,6 @@ use super::{Problem, Problems, Scene, assemble, validate};
 pub(super) use reader::Reader;
 pub(super) use values::Values;
 
-/// Errors of syntax that are listed: what is no scene at all has one on each line.
-const MOST_LISTED: usize = 20;
-
 /// Reads the text of a scene file, with these values in place of its own; tables it names are looked for
 /// beside it.
 pub(super) fn scene<'a>(
@@ -34,7 +31,7 @@ pub(super) fn scene<'a>(
             what: format!("not TOML: {}", error.message()),
             help: "tables are `[geometry]`, values are `key = \"47 mm\"`".to_owned(),
         };
-        let problems = errors.iter().take(MOST_LISTED).map(problem).collect();
+        let problems = errors.iter().map(problem).collect();
         return Err(Problems::in_file(file, source, problems));
     }
     let mut reader = Reader::new(source);

@@ -4,27 +4,28 @@ use std::path::Path;
 
 use super::pairs::Pairs;
 use super::rows::{Rows, columns_error};
-use super::{Interpolation, Table, TableError};
+use super::{Interpolation, Table};
 #[cfg(feature = "cli")]
 use crate::error::Error;
 use crate::scene::csv::{Column, header};
 use crate::scene::unit::Quantity;
-use crate::scene::{Variable, text};
+use crate::scene::{Problem, Variable, text};
 
 impl Table {
-    /// Reads a CSV file with a header that names both columns and their units.
+    /// Reads a CSV file with a header that names both columns and their units; problems name the key of the load that is to
+    /// be changed.
     pub(in crate::scene) fn read(
         file: &Path,
         of: Variable,
         value: Quantity,
         interpolation: Interpolation,
         period: Option<f64>,
-    ) -> Result<Table, TableError> {
+    ) -> Result<Table, Problem> {
         let name = file.display().to_string();
-        let bytes = std::fs::read(file).map_err(|e| TableError {
-            key: "file",
-            what: format!("`{name}` cannot be read: {e}"),
-            help: "give the path of a CSV file, relative to the scene file".to_owned(),
+        let bytes = std::fs::read(file).map_err(|error| {
+            let what = format!("`{name}` cannot be read: {error}");
+            let help = "give the path of a CSV file, relative to the scene file";
+            Problem::new("file", what, help)
         })?;
         let wrong = |what: String| columns_error(of, what);
         let text = text::decoded(bytes).map_err(|what| wrong(format!("{name}: {what}")))?;

@@ -28,18 +28,6 @@ pub struct Table {
     file: Option<PathBuf>,
 }
 
-/// Why a table of a scene file cannot be used.
-#[derive(Debug)]
-#[cfg_attr(not(feature = "cli"), allow(dead_code))]
-pub(super) struct TableError {
-    /// The key of the load that is to be changed.
-    pub key: &'static str,
-    /// What is wrong.
-    pub what: String,
-    /// What would be right.
-    pub help: String,
-}
-
 impl Table {
     /// A table of code. Arguments must rise strictly; with a `period` the table repeats, and a last
     /// point one period after the first must repeat its value.

@@ -15,6 +15,7 @@ pub(super) struct Pairs<'a> {
 pub(super) struct Pair<'a> {
     pub x: f64,
     pub y: f64,
+    #[cfg_attr(not(feature = "cli"), expect(dead_code))]
     pub row: &'a str,
 }
 

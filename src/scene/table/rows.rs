@@ -1,10 +1,10 @@
 //! Rows of a table, checked before a curve is laid through them.
 
-use super::{Interpolation, TableError};
+use super::Interpolation;
 use crate::numeric::interpolate::Curve;
 use crate::scene::csv::Column;
 use crate::scene::number::{apart, counted, show};
-use crate::scene::{Period, Variable};
+use crate::scene::{Period, Problem, Variable};
 
 /// Arguments or values that differ by less than this part of the whole count as equal: the last digit of calculators, which
 /// show 2π as 6.283185307.
@@ -29,7 +29,7 @@ impl Rows<'_> {
         mut self,
         interpolation: Interpolation,
         period: Option<f64>,
-    ) -> Result<Curve, TableError> {
+    ) -> Result<Curve, Problem> {
         self.rise()?;
         if let Some(period) = period {
             self.close(period)?;
@@ -49,7 +49,7 @@ impl Rows<'_> {
         meant.ok().filter(|meant| span < *meant).unwrap_or(period)
     }
 
-    fn rise(&self) -> Result<(), TableError> {
+    fn rise(&self) -> Result<(), Problem> {
         let points = &self.points;
         if points.len() < 2 {
             let rows = counted(points.len(), "row");
@@ -75,14 +75,13 @@ impl Rows<'_> {
     }
 
     /// Takes off the last row of a table that repeats if it is the first one again.
-    fn close(&mut self, period: f64) -> Result<(), TableError> {
+    fn close(&mut self, period: f64) -> Result<(), Problem> {
         let [argument, value] = &self.columns;
         let (first, last) = (self.points[0], self.points[self.points.len() - 1]);
         let span = last.0 - first.0;
-        let period_error = |what: String| TableError {
-            key: "period",
-            what,
-            help: "give the whole period after which the table repeats, or leave it out".to_owned(),
+        let period_error = |what: String| {
+            let help = "give the whole period after which the table repeats, or leave it out";
+            Problem::new("period", what, help)
         };
         if !matches!(self.of, Variable::Theta | Variable::T) {
             let what = format!("a table over {} cannot repeat", self.of.name());
@@ -105,24 +104,26 @@ impl Rows<'_> {
         let largest = self.points.iter().fold(0.0f64, |m, p| m.max(p.1.abs()));
         if (last.1 - first.1).abs() > SAME * largest {
             let (last, first) = apart(last.1 / value.factor, first.1 / value.factor);
-            return Err(TableError {
-                key: "file",
-                what: format!(
-                    "{}it spans one period, so its last value must be its first one again, but they are {last} and {first}",
-                    self.whole
-                ),
-                help: "let the last row repeat the first value, or leave that row out".to_owned(),
-            });
+            let what = format!(
+                "{}it spans one period, so its last value must be its first one again, but they are {last} and {first}",
+                self.whole
+            );
+            return Err(Problem::new(
+                "file",
+                what,
+                "let the last row repeat the first value, or leave that row out",
+            ));
         }
         if self.points.len() < 3 {
-            return Err(TableError {
-                key: "file",
-                what: format!(
-                    "{}a repeating table needs at least 2 rows within its period",
-                    self.whole
-                ),
-                help: "add rows between the first and the last".to_owned(),
-            });
+            let what = format!(
+                "{}a repeating table needs at least 2 rows within its period",
+                self.whole
+            );
+            return Err(Problem::new(
+                "file",
+                what,
+                "add rows between the first and the last",
+            ));
         }
         self.points.pop();
         Ok(())
@@ -130,13 +131,10 @@ impl Rows<'_> {
 }
 
 /// A problem with the columns of a table over `of`.
-pub(super) fn columns_error(of: Variable, what: String) -> TableError {
-    TableError {
-        key: "file",
-        what,
-        help: format!(
-            "the file has two columns with units in the header, as `{} [unit],value [unit]`, and rising rows",
-            of.name()
-        ),
-    }
+pub(super) fn columns_error(of: Variable, what: String) -> Problem {
+    let help = format!(
+        "the file has two columns with units in the header, as `{} [unit],value [unit]`, and rising rows",
+        of.name()
+    );
+    Problem::new("file", what, help)
 }
