@@ -49,7 +49,12 @@ impl<'a> Heading<'a> {
             return Err(located(quote, "quote", OPEN_QUOTE, CLOSE_QUOTE));
         }
         let mut cells = dialect.list(row);
-        let is_number = |cell: &&str| cell::parse(cell, reading.decimal_comma).is_ok();
+        // In either notation: a row of numbers is no header.
+        let is_number = |cell: &&str| {
+            [false, true]
+                .into_iter()
+                .any(|comma| cell::parse(cell, comma).is_ok())
+        };
         let number = cells.iter().copied().find(is_number);
         let heading = |names, by| Heading {
             text,
