@@ -21,7 +21,7 @@ impl Load {
         }
     }
 
-    /// All of them between two angles, rad.
+    /// Angles between two others, rad, at which a table over the crank angle is not smooth.
     pub fn corners_between(&self, low: f64, high: f64) -> Vec<f64> {
         let table = self.angle_table();
         table.map_or_else(Vec::new, |(table, _)| table.rows_between(low, high))

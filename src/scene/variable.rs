@@ -20,7 +20,7 @@ pub enum Variable {
 }
 
 impl Variable {
-    /// All of them, in the order of [`Instant`].
+    /// All variables, in the order of [`Instant`].
     pub const ALL: [Variable; 5] = [Self::T, Self::Theta, Self::Omega, Self::X, Self::V];
 
     /// Name in expressions and scene files.

@@ -39,7 +39,7 @@ pub(super) fn is_count(word: &str) -> bool {
 pub(super) struct Named {
     /// Position, from 0.
     pub at: usize,
-    /// Its header as written, or its number.
+    /// Header as written, or the number of the column.
     pub raw: String,
     /// Name in lower case and unit as written; empty if there is none.
     pub header: Header,
@@ -81,7 +81,7 @@ impl Named {
         problem
     }
 
-    /// Its unit, which must be one of a quantity.
+    /// The unit, which must be one of a quantity.
     fn column(&self, quantity: Quantity, option: &str) -> Result<Column, Problem> {
         let mut header = self.header.clone();
         if header.name.is_empty() {

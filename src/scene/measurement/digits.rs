@@ -12,13 +12,13 @@ pub(super) struct Digits {
 const MOST_DECIMALS: i32 = 300;
 
 impl Digits {
-    /// Those of no value.
+    /// Decimals and digits of no value.
     pub const NONE: Digits = Digits {
         decimals: -MOST_DECIMALS,
         significant: 1,
     };
 
-    /// Those of a number with a decimal point.
+    /// Decimals and digits of a number with a decimal point.
     pub fn of(text: &str) -> Digits {
         let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
         let after = mantissa.split_once('.').map_or(0, |(_, after)| after.len());
@@ -30,7 +30,7 @@ impl Digits {
         }
     }
 
-    /// Those of two numbers.
+    /// Decimals and digits of two numbers.
     pub fn or(self, other: Digits) -> Digits {
         Digits {
             decimals: self.decimals.max(other.decimals),

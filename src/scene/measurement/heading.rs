@@ -37,79 +37,95 @@ impl<'a> Heading<'a> {
         dialect: Dialect,
         reading: &'a Reading,
     ) -> Result<Heading<'a>, Problem> {
-        let mut rows = dialect.rows(text).peekable();
-        let row = rows.next().unwrap_or_default();
-        let start = span(text, row).start;
-        let located = |part: &str, field, what: &str, help| {
-            let mut problem = Problem::new(field, what, help);
-            problem.span = Some(span(text, part));
-            problem
-        };
+        let row = dialect.rows(text).next().unwrap_or_default();
         if let Some(quote) = Dialect::open_quote(row) {
-            return Err(located(quote, "quote", OPEN_QUOTE, CLOSE_QUOTE));
+            let mut problem = Problem::new("quote", OPEN_QUOTE, CLOSE_QUOTE);
+            problem.span = Some(span(text, quote));
+            return Err(problem);
         }
-        let mut cells = dialect.list(row);
+        let cells = dialect.list(row);
         // In either notation: a row of numbers is no header.
-        let is_number = |cell: &&str| {
-            [false, true]
-                .into_iter()
-                .any(|comma| cell::parse(cell, comma).is_ok())
-        };
+        let is_number =
+            |cell: &&str| cell::parse(cell, false).is_ok() || cell::parse(cell, true).is_ok();
         let number = cells.iter().copied().find(is_number);
-        let heading = |names, by| Heading {
+        let heading = Heading {
             text,
-            names,
+            names: cells,
             units: Vec::new(),
-            by,
+            by: NamedBy::Header,
             row,
-            start,
+            start: span(text, row).start,
         };
-        if let Some(given) = &reading.columns {
-            let separator = [';', '\t'].into_iter().find(|c| given.contains(*c));
-            let names = given.split(separator.unwrap_or(',')).map(str::trim);
-            let help = "leave --columns out: it is for files without header";
-            let with_header = || Problem::new("", "the file has a header", help);
-            return number
-                .map(|_| heading(names.collect(), NamedBy::Option))
-                .ok_or_else(with_header);
+        match (&reading.columns, number) {
+            (None, None) => Ok(heading.in_rows(dialect)),
+            (None, Some(number)) => heading.above_numbers(number, dialect, reading),
+            (Some(_), None) => {
+                let help = "leave --columns out: it is for files without header";
+                Err(Problem::new("", "the file has a header", help))
+            }
+            (Some(given), Some(_)) => {
+                let separator = [';', '\t'].into_iter().find(|c| given.contains(*c));
+                let names = given.split(separator.unwrap_or(',')).map(str::trim);
+                Ok(Heading {
+                    names: names.collect(),
+                    by: NamedBy::Option,
+                    ..heading
+                })
+            }
         }
-        let Some(number) = number else {
-            while cells.len() > 1 && cells.last().is_some_and(|name| name.is_empty()) {
-                cells.pop();
-            }
-            let is_bare = cells.iter().all(|cell| header::split(cell).unit.is_empty());
-            let is_unit = |cell: &&str| {
-                let bare = header::bare(cell);
-                bare.is_empty() || unit::is_unit(bare) || is_count(bare)
-            };
-            let units = rows.next_if(|row| is_bare && dialect.list(row).iter().all(is_unit));
-            let start = rows.peek().map_or(text.len(), |row| span(text, row).start);
-            return Ok(Heading {
-                units: units.map_or_else(Vec::new, |row| dialect.list(row)),
-                start,
-                ..heading(cells, NamedBy::Header)
-            });
+    }
+
+    /// A row of names, and one of units below it where the names have none.
+    fn in_rows(mut self, dialect: Dialect) -> Heading<'a> {
+        let text = self.text;
+        let mut rows = dialect.rows(text).skip(1).peekable();
+        while self.names.len() > 1 && self.names.last().is_some_and(|name| name.is_empty()) {
+            self.names.pop();
+        }
+        let is_bare = |name: &&str| header::split(name).unit.is_empty();
+        let is_unit = |cell: &&str| {
+            let bare = header::bare(cell);
+            bare.is_empty() || unit::is_unit(bare) || is_count(bare)
         };
-        // What numpy and MATLAB write: the header as a comment.
-        let mut above = text[..start].lines().rev();
-        let comment = above
-            .find(|line| !line.trim().is_empty())
-            .unwrap_or_default();
-        let names = dialect.list(comment.trim_start_matches(['#', '%', ';', ' ']));
-        if dialect.is_comment(comment) && names.len() == cells.len() {
-            let commented = heading(names, NamedBy::Header);
-            if commented.columns(reading).is_ok() {
-                return Ok(commented);
-            }
+        let are_bare = self.names.iter().all(is_bare);
+        let units = rows.next_if(|row| are_bare && dialect.list(row).iter().all(is_unit));
+        self.units = units.map_or_else(Vec::new, |row| dialect.list(row));
+        self.start = rows.peek().map_or(text.len(), |row| span(text, row).start);
+        self
+    }
+
+    /// The header as a comment above the numbers, as numpy and MATLAB write it, or none where options say the columns.
+    fn above_numbers(
+        mut self,
+        number: &str,
+        dialect: Dialect,
+        reading: &Reading,
+    ) -> Result<Heading<'a>, Problem> {
+        let count = self.names.len();
+        let mut above = self.text[..self.start].lines().rev();
+        let comment = above.find(|line| !line.trim().is_empty());
+        let comment = comment.filter(|line| dialect.is_comment(line));
+        self.names = comment.map_or_else(Vec::new, |line| {
+            dialect.list(line.trim_start_matches(['#', '%', ';', ' ']))
+        });
+        if self.names.len() == count && self.columns(reading).is_ok() {
+            return Ok(self);
         }
         if reading.time.is_some() && reading.motion.is_some() {
-            return Ok(heading(vec![""; cells.len()], NamedBy::Number));
+            return Ok(Heading {
+                names: vec![""; count],
+                by: NamedBy::Number,
+                ..self
+            });
         }
         let what = format!("there is no header: `{number}` is a number");
         let help = "put a header above the numbers, as `t [s],theta [deg]`, or say what the columns are: --columns \"t [s],theta [deg]\", or --time \"1[s]\" --motion \"2[deg]\"";
-        Err(located(number, "header", &what, help))
+        let mut problem = Problem::new("header", what, help);
+        problem.span = Some(span(self.text, number));
+        Err(problem)
     }
 
+    /// Time and motion among the columns.
     pub fn columns(&self, reading: &Reading) -> Result<Columns, Problem> {
         let named = |(at, raw): (usize, &&str)| {
             let Header { name, unit } = header::split(raw);

@@ -14,10 +14,10 @@ pub enum Measured {
 }
 
 impl Measured {
-    /// All of them; of several in one file the first is taken.
+    /// All quantities; of several in one file the first is taken.
     pub const ALL: [Measured; 3] = [Measured::Theta, Measured::Gamma, Measured::X];
 
-    /// Its name in headers.
+    /// Name in headers.
     pub fn name(self) -> &'static str {
         match self {
             Measured::Theta => "theta",
