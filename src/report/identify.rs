@@ -2,7 +2,7 @@
 
 use super::Output;
 use super::csv::{quoted, shortest};
-use super::key_values::{Facts, digits, fact, six};
+use super::key_values::{Facts, digits, fact, rounded, six};
 use crate::error::Error;
 use crate::inverse::identify::Identification;
 
@@ -25,7 +25,7 @@ pub fn identification(result: &Identification) -> String {
             &one.key,
             "{} +- {} {}",
             digits(one.value, one.half_band),
-            two(one.half_band),
+            rounded(one.half_band, 2),
             one.unit
         );
     }
@@ -58,11 +58,6 @@ pub fn identification(result: &Identification) -> String {
     );
     facts.warnings(&result.warnings);
     facts.lines(22)
-}
-
-/// Two digits.
-fn two(value: f64) -> String {
-    six(format!("{value:.1e}").parse().unwrap_or(value))
 }
 
 /// Writes a row for each value.

@@ -51,14 +51,18 @@ pub(super) use fact;
 
 /// A number for people: six digits; JSON and CSV have all.
 pub(super) fn six(value: f64) -> String {
-    let short = format!("{value:.5e}").parse().unwrap_or(value);
-    plain(short)
+    rounded(value, 6)
 }
 
 /// A number that was given: as it was typed, without what rounding adds to it.
 pub(super) fn given(value: f64) -> String {
-    let short = format!("{value:.11e}").parse().unwrap_or(value);
-    plain(short)
+    rounded(value, 12)
+}
+
+/// A number with so many digits, without zeros at their end.
+pub(super) fn rounded(value: f64, digits: usize) -> String {
+    let short = format!("{value:.*e}", digits - 1);
+    plain(short.parse().unwrap_or(value))
 }
 
 fn plain(value: f64) -> String {

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use serde::Serialize;
 
 use super::csv::{quoted, shortest};
+use super::key_values::rounded;
 use super::{Axis, Figure, panels};
 use crate::error::Error;
 use crate::reproduce::{Drawing, Entry, Plot, Reproduction, Style, Verdict};
@@ -43,23 +44,8 @@ pub fn file_name(drawing: &Drawing) -> String {
     format!("{}-{}", drawing.paper, drawing.name)
 }
 
-/// Seven digits, without zeros at the end.
 fn short(value: f64) -> String {
-    let size = value.abs();
-    if size != 0.0 && !(1e-4..1e7).contains(&size) {
-        return format!("{value:.6e}");
-    }
-    let places = if size == 0.0 {
-        0
-    } else {
-        (6.0 - size.log10().floor()).clamp(0.0, 11.0) as usize
-    };
-    let text = format!("{value:.places$}");
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
-    }
+    rounded(value, 7)
 }
 
 fn cell(value: Option<f64>) -> String {

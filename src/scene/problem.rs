@@ -30,6 +30,12 @@ impl Problem {
         }
     }
 
+    /// A problem with these bytes of its file.
+    pub(super) fn at(self, span: impl Into<Option<Range<usize>>>) -> Problem {
+        let span = span.into();
+        Problem { span, ..self }
+    }
+
     pub(super) fn not_positive(field: &str, value: f64, unit: &str) -> Problem {
         let what = format!("{} is not positive", with_unit(value, unit));
         Problem::new(field, what, "give a value above zero")

@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::inverse::{AsPrinted, Inverse, InverseRow};
+use crate::report::key_values::rounded;
 use crate::report::{Axis, Figure, panels};
 
 /// Points of a curve that a figure shows.
@@ -193,19 +194,10 @@ fn band(
 
 /// The label of a value with a band that may be too narrow to be seen.
 fn band_label(name: &str, half: f64, unit: &str) -> String {
-    match half {
-        _ if half.is_nan() => name.to_owned(),
-        1e-3..1e4 => format!(
-            "{name}, band +- {half:.*} {unit} at the median",
-            decimals(half)
-        ),
-        _ => format!("{name}, band +- {half:.1e} {unit} at the median"),
+    if half.is_nan() {
+        return name.to_owned();
     }
-}
-
-/// Decimals that show two digits of a number.
-fn decimals(value: f64) -> usize {
-    (1.0 - value.log10().floor()).max(0.0) as usize
+    format!("{name}, band +- {} {unit} at the median", rounded(half, 2))
 }
 
 /// An axis for forces, each with the lever arm, and whether peaks beside dead centres are cut off: the bulk of all is

@@ -68,7 +68,7 @@ impl Header {
                 "the column `{}` has no unit: write it like `{} [{}]`",
                 self.name,
                 self.name,
-                example(quantity)
+                quantity.usual_unit()
             ));
         }
         let factor = unit::factor(&self.unit, quantity).map_err(|e| e.to_string())?;
@@ -76,21 +76,6 @@ impl Header {
             factor,
             unit: self.unit,
         })
-    }
-}
-
-/// A usual unit of a quantity.
-pub(in crate::scene) fn example(quantity: Quantity) -> &'static str {
-    match quantity {
-        Quantity::Time => "s",
-        Quantity::Angle => "deg",
-        Quantity::AngularSpeed => "rpm",
-        Quantity::Length => "mm",
-        Quantity::Velocity => "m/s",
-        Quantity::Torque => "N m",
-        Quantity::Force => "N",
-        Quantity::Pressure => "bar",
-        _ => "unit",
     }
 }
 

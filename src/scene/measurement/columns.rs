@@ -76,9 +76,7 @@ impl Named {
     }
 
     fn wrong(&self, what: String, help: impl Into<String>) -> Problem {
-        let mut problem = Problem::new("header", what, help);
-        problem.span.clone_from(&self.span);
-        problem
+        Problem::new("header", what, help).at(self.span.clone())
     }
 
     /// The unit, which must be one of a quantity.
@@ -88,7 +86,7 @@ impl Named {
             header.name.clone_from(&self.raw);
         }
         header.column(quantity).map_err(|what| {
-            let unit = header::example(quantity);
+            let unit = quantity.usual_unit();
             let help = format!("{HELP}; or here: {option} \"{}[{unit}]\"", self.at + 1);
             self.wrong(what, help)
         })

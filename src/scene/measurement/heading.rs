@@ -39,9 +39,7 @@ impl<'a> Heading<'a> {
     ) -> Result<Heading<'a>, Problem> {
         let row = dialect.rows(text).next().unwrap_or_default();
         if let Some(quote) = Dialect::open_quote(row) {
-            let mut problem = Problem::new("quote", OPEN_QUOTE, CLOSE_QUOTE);
-            problem.span = Some(span(text, quote));
-            return Err(problem);
+            return Err(Problem::new("quote", OPEN_QUOTE, CLOSE_QUOTE).at(span(text, quote)));
         }
         let cells = dialect.list(row);
         // In either notation: a row of numbers is no header.
@@ -120,9 +118,7 @@ impl<'a> Heading<'a> {
         }
         let what = format!("there is no header: `{number}` is a number");
         let help = "put a header above the numbers, as `t [s],theta [deg]`, or say what the columns are: --columns \"t [s],theta [deg]\", or --time \"1[s]\" --motion \"2[deg]\"";
-        let mut problem = Problem::new("header", what, help);
-        problem.span = Some(span(self.text, number));
-        Err(problem)
+        Err(Problem::new("header", what, help).at(span(self.text, number)))
     }
 
     /// Time and motion among the columns.

@@ -42,9 +42,8 @@ impl Listed {
         let rest = self.count - list.len();
         if rest > 0 {
             let what = format!("{} more like these", counted(rest, "problem"));
-            let mut last = Problem::new("", what, "repair the data, or take the rows out");
-            last.span = Some(text.len()..text.len());
-            list.push(last);
+            let last = Problem::new("", what, "repair the data, or take the rows out");
+            list.push(last.at(text.len()..text.len()));
         }
         (!list.is_empty()).then_some(list)
     }

@@ -208,11 +208,9 @@ impl Measurement {
         let Some(source) = &self.source else {
             return Problem::new(&format!("{name}, {}", self.place(sample)), what, help);
         };
-        let mut problem = Problem::new(name, what, help);
         let row = source.row(sample);
         let cell = source.dialect.cells(row).nth(source.at[column]);
-        problem.span = Some(span(&source.text, cell.unwrap_or(row)));
-        problem
+        Problem::new(name, what, help).at(span(&source.text, cell.unwrap_or(row)))
     }
 
     /// Problems with the measured values of some samples (from 0): what is wrong and what would be right.

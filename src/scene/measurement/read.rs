@@ -152,8 +152,7 @@ impl Rows<'_> {
             excess |= count > self.expected && !cell.is_empty();
         }
         let mut wrong = |field: &str, part: &str, what: String, help: &str| {
-            let mut problem = Problem::new(field, what, help);
-            problem.span = Some(span(self.text, part));
+            let problem = Problem::new(field, what, help).at(span(self.text, part));
             samples.wrong.push(problem);
         };
         if let Some(quote) = Dialect::open_quote(row) {

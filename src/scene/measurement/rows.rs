@@ -74,10 +74,12 @@ impl Measurement {
         if times.len() < LEAST_ROWS {
             let rows = counted(times.len(), "sample");
             let what = format!("{rows} where at least {LEAST_ROWS} are needed");
-            let mut problem = Problem::new("samples", what, "give more of the motion");
-            let end = |text: &str| text.trim_end().len()..text.trim_end().len();
-            problem.span = self.source.as_ref().map(|source| end(&source.text));
-            return Some(problem);
+            let end = self
+                .source
+                .as_ref()
+                .map(|source| source.text.trim_end().len());
+            let problem = Problem::new("samples", what, "give more of the motion");
+            return Some(problem.at(end.map(|end| end..end)));
         }
         let length = times.last()? - times.first()?;
         (length < SHORTEST).then(|| {

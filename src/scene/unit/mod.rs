@@ -157,7 +157,7 @@ pub(super) fn is_unit(text: &str) -> bool {
 }
 
 /// Splits `"-2.5e3 N m"` into its digits and its unit.
-fn split(text: &str) -> Result<(String, &str), String> {
+pub(super) fn split(text: &str) -> Result<(String, &str), String> {
     let trimmed = text.trim();
     let (sign, unsigned) = match trimmed.strip_prefix(['-', number::MINUS]) {
         Some(rest) => ("-", rest),

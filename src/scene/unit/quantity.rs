@@ -92,6 +92,12 @@ impl Quantity {
         self.facts().3
     }
 
+    /// The unit of the first of the accepted spellings.
+    pub(in crate::scene) fn usual_unit(self) -> &'static str {
+        let first = self.examples().split('"').nth(1).unwrap_or_default();
+        first.split_once(' ').map_or("", |(_, unit)| unit)
+    }
+
     /// The SI unit as scene files have it; empty for numbers.
     pub(in crate::scene) fn si(self) -> &'static str {
         self.facts().2

@@ -3,8 +3,8 @@
 use toml::de::DeValue;
 
 use crate::scene::keys::{Key, Kind};
-use crate::scene::number;
 use crate::scene::read::value;
+use crate::scene::unit;
 
 /// Most values of one key.
 const MOST: usize = 1_000_000;
@@ -91,13 +91,13 @@ fn spread(from: &str, to: &str, count: &str, logarithmic: bool) -> Result<Vec<St
 
 /// A number and its unit.
 fn split(text: &str) -> Result<(f64, &str), String> {
-    let (sign, unsigned) = match text.strip_prefix(['-', number::MINUS]) {
-        Some(rest) => (-1.0, rest),
-        None => (1.0, text.strip_prefix('+').unwrap_or(text)),
-    };
-    let (digits, unit) = unsigned.split_at(number::length(unsigned));
-    match number::plain(digits).parse::<f64>() {
-        Ok(number) if number.is_finite() => Ok((sign * number, unit.trim())),
-        _ => Err(format!("`{text}` does not begin with a number")),
-    }
+    let (digits, unit) = unit::split(text)?;
+    let number = digits
+        .parse()
+        .ok()
+        .filter(|number: &f64| number.is_finite());
+    Ok((
+        number.ok_or_else(|| format!("`{text}` is not a finite number"))?,
+        unit,
+    ))
 }
