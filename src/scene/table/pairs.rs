@@ -49,7 +49,7 @@ impl<'a> Pairs<'a> {
             [_, _] => wrong(format!(
                 "the first line must name the columns with their units, as `{expected}`"
             )),
-            [""] => Err(format!("{}: the file is empty", self.name)),
+            [""] => wrong("the file is empty".to_owned()),
             ref cells => wrong(format!(
                 "{} where 2 are expected, as `{expected}`",
                 counted(cells.len(), "column")
