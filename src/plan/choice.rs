@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::contact::contact;
 use super::cycle::{self, named};
-use super::{Engine, Method, Stepper, rubbing};
+use super::{Candidate, Engine, Method, Stepper, rubbing};
 use crate::error::Error;
 use crate::mechanism::{Class, Linkage, Loads};
 use crate::scene::{Load, MotionKind, Scene, Variable, Variables};
@@ -33,6 +33,33 @@ impl Choice {
             stepper: Some(stepper),
             reason: reason.into(),
         }
+    }
+}
+
+/// What takes over where an engine that is chosen cannot go on, or not begin, in this order.
+pub(super) fn after(
+    choice: &Choice,
+    method: Method,
+    loads: &Loads,
+    scene: &Scene,
+) -> Vec<Candidate> {
+    let in_time = |reason| Candidate {
+        engine: Engine::Time,
+        reason,
+    };
+    match (choice.engine, method) {
+        (Engine::Energy, Method::Auto) => {
+            let angle = choose(Method::Angle, loads, scene).ok().map(|_| Candidate {
+                engine: Engine::Angle,
+                reason: "if the crank comes too near to rest for the energy alone, or its turns differ and are too many to be kept",
+            });
+            let time = in_time("if neither serves, and where the crank comes near to rest");
+            angle.into_iter().chain([time]).collect()
+        }
+        (Engine::Angle, _) => vec![in_time(
+            "while the crank is near to rest, and if the angle does not serve",
+        )],
+        _ => Vec::new(),
     }
 }
 

@@ -13,7 +13,7 @@ use std::borrow::Cow;
 
 use serde::Serialize;
 
-use choice::choose;
+use choice::{after, choose};
 use contact::contact_state;
 pub(crate) use cycle::over_angle as cycle_over_angle;
 pub use cycle::{Cycle, LoadPeriod};
@@ -88,6 +88,15 @@ pub struct Term {
     pub reason: Cow<'static, str>,
 }
 
+/// An engine that may take over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Candidate {
+    /// The engine.
+    pub engine: Engine,
+    /// When it does.
+    pub reason: &'static str,
+}
+
 /// What will be computed, and how.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Plan {
@@ -95,6 +104,8 @@ pub struct Plan {
     pub engine: Engine,
     /// Why this engine.
     pub reason: Cow<'static, str>,
+    /// What takes over where that engine cannot go on, in this order; which engines computed a run is told by its pieces.
+    pub then: Vec<Candidate>,
     /// The stepper, if the engine has one.
     pub stepper: Option<Stepper>,
     /// The coordinate of the motion.
@@ -126,6 +137,7 @@ impl Plan {
         let choice = choose(method, &loads, &reduced)?;
         let (kept, left_out) = terms(scene, &reduced);
         Ok(Plan {
+            then: after(&choice, method, &loads, &reduced),
             engine: choice.engine,
             reason: choice.reason,
             stepper: choice.stepper,
@@ -136,6 +148,12 @@ impl Plan {
             kept,
             left_out,
         })
+    }
+
+    /// Whether an engine may compute a part of a run.
+    pub(crate) fn has(&self, engine: Engine) -> bool {
+        let then = self.then.iter().map(|candidate| candidate.engine);
+        self.engine == engine || then.into_iter().any(|then| then == engine)
     }
 }
 

@@ -38,6 +38,9 @@ fn computation(result: &Explanation) -> Facts {
     let mut facts = Facts::of("");
     let (engine, reason) = (plan.engine.name(), &plan.reason);
     fact!(facts, "  engine", "{engine}: {reason}");
+    for then in &plan.then {
+        fact!(facts, "  then", "{}: {}", then.engine.name(), then.reason);
+    }
     if let Some(stepper) = plan.stepper {
         facts.add("  stepper", stepper.name());
     }

@@ -1,28 +1,25 @@
-//! A solved motion over the crank angle: its errors by rounding and its energy balance.
+//! A motion over the crank angle: its errors by rounding and its energy balance.
 
-use super::outcome::{Balance, Estimate};
+use super::outcome::Balance;
 use super::result::ErrorEstimate;
 use super::run_setup::RunSetup;
-use crate::engine::energy::{NotApplicable, Orbit};
+use crate::engine::energy::NotApplicable;
 use crate::engine::time::Start;
 use crate::numeric::angle::Angle;
 
-/// A motion over the crank angle.
-pub(super) struct Motion {
-    pub orbit: Orbit,
-    /// Time of the end, s.
-    pub end: f64,
-    /// Angle and speed there.
-    pub last: (Angle, f64),
-    /// Work of the loads without potential, J.
-    pub work: f64,
-    pub evaluations: u64,
-    pub wall_s: f64,
-    pub stopped: Option<String>,
-    /// Error of the end, and what its estimate cost.
-    pub estimate: Option<Estimate>,
-    /// The motion of the second run, if the estimate is by one.
-    pub second: Option<Orbit>,
+/// Times of a run at which its rows are judged.
+const LOOKED_AT: u32 = 64;
+
+/// Error of the worst row of a run until a time (s), by that of rows spread over the run.
+pub(super) fn worst_row(
+    end: f64,
+    last: ErrorEstimate,
+    error: impl Fn(f64) -> ErrorEstimate,
+) -> ErrorEstimate {
+    // Multiples of the golden section fall everywhere in panels, however these divide the run.
+    let golden = 0.5 * (5f64.sqrt() - 1.0);
+    let times = (1..=LOOKED_AT).map(|i| (f64::from(i) * golden).fract() * end);
+    times.fold(last, |worst, t| worst.max(error(t)))
 }
 
 /// How far an angle in its turn is rounded at most, rad.

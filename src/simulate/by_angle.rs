@@ -1,16 +1,14 @@
 //! Motion by collocation over the crank angle.
 
-use std::f64::consts::TAU;
 use std::time::Instant;
 
 use super::angle_model::AngleModel;
-use super::angle_motion::{Motion, PLACE, late_by};
+use super::angle_motion::{PLACE, late_by, worst_row};
 use super::outcome::Estimate;
 use super::result::{Cost, ErrorEstimate};
 use super::run_setup::RunSetup;
 use crate::engine::angle::{self, Driving, Goal, Resolution};
 use crate::engine::energy::{NotApplicable, Orbit};
-use crate::scene::Extent;
 
 /// Series end where their coefficients have decayed to this part of the tolerance.
 const SHARE: f64 = 1e-2;
@@ -34,89 +32,51 @@ pub(super) fn most_evaluations(first: u64, limit: u64) -> u64 {
     share.min(limit)
 }
 
-/// A task that is not solved over the angle alone.
-pub(super) struct Unsolved {
-    pub why: NotApplicable,
-    /// How far it came.
-    pub first: Option<Box<First>>,
-}
-
-/// A first piece.
-pub(super) struct First {
-    pub driving: Driving,
-    /// Positions that were tabulated for it.
-    pub places: u64,
-    pub wall_s: f64,
-}
-
-/// Solves a task.
-pub(super) fn solve(task: &RunSetup<'_>, position: &AngleModel<'_>) -> Result<Motion, Unsolved> {
+/// Error of a whole run over the angle, by its distance from a second one; none where that does not get to the end within
+/// its share of work.
+///
+/// # Errors
+/// What else keeps the second one from its end.
+pub(super) fn estimate(
+    position: &AngleModel<'_>,
+    task: &RunSetup<'_>,
+    evaluations: u64,
+    driving: &Driving,
+    wants_rows: bool,
+) -> Result<Option<Estimate>, NotApplicable> {
     let begun = Instant::now();
-    let run = |goal: Goal, resolution: Resolution| {
-        let driving = angle::run(position, task.first_state(), goal, resolution);
-        driving.map_err(|why| Unsolved { why, first: None })
-    };
-    let goal = match task.extent {
-        Extent::Duration(duration) => Goal::Time(duration),
-        Extent::Revolutions(turns) => Goal::Turned(turns * TAU),
-    };
-    let driving = run(goal, plain(task))?;
-    let wall_s = begun.elapsed().as_secs_f64();
     let places = position.evaluations();
-    let handed = |driving: Driving, why: NotApplicable| Unsolved {
-        why,
-        first: Some(Box::new(First {
-            driving,
-            places,
-            wall_s,
-        })),
+    let limited = Resolution {
+        most_evaluations: most_evaluations(evaluations, task.options.max_evaluations),
+        ..finer()
     };
-    if let Some(short) = driving.short {
-        return Err(handed(driving, short.why));
-    }
-    let estimated = if task.options.estimate {
-        let begun = Instant::now();
-        let limited = Resolution {
-            most_evaluations: most_evaluations(
-                places + driving.evaluations,
-                task.options.max_evaluations,
-            ),
-            ..finer()
-        };
-        let unfinished =
-            |why| matches!(why, NotApplicable::WorkLimit | NotApplicable::TooManyTurns);
-        let second = match run(Goal::Time(driving.end), limited) {
-            Err(unsolved) if unfinished(unsolved.why) => None,
-            solved => Some(solved?),
-        };
-        let better = match second.as_ref().and_then(|second| second.short) {
-            Some(short) if !unfinished(short.why) => return Err(handed(driving, short.why)),
-            Some(_) => None,
-            None => second,
-        };
-        better.map(|better| {
-            let cost = Cost {
-                evaluations: position.evaluations() - places + better.evaluations,
-                wall_s: begun.elapsed().as_secs_f64(),
-            };
-            let error = distance(task, &driving, &better);
-            (Estimate::of_end(error, Some(cost)), better.orbit)
-        })
-    } else {
-        None
+    let second = angle::run(
+        position,
+        task.first_state(),
+        Goal::Time(driving.end),
+        limited,
+    );
+    let better = match second {
+        Ok(Driving {
+            short: Some(short), ..
+        }) => Err(short.why),
+        second => second,
     };
-    let (estimate, second) = estimated.unzip();
-    Ok(Motion {
-        last: driving.orbit.state(driving.end),
-        orbit: driving.orbit,
-        end: driving.end,
-        work: driving.work,
-        evaluations: places + driving.evaluations,
-        wall_s,
-        stopped: None,
-        estimate,
-        second,
-    })
+    let better = match better {
+        Err(NotApplicable::WorkLimit | NotApplicable::TooManyTurns) => return Ok(None),
+        better => better?,
+    };
+    let cost = Cost {
+        evaluations: position.evaluations() - places + better.evaluations,
+        wall_s: begun.elapsed().as_secs_f64(),
+    };
+    let error = distance(task, driving, &better);
+    let rows = |t: f64| row_error([&driving.orbit, &better.orbit], t, error);
+    Ok(Some(Estimate {
+        error,
+        on_the_way: wants_rows.then(|| worst_row(driving.end, error, rows)),
+        cost: Some(cost),
+    }))
 }
 
 /// As fine as the tolerance asks for.
@@ -142,7 +102,7 @@ pub(super) fn finer() -> Resolution {
 }
 
 /// Error of a row at a time (s) of two motions, the error of the last one added.
-pub(super) fn row_error(orbits: [&Orbit; 2], t: f64, last: ErrorEstimate) -> ErrorEstimate {
+fn row_error(orbits: [&Orbit; 2], t: f64, last: ErrorEstimate) -> ErrorEstimate {
     let [(angle, speed), (other, faster)] = orbits.map(|orbit| orbit.state(t));
     ErrorEstimate {
         theta_rad: MARGIN * angle.minus(other).abs() + last.theta_rad,

@@ -1,14 +1,14 @@
 //! Motion from the energy integral.
 
 use std::f64::consts::TAU;
-use std::time::Instant;
 
 use super::angle_model::AngleModel;
-use super::angle_motion::{Motion, PLACE, balance, late_by};
+use super::angle_motion::{PLACE, balance, late_by, worst_row};
 use super::outcome::Estimate;
 use super::result::ErrorEstimate;
 use super::run_setup::RunSetup;
 use super::stop_reason;
+use crate::engine::angle::Driving;
 use crate::engine::energy::{NotApplicable, Orbit};
 use crate::engine::time::Start;
 use crate::numeric::angle::Angle;
@@ -26,36 +26,43 @@ const ROUNDING: f64 = f64::EPSILON;
 /// and where the crank comes to rest, next to which the time hangs on the force: a difference, which is rounded more.
 const ROUNDING_AT_REST: f64 = 4.0 * f64::EPSILON;
 
+/// A whole run, and why it ends before its goal, if it does.
+pub(super) struct Solved {
+    pub driving: Driving,
+    pub stopped: Option<String>,
+}
+
 /// Solves a task.
 pub(super) fn solve(
     task: &RunSetup<'_>,
     position: &AngleModel<'_>,
-) -> Result<Motion, NotApplicable> {
-    let begun = Instant::now();
+) -> Result<Solved, NotApplicable> {
     let speed = task.scene.motion.speed;
     let tail = (SHARE * task.scene.run.tolerance).clamp(LEAST_TAIL, MOST_TAIL);
     let (orbit, end, stopped) = until_the_end(task, |until| {
         Orbit::new(position, task.start(), speed, until, tail)
     })?;
-    let wall_s = begun.elapsed().as_secs_f64();
+    let work = position.work(task.start(), orbit.state(end).0);
+    let driving = Driving::whole(orbit, end, work);
+    Ok(Solved { driving, stopped })
+}
+
+/// Error of the last state, and of the worst row.
+pub(super) fn estimate(
+    task: &RunSetup<'_>,
+    driving: &Driving,
+    work: f64,
+    wants_rows: bool,
+) -> Estimate {
+    let (orbit, end) = (&driving.orbit, driving.end);
     let last = orbit.state(end);
-    let work = position.work(task.start(), last.0);
-    let estimate = task.options.estimate.then(|| {
-        let mut error = rounded(task, (&orbit, end), last);
-        error.omega_rad_per_s += left_out(task, (&orbit, end), last, work);
-        Estimate::of_end(error, None)
-    });
-    Ok(Motion {
-        end,
-        last,
-        work,
-        evaluations: position.evaluations(),
-        wall_s,
-        stopped,
-        estimate,
-        second: None,
-        orbit,
-    })
+    let mut error = rounded(task, (orbit, end), last);
+    error.omega_rad_per_s += left_out(task, (orbit, end), last, work);
+    Estimate {
+        error,
+        on_the_way: wants_rows.then(|| worst_row(end, error, |t| row_error(task, orbit, t))),
+        cost: None,
+    }
 }
 
 /// Error of a state by that of its time, and by the rounding of its place and of energies.
@@ -96,7 +103,7 @@ fn left_out(
 }
 
 /// Error of a row at a time, s.
-pub(super) fn row_error(task: &RunSetup<'_>, orbit: &Orbit, t: f64) -> ErrorEstimate {
+fn row_error(task: &RunSetup<'_>, orbit: &Orbit, t: f64) -> ErrorEstimate {
     let state = orbit.state(t);
     let mut error = rounded(task, (orbit, t), state);
     error.omega_rad_per_s += orbit.speed_error(t) * state.1.abs();

@@ -15,6 +15,7 @@ use crate::engine::time::Start;
 use crate::error::Error;
 use crate::mechanism::{CurveEquation, Limits};
 use crate::numeric::angle::Angle;
+use crate::plan::Engine;
 use crate::scene::Extent;
 use crate::trajectory::Trajectory;
 
@@ -60,6 +61,7 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
             angle: last,
             speed,
         },
+        engine: Engine::ClosedForm,
         turned: speed * end,
         estimate: Some(Estimate::of_end(
             ErrorEstimate {

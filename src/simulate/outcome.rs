@@ -9,6 +9,7 @@ use super::run_setup::RunSetup;
 use super::simulation::Simulation;
 use super::stalled;
 use crate::engine::time::Start;
+use crate::plan::Engine;
 use crate::scene::Extent;
 use crate::trajectory::Trajectory;
 
@@ -16,6 +17,8 @@ use crate::trajectory::Trajectory;
 pub(super) struct Outcome {
     /// Last time, crank angle and speed.
     pub at: Start,
+    /// The engine by whose name the run goes.
+    pub engine: Engine,
     /// Way of the crank, rad, signed.
     pub turned: f64,
     pub estimate: Option<Estimate>,
@@ -139,7 +142,7 @@ impl Outcome {
         match pieces.last_mut() {
             Some(last) => last.to_s = last.to_s.min(at.t),
             None => pieces.push(Piece {
-                engine: task.plan.engine.name(),
+                engine: self.engine.name(),
                 from_s: 0.0,
                 to_s: at.t,
                 why: task.plan.reason.clone(),
@@ -151,7 +154,7 @@ impl Outcome {
         let stopped = stopped.map(|why| stalled::reason(task, &last).unwrap_or(why));
         let summary = Summary {
             scene: task.scene.title.clone().unwrap_or_default(),
-            engine: task.plan.engine.name().to_owned(),
+            engine: self.engine.name().to_owned(),
             plan: task.plan.clone(),
             pieces,
             last,

@@ -1,5 +1,6 @@
 //! The recorder of a run: rows, events, extreme speeds and the dense motion, whatever engine computes the pieces.
 
+use std::borrow::Cow;
 use std::time::Instant;
 
 use super::configuration_curve::Phase;
@@ -92,7 +93,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// Notes that an engine takes over at a time, s.
-    pub fn begins(&mut self, engine: Engine, from_s: f64, why: &'static str) {
+    pub fn begins(&mut self, engine: Engine, from_s: f64, why: Cow<'static, str>) {
         let engines = &mut self.record.engines;
         if let Some(last) = engines.last_mut() {
             last.to_s = last.to_s.min(from_s);
@@ -102,13 +103,20 @@ impl<'a> Recorder<'a> {
                 engine: engine.name(),
                 from_s,
                 to_s: f64::INFINITY,
-                why: why.into(),
+                why,
             });
         }
     }
 
     /// Records a piece over the crank angle: its events, its rows, its speeds.
     pub fn stretch(&mut self, stretch: &Stretch<'_>) -> Result<(), Error> {
+        let begun = Instant::now();
+        let result = self.rows_and_events(stretch);
+        self.record.row_time += begun.elapsed();
+        result
+    }
+
+    fn rows_and_events(&mut self, stretch: &Stretch<'_>) -> Result<(), Error> {
         let task = self.task;
         let left = task.options.events_kept - self.record.events.len();
         let (events, total) = passages::events(task, stretch, left);
@@ -120,13 +128,10 @@ impl<'a> Recorder<'a> {
         if !self.rows.wants_rows() {
             return Ok(());
         }
-        let begun = Instant::now();
         let rows = &mut *self.rows;
         let mut write =
             |t: f64, angle: Angle, omega: f64| rows.row(&task.maker.row(t, angle, omega, None));
-        let result = passages::write_rows(task, stretch, &mut self.next_row, &mut write);
-        self.record.row_time += begun.elapsed();
-        result
+        passages::write_rows(task, stretch, &mut self.next_row, &mut write)
     }
 
     /// Keeps the motion of a piece over the crank angle, if there is room.

@@ -10,7 +10,7 @@ use super::row::{NoRows, RowSink};
 use super::run_setup::RunSetup;
 use super::schedule::{self, Schedule};
 use super::simulation::Simulation;
-use super::{clearance, closed_form, in_time, joint_force_maxima, over_angle};
+use super::{clearance, closed_form, forward, joint_force_maxima};
 use crate::error::Error;
 use crate::mechanism::{Curve, CurveEquation, Equation, Limits, Reactor};
 use crate::plan::{self, Engine, Plan};
@@ -97,7 +97,7 @@ fn run_keeping(
         alpha: (!free).then_some(0.0),
         equation: equation.clone(),
     };
-    let mut task = RunSetup {
+    let task = RunSetup {
         scene,
         options,
         plan,
@@ -120,9 +120,8 @@ fn run_keeping(
     let mut rows = LastRow::new(rows);
     let mut run = match task.plan.engine {
         Engine::ClosedForm => closed_form::run(&task, &mut rows),
-        Engine::Energy | Engine::Angle => over_angle::run(&mut task, &mut rows),
         Engine::Contact => clearance::run(&task, &mut rows),
-        Engine::Time => in_time::run(&task, &mut rows),
+        Engine::Energy | Engine::Angle | Engine::Time => forward::run(&task, &mut rows),
     }?;
     rows.finish()?;
     if run.summary.clearance.is_none() {

@@ -5,7 +5,7 @@ use super::row::RowMaker;
 use super::schedule::Schedule;
 use crate::engine::runge_kutta;
 use crate::engine::time::{self, Settings, Start};
-use crate::mechanism::{Equation, Limits};
+use crate::mechanism::{Class, Equation, Limits};
 use crate::numeric::angle::Angle;
 use crate::plan::{Plan, Stepper};
 use crate::scene::{Extent, Scene};
@@ -38,6 +38,11 @@ impl<'a> RunSetup<'a> {
 
     pub fn start(&self) -> Angle {
         Angle::from(self.scene.motion.angle).reduced()
+    }
+
+    /// Whether the crank turns right round.
+    pub fn turns_fully(&self) -> bool {
+        self.limits.class == Class::RotatingCrank
     }
 
     /// The error estimate, if one is asked for and the run was not stopped; a warning if its second run does not finish.

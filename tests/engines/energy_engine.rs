@@ -342,7 +342,7 @@ fn what_the_energy_cannot_serve_is_run_in_time_and_said() {
         .duration(1.0);
     let run = simulate(&at_rest, &Options::default()).unwrap();
     assert_eq!(run.summary.engine, "time");
-    assert!(run.summary.plan.reason.contains("at rest"));
+    assert!(run.summary.pieces[0].why.contains("at rest"));
     assert!(simulate(&at_rest, &with(Method::Energy)).is_err());
 }
 

@@ -114,6 +114,20 @@ pub struct Driving {
     pub short: Option<Short>,
 }
 
+impl Driving {
+    /// A whole motion until a time (s), which needed no loads of state or time.
+    pub fn whole(orbit: Orbit, end: f64, work: f64) -> Driving {
+        Driving {
+            orbit,
+            end,
+            work,
+            errors: Errors::at(0.0, 0.0),
+            evaluations: 0,
+            short: None,
+        }
+    }
+}
+
 /// Where a run ended before its goal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Short {

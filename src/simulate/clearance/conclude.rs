@@ -16,6 +16,7 @@ use super::{Run, Tighter};
 use crate::engine::contact::Ended;
 use crate::engine::time::Start;
 use crate::mechanism::LooseState;
+use crate::plan::Engine;
 use crate::scene::Joint;
 use crate::trajectory::Trajectory;
 
@@ -81,6 +82,7 @@ impl<const N: usize> Run<'_, N> {
         let peaks = seen.peaks.filter(|_| stopped.is_none()).map(Peaks::new);
         let trajectory = self.trajectory(&seen, last.t);
         let outcome = Outcome {
+            engine: Engine::Contact,
             at: Start {
                 t: last.t,
                 angle: self.angle(&last),

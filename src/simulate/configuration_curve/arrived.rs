@@ -60,7 +60,7 @@ pub(in crate::simulate) struct Arrived {
 }
 
 /// Crank angle and speed (rad/s) at the end of a step of the coordinate.
-pub(super) fn crank_state(curve: &Curve, last: &Step) -> (Angle, f64) {
+pub(in crate::simulate) fn crank_state(curve: &Curve, last: &Step) -> (Angle, f64) {
     let angle = last.angle(last.end.theta);
     let dtheta = curve.place(angle.rest).dtheta;
     (curve.crank_angle(angle), dtheta * last.end.omega)

@@ -66,7 +66,7 @@ fn singular(
 }
 
 /// What the reader should know about the lengths.
-pub(super) fn warnings(task: &RunSetup<'_>) -> Vec<String> {
+pub(in crate::simulate) fn warnings(task: &RunSetup<'_>) -> Vec<String> {
     let linkage = task.equation().linkage();
     let near = linkage.nearness_to_change_point();
     match task.limits.class {

@@ -33,7 +33,7 @@ fn tighter(tolerance: f64) -> f64 {
 }
 
 /// Global error of the last state: its distance from a much better run, and what rounding may have added to both.
-pub(super) fn estimate(
+pub(in crate::simulate) fn estimate(
     follow: &Follow<'_>,
     arrived: &Arrived,
     checkpoints: &Checkpoints,

@@ -1,25 +1,28 @@
-//! Global error of a run that was handed over.
+//! Global error of a free motion.
 
 use std::f64::consts::TAU;
 use std::time::Instant;
 
 use super::super::angle_motion::{PLACE, late_by};
 use super::super::by_angle::{MARGIN, ROUNDING, finer, most_evaluations};
-use super::super::configuration_curve;
-use super::super::configuration_curve::Noise;
-use super::super::error_estimate::{Forward, Rounding, tighter};
+use super::super::configuration_curve::{self, Follow, Noise};
+use super::super::error_estimate::{self, Forward, Rounding, tighter};
+use super::super::outcome::Estimate;
+use super::super::record::Record;
 use super::super::result::{Cost, ErrorEstimate};
 use super::super::roundoff_propagation::Spread;
-use super::super::run_setup::RunSetup;
 use super::super::state_transition::StateTransition;
-use super::arrived::{Arrived, End, Observer};
-use super::course::Course;
+use super::super::{by_angle, by_energy};
+use super::arrived::{Arrived, Driven, End, Sink};
+use super::engine_loop::Course;
 use crate::engine::Counted;
-use crate::engine::angle::{Driving, Errors};
+use crate::engine::angle::Errors;
 use crate::engine::step::Step;
 use crate::engine::time::{Settings, Start};
 use crate::error::Error;
-use crate::mechanism::Equation;
+use crate::mechanism::{CurveEquation, Equation};
+use crate::numeric::angle::Angle;
+use crate::plan::Engine;
 use crate::scene::Extent;
 
 /// The second run is handed over at other places.
@@ -80,16 +83,19 @@ impl Shaken<'_> {
     }
 }
 
-impl Observer for Shaken<'_> {
-    fn over_angle(&mut self, from: Start, until: f64, driving: Driving) -> Result<(), Error> {
+impl Sink for Shaken<'_> {
+    fn over_angle(&mut self, driven: &Driven) -> Result<(), Error> {
+        let Driven {
+            driving, from, to, ..
+        } = driven;
         let (angle, speed) = driving.orbit.state(driving.end);
         let to = Start {
-            t: until,
+            t: to.t,
             angle,
             speed,
         };
         let errors = &driving.errors;
-        let transition = self.transition([&from, &to], errors);
+        let transition = self.transition([from, &to], errors);
         // By its own rounding.
         let [late, off] = [errors.late, errors.off].map(|error| error / f64::EPSILON);
         let angle = speed * late;
@@ -117,7 +123,12 @@ impl Observer for Shaken<'_> {
         false
     }
 
-    fn with_friction(&mut self, run: &mut dyn FnMut(&mut dyn configuration_curve::Observer)) {
+    fn along_curve(
+        &mut self,
+        _: &CurveEquation,
+        _: Angle,
+        run: &mut dyn FnMut(&mut dyn configuration_curve::Observer),
+    ) {
         if let Some(noise) = &mut self.rubbing {
             run(noise);
         }
@@ -128,16 +139,81 @@ impl Observer for Shaken<'_> {
     }
 }
 
-/// Global error of the last state: its distance from that of a much finer run with other pieces, and what rounding
-/// may have added to both.
-pub(super) fn estimate(
-    task: &RunSetup<'_>,
+/// Global error of a run, by the second run that its engine asks for, or by none; none where that does not finish.
+pub(super) fn estimate<'a>(
+    course: &'a Course<'_>,
+    arrived: &'a Arrived,
+    record: &'a Record,
+    wants_rows: bool,
+) -> impl FnOnce() -> Option<Estimate> + 'a {
+    move || match (&arrived.driven, &arrived.on_curve, &arrived.last) {
+        (Some(driven), ..) if arrived.is_one_piece() => {
+            over_angle(course, arrived, driven, wants_rows)
+        }
+        (_, Some(followed), _) if arrived.is_one_piece() => {
+            let on = course.curve.get()?;
+            let follow = Follow {
+                equation: &on.equation,
+                settings: course.settings,
+                start: on.start,
+                turn_limit: course.extent.angle(),
+                turned_from: course.task.start(),
+            };
+            configuration_curve::estimate(&follow, followed, &record.checkpoints)
+                .map(Estimate::from)
+        }
+        (_, None, Some(last)) if arrived.is_one_piece() => {
+            let run = error_estimate::Ended {
+                last,
+                evaluations: arrived.evaluations,
+                checkpoints: &record.checkpoints,
+            };
+            let task = course.task;
+            error_estimate::estimate(task.equation(), task.first_state(), &course.settings, run)
+                .map(Estimate::from)
+        }
+        _ => by_other_pieces(course, arrived),
+    }
+}
+
+/// Of one piece over the angle.
+fn over_angle(
     course: &Course<'_>,
     arrived: &Arrived,
-) -> Option<(ErrorEstimate, Cost)> {
+    driven: &Driven,
+    wants_rows: bool,
+) -> Option<Estimate> {
+    let task = course.task;
+    match driven.engine {
+        Engine::Energy => Some(by_energy::estimate(
+            task,
+            &driven.driving,
+            arrived.work,
+            wants_rows,
+        )),
+        _ => match by_angle::estimate(
+            course.position,
+            task,
+            arrived.evaluations,
+            &driven.driving,
+            wants_rows,
+        ) {
+            Ok(estimate) => estimate,
+            Err(_) => by_other_pieces(course, arrived),
+        },
+    }
+}
+
+/// Of pieces of several engines: the distance of the last state from that of a much finer run with other pieces, and what
+/// rounding may have added to both.
+fn by_other_pieces(course: &Course<'_>, arrived: &Arrived) -> Option<Estimate> {
+    let task = course.task;
+    let equation = task.equation();
     let begun = Instant::now();
     let end = arrived.now;
     let finer = Course {
+        first: Engine::Angle,
+        is_second: true,
         extent: Extent::Duration(end.t),
         resolution: finer(),
         settings: Settings {
@@ -147,24 +223,24 @@ pub(super) fn estimate(
         },
         wait: OTHER_WAIT,
         max_evaluations: most_evaluations(arrived.evaluations, course.max_evaluations),
-        ..*course
+        ..course.clone()
     };
-    let forward = Forward(course.equation);
+    let forward = Forward(equation);
     let motion = Counted::new(&forward);
-    let sliding = course.sliding;
+    let sliding = task.maker.sliding;
     let mut shaken = Shaken {
-        equation: course.equation,
+        equation,
         motion: &motion,
         rounding: Rounding::new(finer.settings.method, true),
         rubbing: sliding.map(|sliding| Noise::new(sliding.equation())),
     };
-    let best = finer.run(None, &mut shaken).ok()?;
+    let best = finer.run(&mut shaken).ok()?;
     if best.end != End::AtGoal {
         return None;
     }
     let floor = late_by(task, (end.angle, end.speed), end.t, ROUNDING * end.t, PLACE);
     let [angle_noise, speed_noise] = shaken.noise();
-    let estimate = ErrorEstimate {
+    let error = ErrorEstimate {
         theta_rad: MARGIN * end.angle.minus(best.now.angle).abs() + floor.theta_rad + angle_noise,
         omega_rad_per_s: MARGIN * (end.speed - best.now.speed).abs()
             + floor.omega_rad_per_s
@@ -175,5 +251,5 @@ pub(super) fn estimate(
         evaluations: best.evaluations + motion.evaluations() + for_slopes,
         wall_s: begun.elapsed().as_secs_f64(),
     };
-    Some((estimate, cost))
+    Some(Estimate::of_end(error, Some(cost)))
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::course::Course;
+use super::engine_loop::Course;
 use crate::engine::angle::Driven;
 use crate::engine::step::Step;
 use crate::engine::time::Start;
@@ -41,9 +41,16 @@ impl<'a> Clear<'a> {
 
     /// Whether the angle may take over at the end of a step.
     pub fn is_reached(&mut self, step: &Step) -> bool {
+        if self.wait == f64::INFINITY {
+            return false;
+        }
         let end = &step.end;
         let angle = step.angle(end.theta);
-        let kinetic = self.course.equation.kinetic_energy(angle.rest, end.omega);
+        let kinetic = self
+            .course
+            .task
+            .equation()
+            .kinetic_energy(angle.rest, end.omega);
         self.largest_kinetic = self.largest_kinetic.max(kinetic);
         if step.start.omega * end.omega <= 0.0 {
             (self.turned, self.since) = (angle, 0.0);
@@ -66,7 +73,7 @@ impl<'a> Clear<'a> {
         let turns = match self.course.extent {
             Extent::Duration(duration) => speed.abs() * (duration - t) / TAU,
             Extent::Revolutions(turns) => {
-                let turned = angle.minus(self.course.start.angle);
+                let turned = angle.minus(self.course.task.start());
                 turns - speed.signum() * turned / TAU
             }
         };

@@ -1,18 +1,22 @@
-//! A run that engines hand to one another as it is recorded.
+//! A run as it is recorded, whatever engine computes it.
 
-use super::super::configuration_curve;
-use super::super::configuration_curve::{CurveWatch, Phase};
+use std::borrow::Cow;
+
+use super::super::bounded_motion::Swing;
+use super::super::configuration_curve::{self, CurveWatch, Phase};
 use super::super::crank_watch::CrankWatch;
 use super::super::passages::{Stretch, is_dead_centre};
 use super::super::record::Record;
 use super::super::row::RowSink;
 use super::super::run_setup::RunSetup;
-use super::arrived::{Arrived, Observer};
+use super::arrived::{Arrived, Driven, Sink};
+use super::engine_loop::Course;
 use crate::engine::Counted;
-use crate::engine::angle::Driving;
 use crate::engine::step::Step;
 use crate::engine::time::{Settings, Start};
 use crate::error::Error;
+use crate::mechanism::CurveEquation;
+use crate::numeric::angle::Angle;
 use crate::plan::Engine;
 use crate::trajectory::Trajectory;
 
@@ -20,7 +24,7 @@ use crate::trajectory::Trajectory;
 pub(super) struct Notes<'a> {
     task: &'a RunSetup<'a>,
     watch: CrankWatch<'a>,
-    /// How the slider touched its guide at the end of a piece in time with friction.
+    /// How the slider touched its guide at the end of a piece along the configuration curve.
     touched: Phase,
 }
 
@@ -38,42 +42,46 @@ impl<'a> Notes<'a> {
     }
 
     /// Why the run ended, if the crank is caught.
-    pub fn caught(&self, arrived: &Arrived) -> Option<String> {
-        self.watch.swing?.why(arrived.now.t, |theta| theta)
+    pub fn caught(&self, course: &Course<'_>, arrived: &Arrived) -> Option<String> {
+        let curve = course.curve.get().map(|on| on.equation.curve());
+        let crank = |at| curve.map_or(at, |curve| curve.crank_angle(at));
+        self.watch.swing?.why(arrived.now.t, crank)
     }
 
     /// The record, with the row of the end.
-    pub fn finish(self, arrived: &Arrived) -> Result<Record, Error> {
+    pub fn finish(self, course: &Course<'_>, arrived: &Arrived) -> Result<Record, Error> {
         let Start { t, angle, speed } = arrived.now;
-        let maker = &self.task.maker;
         self.watch
             .recorder
-            .finish(|| match (&arrived.rubbed, maker.sliding) {
-                (Some(rubbed), Some(sliding)) => configuration_curve::last_row(
+            .finish(|| match (&arrived.on_curve, course.curve.get()) {
+                (Some(followed), Some(on)) => configuration_curve::last_row(
                     self.task,
-                    sliding.equation(),
+                    &on.equation,
                     self.touched,
-                    &rubbed.last,
+                    &followed.last,
                 ),
-                _ => maker.row(t, angle, speed, None),
+                _ => self.task.maker.row(t, angle, speed, None),
             })
     }
 }
 
-impl Observer for Notes<'_> {
-    fn begins(&mut self, engine: Engine, from: f64, why: &'static str) {
+impl Sink for Notes<'_> {
+    fn begins(&mut self, engine: Engine, from: f64, why: Cow<'static, str>) {
         self.watch.recorder.begins(engine, from, why);
     }
 
-    fn over_angle(&mut self, from: Start, until: f64, driving: Driving) -> Result<(), Error> {
+    fn over_angle(&mut self, driven: &Driven) -> Result<(), Error> {
+        self.watch.recorder.stretch(&Stretch {
+            orbit: &driven.driving.orbit,
+            begin: driven.from.t,
+            end: driven.driving.end,
+        })
+    }
+
+    fn keep(&mut self, driven: Driven) {
+        let (from, until) = (driven.from.t, driven.to.t);
         let recorder = &mut self.watch.recorder;
-        recorder.stretch(&Stretch {
-            orbit: &driving.orbit,
-            begin: from.t,
-            end: driving.end,
-        })?;
-        recorder.keep(|| Trajectory::orbit(driving.orbit, from.t, until));
-        Ok(())
+        recorder.keep(|| Trajectory::orbit(driven.driving.orbit, from, until));
     }
 
     fn begin_in_time(&mut self, from: Start) {
@@ -85,12 +93,17 @@ impl Observer for Notes<'_> {
         self.watch.step(step)
     }
 
-    fn with_friction(&mut self, run: &mut dyn FnMut(&mut dyn configuration_curve::Observer)) {
-        let Some(sliding) = self.task.maker.sliding else {
-            return;
-        };
+    fn along_curve(
+        &mut self,
+        equation: &CurveEquation,
+        start: Angle,
+        run: &mut dyn FnMut(&mut dyn configuration_curve::Observer),
+    ) {
+        if !self.task.turns_fully() {
+            self.watch.swing = Swing::new(self.task, start);
+        }
         let mut watch = CurveWatch {
-            equation: sliding.equation(),
+            equation,
             recorder: &mut self.watch.recorder,
             swing: self.watch.swing,
             phase: Phase::Sticking,

@@ -1,0 +1,167 @@
+//! The loop of a free motion: the engines of the plan take turns until the goal is met.
+
+use std::borrow::Cow;
+use std::cell::OnceCell;
+
+use super::super::angle_model::AngleModel;
+use super::super::error_estimate::Forward;
+use super::super::run_setup::RunSetup;
+use super::along_curve::OnCurve;
+use super::arrived::{Arrived, End, Sink, Why};
+use super::refusal;
+use crate::engine::Counted;
+use crate::engine::angle::Resolution;
+use crate::engine::energy::NotApplicable;
+use crate::engine::time::{Finish, Settings, Start};
+use crate::error::Error;
+use crate::plan::{Engine, Method};
+use crate::scene::Extent;
+
+/// What is run, and how finely.
+#[derive(Clone)]
+pub(super) struct Course<'a> {
+    pub task: &'a RunSetup<'a>,
+    pub position: &'a AngleModel<'a>,
+    /// The engine that begins.
+    pub first: Engine,
+    /// Whether it is the pass that another one is compared with.
+    pub is_second: bool,
+    pub extent: Extent,
+    pub resolution: Resolution,
+    pub settings: Settings,
+    /// How far (rad) the crank turns in one direction before the angle takes over again.
+    pub wait: f64,
+    pub max_evaluations: u64,
+    /// The configuration curve, once a piece follows it.
+    pub curve: OnceCell<OnCurve>,
+}
+
+/// A pass under way.
+pub(super) struct Pass<'a, 'o> {
+    pub course: &'a Course<'a>,
+    pub motion: &'a Counted<'a>,
+    pub sink: &'o mut dyn Sink,
+    pub arrived: Arrived,
+    /// Positions tabulated before it.
+    places: u64,
+    /// Evaluations of loads over the angle.
+    pub over_angle: u64,
+    /// Evaluations along the configuration curve.
+    pub on_curve: u64,
+    pub wait: f64,
+}
+
+impl Course<'_> {
+    /// Runs to the end.
+    pub fn run(&self, sink: &mut dyn Sink) -> Result<Arrived, Error> {
+        let forward = Forward(self.task.equation());
+        let motion = Counted::new(&forward);
+        let mut pass = Pass {
+            course: self,
+            motion: &motion,
+            sink,
+            arrived: Arrived::at(self.task.first_state()),
+            places: self.position.evaluations(),
+            over_angle: 0,
+            on_curve: 0,
+            wait: self.wait,
+        };
+        pass.pieces()?;
+        if !pass.arrived.is_one_piece() {
+            pass.keep();
+        }
+        let spent = pass.spent();
+        let mut arrived = pass.arrived;
+        arrived.evaluations = spent;
+        arrived.impossible = motion.impossible();
+        Ok(arrived)
+    }
+
+    /// Whether a run has come to its time, or its turns did not take for ever.
+    pub fn is_at_goal(&self, now: &Start) -> bool {
+        match self.extent {
+            Extent::Duration(duration) => now.t >= duration,
+            Extent::Revolutions(_) => now.t < self.settings.t_end,
+        }
+    }
+}
+
+impl Pass<'_, '_> {
+    pub fn spent(&self) -> u64 {
+        let places = self.course.position.evaluations() - self.places;
+        places + self.over_angle + self.on_curve + self.motion.evaluations()
+    }
+
+    fn pieces(&mut self) -> Result<(), Error> {
+        let mut engine = self.course.first;
+        let mut reason = self.course.task.plan.reason.clone();
+        // How far the crank turns in time before the angle takes over; for ever, where its speed is not what stops the angle.
+        let mut wait = f64::INFINITY;
+        loop {
+            let why = match engine {
+                Engine::Energy => self.by_energy(reason)?,
+                Engine::Angle => self.by_angle(reason)?,
+                _ => self.in_time(wait, reason)?,
+            };
+            let Some(next) = self.next(engine, why)? else {
+                return Ok(());
+            };
+            wait = match why {
+                Why::NotApplicable(NotApplicable::TooSlow) if self.hands_back() => self.wait,
+                _ => f64::INFINITY,
+            };
+            reason = self.reason(next, why);
+            engine = next;
+        }
+    }
+
+    /// The engine that follows; none at the end.
+    fn next(&mut self, engine: Engine, why: Why) -> Result<Option<Engine>, Error> {
+        use NotApplicable::{TooLong, TooManyTurns, TooSlow, WorkLimit};
+        let why = match why {
+            Why::Ended => return Ok(None),
+            Why::Clear => return Ok(Some(Engine::Angle)),
+            Why::NotApplicable(why) => why,
+        };
+        let plan = &self.course.task.plan;
+        if !self.has_begun() {
+            if self.course.task.options.method != Method::Auto && !self.course.is_second {
+                return Err(refusal::of(self.course.task, why));
+            }
+            // What an engine that could not begin has tabulated is not of this run.
+            self.places = self.course.position.evaluations();
+        }
+        Ok(match (engine, why) {
+            (Engine::Energy, TooLong | TooSlow) if plan.has(Engine::Angle) => Some(Engine::Angle),
+            (Engine::Angle, TooLong) if self.has_begun() => Some(Engine::Angle),
+            (Engine::Angle, WorkLimit | TooManyTurns) if self.has_begun() => {
+                self.arrived.end = End::Integrator(match why {
+                    WorkLimit => Finish::WorkLimit,
+                    _ => Finish::TooManyTurns,
+                });
+                None
+            }
+            _ => Some(Engine::Time),
+        })
+    }
+
+    fn has_begun(&self) -> bool {
+        self.arrived.over_angle + self.arrived.in_time > 0
+    }
+
+    /// Whether the angle may take over from the time.
+    fn hands_back(&self) -> bool {
+        let task = self.course.task;
+        task.plan.has(Engine::Angle) && task.turns_fully()
+    }
+
+    /// Why an engine takes over.
+    fn reason(&self, next: Engine, why: Why) -> Cow<'static, str> {
+        match why {
+            Why::NotApplicable(why) if next == Engine::Time => {
+                refusal::why(self.course.task, why).into()
+            }
+            _ => "the crank turns".into(),
+        }
+    }
+}

@@ -1,0 +1,176 @@
+//! A free motion: the engines of its plan take turns in one loop, one recorder takes what they compute, and one conclusion
+//! makes the result, its errors and its energy balance.
+
+mod along_curve;
+mod arrived;
+mod clear;
+mod engine_loop;
+mod estimate;
+mod in_time;
+mod notes;
+mod over_angle;
+mod refusal;
+mod stopped;
+
+use std::cell::OnceCell;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+use std::time::Instant;
+
+use arrived::{Arrived, Driven, End};
+use engine_loop::Course;
+use notes::Notes;
+use stopped::stopped;
+
+use super::angle_model::AngleModel;
+use super::angle_motion::balance;
+use super::by_angle;
+use super::configuration_curve;
+use super::error_estimate::Forward;
+use super::outcome::{Balance, Outcome};
+use super::record::Record;
+use super::row::RowSink;
+use super::run_setup::RunSetup;
+use super::simulation::Simulation;
+use super::stop_reason;
+use crate::engine::Counted;
+use crate::engine::time::Finish;
+use crate::error::Error;
+use crate::numeric::angle::Angle;
+use crate::plan::{Engine, cycle_over_angle};
+use crate::trajectory::Trajectory;
+
+/// How far the crank turns in one direction before the angle takes over again, rad.
+const WAIT: f64 = TAU;
+
+/// Runs a task.
+pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
+    let begun = Instant::now();
+    let wants_rows = rows.wants_rows();
+    let position = position(task);
+    let course = Course {
+        task,
+        position: &position,
+        first: task.plan.engine,
+        is_second: false,
+        extent: task.extent,
+        resolution: by_angle::plain(task),
+        settings: task.settings(),
+        wait: WAIT,
+        max_evaluations: task.options.max_evaluations,
+        curve: OnceCell::new(),
+    };
+    let forward = Forward(task.equation());
+    // What rows and events cost is counted apart: it does not change how far a run goes.
+    let looked_at = Counted::new(&forward);
+    let mut notes = Notes::new(task, &looked_at, rows);
+    let arrived = course.run(&mut notes)?;
+    if arrived.end == End::Integrator(Finish::NoStart) && arrived.over_angle == 0 {
+        return Err(stop_reason::no_start(task.start(), task.scene.motion.speed));
+    }
+    let caught = notes.caught(&course, &arrived);
+    let record = notes.finish(&course, &arrived)?;
+    let wall_s = record.wall_s(begun);
+    let stopped = caught.or_else(|| stopped(&course, &arrived));
+    let mut warnings = match arrived.on_curve {
+        Some(_) => configuration_curve::warnings(task),
+        None => Vec::new(),
+    };
+    let judged = estimate::estimate(&course, &arrived, &record, wants_rows);
+    let estimate = task.estimate(stopped.as_ref(), &mut warnings, judged);
+    let now = arrived.now;
+    let outcome = Outcome {
+        at: now,
+        engine: engine(&arrived),
+        turned: now.angle.minus(task.start()),
+        estimate,
+        balance: energy_balance(&course, &arrived, &record),
+        evaluations: arrived.evaluations,
+        steps: arrived.steps,
+        wall_s,
+        warnings,
+        stopped,
+        record,
+    };
+    let outcome = match arrived.over_angle {
+        0 => outcome,
+        _ => outcome.with_bounded_speeds(task),
+    };
+    Ok(with_motion(outcome.conclude(task), course, arrived))
+}
+
+/// The mechanism over the crank angle.
+fn position<'a>(task: &'a RunSetup<'_>) -> AngleModel<'a> {
+    let speed = task.scene.motion.speed;
+    let mut position = AngleModel::new(task.equation(), &task.limits, task.start(), speed)
+        .with_friction(task.maker.sliding)
+        .with_limit(task.options.max_evaluations);
+    if task.plan.engine == Engine::Time {
+        return position;
+    }
+    let cycle = cycle_over_angle(task.scene).ok();
+    if let Some(turns) = cycle {
+        position = position.with_cycle(turns);
+    }
+    if task.plan.engine == Engine::Energy && cycle == Some(1) {
+        position = position.with_turns_alike();
+    }
+    position
+}
+
+/// The engine by whose name a run goes: that over the angle, if any piece was.
+fn engine(arrived: &Arrived) -> Engine {
+    match &arrived.driven {
+        Some(driven) => driven.engine,
+        None if arrived.over_angle > 0 => Engine::Angle,
+        None => Engine::Time,
+    }
+}
+
+fn energy_balance(course: &Course<'_>, arrived: &Arrived, record: &Record) -> Balance {
+    let equation = course.task.equation();
+    match (&arrived.on_curve, course.curve.get()) {
+        (Some(followed), Some(on)) if arrived.over_angle == 0 => {
+            configuration_curve::energy_balance(
+                &on.equation,
+                equation,
+                on.start,
+                followed,
+                record.fastest(),
+            )
+        }
+        _ => {
+            let at = &arrived.now;
+            let fastest = match arrived.over_angle {
+                0 => equation.kinetic_energy(at.angle.rest, record.fastest()),
+                _ => 0.0,
+            };
+            let largest = arrived.largest_kinetic.max(fastest);
+            balance(course.task, at, arrived.work, largest)
+        }
+    }
+}
+
+/// The run with its dense motion: that over the angle is whole as it stands, that on a curve is seen as the crank's.
+fn with_motion(mut run: Simulation, course: Course<'_>, arrived: Arrived) -> Simulation {
+    let alone = arrived.is_one_piece();
+    match (arrived.driven, course.curve.into_inner()) {
+        (Some(Driven { driving, to, .. }), _) if alone => {
+            run.trajectory = Some(Trajectory::orbit(driving.orbit, 0.0, to.t));
+        }
+        (_, Some(on)) if alone => {
+            let seen = on.equation.clone();
+            let view = move |angle: Angle, speed: f64| {
+                let curve = seen.curve();
+                (
+                    curve.crank_angle(angle),
+                    curve.place(angle.rest).dtheta * speed,
+                )
+            };
+            run.trajectory = run.trajectory.map(|motion| motion.seen_as(Arc::new(view)));
+            run.dense.curve = Some(on.equation);
+        }
+        _ => {}
+    }
+    run
+}
