@@ -193,3 +193,28 @@ fn blanks_that_do_not_break_lines_are_blanks() {
     assert_eq!(found.values(), expected.values());
     assert_eq!(found.resolution(), expected.resolution());
 }
+
+/// Of very many wrong times the first are listed and the others counted, in the time of reading.
+#[test]
+fn very_many_wrong_times_are_counted() {
+    let rows = (0..200_000).map(|i| format!("{},{i}\n", i / 2));
+    let text = format!("t [s],theta [deg]\n{}", rows.collect::<String>());
+    let wrong = Measurement::parse(Path::new("data.csv"), text, &Reading::default());
+    let wrong = wrong.expect_err("repeated times").to_string();
+    for part in [
+        "the time 0 is repeated",
+        "the time 2 is repeated",
+        "99997 problems more",
+    ] {
+        assert!(wrong.contains(part), "{wrong}");
+    }
+    assert!(!wrong.contains("the time 3 is repeated"), "{wrong}");
+    let times = (0..40).map(|i| f64::from(i / 4)).collect();
+    let wrong = Measurement::new(Measured::Theta, times, vec![0.0; 40]);
+    let wrong = wrong.expect_err("repeated times");
+    let fields: Vec<&str> = wrong.list().iter().map(|one| one.field.as_str()).collect();
+    assert_eq!(
+        fields,
+        ["time, sample 2", "time, sample 3", "time, sample 4", ""]
+    );
+}

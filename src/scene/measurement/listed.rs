@@ -4,7 +4,7 @@ use crate::scene::Problem;
 use crate::scene::number::counted;
 
 /// Problems of one kind that are listed.
-const MOST_LISTED: usize = 3;
+pub(super) const MOST_LISTED: usize = 3;
 
 /// Problems, of which the first of each kind are listed and all are counted.
 #[derive(Default)]
@@ -19,9 +19,12 @@ impl Listed {
         self.list(problem);
     }
 
+    /// Counts one that is like those listed.
+    pub fn count_one(&mut self) {
+        self.count += 1;
+    }
+
     fn list(&mut self, problem: Problem) {
-        // A problem of code has the sample in its field.
-        let name = |of: &Problem| of.field.split(',').next().map(str::to_owned);
         let alike = |other: &&Problem| other.help == problem.help && name(other) == name(&problem);
         if self.list.iter().filter(alike).count() < MOST_LISTED {
             self.list.push(problem);
@@ -47,4 +50,9 @@ impl Listed {
         }
         (!list.is_empty()).then_some(list)
     }
+}
+
+/// The field without the sample, which a problem of code has in it.
+fn name(problem: &Problem) -> &str {
+    problem.field.split(',').next().unwrap_or_default()
 }

@@ -1,7 +1,7 @@
 //! Samples checked against each other.
 
 use super::Measurement;
-use super::listed::Listed;
+use super::listed::{Listed, MOST_LISTED};
 use crate::numeric::median::median;
 use crate::scene::number::{apart, computed, counted, show};
 use crate::scene::{Problem, Problems};
@@ -35,8 +35,10 @@ impl Measurement {
                 wrong.push(self.problem(at, column, what, help));
             }
         }
-        for (i, step) in self.elapsed().windows(2).enumerate() {
-            if step[1] <= step[0] {
+        let steps = self.elapsed().windows(2).enumerate();
+        let faults = steps.filter(|(_, step)| step[1] <= step[0]);
+        for (listed, (i, step)) in faults.enumerate() {
+            if listed < MOST_LISTED {
                 let (now, before) = apart(self.in_column(times[i + 1]), self.in_column(times[i]));
                 let what = if step[1] == step[0] {
                     format!("the time {now} is repeated")
@@ -45,6 +47,8 @@ impl Measurement {
                 };
                 let help = "times must rise strictly; take out or put right the row".to_owned();
                 wrong.push(self.problem(i + 1, 0, what, help));
+            } else {
+                wrong.count_one();
             }
         }
         let text = self.source.as_ref().map_or("", |source| &source.text);
