@@ -1,6 +1,7 @@
 //! When a run of a number of turns is given up: a crank that swings to and fro has come no further for long.
 
 use super::run_setup::RunSetup;
+use super::stop::Why;
 use crate::numeric::angle::Angle;
 use crate::scene::{Extent, Variable};
 
@@ -66,12 +67,12 @@ impl Swing {
         self.since >= self.enough.max(self.before)
     }
 
-    /// Why the run ends at this time (s), in words; `crank`: crank angle of the coordinate.
-    pub fn why(&self, t: f64, crank: impl Fn(Angle) -> Angle) -> Option<String> {
-        let (since, turns) = (self.since, self.turns);
-        let [from, to] = self.reach.map(|at| crank(at).radians());
-        self.is_caught().then(|| format!(
-            "the crank swings to and fro and does not complete {turns} turns: in its last {since} turning points it came no further than between theta = {from} rad and {to} rad; stopped at t = {t} s; give a duration instead"
-        ))
+    /// Why the run ends; `crank`: crank angle of the coordinate.
+    pub fn why(&self, crank: impl Fn(Angle) -> Angle) -> Option<Why> {
+        self.is_caught().then(|| Why::Caught {
+            turns: self.turns,
+            since: self.since,
+            reach: self.reach.map(|at| crank(at).radians()),
+        })
     }
 }

@@ -7,7 +7,7 @@ use super::angle_motion::{PLACE, balance, late_by, worst_row};
 use super::outcome::Estimate;
 use super::result::ErrorEstimate;
 use super::run_setup::RunSetup;
-use super::stop_reason;
+use super::stop::Why;
 use crate::engine::angle::Driving;
 use crate::engine::energy::{NotApplicable, Orbit};
 use crate::engine::time::Start;
@@ -29,7 +29,7 @@ const ROUNDING_AT_REST: f64 = 4.0 * f64::EPSILON;
 /// A whole run, and why it ends before its goal, if it does.
 pub(super) struct Solved {
     pub driving: Driving,
-    pub stopped: Option<String>,
+    pub stopped: Option<Why>,
 }
 
 /// Solves a task.
@@ -111,7 +111,7 @@ fn row_error(task: &RunSetup<'_>, orbit: &Orbit, t: f64) -> ErrorEstimate {
 }
 
 /// A motion, its last time, and why it does not complete its turns, if it does not.
-type Ended = (Orbit, f64, Option<String>);
+type Ended = (Orbit, f64, Option<Why>);
 
 /// The motion and its last time.
 fn until_the_end(
@@ -148,9 +148,7 @@ fn until_the_end(
         match (reached, period) {
             (Some(end), _) => return Ok((orbit, end, None)),
             (None, Some(period)) => {
-                let why = format!(
-                    "the crank swings to and fro and does not complete {turns} turns: shown is one period of {period} s; give a duration instead"
-                );
+                let why = Why::Period { turns, period };
                 return Ok((orbit, period, Some(why)));
             }
             (None, None) => match cut_short(&orbit, until) {
@@ -163,15 +161,9 @@ fn until_the_end(
 }
 
 /// Where (s) the work limit ends a motion that is wanted until a time (s), and why, if it does.
-fn cut_short(orbit: &Orbit, until: f64) -> Option<(f64, String)> {
+fn cut_short(orbit: &Orbit, until: f64) -> Option<(f64, Why)> {
     let end = orbit.length();
-    (end < until).then(|| {
-        let (angle, omega) = orbit.state(end);
-        (
-            end,
-            stop_reason::work_limit(&stop_reason::place(end, angle, omega)),
-        )
-    })
+    (end < until).then_some((end, Why::WorkLimit))
 }
 
 /// When a motion that turns back is first so far (rad) from its start, either way.

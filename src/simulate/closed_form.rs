@@ -11,6 +11,7 @@ use super::row::RowSink;
 use super::run_setup::RunSetup;
 use super::schedule::Schedule;
 use super::simulation::Simulation;
+use super::stop::Why;
 use crate::engine::time::Start;
 use crate::error::Error;
 use crate::mechanism::{CurveEquation, Limits};
@@ -48,12 +49,9 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
     };
     let wall_s = begun.elapsed().as_secs_f64();
     write_rows(task, rows, start, speed, end, blocked.is_some())?;
-    let stopped = blocked.map(|t| {
-        let what = match equation.linkage().unlocked(friction(task)) {
-            Some(_) => "the guide locks itself from here on, as the coefficient of friction times tan phi reaches 1: no crank torque keeps up the speed",
-            None => "the crank reaches the limit of its motion: the rod stands normal to the guide there and no constant speed passes it",
-        };
-        format!("{what}; stopped at t = {t} s, theta = {} rad", last.radians())
+    let stopped = blocked.map(|_| match equation.linkage().unlocked(friction(task)) {
+        Some(_) => Why::Locked,
+        None => Why::DrivenToLimit,
     });
     let outcome = Outcome {
         at: Start {

@@ -33,6 +33,7 @@ mod simulation;
 mod stalled;
 mod state_transition;
 mod steady;
+mod stop;
 mod stop_reason;
 
 pub use crate::mechanism::Reactions;

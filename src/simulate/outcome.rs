@@ -8,6 +8,7 @@ use super::result::{Cost, ErrorEstimate, Final, Judged, Piece, Summary};
 use super::run_setup::RunSetup;
 use super::simulation::Simulation;
 use super::stalled;
+use super::stop::{Stopped, Why};
 use crate::engine::time::Start;
 use crate::plan::Engine;
 use crate::scene::Extent;
@@ -28,7 +29,7 @@ pub(super) struct Outcome {
     /// Wall time of the solution itself, s.
     pub wall_s: f64,
     pub warnings: Vec<String>,
-    pub stopped: Option<String>,
+    pub stopped: Option<Why>,
     pub record: Record,
 }
 
@@ -151,7 +152,10 @@ impl Outcome {
         let stopped = self
             .stopped
             .or_else(|| short_of(task.extent, &last, turned));
-        let stopped = stopped.map(|why| stalled::reason(task, &last).unwrap_or(why));
+        let stopped = stopped.map(|why| Stopped {
+            why: stalled::reason(task, &last).unwrap_or(why),
+            at,
+        });
         let summary = Summary {
             scene: task.scene.title.clone().unwrap_or_default(),
             engine: self.engine.name().to_owned(),
@@ -179,7 +183,7 @@ impl Outcome {
             events: record.events,
             events_total: total,
             warnings,
-            stopped,
+            stopped: stopped.map(|stopped| stopped.to_string()),
         };
         Simulation {
             summary,
@@ -193,7 +197,7 @@ impl Outcome {
 }
 
 /// What is said of a run that ended short of its goal, or without a state, though no engine told why.
-fn short_of(extent: Extent, last: &Final, turned: f64) -> Option<String> {
+fn short_of(extent: Extent, last: &Final, turned: f64) -> Option<Why> {
     let (goal, reached) = match extent {
         Extent::Duration(duration) => (duration, last.t_s),
         Extent::Revolutions(turns) => (turns * TAU, turned.abs()),
@@ -202,12 +206,7 @@ fn short_of(extent: Extent, last: &Final, turned: f64) -> Option<String> {
     let missed = goal - reached > f64::EPSILON.sqrt() * goal;
     let state = [last.t_s, last.theta_rad, last.omega_rad_per_s, reached];
     let is_state = state.iter().all(|number| number.is_finite());
-    (missed || !is_state).then(|| {
-        format!(
-            "the run ended before its goal: stopped at t = {} s, theta = {} rad, omega = {} rad/s; no engine gave a reason, which is a defect of this program",
-            last.t_s, last.theta_rad, last.omega_rad_per_s
-        )
-    })
+    (missed || !is_state).then_some(Why::Untold)
 }
 
 #[cfg(test)]

@@ -48,11 +48,11 @@ impl<'a> RunSetup<'a> {
     /// The error estimate, if one is asked for and the run was not stopped; a warning if its second run does not finish.
     pub fn estimate<T>(
         &self,
-        stopped: Option<&String>,
+        stopped: bool,
         warnings: &mut Vec<String>,
         second: impl FnOnce() -> Option<T>,
     ) -> Option<T> {
-        if !self.options.estimate || stopped.is_some() {
+        if !self.options.estimate || stopped {
             return None;
         }
         let estimate = second();

@@ -1,8 +1,12 @@
 //! A crank that comes to a stand because its drive does not get over the load.
 
+use std::f64::consts::TAU;
+use std::fmt;
+
 use super::result::Final;
 use super::run_setup::RunSetup;
-use crate::mechanism::{Class, Equation};
+use super::stop::Why;
+use crate::mechanism::Equation;
 use crate::numeric::angle::Angle;
 use crate::numeric::root;
 use crate::scene::{Load, Variable};
@@ -10,38 +14,51 @@ use crate::scene::{Load, Variable};
 /// A crank stands where it cannot leave a balance by more than this part of the way it came.
 const OF_ITS_WAY: f64 = 1e-3;
 
+/// Torques that balance, N m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Torques {
+    /// Whether a motor is what drives.
+    by_motor: bool,
+    drive: f64,
+    load: f64,
+}
+
+impl fmt::Display for Torques {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let what = if self.by_motor { "motor" } else { "crank" };
+        write!(
+            f,
+            "{what} torque {} N m, load {} N m",
+            self.drive, self.load
+        )
+    }
+}
+
 /// Why a run was stopped at a state in which the crank had stalled; none if it had not.
-pub(super) fn reason(task: &RunSetup<'_>, last: &Final) -> Option<String> {
+pub(super) fn reason(task: &RunSetup<'_>, last: &Final) -> Option<Why> {
     let reduced = task.scene.reduced();
     let rests = reduced.friction.is_some() || task.equation().loads().are_dry();
-    if rests || reduced.clearance.is_some() || task.limits.class != Class::RotatingCrank {
+    if rests || reduced.clearance.is_some() || !task.turns_fully() {
         return None;
     }
     let theta = balance(task.equation(), task.start().radians(), last)?;
-    let torques = torques(task, theta);
-    let (speed, t) = (last.omega_rad_per_s, last.t_s);
-    let turns = task.extent.angle().map_or(String::new(), |angle| {
-        format!(
-            " and does not complete {} turns",
-            angle / std::f64::consts::TAU
-        )
-    });
-    Some(format!(
-        "the crank stalled at theta = {theta} rad, {torques}{turns}: stopped at t = {t} s, omega = {speed} rad/s; give it more torque, or a duration instead"
-    ))
+    Some(Why::Stalled {
+        theta,
+        torques: torques(task, theta),
+        turns: task.extent.angle().map(|angle| angle / TAU),
+    })
 }
 
 /// What drives the crank at rest at an angle (rad), and what it is to move: forces on the slider and weight.
-pub(super) fn torques(task: &RunSetup<'_>, theta: f64) -> String {
+pub(super) fn torques(task: &RunSetup<'_>, theta: f64) -> Torques {
     let equation = task.equation();
     let drive = equation.load(0.0, theta, 0.0).torque;
-    let load = -equation.driving_torque(0.0, theta, 0.0, 0.0) - drive;
     let is_motor = |load: &Load| matches!(load, Load::Motor { .. });
-    let motor = match task.scene.torques.iter().any(is_motor) {
-        true => "motor torque",
-        false => "crank torque",
-    };
-    format!("{motor} {drive} N m, load {load} N m")
+    Torques {
+        by_motor: task.scene.torques.iter().any(is_motor),
+        drive,
+        load: -equation.driving_torque(0.0, theta, 0.0, 0.0) - drive,
+    }
 }
 
 /// The balance next to which the crank stays, rad: loads of the state alone bring it back, and its energy does not lift it

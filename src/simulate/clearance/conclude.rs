@@ -8,6 +8,7 @@ use super::super::outcome::{Balance, Estimate, Outcome};
 use super::super::record::Record as Recorded;
 use super::super::result::{ErrorEstimate, Event};
 use super::super::simulation::Simulation;
+use super::super::stop::Why;
 use super::follow::{Seen, phi};
 use super::motion::{DRIVEN, FREE, Loose};
 use super::record::{ContactStatistics, Record};
@@ -46,7 +47,7 @@ impl<const N: usize> Run<'_, N> {
         last: LooseState,
         tighter: Option<Tighter>,
         wall_s: f64,
-        stopped: Option<String>,
+        stopped: Option<Why>,
     ) -> Simulation {
         let [work, lost] = model.work(&ended.last);
         let at_end = model.state(&ended.last);

@@ -20,6 +20,7 @@ use super::row::{NoRows, RowSink};
 use super::run_setup::RunSetup;
 use super::schedule::Schedule;
 use super::simulation::Simulation;
+use super::stop::Why;
 use crate::engine::contact::{self, Ended, Finish, Phase, Settings, Stretch};
 use crate::engine::time::FAR;
 use crate::error::Error;
@@ -206,29 +207,15 @@ impl<'a, const N: usize> Run<'a, N> {
         })
     }
 
-    fn stopped(&self, ended: &Ended<N>, last: &LooseState) -> Option<String> {
-        let place = format!(
-            "at t = {} s, theta = {} rad, omega = {} rad/s",
-            last.t,
-            self.angle(last).radians(),
-            last.omega
-        );
+    fn stopped(&self, ended: &Ended<N>, last: &LooseState) -> Option<Why> {
         match (ended.finish, self.task.extent) {
-            (Finish::AtEnd, Extent::Revolutions(turns)) if last.t >= FAR => Some(format!(
-                "the crank does not complete {turns} turns: stopped {place}; give a duration instead"
-            )),
+            (Finish::AtEnd, Extent::Revolutions(turns)) if last.t >= FAR => Some(Why::Turns(turns)),
             (Finish::AtEnd | Finish::Stopped | Finish::Broken, _) => None,
-            (Finish::StepTooSmall, _) if self.mechanism.jams(last) => Some(format!(
-                "the slider jams: rigid bodies with this coefficient of friction have no acceleration, or two; stopped {place}"
-            )),
-            (Finish::WorkLimit, _) => Some(format!(
-                "the work limit of evaluations is reached: stopped {place}; raise --max-evaluations, shorten the run or loosen the tolerance"
-            )),
+            (Finish::StepTooSmall, _) if self.mechanism.jams(last) => Some(Why::JamLoose),
+            (Finish::WorkLimit, _) => Some(Why::WorkLimit),
             (Finish::StepTooSmall, _) => Some(match self.without_value(last) {
-                Some(load) => format!("a load has no finite value ({load}): stopped {place}"),
-                None => format!(
-                    "the contact is too stiff for steps in double precision: stopped {place}"
-                ),
+                Some(load) => Why::NoValueLoose(load.clone()),
+                None => Why::ContactTooStiff,
             }),
         }
     }

@@ -3,7 +3,7 @@
 use super::stick_slip::Phase;
 use crate::engine::step::Step;
 use crate::engine::time::{Finish, Settings, Start};
-use crate::mechanism::{Curve, CurveEquation};
+use crate::mechanism::{Curve, CurveEquation, Jam};
 use crate::numeric::angle::Angle;
 
 /// Takes what is computed.
@@ -28,14 +28,20 @@ pub(in crate::simulate) struct Follow<'a> {
 }
 
 /// How a run ended.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::simulate) enum End {
     /// At its time, or after its turns.
     Done,
     /// The integrator could not go on.
     Integrator(Finish),
     /// Rigid bodies do not say how it goes on.
-    Jam(String),
+    Jam {
+        solutions: Jam,
+        /// Coefficient of friction.
+        mu: f64,
+        /// |dN/dF| of the guide.
+        kappa: f64,
+    },
     /// At rest for good before its turns are complete.
     AtRest,
     /// The observer ended it.

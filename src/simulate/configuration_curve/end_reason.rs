@@ -1,11 +1,13 @@
-//! Why a run on the curve ends before its time, and what the reader should know, in words.
+//! Why a run on the curve ends before its time, and what the reader should know.
 
 use super::super::run_setup::RunSetup;
 use super::super::stalled;
+use super::super::stop::Why;
 use super::super::stop_reason;
 use super::arrived::{Arrived, End, crank_state};
-use crate::engine::time::{FAR, Finish};
+use crate::engine::time::{FAR, Start};
 use crate::mechanism::{Class, CurveEquation};
+use crate::numeric::angle::Angle;
 use crate::scene::Extent;
 
 /// Why a run ended before its time.
@@ -13,56 +15,48 @@ pub(in crate::simulate) fn why(
     task: &RunSetup<'_>,
     arrived: &Arrived,
     equation: &CurveEquation,
-) -> Option<String> {
-    let (angle, speed) = crank_state(equation.curve(), &arrived.last);
-    let t = arrived.last.end.t;
-    let place = format!(
-        "at t = {t} s, theta = {} rad, omega = {speed} rad/s",
-        angle.radians()
-    );
-    match (&arrived.end, task.extent) {
-        (End::Done, Extent::Revolutions(turns)) if t >= FAR => Some(format!(
-            "the crank does not complete {turns} turns: stopped {place}; give a duration instead"
-        )),
+) -> Option<Why> {
+    Some(match (&arrived.end, task.extent) {
+        (End::Done, Extent::Revolutions(turns)) if arrived.last.end.t >= FAR => Why::Turns(turns),
         (End::AtRest, Extent::Revolutions(turns)) => {
-            let held = match task.limits.class {
-                Class::RotatingCrank => {
-                    let torques = stalled::torques(task, angle.radians());
-                    format!(", where friction holds {torques},")
-                }
-                _ => String::new(),
-            };
-            Some(format!(
-                "the crank comes to rest{held} and does not complete {turns} turns: stopped {place}; give a duration instead"
-            ))
+            let (angle, _) = crank_state(equation.curve(), &arrived.last);
+            let held_by = task.turns_fully();
+            Why::AtRest {
+                turns,
+                held_by: held_by.then(|| stalled::torques(task, angle.radians())),
+            }
         }
-        (End::Done | End::AtRest | End::Stopped, _) => None,
-        (End::Jam(why), _) => Some(format!("{why}: stopped {place}")),
-        (End::Integrator(Finish::WorkLimit), _) => Some(stop_reason::work_limit(&place)),
-        (End::Integrator(Finish::WorkLimitAhead), _) => Some(stop_reason::work_limit_ahead(&place)),
-        (End::Integrator(Finish::TooManyTurns), _) => Some(stop_reason::too_many_turns(&place)),
-        (End::Integrator(_), _) => Some(singular(task, arrived, equation, &place)),
-    }
+        (End::Done | End::AtRest | End::Stopped, _) => return None,
+        (
+            &End::Jam {
+                solutions,
+                mu,
+                kappa,
+            },
+            _,
+        ) => Why::Jam {
+            solutions,
+            mu,
+            kappa,
+        },
+        (End::Integrator(finish), _) => {
+            stop_reason::limit(*finish).unwrap_or_else(|| singular(task, arrived, equation))
+        }
+    })
 }
 
 /// Why the steps became too small.
-fn singular(
-    task: &RunSetup<'_>,
-    arrived: &Arrived,
-    equation: &CurveEquation,
-    place: &str,
-) -> String {
-    if let Some((t, theta, omega)) = arrived.impossible
-        && !task.equation().load(t, theta, omega).is_finite()
+fn singular(task: &RunSetup<'_>, arrived: &Arrived, equation: &CurveEquation) -> Why {
+    if let Some((t, theta, speed)) = arrived.impossible
+        && !task.equation().load(t, theta, speed).is_finite()
     {
-        return stop_reason::no_value(task.equation(), t, theta, omega, place);
+        let angle = Angle::from(theta);
+        return stop_reason::no_value(task.equation(), Start { t, angle, speed });
     }
     if arrived.vanished || equation.vanishes_at(arrived.last.end.theta) {
-        return format!(
-            "the effective inertia vanishes at this limit of its motion or dead centre, where the speed has no bound: stopped {place}; give the rod or the slider a mass, or the crank an inertia"
-        );
+        return Why::NoInertiaOnCurve;
     }
-    format!("the equation is singular here or too stiff for this method: stopped {place}")
+    Why::SingularOnCurve
 }
 
 /// What the reader should know about the lengths.

@@ -6,7 +6,7 @@ use super::release::{self, Release};
 use super::stick_slip::{DEAD_CENTRE, Phase, SPEED};
 use crate::engine::step::{Node, Step};
 use crate::engine::time::{Finish, Start};
-use crate::mechanism::{FromRest, Jam};
+use crate::mechanism::FromRest;
 use crate::scene::Variable;
 
 /// How far ahead a run without a last time looks for a release, in units of its time so far.
@@ -96,14 +96,11 @@ impl Run<'_, '_> {
         let Start { t, angle, speed } = self.now;
         let free = self.follow.equation.free(t, angle, speed);
         let mu = self.follow.friction().map_or(0.0, |f| f.coefficient);
-        let why = match free.jam(mu, self.signs[SPEED] * self.signs[DEAD_CENTRE]) {
-            Jam::NoSolution => "no acceleration satisfies",
-            Jam::TwoSolutions => "more than one acceleration satisfies",
-        };
-        End::Jam(format!(
-            "the slider jams in its guide: {why} the equations of rigid bodies, as the coefficient of friction {mu} times |dN/dF| = {} is 1 or more",
-            free.kappa.abs()
-        ))
+        End::Jam {
+            solutions: free.jam(mu, self.signs[SPEED] * self.signs[DEAD_CENTRE]),
+            mu,
+            kappa: free.kappa.abs(),
+        }
     }
 
     /// A run whose steps became too small next to jamming has jammed.

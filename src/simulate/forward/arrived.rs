@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::super::configuration_curve;
+use super::super::{configuration_curve, stop};
 use crate::engine::Counted;
 use crate::engine::angle::Driving;
 use crate::engine::energy::NotApplicable;
@@ -68,7 +68,7 @@ pub(super) enum Why {
 }
 
 /// How a pass ended.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub(super) enum End {
     /// At its time, or after its turns, or another piece follows.
     AtGoal,
@@ -77,7 +77,7 @@ pub(super) enum End {
     /// Why is told by the piece along the configuration curve.
     Elsewhere,
     /// For a reason that its engine names.
-    Named(String),
+    Named(stop::Why),
 }
 
 /// Where a pass arrived.

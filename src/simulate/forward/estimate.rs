@@ -235,7 +235,7 @@ fn by_other_pieces(course: &Course<'_>, arrived: &Arrived) -> Option<Estimate> {
         rubbing: sliding.map(|sliding| Noise::new(sliding.equation())),
     };
     let best = finer.run(&mut shaken).ok()?;
-    if best.end != End::AtGoal {
+    if !matches!(best.end, End::AtGoal) {
         return None;
     }
     let floor = late_by(task, (end.angle, end.speed), end.t, ROUNDING * end.t, PLACE);

@@ -65,10 +65,10 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
     let looked_at = Counted::new(&forward);
     let mut notes = Notes::new(task, &looked_at, rows);
     let arrived = course.run(&mut notes)?;
-    if arrived.end == End::Integrator(Finish::NoStart) && arrived.over_angle == 0 {
+    if matches!(arrived.end, End::Integrator(Finish::NoStart)) && arrived.over_angle == 0 {
         return Err(stop_reason::no_start(task.start(), task.scene.motion.speed));
     }
-    let caught = notes.caught(&course, &arrived);
+    let caught = notes.caught(&course);
     let record = notes.finish(&course, &arrived)?;
     let wall_s = record.wall_s(begun);
     let stopped = caught.or_else(|| stopped(&course, &arrived));
@@ -77,7 +77,7 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
         None => Vec::new(),
     };
     let judged = estimate::estimate(&course, &arrived, &record, wants_rows);
-    let estimate = task.estimate(stopped.as_ref(), &mut warnings, judged);
+    let estimate = task.estimate(stopped.is_some(), &mut warnings, judged);
     let now = arrived.now;
     let outcome = Outcome {
         at: now,

@@ -9,6 +9,7 @@ use super::super::passages::{Stretch, is_dead_centre};
 use super::super::record::Record;
 use super::super::row::RowSink;
 use super::super::run_setup::RunSetup;
+use super::super::stop::Why;
 use super::arrived::{Arrived, Driven, Sink};
 use super::engine_loop::Course;
 use crate::engine::Counted;
@@ -42,10 +43,10 @@ impl<'a> Notes<'a> {
     }
 
     /// Why the run ended, if the crank is caught.
-    pub fn caught(&self, course: &Course<'_>, arrived: &Arrived) -> Option<String> {
+    pub fn caught(&self, course: &Course<'_>) -> Option<Why> {
         let curve = course.curve.get().map(|on| on.equation.curve());
         let crank = |at| curve.map_or(at, |curve| curve.crank_angle(at));
-        self.watch.swing?.why(arrived.now.t, crank)
+        self.watch.swing?.why(crank)
     }
 
     /// The record, with the row of the end.

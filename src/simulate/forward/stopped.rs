@@ -1,13 +1,14 @@
 //! Why a free motion ended before its goal.
 
 use super::super::configuration_curve;
+use super::super::stop::Why;
 use super::super::stop_reason;
 use super::arrived::{Arrived, End};
 use super::engine_loop::Course;
 use crate::engine::step::{Node, Step};
 
 /// Why the run ended before its time, if it did.
-pub(super) fn stopped(course: &Course<'_>, arrived: &Arrived) -> Option<String> {
+pub(super) fn stopped(course: &Course<'_>, arrived: &Arrived) -> Option<Why> {
     let task = course.task;
     if let (Some(followed), Some(on)) = (&arrived.on_curve, course.curve.get()) {
         return configuration_curve::why(task, followed, &on.equation);
@@ -32,6 +33,6 @@ pub(super) fn stopped(course: &Course<'_>, arrived: &Arrived) -> Option<String> 
         task.equation(),
         arrived.impossible,
         &last,
-        &task.extent,
+        task.extent,
     )
 }
