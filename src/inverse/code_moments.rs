@@ -3,6 +3,7 @@
 //! each such likelihood: the one with the moments that the code leaves of what all other samples say. Where the shaft is slow
 //! the codes inside a step say nothing and the passages say much; where it is fast each is worth step²/12.
 
+use super::interval::{Cavity, Site};
 use super::likelihood::Linear;
 use super::linearised::Prior;
 use super::problem::Problem;
@@ -18,146 +19,103 @@ const ENOUGH: usize = 4000;
 /// Part by which the normal distributions move towards the moments.
 const DAMPING: f64 = 0.6;
 
-/// What all other samples say of the angle at a code: mean from the middle of the step and variance, in steps.
-#[derive(Clone, Copy, Debug)]
-struct Cavity {
-    mean: f64,
-    variance: f64,
+/// σ² of the record is a squared step over this.
+const UNIT: f64 = 12.0;
+
+/// Codes with the normal distributions that stand for them, and what all others say of each.
+struct Sites {
+    codes: Codes,
+    /// None of a sample that does not count.
+    list: Vec<Option<(Site, Cavity)>>,
+    jitter: f64,
 }
 
-/// A normal distribution that stands for a code: precision, and that times the mean from the middle of the step, in steps.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Site {
-    precision: f64,
-    shift: f64,
-}
-
-impl Cavity {
-    /// ln of the probability of the code, and the normal distribution of the same moments in its place.
-    fn matched(&self, jitter: f64) -> (f64, Site) {
-        let variance = self.variance + jitter * jitter;
-        let spread = variance.sqrt();
-        let far = Site {
-            precision: 1.0 / (1.0 / 12.0 + jitter * jitter),
-            shift: 0.0,
+impl Sites {
+    /// The sites of a record about a smoothed motion.
+    fn about(problem: &Problem<'_>, smoothed: &Smoothed) -> Option<Sites> {
+        let record = &problem.record;
+        let codes = record.codes.clone()?;
+        let step = codes.step;
+        let list = parallel::list(codes.values.len(), |i| {
+            let code = codes.values[i];
+            let precision = record.weights[i] * UNIT;
+            let site = Site {
+                precision,
+                shift: precision * (record.values[i] - code) / step,
+            };
+            let estimate = problem.at_sample(&smoothed.estimates, i);
+            let precision = step * step / estimate.covariance[0];
+            // What is left of almost nothing is rounding.
+            let left = (precision - site.precision).max(1e-6 * precision);
+            let mean = (estimate.state[0] - code) / step;
+            let cavity = Cavity {
+                mean: (precision * mean - site.shift) / left,
+                variance: 1.0 / left,
+            };
+            code.is_finite().then_some((site, cavity))
+        });
+        let mut sites = Sites {
+            codes,
+            list,
+            jitter: 0.0,
         };
-        let (a, b) = ((-0.5 - self.mean) / spread, (0.5 - self.mean) / spread);
-        let [at_a, at_b] = [a, b].map(density);
-        let probability = match a > 0.0 {
-            true => tail(a) - tail(b),
-            false => tail(-b) - tail(-a),
+        let some = || sites.list.iter().step_by(sites.list.len().div_ceil(ENOUGH));
+        let of = |jitter: f64| {
+            some()
+                .flatten()
+                .map(|(_, c)| c.matched(jitter).0)
+                .sum::<f64>()
         };
-        // What a narrow step leaves is a normal distribution already; one that is far away says no more than its place.
-        if 1.0 < NARROW * spread || probability < f64::MIN_POSITIVE.sqrt() {
-            let off = self.mean * self.mean / (variance + 1.0 / 12.0);
-            return (-0.5 * (off + (variance + 1.0 / 12.0).ln()) - 0.919, far);
-        }
-        let slope = (at_a - at_b) / (spread * probability);
-        let bend = slope * slope + (b * at_b - a * at_a) / (variance * probability);
-        let left = 1.0 - self.variance * bend;
-        let precision = (bend / left).max(0.0);
-        if !(precision.is_finite() && left > 0.0) {
-            return (probability.ln(), far);
-        }
-        // λ times (mean + slope/bend), without a quotient of two that vanish.
-        let shift = precision * self.mean + slope / left;
-        (probability.ln(), Site { precision, shift })
+        let tried = JITTERS.map(|jitter| (of(jitter), jitter));
+        let best = tried.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+        sites.jitter = best.map_or(JITTERS[0], |(_, jitter)| jitter);
+        Some(sites)
     }
-}
 
-/// Width of a step over the spread of what the others say, below which the step is narrow.
-const NARROW: f64 = 0.3;
-
-/// The density of the standard normal distribution.
-fn density(z: f64) -> f64 {
-    (-0.5 * z * z).exp() * 0.398_942_280_401_432_7
-}
-
-/// The probability that a standard normal variable is beyond z, by the continued fraction of Mills' ratio, and by the series
-/// of the error function near zero; right to 1e-9 of itself.
-fn tail(z: f64) -> f64 {
-    if z < 0.0 {
-        return 1.0 - tail(-z);
-    }
-    if z > 2.5 {
-        let fraction = (1..=40)
-            .rev()
-            .fold(0.0, |rest, k| f64::from(k) / (z + rest));
-        return density(z) / (z + fraction);
-    }
-    let (mut term, mut sum) = (z, z);
-    for k in 1..40 {
-        term *= z * z / f64::from(2 * k + 1);
-        sum += term;
-        if term < 1e-12 * sum {
-            break;
-        }
-    }
-    0.5 - density(z) * sum
-}
-
-/// Moves the normal distributions that stand for the codes towards the moments about a smoothed motion; the largest change
-/// of a precision, in those of a step.
-fn propagate(problem: &mut Problem<'_>, smoothed: &Smoothed) -> f64 {
-    let Some(codes) = problem.record.codes.clone() else {
-        return 0.0;
-    };
-    let step = codes.step;
-    // σ of the record is a step over √12.
-    let unit = 12.0;
-    let record = &problem.record;
-    let before = |i: usize| Site {
-        precision: record.weights[i] * unit,
-        shift: record.weights[i] * unit * (record.values[i] - codes.values[i]) / step,
-    };
-    let cavity = |i: usize| {
-        let estimate = problem.at_sample(&smoothed.estimates, i);
-        let (precision, site) = (step * step / estimate.covariance[0], before(i));
-        // What is left of almost nothing is rounding.
-        let left = (precision - site.precision).max(1e-6 * precision);
-        let mean = (estimate.state[0] - codes.values[i]) / step;
-        Cavity {
-            mean: (precision * mean - site.shift) / left,
-            variance: 1.0 / left,
-        }
-    };
-    let cavities = parallel::list(codes.values.len(), cavity);
-    let some = || {
-        let some = cavities.iter().step_by(cavities.len().div_ceil(ENOUGH));
-        some.filter(|cavity| !cavity.mean.is_nan())
-    };
-    let likelihood = |jitter: f64| some().map(|c| c.matched(jitter).0).sum::<f64>();
-    let jitter = JITTERS
-        .map(|jitter| (likelihood(jitter), jitter))
-        .into_iter()
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map_or(JITTERS[0], |(_, jitter)| jitter);
-    let moved = parallel::list(cavities.len(), |i| {
-        if cavities[i].mean.is_nan() {
-            return before(i);
-        }
-        let (was, next) = (before(i), cavities[i].matched(jitter).1);
-        let between = |a: f64, b: f64| a + DAMPING * (b - a);
-        Site {
-            precision: between(was.precision, next.precision),
-            shift: between(was.shift, next.shift),
-        }
-    });
-    let mut change = 0.0f64;
-    for (i, site) in moved.into_iter().enumerate() {
-        if cavities[i].mean.is_nan() {
-            continue;
-        }
-        let weight = site.precision / unit;
-        let off = match site.precision > 0.0 {
-            true => site.shift / site.precision,
-            false => 0.0,
+    /// ln of the probability of the codes over that of the normal distributions in their place: the evidence of the sites with
+    /// it is that of the codes.
+    fn correction(&self, problem: &Problem<'_>, sigma: f64) -> f64 {
+        let of = |(site, cavity): &(Site, Cavity)| {
+            let probability = cavity.matched(self.jitter).0;
+            if site.precision == 0.0 {
+                return probability;
+            }
+            let variance = 1.0 / site.precision + cavity.variance;
+            let off = site.shift / site.precision - cavity.mean;
+            probability + 0.5 * ((UNIT * variance).ln() + off * off / variance) + sigma.ln()
         };
-        change = change.max((weight - problem.record.weights[i]).abs() / (1.0 + weight));
-        problem.record.weights[i] = weight;
-        problem.record.values[i] = codes.values[i] + off * step;
+        // Of the samples by which the evidence is found.
+        let first = &problem.grid.first;
+        let ranges = problem.sampled().into_iter();
+        let samples = ranges.flat_map(|nodes| first[nodes.start]..first[nodes.end]);
+        samples.filter_map(|i| self.list[i].as_ref()).map(of).sum()
     }
-    change
+
+    /// Moves the sites towards the moments; the largest change of a weight.
+    fn propagate(&self, problem: &mut Problem<'_>) -> f64 {
+        let moved = parallel::list(self.list.len(), |i| {
+            let (was, cavity) = self.list[i]?;
+            let next = cavity.matched(self.jitter).1;
+            let between = |a: f64, b: f64| a + DAMPING * (b - a);
+            Some(Site {
+                precision: between(was.precision, next.precision),
+                shift: between(was.shift, next.shift),
+            })
+        });
+        let mut change = 0.0f64;
+        for (i, site) in moved.into_iter().enumerate() {
+            let Some(site) = site else { continue };
+            let weight = site.precision / UNIT;
+            let off = match site.precision > 0.0 {
+                true => site.shift / site.precision,
+                false => 0.0,
+            };
+            change = change.max((weight - problem.record.weights[i]).abs() / (1.0 + weight));
+            problem.record.weights[i] = weight;
+            problem.record.values[i] = self.codes.values[i] + off * self.codes.step;
+        }
+        change
+    }
 }
 
 /// Most rounds of expectation propagation, those between two estimates of the noise of the motion, and the change of a code's
@@ -197,74 +155,49 @@ impl Problem<'_> {
         smoothed.noise.sigma = known.unwrap_or(smoothed.noise.sigma);
         let motion = self.motion(smoothed.prior);
         for round in 0..ROUNDS {
-            let change = propagate(self, &smoothed);
+            let Some(sites) = Sites::about(self, &smoothed) else {
+                break;
+            };
+            let change = sites.propagate(self);
             let path = smoothed.path();
             // The noise of the motion follows codes that hardly move.
-            if round % SOME == SOME - 1 {
+            let (is_last, sigma) = (round + 1 == ROUNDS || change < STILL, smoothed.noise.sigma);
+            if is_last || round % SOME == SOME - 1 {
                 let linear = Linear {
-                    stretches: &self.stretches(&motion, &path, smoothed.noise.sigma),
+                    stretches: &self.stretches(&motion, &path, sigma),
                     prior: smoothed.prior,
                     scales: smoothed.scales,
                 };
                 smoothed.noise = linear.renewed(smoothed.noise);
             }
             smoothed.estimates = self.smoothed(&motion, &path, smoothed.scales, &smoothed.noise);
-            if change < STILL {
+            if is_last {
                 break;
             }
         }
+        let sites = Sites::about(self, &smoothed);
+        smoothed.noise.likelihood +=
+            sites.map_or(0.0, |sites| sites.correction(self, smoothed.noise.sigma));
         smoothed
     }
 
-    /// The smoothed motion with the likeliest prior; by what that makes of the codes the priors are compared once more.
-    pub fn likeliest_of_codes(&mut self, kinematic: Smoothed) -> (Smoothed, Vec<(Prior, f64)>) {
-        let path = kinematic.path();
-        let sigma = kinematic.noise.sigma;
-        let (smoothed, _) = self.likeliest(kinematic);
-        self.propagated(smoothed);
-        let kinematic = self.kinematic(path, sigma);
-        let (smoothed, candidates) = self.likeliest(kinematic);
-        (self.propagated(smoothed), candidates)
+    /// The smoothed motion with the prior by which the codes are likeliest, of those by which the normal distributions in their
+    /// place are.
+    pub fn likeliest_of_codes(&mut self, kinematic: &Smoothed) -> (Smoothed, Vec<(Prior, f64)>) {
+        let sites = [self.record.values.clone(), self.record.weights.clone()];
+        let mut found: Vec<Smoothed> = Vec::new();
+        for candidate in self.tried(kinematic, false).into_iter().take(CANDIDATES) {
+            let [values, weights] = sites.clone();
+            (self.record.values, self.record.weights) = (values, weights);
+            let smoothed = self.iterated(&candidate, kinematic);
+            found.push(self.propagated(smoothed));
+        }
+        found.sort_by(|a, b| b.noise.likelihood.total_cmp(&a.noise.likelihood));
+        let listed = found.iter().map(|one| (one.prior, one.noise.likelihood));
+        let listed = listed.collect();
+        (found.swap_remove(0), listed)
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::{Cavity, density, tail};
-
-    /// Moments of a normal distribution cut off at ±½, by the midpoint rule.
-    #[test]
-    fn a_code_leaves_the_moments_of_a_normal_distribution_that_is_cut_off() {
-        for (mean, variance) in [(0.1f64, 0.04f64), (0.6, 0.1), (-0.4, 1.0), (0.0, 3.0)] {
-            let mut moments = [0.0f64; 3];
-            let count = 200_000;
-            for k in 0..count {
-                let at = -0.5 + (f64::from(k) + 0.5) / f64::from(count);
-                let weight = density((at - mean) / variance.sqrt()) / variance.sqrt();
-                moments[0] += weight / f64::from(count);
-                moments[1] += at * weight / f64::from(count);
-                moments[2] += at * at * weight / f64::from(count);
-            }
-            let middle = moments[1] / moments[0];
-            let left = moments[2] / moments[0] - middle * middle;
-            let (likelihood, site) = Cavity { mean, variance }.matched(0.0);
-            assert!((likelihood - moments[0].ln()).abs() < 1e-7);
-            let precision = 1.0 / variance + site.precision;
-            assert!((1.0 / precision / left - 1.0).abs() < 1e-6, "{mean}");
-            assert!(((mean / variance + site.shift) / precision - middle).abs() < 1e-6);
-        }
-    }
-
-    /// Q(1), Q(3) and Q(6) of Abramowitz and Stegun, table 26.1 and 26.2.
-    #[test]
-    fn tails_of_the_normal_distribution() {
-        for (z, exact) in [
-            (1.0, 0.158_655_253_931_457_05),
-            (3.0, 1.349_898_031_630_094_6e-3),
-            (6.0, 9.865_876_450_376_98e-10),
-        ] {
-            assert!((tail(z) / exact - 1.0).abs() < 1e-9, "{z}");
-            assert!((tail(-z) - 1.0 + exact).abs() < 1e-9);
-        }
-    }
-}
+/// Priors that are compared by the probability of the codes.
+const CANDIDATES: usize = 3;

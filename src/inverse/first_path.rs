@@ -1,14 +1,19 @@
 //! Paths from which the iterations of the smoother set out.
 
+use std::ops::Range;
+
+use super::linearised::{Prior, State, Unknown};
 use super::problem::Problem;
 use super::record::Path;
+use super::smoother::Smoothed;
+use crate::numeric::parallel;
 
 /// A first path along measured crank angles: a straight line, of which the linear model knows how far the samples are off.
 pub(super) fn straight(problem: &Problem<'_>) -> Path {
     let (times, record) = (&problem.grid.times, &problem.record);
     let (theta, last) = (&record.values, record.values.len() - 1);
     let speed = (theta[last] - theta[0]) / (record.times[last] - record.times[0]);
-    let state = |t: &f64| [theta[0] + speed * (t - times[0]), speed, 0.0, 0.0];
+    let state = |t: &f64| [theta[0] + speed * (t - times[0]), speed, 0.0, 0.0, 0.0, 0.0];
     Path {
         states: times.iter().map(state).collect(),
         variances: None,
@@ -23,10 +28,43 @@ pub(super) fn coarse(problem: &Problem<'_>, theta: &[f64]) -> Path {
         let next = problem.grid.first[node].clamp(1, last);
         let (a, b) = (record.times[next - 1], record.times[next]);
         let slope = (theta[next] - theta[next - 1]) / (b - a);
-        [theta[next - 1] + slope * (t - a), slope, 0.0, 0.0]
+        [theta[next - 1] + slope * (t - a), slope, 0.0, 0.0, 0.0, 0.0]
     });
     Path {
         states: states.collect(),
         variances: None,
+    }
+}
+
+impl Problem<'_> {
+    /// The state of a prior at a node of a smoothed motion.
+    pub fn state_of(&self, prior: Prior, from: &Smoothed, node: usize) -> State {
+        let [theta, omega, alpha] = from.estimates[node].motion();
+        if prior.unknown == Unknown::Acceleration {
+            return [theta, omega, alpha, from.estimates[node].state[3], 0.0, 0.0];
+        }
+        let terms = self.equation.terms(theta);
+        let t = self.record.origin + self.grid.times[node];
+        let known = self.equation.loads().value(t, theta, omega, &terms.pose);
+        let torque =
+            self.equation.generalized_force(&terms, omega, alpha) - known.generalized(&terms.pose);
+        let (r, dx) = (self.equation.linkage().r, terms.pose.dx);
+        let unknown = match prior.unknown {
+            Unknown::Force => torque * dx / (dx * dx + 0.01 * r * r),
+            _ => torque,
+        };
+        [theta, omega, unknown, 0.0, 0.0, 0.0]
+    }
+
+    /// The states of a prior along a smoothed motion, at some ranges of nodes.
+    pub fn path_of(&self, prior: Prior, from: &Smoothed, ranges: &[Range<usize>]) -> Path {
+        let mut states = vec![State::default(); from.estimates.len()];
+        for range in ranges {
+            let some = parallel::list(range.len(), |k| self.state_of(prior, from, range.start + k));
+            states[range.clone()].copy_from_slice(&some);
+        }
+        let variances = (!self.record.is_linear())
+            .then(|| from.estimates.iter().map(|e| e.covariance[0]).collect());
+        Path { states, variances }
     }
 }

@@ -4,14 +4,14 @@ use super::branch_tracking::CrankAngles;
 use super::linearised::Prior;
 use super::motion_estimate::MotionEstimate;
 use super::polynomial::Polynomial;
-use super::prior::KINEMATIC;
-use super::problem::{Estimate, Problem};
-use super::record::{Grid, Path, Record};
+use super::problem::Problem;
+use super::record::Record;
 use super::residual_tests::Whiteness;
-use super::samples::{problem, record};
+use super::samples::{kinematic, record};
+use super::shared_errors::{self, Moved, Source};
 use super::smoother::Smoothed;
 use super::summary::{CandidateSummary, FitSummary};
-use super::{FitKind, FitSize, InverseOptions, first_path, outliers};
+use super::{FitKind, FitSize, InverseOptions};
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
 use crate::scene::{Measured, Measurement};
@@ -36,15 +36,11 @@ pub(super) struct Fitted {
     pub farthest_outlier: Option<usize>,
     /// Step of an encoder, or of rounding, rad, which is wider than the noise.
     pub coded: Option<f64>,
+    /// Motions at both ends of the errors that all samples share.
+    pub moved: Vec<Moved>,
     /// Least standard deviation of a sample, rad or m.
     floor: f64,
 }
-
-/// Most rounds in which outliers are found.
-const OUTLIER_ROUNDS: usize = 6;
-
-/// Largest corner frequency of a smoother, over the rate of blocks of samples, rad: less happens in a block than noise tells.
-const SLOW: f64 = 0.3;
 
 impl Fitted {
     /// Estimates the motion.
@@ -56,6 +52,7 @@ impl Fitted {
         angles: &CrankAngles<'_>,
         equation: &Equation,
         options: &InverseOptions,
+        sources: &[Source],
     ) -> Result<Fitted, String> {
         let record = record(measurement, angles);
         let degree = match options.size {
@@ -64,7 +61,10 @@ impl Fitted {
         };
         let polynomial = |reason: &str| {
             let found = Polynomial::new(&record, &angles.theta, degree)?;
-            Ok::<Fitted, String>(Fitted::of_polynomial(&record, found, reason))
+            let fitted = Fitted::of_polynomial(&record, found, reason);
+            let degree = fitted.summary.degree;
+            let moved = shared_errors::moved_polynomials(&record, &fitted.motion, degree, sources);
+            Ok::<Fitted, String>(Fitted { moved, ..fitted })
         };
         match (options.fit, degree) {
             (FitKind::Polynomial, _) | (FitKind::Auto, Some(_)) => {
@@ -83,7 +83,7 @@ impl Fitted {
         {
             return Ok(exact);
         }
-        let smoothed = Fitted::smoothed(record, angles, equation);
+        let smoothed = Fitted::smoothed(record, angles, equation, sources);
         Ok(match simple {
             Some(polynomial)
                 if smoothed.summary.outliers == 0
@@ -104,13 +104,21 @@ impl Fitted {
         2.0 * n * spread.ln() + 2.0 * parameters * n / (n - parameters - 1.0).max(1.0)
     }
 
-    fn smoothed(record: Record<'_>, angles: &CrankAngles<'_>, equation: &Equation) -> Fitted {
+    fn smoothed(
+        record: Record<'_>,
+        angles: &CrankAngles<'_>,
+        equation: &Equation,
+        sources: &[Source],
+    ) -> Fitted {
         let (mut problem, kinematic) = kinematic(record, angles, equation);
         let (smoothed, candidates) = match problem.record.codes {
-            Some(_) => problem.likeliest_of_codes(kinematic),
+            Some(_) => problem.likeliest_of_codes(&kinematic),
             None => problem.likeliest(kinematic),
         };
-        Fitted::of_smoother(&problem, &smoothed, &candidates)
+        Fitted {
+            moved: shared_errors::moved(&problem, &smoothed, sources),
+            ..Fitted::of_smoother(&problem, &smoothed, &candidates)
+        }
     }
 
     fn of_smoother(
@@ -120,7 +128,7 @@ impl Fitted {
     ) -> Fitted {
         let record = &problem.record;
         let of_sample = |i: usize| problem.at_sample(&smoothed.estimates, i);
-        let motion = parallel::list(record.times.len(), |i| motion_of(&of_sample(i)));
+        let motion = parallel::list(record.times.len(), |i| of_sample(i).estimated());
         let sigma = smoothed.noise.sigma;
         let shares = (0..record.times.len()).map(|i| {
             let estimate = of_sample(i);
@@ -229,60 +237,9 @@ impl Fitted {
             settled: true,
             farthest_outlier,
             coded: record.codes.as_ref().map(|codes| codes.step),
+            moved: Vec::new(),
             floor: record.floor,
         }
-    }
-}
-
-/// The samples of a record with the weights that outliers leave them, and their motion without mechanics.
-pub(super) fn kinematic<'a>(
-    record: Record<'a>,
-    angles: &CrankAngles<'_>,
-    equation: &'a Equation,
-) -> (Problem<'a>, Smoothed) {
-    let mut problem = problem(record, &angles.theta, equation);
-    let first = first_path(&problem, angles);
-    let sigma = angles.sigma.max(problem.record.floor);
-    let mut kinematic = problem.kinematic(first, sigma);
-    if problem.grid.block * kinematic.noise.corner > SLOW {
-        problem.grid = Grid::new(&problem.record.times, &angles.theta);
-        let first = first_path(&problem, angles);
-        kinematic = problem.kinematic(first, sigma);
-    }
-    for _ in 0..OUTLIER_ROUNDS {
-        let Some(weights) = outliers::weights(&problem, &kinematic) else {
-            break;
-        };
-        let before = std::mem::replace(&mut problem.record.weights, weights);
-        let all = 0..problem.grid.len();
-        let path = problem.path_of(KINEMATIC, &kinematic, std::slice::from_ref(&all));
-        kinematic = problem.kinematic(path, kinematic.noise.sigma);
-        if outliers::alike(&before, &problem.record.weights) {
-            break;
-        }
-    }
-    match problem.coded(&kinematic) {
-        Some(codes) => {
-            problem.record.codes = Some(codes);
-            let found = problem.propagated(kinematic);
-            (problem, found)
-        }
-        None => (problem, kinematic),
-    }
-}
-
-pub(super) fn first_path(problem: &Problem<'_>, angles: &CrankAngles<'_>) -> Path {
-    match problem.record.is_linear() {
-        true => first_path::straight(problem),
-        false => first_path::coarse(problem, &angles.theta),
-    }
-}
-
-fn motion_of(estimate: &Estimate) -> MotionEstimate {
-    MotionEstimate {
-        value: estimate.motion(),
-        covariance: estimate.covariance,
-        rounding: [f64::EPSILON * estimate.state[0].abs(), 0.0, 0.0],
     }
 }
 

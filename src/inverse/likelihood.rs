@@ -4,6 +4,7 @@
 use super::kalman::{self, Evidence};
 use super::linearised::{Linearised, Prior, State};
 use super::maximum::{better, climb};
+use super::scales::{Noise, Scales};
 use super::state_space::{Autoregression, Deviations, Observed};
 
 /// Stretches of nodes with their linear models, and the scales of the search.
@@ -20,68 +21,6 @@ pub(super) struct Linear<'a> {
 pub(super) struct Stretch {
     pub steps: Vec<Linearised>,
     pub observed: Vec<Observed>,
-}
-
-/// Typical sizes along a record.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Scales {
-    /// Time from sample to sample, s.
-    pub spacing: f64,
-    /// Duration, s.
-    pub duration: f64,
-    /// d measured/dθ, root mean square.
-    pub slope: f64,
-    /// ∂θ̈/∂u, root mean square.
-    pub lever: f64,
-    /// θ̈, rad/s², and its rate, rad/s³, root mean squares: spread of the prior before the first sample.
-    pub motion: [f64; 2],
-    /// ω, rad/s, root mean square about its mean.
-    pub speed: f64,
-    /// Least standard deviation of a sample, rad or m.
-    pub floor: f64,
-    /// Standard deviation of a sample of weight 1, where it is known.
-    pub known: Option<f64>,
-}
-
-/// Noise of the process and of the samples.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Noise {
-    /// Corner frequency of the smoother, rad/s: the noise of the process is q = ω_c^(2D) σ² h/(lever² slope²) for D
-    /// integrations from the white noise to θ.
-    pub corner: f64,
-    /// Corner frequency of a smoother of order one whose noise u has in it as well, rad/s; 0 without. Where u follows the
-    /// speed, such noise is in g, over the spread of the speed.
-    pub level: f64,
-    /// First-order autoregression of the samples' noise.
-    pub correlated: Option<Autoregression>,
-    /// Standard deviation of a sample, rad or m.
-    pub sigma: f64,
-    /// ln of the marginal likelihood.
-    pub likelihood: f64,
-}
-
-/// Standard deviations of the start, in those that the first few samples alone would leave: so diffuse that they count for
-/// 1e-6 of one sample, and so narrow that rounding keeps ten digits.
-const DIFFUSE: f64 = 1e3;
-
-impl Scales {
-    /// Standard deviations of the state before the first sample, in σ.
-    fn spread(&self) -> State {
-        let theta = DIFFUSE / self.slope;
-        let h = self.spacing;
-        [
-            theta,
-            theta / h,
-            theta / (h * h * self.lever),
-            theta / (h * h * h * self.lever),
-        ]
-    }
-
-    /// Spectral density of the process noise over σ².
-    fn density(&self, corner: f64, order: usize) -> f64 {
-        let integrations = i32::try_from(2 * (order + 2)).unwrap_or(8);
-        corner.powi(integrations) * self.spacing / (self.lever * self.slope).powi(2)
-    }
 }
 
 impl Linear<'_> {
@@ -119,10 +58,12 @@ impl Linear<'_> {
     fn evidence(&self, noise: &Noise) -> Evidence {
         let of = |stretch: &Stretch| {
             let model = self.deviations(stretch, noise);
-            match (self.prior.order, noise.correlated) {
-                (1, None) => kalman::evidence::<3>(&model),
-                (1, Some(_)) | (2, None) => kalman::evidence::<4>(&model),
-                _ => kalman::evidence::<5>(&model),
+            match model.dimension() {
+                3 => kalman::evidence::<3>(&model),
+                4 => kalman::evidence::<4>(&model),
+                5 => kalman::evidence::<5>(&model),
+                6 => kalman::evidence::<6>(&model),
+                _ => kalman::evidence::<7>(&model),
             }
         };
         let parts = self.stretches.iter().map(of);
@@ -156,12 +97,16 @@ impl Linear<'_> {
             ..
         } = self.scales;
         // The spreads of θ and ω are the same for all priors.
-        let fourth = match self.prior.follows_speed {
-            true => alpha / speed,
-            false => jerk,
+        let rate = match self.prior.follows_speed {
+            true => 1.0 / speed,
+            false => jerk / alpha,
         };
-        let prior = [1.0, 1.0, alpha / lever, fourth / lever];
-        let start: f64 = (0..dimension).map(|k| (spread[k] / prior[k]).ln()).sum();
+        let mut prior = alpha / lever;
+        let mut start = (spread[0] * spread[1]).ln();
+        for spread in &spread[2..dimension] {
+            start += (spread / prior).ln();
+            prior *= rate;
+        }
         let likelihood = start * self.stretches.len() as f64
             - free * noise.sigma.ln()
             - 0.5 * (evidence.log_variances + evidence.squares / (noise.sigma * noise.sigma));
@@ -197,6 +142,28 @@ impl Linear<'_> {
             .max_by(|a, b| a.likelihood.total_cmp(&b.likelihood));
         let guess = best.map_or(1.0 / self.scales.spacing, |best| best.corner);
         self.maximised(guess, None)
+    }
+
+    /// The largest corner frequency of which the likelihood ratio to the likeliest is that of one standard error. Of a motion that
+    /// is smoother than any prior the likeliest one leaves out too much (Wahba, Ann. Statist. 13 (1985) 1378).
+    pub fn rougher(&self, likeliest: Noise) -> Noise {
+        let (mut found, mut factor) = (likeliest, 2.0f64);
+        for _ in 0..LEVELS {
+            let corner = found.corner * factor;
+            let next = self.evaluated(Noise {
+                corner,
+                ..likeliest
+            });
+            if next.likelihood > likeliest.likelihood - ALLOWED {
+                found = next;
+            } else {
+                factor = factor.sqrt();
+            }
+            if factor < 1.03 {
+                break;
+            }
+        }
+        found
     }
 
     /// Noise of u itself beside that of its rate, as strong as the samples allow: the likelihood ratio to the likeliest is

@@ -1,12 +1,15 @@
 //! The equation of motion with an unknown torque or force, and its linearisation about a nominal path.
 //!
-//! State: θ (rad), ω (rad/s), u and, of order two, u̇. θ̈ = (Q − V' − ½ M' ω² + a u)/M with the arm a = 1 for a torque (N m)
+//! State: θ (rad), ω (rad/s), u and its derivatives below the order. θ̈ = (Q − V' − ½ M' ω² + a u)/M with the arm a = 1 for a torque (N m)
 //! and x' for a force (N); without mechanics θ̈ = u.
 
 use crate::mechanism::Equation;
 
-/// θ, ω, u, u̇.
-pub(super) type State = [f64; 4];
+/// Largest order of a prior.
+pub(super) const ORDERS: usize = 4;
+
+/// θ, ω, u and its derivatives.
+pub(super) type State = [f64; 2 + ORDERS];
 
 /// What is unknown and varies as an integrated Wiener process.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +26,7 @@ pub(super) enum Unknown {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Prior {
     pub unknown: Unknown,
-    /// How often the white noise is integrated to u: 1 (Wiener process) or 2.
+    /// How often the white noise is integrated to u: 1 (Wiener process) or more.
     pub order: usize,
     /// Whether u follows the speed: u̇ = g θ̈ + white noise with an unknown constant g as the fourth state, in place of u̇.
     pub follows_speed: bool,
@@ -44,9 +47,13 @@ impl Prior {
             _ if self.follows_speed => "torque that follows the speed, and a Wiener process",
             (Unknown::Acceleration, _) => "angle with white snap, without mechanics",
             (Unknown::Torque, 1) => "torque as a Wiener process",
-            (Unknown::Torque, _) => "torque as an integrated Wiener process",
+            (Unknown::Torque, 2) => "torque as an integrated Wiener process",
+            (Unknown::Torque, 3) => "torque as a twice integrated Wiener process",
+            (Unknown::Torque, _) => "torque as a three times integrated Wiener process",
             (Unknown::Force, 1) => "force as a Wiener process",
-            (Unknown::Force, _) => "force as an integrated Wiener process",
+            (Unknown::Force, 2) => "force as an integrated Wiener process",
+            (Unknown::Force, 3) => "force as a twice integrated Wiener process",
+            (Unknown::Force, _) => "force as a three times integrated Wiener process",
         }
     }
 }
@@ -96,7 +103,7 @@ impl Motion<'_> {
 
     /// θ̈ at a state with its derivatives.
     pub fn rates(&self, t: f64, state: &State) -> Rates {
-        let [theta, omega, unknown, _] = *state;
+        let [theta, omega, unknown, ..] = *state;
         if self.prior.unknown == Unknown::Acceleration {
             return Rates {
                 alpha: unknown,
@@ -130,6 +137,19 @@ impl Motion<'_> {
         }
     }
 
+    /// A state with u and its derivatives a time later.
+    fn later(&self, h: f64, tilt: f64, from: &State) -> State {
+        let mut state = *from;
+        for i in 2..2 + self.prior.order {
+            let mut factor = 1.0;
+            for k in i + 1..2 + self.prior.order {
+                factor *= h / (k - i) as f64;
+                state[i] += factor * tilt * from[k];
+            }
+        }
+        state
+    }
+
     /// θ̈ in the middle of a step whose ends are known, with u as the prior predicts it from the first.
     fn in_the_middle(&self, t: [f64; 2], ends: [&State; 2], rates: [&Rates; 2]) -> f64 {
         let h = t[1] - t[0];
@@ -138,7 +158,7 @@ impl Motion<'_> {
             + h * (a[1] - b[1]) * (5.0 / 32.0)
             + h * h * (rates[0].alpha + rates[1].alpha) / 64.0;
         let omega = 0.5 * (a[1] + b[1]) + h * (rates[0].alpha - rates[1].alpha) / 8.0;
-        let unknown = a[2] + 0.5 * h * self.tilt(h, ends) * a[3];
+        let unknown = self.later(0.5 * h, self.tilt(h, ends), a)[2];
         self.acceleration(0.5 * (t[0] + t[1]), theta, omega, unknown)[0]
     }
 
@@ -150,51 +170,52 @@ impl Motion<'_> {
         let lever = mean(|r| r.by_unknown);
         let tilt = self.tilt(h, ends);
         let mut top = exponential(h, mean(|r| r.by_theta), mean(|r| r.by_omega), lever);
-        top[0][3] *= tilt;
-        top[1][3] *= tilt;
-        let unknown = a[2] + h * tilt * a[3];
+        for row in &mut top {
+            row[3] *= tilt;
+        }
+        let mut defect = self.later(h, tilt, a);
         let after = if self.prior.unknown == Unknown::Acceleration {
             [0, 1].map(|row| (0..4).map(|k| top[row][k] * a[k]).sum::<f64>())
         } else {
             // Simpson's rule for ω and θ; the noise of u is not part of the prediction.
             let first = rates[0].alpha;
             let middle = self.in_the_middle(t, ends, rates);
-            let last = rates[1].alpha - rates[1].by_unknown * (b[2] - unknown);
+            let last = rates[1].alpha - rates[1].by_unknown * (b[2] - defect[2]);
             [
                 a[0] + h * a[1] + h * h * (first + 2.0 * middle) / 6.0,
                 a[1] + h * (first + 4.0 * middle + last) / 6.0,
             ]
         };
+        defect[..2].copy_from_slice(&after);
+        for (value, end) in defect.iter_mut().zip(b) {
+            *value -= end;
+        }
         Linearised {
             h,
             top,
-            defect: [
-                after[0] - b[0],
-                after[1] - b[1],
-                unknown - b[2],
-                a[3] - b[3],
-            ],
+            defect,
             lever,
             tilt,
         }
     }
 }
 
-/// Upper two rows of the transition of (θ, ω, u, u̇) over a time h, for constant derivatives of θ̈: the exponential series
-/// to h⁴.
-pub(super) fn exponential(h: f64, by_theta: f64, by_omega: f64, lever: f64) -> [[f64; 4]; 2] {
+/// Upper two rows of the transition of the state over a time h, for constant derivatives of θ̈: the exponential series to h⁴.
+pub(super) fn exponential(h: f64, by_theta: f64, by_omega: f64, lever: f64) -> [State; 2] {
     // Columns of Aⁿ/n! hⁿ for A = [[0, 1], [by_theta, by_omega]].
     let mut power = [[1.0, 0.0], [0.0, 1.0]];
-    let mut top = [[0.0; 4]; 2];
+    let mut top = [State::default(); 2];
     for n in 0..5 {
-        let weight = [h / f64::from(n + 1), h * h / f64::from((n + 1) * (n + 2))];
         for row in 0..2 {
             top[row][0] += power[row][0];
             top[row][1] += power[row][1];
-            top[row][2] += power[row][1] * lever * weight[0];
-            top[row][3] += power[row][1] * lever * weight[1];
+            let mut share = power[row][1] * lever;
+            for (k, value) in top[row].iter_mut().enumerate().skip(2) {
+                share *= h / (n + k - 1) as f64;
+                *value += share;
+            }
         }
-        let scale = h / f64::from(n + 1);
+        let scale = h / (n + 1) as f64;
         power = power.map(|[p, q]| [scale * q * by_theta, scale * (p + q * by_omega)]);
     }
     top
@@ -206,7 +227,7 @@ pub(super) struct Linearised {
     /// s
     pub h: f64,
     /// Rows of θ and ω of the transition.
-    pub top: [[f64; 4]; 2],
+    pub top: [State; 2],
     /// Prediction from the nominal path's begin minus its end.
     pub defect: State,
     /// ∂θ̈/∂u

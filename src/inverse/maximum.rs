@@ -1,6 +1,6 @@
 //! The largest likelihood along one parameter.
 
-use super::likelihood::Noise;
+use super::scales::Noise;
 
 /// The likelier one of two.
 pub(super) fn better(a: Noise, b: Noise) -> Noise {

@@ -38,6 +38,7 @@ mod fitted;
 mod guide;
 mod hypotheses;
 pub mod identify;
+mod interval;
 mod inverse_dynamics;
 mod kalman;
 mod likelihood;
@@ -54,9 +55,12 @@ mod prior;
 mod problem;
 mod quantised;
 mod record;
+mod refusals;
 mod residual_tests;
 mod row;
 mod samples;
+mod scales;
+mod shared_errors;
 mod smoother;
 mod state_space;
 mod summary;
@@ -67,18 +71,20 @@ pub use as_printed::AsPrinted;
 pub use bands::{BandRule, DeadCentreBand};
 pub use options::{FitKind, FitSize, InverseOptions};
 pub use row::{InverseRow, Residual};
+pub use shared_errors::{BudgetShare, UncertainValue};
 pub use summary::{CandidateSummary, DataSummary, FitSummary, ForceRange, InverseSummary};
 
 use self::fitted::Fitted;
 use self::guide::Guide;
 use self::inverse_dynamics::Backwards;
 use self::measurement_model::{Scale, Sensor};
+use self::quantised::Codes;
 use self::row::Rows;
+use self::shared_errors::SharedErrors;
 use crate::error::Error;
 use crate::mechanism::{Equation, Reactions, Reactor};
 use crate::numeric::student;
-use crate::plan::{Method, Plan};
-use crate::scene::{Measurement, MotionKind, Scene};
+use crate::scene::{Measured, Measurement, Scene};
 
 /// Slider force and crank torque along a measured motion.
 #[derive(Debug)]
@@ -121,7 +127,20 @@ pub fn inverse(
     measurement: &Measurement,
     options: &InverseOptions,
 ) -> Result<Inverse, Error> {
-    let plan = plan(scene)?;
+    inverse_of_uncertain(scene, &[], measurement, options)
+}
+
+/// Slider force and crank torque from a measured motion, with the errors of uncertain values of the scene in their band.
+///
+/// # Errors
+/// Those of [`inverse`].
+pub fn inverse_of_uncertain(
+    scene: &Scene,
+    uncertain: &[UncertainValue],
+    measurement: &Measurement,
+    options: &InverseOptions,
+) -> Result<Inverse, Error> {
+    let plan = refusals::plan(scene)?;
     let reactor = options.reactions.then(|| Reactor::new(scene)).transpose()?;
     let guide = Guide::new(scene)?;
     let equation = Equation::new(scene);
@@ -132,7 +151,13 @@ pub fn inverse(
     };
     let angles = branch_choice::crank_angles(&sensor, measurement, &equation, &scene.motion)?;
     let noted = angles.warnings.clone();
-    let fitted = Fitted::new(measurement, &angles, &equation, options)
+    let codes = match measurement.measured() {
+        Measured::Theta => Codes::of(&angles.theta, measurement.resolution()),
+        _ => None,
+    };
+    let zero = codes.and_then(|codes| codes.zero_error());
+    let sources = shared_errors::sources(scene, uncertain, zero)?;
+    let fitted = Fitted::new(measurement, &angles, &equation, options, &sources)
         .map_err(|what| Error::refused(what, "give more samples, or another --fit or --degree"))?;
     let backwards = Backwards {
         equation: &equation,
@@ -140,10 +165,11 @@ pub fn inverse(
         guide: guide.as_ref(),
     };
     let factor = student::half_band(fitted.free);
-    let found = Rows::new(&backwards, &fitted, measurement, factor);
-    reachable(measurement, &found)?;
+    let shared = SharedErrors::new(&sources, &fitted.moved, measurement, options.beside_forces);
+    let found = Rows::new(&backwards, &fitted, measurement, &shared, factor);
+    refusals::reachable(measurement, &found)?;
     limit::keeps_clear(&angles.sensor, &fitted, measurement)?;
-    let locked = finite(&backwards, measurement, &found.rows)?;
+    let locked = refusals::finite(&backwards, measurement, &found.rows)?;
     let mut warnings = measurement.notes().to_vec();
     warnings.extend(noted);
     warnings.extend(warnings::of_scene(scene, options));
@@ -160,6 +186,7 @@ pub fn inverse(
         measurement,
         &fitted,
         &found,
+        shared.budget(&found.rows),
         (options.beside_forces, factor),
         warnings,
     );
@@ -198,90 +225,4 @@ impl Inverse {
         load.force = (needed - load.torque) / terms.pose.dx;
         Some(reactor.reactions(&terms.pose, row.omega, row.alpha, &load))
     }
-}
-
-/// The plan of a scene whose motion was measured.
-fn plan(scene: &Scene) -> Result<Plan, Error> {
-    if scene.reduced().clearance.is_some() {
-        return Err(Error::refused(
-            "with clearance in a joint the motion of the crank does not say where the slider is: inverse reads the equation of tight joints",
-            "take [clearance] out of the scene, or set its radial to 0",
-        ));
-    }
-    let mut prescribed = scene.clone();
-    prescribed.motion.kind = MotionKind::ConstantSpeed;
-    let mut plan = Plan::new(&prescribed, Method::Auto)?;
-    plan.reason = "the crank motion is measured: nothing to integrate, the equation is read backwards along the estimated theta(t)".into();
-    Ok(plan)
-}
-
-/// Refuses a fit that leaves the angles that the crank can take.
-fn reachable(measurement: &Measurement, found: &Rows) -> Result<(), Error> {
-    let Some(sample) = found.unreachable else {
-        return Ok(());
-    };
-    Err(Error::refused(
-        format!(
-            "the fitted crank angle at {}, {} rad, is one at which the rod does not reach the guide",
-            measurement.place(sample),
-            found.rows[sample].theta
-        ),
-        "try another --fit or --degree, or check the lengths of the scene",
-    ))
-}
-
-/// Refuses loads without a value along the motion; says where a guide locks itself, and refuses a motion all along which
-/// it does.
-fn finite(
-    backwards: &Backwards<'_>,
-    measurement: &Measurement,
-    rows: &[InverseRow],
-) -> Result<Option<String>, Error> {
-    let place = |sample: usize| {
-        let InverseRow { t, theta, .. } = rows[sample];
-        let place = measurement.place(sample);
-        format!("at {place} (t = {t} s, theta = {theta} rad)")
-    };
-    let without = || (0..rows.len()).filter(|i| rows[*i].crank_torque.is_none());
-    for sample in without() {
-        let row = &rows[sample];
-        let load = backwards.equation.load(row.t, row.theta, row.omega);
-        if !load.is_finite() {
-            return Err(Error::refused(
-                format!(
-                    "the loads of the scene have no finite value {}",
-                    place(sample)
-                ),
-                "let the tables of the scene cover the measured motion, or take the load out",
-            ));
-        }
-        if backwards.guide.is_none() {
-            return Err(Error::refused(
-                format!("the crank torque is not a finite number {}", place(sample)),
-                "check the units of the data, of the time above all",
-            ));
-        }
-    }
-    let (Some(first), count) = (without().next(), without().count()) else {
-        return Ok(None);
-    };
-    let locks = |place: String| {
-        format!(
-            "the guide locks itself {place}: friction holds the slider against any torque on the crank"
-        )
-    };
-    if count == rows.len() {
-        return Err(Error::refused(
-            locks(place(first)),
-            "a motion like this one needs less friction, or the longer rod of another mechanism: check [friction] and [geometry]",
-        ));
-    }
-    let samples = match count {
-        1 => place(first),
-        _ => format!("at {count} samples, the first {}", place(first)),
-    };
-    Ok(Some(format!(
-        "{}; their crank torque is left empty, and the slider force is what drives it by a pull or push on the slider",
-        locks(samples)
-    )))
 }

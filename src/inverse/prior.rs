@@ -1,7 +1,7 @@
 //! The priors among which the likelihood chooses.
 
-use super::likelihood::{Noise, Scales};
-use super::linearised::{Prior, Unknown};
+use super::linearised::{ORDERS, Prior, Unknown};
+use super::scales::{Noise, Scales};
 
 /// The prior without mechanics: a smoothing spline of degree seven in state-space form.
 pub(super) const KINEMATIC: Prior = Prior {
@@ -10,33 +10,38 @@ pub(super) const KINEMATIC: Prior = Prior {
     follows_speed: false,
 };
 
-/// Priors through the equation of motion.
-pub(super) const MECHANICAL: [Prior; 5] = [
+/// A torque in proportion to the speed and a Wiener process beside it.
+const FOLLOWING: Prior = Prior {
+    unknown: Unknown::Torque,
+    order: 2,
+    follows_speed: true,
+};
+
+/// An unknown as a Wiener process integrated to this order.
+const fn wiener(unknown: Unknown, order: usize) -> Prior {
     Prior {
-        unknown: Unknown::Torque,
-        order: 2,
-        follows_speed: true,
-    },
-    Prior {
-        unknown: Unknown::Torque,
-        order: 1,
+        unknown,
+        order,
         follows_speed: false,
-    },
-    Prior {
-        unknown: Unknown::Torque,
-        order: 2,
-        follows_speed: false,
-    },
-    Prior {
-        unknown: Unknown::Force,
-        order: 1,
-        follows_speed: false,
-    },
-    Prior {
-        unknown: Unknown::Force,
-        order: 2,
-        follows_speed: false,
-    },
+    }
+}
+
+/// The priors of an unknown by their order.
+const fn ladder(unknown: Unknown) -> [Prior; ORDERS] {
+    [
+        wiener(unknown, 1),
+        wiener(unknown, 2),
+        wiener(unknown, 3),
+        wiener(unknown, 4),
+    ]
+}
+
+/// All priors, in lists along which the order rises.
+pub(super) const LADDERS: [&[Prior]; 4] = [
+    &ladder(Unknown::Force),
+    &ladder(Unknown::Torque),
+    &[FOLLOWING],
+    &[KINEMATIC],
 ];
 
 /// A prior with its noise, about a path.

@@ -1,10 +1,12 @@
 //! The linear model of a record about a path, and its smoothed motion.
 
 use super::kalman;
-use super::likelihood::{Linear, Noise, Scales, Stretch};
+use super::likelihood::{Linear, Stretch};
 use super::linearised::{Motion, Prior, Rates, State};
+use super::motion_estimate::MotionEstimate;
 use super::quantised::Codes;
 use super::record::{Grid, Path, Record, hermite};
+use super::scales::{Noise, Scales};
 use super::state_space::Deviations;
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
@@ -25,6 +27,15 @@ impl Estimate {
     /// θ, ω, θ̈.
     pub fn motion(&self) -> [f64; 3] {
         [self.state[0], self.state[1], self.alpha]
+    }
+
+    /// The motion with its errors.
+    pub fn estimated(&self) -> MotionEstimate {
+        MotionEstimate {
+            value: self.motion(),
+            covariance: self.covariance,
+            rounding: [f64::EPSILON * self.state[0].abs(), 0.0, 0.0],
+        }
     }
 }
 
@@ -222,10 +233,12 @@ impl<'a> Problem<'a> {
         model: &Deviations<'_>,
         noise: &Noise,
     ) -> Vec<Estimate> {
-        match (model.order, model.correlated) {
-            (1, None) => self.estimated::<3>(motion, path, from, model, noise),
-            (1, Some(_)) | (2, None) => self.estimated::<4>(motion, path, from, model, noise),
-            _ => self.estimated::<5>(motion, path, from, model, noise),
+        match model.dimension() {
+            3 => self.estimated::<3>(motion, path, from, model, noise),
+            4 => self.estimated::<4>(motion, path, from, model, noise),
+            5 => self.estimated::<5>(motion, path, from, model, noise),
+            6 => self.estimated::<6>(motion, path, from, model, noise),
+            _ => self.estimated::<7>(motion, path, from, model, noise),
         }
     }
 

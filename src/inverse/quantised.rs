@@ -60,11 +60,23 @@ impl Codes {
         })
     }
 
+    /// Standard error of the zero of an encoder, rad, which has whole numbers of steps in a turn: it is where an index mark
+    /// was seen between two codes, and codes may begin or be in the middle where the angle is. Anywhere within a step on both
+    /// sides. Numbers that were rounded have none.
+    pub fn zero_error(&self) -> Option<f64> {
+        let count = std::f64::consts::TAU / self.step;
+        (count < MOST_COUNTS && (count - count.round()).abs() < MULTIPLE)
+            .then(|| self.step / 3f64.sqrt())
+    }
+
     /// Standard deviation of an error that may lie anywhere in a step, rad.
     pub fn spread(&self) -> f64 {
         self.step / 12f64.sqrt()
     }
 }
+
+/// Largest number of steps of an encoder in a turn.
+const MOST_COUNTS: f64 = 1e6;
 
 /// Part of a step to which numbers are multiples of it.
 const MULTIPLE: f64 = 0.01;

@@ -4,6 +4,7 @@ use super::bands::{BandRule, DeadCentreBand, LONG_ARM, alike};
 use super::fitted::Fitted;
 use super::inverse_dynamics::{Backwards, Demand};
 use super::motion_estimate::MotionEstimate;
+use super::shared_errors::SharedErrors;
 use crate::mechanism::Linkage;
 use crate::numeric::parallel;
 use crate::scene::Measurement;
@@ -116,12 +117,14 @@ fn demanded(
     backwards: &Backwards<'_>,
     fitted: &Fitted,
     measurement: &Measurement,
+    shared: &SharedErrors,
 ) -> (Vec<InverseRow>, Vec<Doubt>) {
     let times = measurement.times();
     let r = backwards.equation.linkage().r;
     parallel::pairs(times.len(), |i| {
         let state = fitted.motion[i].stretched(measurement.time_uncertainty());
-        let demand = backwards.demand(times[i], &state);
+        let mut demand = backwards.demand(times[i], &state);
+        [demand.force_se, demand.torque_se] = shared.with(i, [demand.force_se, demand.torque_se]);
         let row = InverseRow::new(times[i], &state, &demand);
         (row, Doubt::new(&demand, r))
     })
@@ -150,10 +153,11 @@ impl Rows {
         backwards: &Backwards<'_>,
         fitted: &Fitted,
         measurement: &Measurement,
+        shared: &SharedErrors,
         factor: f64,
     ) -> Rows {
         let linkage = backwards.equation.linkage();
-        let (rows, doubts) = demanded(backwards, fitted, measurement);
+        let (rows, doubts) = demanded(backwards, fitted, measurement, shared);
         let rule = BandRule::new(linkage.r, torques(linkage, &rows), factor);
         let mut found = Rows {
             rows,

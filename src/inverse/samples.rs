@@ -1,13 +1,22 @@
 //! The samples of a measurement as the smoother and the polynomial take them.
 
 use super::branch_tracking::CrankAngles;
+use super::prior::KINEMATIC;
 use super::problem::Problem;
-use super::record::{Grid, Record};
+use super::record::{Grid, Path, Record};
+use super::smoother::Smoothed;
+use super::{first_path, outliers};
 use crate::mechanism::Equation;
 use crate::scene::{Measured, Measurement};
 
 /// Units of rounding of computed values.
 const COMPUTED: f64 = 2.0;
+
+/// Most rounds in which outliers are found.
+const OUTLIER_ROUNDS: usize = 6;
+
+/// Largest corner frequency of a smoother, over the rate of blocks of samples, rad: less happens in a block than noise tells.
+const SLOW: f64 = 0.3;
 
 /// The samples of a measurement with the crank angles that they were read as.
 pub(super) fn record<'a>(measurement: &'a Measurement, angles: &CrankAngles<'a>) -> Record<'a> {
@@ -41,5 +50,49 @@ pub(super) fn problem<'a>(
         record,
         grid,
         equation,
+    }
+}
+
+/// The samples of a record with the weights that outliers leave them, and their motion without mechanics.
+pub(super) fn kinematic<'a>(
+    record: Record<'a>,
+    angles: &CrankAngles<'_>,
+    equation: &'a Equation,
+) -> (Problem<'a>, Smoothed) {
+    let mut problem = problem(record, &angles.theta, equation);
+    let first = first_path(&problem, angles);
+    let sigma = angles.sigma.max(problem.record.floor);
+    let mut kinematic = problem.kinematic(first, sigma);
+    if problem.grid.block * kinematic.noise.corner > SLOW {
+        problem.grid = Grid::new(&problem.record.times, &angles.theta);
+        let first = first_path(&problem, angles);
+        kinematic = problem.kinematic(first, sigma);
+    }
+    for _ in 0..OUTLIER_ROUNDS {
+        let Some(weights) = outliers::weights(&problem, &kinematic) else {
+            break;
+        };
+        let before = std::mem::replace(&mut problem.record.weights, weights);
+        let all = 0..problem.grid.len();
+        let path = problem.path_of(KINEMATIC, &kinematic, std::slice::from_ref(&all));
+        kinematic = problem.kinematic(path, kinematic.noise.sigma);
+        if outliers::alike(&before, &problem.record.weights) {
+            break;
+        }
+    }
+    match problem.coded(&kinematic) {
+        Some(codes) => {
+            problem.record.codes = Some(codes);
+            let found = problem.propagated(kinematic);
+            (problem, found)
+        }
+        None => (problem, kinematic),
+    }
+}
+
+pub(super) fn first_path(problem: &Problem<'_>, angles: &CrankAngles<'_>) -> Path {
+    match problem.record.is_linear() {
+        true => first_path::straight(problem),
+        false => first_path::coarse(problem, &angles.theta),
     }
 }

@@ -1,14 +1,14 @@
 //! The smoothed motion: Gauss-Newton iterations of the linear smoother about the last path (iterated extended smoother), the
 //! prior chosen by marginal likelihood.
 
-use super::likelihood::{Linear, Noise, Scales};
-use super::linearised::{Prior, State, Unknown};
-use super::prior::{Candidate, KINEMATIC, MECHANICAL, likelihood, listed};
+use super::likelihood::Linear;
+use super::linearised::Prior;
+use super::prior::{Candidate, KINEMATIC, LADDERS, likelihood, listed};
 use super::problem::{Estimate, Problem};
 use super::record::Path;
 use super::residual_tests::Whiteness;
+use super::scales::{Noise, Scales};
 use crate::numeric::parallel;
-use std::ops::Range;
 
 /// A smoothed motion with its prior and noise.
 #[derive(Clone, Debug)]
@@ -106,37 +106,6 @@ impl Problem<'_> {
         found
     }
 
-    /// The state of a prior at a node of a smoothed motion.
-    fn state_of(&self, prior: Prior, from: &Smoothed, node: usize) -> State {
-        let [theta, omega, alpha] = from.estimates[node].motion();
-        if prior.unknown == Unknown::Acceleration {
-            return [theta, omega, alpha, from.estimates[node].state[3]];
-        }
-        let terms = self.equation.terms(theta);
-        let t = self.record.origin + self.grid.times[node];
-        let known = self.equation.loads().value(t, theta, omega, &terms.pose);
-        let torque =
-            self.equation.generalized_force(&terms, omega, alpha) - known.generalized(&terms.pose);
-        let (r, dx) = (self.equation.linkage().r, terms.pose.dx);
-        let unknown = match prior.unknown {
-            Unknown::Force => torque * dx / (dx * dx + 0.01 * r * r),
-            _ => torque,
-        };
-        [theta, omega, unknown, 0.0]
-    }
-
-    /// The states of a prior along a smoothed motion, at some ranges of nodes.
-    pub fn path_of(&self, prior: Prior, from: &Smoothed, ranges: &[Range<usize>]) -> Path {
-        let mut states = vec![State::default(); from.estimates.len()];
-        for range in ranges {
-            let some = parallel::list(range.len(), |k| self.state_of(prior, from, range.start + k));
-            states[range.clone()].copy_from_slice(&some);
-        }
-        let variances = (!self.record.is_linear())
-            .then(|| from.estimates.iter().map(|e| e.covariance[0]).collect());
-        Path { states, variances }
-    }
-
     /// A prior about a smoothed path.
     fn candidate(&self, prior: Prior, from: &Smoothed, correlated: bool) -> Candidate {
         let motion = self.motion(prior);
@@ -190,11 +159,22 @@ impl Problem<'_> {
         likelihood(&self.tried(kinematic, false))
     }
 
-    /// All priors about a path, the likeliest first.
-    fn tried(&self, kinematic: &Smoothed, correlated: bool) -> Vec<Candidate> {
-        let priors: Vec<Prior> = std::iter::once(KINEMATIC).chain(MECHANICAL).collect();
-        let tried = parallel::map(priors.iter(), |prior| {
-            Some(self.candidate(*prior, kinematic, correlated))
+    /// Priors about a path, the likeliest first. The order of each unknown rises as long as its likelihood does.
+    pub fn tried(&self, kinematic: &Smoothed, correlated: bool) -> Vec<Candidate> {
+        let tried = parallel::map(LADDERS.iter(), |ladder| {
+            let mut tried: Vec<Candidate> = Vec::new();
+            for prior in *ladder {
+                let next = self.candidate(*prior, kinematic, correlated);
+                let before = tried
+                    .last()
+                    .map_or(f64::NEG_INFINITY, |c| c.noise.likelihood);
+                let rises = next.noise.likelihood > before;
+                tried.push(next);
+                if !rises {
+                    break;
+                }
+            }
+            tried
         });
         let mut tried: Vec<_> = tried.into_iter().flatten().collect();
         tried.sort_by(|a, b| b.noise.likelihood.total_cmp(&a.noise.likelihood));
@@ -221,7 +201,7 @@ impl Problem<'_> {
     }
 
     /// The smoothed motion with a prior, about paths that approach it.
-    fn iterated(&self, candidate: &Candidate, kinematic: &Smoothed) -> Smoothed {
+    pub fn iterated(&self, candidate: &Candidate, kinematic: &Smoothed) -> Smoothed {
         let Candidate {
             prior,
             mut noise,
@@ -251,7 +231,10 @@ impl Problem<'_> {
                 }
                 if prior.follows_speed {
                     noise = linear.with_drift(noise);
-                } else if prior.order == 2 && iteration == 1 {
+                } else if prior.order >= 2 && iteration == 1 {
+                    if prior.order > 2 {
+                        noise = linear.rougher(noise);
+                    }
                     noise = linear.with_level(&noise);
                 }
             }
@@ -264,7 +247,8 @@ impl Problem<'_> {
                 path.variances = Some(estimates.iter().map(|e| e.covariance[0]).collect());
             }
             (result.noise, result.estimates) = (noise, estimates);
-            if change < AT_REST {
+            // The noise of the second iteration has in it what makes the band hold.
+            if change < AT_REST && (iteration > 0 || prior.order == 1) {
                 result.settled = true;
                 break;
             }

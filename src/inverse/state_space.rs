@@ -5,7 +5,7 @@
 )]
 
 use super::kalman::{Gaussian, Matrix, Model, Sample, Step, Vector};
-use super::linearised::{Linearised, State};
+use super::linearised::{Linearised, ORDERS, State};
 
 /// Mean deviation of the samples of a node from the nominal path.
 #[derive(Clone, Copy, Debug, Default)]
@@ -38,7 +38,7 @@ pub(super) struct Deviations<'a> {
     /// Spectral density of white noise that u itself follows beside it, over σ².
     pub level: f64,
     pub correlated: Option<Autoregression>,
-    /// Standard deviations of θ, ω, u and u̇ before the first sample, in σ.
+    /// Standard deviations of the state before the first sample, in σ.
     pub spread: State,
 }
 
@@ -61,9 +61,7 @@ impl<const N: usize> Model<N> for Deviations<'_> {
             transition[row][row] = 1.0;
         }
         offset[..dimension].copy_from_slice(&step.defect[..dimension]);
-        if self.order == 2 {
-            transition[2][3] = step.h * step.tilt;
-        }
+        self.integrate(step, step.h, &mut transition);
         self.add_noise(step, &mut noise);
         if let Some(Autoregression { decay, white }) = self.correlated {
             let kept = (-decay * step.h).exp();
@@ -87,20 +85,20 @@ impl<const N: usize> Model<N> for Deviations<'_> {
         let small = [[d * per, -b * per], [-c * per, a * per]];
         for row in 0..2 {
             inverse[row][..2].copy_from_slice(&small[row]);
-            for k in 2..2 + self.order {
-                let mut column = [step.top[0][k], step.top[1][k]];
-                if k == 3 {
-                    column[0] -= step.h * step.tilt * step.top[0][2];
-                    column[1] -= step.h * step.tilt * step.top[1][2];
-                }
-                inverse[row][k] = -(small[row][0] * column[0] + small[row][1] * column[1]);
-            }
         }
         for (k, row) in inverse.iter_mut().enumerate().skip(2) {
             row[k] = 1.0;
         }
-        if self.order == 2 {
-            inverse[2][3] = -step.h * step.tilt;
+        self.integrate(step, -step.h, &mut inverse);
+        for k in 2..2 + self.order {
+            let column = [0, 1].map(|row| {
+                (2..=k)
+                    .map(|i| step.top[row][i] * inverse[i][k])
+                    .sum::<f64>()
+            });
+            for row in 0..2 {
+                inverse[row][k] = -(small[row][0] * column[0] + small[row][1] * column[1]);
+            }
         }
         if let Some(correlated) = self.correlated {
             inverse[N - 1][N - 1] = (correlated.decay * step.h).exp();
@@ -144,38 +142,50 @@ impl<const N: usize> Model<N> for Deviations<'_> {
 }
 
 impl Deviations<'_> {
-    /// ∫ ψ ψᵀ ds of the responses of θ, ω, u, u̇ to a unit of the white noise.
+    /// Number of states.
+    pub fn dimension(&self) -> usize {
+        2 + self.order + usize::from(self.correlated.is_some())
+    }
+
+    /// What the derivatives of u add to u and to those below them over a time.
+    #[inline]
+    fn integrate<const N: usize>(&self, step: &Linearised, time: f64, matrix: &mut Matrix<N>) {
+        for i in 2..2 + self.order {
+            let mut factor = step.tilt;
+            for k in i + 1..2 + self.order {
+                factor *= time / (k - i) as f64;
+                matrix[i][k] = factor;
+            }
+        }
+    }
+
+    /// ∫ ψ ψᵀ ds of the responses of the state to a unit of the white noise.
     #[inline]
     fn add_noise<const N: usize>(&self, step: &Linearised, noise: &mut Matrix<N>) {
-        let (h, b) = (step.h, step.lever);
-        // hⁿ/n
-        let mut integral = [0.0; 8];
-        let mut power = 1.0;
-        for (n, value) in integral.iter_mut().enumerate().skip(1) {
-            power *= h;
-            *value = power / n as f64;
-        }
-        // Responses of θ, ω, u, u̇ to an impulse a time s before: ψ_k = scale_k s^power_k.
-        let on_level = ([0.5 * b, b, 1.0, 0.0], [2, 1, 0, 0]);
-        let tilt = step.tilt;
-        let on_slope = ([b * tilt / 6.0, 0.5 * b * tilt, tilt, 1.0], [3, 2, 1, 0]);
-        let mut add = |(scales, powers): ([f64; 4], [usize; 4]), density: f64| {
-            for i in 0..2 + self.order {
-                for j in 0..2 + self.order {
-                    let integral = integral[powers[i] + powers[j] + 1];
-                    noise[i][j] += density * scales[i] * scales[j] * integral;
+        // Noise that is integrated n times to u: responses a (s/h)^p at a time s after an impulse, p = n + 1 to 0.
+        let mut add = |n: usize, tilt: f64, density: f64| {
+            let mut response = [0.0; 2 + ORDERS];
+            let mut value = 1.0;
+            for (p, i) in (0..n + 2).rev().enumerate() {
+                response[i] = value * if i < 2 { step.lever } else { 1.0 };
+                value *= step.h / (p + 1) as f64 * if p == 0 { tilt } else { 1.0 };
+            }
+            for i in 0..n + 2 {
+                for j in 0..=i {
+                    let power = 2 * (n + 1) - i - j + 1;
+                    let part = density * step.h * response[i] * response[j] / power as f64;
+                    noise[i][j] += part;
+                    if i != j {
+                        noise[j][i] += part;
+                    }
                 }
             }
         };
-        if self.order == 1 {
-            add(on_level, self.noise);
-        } else {
-            if self.noise > 0.0 {
-                add(on_slope, self.noise);
-            }
-            if self.level > 0.0 {
-                add(on_level, self.level);
-            }
+        if self.noise > 0.0 {
+            add(self.order, step.tilt, self.noise);
+        }
+        if self.level > 0.0 {
+            add(1, 1.0, self.level);
         }
     }
 }
@@ -205,7 +215,7 @@ mod tests {
                 decay: 2.0,
                 white: 0.1,
             }),
-            spread: [1.0; 4],
+            spread: [1.0; 6],
         };
         let (step, inverse): (Step<5>, Matrix<5>) = (model.step(0), model.inverse(0));
         let x = [0.3, -1.0, 2.0, 0.7, 0.2];

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::bands::{BandRule, DeadCentreBand};
 use super::fitted::Fitted;
 use super::row::{InverseRow, Rows};
+use super::shared_errors::BudgetShare;
 use crate::numeric::median::median;
 use crate::numeric::parallel;
 use crate::plan::Plan;
@@ -29,6 +30,8 @@ pub struct InverseSummary {
     pub slider_force: Option<ForceRange>,
     /// Range of the crank torque.
     pub crank_torque: ForceRange,
+    /// Shares of uncertain values in the error of the slider force; empty where there is but noise.
+    pub error_budget: Vec<BudgetShare>,
     /// Stretches in which the slider force is left empty.
     pub dead_centre_bands: Vec<DeadCentreBand>,
     /// The rule by which it is.
@@ -161,6 +164,7 @@ impl InverseSummary {
         measurement: &Measurement,
         fitted: &Fitted,
         found: &Rows,
+        error_budget: Vec<BudgetShare>,
         (beside_forces, band_factor): (bool, f64),
         warnings: Vec<String>,
     ) -> InverseSummary {
@@ -188,6 +192,7 @@ impl InverseSummary {
             band_factor,
             slider_force: ranges[0],
             crank_torque: ranges[1].unwrap_or(nothing),
+            error_budget,
             dead_centre_bands: found.bands.clone(),
             dead_centre_rule: found.rule,
             warnings,

@@ -1,9 +1,10 @@
 //! Gauss-Newton iterations: values by the prediction errors, path by the smoother, noise by the marginal likelihood.
 
 use super::super::kalman;
-use super::super::likelihood::{Noise, Stretch};
+use super::super::likelihood::Stretch;
 use super::super::problem::Problem;
 use super::super::record::Path;
+use super::super::scales::Noise;
 use super::super::smoother::Smoothed;
 use super::FreeValue;
 use super::information::{IdentifiedValue, Information};
@@ -72,7 +73,7 @@ impl<'a> Search<'a> {
         smooth: &Smoothed,
     ) -> Search<'a> {
         let states = smooth.estimates.iter();
-        let states = states.map(|e| [e.state[0], e.state[1], 0.0, 0.0]);
+        let states = states.map(|e| [e.state[0], e.state[1], 0.0, 0.0, 0.0, 0.0]);
         let path = Path {
             states: states.collect(),
             variances: None,

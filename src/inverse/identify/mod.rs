@@ -13,11 +13,10 @@ pub use information::IdentifiedValue;
 
 use self::gauss_newton::{Found, Search};
 use super::branch_choice::crank_angles;
-use super::fitted::{first_path, kinematic};
 use super::measurement_model::{Scale, Sensor};
 use super::record::Grid;
 use super::residual_tests::Whiteness;
-use super::samples::record;
+use super::samples::{first_path, kinematic, record};
 use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::numeric::student;

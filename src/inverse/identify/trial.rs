@@ -3,12 +3,13 @@
 use std::borrow::Cow;
 
 use super::super::kalman;
-use super::super::likelihood::{Linear, Noise, Scales, Stretch};
+use super::super::likelihood::{Linear, Stretch};
 use super::super::linearised::{Prior, Unknown};
 use super::super::maximum::climb;
 use super::super::measurement_model::{Scale, Sensor};
 use super::super::problem::Problem;
 use super::super::record::{Path, Record};
+use super::super::scales::{Noise, Scales};
 use super::super::state_space::Deviations;
 use super::FreeValue;
 use crate::error::Error;

@@ -1,0 +1,93 @@
+//! What cannot be computed backwards, and why.
+
+use super::inverse_dynamics::Backwards;
+use super::row::{InverseRow, Rows};
+use crate::error::Error;
+use crate::plan::{Method, Plan};
+use crate::scene::{Measurement, MotionKind, Scene};
+
+/// The plan of a scene whose motion was measured.
+pub(super) fn plan(scene: &Scene) -> Result<Plan, Error> {
+    if scene.reduced().clearance.is_some() {
+        return Err(Error::refused(
+            "with clearance in a joint the motion of the crank does not say where the slider is: inverse reads the equation of tight joints",
+            "take [clearance] out of the scene, or set its radial to 0",
+        ));
+    }
+    let mut prescribed = scene.clone();
+    prescribed.motion.kind = MotionKind::ConstantSpeed;
+    let mut plan = Plan::new(&prescribed, Method::Auto)?;
+    plan.reason = "the crank motion is measured: nothing to integrate, the equation is read backwards along the estimated theta(t)".into();
+    Ok(plan)
+}
+
+/// Refuses a fit that leaves the angles that the crank can take.
+pub(super) fn reachable(measurement: &Measurement, found: &Rows) -> Result<(), Error> {
+    let Some(sample) = found.unreachable else {
+        return Ok(());
+    };
+    Err(Error::refused(
+        format!(
+            "the fitted crank angle at {}, {} rad, is one at which the rod does not reach the guide",
+            measurement.place(sample),
+            found.rows[sample].theta
+        ),
+        "try another --fit or --degree, or check the lengths of the scene",
+    ))
+}
+
+/// Refuses loads without a value along the motion; says where a guide locks itself, and refuses a motion all along which
+/// it does.
+pub(super) fn finite(
+    backwards: &Backwards<'_>,
+    measurement: &Measurement,
+    rows: &[InverseRow],
+) -> Result<Option<String>, Error> {
+    let place = |sample: usize| {
+        let InverseRow { t, theta, .. } = rows[sample];
+        let place = measurement.place(sample);
+        format!("at {place} (t = {t} s, theta = {theta} rad)")
+    };
+    let without = || (0..rows.len()).filter(|i| rows[*i].crank_torque.is_none());
+    for sample in without() {
+        let row = &rows[sample];
+        let load = backwards.equation.load(row.t, row.theta, row.omega);
+        if !load.is_finite() {
+            return Err(Error::refused(
+                format!(
+                    "the loads of the scene have no finite value {}",
+                    place(sample)
+                ),
+                "let the tables of the scene cover the measured motion, or take the load out",
+            ));
+        }
+        if backwards.guide.is_none() {
+            return Err(Error::refused(
+                format!("the crank torque is not a finite number {}", place(sample)),
+                "check the units of the data, of the time above all",
+            ));
+        }
+    }
+    let (Some(first), count) = (without().next(), without().count()) else {
+        return Ok(None);
+    };
+    let locks = |place: String| {
+        format!(
+            "the guide locks itself {place}: friction holds the slider against any torque on the crank"
+        )
+    };
+    if count == rows.len() {
+        return Err(Error::refused(
+            locks(place(first)),
+            "a motion like this one needs less friction, or the longer rod of another mechanism: check [friction] and [geometry]",
+        ));
+    }
+    let samples = match count {
+        1 => place(first),
+        _ => format!("at {count} samples, the first {}", place(first)),
+    };
+    Ok(Some(format!(
+        "{}; their crank torque is left empty, and the slider force is what drives it by a pull or push on the slider",
+        locks(samples)
+    )))
+}
