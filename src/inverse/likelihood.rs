@@ -29,27 +29,25 @@ impl Linear<'_> {
         let mut spread = self.scales.spread();
         if self.prior.follows_speed {
             // Such a g makes as much of the speed as the spread of u has.
-            spread[3] = spread[2] / self.scales.speed;
+            spread[2 + self.prior.order] = spread[2] / self.scales.speed;
         }
         spread
     }
 
     /// The linear model of one stretch.
     pub fn deviations<'a>(&self, stretch: &'a Stretch, noise: &Noise) -> Deviations<'a> {
-        let corner = self.scales.density(noise.corner, self.prior.noisy());
-        let (rate, level) = match self.prior.follows_speed {
-            true => (
-                self.scales.density(noise.level, 1) / self.scales.speed.powi(2),
-                corner,
-            ),
-            false => (corner, self.scales.density(noise.level, 1)),
+        let level = self.scales.density(noise.level, 1);
+        let (level, drift) = match self.prior.follows_speed {
+            true => (0.0, level / self.scales.speed.powi(2)),
+            false => (level, 0.0),
         };
         Deviations {
             steps: &stretch.steps,
             observed: &stretch.observed,
-            order: self.prior.order,
-            noise: rate,
+            prior: self.prior,
+            noise: self.scales.density(noise.corner, self.prior.order),
             level,
+            drift,
             correlated: noise.correlated,
             spread: self.spread(),
         }
@@ -61,9 +59,7 @@ impl Linear<'_> {
             match model.dimension() {
                 3 => kalman::evidence::<3>(&model),
                 4 => kalman::evidence::<4>(&model),
-                5 => kalman::evidence::<5>(&model),
-                6 => kalman::evidence::<6>(&model),
-                _ => kalman::evidence::<7>(&model),
+                _ => kalman::evidence::<5>(&model),
             }
         };
         let parts = self.stretches.iter().map(of);
@@ -84,7 +80,7 @@ impl Linear<'_> {
     /// Noise with its likelihood and its σ.
     fn evaluated(&self, mut noise: Noise) -> Noise {
         let evidence = self.evidence(&noise);
-        let dimension = 2 + self.prior.order;
+        let dimension = self.prior.states();
         let starts = (dimension * self.stretches.len()) as f64;
         let free = evidence.samples as f64 - starts;
         let profiled = (evidence.squares / free.max(1.0)).sqrt();
@@ -97,15 +93,14 @@ impl Linear<'_> {
             ..
         } = self.scales;
         // The spreads of θ and ω are the same for all priors.
-        let rate = match self.prior.follows_speed {
-            true => 1.0 / speed,
-            false => jerk / alpha,
-        };
-        let mut prior = alpha / lever;
         let mut start = (spread[0] * spread[1]).ln();
-        for spread in &spread[2..dimension] {
+        let mut prior = alpha / lever;
+        for spread in &spread[2..2 + self.prior.order] {
             start += (spread / prior).ln();
-            prior *= rate;
+            prior *= jerk / alpha;
+        }
+        if self.prior.follows_speed {
+            start += (spread[2 + self.prior.order] * speed * lever / alpha).ln();
         }
         let likelihood = start * self.stretches.len() as f64
             - free * noise.sigma.ln()
@@ -142,28 +137,6 @@ impl Linear<'_> {
             .max_by(|a, b| a.likelihood.total_cmp(&b.likelihood));
         let guess = best.map_or(1.0 / self.scales.spacing, |best| best.corner);
         self.maximised(guess, None)
-    }
-
-    /// The largest corner frequency of which the likelihood ratio to the likeliest is that of one standard error. Of a motion that
-    /// is smoother than any prior the likeliest one leaves out too much (Wahba, Ann. Statist. 13 (1985) 1378).
-    pub fn rougher(&self, likeliest: Noise) -> Noise {
-        let (mut found, mut factor) = (likeliest, 2.0f64);
-        for _ in 0..LEVELS {
-            let corner = found.corner * factor;
-            let next = self.evaluated(Noise {
-                corner,
-                ..likeliest
-            });
-            if next.likelihood > likeliest.likelihood - ALLOWED {
-                found = next;
-            } else {
-                factor = factor.sqrt();
-            }
-            if factor < 1.03 {
-                break;
-            }
-        }
-        found
     }
 
     /// Noise of u itself beside that of its rate, as strong as the samples allow: the likelihood ratio to the likeliest is

@@ -6,9 +6,9 @@
 use crate::mechanism::Equation;
 
 /// Largest order of a prior.
-pub(super) const ORDERS: usize = 4;
+pub(super) const ORDERS: usize = 2;
 
-/// θ, ω, u and its derivatives.
+/// θ, ω, u, and its derivative or g.
 pub(super) type State = [f64; 2 + ORDERS];
 
 /// What is unknown and varies as an integrated Wiener process.
@@ -28,32 +28,25 @@ pub(super) struct Prior {
     pub unknown: Unknown,
     /// How often the white noise is integrated to u: 1 (Wiener process) or more.
     pub order: usize,
-    /// Whether u follows the speed: u̇ = g θ̈ + white noise with an unknown constant g as the fourth state, in place of u̇.
+    /// Whether g ω with an unknown constant g is a part of u beside that: g is the last state.
     pub follows_speed: bool,
 }
 
 impl Prior {
-    /// How often the white noise is integrated to u.
-    pub fn noisy(self) -> usize {
-        match self.follows_speed {
-            true => 1,
-            false => self.order,
-        }
+    /// Number of states.
+    pub fn states(self) -> usize {
+        2 + self.order + usize::from(self.follows_speed)
     }
 
     /// What varies at random, in words.
     pub fn name(self) -> &'static str {
-        match (self.unknown, self.order) {
-            _ if self.follows_speed => "torque that follows the speed, and a Wiener process",
-            (Unknown::Acceleration, _) => "angle with white snap, without mechanics",
-            (Unknown::Torque, 1) => "torque as a Wiener process",
-            (Unknown::Torque, 2) => "torque as an integrated Wiener process",
-            (Unknown::Torque, 3) => "torque as a twice integrated Wiener process",
-            (Unknown::Torque, _) => "torque as a three times integrated Wiener process",
-            (Unknown::Force, 1) => "force as a Wiener process",
-            (Unknown::Force, 2) => "force as an integrated Wiener process",
-            (Unknown::Force, 3) => "force as a twice integrated Wiener process",
-            (Unknown::Force, _) => "force as a three times integrated Wiener process",
+        match (self.unknown, self.order, self.follows_speed) {
+            (Unknown::Acceleration, ..) => "angle with white snap, without mechanics",
+            (.., true) => "torque that follows the speed, and a Wiener process",
+            (Unknown::Torque, 1, _) => "torque as a Wiener process",
+            (Unknown::Torque, ..) => "torque as an integrated Wiener process",
+            (Unknown::Force, 1, _) => "force as a Wiener process",
+            (Unknown::Force, ..) => "force as an integrated Wiener process",
         }
     }
 }
@@ -129,23 +122,27 @@ impl Motion<'_> {
         }
     }
 
-    /// What the fourth state adds to u over a step, per time: 1 of u̇, the change of the speed of g.
+    /// Mean acceleration of a step: what g adds to u, per time.
     fn tilt(&self, h: f64, ends: [&State; 2]) -> f64 {
         match self.prior.follows_speed {
             true => (ends[1][1] - ends[0][1]) / h,
-            false => 1.0,
+            false => 0.0,
         }
     }
 
     /// A state with u and its derivatives a time later.
     fn later(&self, h: f64, tilt: f64, from: &State) -> State {
         let mut state = *from;
-        for i in 2..2 + self.prior.order {
+        let last = 2 + self.prior.order;
+        for (i, value) in state[..last].iter_mut().enumerate().skip(2) {
             let mut factor = 1.0;
-            for k in i + 1..2 + self.prior.order {
+            for (k, derivative) in from[..last].iter().enumerate().skip(i + 1) {
                 factor *= h / (k - i) as f64;
-                state[i] += factor * tilt * from[k];
+                *value += factor * derivative;
             }
+        }
+        if self.prior.follows_speed {
+            state[2] += h * tilt * from[last];
         }
         state
     }
@@ -170,8 +167,10 @@ impl Motion<'_> {
         let lever = mean(|r| r.by_unknown);
         let tilt = self.tilt(h, ends);
         let mut top = exponential(h, mean(|r| r.by_theta), mean(|r| r.by_omega), lever);
-        for row in &mut top {
-            row[3] *= tilt;
+        if self.prior.follows_speed {
+            for row in &mut top {
+                row[2 + self.prior.order] = row[3] * tilt;
+            }
         }
         let mut defect = self.later(h, tilt, a);
         let after = if self.prior.unknown == Unknown::Acceleration {
@@ -232,7 +231,7 @@ pub(super) struct Linearised {
     pub defect: State,
     /// ∂θ̈/∂u
     pub lever: f64,
-    /// What the fourth state adds to u, per time.
+    /// What g adds to u, per time.
     pub tilt: f64,
 }
 

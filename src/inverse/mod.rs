@@ -180,16 +180,18 @@ pub fn inverse_of_uncertain(
     ));
     warnings.extend(locked);
     warnings.extend(warnings::of_fit(&fitted, measurement));
-    let summary = InverseSummary::new(
-        scene,
-        plan,
-        measurement,
-        &fitted,
-        &found,
-        shared.budget(&found.rows),
-        (options.beside_forces, factor),
-        warnings,
-    );
+    let summary = InverseSummary {
+        error_budget: shared.budget(&found.rows),
+        ..InverseSummary::new(
+            scene,
+            plan,
+            measurement,
+            &fitted,
+            &found,
+            (options.beside_forces, factor),
+            warnings,
+        )
+    };
     let residuals = Residual::list(&fitted, measurement);
     Ok(Inverse {
         summary,

@@ -1,6 +1,6 @@
 //! The priors among which the likelihood chooses.
 
-use super::linearised::{ORDERS, Prior, Unknown};
+use super::linearised::{Prior, Unknown};
 use super::scales::{Noise, Scales};
 
 /// The prior without mechanics: a smoothing spline of degree seven in state-space form.
@@ -10,31 +10,23 @@ pub(super) const KINEMATIC: Prior = Prior {
     follows_speed: false,
 };
 
-/// A torque in proportion to the speed and a Wiener process beside it.
+/// The priors of an unknown by their order. An order more errs less where there is no noise at all, but its band does not
+/// hold where u varies with the speed.
+const fn ladder(unknown: Unknown) -> [Prior; 2] {
+    let first = Prior {
+        unknown,
+        order: 1,
+        follows_speed: false,
+    };
+    [first, Prior { order: 2, ..first }]
+}
+
+/// A torque in proportion to the speed, and a Wiener process.
 const FOLLOWING: Prior = Prior {
     unknown: Unknown::Torque,
-    order: 2,
+    order: 1,
     follows_speed: true,
 };
-
-/// An unknown as a Wiener process integrated to this order.
-const fn wiener(unknown: Unknown, order: usize) -> Prior {
-    Prior {
-        unknown,
-        order,
-        follows_speed: false,
-    }
-}
-
-/// The priors of an unknown by their order.
-const fn ladder(unknown: Unknown) -> [Prior; ORDERS] {
-    [
-        wiener(unknown, 1),
-        wiener(unknown, 2),
-        wiener(unknown, 3),
-        wiener(unknown, 4),
-    ]
-}
 
 /// All priors, in lists along which the order rises.
 pub(super) const LADDERS: [&[Prior]; 4] = [

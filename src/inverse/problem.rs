@@ -236,9 +236,7 @@ impl<'a> Problem<'a> {
         match model.dimension() {
             3 => self.estimated::<3>(motion, path, from, model, noise),
             4 => self.estimated::<4>(motion, path, from, model, noise),
-            5 => self.estimated::<5>(motion, path, from, model, noise),
-            6 => self.estimated::<6>(motion, path, from, model, noise),
-            _ => self.estimated::<7>(motion, path, from, model, noise),
+            _ => self.estimated::<5>(motion, path, from, model, noise),
         }
     }
 
@@ -252,7 +250,7 @@ impl<'a> Problem<'a> {
     ) -> Vec<Estimate> {
         let (deviations, innovations) = kalman::smooth::<N>(model);
         let variance = noise.sigma * noise.sigma;
-        let dimension = 2 + model.order;
+        let dimension = model.prior.states();
         let estimate =
             |(at, (deviation, innovation)): (usize, (&kalman::Gaussian<N>, &Option<f64>))| {
                 let mut state = path.states[from + at];

@@ -232,9 +232,6 @@ impl Problem<'_> {
                 if prior.follows_speed {
                     noise = linear.with_drift(noise);
                 } else if prior.order >= 2 && iteration == 1 {
-                    if prior.order > 2 {
-                        noise = linear.rougher(noise);
-                    }
                     noise = linear.with_level(&noise);
                 }
             }

@@ -5,7 +5,7 @@
 )]
 
 use super::kalman::{Gaussian, Matrix, Model, Sample, Step, Vector};
-use super::linearised::{Linearised, ORDERS, State};
+use super::linearised::{Linearised, Prior, State};
 
 /// Mean deviation of the samples of a node from the nominal path.
 #[derive(Clone, Copy, Debug, Default)]
@@ -32,11 +32,13 @@ pub(super) struct Autoregression {
 pub(super) struct Deviations<'a> {
     pub steps: &'a [Linearised],
     pub observed: &'a [Observed],
-    pub order: usize,
+    pub prior: Prior,
     /// Spectral density of the process noise over σ².
     pub noise: f64,
     /// Spectral density of white noise that u itself follows beside it, over σ².
     pub level: f64,
+    /// Spectral density of the white noise that g follows, over σ².
+    pub drift: f64,
     pub correlated: Option<Autoregression>,
     /// Standard deviations of the state before the first sample, in σ.
     pub spread: State,
@@ -50,7 +52,7 @@ impl<const N: usize> Model<N> for Deviations<'_> {
     #[inline]
     fn step(&self, node: usize) -> Step<N> {
         let step = &self.steps[node];
-        let dimension = 2 + self.order;
+        let dimension = self.prior.states();
         let mut transition: Matrix<N> = [[0.0; N]; N];
         let mut noise: Matrix<N> = [[0.0; N]; N];
         let mut offset: Vector<N> = [0.0; N];
@@ -90,7 +92,7 @@ impl<const N: usize> Model<N> for Deviations<'_> {
             row[k] = 1.0;
         }
         self.integrate(step, -step.h, &mut inverse);
-        for k in 2..2 + self.order {
+        for k in 2..self.prior.states() {
             let column = [0, 1].map(|row| {
                 (2..=k)
                     .map(|i| step.top[row][i] * inverse[i][k])
@@ -128,7 +130,7 @@ impl<const N: usize> Model<N> for Deviations<'_> {
 
     fn start(&self) -> Gaussian<N> {
         let mut covariance = [[0.0; N]; N];
-        for k in 0..2 + self.order {
+        for k in 0..self.prior.states() {
             covariance[k][k] = self.spread[k] * self.spread[k];
         }
         if let Some(correlated) = self.correlated {
@@ -142,50 +144,52 @@ impl<const N: usize> Model<N> for Deviations<'_> {
 }
 
 impl Deviations<'_> {
-    /// Number of states.
+    /// Number of states, that of the noise with them.
     pub fn dimension(&self) -> usize {
-        2 + self.order + usize::from(self.correlated.is_some())
+        self.prior.states() + usize::from(self.correlated.is_some())
     }
 
-    /// What the derivatives of u add to u and to those below them over a time.
+    /// What the derivatives of u and g add to u and to those below them over a time.
     #[inline]
     fn integrate<const N: usize>(&self, step: &Linearised, time: f64, matrix: &mut Matrix<N>) {
-        for i in 2..2 + self.order {
-            let mut factor = step.tilt;
-            for k in i + 1..2 + self.order {
+        let last = 2 + self.prior.order;
+        for i in 2..last {
+            let mut factor = 1.0;
+            for k in i + 1..last {
                 factor *= time / (k - i) as f64;
                 matrix[i][k] = factor;
             }
         }
+        if self.prior.follows_speed {
+            matrix[2][last] = time * step.tilt;
+        }
     }
 
-    /// ∫ ψ ψᵀ ds of the responses of the state to a unit of the white noise.
+    /// ∫ ψ ψᵀ ds of the responses ψ of the state to units of white noise.
     #[inline]
     fn add_noise<const N: usize>(&self, step: &Linearised, noise: &mut Matrix<N>) {
-        // Noise that is integrated n times to u: responses a (s/h)^p at a time s after an impulse, p = n + 1 to 0.
-        let mut add = |n: usize, tilt: f64, density: f64| {
-            let mut response = [0.0; 2 + ORDERS];
-            let mut value = 1.0;
-            for (p, i) in (0..n + 2).rev().enumerate() {
-                response[i] = value * if i < 2 { step.lever } else { 1.0 };
-                value *= step.h / (p + 1) as f64 * if p == 0 { tilt } else { 1.0 };
-            }
-            for i in 0..n + 2 {
-                for j in 0..=i {
-                    let power = 2 * (n + 1) - i - j + 1;
-                    let part = density * step.h * response[i] * response[j] / power as f64;
-                    noise[i][j] += part;
-                    if i != j {
-                        noise[j][i] += part;
-                    }
+        let (h, b, tilt) = (step.h, step.lever, step.tilt);
+        // Responses a (s/h)^p at a time s after an impulse, p from one less than their number to 0, at these states.
+        let mut add = |states: &[usize], response: &[f64], density: f64| {
+            let top = 2 * states.len() - 1;
+            for (m, i) in states.iter().enumerate() {
+                for (n, j) in states.iter().enumerate() {
+                    let power = (top - m - n) as f64;
+                    noise[*i][*j] += density * h * response[m] * response[n] / power;
                 }
             }
         };
-        if self.noise > 0.0 {
-            add(self.order, step.tilt, self.noise);
+        let (h2, h3) = (h * h / 2.0, h * h * h / 6.0);
+        match self.prior.order {
+            1 => add(&[0, 1, 2], &[b * h2, b * h, 1.0], self.noise + self.level),
+            _ => add(&[0, 1, 2, 3], &[b * h3, b * h2, h, 1.0], self.noise),
         }
-        if self.level > 0.0 {
-            add(1, 1.0, self.level);
+        if self.prior.order > 1 && self.level > 0.0 {
+            add(&[0, 1, 2], &[b * h2, b * h, 1.0], self.level);
+        }
+        if self.drift > 0.0 {
+            let response = [b * tilt * h3, b * tilt * h2, tilt * h, 1.0];
+            add(&[0, 1, 2, 2 + self.prior.order], &response, self.drift);
         }
     }
 }
@@ -194,7 +198,7 @@ impl Deviations<'_> {
 mod tests {
     use super::*;
     use crate::inverse::kalman::times;
-    use crate::inverse::linearised::exponential;
+    use crate::inverse::linearised::{Unknown, exponential};
 
     #[test]
     fn the_inverse_transition_undoes_the_transition() {
@@ -208,14 +212,19 @@ mod tests {
         let model = Deviations {
             steps: &[step],
             observed: &[],
-            order: 2,
+            prior: Prior {
+                unknown: Unknown::Torque,
+                order: 2,
+                follows_speed: false,
+            },
             noise: 1.0,
             level: 0.5,
+            drift: 0.0,
             correlated: Some(Autoregression {
                 decay: 2.0,
                 white: 0.1,
             }),
-            spread: [1.0; 6],
+            spread: [1.0; 4],
         };
         let (step, inverse): (Step<5>, Matrix<5>) = (model.step(0), model.inverse(0));
         let x = [0.3, -1.0, 2.0, 0.7, 0.2];

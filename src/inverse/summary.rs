@@ -164,7 +164,6 @@ impl InverseSummary {
         measurement: &Measurement,
         fitted: &Fitted,
         found: &Rows,
-        error_budget: Vec<BudgetShare>,
         (beside_forces, band_factor): (bool, f64),
         warnings: Vec<String>,
     ) -> InverseSummary {
@@ -192,7 +191,7 @@ impl InverseSummary {
             band_factor,
             slider_force: ranges[0],
             crank_torque: ranges[1].unwrap_or(nothing),
-            error_budget,
+            error_budget: Vec::new(),
             dead_centre_bands: found.bands.clone(),
             dead_centre_rule: found.rule,
             warnings,

@@ -3,6 +3,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod encoder;
 mod hard_data;
 mod identify;
 mod inverse;

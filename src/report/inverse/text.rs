@@ -42,6 +42,14 @@ pub fn inverse(result: &Inverse, printed: Option<&AsPrinted>) -> String {
         "+- {:.4} standard errors",
         summary.band_factor
     );
+    let budget = summary.error_budget.iter().map(|part| {
+        let percent = 100.0 * part.share;
+        format!("{} {:.2e} N ({percent:.0} %)", part.source, part.force_se_n)
+    });
+    let budget: Vec<String> = budget.collect();
+    if !budget.is_empty() {
+        facts.add("error of force", budget.join(", "));
+    }
     without_force(&mut facts, &summary.dead_centre_bands, data.rows);
     let (shown, more) = summary
         .warnings
