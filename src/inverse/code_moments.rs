@@ -6,7 +6,7 @@
 use super::interval::{Cavity, Site};
 use super::likelihood::Linear;
 use super::linearised::Prior;
-use super::problem::Problem;
+use super::problem::{Estimate, Problem};
 use super::quantised::Codes;
 use super::record::Path;
 use super::smoother::Smoothed;
@@ -183,19 +183,37 @@ impl Problem<'_> {
 
     /// The smoothed motion with the prior by which the codes are likeliest, of those by which the normal distributions in their
     /// place are.
-    pub fn likeliest_of_codes(&mut self, kinematic: &Smoothed) -> (Smoothed, Vec<(Prior, f64)>) {
-        let sites = [self.record.values.clone(), self.record.weights.clone()];
-        let mut found: Vec<Smoothed> = Vec::new();
-        for candidate in self.tried(kinematic, false).into_iter().take(CANDIDATES) {
-            let [values, weights] = sites.clone();
-            (self.record.values, self.record.weights) = (values, weights);
-            let smoothed = self.iterated(&candidate, kinematic);
-            found.push(self.propagated(smoothed));
+    pub fn likeliest_of_codes(&mut self, kinematic: Smoothed) -> (Smoothed, Vec<(Prior, f64)>) {
+        let first = self.sites();
+        let mut found = Vec::new();
+        for candidate in self.tried(&kinematic, false) {
+            (self.record.values, self.record.weights) = first.clone();
+            let smoothed = self.iterated(&candidate, &kinematic);
+            if !smoothed.settled {
+                continue;
+            }
+            let smoothed = self.propagated(smoothed);
+            let is_finite = |e: &Estimate| e.state[0].is_finite() && e.covariance[0] > 0.0;
+            if smoothed.noise.likelihood.is_finite() && smoothed.estimates.iter().all(is_finite) {
+                found.push((smoothed, self.sites()));
+            }
+            if found.len() == CANDIDATES {
+                break;
+            }
         }
-        found.sort_by(|a, b| b.noise.likelihood.total_cmp(&a.noise.likelihood));
-        let listed = found.iter().map(|one| (one.prior, one.noise.likelihood));
+        found.sort_by(|a, b| b.0.noise.likelihood.total_cmp(&a.0.noise.likelihood));
+        let listed = found
+            .iter()
+            .map(|(one, _)| (one.prior, one.noise.likelihood));
         let listed = listed.collect();
-        (found.swap_remove(0), listed)
+        let (smoothed, sites) = found.into_iter().next().unwrap_or((kinematic, first));
+        (self.record.values, self.record.weights) = sites;
+        (smoothed, listed)
+    }
+
+    /// Means and weights of the normal distributions in the place of the codes.
+    fn sites(&self) -> (Vec<f64>, Vec<f64>) {
+        (self.record.values.clone(), self.record.weights.clone())
     }
 }
 

@@ -112,7 +112,7 @@ impl Fitted {
     ) -> Fitted {
         let (mut problem, kinematic) = kinematic(record, angles, equation);
         let (smoothed, candidates) = match problem.record.codes {
-            Some(_) => problem.likeliest_of_codes(&kinematic),
+            Some(_) => problem.likeliest_of_codes(kinematic),
             None => problem.likeliest(kinematic),
         };
         Fitted {
