@@ -22,6 +22,8 @@ pub(super) fn worst_row(
     times.fold(last, |worst, t| worst.max(error(t)))
 }
 
+/// Where rounding takes over from the decay of the coefficients of a series, as part of the largest.
+pub(super) const LEAST_TAIL: f64 = 4e-15;
 /// How far an angle in its turn is rounded at most, rad.
 pub(super) const PLACE: f64 = 2.0 * f64::EPSILON;
 

@@ -3,7 +3,8 @@
 use std::time::Instant;
 
 use super::angle_model::AngleModel;
-use super::angle_motion::{PLACE, late_by, worst_row};
+use super::angle_motion::{LEAST_TAIL, PLACE, late_by, worst_row};
+use super::error_estimate::MARGIN;
 use super::outcome::Estimate;
 use super::result::{Cost, ErrorEstimate};
 use super::run_setup::RunSetup;
@@ -14,13 +15,9 @@ use crate::engine::energy::{NotApplicable, Orbit};
 const SHARE: f64 = 1e-2;
 /// Inside a panel, where friction may cut it, a series is not as good as at the ends.
 const CUT: f64 = 0.03;
-/// Where rounding takes over.
-const LEAST_TAIL: f64 = 4e-15;
 
 /// Relative error of times by rounding.
 pub(super) const ROUNDING: f64 = 2.5 * f64::EPSILON;
-/// What is stated is larger than the distance of two runs by this.
-pub(super) const MARGIN: f64 = 1.5;
 
 /// Evaluations of a second run for one of the first, and beside them.
 const MOST_EVALUATIONS: (u64, u64) = (20, 200_000);

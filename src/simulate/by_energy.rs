@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::angle_model::AngleModel;
-use super::angle_motion::{PLACE, balance, late_by, worst_row};
+use super::angle_motion::{LEAST_TAIL, PLACE, balance, late_by, worst_row};
 use super::outcome::Estimate;
 use super::result::ErrorEstimate;
 use super::run_setup::RunSetup;
@@ -17,8 +17,7 @@ use crate::scene::Extent;
 
 /// Series end where their coefficients have decayed to this part of the tolerance,
 const SHARE: f64 = 0.1;
-/// where rounding takes over at the latest, and early enough for all digits but the last ones at the first.
-const LEAST_TAIL: f64 = 4e-15;
+/// and at this at the latest, for all digits but the last ones.
 const MOST_TAIL: f64 = 1e-13;
 
 /// Relative error of times by rounding of the positions and of the kinetic energy at the start,

@@ -1,7 +1,5 @@
 //! What is looked for in the steps of a crank in time: dead centres, turning points, and where the run ends.
 
-use std::f64::consts::TAU;
-
 use super::bounded_motion::Swing;
 use super::recorder::{Coordinate, Recorder};
 use super::result::Event;
@@ -11,7 +9,6 @@ use crate::engine::events::{self, Crossing};
 use crate::engine::step::Step;
 use crate::engine::time::{self, Settings};
 use crate::engine::{Counted, Motion};
-use crate::mechanism::Limits;
 use crate::numeric::angle::Angle;
 
 /// Follows the steps of a crank.
@@ -25,10 +22,8 @@ pub(super) struct CrankWatch<'a> {
     pub passed: Option<(Angle, f64)>,
     motion: &'a Counted<'a>,
     start: Angle,
-    /// Angles that are watched, in [0, 2π): the dead centres, then the limits of the crank's motion, where the run ends.
-    watched: Vec<f64>,
-    /// How many of them are dead centres.
-    dead_centres: usize,
+    /// In [0, 2π), rad. A crank that has limits is followed along the configuration curve.
+    dead_centres: Vec<f64>,
     /// The run ends when the crank has turned by this, rad.
     turn_limit: Option<f64>,
     crossings: Vec<(f64, Crossing)>,
@@ -39,8 +34,6 @@ pub(super) struct CrankWatch<'a> {
 pub(super) enum EndsBy {
     /// Its turns are complete.
     Turns,
-    /// The limit of the crank's motion is reached.
-    Limit,
     /// The crank swings to and fro and came no further for long.
     Swing,
 }
@@ -51,9 +44,7 @@ impl<'a> CrankWatch<'a> {
         motion: &'a Counted<'a>,
         rows: &'a mut dyn RowSink,
     ) -> CrankWatch<'a> {
-        let reach = Limits::clear_reach(task.equation().linkage());
-        let dead_centres = task.limits.dead_centres.iter().map(|dc| dc.theta);
-        let guards = reach.iter().flatten().map(|angle| angle.rem_euclid(TAU));
+        let dead_centres = task.limits.dead_centres.iter();
         CrankWatch {
             recorder: Recorder::new(task, rows),
             swing: Swing::new(task, task.start()),
@@ -61,8 +52,7 @@ impl<'a> CrankWatch<'a> {
             passed: None,
             motion,
             start: task.start(),
-            watched: dead_centres.chain(guards).collect(),
-            dead_centres: task.limits.dead_centres.len(),
+            dead_centres: dead_centres.map(|dc| dc.theta).collect(),
             turn_limit: task.extent.angle(),
             crossings: Vec::new(),
         }
@@ -138,11 +128,11 @@ impl<'a> CrankWatch<'a> {
 
     fn look_for_events(&mut self, step: &mut Step) {
         let mut crossings = std::mem::take(&mut self.crossings);
-        events::crossings(step, &self.watched, &mut crossings);
+        events::crossings(step, &self.dead_centres, &mut crossings);
         let wanted = self.recorder.keeps_events() || self.swing.is_some();
         if !step.is_refined() && !crossings.is_empty() && wanted {
             step.refine(self.motion);
-            events::crossings(step, &self.watched, &mut crossings);
+            events::crossings(step, &self.dead_centres, &mut crossings);
         }
         for &(t, what) in &crossings {
             // An event at the end of the run may be off it by rounding.
@@ -163,10 +153,6 @@ impl<'a> CrankWatch<'a> {
         let (theta, omega) = step.at(t);
         let at = step.angle(theta);
         let (kind, speed) = match what {
-            Crossing::Angle(index) if index >= self.dead_centres => {
-                self.ends_at = Some((t, EndsBy::Limit));
-                ("limit", omega)
-            }
             Crossing::Angle(_) => ("dead-centre", omega),
             Crossing::Turning => ("turning-point", 0.0),
         };

@@ -76,15 +76,15 @@ impl Motion for Forward<'_> {
 
 /// The second run of the estimate is so much tighter that its own error does not count, whatever the first
 /// one's happens to be: at the order of collocation two more digits take a fifth more evaluations.
-const MUCH_TIGHTER: f64 = 1e4;
+pub(super) const MUCH_TIGHTER: f64 = 1e4;
 /// A short run is far better than a loose tolerance: the second one is never looser than at the default tolerance.
 const LOOSEST: f64 = 1e-10 / MUCH_TIGHTER;
 /// Where collocation does not get to the end, the same method again, this much tighter.
-const TIGHTER: f64 = 50.0;
+pub(super) const TIGHTER: f64 = 50.0;
 /// What is stated is larger than the distance of the two runs by this, for the error of the second.
-const MARGIN: f64 = 1.5;
+pub(super) const MARGIN: f64 = 1.5;
 /// Standard deviation of one rounding, in units of the last place.
-const ONE_ROUNDING: f64 = 0.3;
+pub(super) const ONE_ROUNDING: f64 = 0.3;
 /// Next to a balance several steps round in the same way, which adds up to this many times as much.
 const ALIKE: f64 = 2.0;
 /// Rounding of a step's mean acceleration, in units: of a few in each evaluation, averaged over the step.
@@ -95,9 +95,9 @@ const BALANCED: f64 = 0.1;
 /// What is stated of rounding, in standard deviations.
 const DEVIATIONS: f64 = 1.5;
 /// Where rounding inside a step takes over.
-const TIGHTEST: f64 = 1e-15;
+pub(super) const TIGHTEST: f64 = 1e-15;
 /// Evaluations of the collocation for one of the run that it judges, and beside them.
-const MOST_EVALUATIONS: (u64, u64) = (20, 20_000);
+pub(super) const MOST_EVALUATIONS: (u64, u64) = (20, 20_000);
 
 /// A run as it ended.
 #[derive(Clone, Copy)]

@@ -11,7 +11,7 @@ use crate::plan::{Plan, Stepper};
 use crate::scene::{Extent, Scene};
 
 /// What is said where the second run of an estimate does not get to the end within its share of work.
-pub(super) const NOT_ESTIMATED: &str =
+const NOT_ESTIMATED: &str =
     "the error could not be estimated: the second, tighter run did not finish";
 
 /// A scene with all that its engine needs.

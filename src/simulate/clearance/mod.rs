@@ -15,6 +15,7 @@ pub use record::ContactStatistics;
 pub use result::{Beyond, ClearanceSummary, Horizon, LooseFinal};
 
 use super::closed_form;
+use super::error_estimate::{TIGHTER, TIGHTEST};
 use super::result::Cost;
 use super::row::{NoRows, RowSink};
 use super::run_setup::RunSetup;
@@ -31,8 +32,6 @@ use follow::{Asked, Follow, Seen};
 use motion::{DRIVEN, FREE, Loose};
 use record::Record;
 
-/// The second run of the horizon is this much tighter.
-const TIGHTER: f64 = 50.0;
 /// Samples of the journal's path in a turn, while there are few enough turns.
 const SAMPLES_IN_A_TURN: f64 = 64.0;
 
@@ -195,7 +194,7 @@ impl<'a, const N: usize> Run<'a, N> {
             rows: &mut NoRows,
             seen: self.seen(),
         };
-        let tolerance = (self.task.scene.run.tolerance / TIGHTER).max(1e-15);
+        let tolerance = (self.task.scene.run.tolerance / TIGHTER).max(TIGHTEST);
         let ended = self.go(model, tolerance, t_end, &mut |s| follow.take(s));
         (ended.finish == Finish::AtEnd).then(|| Tighter {
             last: model.state(&ended.last),

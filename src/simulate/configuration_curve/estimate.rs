@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use super::super::checkpoints::{Checkpoints, Compared};
+use super::super::error_estimate::{MARGIN, MOST_EVALUATIONS, MUCH_TIGHTER, TIGHTER, TIGHTEST};
 use super::super::result::{Cost, ErrorEstimate, Judged};
 use super::arrived::{Arrived, End, Follow, Observer, crank_state};
 use super::roundoff::Noise;
@@ -12,18 +13,10 @@ use crate::engine::time::{Method, Settings};
 use crate::mechanism::Curve;
 use crate::numeric::angle::Angle;
 
-/// The second run of the estimate, by collocation, is so much tighter that its own error does not count.
-const MUCH_TIGHTER: f64 = 1e4;
-const TIGHTEST: f64 = 1e-15;
-/// Evaluations of the collocation for one of the run that it judges, and beside them.
-const MOST_EVALUATIONS: (u64, u64) = (20, 20_000);
-/// Where collocation does not get to the end, the same method again, this much tighter; tighter than the tightest
-/// only by so much, for rounding inside the steps takes over, and they would collapse.
-const TIGHTER: f64 = 50.0;
+/// The same method again is tighter than this only by so much, for rounding inside the steps takes over, and they would
+/// collapse.
 const TIGHTEST_AGAIN: f64 = 1e-13;
 const A_LITTLE: f64 = 5.0;
-/// What is stated is larger than the distance of the two runs by this, for the error of the second.
-const MARGIN: f64 = 1.5;
 /// Standard deviations of rounding that are stated.
 const DEVIATIONS: f64 = 2.0;
 

@@ -2,6 +2,7 @@
 
 use std::cell::Cell;
 
+use super::super::error_estimate::ONE_ROUNDING;
 use super::super::roundoff_propagation::Spread;
 use super::super::state_transition::Slopes;
 use super::arrived::Observer;
@@ -16,8 +17,6 @@ const EVALUATION: f64 = 8.0;
 
 /// Rounding of the acceleration by that of the angle, in units.
 const PLACE: f64 = 4.0;
-/// Standard deviation of one rounding.
-const ONE_ROUNDING: f64 = 0.3;
 
 /// Follows a run.
 pub(in crate::simulate) struct Noise<'a> {

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 use std::time::Instant;
 
 use super::super::angle_motion::{PLACE, late_by};
-use super::super::by_angle::{MARGIN, ROUNDING, finer, most_evaluations};
+use super::super::by_angle::{ROUNDING, finer, most_evaluations};
 use super::super::configuration_curve::{self, Follow, Noise};
-use super::super::error_estimate::{self, Forward, Rounding, tighter};
+use super::super::error_estimate::{self, Forward, MARGIN, Rounding, tighter};
 use super::super::outcome::Estimate;
 use super::super::record::Record;
 use super::super::result::{Cost, ErrorEstimate};
