@@ -125,6 +125,12 @@ const SOME: usize = 4;
 const STILL: f64 = 0.01;
 
 impl Smoothed {
+    /// Whether motion and likelihood are finite.
+    pub fn is_finite(&self) -> bool {
+        let is_finite = |e: &Estimate| e.state[0].is_finite() && e.covariance[0] > 0.0;
+        self.noise.likelihood.is_finite() && self.estimates.iter().all(is_finite)
+    }
+
     /// The path of the smoothed states.
     fn path(&self) -> Path {
         Path {
@@ -193,8 +199,7 @@ impl Problem<'_> {
                 continue;
             }
             let smoothed = self.propagated(smoothed);
-            let is_finite = |e: &Estimate| e.state[0].is_finite() && e.covariance[0] > 0.0;
-            if smoothed.noise.likelihood.is_finite() && smoothed.estimates.iter().all(is_finite) {
+            if smoothed.is_finite() {
                 found.push((smoothed, self.sites()));
             }
             if found.len() == CANDIDATES {

@@ -82,9 +82,19 @@ pub(super) fn kinematic<'a>(
     }
     match problem.coded(&kinematic) {
         Some(codes) => {
+            let sites = (
+                problem.record.values.clone(),
+                problem.record.weights.clone(),
+            );
             problem.record.codes = Some(codes);
-            let found = problem.propagated(kinematic);
-            (problem, found)
+            let found = problem.propagated(kinematic.clone());
+            if found.is_finite() {
+                return (problem, found);
+            }
+            // Codes that leave no certain motion count as noise.
+            problem.record.codes = None;
+            (problem.record.values, problem.record.weights) = sites;
+            (problem, kinematic)
         }
         None => (problem, kinematic),
     }
