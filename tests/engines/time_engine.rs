@@ -778,3 +778,13 @@ fn dead_centres_at_the_rows_of_a_table_are_passed_once_in_each_turn() {
         }
     }
 }
+
+/// θ̈ = cos 30t at t = 3·10⁵ s is off by 30 t ε = 2·10⁻⁹ for the rounding of t, which no shorter step mends.
+#[test]
+fn the_rounding_of_late_times_shortens_no_step() {
+    let motion = made(|t, _, _| (30.0 * t).cos());
+    let late = TAU / 30.0 * 1.5e6;
+    let count = |t: f64| steps(&motion, (t, 0.0, 1.0), &settings(1e-13, t + 2.0)).0.len();
+    let (early, late) = (count(0.0), count(late));
+    assert!(late <= early + early / 2, "{early} {late}");
+}

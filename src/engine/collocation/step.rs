@@ -109,7 +109,7 @@ impl<'a> Collocation<'a> {
                 break;
             }
             if sweeps > 2 && rate > 0.3 {
-                let noise = rounding(state, h, &self.coefficients());
+                let noise = self.rounding(state, h, &self.coefficients());
                 if change <= self.in_units(state, h * h * noise, h * noise) {
                     break;
                 }
@@ -206,6 +206,10 @@ impl<'a> Collocation<'a> {
         angle.max(speed) / self.tolerance
     }
 
+    fn rounding(&self, state: &State, h: f64, coefficients: &[f64; NODES]) -> f64 {
+        rounding(state, h, coefficients, self.motion.depends_on_time())
+    }
+
     fn coefficients(&self) -> [f64; NODES] {
         let mut coefficients = [0.0; NODES];
         for (alpha, row) in self.batch.alpha.iter().zip(&self.tableau.legendre) {
@@ -232,7 +236,7 @@ impl<'a> Collocation<'a> {
         let look = Look {
             nodes: NODES,
             ellipses: self.ellipses,
-            allowed: term.max(rounding(state, h, coefficients)),
+            allowed: term.max(self.rounding(state, h, coefficients)),
             least: SHORTEST * state.t.abs().max((state.t + h).abs()) / h,
             compares: true,
         };
@@ -247,7 +251,7 @@ impl<'a> Collocation<'a> {
 
     /// What a term of this size beyond the last would add; rounding of the acceleration is no such term.
     fn error_of(&self, state: &State, h: f64, term: f64, coefficients: &[f64; NODES]) -> f64 {
-        let term = (term.abs() - rounding(state, h, coefficients)).max(0.0);
+        let term = (term.abs() - self.rounding(state, h, coefficients)).max(0.0);
         let n = 2.0 * NODES as f64;
         self.in_units(state, h * h * term / (n * n), h * term / n)
     }
