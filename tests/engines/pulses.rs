@@ -61,7 +61,12 @@ fn run(scene: &Scene, method: Method) -> Result<Simulation, slider_crank::error:
 /// Whether a run ends at an angle and a speed within ten times its stated errors and the tolerance, and how far it is off.
 fn agrees(simulation: &Simulation, [theta, omega]: [f64; 2]) -> Result<(), String> {
     let summary = &simulation.summary;
-    let stated = summary.error_estimate.expect("an estimate");
+    let Some(stated) = summary.error_estimate else {
+        return Err(format!(
+            "no estimate, {:?}, {} evaluations",
+            summary.stopped, summary.evaluations
+        ));
+    };
     let last = &summary.last;
     let off = [last.theta_rad - theta, last.omega_rad_per_s - omega].map(f64::abs);
     let tolerance = 1e-10;

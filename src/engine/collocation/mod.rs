@@ -2,9 +2,12 @@
 //!
 //! A step looks for the polynomial whose second derivative agrees with the acceleration at the nodes of the
 //! Gauss rule. Each sweep evaluates the accelerations at all nodes of a guess together, and integrates them
-//! twice for a better one (Picard, Lindelöf). The polynomial is the motion inside the step, too.
+//! twice for a better one (Picard, Lindelöf). Where sweeps do not gain, for the acceleration is steep in the speed, Newton's
+//! method solves the same equations. The polynomial is the motion inside the step, too.
 
 mod attempt;
+mod error;
+mod newton;
 mod seen;
 mod series;
 mod state;

@@ -4,8 +4,9 @@ use super::super::sight::{Hidden, Look, hidden};
 use super::super::step::{Step, TERMS};
 use super::super::{Batch, Counted, Motion, NODES};
 use super::attempt::{Accepted, Failed, Try};
+use super::newton::Newton;
 use super::seen::OnStep;
-use super::series::{dot, legendre, rounding};
+use super::series::{dot, legendre};
 use super::state::State;
 use super::tableau::Tableau;
 use crate::numeric::enclosure::ellipses;
@@ -25,18 +26,22 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// The method, with what one step leaves to the next.
 pub struct Collocation<'a> {
-    motion: &'a Counted<'a>,
+    pub(super) motion: &'a Counted<'a>,
     tableau: &'static Tableau,
-    tolerance: f64,
+    pub(super) tolerance: f64,
     /// Sizes of the ellipses that the nodes need.
     ellipses: [f64; 2],
     has_detail: bool,
     has_power: bool,
-    batch: Batch,
+    pub(super) batch: Batch,
     /// Length and Legendre coefficients of the acceleration of the last step.
     last: Option<(f64, [f64; NODES])>,
     /// Acceleration at the start of the next step.
     alpha: f64,
+    /// Whether sweeps did not gain on the last step.
+    steep: bool,
+    /// What the rounding of times does to the acceleration, where that was asked for last, rad/s².
+    pub(super) by_time: f64,
 }
 
 impl<'a> Collocation<'a> {
@@ -51,6 +56,8 @@ impl<'a> Collocation<'a> {
             batch: Batch::default(),
             last: None,
             alpha,
+            steep: false,
+            by_time: 0.0,
         }
     }
 
@@ -91,11 +98,19 @@ impl<'a> Collocation<'a> {
         self.prepare(state, h);
         let mut before = f64::INFINITY;
         let mut sweeps = 0;
+        let mut newton = None;
         loop {
+            let guess = self.batch.alpha;
             self.motion.fill(&mut self.batch);
             sweeps += 1;
             if !self.batch.alpha.iter().sum::<f64>().is_finite() {
                 return Err(Failed::TooLong(0.25));
+            }
+            if self.steep && newton.is_none() {
+                newton = Newton::new(self.motion, &self.batch, self.tableau, h);
+            }
+            if let Some(newton) = &newton {
+                newton.correct(&guess, &mut self.batch.alpha);
             }
             let change = self.update(state, h);
             let rate = change / before;
@@ -115,7 +130,15 @@ impl<'a> Collocation<'a> {
                 }
             }
             if sweeps == SWEEPS || (sweeps > 2 && rate > 0.7) {
-                return Err(Failed::TooLong(0.5));
+                if self.steep {
+                    // Slopes that are those of a jump are left behind with it.
+                    self.steep = false;
+                    return Err(self.too_long(h, 0.5));
+                }
+                self.steep = true;
+                self.prepare(state, h);
+                (before, sweeps) = (f64::INFINITY, 0);
+                continue;
             }
             if sweeps == 2 {
                 let error = self.error(state, h, &self.coefficients());
@@ -139,7 +162,7 @@ impl<'a> Collocation<'a> {
         }
         let mut factor = 0.7 * error.max(1e-20).powf(-1.0 / NODES as f64);
         if error > 1.0 {
-            return Err(Failed::TooLong(factor));
+            return Err(self.too_long(h, factor));
         }
         if sweeps > FEW_SWEEPS {
             factor = factor.min(0.9);
@@ -151,6 +174,7 @@ impl<'a> Collocation<'a> {
         }
         self.last = Some((h, coefficients));
         self.alpha = alpha;
+        self.steep = newton.is_some();
         Ok(Accepted { step, next, factor })
     }
 
@@ -199,17 +223,6 @@ impl<'a> Collocation<'a> {
         self.in_units(state, angle_change, speed_change)
     }
 
-    /// An error of angle and speed in units of what is allowed.
-    fn in_units(&self, state: &State, angle: f64, speed: f64) -> f64 {
-        let angle = angle / (1.0 + state.theta.abs());
-        let speed = speed / (1.0 + state.omega.abs());
-        angle.max(speed) / self.tolerance
-    }
-
-    fn rounding(&self, state: &State, h: f64, coefficients: &[f64; NODES]) -> f64 {
-        rounding(state, h, coefficients, self.motion.depends_on_time())
-    }
-
     fn coefficients(&self) -> [f64; NODES] {
         let mut coefficients = [0.0; NODES];
         for (alpha, row) in self.batch.alpha.iter().zip(&self.tableau.legendre) {
@@ -218,12 +231,6 @@ impl<'a> Collocation<'a> {
             }
         }
         coefficients
-    }
-
-    /// Error of the motion inside the step: what the first term beyond the last would add.
-    fn error(&self, state: &State, h: f64, coefficients: &[f64; NODES]) -> f64 {
-        let [.., a, b] = coefficients;
-        self.error_of(state, h, a.abs().max(b.abs()), coefficients)
     }
 
     /// Where the step has to end for its nodes to show the acceleration; none where it is as short as the time allows.
@@ -247,13 +254,6 @@ impl<'a> Collocation<'a> {
             coefficients,
         };
         hidden(&way, look)
-    }
-
-    /// What a term of this size beyond the last would add; rounding of the acceleration is no such term.
-    fn error_of(&self, state: &State, h: f64, term: f64, coefficients: &[f64; NODES]) -> f64 {
-        let term = (term.abs() - self.rounding(state, h, coefficients)).max(0.0);
-        let n = 2.0 * NODES as f64;
-        self.in_units(state, h * h * term / (n * n), h * term / n)
     }
 
     /// The step, the state at its end, and the acceleration there.

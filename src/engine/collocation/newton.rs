@@ -1,0 +1,64 @@
+//! Simplified Newton's method on a step, for accelerations so steep in the speed that sweeps do not gain
+//! (Hairer, Wanner, Solving Ordinary Differential Equations II, 2nd ed., section IV.8).
+
+use nalgebra::{Const, LU, SMatrix, SVector};
+
+use super::super::{Batch, Motion, NODES};
+use super::tableau::Tableau;
+
+/// The factors of 1 − h ∂f/∂ω A − h² ∂f/∂θ Â, where A integrates accelerations up to the nodes once, and Â twice.
+pub(super) struct Newton {
+    factors: LU<f64, Const<NODES>, Const<NODES>>,
+}
+
+impl Newton {
+    /// With the slopes of f at the states of a batch, of which the accelerations are known. None if they are not finite, or sweeps
+    /// do not fail for them.
+    pub fn new(motion: &dyn Motion, batch: &Batch, tableau: &Tableau, h: f64) -> Option<Newton> {
+        let by_speed = slopes(motion, batch, |batch| &mut batch.omega);
+        let by_angle = slopes(motion, batch, |batch| &mut batch.theta);
+        let matrix = SMatrix::<f64, NODES, NODES>::from_fn(|i, j| {
+            let once = h * by_speed[i] * tableau.speed[j][i];
+            let twice = h * h * by_angle[i] * tableau.angle[j][i];
+            f64::from(u8::from(i == j)) - once - twice
+        });
+        let usable = matrix.sum().is_finite() && is_steep(&by_speed, h);
+        usable.then(|| Newton {
+            factors: matrix.lu(),
+        })
+    }
+
+    /// Turns what a sweep would change into what makes the step right, to first order.
+    pub fn correct(&self, before: &[f64; NODES], alpha: &mut [f64; NODES]) {
+        let change = SVector::<f64, NODES>::from_fn(|i, _| alpha[i] - before[i]);
+        if let Some(change) = self.factors.solve(&change) {
+            *alpha = std::array::from_fn(|i| before[i] + change[i]);
+        }
+    }
+}
+
+/// Whether sweeps do not gain for the slopes of f over the speed: |h ∂f/∂ω| > 1, and much the same at all nodes, as the method
+/// takes it for.
+fn is_steep(slopes: &[f64; NODES], h: f64) -> bool {
+    let low = slopes.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = slopes.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let largest = low.abs().max(high.abs());
+    h * largest > 1.0 && high - low <= 0.5 * largest
+}
+
+/// ∂f at the nodes with respect to a part of the state, by differences.
+fn slopes(
+    motion: &dyn Motion,
+    batch: &Batch,
+    part: fn(&mut Batch) -> &mut [f64; NODES],
+) -> [f64; NODES] {
+    let mut beside = *batch;
+    let values = *part(&mut beside);
+    let largest = values
+        .iter()
+        .fold(1.0f64, |most, value| most.max(value.abs()));
+    let apart = f64::EPSILON.sqrt() * largest;
+    *part(&mut beside) = values.map(|value| value + apart);
+    motion.fill(&mut beside);
+    std::array::from_fn(|i| (beside.alpha[i] - batch.alpha[i]) / apart)
+}
