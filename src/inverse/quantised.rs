@@ -95,8 +95,16 @@ mod tests {
         assert!((found.step - 0.0245).abs() < 1e-12);
         let noise: Vec<f64> = (0..50).map(|i| f64::from(i * i).sin()).collect();
         assert!(Codes::of(&noise, 1e-12).is_none());
-        // Rounded to three digits.
+    }
+
+    #[test]
+    fn rounded_numbers_go_in_steps_of_their_last_digit() {
         let rounded = [0.0, 0.012, 0.025, 0.031, 0.055];
-        assert!(Codes::of(&rounded, 1e-3).is_none());
+        assert!(Codes::of_encoder(&rounded, 1e-3).is_none());
+        let found = Codes::of(&rounded, 1e-3).expect("rounded numbers");
+        assert_eq!(found.step, 1e-3);
+        assert_eq!(found.zero_error(), None);
+        // The last number has a digit more.
+        assert!(Codes::of(&[0.0, 0.012, 0.0253], 1e-3).is_none());
     }
 }
