@@ -80,8 +80,7 @@ impl fmt::Display for Stopped {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Start { t, angle, speed } = self.at;
         let theta = angle.radians();
-        let place =
-            format_args!("stopped at t = {t} s, theta = {theta} rad, omega = {speed} rad/s");
+        let place = format!("stopped at t = {t} s, theta = {theta} rad, omega = {speed} rad/s");
         match &self.why {
             Why::WorkLimit => write!(
                 f,

@@ -8,7 +8,7 @@ use super::errors::{Errors, uncertain};
 use super::panel::{Fineness, Station};
 use super::seen::hides;
 use super::sweep::{Start, Swept, sweep};
-use super::switch::{Side, side};
+use super::switch::{Side, begins_beyond, side};
 use super::turn::stations;
 use super::{Driven, Resolution};
 use crate::numeric::angle::Angle;
@@ -201,17 +201,18 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
                 .parts
                 .last_mut()
                 .unwrap_or(&mut self.stations[self.next]);
+            if turned_over == 0 && station.is_new() && begins_beyond(self.driven, station, start) {
+                station.turn_over(self.driven)?;
+            }
             let swept = &mut self.swept;
             if let Err(why) = sweep(self.driven, station, start, self.fine.tail, swept) {
                 self.evaluations += self.swept.evaluations;
                 self.refine(why)?;
                 continue;
             }
-            let parts = match hides(self.driven, station, start, self.fine, swept) {
-                Some(at) => station.parts(self.driven, at, self.fine)?,
-                None => None,
-            };
-            if let Some([first, second]) = parts {
+            let hidden = hides(self.driven, station, start, self.fine, swept);
+            let parts = hidden.map(|at| station.parts(self.driven, at, self.fine));
+            if let Some([first, second]) = parts.transpose()?.flatten() {
                 self.evaluations += self.swept.evaluations;
                 self.hid = true;
                 self.parts.pop();

@@ -54,6 +54,48 @@ pub(super) fn side<D: Driven>(
     }
 }
 
+/// Whether the motion is on the other side of the switch at the start of a panel, as far as one place tells: a steep loss makes
+/// a transient of the wrong side, which is harder to resolve than the motion.
+pub(super) fn begins_beyond<D: Driven>(
+    driven: &D,
+    station: &Station<D::Place>,
+    start: Start,
+) -> bool {
+    let Some(switch) = &station.table.switch else {
+        return false;
+    };
+    let speed = start.direction * (start.kinetic * station.mobility[0]).sqrt();
+    let parts = parts(driven, switch, station, start, 0, [start.t, speed]);
+    let largest = parts.iter().fold(0.0f64, |m, part| m.max(part.abs()));
+    station.side * parts.iter().sum::<f64>() < -AT_CUT * largest
+}
+
+/// What the switch is the sum of, at a point where the time (s) and the speed (rad/s) are these.
+fn parts<D: Driven>(
+    driven: &D,
+    switch: &Switch,
+    station: &Station<D::Place>,
+    start: Start,
+    j: usize,
+    [t, speed]: [f64; 2],
+) -> [f64; 4] {
+    let driven = if driven.is_driven() {
+        let angle = Angle {
+            turns: start.turns,
+            rest: station.piece.angle(station.rule.points()[j]),
+        };
+        driven.drive_switch(&station.table.places[j], t, angle, speed)
+    } else {
+        0.0
+    };
+    [
+        switch.place[j],
+        switch.rate[j] * speed,
+        switch.square[j] * speed * speed,
+        driven,
+    ]
+}
+
 impl Swept {
     /// Ends it at a part of the panel.
     pub fn end_at(&mut self, rule: &Rule, start: Start, share: f64) {
@@ -85,22 +127,16 @@ fn values<D: Driven>(
     };
     let mut largest: f64 = 0.0;
     let mut values = [0.0; MOST + 1];
-    for (j, x) in station.rule.points().iter().enumerate() {
+    for j in 0..=station.rule.degree() {
         let speed = length / swept.slopes[j];
-        let mut parts = [
-            switch.place[j],
-            switch.rate[j] * speed,
-            switch.square[j] * speed * speed,
-            0.0,
-        ];
-        if driven.is_driven() {
-            let angle = Angle {
-                turns: start.turns,
-                rest: station.piece.angle(*x),
-            };
-            let place = &station.table.places[j];
-            parts[3] = driven.drive_switch(place, start.t + times[j], angle, speed);
-        }
+        let parts = parts(
+            driven,
+            switch,
+            station,
+            start,
+            j,
+            [start.t + times[j], speed],
+        );
         values[j] = station.side * parts.iter().sum::<f64>();
         largest = parts.iter().fold(largest, |m, part| m.max(part.abs()));
     }
