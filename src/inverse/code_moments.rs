@@ -1,5 +1,5 @@
-//! Codes of an encoder: each says that the crank is within one step, with the probability Φ((b − θ)/ε) − Φ((a − θ)/ε) for the
-//! ends a, b of the step and their jitter ε. Expectation propagation (Minka 2001) puts a normal distribution in the place of
+//! Codes of an encoder: each says that the crank is within an interval, with the probability Φ((b − θ)/ε) − Φ((a − θ)/ε) for the
+//! ends a, b of the interval and their jitter ε. Expectation propagation (Minka 2001) puts a normal distribution in the place of
 //! each such likelihood: the one with the moments that the code leaves of what all other samples say. Where the shaft is slow
 //! the codes inside a step say nothing and the passages say much; where it is fast each is worth step²/12.
 
@@ -7,9 +7,8 @@ use super::interval::{Cavity, Site};
 use super::likelihood::Linear;
 use super::linearised::Prior;
 use super::problem::{Estimate, Problem};
-use super::quantised::Codes;
-use super::record::Path;
-use super::smoother::Smoothed;
+use super::quantised::{Codes, Interval};
+use super::smoother::{AT_REST, Smoothed, change};
 use crate::numeric::parallel;
 
 /// Jitters that are tried, in steps, and most samples by which one is chosen.
@@ -19,110 +18,115 @@ const ENOUGH: usize = 4000;
 /// Part by which the normal distributions move towards the moments.
 const DAMPING: f64 = 0.6;
 
-/// σ² of the record is a squared step over this.
-const UNIT: f64 = 12.0;
-
-/// Codes with the normal distributions that stand for them, and what all others say of each.
-struct Sites {
-    codes: Codes,
-    /// None of a sample that does not count.
-    list: Vec<Option<(Site, Cavity)>>,
+/// An interval with the normal distribution that stands for it, and what all others say of it, both in its widths.
+#[derive(Clone, Copy)]
+struct Belief {
+    width: f64,
+    site: Site,
+    cavity: Cavity,
+    /// Jitter of the interval's ends.
     jitter: f64,
 }
 
-impl Sites {
-    /// The sites of a record about a smoothed motion.
-    fn about(problem: &Problem<'_>, smoothed: &Smoothed) -> Option<Sites> {
-        let record = &problem.record;
-        let codes = record.codes.clone()?;
-        let step = codes.step;
-        let list = parallel::list(codes.values.len(), |i| {
-            let code = codes.values[i];
-            let precision = record.weights[i] * UNIT;
+impl Belief {
+    /// ln of the probability of the code over that of the normal distribution in its place.
+    fn correction(&self) -> f64 {
+        let Belief {
+            width,
+            site,
+            cavity,
+            jitter,
+        } = self;
+        let probability = cavity.matched(*jitter).0;
+        if site.precision == 0.0 {
+            return probability;
+        }
+        let variance = 1.0 / site.precision + cavity.variance;
+        let off = site.shift / site.precision - cavity.mean;
+        probability + 0.5 * ((variance * width * width).ln() + off * off / variance)
+    }
+
+    /// The normal distribution on its way to the moments.
+    fn moved(&self) -> Site {
+        let next = self.cavity.matched(self.jitter).1;
+        let between = |a: f64, b: f64| a + DAMPING * (b - a);
+        Site {
+            precision: between(self.site.precision, next.precision),
+            shift: between(self.site.shift, next.shift),
+        }
+    }
+}
+
+impl Codes {
+    /// Precision of a sample of weight 1 in terms of a width.
+    fn unit(self, width: f64) -> f64 {
+        (width / self.spread()).powi(2)
+    }
+}
+
+impl Problem<'_> {
+    /// What is believed of each interval about a smoothed motion, but of those that do not count.
+    fn beliefs(&self, codes: Codes, smoothed: &Smoothed) -> Vec<Option<Belief>> {
+        let record = &self.record;
+        let of = |i: usize| {
+            let Interval {
+                t, middle, width, ..
+            } = record.intervals[i];
+            let precision = record.weights[i] * codes.unit(width);
             let site = Site {
                 precision,
-                shift: precision * (record.values[i] - code) / step,
+                shift: precision * (record.values[i] - middle) / width,
             };
-            let estimate = problem.at_sample(&smoothed.estimates, i);
-            let precision = step * step / estimate.covariance[0];
+            let estimate = self.at(smoothed, t);
+            let precision = width * width / estimate.covariance[0];
             // What is left of almost nothing is rounding.
             let left = (precision - site.precision).max(1e-6 * precision);
-            let mean = (estimate.state[0] - code) / step;
+            let mean = (estimate.state[0] - middle) / width;
             let cavity = Cavity {
                 mean: (precision * mean - site.shift) / left,
                 variance: 1.0 / left,
             };
-            code.is_finite().then_some((site, cavity))
-        });
-        let mut sites = Sites {
-            codes,
-            list,
-            jitter: 0.0,
+            (record.weights[i].is_finite() && middle.is_finite()).then_some(Belief {
+                width,
+                site,
+                cavity,
+                jitter: 0.0,
+            })
         };
-        let some = || sites.list.iter().step_by(sites.list.len().div_ceil(ENOUGH));
-        let of = |jitter: f64| {
-            some()
-                .flatten()
-                .map(|(_, c)| c.matched(jitter).0)
+        let mut list = parallel::list(record.intervals.len(), of);
+        let stride = list.len().div_ceil(ENOUGH);
+        let likelihood = |jitter: f64| {
+            let some = list.iter().step_by(stride).flatten();
+            some.map(|b| b.cavity.matched(jitter * codes.step / b.width).0)
                 .sum::<f64>()
         };
-        let tried = JITTERS.map(|jitter| (of(jitter), jitter));
+        let tried = JITTERS.map(|jitter| (likelihood(jitter), jitter));
         let best = tried.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
-        sites.jitter = best.map_or(JITTERS[0], |(_, jitter)| jitter);
-        Some(sites)
+        let jitter = best.map_or(JITTERS[0], |(_, jitter)| jitter) * codes.step;
+        for belief in list.iter_mut().flatten() {
+            belief.jitter = jitter / belief.width;
+        }
+        list
     }
 
-    /// ln of the probability of the codes over that of the normal distributions in their place: the evidence of the sites with
-    /// it is that of the codes.
-    fn correction(&self, problem: &Problem<'_>, sigma: f64) -> f64 {
-        let of = |(site, cavity): &(Site, Cavity)| {
-            let probability = cavity.matched(self.jitter).0;
-            if site.precision == 0.0 {
-                return probability;
-            }
-            let variance = 1.0 / site.precision + cavity.variance;
-            let off = site.shift / site.precision - cavity.mean;
-            probability + 0.5 * ((UNIT * variance).ln() + off * off / variance) + sigma.ln()
-        };
-        // Of the samples by which the evidence is found.
-        let first = &problem.grid.first;
-        let ranges = problem.sampled().into_iter();
-        let samples = ranges.flat_map(|nodes| first[nodes.start]..first[nodes.end]);
-        samples.filter_map(|i| self.list[i].as_ref()).map(of).sum()
-    }
-
-    /// Moves the sites towards the moments; the largest change of a weight.
-    fn propagate(&self, problem: &mut Problem<'_>) -> f64 {
-        let moved = parallel::list(self.list.len(), |i| {
-            let (was, cavity) = self.list[i]?;
-            let next = cavity.matched(self.jitter).1;
-            let between = |a: f64, b: f64| a + DAMPING * (b - a);
-            Some(Site {
-                precision: between(was.precision, next.precision),
-                shift: between(was.shift, next.shift),
-            })
-        });
-        let mut change = 0.0f64;
-        for (i, site) in moved.into_iter().enumerate() {
-            let Some(site) = site else { continue };
-            let weight = site.precision / UNIT;
+    /// Moves the normal distributions towards the moments.
+    fn propagate(&mut self, codes: Codes, beliefs: &[Option<Belief>]) {
+        for (i, belief) in beliefs.iter().enumerate() {
+            let Some(belief) = belief else { continue };
+            let site = belief.moved();
             let off = match site.precision > 0.0 {
                 true => site.shift / site.precision,
                 false => 0.0,
             };
-            change = change.max((weight - problem.record.weights[i]).abs() / (1.0 + weight));
-            problem.record.weights[i] = weight;
-            problem.record.values[i] = self.codes.values[i] + off * self.codes.step;
+            self.record.weights[i] = site.precision / codes.unit(belief.width);
+            self.record.values[i] = self.record.intervals[i].middle + off * belief.width;
         }
-        change
     }
 }
 
-/// Most rounds of expectation propagation, those between two estimates of the noise of the motion, and the change of a code's
-/// weight at which they end.
+/// Most rounds of expectation propagation, and those between two estimates of the noise of the motion.
 const ROUNDS: usize = 16;
 const SOME: usize = 4;
-const STILL: f64 = 0.01;
 
 impl Smoothed {
     /// Whether motion and likelihood are finite.
@@ -130,47 +134,24 @@ impl Smoothed {
         let is_finite = |e: &Estimate| e.state[0].is_finite() && e.covariance[0] > 0.0;
         self.noise.likelihood.is_finite() && self.estimates.iter().all(is_finite)
     }
-
-    /// The path of the smoothed states.
-    fn path(&self) -> Path {
-        Path {
-            states: self.estimates.iter().map(|e| e.state).collect(),
-            variances: None,
-        }
-    }
 }
 
 impl Problem<'_> {
-    /// Codes whose steps are wider than the noise about a motion, if the samples are such.
-    pub fn coded(&self, smoothed: &Smoothed) -> Option<Codes> {
-        let record = &self.record;
-        if !record.is_linear() {
-            return None;
-        }
-        let mut codes = Codes::of(&record.values, record.digits)?;
-        for sample in record.outliers() {
-            codes.values[sample] = f64::NAN;
-        }
-        (smoothed.noise.sigma < codes.step).then_some(codes)
-    }
-
     /// A smoothed motion about which the normal distributions that stand for codes have come to rest.
-    pub fn propagated(&mut self, mut smoothed: Smoothed) -> Smoothed {
-        let known = self.record.codes.as_ref().map(Codes::spread);
-        smoothed.scales.known = known;
-        smoothed.noise.sigma = known.unwrap_or(smoothed.noise.sigma);
+    pub fn propagated(&mut self, codes: Codes, mut smoothed: Smoothed) -> Smoothed {
+        smoothed.scales.known = Some(codes.spread());
+        smoothed.noise.sigma = codes.spread();
         let motion = self.motion(smoothed.prior);
+        let mut is_at_rest = false;
         for round in 0..ROUNDS {
-            let Some(sites) = Sites::about(self, &smoothed) else {
-                break;
-            };
-            let change = sites.propagate(self);
-            let path = smoothed.path();
+            let beliefs = self.beliefs(codes, &smoothed);
+            self.propagate(codes, &beliefs);
+            let path = smoothed.path(false);
             // The noise of the motion follows codes that hardly move.
-            let (is_last, sigma) = (round + 1 == ROUNDS || change < STILL, smoothed.noise.sigma);
+            let is_last = round + 1 == ROUNDS || is_at_rest;
             if is_last || round % SOME == SOME - 1 {
                 let linear = Linear {
-                    stretches: &self.stretches(&motion, &path, sigma),
+                    stretches: &self.stretches(&motion, &path, smoothed.noise.sigma),
                     prior: smoothed.prior,
                     scales: smoothed.scales,
                 };
@@ -180,16 +161,25 @@ impl Problem<'_> {
             if is_last {
                 break;
             }
+            is_at_rest = change(&smoothed.estimates, &path) < AT_REST;
         }
-        let sites = Sites::about(self, &smoothed);
-        smoothed.noise.likelihood +=
-            sites.map_or(0.0, |sites| sites.correction(self, smoothed.noise.sigma));
+        // Of the samples by which the evidence is found.
+        let beliefs = self.beliefs(codes, &smoothed);
+        let first = &self.grid.first;
+        let ranges = self.sampled().into_iter();
+        let samples = ranges.flat_map(|nodes| first[nodes.start]..first[nodes.end]);
+        let beliefs = samples.filter_map(|i| beliefs[i].as_ref());
+        smoothed.noise.likelihood += beliefs.map(Belief::correction).sum::<f64>();
         smoothed
     }
 
     /// The smoothed motion with the prior by which the codes are likeliest, of those by which the normal distributions in their
     /// place are.
-    pub fn likeliest_of_codes(&mut self, kinematic: Smoothed) -> (Smoothed, Vec<(Prior, f64)>) {
+    pub fn likeliest_of_codes(
+        &mut self,
+        codes: Codes,
+        kinematic: Smoothed,
+    ) -> (Smoothed, Vec<(Prior, f64)>) {
         let first = self.sites();
         let mut found = Vec::new();
         for candidate in self.tried(&kinematic, false) {
@@ -198,7 +188,7 @@ impl Problem<'_> {
             if !smoothed.settled {
                 continue;
             }
-            let smoothed = self.propagated(smoothed);
+            let smoothed = self.propagated(codes, smoothed);
             if smoothed.is_finite() {
                 found.push((smoothed, self.sites()));
             }

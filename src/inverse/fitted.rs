@@ -8,7 +8,7 @@ use super::problem::Problem;
 use super::record::Record;
 use super::residual_tests::Whiteness;
 use super::samples::{kinematic, record};
-use super::shared_errors::{self, Moved, Source};
+use super::shared_errors::Source;
 use super::smoother::Smoothed;
 use super::summary::{CandidateSummary, FitSummary};
 use super::{FitKind, FitSize, InverseOptions};
@@ -36,8 +36,8 @@ pub(super) struct Fitted {
     pub farthest_outlier: Option<usize>,
     /// Step of an encoder, or of rounding, rad, which is wider than the noise.
     pub coded: Option<f64>,
-    /// Motions at both ends of the errors that all samples share.
-    pub moved: Vec<Moved>,
+    /// Motions with each of the errors that all samples share.
+    pub moved: Vec<Vec<MotionEstimate>>,
     /// Least standard deviation of a sample, rad or m.
     floor: f64,
 }
@@ -63,7 +63,8 @@ impl Fitted {
             let found = Polynomial::new(&record, &angles.theta, degree)?;
             let fitted = Fitted::of_polynomial(&record, found, reason);
             let degree = fitted.summary.degree;
-            let moved = shared_errors::moved_polynomials(&record, &fitted.motion, degree, sources);
+            let of = |source: &Source| source.polynomial(&record, &fitted.motion, degree);
+            let moved = sources.iter().map(of).collect();
             Ok::<Fitted, String>(Fitted { moved, ..fitted })
         };
         match (options.fit, degree) {
@@ -83,7 +84,7 @@ impl Fitted {
         {
             return Ok(exact);
         }
-        let smoothed = Fitted::smoothed(record, angles, equation, sources);
+        let smoothed = Fitted::smoothed(measurement, angles, equation, sources);
         Ok(match simple {
             Some(polynomial)
                 if smoothed.summary.outliers == 0
@@ -105,48 +106,61 @@ impl Fitted {
     }
 
     fn smoothed(
-        record: Record<'_>,
+        measurement: &Measurement,
         angles: &CrankAngles<'_>,
         equation: &Equation,
         sources: &[Source],
     ) -> Fitted {
-        let (mut problem, kinematic) = kinematic(record, angles, equation);
+        let (mut problem, kinematic) = kinematic(measurement, angles, equation);
         let (smoothed, candidates) = match problem.record.codes {
-            Some(_) => problem.likeliest_of_codes(kinematic),
+            Some(codes) => problem.likeliest_of_codes(codes, kinematic),
             None => problem.likeliest(kinematic),
         };
+        let times = measurement.elapsed();
         Fitted {
-            moved: shared_errors::moved(&problem, &smoothed, sources),
-            ..Fitted::of_smoother(&problem, &smoothed, &candidates)
+            moved: parallel::map(sources.iter(), |source| {
+                source.smoothed(&problem, &smoothed, times)
+            }),
+            ..Fitted::of_smoother(
+                &record(measurement, angles),
+                &problem,
+                &smoothed,
+                &candidates,
+            )
         }
     }
 
     fn of_smoother(
+        samples: &Record<'_>,
         problem: &Problem<'_>,
         smoothed: &Smoothed,
         candidates: &[(Prior, f64)],
     ) -> Fitted {
         let record = &problem.record;
-        let of_sample = |i: usize| problem.at_sample(&smoothed.estimates, i);
-        let motion = parallel::list(record.times.len(), |i| of_sample(i).estimated());
+        let motion = parallel::list(samples.times.len(), |i| {
+            problem.at(smoothed, samples.times[i]).estimated()
+        });
         let sigma = smoothed.noise.sigma;
         let shares = (0..record.times.len()).map(|i| {
-            let estimate = of_sample(i);
+            let estimate = problem.at(smoothed, record.times[i]);
             let slope = record.sensor.shown(estimate.state[0]).slope;
             record.weights[i] * slope * slope * estimate.covariance[0] / (sigma * sigma)
         });
         let parameters = shares.filter(|share| share.is_finite()).sum::<f64>();
-        let samples = record.weights.iter().filter(|w| **w > 0.0).count() as f64;
+        let counted = record.weights.iter().filter(|w| **w > 0.0).count() as f64;
         let whiteness = Whiteness::of(smoothed.estimates.iter().map(|e| e.innovation));
         let prior = smoothed.prior;
-        let mut fitted = Fitted::of_motion(record, motion);
+        let mut fitted = Fitted::of_motion(samples, motion);
+        let size = |row: &usize| fitted.residuals[*row].abs();
+        fitted.farthest_outlier = record.outliers().max_by(|a, b| size(a).total_cmp(&size(b)));
+        fitted.coded = record.codes.map(|codes| codes.step);
         let list = candidates
             .iter()
             .map(|(prior, likelihood)| CandidateSummary {
                 prior: prior.name(),
                 log_likelihood: *likelihood,
             });
-        fitted.free = (samples - parameters).max(1.0);
+        fitted.free = (counted - parameters).max(1.0);
         // Codes have no prediction errors that would be normal.
         fitted.patterned =
             whiteness.is_violated() && sigma > record.floor && record.codes.is_none();
@@ -204,7 +218,7 @@ impl Fitted {
     /// Measured values and residuals of a motion.
     fn of_motion(record: &Record<'_>, motion: Vec<MotionEstimate>) -> Fitted {
         let sensor = record.sensor;
-        let value = |row: usize| record.measured(row);
+        let value = |row: usize| record.values[row];
         let residuals = parallel::list(motion.len(), |row| {
             sensor.residual(value(row), motion[row].value[0]).0
         });
@@ -216,8 +230,6 @@ impl Fitted {
         let squares: f64 = residuals.iter().map(|r| r * r).sum();
         let mean = measured.iter().sum::<f64>() / n;
         let about: f64 = measured.iter().map(|v| (v - mean) * (v - mean)).sum();
-        let size = |row: &usize| residuals[*row].abs();
-        let farthest_outlier = record.outliers().max_by(|a, b| size(a).total_cmp(&size(b)));
         let summary = FitSummary {
             r_squared: if about > 0.0 {
                 1.0 - squares / about
@@ -235,8 +247,8 @@ impl Fitted {
             summary,
             patterned: false,
             settled: true,
-            farthest_outlier,
-            coded: record.codes.as_ref().map(|codes| codes.step),
+            farthest_outlier: None,
+            coded: None,
             moved: Vec::new(),
             floor: record.floor,
         }

@@ -62,7 +62,9 @@ fn tail(z: f64) -> f64 {
         return 1.0 - tail(-z);
     }
     if z > 2.5 {
-        let fraction = (1..=40)
+        // So many terms leave 1e-10 of the tail.
+        let terms = 10 + (200.0 / (z * z)) as u32;
+        let fraction = (1..=terms)
             .rev()
             .fold(0.0, |rest, k| f64::from(k) / (z + rest));
         return density(z) / (z + fraction);

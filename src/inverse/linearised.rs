@@ -78,7 +78,10 @@ const STEP: f64 = 1e-6;
 
 impl Motion<'_> {
     /// θ̈ and ∂θ̈/∂u.
-    fn acceleration(&self, t: f64, theta: f64, omega: f64, unknown: f64) -> [f64; 2] {
+    pub fn acceleration(&self, t: f64, theta: f64, omega: f64, unknown: f64) -> [f64; 2] {
+        if self.prior.unknown == Unknown::Acceleration {
+            return [unknown, 1.0];
+        }
         let terms = self.equation.terms(theta);
         let load = self
             .equation

@@ -165,7 +165,7 @@ pub fn inverse_of_uncertain(
         guide: guide.as_ref(),
     };
     let factor = student::half_band(fitted.free);
-    let shared = SharedErrors::new(&sources, &fitted.moved, measurement, options.beside_forces);
+    let shared = SharedErrors::new(&sources, &backwards, &fitted, measurement.times());
     let found = Rows::new(&backwards, &fitted, measurement, &shared, factor);
     refusals::reachable(measurement, &found)?;
     limit::keeps_clear(&angles.sensor, &fitted, measurement)?;

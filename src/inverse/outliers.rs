@@ -20,13 +20,13 @@ const NORMAL: f64 = 1.4826;
 /// Weight below which a sample does not count.
 const LEAST: f64 = 1e-6;
 
-/// Weights of the samples by a smoothed motion; none where there are no outliers and never were.
-pub(super) fn weights(problem: &Problem<'_>, smoothed: &Smoothed) -> Option<Vec<f64>> {
+/// Weights of the samples, that go in steps of this width, by a smoothed motion; none where there are no outliers and never were.
+pub(super) fn weights(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Option<Vec<f64>> {
     let record = &problem.record;
     let sigma = smoothed.noise.sigma;
-    let standardised: Vec<f64> = (0..record.times.len())
+    let mut standardised: Vec<f64> = (0..record.times.len())
         .map(|i| {
-            let estimate = problem.at_sample(&smoothed.estimates, i);
+            let estimate = problem.at(smoothed, record.times[i]);
             let (residual, shown) = record.sensor.residual(record.values[i], estimate.state[0]);
             // Of a sample that counts, part of its error is in the path.
             let leverage = record.weights[i] * shown.slope * shown.slope * estimate.covariance[0]
@@ -41,6 +41,10 @@ pub(super) fn weights(problem: &Problem<'_>, smoothed: &Smoothed) -> Option<Vec<
     let told = standardised.iter().filter(|r| **r != 0.0);
     let scale = NORMAL * median(told.map(|r| r.abs()))?;
     let scale = scale.max(record.floor / sigma);
+    // An angle within a step of its code is not off.
+    for r in &mut standardised {
+        *r -= r.clamp(-step / sigma, step / sigma);
+    }
     let far = || standardised.iter().filter(|r| r.abs() > FAR * scale);
     let count = far().count() as f64;
     if count == 0.0 || count > MOST * standardised.len() as f64 {

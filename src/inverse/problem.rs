@@ -7,6 +7,7 @@ use super::motion_estimate::MotionEstimate;
 use super::quantised::Codes;
 use super::record::{Grid, Path, Record, hermite};
 use super::scales::{Noise, Scales};
+use super::smoother::Smoothed;
 use super::state_space::Deviations;
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
@@ -54,33 +55,29 @@ pub(super) struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
-    /// The smoothed motion at a sample.
-    pub fn at_sample(&self, estimates: &[Estimate], sample: usize) -> Estimate {
-        let node = self.node_of(sample);
-        if self.grid.block == 0.0 {
-            return estimates[node];
-        }
-        let t = self.record.times[sample];
-        let (a, b) = self.grid.around(node, t);
+    /// The smoothed motion at a time: between nodes u is interpolated, and the acceleration is that of the equation.
+    pub fn at(&self, smoothed: &Smoothed, t: f64) -> Estimate {
+        let estimates = &smoothed.estimates;
+        let (a, b) = self.grid.around(t);
         let times = [self.grid.times[a], self.grid.times[b]];
         let part = (t - times[0]) / (times[1] - times[0]);
         let (a, b) = (&estimates[a], &estimates[b]);
+        if part == 0.0 || part == 1.0 {
+            return if part == 0.0 { *a } else { *b };
+        }
         let end = |e: &Estimate| [e.state[0], e.state[1]];
         let [theta, omega] = hermite(times, [end(a), end(b)], t);
-        let between = |a: f64, b: f64| a + part * (b - a);
-        let mut found = estimates[node];
-        (found.state[0], found.state[1]) = (theta, omega);
-        found.alpha = between(a.alpha, b.alpha);
+        let unknown = a.state[2] + part * (b.state[2] - a.state[2]);
+        let motion = self.motion(smoothed.prior);
         // Beyond the ends as at the ends.
         let part = part.clamp(0.0, 1.0);
-        found.covariance =
-            std::array::from_fn(|k| a.covariance[k] + part * (b.covariance[k] - a.covariance[k]));
-        found
-    }
-
-    /// The node of a sample.
-    pub fn node_of(&self, sample: usize) -> usize {
-        self.grid.first.partition_point(|first| *first <= sample) - 1
+        let between = |k: usize| a.covariance[k] + part * (b.covariance[k] - a.covariance[k]);
+        Estimate {
+            state: [theta, omega, unknown, a.state[3]],
+            alpha: motion.acceleration(t, theta, omega, unknown)[0],
+            covariance: std::array::from_fn(between),
+            innovation: f64::NAN,
+        }
     }
 
     pub fn motion(&self, prior: Prior) -> Motion<'a> {
@@ -189,7 +186,7 @@ impl<'a> Problem<'a> {
             motion: shape,
             speed: spread((0..times.len()).step_by(stride).map(|k| state(k)[1])),
             floor: self.record.floor,
-            known: self.record.codes.as_ref().map(Codes::spread),
+            known: self.record.codes.map(Codes::spread),
         }
     }
 

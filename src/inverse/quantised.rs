@@ -1,12 +1,25 @@
 //! Values that go in steps: codes of an encoder, or rounded numbers.
 
+use std::ops::Range;
+
 /// Codes of an encoder.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Codes {
-    /// Middles of the steps that were shown, rad; not a number of a sample that does not count.
-    pub values: Vec<f64>,
     /// Width of a step, rad.
     pub step: f64,
+}
+
+/// Angles between which the crank was at a time.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Interval {
+    /// s
+    pub t: f64,
+    /// rad
+    pub middle: f64,
+    /// rad
+    pub width: f64,
+    /// The sample in it, or the one before it.
+    pub sample: usize,
 }
 
 impl Codes {
@@ -19,10 +32,8 @@ impl Codes {
     fn rounded(values: &[f64], digits: f64) -> Option<Codes> {
         let is_multiple = |v: &f64| (v / digits - (v / digits).round()).abs() < MULTIPLE;
         let largest = values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-        (digits > 1e-12 * largest && values.iter().all(is_multiple)).then(|| Codes {
-            values: values.to_vec(),
-            step: digits,
-        })
+        (digits > 1e-12 * largest && values.iter().all(is_multiple))
+            .then_some(Codes { step: digits })
     }
 
     /// Values of which all differences are multiples of a step that is far wider than the digits.
@@ -55,9 +66,57 @@ impl Codes {
         }
         // Differences that are all the same are a steady speed.
         (most > 1.0 || values.windows(2).any(|pair| pair[0] == pair[1])).then(|| Codes {
-            values: values.to_vec(),
             step: products / squares,
         })
+    }
+
+    /// What the samples say without what follows from others: passages from step to step, and steps that were shown at a sample
+    /// beside which others were left out, in the middle of a stay, and at both ends. All samples where those are fewer.
+    pub fn intervals(&self, times: &[f64], values: &[f64]) -> Vec<Interval> {
+        let shown = |sample: usize| Interval {
+            t: times[sample],
+            middle: values[sample],
+            width: self.step,
+            sample,
+        };
+        let mut ends = vec![0];
+        ends.extend((1..values.len()).filter(|i| self.count(values, *i) != 0));
+        ends.push(values.len());
+        let stays: Vec<Range<usize>> = ends.windows(2).map(|w| w[0]..w[1]).collect();
+        let skips = |i: usize| i == 0 || i == values.len() || self.count(values, i).abs() > 1;
+        let mut list = Vec::new();
+        for (k, stay) in stays.iter().enumerate() {
+            let last = stay.end - 1;
+            let mut seen = [
+                skips(stay.start).then_some(stay.start),
+                (stay.len() > 2).then_some(stay.start + stay.len() / 2),
+                skips(stay.end).then_some(last),
+            ];
+            if seen[0] == seen[2] {
+                seen[2] = None;
+            }
+            list.extend(seen.into_iter().flatten().map(shown));
+            if let Some(next) = stays.get(k + 1)
+                && !skips(stay.end)
+            {
+                // The time of the passage is known to a sample: in a stay of many that is a small part of the step.
+                list.push(Interval {
+                    t: 0.5 * (times[last] + times[last + 1]),
+                    middle: 0.5 * (values[last] + values[last + 1]),
+                    width: self.step / stay.len().min(next.len()) as f64,
+                    sample: last,
+                });
+            }
+        }
+        match list.len() < values.len() {
+            true => list,
+            false => (0..values.len()).map(shown).collect(),
+        }
+    }
+
+    /// Steps from the sample before to this one.
+    fn count(&self, values: &[f64], sample: usize) -> i64 {
+        ((values[sample] - values[sample - 1]) / self.step).round() as i64
     }
 
     /// Standard error of the zero of an encoder, rad, which has whole numbers of steps in a turn: it is where an index mark
@@ -70,7 +129,7 @@ impl Codes {
     }
 
     /// Standard deviation of an error that may lie anywhere in a step, rad.
-    pub fn spread(&self) -> f64 {
+    pub fn spread(self) -> f64 {
         self.step / 12f64.sqrt()
     }
 }

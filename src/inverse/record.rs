@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::linearised::State;
 use super::measurement_model::Sensor;
-use super::quantised::Codes;
+use super::quantised::{Codes, Interval};
 use super::state_space::Observed;
 use crate::scene::Measured;
 
@@ -19,10 +19,10 @@ pub(super) struct Record<'a> {
     pub values: Vec<f64>,
     /// Weight of each sample: 0 for none, 1 for a full one.
     pub weights: Vec<f64>,
-    /// What was measured, in steps so wide that normal distributions at `values` stand for it.
+    /// Steps in which the samples go.
     pub codes: Option<Codes>,
-    /// To what the digits round the values, rad or m.
-    pub digits: f64,
+    /// Intervals in the place of the samples that go in steps: normal distributions at `values` stand for them.
+    pub intervals: Vec<Interval>,
     /// Least standard deviation of a sample, rad or m.
     pub floor: f64,
     /// Time of the scene at time 0 of the record, s.
@@ -50,9 +50,9 @@ pub(super) struct Path {
 }
 
 impl Path {
-    /// Crank angle at a time in the block of a node, rad.
-    fn angle(&self, grid: &Grid, node: usize, t: f64) -> f64 {
-        let (a, b) = grid.around(node, t);
+    /// Crank angle at a time, rad.
+    fn angle(&self, grid: &Grid, t: f64) -> f64 {
+        let (a, b) = grid.around(t);
         let state = |k: usize| [self.states[k][0], self.states[k][1]];
         hermite([grid.times[a], grid.times[b]], [state(a), state(b)], t)[0]
     }
@@ -131,14 +131,10 @@ impl Grid {
         grid
     }
 
-    /// The node and the next one on the side of a time.
-    pub fn around(&self, node: usize, t: f64) -> (usize, usize) {
-        let last = self.times.len() - 1;
-        let before = match t < self.times[node] {
-            true => node.saturating_sub(1),
-            false => node,
-        };
-        let before = before.min(last - 1);
+    /// The nodes on both sides of a time, or the two at the end beyond which it is.
+    pub fn around(&self, t: f64) -> (usize, usize) {
+        let before = self.times.partition_point(|time| *time <= t);
+        let before = before.clamp(1, self.times.len() - 1) - 1;
         (before, before + 1)
     }
 
@@ -155,20 +151,25 @@ impl Record<'_> {
         self.weights.truncate(range.len());
     }
 
-    /// A measured value, rad or m.
-    pub fn measured(&self, sample: usize) -> f64 {
-        match &self.codes {
-            Some(codes) if codes.values[sample].is_finite() => codes.values[sample],
-            _ => self.values[sample],
+    /// This record with the intervals of its codes in the place of the samples.
+    pub fn coded(&self, codes: Codes) -> Self {
+        let intervals = codes.intervals(&self.times, &self.values);
+        Record {
+            times: intervals.iter().map(|i| i.t).collect(),
+            values: intervals.iter().map(|i| i.middle).collect(),
+            weights: vec![1.0; intervals.len()],
+            intervals,
+            ..*self
         }
     }
 
     /// Samples that hardly count because they are far off.
     pub fn outliers(&self) -> impl Iterator<Item = usize> {
-        (0..self.weights.len()).filter(|i| match &self.codes {
-            Some(codes) => codes.values[*i].is_nan(),
+        let far = (0..self.weights.len()).filter(|i| match self.intervals.get(*i) {
+            Some(interval) => interval.middle.is_nan(),
             None => self.weights[*i] < 0.5,
-        })
+        });
+        far.map(|i| self.intervals.get(i).map_or(i, |interval| interval.sample))
     }
 
     /// Whether what was measured is the crank angle itself.
@@ -186,7 +187,7 @@ impl Record<'_> {
         let (mut weight, mut sum, mut slope) = (0.0, 0.0, 0.0);
         for i in range {
             let theta = match grid.block > 0.0 {
-                true => path.angle(grid, node, self.times[i]),
+                true => path.angle(grid, self.times[i]),
                 false => path.states[node][0],
             };
             let (residual, shown) = self.sensor.residual(self.values[i], theta);

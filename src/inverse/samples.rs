@@ -3,6 +3,7 @@
 use super::branch_tracking::CrankAngles;
 use super::prior::KINEMATIC;
 use super::problem::Problem;
+use super::quantised::Codes;
 use super::record::{Grid, Path, Record};
 use super::smoother::Smoothed;
 use super::{first_path, outliers};
@@ -32,7 +33,7 @@ pub(super) fn record<'a>(measurement: &'a Measurement, angles: &CrankAngles<'a>)
         weights: vec![1.0; values.len()],
         values,
         codes: None,
-        digits: measurement.resolution(),
+        intervals: Vec::new(),
         floor: (measurement.resolution() / 12f64.sqrt()).max(COMPUTED * f64::EPSILON * largest),
         origin: measurement.origin(),
     }
@@ -53,23 +54,70 @@ pub(super) fn problem<'a>(
     }
 }
 
-/// The samples of a record with the weights that outliers leave them, and their motion without mechanics.
+/// The samples of a measurement with the weights that outliers leave them, and their motion without mechanics.
 pub(super) fn kinematic<'a>(
+    measurement: &'a Measurement,
+    angles: &CrankAngles<'a>,
+    equation: &'a Equation,
+) -> (Problem<'a>, Smoothed) {
+    let samples = || record(measurement, angles);
+    let codes = match angles.sensor.measured {
+        Measured::Theta => Codes::of(&angles.theta, measurement.resolution()),
+        _ => None,
+    };
+    let Some(codes) = codes else {
+        return without_outliers(samples(), angles, equation, 0.0);
+    };
+    let coded = samples().coded(codes);
+    let is_whole = coded.times.len() == measurement.len();
+    let (mut problem, kinematic) = without_outliers(coded, angles, equation, codes.step);
+    if kinematic.noise.sigma < codes.step {
+        let first = problem.record.clone();
+        let record = &mut problem.record;
+        record.codes = Some(codes);
+        for (interval, weight) in record.intervals.iter_mut().zip(&record.weights) {
+            if *weight < 0.5 {
+                interval.middle = f64::NAN;
+            }
+        }
+        let found = problem.propagated(codes, kinematic.clone());
+        if found.is_finite() {
+            return (problem, found);
+        }
+        problem.record = first;
+    }
+    // Codes that leave no certain motion, or are finer than the noise, count as noise.
+    match is_whole {
+        true => {
+            problem.record.intervals.clear();
+            (problem, kinematic)
+        }
+        false => without_outliers(samples(), angles, equation, codes.step),
+    }
+}
+
+/// The samples, that go in steps of this width, with the weights that outliers leave them, and their motion without mechanics.
+fn without_outliers<'a>(
     record: Record<'a>,
     angles: &CrankAngles<'_>,
     equation: &'a Equation,
+    step: f64,
 ) -> (Problem<'a>, Smoothed) {
-    let mut problem = problem(record, &angles.theta, equation);
+    let theta = match record.is_linear() {
+        true => record.values.clone(),
+        false => angles.theta.clone(),
+    };
+    let mut problem = problem(record, &theta, equation);
     let first = first_path(&problem, angles);
     let sigma = angles.sigma.max(problem.record.floor);
     let mut kinematic = problem.kinematic(first, sigma);
     if problem.grid.block * kinematic.noise.corner > SLOW {
-        problem.grid = Grid::new(&problem.record.times, &angles.theta);
+        problem.grid = Grid::new(&problem.record.times, &theta);
         let first = first_path(&problem, angles);
         kinematic = problem.kinematic(first, sigma);
     }
     for _ in 0..OUTLIER_ROUNDS {
-        let Some(weights) = outliers::weights(&problem, &kinematic) else {
+        let Some(weights) = outliers::weights(&problem, &kinematic, step) else {
             break;
         };
         let before = std::mem::replace(&mut problem.record.weights, weights);
@@ -80,24 +128,7 @@ pub(super) fn kinematic<'a>(
             break;
         }
     }
-    match problem.coded(&kinematic) {
-        Some(codes) => {
-            let sites = (
-                problem.record.values.clone(),
-                problem.record.weights.clone(),
-            );
-            problem.record.codes = Some(codes);
-            let found = problem.propagated(kinematic.clone());
-            if found.is_finite() {
-                return (problem, found);
-            }
-            // Codes that leave no certain motion count as noise.
-            problem.record.codes = None;
-            (problem.record.values, problem.record.weights) = sites;
-            (problem, kinematic)
-        }
-        None => (problem, kinematic),
-    }
+    (problem, kinematic)
 }
 
 pub(super) fn first_path(problem: &Problem<'_>, angles: &CrankAngles<'_>) -> Path {

@@ -1,29 +1,30 @@
-//! Errors that all samples share: an uncertain value of the scene, the zero of an encoder. Each is carried through the fit and
-//! the equation by a standard error to both sides, with the noise of the fit as it is (GUM 5.1.3, numerically).
+//! Errors that all samples share: an uncertain value of the scene, the zero of an encoder. The force moves with each by the
+//! difference that a standard error makes in the fit and in the equation, with the noise of the fit as it is (GUM 5.1.3).
 
 use serde::Serialize;
 
+use super::fitted::Fitted;
 use super::guide::Guide;
 use super::inverse_dynamics::Backwards;
 use super::measurement_model::Sensor;
 use super::motion_estimate::MotionEstimate;
 use super::polynomial::Polynomial;
 use super::problem::Problem;
-use super::record::{Path, Record};
+use super::record::Record;
 use super::row::InverseRow;
 use super::smoother::Smoothed;
 use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
-use crate::scene::{Measurement, Scene};
+use crate::scene::Scene;
 
 /// A value of the scene with its standard error.
 #[derive(Clone, Debug)]
 pub struct UncertainValue {
     /// Name, as `geometry.rod`.
     pub key: String,
-    /// The scene with the value a standard error lower, and higher.
-    pub ends: [Scene; 2],
+    /// The scene with the value a standard error higher, or lower where it cannot be higher.
+    pub moved: Scene,
 }
 
 /// Share of a source in the error of the slider force.
@@ -37,29 +38,13 @@ pub struct BudgetShare {
     pub share: f64,
 }
 
-/// A source with the mechanism at both ends of its error.
+/// A source: the mechanism with its error in it, and what that adds to the samples, rad.
 #[derive(Debug)]
 pub(super) struct Source {
     name: String,
-    ends: [End; 2],
-}
-
-/// A mechanism, and what is added to the samples, rad.
-#[derive(Debug)]
-struct End {
     equation: Equation,
     guide: Option<Guide>,
     zero: f64,
-}
-
-impl End {
-    fn new(scene: &Scene, zero: f64) -> Result<End, Error> {
-        Ok(End {
-            equation: Equation::new(scene),
-            guide: Guide::new(scene)?,
-            zero,
-        })
-    }
 }
 
 /// What is uncertain: values of the scene, and by a standard error (rad) the zero of an encoder.
@@ -68,52 +53,22 @@ pub(super) fn sources(
     uncertain: &[UncertainValue],
     zero: Option<f64>,
 ) -> Result<Vec<Source>, Error> {
-    let source = |name: &str, [low, high]: [&Scene; 2], zero: f64| {
+    let source = |name: &str, scene: &Scene, zero: f64| {
         Ok(Source {
             name: name.to_owned(),
-            ends: [End::new(low, -zero)?, End::new(high, zero)?],
+            equation: Equation::new(scene),
+            guide: Guide::new(scene)?,
+            zero,
         })
     };
     let of_scene = uncertain
         .iter()
-        .map(|one| source(&one.key, one.ends.each_ref(), 0.0));
-    let of_zero = zero.map(|zero| source("zero of the encoder", [scene; 2], zero));
+        .map(|one| source(&one.key, &one.moved, 0.0));
+    let of_zero = zero.map(|zero| source("zero of the encoder", scene, zero));
     of_scene.chain(of_zero).collect()
 }
 
-/// Motions at both ends of a source.
-pub(super) type Moved = [Vec<MotionEstimate>; 2];
-
-/// The motions that a smoother finds at the ends of the sources.
-pub(super) fn moved(problem: &Problem<'_>, smoothed: &Smoothed, sources: &[Source]) -> Vec<Moved> {
-    parallel::map(sources.iter(), |source| {
-        source
-            .ends
-            .each_ref()
-            .map(|end| end.smoothed(problem, smoothed))
-    })
-}
-
-/// The polynomials of a degree at the ends of the sources.
-pub(super) fn moved_polynomials(
-    record: &Record<'_>,
-    motion: &[MotionEstimate],
-    degree: usize,
-    sources: &[Source],
-) -> Vec<Moved> {
-    let of = |source: &Source| {
-        source
-            .ends
-            .each_ref()
-            .map(|end| end.polynomial(record, motion, degree))
-    };
-    sources.iter().map(of).collect()
-}
-
-/// Iterations of Gauss and Newton: the ends are near.
-const ITERATIONS: usize = 3;
-
-impl End {
+impl Source {
     fn record<'a>(&'a self, record: &'a Record<'a>) -> Record<'a> {
         Record {
             sensor: Sensor {
@@ -128,11 +83,13 @@ impl End {
                 .collect(),
             weights: record.weights.clone(),
             codes: None,
+            intervals: Vec::new(),
             ..*record
         }
     }
 
-    fn polynomial(
+    /// The polynomial of a degree with this error.
+    pub fn polynomial(
         &self,
         record: &Record<'_>,
         motion: &[MotionEstimate],
@@ -143,30 +100,29 @@ impl End {
         found.map_or_else(|_| motion.to_vec(), |found| found.motion)
     }
 
-    fn smoothed(&self, problem: &Problem<'_>, smoothed: &Smoothed) -> Vec<MotionEstimate> {
+    /// The motion that a smoother finds with this error, one step of Gauss and Newton off the one without.
+    pub fn smoothed(
+        &self,
+        problem: &Problem<'_>,
+        smoothed: &Smoothed,
+        times: &[f64],
+    ) -> Vec<MotionEstimate> {
         let record = &problem.record;
         let problem = Problem {
             record: self.record(record),
             grid: problem.grid.clone(),
             equation: &self.equation,
         };
-        let motion = problem.motion(smoothed.prior);
-        let variances = || smoothed.estimates.iter().map(|e| e.covariance[0]).collect();
-        let mut path = Path {
-            states: smoothed.estimates.iter().map(|e| e.state).collect(),
-            variances: (!record.is_linear()).then(variances),
-        };
+        let mut path = smoothed.path(!record.is_linear());
         path.states
             .iter_mut()
             .for_each(|state| state[0] += self.zero);
-        let mut estimates = Vec::new();
-        for _ in 0..ITERATIONS {
-            estimates = problem.smoothed(&motion, &path, smoothed.scales, &smoothed.noise);
-            path.states = estimates.iter().map(|e| e.state).collect();
-        }
-        parallel::list(record.times.len(), |i| {
-            problem.at_sample(&estimates, i).estimated()
-        })
+        let motion = problem.motion(smoothed.prior);
+        let moved = Smoothed {
+            estimates: problem.smoothed(&motion, &path, smoothed.scales, &smoothed.noise),
+            ..*smoothed
+        };
+        parallel::list(times.len(), |i| problem.at(&moved, times[i]).estimated())
     }
 }
 
@@ -178,32 +134,31 @@ pub(super) struct SharedErrors {
 }
 
 impl SharedErrors {
+    /// From the motion of the samples and the motions that the sources make of it.
     pub fn new(
         sources: &[Source],
-        moved: &[Moved],
-        measurement: &Measurement,
-        beside_forces: bool,
+        backwards: &Backwards<'_>,
+        fitted: &Fitted,
+        times: &[f64],
     ) -> SharedErrors {
-        let mut found = SharedErrors::default();
-        for (source, motions) in sources.iter().zip(moved) {
-            let [low, high] = [0, 1].map(|k| {
-                let end = &source.ends[k];
-                let backwards = Backwards {
-                    equation: &end.equation,
-                    beside_forces,
-                    guide: end.guide.as_ref(),
-                };
-                parallel::list(motions[k].len(), |i| {
-                    let demand = backwards.demand(measurement.times()[i], &motions[k][i]);
-                    [demand.force, demand.torque]
-                })
-            });
-            let pairs = low.iter().zip(&high);
-            let halves = pairs.map(|(a, b)| [0, 1].map(|k| 0.5 * (b[k] - a[k])));
-            found.of.push(halves.collect());
-            found.names.push(source.name.clone());
+        let of = |(source, moved): (&Source, &Vec<MotionEstimate>)| {
+            let there = Backwards {
+                equation: &source.equation,
+                guide: source.guide.as_ref(),
+                ..*backwards
+            };
+            parallel::list(times.len(), |i| {
+                let [a, b] = [
+                    backwards.demand(times[i], &fitted.motion[i]),
+                    there.demand(times[i], &moved[i]),
+                ];
+                [b.force - a.force, b.torque - a.torque]
+            })
+        };
+        SharedErrors {
+            names: sources.iter().map(|source| source.name.clone()).collect(),
+            of: sources.iter().zip(&fitted.moved).map(of).collect(),
         }
-        found
     }
 
     /// Standard error of the force, N, and of the torque, N m, of a row, with those of its noise.

@@ -21,6 +21,17 @@ pub(super) struct Smoothed {
     pub settled: bool,
 }
 
+impl Smoothed {
+    /// The path of the smoothed states, with their variances where the samples are curved in the crank angle.
+    pub fn path(&self, is_curved: bool) -> Path {
+        let variances = || self.estimates.iter().map(|e| e.covariance[0]).collect();
+        Path {
+            states: self.estimates.iter().map(|e| e.state).collect(),
+            variances: is_curved.then(variances),
+        }
+    }
+}
+
 /// Most iterations of Gauss and Newton.
 const ITERATIONS: usize = 12;
 
@@ -32,7 +43,7 @@ const LARGE: f64 = 1e-3;
 const MANY: usize = 100_000;
 
 /// Change of the path, in its standard errors, at which the iterations have come to rest.
-const AT_REST: f64 = 0.05;
+pub(super) const AT_REST: f64 = 0.05;
 
 impl Problem<'_> {
     /// The motion without mechanics, from a first path.
@@ -258,7 +269,7 @@ impl Problem<'_> {
 }
 
 /// Root mean square change of the crank angles in their standard errors.
-fn change(estimates: &[Estimate], path: &Path) -> f64 {
+pub(super) fn change(estimates: &[Estimate], path: &Path) -> f64 {
     let changes = estimates
         .iter()
         .zip(&path.states)

@@ -19,6 +19,49 @@ fn force(theta: f64) -> f64 {
     MASS * SPEED * SPEED * (-R * cos - bent)
 }
 
+/// Many samples stand in each step: they say when the crank went from one to the next. A speed of 10 (1 + 0.2 cos 4t) rad/s has a
+/// force in closed form, m (x'' ω² + x' θ̈).
+#[test]
+fn samples_that_stand_in_one_step_tell_its_passages() {
+    const DEPTH: f64 = 0.2;
+    for (steps, rows) in [(64.0, 3000), (256.0, 20_000), (1024.0, 120_000)] {
+        let step = TAU / steps;
+        let times: Vec<f64> = (0..rows).map(|i| f64::from(i) / f64::from(rows)).collect();
+        let angle = |t: f64| 0.3 + SPEED * (t + DEPTH * (4.0 * t).sin() / 4.0);
+        let codes = times
+            .iter()
+            .map(|t| ((angle(*t) / step).floor() + 0.5) * step);
+        let motion = Measurement::new(Measured::Theta, times.clone(), codes.collect());
+        let scene = Scene::new(R, L).slider(Slider { mass: MASS });
+        let motion = motion.expect("a motion");
+        let found = inverse(&scene, &motion, &InverseOptions::default()).expect("an inversion");
+        let factor = found.summary.band_factor;
+        let (mut inside, mut all, mut width, mut size) = (0.0, 0.0, 0.0, 0.0);
+        for (row, t) in found.rows.iter().zip(times) {
+            let (Some(found), Some(se)) = (row.slider_force, row.slider_force_se) else {
+                continue;
+            };
+            let theta = angle(t);
+            let omega = SPEED * (1.0 + DEPTH * (4.0 * t).cos());
+            let alpha = -4.0 * SPEED * DEPTH * (4.0 * t).sin();
+            let (sin, cos) = theta.sin_cos();
+            let rod = (L * L - R * R * sin * sin).sqrt();
+            let slope = -R * sin - R * R * sin * cos / rod;
+            let exact = force(theta) * (omega / SPEED).powi(2) + MASS * slope * alpha;
+            all += 1.0;
+            inside += f64::from(u8::from((found - exact).abs() <= factor * se));
+            width += se * se;
+            size += exact * exact;
+        }
+        assert!(inside >= 0.9 * all, "{steps} steps: {inside} of {all}");
+        let part = (width / size).sqrt();
+        assert!(
+            part < 16.0 / steps,
+            "{steps} steps: errors of {part} of the force"
+        );
+    }
+}
+
 /// Codes that begin where the angle is, as of a counter, not in its middle, with an index mark that is off by part of a step: the
 /// error of the zero is in the band and in the budget.
 #[test]

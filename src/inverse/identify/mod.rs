@@ -16,7 +16,7 @@ use super::branch_choice::crank_angles;
 use super::measurement_model::{Scale, Sensor};
 use super::record::Grid;
 use super::residual_tests::Whiteness;
-use super::samples::{first_path, kinematic, record};
+use super::samples::{first_path, kinematic};
 use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::numeric::student;
@@ -85,7 +85,7 @@ pub fn identify(
         scale: Scale::TRUE,
     };
     let angles = crank_angles(&sensor, measurement, &equation, &scene.motion)?;
-    let (mut problem, smooth) = kinematic(record(measurement, &angles), &angles, &equation);
+    let (mut problem, smooth) = kinematic(measurement, &angles, &equation);
     if problem.grid.block == 0.0 {
         let along = match problem.record.is_linear() {
             true => &problem.record.values,

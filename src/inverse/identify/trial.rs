@@ -68,6 +68,7 @@ impl Trials<'_> {
                 values: record.values.iter().map(|value| value - zero).collect(),
                 weights: record.weights.clone(),
                 codes: None,
+                intervals: Vec::new(),
                 ..*record
             },
             grid: self.problem.grid.clone(),
