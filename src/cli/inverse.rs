@@ -9,7 +9,7 @@ use super::{Outcome, Streams, check_ending, create, fill, is_standard};
 use crate::error::Error;
 use crate::inverse::{self, AsPrinted, FitKind, FitSize, InverseOptions};
 use crate::report;
-use crate::scene::{Measurement, Reading};
+use crate::scene::{Draft, Measurement, Reading};
 
 /// Arguments of `inverse`.
 #[derive(Debug, Args)]
@@ -121,7 +121,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     }
     // First the data, whose lack tells a data file in the place of the scene.
     let measurement = measurement(arguments)?;
-    let scene = streams.scene(arguments.scene.as_ref())?;
+    let draft = arguments
+        .scene
+        .as_deref()
+        .map_or_else(|| Ok(Draft::duarte()), Draft::load)?;
+    let scene = draft.scene()?;
+    streams.spare_tables(&scene)?;
     check_ending(arguments.plot.as_ref(), &["svg"])?;
     let options = InverseOptions {
         fit: match (arguments.fit, arguments.degree) {
@@ -141,7 +146,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let residuals = create(arguments.residuals.as_ref())?;
     let plot = create(arguments.plot.as_ref())?;
     // What is odd in the data may be why it is refused.
-    let mut result = inverse::inverse(&scene, &measurement, &options)
+    let uncertain = draft.uncertain()?;
+    let mut result = inverse::inverse_of_uncertain(&scene, &uncertain, &measurement, &options)
         .map_err(|error| error.with_notes(measurement.notes()))?;
     let of_printed = printed.as_ref().and_then(AsPrinted::warning);
     result.summary.warnings.extend(of_printed);

@@ -71,7 +71,7 @@ pub use as_printed::AsPrinted;
 pub use bands::{BandRule, DeadCentreBand};
 pub use options::{FitKind, FitSize, InverseOptions};
 pub use row::{InverseRow, Residual};
-pub use shared_errors::{BudgetShare, UncertainValue};
+pub use shared_errors::BudgetShare;
 pub use summary::{CandidateSummary, DataSummary, FitSummary, ForceRange, InverseSummary};
 
 use self::fitted::Fitted;
@@ -84,7 +84,7 @@ use self::shared_errors::SharedErrors;
 use crate::error::Error;
 use crate::mechanism::{Equation, Reactions, Reactor};
 use crate::numeric::student;
-use crate::scene::{Measured, Measurement, Scene};
+use crate::scene::{Measured, Measurement, Scene, UncertainValue};
 
 /// Slider force and crank torque along a measured motion.
 #[derive(Debug)]

@@ -16,16 +16,7 @@ use super::smoother::Smoothed;
 use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
-use crate::scene::Scene;
-
-/// A value of the scene with its standard error.
-#[derive(Clone, Debug)]
-pub struct UncertainValue {
-    /// Name, as `geometry.rod`.
-    pub key: String,
-    /// The scene with the value a standard error higher, or lower where it cannot be higher.
-    pub moved: Scene,
-}
+use crate::scene::{Scene, UncertainValue};
 
 /// Share of a source in the error of the slider force.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -189,6 +180,7 @@ impl SharedErrors {
         let rest = whole - parts.iter().map(|(_, part)| part).sum::<f64>();
         parts.push(("noise of the samples".to_owned(), rest.max(0.0)));
         parts.sort_by(|a, b| b.1.total_cmp(&a.1));
+        parts.retain(|(_, part)| *part > 0.0);
         let share = |(source, variance): (String, f64)| BudgetShare {
             source,
             force_se_n: variance.sqrt(),

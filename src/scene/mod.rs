@@ -33,6 +33,7 @@ mod render;
 mod schema;
 mod table;
 mod text;
+mod uncertain;
 pub mod unit;
 mod validate;
 pub(crate) use validate::MOST_ROWS;
@@ -62,6 +63,7 @@ pub use schema::schema;
 pub use table::{Interpolation, Table, calibration_points};
 #[cfg(feature = "cli")]
 pub use table::{LoadTable, load_table};
+pub use uncertain::UncertainValue;
 pub use variable::{Instant, Variable, Variables};
 #[cfg(feature = "cli")]
 pub use vary::{Assigned, Draft, NumberKey, Varied};

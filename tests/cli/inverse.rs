@@ -810,3 +810,28 @@ fn positions_of_the_other_branch() {
         &["x = 99 mm cannot be reached: it belongs to no crank angle of the branch"],
     );
 }
+
+/// A rod that is known to a standard error: `inverse` has its share, other commands take the middle.
+#[test]
+fn uncertain_values_of_the_scene_have_their_share() {
+    let text = data("t [s],theta [rad]", &rows(","));
+    let uncertain = PUMP.replace("150 mm", "150 ± 1 mm");
+    let [with, without] = [uncertain.as_str(), PUMP].map(|scene| {
+        let folder = Folder::with(scene);
+        folder.write("data.csv", &text);
+        folder
+    });
+    let summary = with
+        .run(&["inverse", "scene.toml", "data.csv", "--json"])
+        .done()
+        .json();
+    let sources: Vec<&str> = (0..2)
+        .filter_map(|k| summary["error_budget"][k]["source"].as_str())
+        .collect();
+    assert!(sources.contains(&"geometry.rod"), "{sources:?}");
+    let shown = with.run(&["inverse", "scene.toml", "data.csv"]).done();
+    assert!(shown.stdout.contains("geometry.rod"), "{}", shown.stdout);
+    let [middle, same] =
+        [with, without].map(|folder| folder.run(&["kinematics", "scene.toml"]).done().stdout);
+    assert_eq!(middle, same);
+}

@@ -14,4 +14,5 @@ mod measured_rows;
 mod noise;
 mod polynomial;
 mod simulated;
+mod uncertain;
 mod white_snap;

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use slider_crank::scene::schema;
-use slider_crank::scene::unit::{Quantity, parse};
+use slider_crank::scene::unit::{Quantity, Uncertain, parse, uncertain};
 
 /// Whether the schema lets a text stand for a key of this quantity.
 fn schema_lets(text: &str, quantity: Quantity) -> bool {
@@ -30,6 +30,27 @@ fn schema_lets(text: &str, quantity: Quantity) -> bool {
     let pattern = pattern.and_then(|pattern| pattern.as_str()).expect(key);
     let pattern = regex_lite::Regex::new(pattern);
     pattern.expect("a regular expression").is_match(text)
+}
+
+#[test]
+fn values_with_errors_as_people_type_them() {
+    for (text, quantity, value, error) in [
+        ("155.8 +- 0.1 mm", Quantity::Length, 0.1558, 1e-4),
+        ("155.8mm ± 1e-4 m", Quantity::Length, 0.1558, 1e-4),
+        ("0 +/- 0.1 mm", Quantity::Length, 0.0, 1e-4),
+        ("-2 +- 0.5 N m", Quantity::Torque, -2.0, 0.5),
+        (
+            "200 rpm +- 0",
+            Quantity::AngularSpeed,
+            200.0 * PI / 30.0,
+            0.0,
+        ),
+        ("47 mm", Quantity::Length, 0.047, 0.0),
+    ] {
+        let found = uncertain(text, quantity);
+        assert_eq!(found, Ok(Uncertain { value, error }), "{text}");
+        assert!(schema_lets(text, quantity), "{text}");
+    }
 }
 
 #[test]

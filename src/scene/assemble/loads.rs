@@ -47,8 +47,8 @@ pub(super) fn load(
 
 fn constant(reader: &mut Reader, values: &Values, quantity: Quantity) -> Option<Load> {
     let text = values.text("value").or(values.bare("value"))?;
-    match unit::parse(text, quantity) {
-        Ok(number) => Some(Load::Constant(number)),
+    match unit::uncertain(text, quantity) {
+        Ok(number) => Some(Load::Constant(number.value)),
         Err(error) => {
             reader.problem(&values.field("value"), error.what, error.help);
             None

@@ -4,13 +4,13 @@ use toml::de::DeValue;
 
 use crate::scene::Every;
 use crate::scene::keys::{self, Key, Kind};
-use crate::scene::unit;
+use crate::scene::unit::{self, Uncertain};
 
 /// A value that has been read.
 #[derive(Clone, Debug)]
 pub(in crate::scene) enum Value {
     /// SI
-    Number(f64),
+    Number(Uncertain),
     Text(String),
     /// Digits without quotes where a quantity or a formula may stand; the kind of load decides.
     Bare(String),
@@ -20,11 +20,11 @@ pub(in crate::scene) enum Value {
 
 impl Value {
     /// The value as a quantity, SI, if it is one.
-    pub fn number(&self, kind: Kind) -> Option<f64> {
+    pub fn number(&self, kind: Kind) -> Option<Uncertain> {
         match (self, kind) {
             (Value::Number(number), _) => Some(*number),
             (Value::Text(text) | Value::Bare(text), Kind::Formula(quantity)) => {
-                unit::parse(text, quantity).ok()
+                unit::uncertain(text, quantity).ok()
             }
             _ => None,
         }
@@ -50,7 +50,7 @@ pub(in crate::scene) fn read(key: &Key, value: &DeValue<'_>) -> Result<Value, (S
         Kind::Text | Kind::Formula(_) if value.is_str() => Ok(Value::Text(text)),
         Kind::Text => Err((format!("`{text}` is a number"), expected(key.kind))),
         Kind::Formula(_) => Ok(Value::Bare(text)),
-        Kind::Of(quantity) => unit::parse(&text, quantity)
+        Kind::Of(quantity) => unit::uncertain(&text, quantity)
             .map(Value::Number)
             .map_err(|e| (e.what, e.help)),
         Kind::TimeOrAngle => unit::time_or_angle(&text)

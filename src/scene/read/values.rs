@@ -61,7 +61,7 @@ impl Values {
 
     pub fn number(&self, key: &str) -> Option<f64> {
         match self.entries.get(key) {
-            Some(Value::Number(number)) => Some(*number),
+            Some(Value::Number(number)) => Some(number.value),
             _ => None,
         }
     }

@@ -64,6 +64,49 @@ pub fn parse(text: &str, quantity: Quantity) -> Result<f64, UnitError> {
     Err(wrong_unit(what, quantity))
 }
 
+/// A value with its standard error, SI and radians.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Uncertain {
+    /// The middle.
+    pub value: f64,
+    /// Standard error, 0 if none is written.
+    pub error: f64,
+}
+
+/// Signs between a value and its standard error.
+pub(super) const PLUS_MINUS: [&str; 3] = ["+-", "+/-", "±"];
+
+/// Reads `text` as `quantity` that may have a standard error; a unit that stands once holds for both.
+///
+/// # Errors
+/// As [`parse`].
+///
+/// ```
+/// use slider_crank::scene::unit::{Quantity, Uncertain, uncertain};
+/// let rod = uncertain("155.8 +- 0.1 mm", Quantity::Length);
+/// assert_eq!(rod, Ok(Uncertain { value: 0.1558, error: 1e-4 }));
+/// ```
+pub fn uncertain(text: &str, quantity: Quantity) -> Result<Uncertain, UnitError> {
+    let parts = PLUS_MINUS.iter().find_map(|sign| text.split_once(sign));
+    let Some((value, error)) = parts else {
+        let value = parse(text, quantity)?;
+        return Ok(Uncertain { value, error: 0.0 });
+    };
+    let with_unit = |text: &str, other: &str| match [text, other].map(split) {
+        [Ok((_, "")), Ok((_, unit))] => parse(&format!("{text} {unit}"), quantity),
+        _ => parse(text, quantity),
+    };
+    let (value, error) = (value.trim(), error.trim());
+    let found = Uncertain {
+        error: with_unit(error, value)?,
+        value: with_unit(value, error)?,
+    };
+    match found.error < 0.0 {
+        true => Err(wrong(format!("the error `{error}` is negative"), quantity)),
+        false => Ok(found),
+    }
+}
+
 /// The unit with the pound as a force, if that makes it one of the quantity.
 fn of_pounds_force(unit: &str, quantity: Quantity) -> Option<String> {
     let force = unit.replace("lbs", "lb").replace("lb", "lbf");

@@ -1,16 +1,19 @@
 //! Quantities as regular expressions, for programs that check a scene by its schema.
 
-use super::Quantity;
 use super::symbol::spellings;
+use super::{PLUS_MINUS, Quantity};
 
-/// A number and a unit of one of these quantities, or zero; ECMA-262, anchored. Of quantities that have no symbol of their
+/// A number and a unit of one of these quantities, or zero, and what may be its error; ECMA-262, anchored. Of quantities that have no symbol of their
 /// own, and of those that products of others give too, any product of units is let through: the reader knows its dimension.
 pub(in crate::scene) fn pattern(quantities: &[Quantity]) -> String {
     let sign = "[+\\-\u{2212}]?";
     let number = format!("{sign}(?:[0-9]+[.]?[0-9]*|[.][0-9]+)(?:[eE]{sign}[0-9]+)?");
     let units: Vec<String> = quantities.iter().map(|quantity| unit(*quantity)).collect();
     let units = units.join("|");
-    format!("^ *(?:{number} *(?:{units})|{sign}(?:0+[.]?0*|[.]0+)) *$")
+    let zero = format!("{sign}(?:0+[.]?0*|[.]0+)");
+    let signs = PLUS_MINUS.map(|sign| sign.replace('+', "[+]")).join("|");
+    let error = format!("(?:{number} *(?:{units})?|{zero}) *(?:{signs}) *{number} *(?:{units})?");
+    format!("^ *(?:{number} *(?:{units})|{zero}|{error}) *$")
 }
 
 fn unit(quantity: Quantity) -> String {

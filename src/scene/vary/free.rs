@@ -8,8 +8,10 @@ use toml::de::{DeTable, DeValue};
 use super::draft::{Draft, Setting};
 use super::path::KeyPath;
 use crate::error::Error;
+use crate::scene::keys::SECTIONS;
 use crate::scene::read::value;
-use crate::scene::{Problem, Problems, Scene, unit};
+use crate::scene::unit::{self, Uncertain};
+use crate::scene::{Problem, Problems, Scene, UncertainValue};
 
 /// A key of a scene that takes a quantity, read from a text like `crank.inertia` or `torque[2].coefficient`.
 #[derive(Clone, Copy, Debug)]
@@ -49,6 +51,18 @@ impl FromStr for NumberKey {
     }
 }
 
+/// The quantity that a key has in a document.
+fn quantity(document: &DeTable<'_>, path: &KeyPath) -> Option<Uncertain> {
+    let table = match document.get(path.section.name)?.get_ref() {
+        DeValue::Array(list) => list.get(path.index)?.get_ref().as_table(),
+        other => other.as_table(),
+    };
+    let text = table?.get(path.key.name)?;
+    value::read(path.key, text.get_ref())
+        .ok()?
+        .number(path.key.kind)
+}
+
 impl Draft {
     /// The number that a key has in the file, in SI units and radians.
     ///
@@ -57,18 +71,8 @@ impl Draft {
     pub fn number(&self, key: &NumberKey) -> Result<f64, Problems> {
         let (document, _) = DeTable::parse_recoverable(self.text());
         let path = key.0;
-        let found = document.get_ref().get(path.section.name);
-        let table = found.and_then(|value| match value.get_ref() {
-            DeValue::Array(list) => list.get(path.index)?.get_ref().as_table(),
-            other => other.as_table(),
-        });
-        let value = table.and_then(|table| table.get(path.key.name));
-        value
-            .and_then(|text| {
-                value::read(path.key, text.get_ref())
-                    .ok()?
-                    .number(path.key.kind)
-            })
+        quantity(document.get_ref(), &path)
+            .map(|number| number.value)
             .ok_or_else(|| {
                 let example = match path.key.example() {
                     text if text.ends_with("\"...\"") => {
@@ -84,6 +88,44 @@ impl Draft {
                     vec![Problem::new(path.section.name, what, help)],
                 )
             })
+    }
+
+    /// The values of the file that have a standard error, like `"155.8 +- 0.1 mm"`.
+    ///
+    /// # Errors
+    /// [`Error::Scene`]: the scene is impossible with the error in it, on either side.
+    pub fn uncertain(&self) -> Result<Vec<UncertainValue>, Error> {
+        let (document, _) = DeTable::parse_recoverable(self.text());
+        let document = document.get_ref();
+        let paths = SECTIONS.iter().flat_map(|section| {
+            let tables = document.get(section.name);
+            let tables = tables.and_then(|tables| tables.get_ref().as_array());
+            let count = tables.map_or(1, |list| list.len());
+            let keys = move |index| {
+                let path = move |key| KeyPath {
+                    section,
+                    index,
+                    key,
+                };
+                section.keys.iter().map(path)
+            };
+            (0..count).flat_map(keys)
+        });
+        let mut list = Vec::new();
+        for path in paths {
+            let Some(Uncertain { value, error }) = quantity(document, &path) else {
+                continue;
+            };
+            let key = NumberKey(path);
+            let moved = |value| self.with_numbers(&[Assigned { key, value }]);
+            if error > 0.0 {
+                list.push(UncertainValue {
+                    key: key.to_string(),
+                    moved: moved(value + error).or_else(|_| moved(value - error))?,
+                });
+            }
+        }
+        Ok(list)
     }
 
     /// The scene with numbers in place of its own.

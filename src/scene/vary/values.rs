@@ -40,6 +40,7 @@ fn value(key: &Key, text: String) -> Result<Value, String> {
     if text.is_empty() {
         return Err(format!("a value of `{}` is empty", key.name));
     }
+    let number = number.map(|number| number.value);
     Ok(Value { text, number })
 }
 
