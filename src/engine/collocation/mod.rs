@@ -78,6 +78,10 @@ pub fn run(
             }
             Err(Failed::TooLong(factor)) => wanted = h * factor.clamp(LEAST, 0.9),
             Err(Failed::Hides(at)) => hidden = state.t + at * h,
+            Err(Failed::Meets { at, factor }) => {
+                hidden = state.t + at * h;
+                wanted = h * factor.clamp(LEAST, 0.9);
+            }
             Ok(Accepted { step, next, factor }) => {
                 let whole = length >= way;
                 // What is left of the way to a corner says little about the step that follows it.

@@ -9,6 +9,8 @@ use super::tableau::Tableau;
 /// The factors of 1 − h ∂f/∂ω A − h² ∂f/∂θ Â, where A integrates accelerations up to the nodes once, and Â twice.
 pub(super) struct Newton {
     factors: LU<f64, Const<NODES>, Const<NODES>>,
+    /// ∂f/∂ω at the last node, 1/s.
+    pub loss: f64,
 }
 
 impl Newton {
@@ -25,6 +27,7 @@ impl Newton {
         let usable = matrix.sum().is_finite() && is_steep(&by_speed, h);
         usable.then(|| Newton {
             factors: matrix.lu(),
+            loss: by_speed[NODES - 1],
         })
     }
 

@@ -69,13 +69,14 @@ impl<'a> Collocation<'a> {
 
     /// Tries a step from a state. One that is too long for a corner in it is to end there.
     pub fn attempt(&mut self, state: &State, step: Try) -> Result<Accepted, Failed> {
-        self.attempt_whole(state, step)
-            .map_err(|failed| match failed {
-                Failed::TooLong(_) if self.has_detail => {
-                    self.corner(state, step.h).map_or(failed, Failed::Hides)
-                }
-                _ => failed,
-            })
+        let result = self.attempt_whole(state, step);
+        match result {
+            Err(Failed::TooLong(factor)) if self.has_detail => match self.corner(state, step.h) {
+                Some(at) => Err(Failed::Meets { at, factor }),
+                None => result,
+            },
+            _ => result,
+        }
     }
 
     /// The part of a step that is too long at which it seems to meet a corner.
@@ -175,7 +176,21 @@ impl<'a> Collocation<'a> {
         self.last = Some((h, coefficients));
         self.alpha = alpha;
         self.steep = newton.is_some();
+        let next = match newton {
+            Some(newton) if !corners[1] => self.settled(next, &step, newton.loss),
+            _ => next,
+        };
         Ok(Accepted { step, next, factor })
+    }
+
+    /// The state at the end of a step under a steep loss (1/s), with the acceleration that the step ends with: what the loss would
+    /// take from the speed at once, Gauss's methods keep for ever (they are A-stable, not L-stable).
+    fn settled(&mut self, next: State, step: &Step, loss: f64) -> State {
+        let settled = next.faster((step.end.alpha - self.alpha) / loss);
+        self.alpha = self
+            .motion
+            .acceleration(settled.t, settled.angle(), settled.omega);
+        settled
     }
 
     /// Times, and the first guess.
