@@ -46,17 +46,8 @@ pub(super) fn crank_angles<'a>(
     }
     branch_tracking::reachable(sensor, measurement)?;
     let sensors = alignment::sensors(*sensor, measurement);
-    let motions = parallel::map(sensors.iter(), |sensor| {
-        branch_tracking::motions(sensor, measurement)
-    });
-    let (found, errors): (Vec<_>, Vec<_>) = motions.into_iter().partition(Result::is_ok);
-    let motions: Vec<CrankAngles<'a>> = found.into_iter().flatten().flatten().collect();
-    let Some(first) = motions.first() else {
-        return Err(errors
-            .into_iter()
-            .find_map(Result::err)
-            .unwrap_or_else(|| unreachable!("no motion, no error")));
-    };
+    let motions = branch_tracking::motions(&sensors, measurement)?;
+    let first = &motions[0];
     let images: Vec<Image<'a>> = motions.iter().map(image).collect();
     let others = motions
         .iter()

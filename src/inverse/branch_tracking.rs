@@ -7,7 +7,7 @@
 
 use std::f64::consts::TAU;
 
-use super::hypotheses::{Hypothesis, Setting, Tracker};
+use super::hypotheses::{DROPPED, Hypothesis, Setting, Tracker};
 use super::measurement_model::Sensor;
 use crate::error::Error;
 use crate::numeric::parallel;
@@ -26,49 +26,54 @@ pub(super) struct CrankAngles<'a> {
     pub warnings: Vec<String>,
 }
 
-/// The motions that samples may stand for, of different ends, the likeliest of each agility first.
+/// The motions that samples may stand for, of different ends or sensors, the likeliest first.
 ///
 /// # Errors
-/// [`Error::Scene`] for values that the mechanism cannot take.
+/// [`Error::Refused`] where the mechanism has none.
 pub(super) fn motions<'a>(
-    sensor: &Sensor<'a>,
+    sensors: &[Sensor<'a>],
     measurement: &Measurement,
 ) -> Result<Vec<CrankAngles<'a>>, Error> {
-    let tracker = Tracker {
-        sensor,
-        times: measurement.elapsed(),
-        values: measurement.values(),
-        speed: typical_speed(sensor, measurement),
-    };
     let early = measurement.len().min(EARLY);
-    let scored = parallel::map(
-        tracker.settings(measurement.resolution()).into_iter(),
-        |setting| {
-            let followed = tracker.followed(&setting, early);
-            Some((setting, *followed.first()?))
-        },
-    );
-    let mut scored: Vec<_> = scored.into_iter().flatten().collect();
-    scored.sort_by(|a, b| b.1.score.total_cmp(&a.1.score));
-    // A crank that is too agile turns back where a stiffer one goes on: the likeliest of each agility.
-    let mut likeliest: Vec<(Setting, Hypothesis)> = Vec::new();
-    for (setting, end) in scored {
-        let is_new = |(other, there): &(Setting, Hypothesis)| {
-            other.jerk != setting.jerk && (there.turned() - end.turned()).abs() > APART
+    let tried = sensors.iter().flat_map(|sensor| {
+        let tracker = Tracker {
+            sensor,
+            times: measurement.elapsed(),
+            values: measurement.values(),
+            speed: typical_speed(sensor, measurement),
         };
-        if likeliest.iter().all(is_new) {
-            likeliest.push((setting, end));
+        let settings = tracker.settings(measurement.resolution());
+        settings.into_iter().map(move |setting| (tracker, setting))
+    });
+    let scored = parallel::map(tried, |(tracker, setting)| {
+        let followed = tracker.followed(&setting, early);
+        Some((tracker, setting, *followed.first()?))
+    });
+    let mut scored: Vec<_> = scored.into_iter().flatten().collect();
+    scored.sort_by(|a, b| b.2.score.total_cmp(&a.2.score));
+    let mut likeliest: Vec<(Tracker<'_, 'a>, Setting, Hypothesis)> = Vec::new();
+    for one in scored {
+        let (tracker, _, end) = &one;
+        let is_new = |(other, _, there): &(Tracker<'_, 'a>, Setting, Hypothesis)| {
+            other.sensor.scale != tracker.sensor.scale
+                || (there.turned() - end.turned()).abs() > APART
+        };
+        let first = likeliest.first().unwrap_or(&one).2.score;
+        if end.score > first - DROPPED && likeliest.iter().all(is_new) {
+            likeliest.push(one);
         }
     }
-    let mut motions: Vec<CrankAngles<'_>> = Vec::new();
-    for (setting, _) in &likeliest {
+    let mut motions: Vec<CrankAngles<'a>> = Vec::new();
+    for (tracker, setting, _) in &likeliest {
         for theta in tracker.tracks(setting) {
             let turned = |theta: &[f64]| (theta[theta.len() - 1] - theta[0]).abs();
-            let alike =
-                |other: &CrankAngles<'_>| (turned(&other.theta) - turned(&theta)).abs() < APART;
+            let alike = |other: &CrankAngles<'_>| {
+                other.sensor.scale == tracker.sensor.scale
+                    && (turned(&other.theta) - turned(&theta)).abs() < APART
+            };
             if motions.len() < MOTIONS && !motions.iter().any(alike) {
                 motions.push(CrankAngles {
-                    sensor: *sensor,
+                    sensor: *tracker.sensor,
                     theta,
                     sigma: setting.sigma,
                     warnings: Vec::new(),
@@ -80,7 +85,7 @@ pub(super) fn motions<'a>(
         return Err(Error::refused(
             format!(
                 "no motion of the mechanism explains the samples of {}",
-                sensor.measured.name()
+                sensors[0].measured.name()
             ),
             "check the lengths of the scene, and the unit and zero of the column",
         ));
@@ -95,7 +100,7 @@ pub(super) const APART: f64 = 0.5;
 const MOTIONS: usize = 4;
 
 /// Samples by which noise and agility are found.
-pub(super) const EARLY: usize = 2000;
+pub(super) const EARLY: usize = 500;
 
 /// Part of what can be reached by which a value may be off: lengths and zero of an instrument are hardly worse.
 pub(super) const OFF: f64 = 0.1;

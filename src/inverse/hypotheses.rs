@@ -43,8 +43,8 @@ struct Link {
 
 /// Follows hypotheses through samples.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Tracker<'a> {
-    pub sensor: &'a Sensor<'a>,
+pub(super) struct Tracker<'a, 's> {
+    pub sensor: &'a Sensor<'s>,
     pub times: &'a [f64],
     pub values: &'a [f64],
     /// Typical speed of the crank, rad/s.
@@ -52,13 +52,13 @@ pub(super) struct Tracker<'a> {
 }
 
 /// Most hypotheses that are kept, and ln of the likelihood ratio beyond which one is dropped.
-const MOST: usize = 12;
-const DROPPED: f64 = 50.0;
+const MOST: usize = 6;
+pub(super) const DROPPED: f64 = 50.0;
 
 /// The end of a path.
 const NOTHING: usize = usize::MAX;
 
-impl Tracker<'_> {
+impl Tracker<'_, '_> {
     /// Noise and agility that are tried.
     pub fn settings(&self, resolution: f64) -> Vec<Setting> {
         let size = self.sensor.size();
