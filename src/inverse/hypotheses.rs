@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use super::kalman::{self, Matrix};
+use super::kalman::{Gaussian, Matrix, Sample, Step, Vector};
 use super::measurement_model::Sensor;
 
 /// Noise of the samples and agility of the crank.
@@ -18,8 +18,7 @@ pub(super) struct Setting {
 /// A hypothesis: a path that ends here.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hypothesis {
-    mean: [f64; 3],
-    covariance: Matrix<3>,
+    state: Gaussian<3>,
     pub score: f64,
     /// Its first angle, rad.
     begin: f64,
@@ -30,7 +29,7 @@ pub(super) struct Hypothesis {
 impl Hypothesis {
     /// The way from its first angle to the last, rad, without its sense.
     pub fn turned(&self) -> f64 {
-        (self.mean[0] - self.begin).abs()
+        (self.state.mean[0] - self.begin).abs()
     }
 }
 
@@ -105,9 +104,12 @@ impl Tracker<'_, '_> {
             if i == 0 {
                 next.extend(sighted.iter().map(|sight| self.begun(sight, links)));
             } else {
-                let dt = self.times[i] - self.times[i - 1];
+                let step = step(self.times[i] - self.times[i - 1], setting.jerk);
                 for before in &now {
-                    let predicted = predicted(before, dt, setting.jerk);
+                    let predicted = Hypothesis {
+                        state: before.state.predicted(&step),
+                        ..*before
+                    };
                     for sight in &sighted {
                         extend(&predicted, sight, links, &mut next);
                     }
@@ -143,12 +145,14 @@ impl Tracker<'_, '_> {
         });
         let speed = 2.0 * self.speed;
         Hypothesis {
-            mean: [sight.theta, 0.0, 0.0],
-            covariance: [
-                [sight.variance, 0.0, 0.0],
-                [0.0, speed * speed, 0.0],
-                [0.0, 0.0, speed.powi(4)],
-            ],
+            state: Gaussian {
+                mean: Vector::from([sight.theta, 0.0, 0.0]),
+                covariance: Matrix::from_diagonal(&Vector::from([
+                    sight.variance,
+                    speed * speed,
+                    speed.powi(4),
+                ])),
+            },
             score: sight.score,
             begin: sight.theta,
             last: links.len() - 1,
@@ -165,24 +169,18 @@ struct Sight {
     score: f64,
 }
 
-/// A hypothesis a time later.
-fn predicted(before: &Hypothesis, dt: f64, jerk: f64) -> Hypothesis {
-    let [theta, omega, alpha] = before.mean;
-    let transition = [[1.0, dt, 0.5 * dt * dt], [0.0, 1.0, dt], [0.0, 0.0, 1.0]];
+/// A time over which the angular acceleration is a Wiener process.
+fn step(dt: f64, jerk: f64) -> Step<3> {
     let q = |n: i32, divisor: f64| jerk * dt.powi(n) / divisor;
     let noise = [
         [q(5, 20.0), q(4, 8.0), q(3, 6.0)],
         [q(4, 8.0), q(3, 3.0), q(2, 2.0)],
         [q(3, 6.0), q(2, 2.0), q(1, 1.0)],
     ];
-    Hypothesis {
-        mean: [
-            theta + dt * (omega + 0.5 * dt * alpha),
-            omega + dt * alpha,
-            alpha,
-        ],
-        covariance: kalman::congruent(&transition, &before.covariance, &noise),
-        ..*before
+    Step {
+        transition: Matrix::from([[1.0, 0.0, 0.0], [dt, 1.0, 0.0], [0.5 * dt * dt, dt, 1.0]]),
+        offset: Vector::zeros(),
+        noise: Matrix::from(noise),
     }
 }
 
@@ -193,20 +191,17 @@ fn extend(
     links: &mut Vec<Link>,
     list: &mut Vec<Hypothesis>,
 ) {
-    let nearest = ((predicted.mean[0] - sight.theta) / TAU).round();
-    let spread = predicted.covariance[0][0] + sight.variance;
+    let nearest = ((predicted.state.mean[0] - sight.theta) / TAU).round();
+    let spread = predicted.state.covariance[(0, 0)] + sight.variance;
     let reach = if spread.sqrt() > 0.1 * TAU { 1 } else { 0 };
     for turn in -reach..=reach {
         let theta = sight.theta + (nearest + f64::from(turn)) * TAU;
-        let error = theta - predicted.mean[0];
         let mut found = *predicted;
-        for i in 0..3 {
-            let gain = predicted.covariance[i][0] / spread;
-            found.mean[i] += gain * error;
-            for j in 0..3 {
-                found.covariance[i][j] -= gain * predicted.covariance[0][j];
-            }
-        }
+        let (error, spread) = found.state.update(&Sample {
+            value: theta,
+            row: Vector::from([1.0, 0.0, 0.0]),
+            variance: sight.variance,
+        });
         // Outliers count as such, by the tails of Student's distribution with four degrees of freedom.
         let off = error * error / spread;
         let tails = if off < 4.0 {
@@ -217,14 +212,14 @@ fn extend(
         found.score += sight.score - 0.5 * spread.ln() - tails;
         if off > 25.0 {
             // It moves the path no further than five standard deviations would.
-            let part = 5.0 / off.sqrt();
-            for i in 0..3 {
-                found.mean[i] = predicted.mean[i] + part * (found.mean[i] - predicted.mean[i]);
-            }
-            found.covariance = predicted.covariance;
+            let before = predicted.state;
+            found.state = Gaussian {
+                mean: before.mean.lerp(&found.state.mean, 5.0 / off.sqrt()),
+                ..before
+            };
         }
         links.push(Link {
-            theta: found.mean[0],
+            theta: found.state.mean[0],
             before: predicted.last,
         });
         found.last = links.len() - 1;
@@ -239,10 +234,8 @@ fn prune(list: &mut Vec<Hypothesis>) {
     for k in 0..list.len() {
         let now = list[k];
         let agrees = |other: &Hypothesis| {
-            let [theta, omega, _] = std::array::from_fn(|i| {
-                (other.mean[i] - now.mean[i]).powi(2) / now.covariance[i][i]
-            });
-            theta < 1.0 && omega < 1.0
+            let off = other.state.mean - now.state.mean;
+            (0..2).all(|i| off[i] * off[i] < now.state.covariance[(i, i)])
         };
         let drop =
             now.score < list[0].score - DROPPED || list[..kept].iter().any(agrees) || kept == MOST;

@@ -2,16 +2,16 @@
 //! Filtering and Smoothing, 2nd ed. 2023, chapters 6 and 12), all covariances in units of the variance σ² of a sample.
 //!
 //! x(k+1) = Φ x(k) + c + w, w ~ N(0, Q);   y(k) = H x(k) + e, e ~ N(0, R).
-#![allow(
-    clippy::needless_range_loop,
-    reason = "matrices stand in index notation"
-)]
+
+use nalgebra::{Cholesky, SMatrix, SVector};
+
+use super::state_space::Deviations;
 
 /// Column of N numbers.
-pub(super) type Vector<const N: usize> = [f64; N];
+pub(super) type Vector<const N: usize> = SVector<f64, N>;
 
 /// N rows of N numbers.
-pub(super) type Matrix<const N: usize> = [[f64; N]; N];
+pub(super) type Matrix<const N: usize> = SMatrix<f64, N, N>;
 
 /// One step of the model, from a node to the next.
 #[derive(Clone, Copy, Debug)]
@@ -29,24 +29,10 @@ pub(super) struct Step<const N: usize> {
 pub(super) struct Sample<const N: usize> {
     /// y
     pub value: f64,
-    /// H
+    /// Hᵀ
     pub row: Vector<N>,
     /// R
     pub variance: f64,
-}
-
-/// The model: nodes with their samples, if they have one, and the steps between them.
-pub(super) trait Model<const N: usize> {
-    /// Number of nodes, at least 1.
-    fn nodes(&self) -> usize;
-    /// The step from a node to the next.
-    fn step(&self, node: usize) -> Step<N>;
-    /// Φ⁻¹ of the step from a node to the next.
-    fn inverse(&self, node: usize) -> Matrix<N>;
-    /// What was measured at a node.
-    fn sample(&self, node: usize) -> Option<Sample<N>>;
-    /// Mean and covariance before the first sample.
-    fn start(&self) -> Gaussian<N>;
 }
 
 /// A normal distribution.
@@ -69,53 +55,32 @@ pub(super) struct Evidence {
     pub samples: usize,
 }
 
-impl Evidence {
-    /// Evidence of two stretches that share nothing.
-    pub fn plus(self, other: Evidence) -> Evidence {
-        Evidence {
-            squares: self.squares + other.squares,
-            log_variances: self.log_variances + other.log_variances,
-            samples: self.samples + other.samples,
-        }
-    }
-}
-
 impl<const N: usize> Gaussian<N> {
     /// The distribution one step later.
     #[inline]
-    fn predicted(&self, step: &Step<N>) -> Gaussian<N> {
-        let mut mean = times(&step.transition, &self.mean);
-        for (value, offset) in mean.iter_mut().zip(step.offset) {
-            *value += offset;
-        }
+    pub fn predicted(&self, step: &Step<N>) -> Gaussian<N> {
         Gaussian {
-            mean,
+            mean: times(&step.transition, &self.mean) + step.offset,
             covariance: congruent(&step.transition, &self.covariance, &step.noise),
         }
     }
 
     /// Takes a sample in; its prediction error and the variance of that.
     #[inline]
-    fn update(&mut self, sample: &Sample<N>) -> (f64, f64) {
+    pub fn update(&mut self, sample: &Sample<N>) -> (f64, f64) {
         let shared = times(&self.covariance, &sample.row);
-        let variance = dot(&shared, &sample.row) + sample.variance;
-        let error = sample.value - dot(&sample.row, &self.mean);
-        for i in 0..N {
-            let gain = shared[i] / variance;
-            self.mean[i] += gain * error;
-            for j in 0..=i {
-                self.covariance[i][j] -= gain * shared[j];
-                self.covariance[j][i] = self.covariance[i][j];
-            }
-        }
+        let variance = shared.dot(&sample.row) + sample.variance;
+        let error = sample.value - sample.row.dot(&self.mean);
+        self.mean += shared * (error / variance);
+        self.covariance -= Matrix::from_fn(|i, j| shared[i] * shared[j] / variance);
         (error, variance)
     }
 }
 
 /// The prediction error decomposition of the likelihood.
-pub(super) fn evidence<const N: usize>(model: &impl Model<N>) -> Evidence {
+pub(super) fn evidence<const N: usize>(model: &Deviations<'_>) -> Evidence {
     let mut evidence = Evidence::default();
-    run(
+    run::<N>(
         model,
         |_, _| (),
         |_, error, variance| {
@@ -129,12 +94,12 @@ pub(super) fn evidence<const N: usize>(model: &impl Model<N>) -> Evidence {
 
 /// Runs the filter; `before` sees each node's distribution before its sample, `after` prediction errors and their variances.
 pub(super) fn run<const N: usize>(
-    model: &impl Model<N>,
+    model: &Deviations<'_>,
     mut before: impl FnMut(usize, &Gaussian<N>),
     mut after: impl FnMut(usize, f64, f64),
 ) -> Gaussian<N> {
     let mut now = model.start();
-    for node in 0..model.nodes() {
+    for node in 0..model.observed.len() {
         if node > 0 {
             now = now.predicted(&model.step(node - 1));
         }
@@ -154,9 +119,9 @@ pub(super) fn run<const N: usize>(
 /// x(k) = Φ⁻¹ (x(k+1) − c − ŵ) and P(k) = Φ⁻¹ [Q − QWQ + (I − QW) P(k+1) (I − WQ)] Φ⁻ᵀ, which has no difference of large
 /// numbers where the start is diffuse.
 pub(super) fn smooth<const N: usize>(
-    model: &impl Model<N>,
+    model: &Deviations<'_>,
 ) -> (Vec<Gaussian<N>>, Vec<Option<f64>>) {
-    let nodes = model.nodes();
+    let nodes = model.observed.len();
     let mut path = Vec::with_capacity(nodes);
     let mut innovations = vec![None; nodes];
     let last = run(
@@ -181,103 +146,60 @@ fn earlier<const N: usize>(
     predicted: &Gaussian<N>,
     later: &Gaussian<N>,
 ) -> Gaussian<N> {
-    // Q W, W the inverse of the predicted covariance.
-    let share = divided(&step.noise, &predicted.covariance);
-    let moved: Vector<N> = std::array::from_fn(|i| later.mean[i] - predicted.mean[i]);
-    let noise = times(&share, &moved);
-    let back: Vector<N> = std::array::from_fn(|i| later.mean[i] - step.offset[i] - noise[i]);
-    // Q − Q W Q
-    let mut left = step.noise;
-    let mut kept = [[0.0; N]; N];
-    for i in 0..N {
-        for j in 0..N {
-            kept[i][j] = f64::from(u8::from(i == j)) - share[i][j];
-            for k in 0..N {
-                left[i][j] -= share[i][k] * step.noise[k][j];
-            }
-        }
-    }
+    // Q W
+    let share = precision(&predicted.covariance, &step.noise).transpose();
+    let noise = times(&share, &(later.mean - predicted.mean));
+    let kept = Matrix::identity() - share;
+    let left = step.noise - product(&share, &step.noise);
     let before = congruent(&kept, &later.covariance, &left);
     Gaussian {
-        mean: times(inverse, &back),
-        covariance: congruent(inverse, &before, &[[0.0; N]; N]),
+        mean: times(inverse, &(later.mean - step.offset - noise)),
+        covariance: congruent(inverse, &before, &Matrix::zeros()),
     }
-}
-
-#[inline]
-pub(super) fn dot<const N: usize>(a: &Vector<N>, b: &Vector<N>) -> f64 {
-    let mut sum = 0.0;
-    for i in 0..N {
-        sum += a[i] * b[i];
-    }
-    sum
-}
-
-#[inline]
-pub(super) fn times<const N: usize>(a: &Matrix<N>, x: &Vector<N>) -> Vector<N> {
-    std::array::from_fn(|i| dot(&a[i], x))
 }
 
 /// A P Aᵀ + Q, symmetric.
 #[inline]
-pub(super) fn congruent<const N: usize>(a: &Matrix<N>, p: &Matrix<N>, q: &Matrix<N>) -> Matrix<N> {
-    let mut half = [[0.0; N]; N];
-    for i in 0..N {
-        for k in 0..N {
-            for j in 0..N {
-                half[i][j] += a[i][k] * p[k][j];
-            }
-        }
-    }
-    let mut whole = *q;
-    for i in 0..N {
-        for j in 0..=i {
-            whole[i][j] += dot(&half[i], &a[j]);
-            whole[j][i] = whole[i][j];
-        }
-    }
+fn congruent<const N: usize>(a: &Matrix<N>, p: &Matrix<N>, q: &Matrix<N>) -> Matrix<N> {
+    let half = product(a, p);
+    let mut whole = product(&half, &a.transpose()) + q;
+    whole.fill_upper_triangle_with_lower_triangle();
     whole
 }
 
-/// A P⁻¹ for a symmetric positive P, by its Cholesky factor after scaling to a unit diagonal; pivots that rounding has made
-/// negative count as the rounding itself.
+/// A B, in loops that are short enough to be unrolled.
 #[inline]
-fn divided<const N: usize>(a: &Matrix<N>, p: &Matrix<N>) -> Matrix<N> {
-    let scale: Vector<N> = std::array::from_fn(|i| 1.0 / p[i][i].sqrt());
-    let mut lower = [[0.0; N]; N];
-    for j in 0..N {
-        for i in j..N {
-            let mut sum = p[i][j] * scale[i] * scale[j];
-            for k in 0..j {
-                sum -= lower[i][k] * lower[j][k];
-            }
-            lower[i][j] = if i == j {
-                sum.max(f64::EPSILON).sqrt()
-            } else {
-                sum / lower[j][j]
-            };
+fn product<const N: usize>(a: &Matrix<N>, b: &Matrix<N>) -> Matrix<N> {
+    let column = |b: &[f64; N]| times(a, &Vector::from(*b)).into();
+    Matrix::from(b.data.0.map(|b| column(&b)))
+}
+
+/// A x
+#[inline]
+fn times<const N: usize>(a: &Matrix<N>, x: &Vector<N>) -> Vector<N> {
+    let mut sum = [0.0; N];
+    for (column, x) in a.data.0.iter().zip(&x.data.0[0]) {
+        for (sum, a) in sum.iter_mut().zip(column) {
+            *sum += a * x;
         }
     }
-    let mut solved = *a;
-    for row in &mut solved {
-        for i in 0..N {
-            row[i] *= scale[i];
-        }
-        for i in 0..N {
-            for k in 0..i {
-                row[i] -= lower[i][k] * row[k];
-            }
-            row[i] /= lower[i][i];
-        }
-        for i in (0..N).rev() {
-            for k in i + 1..N {
-                row[i] -= lower[k][i] * row[k];
-            }
-            row[i] /= lower[i][i];
-        }
-        for i in 0..N {
-            row[i] *= scale[i];
-        }
+    Vector::from(sum)
+}
+
+/// P⁻¹ A for a covariance P, scaled to a unit diagonal to which its rounding is added.
+#[inline]
+fn precision<const N: usize>(p: &Matrix<N>, a: &Matrix<N>) -> Matrix<N> {
+    let scale = p.diagonal().map(|variance| 1.0 / variance.sqrt());
+    let mut unit = p.component_mul(&(scale * scale.transpose()));
+    for k in 0..N {
+        unit[(k, k)] += f64::EPSILON;
     }
-    solved
+    let scaled = Matrix::from_fn(|i, j| scale[i] * a[(i, j)]);
+    match Cholesky::new_with_substitute(unit, f64::EPSILON) {
+        Some(factor) => {
+            let solved = factor.solve(&scaled);
+            Matrix::from_fn(|i, j| scale[i] * solved[(i, j)])
+        }
+        None => Matrix::from_element(f64::NAN),
+    }
 }

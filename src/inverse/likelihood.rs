@@ -63,7 +63,11 @@ impl Linear<'_> {
             }
         };
         let parts = self.stretches.iter().map(of);
-        parts.fold(Evidence::default(), Evidence::plus)
+        parts.fold(Evidence::default(), |sum, part| Evidence {
+            squares: sum.squares + part.squares,
+            log_variances: sum.log_variances + part.log_variances,
+            samples: sum.samples + part.samples,
+        })
     }
 
     /// Likelihood and σ for a corner frequency and a correlation.

@@ -251,15 +251,15 @@ impl<'a> Problem<'a> {
         let estimate =
             |(at, (deviation, innovation)): (usize, (&kalman::Gaussian<N>, &Option<f64>))| {
                 let mut state = path.states[from + at];
-                let pairs = state.iter_mut().zip(deviation.mean).take(dimension);
+                let pairs = state.iter_mut().zip(&deviation.mean).take(dimension);
                 pairs.for_each(|(value, change)| *value += change);
                 let rates = motion.rates(self.grid.times[from + at], &state);
                 let gradient = [rates.by_theta, rates.by_omega, rates.by_unknown];
                 let p = &deviation.covariance;
                 let across: [f64; 3] =
-                    std::array::from_fn(|i| (0..3).map(|k| p[i][k] * gradient[k]).sum::<f64>());
+                    std::array::from_fn(|i| (0..3).map(|k| p[(i, k)] * gradient[k]).sum::<f64>());
                 let own: f64 = (0..3).map(|k| gradient[k] * across[k]).sum();
-                let covariance = [p[0][0], p[0][1], p[1][1], across[0], across[1], own];
+                let covariance = [p[(0, 0)], p[(0, 1)], p[(1, 1)], across[0], across[1], own];
                 Estimate {
                     state,
                     alpha: rates.alpha,

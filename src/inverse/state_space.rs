@@ -1,10 +1,6 @@
 //! The deviations from a nominal path as a state-space model: u is an integrated Wiener process (Gauss-Newton; Bell 1994).
-#![allow(
-    clippy::needless_range_loop,
-    reason = "matrices stand in index notation"
-)]
 
-use super::kalman::{Gaussian, Matrix, Model, Sample, Step, Vector};
+use super::kalman::{Gaussian, Matrix, Sample, Step, Vector};
 use super::linearised::{Linearised, Prior, State};
 
 /// Mean deviation of the samples of a node from the nominal path.
@@ -44,77 +40,75 @@ pub(super) struct Deviations<'a> {
     pub spread: State,
 }
 
-impl<const N: usize> Model<N> for Deviations<'_> {
-    fn nodes(&self) -> usize {
-        self.observed.len()
+impl Deviations<'_> {
+    /// Number of states, that of the noise with them.
+    pub fn dimension(&self) -> usize {
+        self.prior.states() + usize::from(self.correlated.is_some())
     }
 
+    /// The step from a node to the next.
     #[inline]
-    fn step(&self, node: usize) -> Step<N> {
+    pub fn step<const N: usize>(&self, node: usize) -> Step<N> {
         let step = &self.steps[node];
         let dimension = self.prior.states();
-        let mut transition: Matrix<N> = [[0.0; N]; N];
-        let mut noise: Matrix<N> = [[0.0; N]; N];
-        let mut offset: Vector<N> = [0.0; N];
-        for row in 0..2 {
-            transition[row][..dimension].copy_from_slice(&step.top[row][..dimension]);
+        let mut transition = Matrix::identity();
+        let mut noise = Matrix::zeros();
+        for (row, top) in step.top.iter().enumerate() {
+            for (column, value) in top[..dimension].iter().enumerate() {
+                transition[(row, column)] = *value;
+            }
         }
-        for row in 2..dimension {
-            transition[row][row] = 1.0;
-        }
-        offset[..dimension].copy_from_slice(&step.defect[..dimension]);
+        let offset = |i: usize, _| if i < dimension { step.defect[i] } else { 0.0 };
         self.integrate(step, step.h, &mut transition);
         self.add_noise(step, &mut noise);
         if let Some(Autoregression { decay, white }) = self.correlated {
-            let kept = (-decay * step.h).exp();
-            transition[N - 1][N - 1] = kept;
-            noise[N - 1][N - 1] = (1.0 - white) * -(-2.0 * decay * step.h).exp_m1();
+            transition[(N - 1, N - 1)] = (-decay * step.h).exp();
+            noise[(N - 1, N - 1)] = (1.0 - white) * -(-2.0 * decay * step.h).exp_m1();
         }
         Step {
             transition,
-            offset,
+            offset: Vector::from_fn(offset),
             noise,
         }
     }
 
     /// Φ⁻¹ = [[B⁻¹, −B⁻¹ C T⁻¹], [0, T⁻¹]] of Φ = [[B, C], [0, T]].
     #[inline]
-    fn inverse(&self, node: usize) -> Matrix<N> {
+    pub fn inverse<const N: usize>(&self, node: usize) -> Matrix<N> {
         let step = &self.steps[node];
-        let mut inverse: Matrix<N> = [[0.0; N]; N];
+        let mut inverse = Matrix::<N>::identity();
         let [[a, b, ..], [c, d, ..]] = step.top;
         let per = 1.0 / (a * d - b * c);
         let small = [[d * per, -b * per], [-c * per, a * per]];
         for row in 0..2 {
-            inverse[row][..2].copy_from_slice(&small[row]);
-        }
-        for (k, row) in inverse.iter_mut().enumerate().skip(2) {
-            row[k] = 1.0;
+            for column in 0..2 {
+                inverse[(row, column)] = small[row][column];
+            }
         }
         self.integrate(step, -step.h, &mut inverse);
         for k in 2..self.prior.states() {
-            let column = [0, 1].map(|row| {
-                (2..=k)
-                    .map(|i| step.top[row][i] * inverse[i][k])
-                    .sum::<f64>()
+            let [p, q] = [0, 1].map(|row| {
+                let parts = (2..=k).map(|i| step.top[row][i] * inverse[(i, k)]);
+                parts.sum::<f64>()
             });
             for row in 0..2 {
-                inverse[row][k] = -(small[row][0] * column[0] + small[row][1] * column[1]);
+                inverse[(row, k)] = -(small[row][0] * p + small[row][1] * q);
             }
         }
         if let Some(correlated) = self.correlated {
-            inverse[N - 1][N - 1] = (correlated.decay * step.h).exp();
+            inverse[(N - 1, N - 1)] = (correlated.decay * step.h).exp();
         }
         inverse
     }
 
+    /// What was measured at a node.
     #[inline]
-    fn sample(&self, node: usize) -> Option<Sample<N>> {
+    pub fn sample<const N: usize>(&self, node: usize) -> Option<Sample<N>> {
         let observed = &self.observed[node];
         if observed.variance == f64::INFINITY {
             return None;
         }
-        let mut row = [0.0; N];
+        let mut row = Vector::zeros();
         row[0] = observed.slope;
         let mut variance = observed.variance;
         if let Some(correlated) = self.correlated {
@@ -128,25 +122,19 @@ impl<const N: usize> Model<N> for Deviations<'_> {
         })
     }
 
-    fn start(&self) -> Gaussian<N> {
-        let mut covariance = [[0.0; N]; N];
+    /// Mean and covariance before the first sample.
+    pub fn start<const N: usize>(&self) -> Gaussian<N> {
+        let mut covariance = Matrix::zeros();
         for k in 0..self.prior.states() {
-            covariance[k][k] = self.spread[k] * self.spread[k];
+            covariance[(k, k)] = self.spread[k] * self.spread[k];
         }
         if let Some(correlated) = self.correlated {
-            covariance[N - 1][N - 1] = 1.0 - correlated.white;
+            covariance[(N - 1, N - 1)] = 1.0 - correlated.white;
         }
         Gaussian {
-            mean: [0.0; N],
+            mean: Vector::zeros(),
             covariance,
         }
-    }
-}
-
-impl Deviations<'_> {
-    /// Number of states, that of the noise with them.
-    pub fn dimension(&self) -> usize {
-        self.prior.states() + usize::from(self.correlated.is_some())
     }
 
     /// What the derivatives of u and g add to u and to those below them over a time.
@@ -157,11 +145,11 @@ impl Deviations<'_> {
             let mut factor = 1.0;
             for k in i + 1..last {
                 factor *= time / (k - i) as f64;
-                matrix[i][k] = factor;
+                matrix[(i, k)] = factor;
             }
         }
         if self.prior.follows_speed {
-            matrix[2][last] = time * step.tilt;
+            matrix[(2, last)] = time * step.tilt;
         }
     }
 
@@ -175,7 +163,7 @@ impl Deviations<'_> {
             for (m, i) in states.iter().enumerate() {
                 for (n, j) in states.iter().enumerate() {
                     let power = (top - m - n) as f64;
-                    noise[*i][*j] += density * h * response[m] * response[n] / power;
+                    noise[(*i, *j)] += density * h * response[m] * response[n] / power;
                 }
             }
         };
@@ -197,7 +185,6 @@ impl Deviations<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::inverse::kalman::times;
     use crate::inverse::linearised::{Unknown, exponential};
 
     #[test]
@@ -227,10 +214,8 @@ mod tests {
             spread: [1.0; 4],
         };
         let (step, inverse): (Step<5>, Matrix<5>) = (model.step(0), model.inverse(0));
-        let x = [0.3, -1.0, 2.0, 0.7, 0.2];
-        let back = times(&inverse, &times(&step.transition, &x));
-        for (x, back) in x.iter().zip(back) {
-            assert!((x - back).abs() < 1e-14);
-        }
+        let x = Vector::from([0.3, -1.0, 2.0, 0.7, 0.2]);
+        let back = inverse * (step.transition * x);
+        assert!((x - back).amax() < 1e-14);
     }
 }

@@ -232,10 +232,10 @@ impl<'a> Search<'a> {
         let (deviations, innovations) = kalman::smooth::<3>(&self.trials.deviations(model, noise));
         let mut sum = 0.0;
         for (state, deviation) in self.path.states.iter_mut().zip(&deviations) {
-            for (value, change) in state.iter_mut().zip(deviation.mean) {
+            for (value, change) in state.iter_mut().zip(&deviation.mean) {
                 *value += change;
             }
-            let variance = deviation.covariance[0][0] * noise.sigma * noise.sigma;
+            let variance = deviation.covariance[(0, 0)] * noise.sigma * noise.sigma;
             let least = (1e-14 * state[0]).powi(2).max(f64::MIN_POSITIVE);
             sum += deviation.mean[0].powi(2) / variance.max(least);
         }
