@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::reading::ReadingArguments;
-use super::{Outcome, Streams, check_ending, create, fill, is_standard};
+use super::{Outcome, Streams, check_ending, create, fill, is_standard, origin};
 use crate::error::Error;
 use crate::inverse::{self, AsPrinted, FitKind, FitSize, InverseOptions};
 use crate::report;
@@ -47,6 +47,9 @@ pub(super) struct Arguments {
     /// Draws samples, fit, residuals, force and torque with their bands to this SVG file
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
+    /// Writes mechanism, samples, curves with their bands and key figures as one HTML page to this file
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
     /// Prints the summary as one JSON object
     #[arg(long)]
     json: bool,
@@ -110,7 +113,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let streams = Streams::new(
         &[arguments.scene.as_ref(), arguments.data.as_ref()],
         arguments.out.as_ref(),
-        &[arguments.residuals.as_ref(), arguments.plot.as_ref()],
+        &[
+            arguments.residuals.as_ref(),
+            arguments.plot.as_ref(),
+            arguments.report.as_ref(),
+        ],
         arguments.json,
     )?;
     if is_standard(arguments.scene.as_ref()) && is_standard(arguments.data.as_ref()) {
@@ -128,6 +135,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let scene = draft.scene()?;
     streams.spare_tables(&scene)?;
     check_ending(arguments.plot.as_ref(), &["svg"])?;
+    check_ending(arguments.report.as_ref(), &["html", "htm"])?;
     let options = InverseOptions {
         fit: match (arguments.fit, arguments.degree) {
             // A degree asks for a polynomial.
@@ -145,6 +153,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let out = create(arguments.out.as_ref())?;
     let residuals = create(arguments.residuals.as_ref())?;
     let plot = create(arguments.plot.as_ref())?;
+    let page = create(arguments.report.as_ref())?;
     // What is odd in the data may be why it is refused.
     let uncertain = draft.uncertain()?;
     let mut result = inverse::inverse_of_uncertain(&scene, &uncertain, &measurement, &options)
@@ -158,6 +167,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         report::residuals(&result, output)?;
     }
     fill(plot, || report::inverse_figure(&result, printed.as_ref()))?;
+    fill(page, || {
+        let origin = origin(arguments.scene.as_ref());
+        report::inverse_page(&result, &scene, &origin)
+    })?;
     streams.show(&result.summary, || {
         report::inverse(&result, printed.as_ref())
     })?;

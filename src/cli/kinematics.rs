@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
-    Outcome, Streams, angle, check_ending, check_rows_of_turn, create, fill, length,
+    Outcome, Streams, angle, check_ending, check_rows_of_turn, create, fill, length, origin,
     positive_angle, quantity, say,
 };
 use crate::error::Error;
@@ -54,6 +54,9 @@ pub(super) struct Arguments {
     /// Draws position, velocity, acceleration, and torque with --forces, to this SVG file
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
+    /// Writes the mechanism, curves and key figures as one HTML page to this file
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
     /// Prints the summary as one JSON object
     #[arg(long)]
     json: bool,
@@ -63,12 +66,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let streams = Streams::new(
         &[arguments.scene.as_ref()],
         arguments.out.as_ref(),
-        &[arguments.plot.as_ref()],
+        &[arguments.plot.as_ref(), arguments.report.as_ref()],
         arguments.json,
     )?;
     check_rows_of_turn(arguments.every)?;
     let mut scene = streams.scene(arguments.scene.as_ref())?;
     check_ending(arguments.plot.as_ref(), &["svg"])?;
+    check_ending(arguments.report.as_ref(), &["html", "htm"])?;
     if let Some((stroke, ratio)) = arguments.stroke.zip(arguments.rod_ratio) {
         let (crank, rod) =
             crate::kinematics::size_from_stroke(stroke, ratio, scene.geometry.offset)?;
@@ -76,14 +80,17 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         say(&report::sized(crank, rod));
     }
     let result = crate::kinematics::one_turn(&scene, &arguments.options())?;
-    let (out, plot) = (
-        create(arguments.out.as_ref())?,
-        create(arguments.plot.as_ref())?,
-    );
+    let out = create(arguments.out.as_ref())?;
+    let plot = create(arguments.plot.as_ref())?;
+    let page = create(arguments.report.as_ref())?;
     if let Some(output) = out {
         report::turn_rows(&result, arguments.every, output)?;
     }
     fill(plot, || report::turn_figure(&result))?;
+    fill(page, || {
+        let origin = origin(arguments.scene.as_ref());
+        report::turn_page(&result, arguments.every, &scene, &origin)
+    })?;
     streams.show(&result, || report::turn(&result))?;
     Ok(Outcome::Done)
 }

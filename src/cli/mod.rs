@@ -21,8 +21,9 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use crate::error::Error;
-use crate::scene::Scene;
+use crate::report::Origin;
 use crate::scene::unit::{self, Quantity};
+use crate::scene::{DUARTE, Scene};
 use streams::{
     Streams, check_ending, check_files, create, fill, is_standard, print, say, say_styled,
 };
@@ -112,6 +113,35 @@ fn scene(file: Option<&PathBuf>) -> Result<Scene, Error> {
         Some(file) => Scene::load(file),
         None => Ok(Scene::duarte()),
     }
+}
+
+/// Where a result comes from: the text of its scene, as far as it can be read again, and the command.
+fn origin(file: Option<&PathBuf>) -> Origin {
+    Origin {
+        scene: match file {
+            Some(file) if is_standard(Some(file)) => None,
+            Some(file) => std::fs::read_to_string(file).ok(),
+            None => Some(DUARTE.to_owned()),
+        },
+        command: command_line(),
+    }
+}
+
+/// The command of this process as a shell reads it.
+fn command_line() -> String {
+    let quoted = |argument: String| {
+        let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+@%".contains(c);
+        match !argument.is_empty() && argument.chars().all(plain) {
+            true => argument,
+            false => format!("'{}'", argument.replace('\'', "'\\''")),
+        }
+    };
+    let arguments = std::env::args_os().skip(1);
+    let arguments = arguments.map(|argument| quoted(argument.to_string_lossy().into_owned()));
+    std::iter::once("slider-crank".to_owned())
+        .chain(arguments)
+        .collect::<Vec<_>>()
+        .join(" ")
 }
 
 fn quantity(text: &str, quantity: Quantity) -> Result<f64, String> {

@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Outcome, check_ending, check_files, create, fill, is_standard, print, say, scene};
+use super::{
+    Outcome, check_ending, check_files, create, fill, is_standard, origin, print, say, scene,
+};
 use crate::error::Error;
 use crate::precision::{Precision, PrecisionOptions};
 use crate::report;
@@ -25,6 +27,9 @@ pub(super) struct Arguments {
     /// Draws error against time as SVG to this file, one panel for each scene; `-` for standard output
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
+    /// Writes error against time as one HTML page to this file
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
     /// Prints the comparison as one JSON object
     #[arg(long)]
     json: bool,
@@ -65,6 +70,7 @@ impl Arguments {
         let others = [
             is_standard(self.out.as_ref()),
             is_standard(self.plot.as_ref()),
+            is_standard(self.report.as_ref()),
             self.json,
         ];
         match others.into_iter().filter(|taken| *taken).count() {
@@ -91,14 +97,20 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let scenes = scenes(&files)?;
     let tables = scenes.iter().flat_map(Scene::table_files);
     let read: Vec<&Path> = files.iter().map(PathBuf::as_path).chain(tables).collect();
-    let written = [&arguments.out, &arguments.plot].into_iter().flatten();
+    let written = [&arguments.out, &arguments.plot, &arguments.report];
+    let written = written.into_iter().flatten();
     check_files(&read, &written.cloned().collect::<Vec<_>>())?;
     check_ending(arguments.plot.as_ref(), &["svg"])?;
+    check_ending(arguments.report.as_ref(), &["html", "htm"])?;
     let rows = create(arguments.out.as_ref())?;
     let plot = create(arguments.plot.as_ref())?;
+    let page = create(arguments.report.as_ref())?;
     let results = compare(&scenes, &arguments.options(), text_on_stdout)?;
     fill(rows, || report::precision_csv(&results))?;
     fill(plot, || report::precision_figure(&results))?;
+    fill(page, || {
+        report::precision_page(&results, &origin(files.first()))
+    })?;
     if arguments.json {
         print(&report::json(&serde_json::json!({ "scenes": results }))?)?;
     }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Outcome, Streams, check_ending, create, fill};
+use super::{Outcome, Streams, check_ending, create, fill, origin};
 use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{self, PlotRows, Preview, RowWriter};
@@ -22,7 +22,7 @@ pub(super) struct Arguments {
     /// Draws the rows as SVG: slider motion, and of a loose joint the force and the journal's path
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
-    /// Writes summary, figure, what is modelled, events and some rows as one HTML page to this file
+    /// Writes the mechanism in motion, curves, key figures and what is modelled as one HTML page to this file
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
     /// Prints the summary as one JSON object
@@ -116,6 +116,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         arguments.json,
     )?;
     let mut scene = streams.scene(arguments.scene.as_ref())?;
+    let origin = origin(arguments.scene.as_ref());
     check_ending(arguments.plot.as_ref(), &["svg"])?;
     check_ending(arguments.report.as_ref(), &["html", "htm"])?;
     if let Some(tolerance) = arguments.tolerance {
@@ -136,7 +137,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let mut rows = Rows {
         plot: (figure.is_some() || page.is_some()).then(PlotRows::default),
         writer: output.map(RowWriter::new),
-        preview: (streams.text_on_stdout() || page.is_some()).then(Preview::default),
+        preview: streams.text_on_stdout().then(Preview::default),
     };
     let result = crate::simulate::simulate_rows(&scene, &arguments.options(), &mut rows)?;
     if let Some(writer) = rows.writer {
@@ -147,13 +148,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let preview = rows.preview.map_or(Vec::new(), |preview| preview.rows());
     if let Some(plot) = &rows.plot {
         fill(figure, || plot.to_svg(&summary))?;
-        fill(page, || report::page(&summary, &preview, plot))?;
+        fill(page, || plot.page(&summary, &scene, &origin))?;
     }
-    let shown = match streams.text_on_stdout() {
-        true => &preview[..],
-        false => &[],
-    };
-    streams.show(&summary, || report::summary(&summary, shown))?;
+    streams.show(&summary, || report::summary(&summary, &preview))?;
     Ok(match summary.stopped {
         Some(message) => Outcome::Incomplete(message),
         None => Outcome::Done,

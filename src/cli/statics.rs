@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
-    Outcome, Streams, angle, check_ending, check_rows_of_turn, create, fill, length,
+    Outcome, Streams, angle, check_ending, check_rows_of_turn, create, fill, length, origin,
     positive_angle, print, quantity,
 };
 use crate::error::Error;
@@ -53,8 +53,11 @@ pub(super) struct Arguments {
     /// Draws force or torque with its friction band, and the side thrust, to this SVG file
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
+    /// Writes the mechanism, curves and key figures as one HTML page to this file
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
     /// Calibration of a force sensor instead: a CSV file of loads and readings, like `load [N],strain`
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "out", "plot", "torque", "weight", "force"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "out", "plot", "report", "torque", "weight", "force"])]
     calibration: Option<PathBuf>,
     /// Reading that the calibration takes back to a force; may be given again
     #[arg(
@@ -114,21 +117,25 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let streams = Streams::new(
         &[arguments.scene.as_ref()],
         arguments.out.as_ref(),
-        &[arguments.plot.as_ref()],
+        &[arguments.plot.as_ref(), arguments.report.as_ref()],
         arguments.json,
     )?;
     check_rows_of_turn(arguments.every)?;
     let scene = streams.scene(arguments.scene.as_ref())?;
     check_ending(arguments.plot.as_ref(), &["svg"])?;
+    check_ending(arguments.report.as_ref(), &["html", "htm"])?;
     let result = crate::statics::statics(&scene, &arguments.options())?;
-    let (out, plot) = (
-        create(arguments.out.as_ref())?,
-        create(arguments.plot.as_ref())?,
-    );
+    let out = create(arguments.out.as_ref())?;
+    let plot = create(arguments.plot.as_ref())?;
+    let page = create(arguments.report.as_ref())?;
     if let Some(output) = out {
         report::statics_rows(&result, arguments.every, arguments.details, output)?;
     }
     fill(plot, || report::statics_figure(&result))?;
+    fill(page, || {
+        let origin = origin(arguments.scene.as_ref());
+        report::statics_page(&result, arguments.every, &scene, &origin)
+    })?;
     streams.show(&result, || report::statics(&result))?;
     Ok(Outcome::Done)
 }

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use clap::Args;
 
-use super::{Outcome, Streams, say};
+use super::{Outcome, Streams, check_ending, create, fill, origin, say};
 use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{self, SweepWriter};
@@ -30,6 +30,9 @@ pub(super) struct Arguments {
     /// Computes part K of N only, like "2/8"; the files of all parts, one after the other, are the whole
     #[arg(long, value_name = "K/N", value_parser = shard)]
     shard: Option<[usize; 2]>,
+    /// Writes any key figure over any other as one HTML page to this file
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
     /// Prints the summary as one JSON object
     #[arg(long)]
     json: bool,
@@ -69,7 +72,8 @@ fn shard(text: &str) -> Result<[usize; 2], String> {
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let (read, out) = (arguments.scene.as_ref(), arguments.out.as_ref());
-    let streams = Streams::new(&[read], out, &[], arguments.json)?;
+    let streams = Streams::new(&[read], out, &[arguments.report.as_ref()], arguments.json)?;
+    check_ending(arguments.report.as_ref(), &["html", "htm"])?;
     let draft = match read {
         Some(file) => Draft::load(file)?,
         None => Draft::duarte(),
@@ -90,7 +94,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     };
     let sweep = Sweep::new(draft, arguments.vary.clone(), options)?;
     let part = arguments.shard.unwrap_or([1, 1]);
-    let mut writer = SweepWriter::new(out.map(PathBuf::as_path), &sweep, part)?;
+    let page = create(arguments.report.as_ref())?;
+    let mut writer = SweepWriter::new(out.map(PathBuf::as_path), &sweep, part, page.is_some())?;
     let progress = std::io::stderr().is_terminal();
     let begun = Instant::now();
     let mut said = begun;
@@ -103,7 +108,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         }
         Ok(())
     })?;
+    let table = writer.table();
     let summary = writer.finish(begun.elapsed().as_secs_f64())?;
+    if let Some(table) = table {
+        fill(page, || report::sweep_page(&summary, &table, &origin(read)))?;
+    }
     streams.show(&summary, || report::sweep_text(&summary))?;
     Ok(match summary.done() {
         0 if summary.part[0] <= summary.part[1] => Outcome::Incomplete(

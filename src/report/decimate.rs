@@ -36,6 +36,11 @@ impl<T> Thinned<T> {
         }
     }
 
+    /// Every so many items are kept.
+    pub fn stride(&self) -> u64 {
+        self.stride
+    }
+
     /// The items kept.
     pub fn kept(&self) -> &[T] {
         &self.kept

@@ -15,6 +15,7 @@ mod one_turn;
 mod output;
 mod page;
 mod precision;
+mod quantity;
 mod reproduce;
 mod rows;
 mod statics;
@@ -26,18 +27,20 @@ pub use calibration::calibration;
 pub use explain::explanation;
 pub use figure::{Axis, Figure, ScaleKind, panels};
 pub use identify::{identification, identification_csv};
-pub use inverse::{inverse, inverse_figure, inverse_rows, residuals};
+pub use inverse::{inverse, inverse_figure, inverse_page, inverse_rows, residuals};
 pub use motion::PlotRows;
-pub use one_turn::{sized, turn, turn_figure, turn_rows};
+pub use one_turn::{sized, turn, turn_figure, turn_page, turn_rows};
 pub use output::{Output, is_standard_output};
-pub use page::page;
-pub use precision::{precision, precision_csv, precision_figure, precision_notes};
+pub use page::{Origin, Page, Table};
+pub use precision::{precision, precision_csv, precision_figure, precision_notes, precision_page};
 pub use reproduce::{
     ReproductionSummary, drawing_csv, drawing_svg, file_name, reproduction, reproduction_csv,
 };
 pub use rows::{Preview, RowWriter};
-pub use statics::{statics, statics_figure, statics_rows};
-pub use sweep::{SweepExtreme, SweepRange, SweepSummary, SweepWriter, VariedKey, sweep_text};
+pub use statics::{statics, statics_figure, statics_page, statics_rows};
+pub use sweep::{
+    SweepExtreme, SweepRange, SweepSummary, SweepWriter, VariedKey, sweep_page, sweep_text,
+};
 pub use text::summary;
 
 use crate::error::Error;

@@ -4,8 +4,12 @@ use std::f64::consts::TAU;
 
 use super::decimate::Thinned;
 use super::figure::{Axis, Figure, panels};
+use super::page::{Origin, Page, Table};
+use super::rows::{cells, header};
+use super::text::facts;
 use crate::error::Error;
-use crate::simulate::{Row, Summary};
+use crate::scene::Scene;
+use crate::simulate::{Energies, Row, Summary};
 
 /// Rows for a figure, evenly thinned out where there are more than a figure can show.
 #[derive(Debug)]
@@ -15,7 +19,7 @@ pub struct PlotRows(Thinned<Row>);
 const WIDTH_OVER_HEIGHT: f64 = 1.65;
 
 /// Most rows that are kept.
-const MOST: usize = 20_000;
+const MOST: usize = 100_000;
 
 impl Default for PlotRows {
     fn default() -> PlotRows {
@@ -27,6 +31,40 @@ impl PlotRows {
     /// Takes a row.
     pub fn take(&mut self, row: &Row) {
         self.0.take(*row);
+    }
+
+    /// The rows by columns, with their energies.
+    fn table(&self, scene: &Scene) -> Table {
+        let rows = self.0.kept();
+        let energies = Energies::of(scene);
+        let mut names = rows.first().map_or(String::new(), header);
+        if energies.is_some() {
+            names.push_str(",kinetic_energy_j,potential_energy_j,whole_energy_j");
+        }
+        let mut table = Table::new(&names);
+        table.stride = self.0.stride();
+        for row in rows {
+            let mut cells = cells(row);
+            if let Some(energies) = &energies {
+                let [kinetic, potential] = energies.at(row);
+                cells.extend([kinetic, potential, kinetic + potential]);
+            }
+            table.push(cells);
+        }
+        table
+    }
+
+    /// The run as one page.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn page(&self, summary: &Summary, scene: &Scene, origin: &Origin) -> Result<String, Error> {
+        Page::new(origin, &facts(summary))
+            .table(&self.table(scene))
+            .mechanism(scene)
+            .terms(summary)
+            .events(&summary.events, summary.events_total)
+            .html()
     }
 
     /// Slider motion over time, beside that of ideal joints where a joint is loose, with the contact force and

@@ -4,11 +4,13 @@ use std::fmt::Write;
 
 use super::csv::{line, write_all};
 use super::key_values::{Facts, degrees, fact, given, six};
+use super::page::{Origin, Page, Table};
 use super::rows::{REACTIONS, reactions};
 use super::text::{NAMES, extreme, kinematics};
 use super::{Axis, Figure, Output, panels};
 use crate::error::Error;
 use crate::kinematics::{ForceAnalysis, Located, OffsetExtremes, OneTurn, StrokeTorque, TurnRow};
+use crate::scene::Scene;
 
 const POSITION: &str =
     "theta_rad,x_m,dx_m_per_rad,d2x_m_per_rad2,phi_rad,dphi,d2phi,transmission_rad";
@@ -22,6 +24,26 @@ pub fn turn_rows(result: &OneTurn, every: f64, output: Output) -> Result<(), Err
     write_all(output, &columns(result), &rows, |row, text| {
         line(values(row), text)
     })
+}
+
+/// One turn as one page.
+///
+/// # Errors
+/// [`Error::Write`].
+pub fn turn_page(
+    result: &OneTurn,
+    every: f64,
+    scene: &Scene,
+    origin: &Origin,
+) -> Result<String, Error> {
+    let mut table = Table::new(&columns(result));
+    for row in result.rows(every) {
+        table.push(values(&row));
+    }
+    Page::new(origin, &facts(result))
+        .table(&table)
+        .mechanism(scene)
+        .html()
 }
 
 fn columns(result: &OneTurn) -> String {
@@ -91,6 +113,15 @@ pub fn sized(crank: f64, rod: f64) -> String {
 
 /// What the lengths give, and what was asked for beside it.
 pub fn turn(result: &OneTurn) -> String {
+    let mut text = facts(result).lines(NAMES);
+    if let Some(changed) = &result.changed {
+        let changed = kinematics(changed).lines(NAMES);
+        let _ = write!(text, "\nwith the changed lengths\n{changed}");
+    }
+    text
+}
+
+fn facts(result: &OneTurn) -> Facts {
     let mut facts = kinematics(&result.kinematics);
     if let Some(analysis) = &result.forces {
         forces(&mut facts, analysis);
@@ -118,12 +149,7 @@ pub fn turn(result: &OneTurn) -> String {
         let worst = check.worst_x_m;
         fact!(facts, "  off the closed form", "{worst:.1e} m");
     }
-    let mut text = facts.lines(NAMES);
-    if let Some(changed) = &result.changed {
-        let changed = kinematics(changed).lines(NAMES);
-        let _ = write!(text, "\nwith the changed lengths\n{changed}");
-    }
-    text
+    facts
 }
 
 fn forces(facts: &mut Facts, analysis: &ForceAnalysis) {

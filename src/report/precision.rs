@@ -4,30 +4,36 @@ use std::fmt::Write;
 
 use super::csv::{quoted, shortest};
 use super::figure::{Axis, Figure, panels};
-use super::key_values::six;
+use super::key_values::{Facts, six};
+use super::page::{Origin, Page, Scatter, Table};
 use crate::error::Error;
 use crate::precision::{Precision, PrecisionRow};
 use crate::scene::printable;
 
+const COLUMNS: [&str; 9] = [
+    "scene",
+    "method",
+    "tolerance",
+    "error_theta_rad",
+    "error_omega_rad_per_s",
+    "estimate_theta_rad",
+    "wall_s",
+    "evaluations",
+    "steps",
+];
+
 /// The comparison of several scenes as CSV: one row for each method and tolerance, times the least; cells of
 /// what does not exist are empty.
 pub fn precision_csv(scenes: &[Precision]) -> Result<String, Error> {
-    let header = [
-        "scene",
-        "method",
-        "tolerance",
-        "error_theta_rad",
-        "error_omega_rad_per_s",
-        "estimate_theta_rad",
-        "wall_s",
-        "evaluations",
-        "steps",
-    ];
+    quoted(COLUMNS, cells(scenes))
+}
+
+fn cells(scenes: &[Precision]) -> impl Iterator<Item = Vec<String>> {
     let number = |value: Option<f64>| value.map_or(String::new(), shortest);
     let count = |value: Option<u64>| value.map_or(String::new(), |value| value.to_string());
-    let rows = scenes.iter().flat_map(|scene| {
+    scenes.iter().flat_map(move |scene| {
         scene.rows.iter().map(move |row| {
-            [
+            vec![
                 printable(&scene.scene).into_owned(),
                 row.method.clone(),
                 shortest(row.tolerance),
@@ -39,8 +45,41 @@ pub fn precision_csv(scenes: &[Precision]) -> Result<String, Error> {
                 count(row.steps),
             ]
         })
+    })
+}
+
+/// The comparison as one page: error against time, of one scene at a time.
+///
+/// # Errors
+/// [`Error::Write`].
+pub fn precision_page(scenes: &[Precision], origin: &Origin) -> Result<String, Error> {
+    let mut facts = Facts::of(match scenes {
+        [only] => &only.scene,
+        _ => "Speed against error",
     });
-    quoted(header, rows)
+    for scene in scenes {
+        let name = match scenes.len() {
+            1 => "reference",
+            _ => &scene.scene,
+        };
+        facts.add(name, &scene.reference);
+        for note in precision_notes(scene) {
+            facts.add("  note", note);
+        }
+    }
+    let rows: Vec<Vec<String>> = cells(scenes).collect();
+    let table = Table::of_cells(&COLUMNS.map(str::to_owned), &rows);
+    Page::new(origin, &facts)
+        .table(&table)
+        .scatter(Scatter {
+            x: "wall_s".to_owned(),
+            y: "error_theta_rad",
+            log: true,
+            lines: true,
+            kind: "method",
+            within: "scene",
+        })
+        .html()
 }
 
 /// The comparison of one scene as a table.
@@ -177,8 +216,12 @@ fn panel(scene: &Precision) -> Figure {
         Axis::log("wall time, least of repeated runs [s]"),
         Axis::log("error of the crank angle at the end [rad]"),
     );
-    let mut methods: Vec<&str> = scene.rows.iter().map(|row| row.method.as_str()).collect();
-    methods.dedup();
+    let mut methods: Vec<&str> = Vec::new();
+    for row in &scene.rows {
+        if !methods.contains(&row.method.as_str()) {
+            methods.push(&row.method);
+        }
+    }
     for method in methods {
         let rows = scene.rows.iter().filter(|row| row.method == method);
         let points: Vec<_> = rows

@@ -47,38 +47,47 @@ impl RowWriter {
     }
 }
 
+/// Names of the columns of rows like this one.
+pub(super) fn header(row: &Row) -> String {
+    let mut header = MOTION.to_owned();
+    for (given, columns) in [
+        (row.reactions.is_some(), REACTIONS),
+        (row.driving_torque.is_some(), TORQUE),
+        (row.clearance.is_some(), CLEARANCE),
+    ] {
+        if given {
+            header.push(',');
+            header.push_str(columns);
+        }
+    }
+    header
+}
+
+/// The cells of a row.
+pub(super) fn cells(row: &Row) -> Vec<f64> {
+    let mut values = vec![
+        row.t, row.theta, row.omega, row.alpha, row.x, row.v, row.a, row.phi,
+    ];
+    if let Some(forces) = &row.reactions {
+        values.extend(reactions(forces));
+    }
+    values.extend(row.driving_torque);
+    if let Some(joint) = &row.clearance {
+        values.extend(joint.ideal);
+        values.extend(joint.journal);
+        values.push(joint.force);
+    }
+    values
+}
+
 impl RowSink for RowWriter {
     fn row(&mut self, row: &Row) -> Result<(), Error> {
         if !self.header {
-            let mut header = MOTION.to_owned();
-            for (given, columns) in [
-                (row.reactions.is_some(), REACTIONS),
-                (row.driving_torque.is_some(), TORQUE),
-                (row.clearance.is_some(), CLEARANCE),
-            ] {
-                if given {
-                    header.push(',');
-                    header.push_str(columns);
-                }
-            }
-            header.push('\n');
-            self.output.write(header.as_bytes())?;
+            self.output.write(format!("{}\n", header(row)).as_bytes())?;
             self.header = true;
         }
-        let mut values = vec![
-            row.t, row.theta, row.omega, row.alpha, row.x, row.v, row.a, row.phi,
-        ];
-        if let Some(forces) = &row.reactions {
-            values.extend(reactions(forces));
-        }
-        values.extend(row.driving_torque);
-        if let Some(joint) = &row.clearance {
-            values.extend(joint.ideal);
-            values.extend(joint.journal);
-            values.push(joint.force);
-        }
         let mut text = Vec::with_capacity(256);
-        line(values, &mut text);
+        line(cells(row), &mut text);
         self.output.write(&text)
     }
 }

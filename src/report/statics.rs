@@ -4,9 +4,11 @@ use std::fmt::Write;
 
 use super::csv::{self, write_all};
 use super::key_values::{Facts, fact, given};
+use super::page::{Origin, Page, Table};
 use super::text::{NAMES, extreme, place};
 use super::{Axis, Figure, Output, panels};
 use crate::error::Error;
+use crate::scene::Scene;
 use crate::statics::{StaticAnalysis, StaticsRow};
 
 const FORCE: &str = "slider_force_n,slider_force_min_n,slider_force_max_n";
@@ -21,53 +23,65 @@ pub fn statics_rows(
     details: bool,
     output: Output,
 ) -> Result<(), Error> {
+    let rows: Vec<StaticsRow> = result.rows(every).collect();
+    write_all(output, &header(result, details), &rows, |row, text| {
+        csv::line(cells(row, details), text);
+    })
+}
+
+fn header(result: &StaticAnalysis, details: bool) -> String {
     let sought = match result.sought {
         "crank-torque" => TORQUE,
         _ => FORCE,
     };
     let mut columns = vec!["theta_rad", sought, REST];
     columns.extend(details.then_some(DETAILS));
-    let rows: Vec<StaticsRow> = result.rows(every).collect();
+    columns.join(",")
+}
+
+fn cells(row: &StaticsRow, details: bool) -> Vec<f64> {
     let cell = |value: Option<f64>| value.unwrap_or(f64::NAN);
-    write_all(output, &columns.join(","), &rows, |row, text| {
-        let band = row.balance.band;
-        let mut values = vec![
-            row.theta,
-            cell(band.map(|band| band.value)),
-            cell(band.and_then(|band| band.min)),
-            cell(band.and_then(|band| band.max)),
-            cell(row.balance.side_thrust),
-            row.transmission,
-            f64::from(u8::from(row.balance.self_locking)),
-        ];
-        if details {
-            values.extend([row.velocity_ratio, row.crank_pin_angle]);
-        }
-        csv::line(values, text);
-    })
+    let band = row.balance.band;
+    let mut values = vec![
+        row.theta,
+        cell(band.map(|band| band.value)),
+        cell(band.and_then(|band| band.min)),
+        cell(band.and_then(|band| band.max)),
+        cell(row.balance.side_thrust),
+        row.transmission,
+        f64::from(u8::from(row.balance.self_locking)),
+    ];
+    if details {
+        values.extend([row.velocity_ratio, row.crank_pin_angle]);
+    }
+    values
+}
+
+/// The equilibrium as one page.
+///
+/// # Errors
+/// [`Error::Write`].
+pub fn statics_page(
+    result: &StaticAnalysis,
+    every: f64,
+    scene: &Scene,
+    origin: &Origin,
+) -> Result<String, Error> {
+    let mut table = Table::new(&header(result, true));
+    for row in result.rows(every) {
+        table.push(cells(&row, true));
+    }
+    Page::new(origin, &facts(result))
+        .table(&table)
+        .mechanism(scene)
+        .with_poles()
+        .html()
 }
 
 /// What holds the equilibrium, in words and in a table of a few angles.
 pub fn statics(result: &StaticAnalysis) -> String {
-    let (what, unit) = match result.sought {
-        "crank-torque" => ("crank torque", "N m"),
-        _ => ("slider force", "N"),
-    };
-    let mut facts = Facts::of(&result.scene);
-    facts.add("class", result.class);
-    fact!(facts, "sought", "{what} beside the other loads");
-    facts.add("friction coefficient", given(result.friction));
-    for found in &result.least {
-        facts.add("least", extreme(found, unit));
-    }
-    for found in &result.least_with_friction {
-        facts.add("least with friction", extreme(found, unit));
-    }
-    for position in &result.positions {
-        facts.add(position.kind, place(position));
-    }
-    facts.warnings(&result.warnings);
-    let mut text = facts.lines(NAMES);
+    let mut text = facts(result).lines(NAMES);
+    let (what, unit) = sought(result);
     let header = [
         "theta [deg]".to_owned(),
         format!("{what} [{unit}]"),
@@ -93,6 +107,33 @@ pub fn statics(result: &StaticAnalysis) -> String {
         line(&mut text, &cells);
     }
     text
+}
+
+/// What is sought, and its unit.
+fn sought(result: &StaticAnalysis) -> (&'static str, &'static str) {
+    match result.sought {
+        "crank-torque" => ("crank torque", "N m"),
+        _ => ("slider force", "N"),
+    }
+}
+
+fn facts(result: &StaticAnalysis) -> Facts {
+    let (what, unit) = sought(result);
+    let mut facts = Facts::of(&result.scene);
+    facts.add("class", result.class);
+    fact!(facts, "sought", "{what} beside the other loads");
+    facts.add("friction coefficient", given(result.friction));
+    for found in &result.least {
+        facts.add("least", extreme(found, unit));
+    }
+    for found in &result.least_with_friction {
+        facts.add("least with friction", extreme(found, unit));
+    }
+    for position in &result.positions {
+        facts.add(position.kind, place(position));
+    }
+    facts.warnings(&result.warnings);
+    facts
 }
 
 fn line(text: &mut String, cells: &[String; 6]) {

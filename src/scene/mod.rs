@@ -42,7 +42,7 @@ mod variable;
 mod vary;
 
 #[cfg(feature = "cli")]
-use builtin::DUARTE;
+pub(crate) use builtin::DUARTE;
 
 use std::path::Path;
 

@@ -12,6 +12,7 @@ mod configuration_curve;
 mod crank_watch;
 mod dense_rows;
 mod driving_torque;
+mod energies;
 mod error_estimate;
 mod forward;
 mod guide_friction;
@@ -38,6 +39,7 @@ mod stop_reason;
 
 pub use crate::mechanism::Reactions;
 pub use clearance::{Beyond, ClearanceSummary, ContactStatistics, Horizon, LooseFinal};
+pub use energies::Energies;
 pub use joint_force_maxima::{Peak, Peaks};
 pub use options::Options;
 pub use result::{Cost, ErrorEstimate, Event, Final, Piece, Summary, TorqueRange};

@@ -1,69 +1,96 @@
-//! `simulate --report`: one page that needs nothing beside it.
+//! `--report`: one page that needs nothing beside it, for every command with rows.
+
+use std::process::Command;
 
 use super::program::{Folder, free};
 
-/// Every element that is opened is closed, in the right order.
-#[track_caller]
-fn balanced(page: &str) {
-    let mut open = Vec::new();
-    for part in page.split('<').skip(1) {
-        let tag = part.split('>').next().expect("the end of a tag");
-        let name = tag.split([' ', '\n', '/']).find(|word| !word.is_empty());
-        let name = name.unwrap_or_default();
-        if tag.starts_with('/') {
-            assert_eq!(open.pop(), Some(name), "closed in another order");
-        } else if !tag.ends_with('/') && !["!DOCTYPE", "meta"].contains(&name) {
-            open.push(name);
-        }
-    }
-    assert!(open.is_empty(), "left open: {open:?}");
+/// The commands with a page, in a folder with `scene.toml`.
+const COMMANDS: [&[&str]; 6] = [
+    &["simulate", "scene.toml", "--reactions"],
+    &["kinematics", "scene.toml", "--forces"],
+    &["statics", "scene.toml", "--torque", "1 N m"],
+    &["inverse"],
+    &[
+        "precision",
+        "scene.toml",
+        "--repeats",
+        "1",
+        "--tolerances",
+        "1e-6,1e-9",
+    ],
+    &[
+        "sweep",
+        "scene.toml",
+        "--vary",
+        "geometry.offset=0 mm:10 mm:5",
+    ],
+];
+
+/// The part of a page that is not scripts.
+fn outside_scripts(page: &str) -> String {
+    let mut parts = page.split("<script");
+    let first = parts.next().unwrap_or_default().to_owned();
+    parts.fold(first, |text, part| {
+        text + part.split("</script>").nth(1).unwrap_or_default()
+    })
 }
 
 #[test]
-fn the_page_shows_summary_figure_terms_events_and_rows() {
-    let folder = Folder::with(&format!("title = \"A pump\"\n{}", free("revolutions = 3")));
+fn the_page_shows_key_figures_terms_events_scene_and_command() {
+    let text = format!("title = \"A pump\"\n{}", free("revolutions = 3"));
+    let folder = Folder::with(&text);
     let arguments = ["simulate", "scene.toml", "--report", "page.html"];
     let shown = folder.run(&arguments).done().stdout;
-    let page = folder.read("page.html");
+    // A slash may be written as its number.
+    let page = outside_scripts(&folder.read("page.html")).replace("&#x2f;", "/");
     assert!(page.starts_with("<!DOCTYPE html>"));
-    balanced(&page);
-    let (facts, rows) = shown.split_once("\n\n").expect("facts, then rows");
-    assert!(page.contains(rows), "no rows on the page");
+    let (facts, _) = shown.split_once("\n\n").expect("facts, then rows");
     for line in facts.lines() {
         let value = line[18..].trim();
         assert!(page.contains(value), "`{value}` is not on the page");
     }
     for wanted in [
         "<title>A pump</title>",
-        "<svg",
-        "slider acceleration",
         "What is modelled",
         "slider inertia",
         "Coulomb friction",
         "dead-centre",
-        "Some rows",
+        "[geometry]",
+        "slider-crank simulate scene.toml --report page.html",
     ] {
         assert!(page.contains(wanted), "no `{wanted}` on the page");
-    }
-    for elsewhere in ["src=", "href=", "<script", "@import", "url(http"] {
-        assert!(!page.contains(elsewhere), "`{elsewhere}` on the page");
     }
     assert_eq!(folder.names(), ["page.html", "scene.toml"]);
 }
 
 #[test]
+fn every_command_with_rows_has_a_page_and_nothing_is_loaded() {
+    let folder = Folder::with(&free("revolutions = 3"));
+    for command in COMMANDS {
+        let arguments = [command, &["--report", "page.html"]].concat();
+        folder.run(&arguments).done();
+        let page = folder.read("page.html");
+        assert!(page.contains("slider-crank "), "{command:?}");
+        for elsewhere in ["src=", "@import", "url(", "<script src", "fetch("] {
+            let outside = outside_scripts(&page);
+            assert!(!outside.contains(elsewhere), "{command:?}: `{elsewhere}`");
+        }
+    }
+}
+
+#[test]
 fn texts_of_the_scene_mean_themselves() {
-    let title = "title = 'r < l & \"e\" > 0 <script>alert(1)</script>'\n";
+    let script = "<script>alert(1)</script>";
+    let title = format!("title = 'r < l & \"e\" > 0 {script}'\n");
     let folder = Folder::with(&format!("{title}{}", free("revolutions = 1")));
-    folder
-        .run(&["simulate", "scene.toml", "--json", "--report", "page.html"])
-        .done();
-    let page = folder.read("page.html");
-    balanced(&page);
-    assert!(page.contains(
-        "<h1>r &lt; l &amp; &quot;e&quot; &gt; 0 &lt;script&gt;alert(1)&lt;/script&gt;</h1>"
-    ));
-    assert!(!page.contains("<script"));
+    for command in COMMANDS.iter().filter(|command| command.len() > 1) {
+        folder
+            .run(&[command, &["--report", "page.html"][..]].concat())
+            .done();
+        let page = folder.read("page.html");
+        assert!(!page.contains(script), "{command:?}");
+        assert!(page.contains("<h1>r &lt; l &amp; &quot;e&quot; &gt; 0 &lt;script&gt;"));
+    }
 }
 
 #[test]
@@ -77,8 +104,7 @@ fn the_page_of_a_run_that_ends_early_says_so() {
     .concat();
     assert_eq!(folder.run(&arguments).code, Some(1));
     let page = folder.read("page.html");
-    balanced(&page);
-    assert!(page.contains("<tr class=\"warning\"><th>stopped early</th>"));
+    assert!(page.contains("role=\"note\"><strong>stopped early</strong>"));
 }
 
 #[test]
@@ -88,6 +114,130 @@ fn the_page_goes_to_a_file_of_its_own() {
     run(&["--report", "-"]).fails(2, &["standard output"]);
     run(&["--report", "scene.toml"]).fails(2, &["overwritten"]);
     run(&["--report", "a", "--plot", "a"]).fails(2, &["two results"]);
+    run(&["--report", "a.pdf"]).fails(2, &["a.html"]);
     run(&["--report", "none/page.html"]).fails(1, &["none"]);
     assert_eq!(folder.names(), ["scene.toml"]);
+}
+
+/// A browser without a window, if this machine has one.
+fn browser() -> Option<&'static str> {
+    let found = |name: &&str| Command::new(name).arg("--version").output().is_ok();
+    ["chromium", "chromium-browser", "google-chrome"]
+        .into_iter()
+        .find(found)
+}
+
+/// What a script finds out on a page, where time passes as fast as it can and frames are drawn by its clock: the errors of the page, the number of things that it loaded, and what the script says.
+fn probed(browser: &str, folder: &Folder, page: &str, script: &str) -> Vec<String> {
+    let watch = "<script>window.failed = []; addEventListener('error', (e) => failed.push(e.message)); \
+                 console.error = (...all) => failed.push(all.join(' ')); \
+                 window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 16);</script>";
+    let ask = format!(
+        "<script>(async () => {{
+            const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+            const key = (name) => document.body.dispatchEvent(new KeyboardEvent('keydown', {{ key: name, bubbles: true }}));
+            const get = (id) => document.getElementById(id);
+            const said = [];
+            await wait(200);
+            {script}
+            said.unshift(failed.join('; '), performance.getEntriesByType('resource').length);
+            const note = document.createElement('pre');
+            note.id = 'probe';
+            note.textContent = said.join('|');
+            document.body.append(note);
+        }})();</script></body>"
+    );
+    let page = page
+        .replacen("<head>", &format!("<head>{watch}"), 1)
+        .replacen("</body>", &ask, 1);
+    let file = folder.path("probe.html");
+    std::fs::write(&file, page).expect("a page to probe");
+    let output = Command::new(browser)
+        .args([
+            "--headless=new",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--virtual-time-budget=8000",
+        ])
+        .arg(format!(
+            "--user-data-dir={}",
+            folder.path("profile").display()
+        ))
+        .arg("--dump-dom")
+        .arg(format!("file://{}", file.display()))
+        .output()
+        .expect("the browser");
+    let dom = String::from_utf8_lossy(&output.stdout).into_owned();
+    let said = dom.split("<pre id=\"probe\">").nth(1).expect("an answer");
+    let said = said.split("</pre>").next().unwrap_or_default();
+    said.split('|').map(str::to_owned).collect()
+}
+
+#[test]
+fn pages_run_in_a_browser() {
+    let Some(browser) = browser() else {
+        eprintln!("no Chromium here: the pages are not opened");
+        return;
+    };
+    let folder = Folder::with(&free("revolutions = 3"));
+    for command in COMMANDS {
+        let more = ["--report", "page.html"];
+        folder.run(&[command, &more[..]].concat()).done();
+        let page = folder.read("page.html");
+        let script = "said.push(document.querySelectorAll('canvas').length);";
+        let said = probed(browser, &folder, &page, script);
+        assert_eq!(said[..2], ["", "0"], "{command:?}");
+        assert!(
+            said[2].parse::<u32>().is_ok_and(|plots| plots > 0),
+            "{said:?}"
+        );
+    }
+}
+
+/// The animation moves, keys step, and the cursor has the values of the CSV file.
+#[test]
+fn the_cursor_has_the_values_of_the_rows() {
+    let Some(browser) = browser() else {
+        eprintln!("no Chromium here: the page is not opened");
+        return;
+    };
+    let folder = Folder::with(&free("revolutions = 3"));
+    let files = ["--report", "page.html", "--out", "rows.csv"];
+    folder
+        .run(&[&["simulate", "scene.toml"], &files[..]].concat())
+        .done();
+    let script = "
+        const moving = () => document.querySelector('#mechanism').innerHTML;
+        const before = moving();
+        key(' ');
+        await wait(1000);
+        said.push([moving() !== before, get('play').textContent, get('time').textContent]);
+        key(' ');
+        key('Home');
+        for (let i = 0; i < 5; i++) key('ArrowRight');
+        get('row').open = true;
+        await wait(100);
+        said.push([...document.querySelectorAll('#row td')].slice(0, 8).map((cell) => cell.textContent).join(','));
+        key('n');
+        said.push(get('event').textContent);
+        const plot = document.querySelector('.u-over').getBoundingClientRect();
+        document.querySelector('.u-over').dispatchEvent(
+            new MouseEvent('mousemove', { clientX: plot.left + plot.width / 2, clientY: plot.top + 9, bubbles: true }));
+        await wait(100);
+        said.push(get('place').value);
+        get('over').selectedIndex = 2;
+        get('over').onchange();
+        await wait(100);
+        said.push(document.querySelectorAll('.panel canvas').length);";
+    let said = probed(browser, &folder, &folder.read("page.html"), script);
+    let rows = folder.read("rows.csv");
+    let lines: Vec<&str> = rows.lines().collect();
+    assert_eq!(said[..2], ["", "0"], "{said:?}");
+    assert!(said[2].starts_with("true,Pause"), "{said:?}");
+    assert_eq!(said[3], lines[6]);
+    assert_eq!(said[4], "dead-centre");
+    let middle = (lines.len() - 1) / 2;
+    let row: usize = said[5].parse().expect("a row");
+    assert!(row.abs_diff(middle) < 3, "{row} of {}", lines.len());
+    assert!(said[6].parse::<u32>().is_ok_and(|plots| plots > 5));
 }

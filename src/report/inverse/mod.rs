@@ -5,5 +5,5 @@ mod rows;
 mod text;
 
 pub use plot::inverse_figure;
-pub use rows::{inverse_rows, residuals};
+pub use rows::{inverse_page, inverse_rows, residuals};
 pub use text::inverse;

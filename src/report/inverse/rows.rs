@@ -1,10 +1,13 @@
 //! Rows of `inverse` as CSV, made for millions of them.
 
+use super::text::facts;
 use crate::error::Error;
 use crate::inverse::{AsPrinted, Inverse, InverseRow};
 use crate::report::Output;
 use crate::report::csv::{line, write_all};
+use crate::report::page::{Origin, Page, Table};
 use crate::report::rows::{REACTIONS, reactions};
+use crate::scene::Scene;
 
 const COLUMNS: &str = "t_s,theta_rad,omega_rad_per_s,alpha_rad_per_s2,slider_force_n,slider_force_se_n,crank_torque_nm,near_dead_centre,crank_torque_se_nm";
 
@@ -33,6 +36,38 @@ pub fn inverse_rows(
         }
         line(values, text);
     })
+}
+
+/// Most rows on a page.
+const MOST: usize = 100_000;
+
+/// The inverse as one page: rows with what was measured.
+///
+/// # Errors
+/// [`Error::Write`].
+pub fn inverse_page(result: &Inverse, scene: &Scene, origin: &Origin) -> Result<String, Error> {
+    let data = &result.summary.data;
+    let (name, unit) = (data.column, data.unit);
+    let mut table = Table::new(&format!("{COLUMNS},{name}_measured_{unit},residual_{unit}"));
+    table.stride = result.rows.len().div_ceil(MOST).max(1) as u64;
+    for (row, sample) in result
+        .rows
+        .iter()
+        .zip(&result.residuals)
+        .step_by(table.stride as usize)
+    {
+        table.push(
+            values(row)
+                .into_iter()
+                .chain([sample.measured, sample.residual]),
+        );
+    }
+    Page::new(origin, &facts(result))
+        .table(&table)
+        .mechanism(scene)
+        .band(result.summary.band_factor)
+        .with_poles()
+        .html()
 }
 
 /// Writes what was measured, what the fit gives, and the difference.

@@ -17,6 +17,14 @@ const MOST_WARNINGS: usize = 6;
 
 /// Summary and some rows, with the forces as Duarte et al. print them if given.
 pub fn inverse(result: &Inverse, printed: Option<&AsPrinted>) -> String {
+    let mut text = facts(result).lines(22);
+    let room = LINES.saturating_sub(text.lines().count() + 2);
+    table(&mut text, result, printed, room.clamp(1, ROWS));
+    text
+}
+
+/// What there is to say of an inverse.
+pub(super) fn facts(result: &Inverse) -> Facts {
     let summary = &result.summary;
     let mut facts = Facts::of(&summary.scene);
     let data = &summary.data;
@@ -58,10 +66,7 @@ pub fn inverse(result: &Inverse, printed: Option<&AsPrinted>) -> String {
     if !more.is_empty() {
         fact!(facts, "warning", "{} more: --json has all", more.len());
     }
-    let mut text = facts.lines(22);
-    let room = LINES.saturating_sub(text.lines().count() + 2);
-    table(&mut text, result, printed, room.clamp(1, ROWS));
-    text
+    facts
 }
 
 /// Stretches without a force, a line for each reason.

@@ -1,131 +1,264 @@
-//! A run as one HTML page that needs nothing beside it.
+//! A result as one HTML page that opens offline: the mechanism in motion, linked plots, key figures, plan and scene.
 
-use std::fmt::Write;
+mod drawing;
+mod table;
 
-use super::motion::PlotRows;
-use super::text::{facts, table};
+use minijinja::{AutoEscape, Environment, Value, context};
+use serde::Serialize;
+
+use super::key_values::Facts;
 use crate::error::Error;
-use crate::simulate::{Event, Row, Summary};
+use crate::scene::Scene;
+use crate::simulate::{Event, Summary};
+use drawing::Drawing;
+use table::Shown;
+pub use table::Table;
 
-/// Most events that are listed.
-const EVENTS: usize = 200;
+const TEMPLATE: &str = include_str!("page.html");
+const STYLE: &str = include_str!("style.css");
+const SCRIPTS: [&str; 5] = [
+    include_str!("data.js"),
+    include_str!("mechanism.js"),
+    include_str!("plots.js"),
+    include_str!("player.js"),
+    include_str!("scatter.js"),
+];
+/// uPlot 1.6.32, MIT licence, as its package has it.
+const PLOTS: [&str; 2] = [
+    include_str!("uPlot.min.css"),
+    include_str!("uPlot.iife.min.js"),
+];
 
-const STYLE: &str = "body { font: 16px/1.45 system-ui, sans-serif; color: #1a1a1a; background: #fff; \
-max-width: 62rem; margin: 2rem auto; padding: 0 1rem }\n\
-h1 { font-size: 1.6rem } h2 { font-size: 1.2rem; margin-top: 2rem }\n\
-table { border-collapse: collapse } td, th { padding: .15rem 1rem .15rem 0; text-align: left; vertical-align: top }\n\
-th { font-weight: 600; white-space: nowrap } th.part { font-weight: 400; padding-left: 1rem }\n\
-td.number { text-align: right; font-variant-numeric: tabular-nums }\n\
-tr.warning { background: #fff3cd } svg { max-width: 100%; height: auto }\n\
-pre { overflow-x: auto } footer { margin-top: 3rem; color: #555; font-size: .85rem }\n";
+/// Where a result comes from: the scene file and the command that repeats it.
+#[derive(Clone, Debug, Default)]
+pub struct Origin {
+    /// Text of the scene file; none of one that was read from a pipe.
+    pub scene: Option<String>,
+    /// The command line.
+    pub command: String,
+}
 
-/// The summary of a run, its figure, what was modelled, its events and a few of its rows as one HTML page:
-/// no scripts, and nothing is loaded from elsewhere.
-///
-/// # Errors
-/// [`Error::Refused`] if there is nothing to draw.
-pub fn page(summary: &Summary, rows: &[Row], plot: &PlotRows) -> Result<String, Error> {
-    let title = match summary.scene.as_str() {
-        "" => "A slider-crank",
-        title => title,
+/// A page in the making.
+pub struct Page<'a> {
+    origin: &'a Origin,
+    title: String,
+    facts: Vec<Fact>,
+    terms: Vec<[String; 3]>,
+    table: Option<&'a Table>,
+    drawing: Option<Drawing>,
+    events: &'a [Event],
+    band: f64,
+    has_poles: bool,
+    scatter: Option<Scatter>,
+    notes: Vec<String>,
+}
+
+/// A fact for the template.
+#[derive(Serialize)]
+struct Fact {
+    name: String,
+    value: String,
+    /// Belongs to the one before.
+    is_part: bool,
+    is_warning: bool,
+}
+
+/// What the scripts of the page read.
+#[derive(Serialize)]
+struct Data<'a> {
+    columns: Vec<Shown<'a>>,
+    drawing: &'a Option<Drawing>,
+    events: Vec<Mark>,
+    /// Half the width of a band in standard errors.
+    band: f64,
+    /// Whether curves grow without bound towards dead centres.
+    poles: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scatter: &'a Option<Scatter>,
+}
+
+/// What is shown at first of rows that are no motion.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Scatter {
+    pub x: String,
+    pub y: &'static str,
+    /// Whether both axes are logarithmic.
+    pub log: bool,
+    /// Whether rows of a kind are joined.
+    pub lines: bool,
+    /// Column of the kinds that are told apart.
+    pub kind: &'static str,
+    /// Column of what is shown one at a time.
+    pub within: &'static str,
+}
+
+/// An event as the scripts read it.
+#[derive(Serialize)]
+struct Mark {
+    kind: &'static str,
+    t: f64,
+    theta: f64,
+    omega: Option<f64>,
+}
+
+impl<'a> Page<'a> {
+    /// The page of a result with these facts.
+    pub(super) fn new(origin: &'a Origin, facts: &Facts) -> Page<'a> {
+        let mut title = "A slider-crank".to_owned();
+        let mut shown = Vec::new();
+        for (name, value) in facts.iter() {
+            if name == "scene" {
+                value.clone_into(&mut title);
+                continue;
+            }
+            shown.push(Fact {
+                name: name.trim().to_owned(),
+                value: value.to_owned(),
+                is_part: name.starts_with(' '),
+                is_warning: matches!(name, "warning" | "stopped early"),
+            });
+        }
+        Page {
+            origin,
+            title,
+            facts: shown,
+            terms: Vec::new(),
+            table: None,
+            drawing: None,
+            events: &[],
+            band: 0.0,
+            has_poles: false,
+            scatter: None,
+            notes: Vec::new(),
+        }
+    }
+
+    /// With rows.
+    pub fn table(mut self, table: &'a Table) -> Page<'a> {
+        if table.stride > 1 {
+            let stride = table.stride;
+            self.notes.push(format!("One in {stride} rows is shown."));
+        }
+        self.table = Some(table);
+        self
+    }
+
+    /// With the mechanism of a scene.
+    pub fn mechanism(mut self, scene: &Scene) -> Page<'a> {
+        self.drawing = Some(Drawing::of(scene));
+        self
+    }
+
+    /// With what was modelled and left out.
+    pub fn terms(mut self, summary: &Summary) -> Page<'a> {
+        let plan = &summary.plan;
+        for (what, terms) in [("kept", &plan.kept), ("left out", &plan.left_out)] {
+            self.terms.extend(terms.iter().map(|term| {
+                let (name, reason) = (term.name.to_string(), term.reason.to_string());
+                [name, what.to_owned(), reason]
+            }));
+        }
+        self
+    }
+
+    /// With events; `total` of them in all.
+    pub fn events(mut self, events: &'a [Event], total: u64) -> Page<'a> {
+        if total > events.len() as u64 {
+            let listed = events.len();
+            self.notes
+                .push(format!("The first {listed} of {total} events are listed."));
+        }
+        self.events = events;
+        self
+    }
+
+    /// With bands of so many standard errors to both sides.
+    pub fn band(mut self, factor: f64) -> Page<'a> {
+        self.band = factor;
+        self
+    }
+
+    /// With curves that grow without bound towards dead centres: their bulk is shown.
+    pub fn with_poles(mut self) -> Page<'a> {
+        self.has_poles = true;
+        self
+    }
+
+    /// With rows that are no motion: one column over another.
+    pub(super) fn scatter(mut self, scatter: Scatter) -> Page<'a> {
+        self.scatter = Some(scatter);
+        self
+    }
+
+    /// The page. Nothing is loaded from elsewhere; all texts of the scene are shown as text.
+    ///
+    /// # Errors
+    /// [`Error::Write`] if the template fails, which would be a defect.
+    pub fn html(&self) -> Result<String, Error> {
+        let data = Data {
+            columns: self.table.map_or_else(Vec::new, Table::shown),
+            drawing: &self.drawing,
+            events: self.events.iter().map(mark).collect(),
+            band: self.band,
+            poles: self.has_poles,
+            scatter: &self.scatter,
+        };
+        // Inside of a script element only its end tag means anything, and JSON may write it otherwise.
+        let data = serde_json::to_string(&data)
+            .map_err(|error| failed(error.into()))?
+            .replace('<', "\\u003c");
+        let listed: Vec<_> = self.events.iter().take(LISTED).map(listed).collect();
+        let [plot_style, plot_script] = PLOTS.map(|text| Value::from_safe_string(text.to_owned()));
+        let page = context! {
+            title => &self.title,
+            version => env!("CARGO_PKG_VERSION"),
+            facts => Value::from_serialize(&self.facts),
+            terms => Value::from_serialize(&self.terms),
+            notes => Value::from_serialize(&self.notes),
+            scene => &self.origin.scene,
+            command => &self.origin.command,
+            events => Value::from_serialize(&listed),
+            events_left => self.events.len().saturating_sub(LISTED),
+            has_scatter => self.scatter.is_some(),
+            has_motion => self.drawing.is_some() && self.table.is_some(),
+            style => Value::from_safe_string(STYLE.to_owned()),
+            scripts => Value::from_safe_string(SCRIPTS.join("\n")),
+            plot_style,
+            plot_script,
+            data => Value::from_safe_string(data),
+        };
+        let mut environment = Environment::new();
+        environment.set_auto_escape_callback(|_| AutoEscape::Html);
+        environment
+            .render_str(TEMPLATE, page)
+            .map_err(|error| failed(error.into()))
+    }
+}
+
+/// Most events in the list; the scripts have all.
+const LISTED: usize = 1000;
+
+fn mark(event: &Event) -> Mark {
+    Mark {
+        kind: event.kind,
+        t: event.t_s,
+        theta: event.theta_rad,
+        omega: Some(event.omega_rad_per_s).filter(|omega| omega.is_finite()),
+    }
+}
+
+fn listed(event: &Event) -> [String; 4] {
+    let shown = |value: f64| match value.is_finite() {
+        true => format!("{value:.9}"),
+        false => "no bound".to_owned(),
     };
-    let title = escape(title);
-    let mut page = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n"
-    );
-    summed_up(&mut page, summary);
-    section(&mut page, "Motion", &plot.to_svg(summary)?);
-    section(&mut page, "What is modelled", &terms(summary));
-    if !summary.events.is_empty() {
-        section(&mut page, "Events", &events(&summary.events));
-    }
-    if !rows.is_empty() {
-        let rows = format!("<pre>{}</pre>\n", escape(&table(rows)));
-        section(&mut page, "Some rows", &rows);
-    }
-    let version = env!("CARGO_PKG_VERSION");
-    let _ = write!(
-        page,
-        "<footer>slider-crank {version}; theta counter-clockwise from +x, x and forces along +x</footer>\n\
-         </body>\n</html>\n"
-    );
-    Ok(page)
+    let [t, theta, omega] = [event.t_s, event.theta_rad, event.omega_rad_per_s].map(shown);
+    [event.kind.to_owned(), t, theta, omega]
 }
 
-fn section(page: &mut String, title: &str, content: &str) {
-    let _ = write!(page, "<section>\n<h2>{title}</h2>\n{content}</section>\n");
-}
-
-fn summed_up(page: &mut String, summary: &Summary) {
-    page.push_str("<table>\n");
-    for (name, value) in facts(summary).iter().filter(|(name, _)| *name != "scene") {
-        let part = if name.starts_with(' ') {
-            " class=\"part\""
-        } else {
-            ""
-        };
-        let row = match name {
-            "warning" | "stopped early" => " class=\"warning\"",
-            _ => "",
-        };
-        let (name, value) = (escape(name.trim()), escape(value));
-        let _ = writeln!(page, "<tr{row}><th{part}>{name}</th><td>{value}</td></tr>");
+fn failed(source: Box<dyn std::error::Error + Send + Sync>) -> Error {
+    Error::Write {
+        target: "page".to_owned(),
+        source: std::io::Error::other(source),
     }
-    page.push_str("</table>\n");
-}
-
-fn terms(summary: &Summary) -> String {
-    let mut text = String::from("<table>\n");
-    let (kept, left_out) = (&summary.plan.kept, &summary.plan.left_out);
-    let all = kept.iter().map(|term| ("kept", term));
-    for (what, term) in all.chain(left_out.iter().map(|term| ("left out", term))) {
-        let (name, reason) = (escape(&term.name), escape(&term.reason));
-        let _ = writeln!(
-            text,
-            "<tr><th>{name}</th><td>{what}</td><td>{reason}</td></tr>"
-        );
-    }
-    text.push_str("</table>\n");
-    text
-}
-
-fn events(events: &[Event]) -> String {
-    let mut text = String::from(
-        "<table>\n<tr><th>event</th><th>t [s]</th><th>theta [rad]</th><th>omega [rad/s]</th></tr>\n",
-    );
-    for event in events.iter().take(EVENTS) {
-        let _ = write!(text, "<tr><td>{}</td>", event.kind);
-        for value in [event.t_s, event.theta_rad, event.omega_rad_per_s] {
-            let shown = match value.is_finite() {
-                true => format!("{value:.9}"),
-                false => "no bound".to_owned(),
-            };
-            let _ = write!(text, "<td class=\"number\">{shown}</td>");
-        }
-        text.push_str("</tr>\n");
-    }
-    text.push_str("</table>\n");
-    if events.len() > EVENTS {
-        let _ = writeln!(text, "<p>The first {EVENTS}.</p>");
-    }
-    text
-}
-
-/// A text that means itself in HTML.
-fn escape(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            // HTML has no control characters but these.
-            c if c.is_control() && !matches!(c, '\n' | '\t') => escaped.extend(c.escape_default()),
-            c => escaped.push(c),
-        }
-    }
-    escaped
 }

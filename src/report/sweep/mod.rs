@@ -9,11 +9,13 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::csv::{failed, quoted};
+use super::decimate::Thinned;
 use super::output::{Output, is_standard_output, is_stream};
+use super::page::Table;
 use crate::error::Error;
 use crate::sweep::{Design, Sweep};
 use ranges::Tally;
-pub use ranges::{SweepExtreme, SweepRange, SweepSummary, VariedKey, sweep_text};
+pub use ranges::{SweepExtreme, SweepRange, SweepSummary, VariedKey, sweep_page, sweep_text};
 use resumable_file::Growing;
 
 /// Rows of `sweep`, in the order of the designs.
@@ -30,7 +32,12 @@ pub struct SweepWriter<'a> {
     tally: Tally,
     /// Rows that were there already.
     kept: usize,
+    /// Rows for a page.
+    shown: Option<Thinned<Vec<String>>>,
 }
+
+/// Most rows on a page.
+const MOST: usize = 50_000;
 
 #[derive(Debug)]
 enum Target {
@@ -41,7 +48,7 @@ enum Target {
 
 impl<'a> SweepWriter<'a> {
     /// Opens the target of part `part` of `parts`, counted from 1: none, `-` for standard output, or a file;
-    /// takes up what an earlier sweep left.
+    /// takes up what an earlier sweep left. Rows are kept for a page if there is to be one.
     ///
     /// # Errors
     /// [`Error::Write`]; [`Error::Refused`] if what was left is of another sweep, or one is writing it.
@@ -49,7 +56,9 @@ impl<'a> SweepWriter<'a> {
         path: Option<&Path>,
         sweep: &'a Sweep,
         [part, parts]: [usize; 2],
+        has_page: bool,
     ) -> Result<SweepWriter<'a>, Error> {
+        let mut shown = has_page.then(|| Thinned::new(MOST));
         let header = line(&columns::header(sweep))?;
         let header = if part == 1 { header.as_str() } else { "" };
         let range = sweep.part(part, parts)?;
@@ -71,7 +80,11 @@ impl<'a> SweepWriter<'a> {
                 );
                 let mut last = String::new();
                 let file = Growing::open(path, &mark, header, |row| {
-                    tally.take(&cells(row)?);
+                    let found = cells(row)?;
+                    tally.take(&found);
+                    if let Some(shown) = &mut shown {
+                        shown.take(found);
+                    }
                     kept += 1;
                     row.clone_into(&mut last);
                     Ok(())
@@ -89,6 +102,7 @@ impl<'a> SweepWriter<'a> {
             target,
             tally,
             kept,
+            shown,
         })
     }
 
@@ -104,12 +118,23 @@ impl<'a> SweepWriter<'a> {
             let cells = columns::cells(self.sweep, design);
             text.push_str(&line(&cells)?);
             self.tally.take(&cells);
+            if let Some(shown) = &mut self.shown {
+                shown.take(cells);
+            }
         }
         match &mut self.target {
             Target::Nothing => Ok(()),
             Target::Stream(output) => output.write(text.as_bytes()),
             Target::File(file) => file.append(text.as_bytes()),
         }
+    }
+
+    /// The rows for a page.
+    pub fn table(&self) -> Option<Table> {
+        let shown = self.shown.as_ref()?;
+        let mut table = Table::of_cells(&columns::header(self.sweep), shown.kept());
+        table.stride = shown.stride();
+        Some(table)
     }
 
     /// Completes the output and sums up, after `wall_s` seconds of computation.

@@ -7,7 +7,9 @@ use std::ops::Range;
 use serde::Serialize;
 
 use super::super::key_values::{Facts, fact, six};
+use super::super::page::{Origin, Page, Scatter, Table};
 use super::columns::{before_figures, header};
+use crate::error::Error;
 use crate::sweep::Sweep;
 
 /// What a sweep found.
@@ -146,8 +148,37 @@ impl SweepSummary {
     }
 }
 
-/// What a sweep found, in words and a table of the ranges.
-pub fn sweep_text(summary: &SweepSummary) -> String {
+/// What a sweep found, as one page: any key figure over any other.
+///
+/// # Errors
+/// [`Error::Write`].
+pub fn sweep_page(summary: &SweepSummary, table: &Table, origin: &Origin) -> Result<String, Error> {
+    let mut facts = facts(summary);
+    for SweepRange { column, min, max } in &summary.figures {
+        let (low, high) = (six(min.value), six(max.value));
+        fact!(
+            facts,
+            column,
+            "{low} (design {}) to {high} (design {})",
+            min.design,
+            max.design
+        );
+    }
+    let varied = table.names().nth(1).map(str::to_owned);
+    Page::new(origin, &facts)
+        .table(table)
+        .scatter(Scatter {
+            x: varied.unwrap_or_default(),
+            y: "stroke_m",
+            log: false,
+            lines: false,
+            kind: "status",
+            within: "",
+        })
+        .html()
+}
+
+fn facts(summary: &SweepSummary) -> Facts {
     let mut facts = Facts::of(&summary.scene);
     for one in &summary.varied {
         let VariedKey {
@@ -172,7 +203,12 @@ pub fn sweep_text(summary: &SweepSummary) -> String {
         facts.add("  there already", summary.taken_up);
     }
     fact!(facts, "time", "{:.3} s", summary.wall_s);
-    let mut text = facts.lines(17);
+    facts
+}
+
+/// What a sweep found, in words and a table of the ranges.
+pub fn sweep_text(summary: &SweepSummary) -> String {
+    let mut text = facts(summary).lines(17);
     let _ = writeln!(
         text,
         "\n{:<26} {:>12} {:>10} {:>12} {:>10}",

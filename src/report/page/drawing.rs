@@ -1,0 +1,54 @@
+//! What the page needs to draw the mechanism to scale.
+
+use serde::Serialize;
+
+use crate::scene::{Joint, Scene};
+
+/// Lengths of the mechanism, m; points of bodies along and to the left of them.
+#[derive(Debug, Serialize)]
+pub(super) struct Drawing {
+    crank: f64,
+    rod: f64,
+    offset: f64,
+    /// The branch, ±1.
+    branch: f64,
+    /// Centre of gravity from the crank pivot.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    crank_cg: Option<[f64; 2]>,
+    /// Centre of gravity from the crank pin.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rod_cg: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    loose: Option<Loose>,
+}
+
+/// A loose joint.
+#[derive(Debug, Serialize)]
+struct Loose {
+    joint: &'static str,
+    /// Radial clearance.
+    radial: f64,
+}
+
+impl Drawing {
+    pub fn of(scene: &Scene) -> Drawing {
+        let geometry = &scene.geometry;
+        let crank = scene.crank.filter(|crank| crank.mass > 0.0);
+        let rod = scene.rod.filter(|rod| rod.mass > 0.0);
+        Drawing {
+            crank: geometry.crank,
+            rod: geometry.rod,
+            offset: geometry.offset,
+            branch: geometry.branch.sign(),
+            crank_cg: crank.map(|crank| [crank.cg, crank.cg_lateral]),
+            rod_cg: rod.map(|rod| [rod.cg, rod.cg_lateral]),
+            loose: scene.clearance.as_ref().map(|clearance| Loose {
+                joint: match clearance.joint {
+                    Joint::CrankPin => "crank pin",
+                    Joint::WristPin => "wrist pin",
+                },
+                radial: clearance.radial,
+            }),
+        }
+    }
+}

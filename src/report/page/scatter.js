@@ -1,0 +1,126 @@
+// Rows that are no motion: one column over another, by kind.
+function scatter({ x, y, log, lines, kind, within }) {
+  const get = (id) => document.getElementById(id);
+  const numbers = page.columns.filter((column) => column.si && shown(column).some((value) => value !== null));
+  const words = new Map(page.columns.filter((column) => column.words).map((column) => [column.name, column.words]));
+  const selects = [get("x"), get("y")];
+  selects.forEach((select, i) => {
+    for (const column of numbers) select.append(new Option(titled(column), column.name));
+    const wanted = numbers.findIndex((column) => column.name === [x, y][i]);
+    select.selectedIndex = wanted >= 0 ? wanted : Math.min(i, numbers.length - 1);
+  });
+  get("log").checked = log;
+  const places = within ? [...new Set(words.get(within))] : [];
+  for (const place of places) get("within").append(new Option(place || "(no title)"));
+  get("within").parentElement.hidden = places.length < 2;
+  const kinds = kind && words.has(kind) ? [...new Set(words.get(kind))] : [""];
+  let made = null;
+  const draw = () => {
+    const [across, up] = selects.map((select) => byName.get(select.value));
+    const place = places[get("within").selectedIndex];
+    const isLog = get("log").checked;
+    const usable = (value) => value !== null && (!isLog || value > 0);
+    const groups = kinds.map((name) => {
+      const members = [];
+      for (let row = 0; row < rows; row++) {
+        if (places.length && words.get(within)[row] !== place) continue;
+        if (name && words.get(kind)[row] !== name) continue;
+        if (usable(shown(across)[row]) && usable(shown(up)[row])) members.push(row);
+      }
+      return members;
+    });
+    const all = groups.flat();
+    const parent = get("scattered");
+    made?.destroy();
+    get("nothing").hidden = all.length > 0;
+    if (!all.length) return (made = null);
+    const range = (column) => {
+      const [low, high] = ends(all.map((row) => shown(column)[row]));
+      if (isLog) return [low / 1.5, high * 1.5];
+      const room = 0.04 * (high - low || Math.abs(high) || 1);
+      return [low - room, high + room];
+    };
+    const scale = (column) => ({ time: false, distr: isLog ? 3 : 1, range: (u, low, high) => (u.zoomed ? [low, high] : range(column)) });
+    const series = kinds.map((name, i) => ({ label: name || titled(up), stroke: COLOURS[i % COLOURS.length], paths: () => null, points: { show: false }, value: () => "" }));
+    made = new uPlot(
+      {
+        width: parent.clientWidth,
+        height: 460,
+        series: [{ label: titled(across), value: () => "" }, ...series],
+        axes: [across, up].map((column) => ({ ...axis(titled(column)), ...(isLog ? decades : {}) })),
+        scales: { x: scale(across), y: scale(up) },
+        cursor: { drag: { x: true, y: true, uni: 20 }, points: { show: false } },
+        hooks: {
+          draw: [(u) => groups.forEach((members, i) => u.series[i + 1].show && mark(u, members, across, up, i, lines))],
+          setSelect: [(u) => (u.zoomed = true)],
+          ready: [(u) => u.over.addEventListener("mousemove", (event) => tell(u, event, all, across, up))],
+        },
+      },
+      [ends(all.map((row) => shown(across)[row])), ...kinds.map(() => ends(all.map((row) => shown(up)[row])))],
+      parent,
+    );
+  };
+  for (const id of ["x", "y", "log", "within"]) get(id).onchange = draw;
+  get("unzoom").onclick = draw;
+  get("scatter").hidden = false;
+  draw();
+  addEventListener("resize", draw);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
+}
+
+/** Ticks of logarithmic axes at whole powers of ten. */
+const decades = (() => {
+  const filter = (_, ticks) => ticks.map((tick) => (tick !== null && Math.abs(Math.log10(tick) - Math.round(Math.log10(tick))) < 1e-6 ? tick : null));
+  return { filter, grid: { filter, stroke: colourOf("--line"), width: 1 }, ticks: { filter, stroke: colourOf("--line") } };
+})();
+
+/** Points of a kind, each kind with a shape of its own, and lines between them. */
+function mark(u, members, across, up, kind, lines) {
+  const { ctx, bbox } = u;
+  const size = 4 * devicePixelRatio;
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+  ctx.clip();
+  ctx.strokeStyle = ctx.fillStyle = COLOURS[kind % COLOURS.length];
+  ctx.lineWidth = 1.4 * devicePixelRatio;
+  const at = members.map((row) => [u.valToPos(shown(across)[row], "x", true), u.valToPos(shown(up)[row], "y", true)]);
+  if (lines) {
+    ctx.beginPath();
+    at.forEach(([x, y], i) => (i ? ctx.lineTo(x, y) : ctx.moveTo(x, y)));
+    ctx.stroke();
+  }
+  const corners = [0, 4, 3][kind % 3];
+  ctx.beginPath();
+  for (const [x, y] of at) {
+    ctx.moveTo(x + size, y);
+    if (!corners) ctx.arc(x, y, size, 0, 2 * Math.PI);
+    for (let k = 1; k <= corners; k++) ctx.lineTo(x + size * Math.cos((2 * Math.PI * k) / corners), y + size * Math.sin((2 * Math.PI * k) / corners));
+  }
+  ctx.fill();
+  ctx.restore();
+}
+
+/** The row nearest to the pointer, with all of its cells. */
+function tell(u, event, members, across, up) {
+  const box = u.over.getBoundingClientRect();
+  const [left, top] = [event.clientX - box.left, event.clientY - box.top];
+  let [best, least] = [-1, Infinity];
+  for (const row of members) {
+    const off = Math.hypot(u.valToPos(shown(across)[row], "x") - left, u.valToPos(shown(up)[row], "y") - top);
+    if (off < least) [best, least] = [row, off];
+  }
+  const table = document.getElementById("cells");
+  table.replaceChildren();
+  for (const column of page.columns) {
+    const text = column.words ? column.words[best] : exact(column.si[best]);
+    if (!text) continue;
+    const line = table.insertRow();
+    const name = document.createElement("th");
+    name.textContent = column.name;
+    line.append(name);
+    line.insertCell().textContent = text;
+  }
+}
+
+if (page.scatter && rows) scatter(page.scatter);

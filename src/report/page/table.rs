@@ -1,0 +1,140 @@
+//! Columns of rows as the page reads them.
+
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use serde::Serialize;
+
+use crate::report::quantity::Quantity;
+
+/// Rows of a result by their columns.
+#[derive(Debug)]
+pub struct Table {
+    columns: Vec<Column>,
+    /// Every so many rows of the result are here.
+    pub(in crate::report) stride: u64,
+}
+
+#[derive(Debug)]
+struct Column {
+    name: String,
+    cells: Cells,
+}
+
+#[derive(Debug)]
+enum Cells {
+    /// In SI, or in a unit as people wrote it; not a number where there is none.
+    Numbers(Vec<f64>, Option<String>),
+    Words(Vec<String>),
+}
+
+impl Table {
+    /// No rows yet, under the header of a CSV file.
+    pub fn new(header: &str) -> Table {
+        let column = |name: &str| Column {
+            name: name.to_owned(),
+            cells: Cells::Numbers(Vec::new(), None),
+        };
+        Table {
+            columns: header.split(',').map(column).collect(),
+            stride: 1,
+        }
+    }
+
+    /// Takes a row of numbers; what is not finite has no value.
+    pub fn push(&mut self, row: impl IntoIterator<Item = f64>) {
+        for (column, value) in self.columns.iter_mut().zip(row) {
+            if let Cells::Numbers(values, _) = &mut column.cells {
+                values.push(value);
+            }
+        }
+    }
+
+    /// Rows of the cells of a CSV file: numbers where all cells of a column are, in one unit.
+    pub(in crate::report) fn of_cells(header: &[String], rows: &[Vec<String>]) -> Table {
+        let column = |(i, name): (usize, &String)| Column {
+            name: name.clone(),
+            cells: Cells::of(rows.iter().map(|row| row.get(i).map_or("", String::as_str))),
+        };
+        Table {
+            columns: header.iter().enumerate().map(column).collect(),
+            stride: 1,
+        }
+    }
+
+    /// Names of the columns.
+    pub(in crate::report) fn names(&self) -> impl Iterator<Item = &str> {
+        self.columns.iter().map(|column| column.name.as_str())
+    }
+
+    /// The columns for the page.
+    pub(super) fn shown(&self) -> Vec<Shown<'_>> {
+        self.columns.iter().map(Column::shown).collect()
+    }
+}
+
+impl Cells {
+    fn of<'a>(cells: impl Iterator<Item = &'a str> + Clone) -> Cells {
+        let mut units = cells
+            .clone()
+            .filter_map(|cell| number_and_unit(cell).map(|(_, unit)| unit));
+        let unit = units.next().unwrap_or_default();
+        let all = cells
+            .clone()
+            .all(|cell| cell.is_empty() || number_and_unit(cell).is_some());
+        if !all || !units.all(|other| other == unit) {
+            return Cells::Words(cells.map(str::to_owned).collect());
+        }
+        let number = |cell: &str| number_and_unit(cell).map_or(f64::NAN, |(number, _)| number);
+        let given = (!unit.is_empty()).then(|| unit.to_owned());
+        Cells::Numbers(cells.map(number).collect(), given)
+    }
+}
+
+/// A number and what follows it.
+fn number_and_unit(cell: &str) -> Option<(f64, &str)> {
+    let end = cell.find(|c: char| !(c.is_ascii_digit() || "+-.eE".contains(c)));
+    let (number, unit) = cell.split_at(end.unwrap_or(cell.len()));
+    Some((number.parse().ok()?, unit.trim()))
+}
+
+impl Column {
+    fn shown(&self) -> Shown<'_> {
+        let mut quantity = Quantity::of(&self.name);
+        let (data, words) = match &self.cells {
+            Cells::Numbers(values, given) => {
+                if let Some(given) = given {
+                    quantity.unit.to_mut().clone_from(given);
+                }
+                (Some(encoded(values)), None)
+            }
+            Cells::Words(words) => (None, Some(&words[..])),
+        };
+        Shown {
+            name: &self.name,
+            quantity,
+            data,
+            words,
+        }
+    }
+}
+
+/// A column on the page.
+#[derive(Serialize)]
+pub(super) struct Shown<'a> {
+    name: &'a str,
+    #[serde(flatten)]
+    quantity: Quantity,
+    /// Numbers of 64 bits, little end first, in base 64: each as it is in the CSV file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    data: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    words: Option<&'a [String]>,
+}
+
+fn encoded(values: &[f64]) -> String {
+    let bytes: Vec<u8> = values
+        .iter()
+        .flat_map(|value| value.to_le_bytes())
+        .collect();
+    BASE64_STANDARD.encode(bytes)
+}

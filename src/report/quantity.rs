@@ -1,0 +1,145 @@
+//! What the columns of rows mean: words, symbol, and the unit that people read them in, from the name of the column.
+
+use std::borrow::Cow;
+use std::f64::consts::PI;
+
+use serde::Serialize;
+
+/// A column of rows for people.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(super) struct Quantity {
+    /// Words and symbol.
+    pub label: String,
+    /// Unit that it is shown in; empty without one.
+    pub unit: Cow<'static, str>,
+    /// By this the value in SI becomes one in `unit`.
+    pub factor: f64,
+    /// What is drawn in one panel has this in common.
+    pub group: String,
+}
+
+/// Endings of columns: the unit of the file, that for people, and the factor between them. Longer ones first.
+const UNITS: [(&str, &str, f64); 22] = [
+    ("_rad_per_s2", "rad/s²", 1.0),
+    ("_m_per_rad2", "mm/rad²", 1e3),
+    ("_m_per_rad", "mm/rad", 1e3),
+    ("_rad_per_s", "rad/s", 1.0),
+    ("_m_per_s2", "m/s²", 1.0),
+    ("_m_per_s", "m/s", 1.0),
+    ("_per_s2", "1/s²", 1.0),
+    ("_per_rad2", "1/rad²", 1.0),
+    ("_per_rad", "1/rad", 1.0),
+    ("_per_s", "1/s", 1.0),
+    ("_kg_m2", "kg m²", 1.0),
+    ("_rad", "°", 180.0 / PI),
+    ("_deg", "°", 1.0),
+    ("_nm", "N m", 1.0),
+    ("_kg", "kg", 1.0),
+    ("_mm", "mm", 1.0),
+    ("_j", "J", 1.0),
+    ("_w", "W", 1.0),
+    ("_hz", "Hz", 1.0),
+    ("_n", "N", 1.0),
+    ("_m", "mm", 1e3),
+    ("_s", "s", 1.0),
+];
+
+/// Columns with a symbol: the name without unit, the words, and the panel.
+const KNOWN: [(&str, &str, &str); 15] = [
+    ("t", "time t", ""),
+    ("theta", "crank angle θ", "crank angle"),
+    ("omega", "crank speed ω", "crank speed"),
+    ("alpha", "crank acceleration α", "crank acceleration"),
+    ("x", "slider position x", "slider position"),
+    ("v", "slider velocity v", "slider velocity"),
+    ("a", "slider acceleration a", "slider acceleration"),
+    ("dx", "x′", "first derivative of x"),
+    ("d2x", "x″", "second derivative of x"),
+    ("phi", "rod angle φ", "rod angle"),
+    ("dphi", "φ′", "derivatives of the rod angle"),
+    ("d2phi", "φ″", "derivatives of the rod angle"),
+    ("transmission", "transmission angle", "transmission angle"),
+    ("self_locking", "self-locking", ""),
+    ("near_dead_centre", "near a dead centre", ""),
+];
+
+/// Additions to the name of a column that is drawn beside it.
+const BESIDE: [&str; 5] = ["ideal", "first_order", "change", "measured", "fitted"];
+
+impl Quantity {
+    /// Of a column.
+    pub fn of(column: &str) -> Quantity {
+        let unit = UNITS.iter().find(|(ending, ..)| column.ends_with(ending));
+        let (ending, unit, factor) = unit.copied().unwrap_or(("", "", 1.0));
+        let name = &column[..column.len() - ending.len()];
+        // Errors are far smaller than a degree.
+        let (unit, factor) = match name.starts_with("error") || name.starts_with("estimate") {
+            true if ending == "_rad" => ("rad", 1.0),
+            _ => (unit, factor),
+        };
+        let beside = BESIDE.iter().find_map(|more| {
+            let (first, last) = (name.strip_prefix(more), name.strip_suffix(more));
+            let rest = first.or(last)?.trim_matches('_');
+            Some((rest, more.replace('_', " ")))
+        });
+        let (base, more) = beside.unwrap_or((name, String::new()));
+        let known = KNOWN.iter().find(|(known, ..)| *known == base);
+        let (words, group) = match known {
+            Some((_, words, group)) => ((*words).to_owned(), (*group).to_owned()),
+            None => (base.replace('_', " "), group(base, unit)),
+        };
+        let label = if more.is_empty() {
+            words
+        } else {
+            format!("{words}, {more}")
+        };
+        Quantity {
+            label,
+            unit: Cow::Borrowed(unit),
+            factor,
+            group,
+        }
+    }
+}
+
+/// The panel of a column without one of its own.
+fn group(name: &str, unit: &str) -> String {
+    match unit {
+        _ if name.starts_with("journal") => String::new(),
+        "N" => "forces".to_owned(),
+        "N m" => "torques".to_owned(),
+        "J" => "energies".to_owned(),
+        "" => name.replace('_', " "),
+        unit => format!("{} [{unit}]", name.replace('_', " ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Quantity;
+
+    #[test]
+    fn names_of_columns_tell_quantity_and_unit() {
+        for (column, label, unit, group) in [
+            ("t_s", "time t", "s", ""),
+            ("theta_rad", "crank angle θ", "°", "crank angle"),
+            (
+                "x_ideal_m",
+                "slider position x, ideal",
+                "mm",
+                "slider position",
+            ),
+            ("v_m_per_s", "slider velocity v", "m/s", "slider velocity"),
+            ("d2x_m_per_rad2", "x″", "mm/rad²", "second derivative of x"),
+            ("wrist_pin_x_n", "wrist pin x", "N", "forces"),
+            ("crank_torque_nm", "crank torque", "N m", "torques"),
+            ("shaking_moment_nm", "shaking moment", "N m", "torques"),
+            ("journal_x_m", "journal x", "mm", ""),
+            ("dphi", "φ′", "", "derivatives of the rod angle"),
+        ] {
+            let found = Quantity::of(column);
+            assert_eq!(found.label, label);
+            assert_eq!((&*found.unit, &*found.group), (unit, group), "{column}");
+        }
+    }
+}

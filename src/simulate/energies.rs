@@ -1,0 +1,24 @@
+//! Kinetic and potential energy along a motion.
+
+use super::Row;
+use crate::mechanism::{Class, Equation};
+use crate::scene::Scene;
+
+/// The energies of a mechanism whose crank turns with ideal joints: elsewhere the crank angle does not tell them.
+#[derive(Clone, Debug)]
+pub struct Energies(Equation);
+
+impl Energies {
+    /// Of the mechanism of a scene.
+    pub fn of(scene: &Scene) -> Option<Energies> {
+        let equation = Equation::new(scene);
+        let tells = Class::of(equation.linkage()) == Class::RotatingCrank;
+        (tells && scene.clearance.is_none()).then_some(Energies(equation))
+    }
+
+    /// Kinetic energy, and potential energy of gravity and of the loads that have one, J, at a row.
+    pub fn at(&self, row: &Row) -> [f64; 2] {
+        let kinetic = self.0.kinetic_energy(row.theta, row.omega);
+        [kinetic, self.0.potential_energy(row.theta)]
+    }
+}
