@@ -37,19 +37,12 @@ pub(super) struct Backwards<'a> {
     pub guide: Option<&'a Guide>,
 }
 
-/// Step in the crank angle (rad) for derivatives of the terms: they are right to about 1e-9.
+/// Step for differences: in the crank angle (rad), and over speed and acceleration; they are right to about 1e-9.
 const STEP: f64 = 1e-5;
-
-/// Its sine and cosine.
-const STEP_SIN: f64 = STEP - STEP * STEP * STEP / 6.0;
-const STEP_COS: f64 = 1.0 - 0.5 * STEP * STEP;
 
 /// cos φ below which force and torque are curved enough over the uncertainty of the crank angle to ask for their second
 /// differences.
 pub(super) const NEAR_LIMIT: f64 = 0.3;
-
-/// Part of the largest rounding of the terms that is its standard deviation.
-const RARE: f64 = 0.5;
 
 impl Backwards<'_> {
     /// The scene's loads at a state; dry ones against a motion in this sense of the crank, zero: without them.
@@ -74,183 +67,96 @@ impl Backwards<'_> {
         }
     }
 
-    /// Torque that the scene's loads exert at a state, dry ones against this sense of the crank.
-    fn known(&self, t: f64, theta: f64, omega: f64, terms: &Terms, sense: f64) -> f64 {
-        if self.equation.loads().are_none() {
-            return 0.0;
+    /// Force on the slider, N, and torque on the crank, N m, either of which drives a motion beside the loads of the scene and the
+    /// friction of the guide, dry ones against this sense of the crank. Torque where a guide locks itself: not a number.
+    fn needed(&self, t: f64, terms: &Terms, at: [f64; 3], sense: f64) -> [f64; 2] {
+        let ([theta, omega, alpha], pose) = (at, &terms.pose);
+        let mut whole = self.equation.generalized_force(terms, omega, alpha);
+        let mut known = 0.0;
+        if !self.equation.loads().are_none() {
+            let load = self.loads(t, theta, omega, pose, sense);
+            whole -= load.torque;
+            known = if self.beside_forces { load.force } else { 0.0 };
         }
-        let load = self.loads(t, theta, omega, &terms.pose, sense);
-        if self.beside_forces {
-            load.generalized(&terms.pose)
-        } else {
-            load.torque
+        let along = whole / pose.dx;
+        let [mut force, mut torque] = [along - known, whole - known * pose.dx];
+        if let Some(guide) = self.guide {
+            let (motion, direction) = ([omega, alpha], sense * pose.dx.signum());
+            force -= guide.friction(pose, motion, direction, along);
+            torque -= guide.driven(pose, motion, direction, known) * pose.dx;
         }
+        [force, torque]
     }
 
-    /// Whether the sense of the motion is certain.
-    fn moves(&self, state: &MotionEstimate) -> bool {
-        state.value[1].abs() > 5.0 * self.error(state, &[0.0, 1.0, 0.0], 0.0)
-    }
-
-    /// What one state of the motion needs.
+    /// What one state of the motion needs. At rest friction and dry loads may be anything up to their magnitude: the torque is
+    /// then the middle of what is possible, and its error has the rest in it.
     pub fn demand(&self, t: f64, state: &MotionEstimate) -> Demand {
         let [theta, omega, alpha] = state.value;
         let terms = self.equation.terms(theta);
+        let moves = omega.abs() > 5.0 * state.error(&[0.0, 1.0, 0.0], 0.0);
+        let friction_known = moves || !self.equation.loads().are_dry() && self.guide.is_none();
+        let sense = if omega < 0.0 { -1.0 } else { 1.0 };
+        let at = |terms: &Terms, at: [f64; 3]| self.needed(t, terms, at, sense);
+        let [force, mut torque] = at(&terms, state.value);
+        let mut holding = 0.0;
+        if !friction_known {
+            let [_, other] = self.needed(t, &terms, state.value, -sense);
+            (torque, holding) = (0.5 * (torque + other), 0.5 * (torque - other).abs());
+        }
         // One-sided at the limit of a rocker.
-        let beside = |sense: f64| {
-            let Pose { sin, cos, .. } = terms.pose;
-            let turned = [
-                sin * STEP_COS + sense * cos * STEP_SIN,
-                cos * STEP_COS - sense * sin * STEP_SIN,
-            ];
-            let there = self.equation.linkage().pose_at(turned[0], turned[1]);
-            if there.exists() {
-                (sense * STEP, self.equation.terms_at(there))
-            } else {
-                (0.0, terms)
+        let beside = |step: f64| {
+            let there = self.equation.terms(theta + step);
+            match there.pose.exists() {
+                true => (step, there),
+                false => (0.0, terms),
             }
         };
-        let ((up, after), (down, before)) = (beside(1.0), beside(-1.0));
-        let needed = |terms: &Terms| self.equation.generalized_force(terms, omega, alpha);
-        // At rest dry loads may be anything up to their magnitude: the torque is then the middle of what is possible,
-        // and its error has the rest in it.
-        let moves = self.moves(state);
-        let sense = if moves { omega.signum() } else { 0.0 };
-        let holding = match moves || !self.equation.loads().are_dry() {
-            true => 0.0,
-            false => (self.known(t, theta, omega, &terms, 1.0)
-                - self.known(t, theta, omega, &terms, 0.0))
-            .abs(),
-        };
-        let known = self.known(t, theta, omega, &terms, sense);
-        let torque = needed(&terms) - known;
-        let slope = |f: &dyn Fn(&Terms, f64) -> f64| {
-            (f(&after, theta + up) - f(&before, theta + down)) / (up - down)
-        };
-        let by_theta =
-            slope(&|terms, theta| needed(terms) - self.known(t, theta, omega, terms, sense));
+        let ends = [STEP, -STEP].map(|step| {
+            let (step, terms) = beside(step);
+            (
+                step,
+                at(&terms, [theta + step, omega, alpha]),
+                terms.pose.dx,
+            )
+        });
         let faster = STEP * omega.abs().max(1e-3);
-        let by_omega = 2.0 * terms.inertia.half_dm * omega
-            - (self.known(t, theta, omega + faster, &terms, sense)
-                - self.known(t, theta, omega - faster, &terms, sense))
-                / (2.0 * faster);
-        let gradient = [by_theta, by_omega, terms.inertia.m];
+        let sooner = STEP * alpha.abs().max(omega * omega).max(1e-3);
+        let by_omega = [1.0, -1.0].map(|sign| at(&terms, [theta, omega + sign * faster, alpha]));
+        let by_alpha = [1.0, -1.0].map(|sign| at(&terms, [theta, omega, alpha + sign * sooner]));
+        let wide = ends[0].0 - ends[1].0;
+        let gradients = [0, 1].map(|i| {
+            [
+                (ends[0].1[i] - ends[1].1[i]) / wide,
+                (by_omega[0][i] - by_omega[1][i]) / (2.0 * faster),
+                (by_alpha[0][i] - by_alpha[1][i]) / (2.0 * sooner),
+            ]
+        });
+        let near_limit = terms.pose.cos_phi < NEAR_LIMIT;
+        let mut bent = [0.0; 2];
+        if near_limit {
+            let spread = state.angle_error();
+            let [a, b] = [theta - spread, theta + spread]
+                .map(|theta| at(&self.equation.terms(theta), [theta, omega, alpha]));
+            bent = [0, 1].map(|i| (0.5 * (a[i] + b[i]) - [force, torque][i]).abs());
+        }
+        let (arm, r) = (terms.pose.dx, self.equation.linkage().r);
         let size = (terms.inertia.m * alpha).abs()
             + (terms.inertia.half_dm * omega * omega).abs()
             + terms.dv.abs()
-            + known.abs();
+            + (force * arm).abs();
         let rounding = 8.0 * f64::EPSILON * size;
-        let error = |gradient: &[f64; 3], more: f64| self.error(state, gradient, more);
-        let (arm, bend) = (terms.pose.dx, terms.pose.d2x);
-        let force = torque / arm;
-        let of_force = [
-            (by_theta - force * bend) / arm,
-            by_omega / arm,
-            terms.inertia.m / arm,
-        ];
-        let r = self.equation.linkage().r;
-        let near_limit = terms.pose.cos_phi < NEAR_LIMIT;
-        let bent = if near_limit {
-            let spread = state.angle_error();
-            let [before, after] = [theta - spread, theta + spread].map(|theta| {
-                let terms = self.equation.terms(theta);
-                let torque = needed(&terms) - self.known(t, theta, omega, &terms, sense);
-                [torque, torque / terms.pose.dx]
-            });
-            [0, 1].map(|i| (0.5 * (before[i] + after[i]) - [torque, force][i]).abs())
-        } else {
-            [0.0; 2]
-        };
-        let demand = Demand {
-            torque,
-            torque_se: error(&gradient, rounding) + bent[0] + holding,
-            arm,
-            arm_se: error(&[bend, 0.0, 0.0], 4.0 * f64::EPSILON * r),
-            force,
-            force_se: error(
-                &of_force,
-                (rounding + 4.0 * f64::EPSILON * r * force.abs()) / arm.abs(),
-            ) + bent[1],
-            near_limit,
-            friction_known: moves || !self.equation.loads().are_dry(),
-        };
-        match self.guide {
-            Some(guide) => self.beside_friction(guide, t, state, demand),
-            None => demand,
-        }
-    }
-
-    /// Standard error of a combination of angle, speed and acceleration, with what else rounding adds.
-    fn error(&self, state: &MotionEstimate, gradient: &[f64; 3], more: f64) -> f64 {
-        (state.variance(gradient) + (RARE * more).powi(2)).sqrt()
-    }
-
-    /// What is needed beside the friction of the guide. At rest that may be anything up to its limit: the torque is then
-    /// the middle of what is possible, and its error has the rest in it.
-    fn beside_friction(
-        &self,
-        guide: &Guide,
-        t: f64,
-        state: &MotionEstimate,
-        demand: Demand,
-    ) -> Demand {
-        let omega = state.value[1];
-        let friction_known = self.moves(state);
-        let forwards = (demand.arm * omega).signum();
-        let along = |direction: f64| move |at: [f64; 3]| self.friction(guide, t, at, direction);
-        let rows = [forwards, -forwards].map(|direction| along(direction)(state.value));
-        let steps = [
-            STEP,
-            STEP * omega.abs().max(1e-3),
-            STEP * state.value[2].abs().max(1e-3),
-        ];
-        let mut slopes = [[0.0; 3]; 2];
-        for (k, step) in steps.into_iter().enumerate() {
-            let beside = |sign: f64| {
-                let mut at = state.value;
-                at[k] += sign * step;
-                along(forwards)(at)
-            };
-            let (after, before) = (beside(1.0), beside(-1.0));
-            for i in 0..2 {
-                slopes[i][k] = (after[i] - before[i]) / (2.0 * step);
-            }
-        }
-        let [of_force, of_torque] = slopes.map(|slope| self.error(state, &slope, 0.0));
-        let [[force, torque], [_, other]] = rows;
+        let of_arm = 4.0 * f64::EPSILON * r;
+        let of_force = (rounding + of_arm * force.abs()) / arm.abs();
+        let bend = [(ends[0].2 - ends[1].2) / wide, 0.0, 0.0];
         Demand {
-            force: demand.force - force,
-            force_se: demand.force_se + of_force,
-            torque: demand.torque
-                - if friction_known {
-                    torque
-                } else {
-                    0.5 * (torque + other)
-                },
-            torque_se: demand.torque_se
-                + if friction_known {
-                    of_torque
-                } else {
-                    0.5 * (torque - other).abs()
-                },
+            torque,
+            torque_se: state.error(&gradients[1], rounding) + bent[1] + holding,
+            arm,
+            arm_se: state.error(&bend, of_arm),
+            force,
+            force_se: state.error(&gradients[0], of_force) + bent[0],
+            near_limit,
             friction_known,
-            ..demand
         }
-    }
-
-    /// Friction of the guide, N, where the slider is driven by a force on it, and its moment about the crank, N m, where it
-    /// is driven by a torque on the crank, for angle, speed and acceleration.
-    fn friction(&self, guide: &Guide, t: f64, at: [f64; 3], direction: f64) -> [f64; 2] {
-        let [theta, omega, alpha] = at;
-        let terms = self.equation.terms(theta);
-        let sense = direction * terms.pose.dx.signum();
-        let load = self.loads(t, theta, omega, &terms.pose, sense);
-        let needed = self.equation.generalized_force(&terms, omega, alpha);
-        let along = (needed - load.torque) / terms.pose.dx;
-        let force = if self.beside_forces { load.force } else { 0.0 };
-        [
-            guide.friction(&terms.pose, [omega, alpha], direction, along),
-            guide.driven(&terms.pose, [omega, alpha], direction, force) * terms.pose.dx,
-        ]
     }
 }

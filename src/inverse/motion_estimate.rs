@@ -11,16 +11,17 @@ pub(super) struct MotionEstimate {
 }
 
 impl MotionEstimate {
-    /// Variance of a combination of the three, rounding included.
-    pub fn variance(&self, gradient: &[f64; 3]) -> f64 {
+    /// Standard error of a combination of the three, with their rounding and with what else rounding adds.
+    pub fn error(&self, gradient: &[f64; 3], more: f64) -> f64 {
         let parts = gradient.iter().zip(&self.rounding);
         let rounding: f64 = parts.map(|(g, r)| (g * r).abs()).sum();
-        quadratic(&self.covariance, gradient) + (RARE * rounding).powi(2)
+        let rounding = RARE * RARE * (rounding * rounding + more * more);
+        (quadratic(&self.covariance, gradient) + rounding).sqrt()
     }
 
     /// Standard error of the crank angle, rad.
     pub fn angle_error(&self) -> f64 {
-        self.variance(&[1.0, 0.0, 0.0]).sqrt()
+        self.error(&[1.0, 0.0, 0.0], 0.0)
     }
 
     /// This motion where its times may be stretched by a part.
