@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::reading::ReadingArguments;
-use super::{Outcome, Streams, check_ending, create, fill, is_standard, origin};
+use super::{Outcome, Streams, create, draw, fill, is_standard, origin, page, picture};
 use crate::error::Error;
 use crate::inverse::{self, AsPrinted, FitKind, FitSize, InverseOptions};
 use crate::report;
@@ -134,8 +134,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         .map_or_else(|| Ok(Draft::duarte()), Draft::load)?;
     let scene = draft.scene()?;
     streams.spare_tables(&scene)?;
-    check_ending(arguments.plot.as_ref(), &["svg"])?;
-    check_ending(arguments.report.as_ref(), &["html", "htm"])?;
     let options = InverseOptions {
         fit: match (arguments.fit, arguments.degree) {
             // A degree asks for a polynomial.
@@ -152,8 +150,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         .transpose()?;
     let out = create(arguments.out.as_ref())?;
     let residuals = create(arguments.residuals.as_ref())?;
-    let plot = create(arguments.plot.as_ref())?;
-    let page = create(arguments.report.as_ref())?;
+    let plot = picture(arguments.plot.as_ref())?;
+    let page = page(arguments.report.as_ref())?;
     // What is odd in the data may be why it is refused.
     let uncertain = draft.uncertain()?;
     let mut result = inverse::inverse_of_uncertain(&scene, &uncertain, &measurement, &options)
@@ -166,7 +164,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     if let Some(output) = residuals {
         report::residuals(&result, output)?;
     }
-    fill(plot, || report::inverse_figure(&result, printed.as_ref()))?;
+    draw(plot, || report::inverse_figure(&result, printed.as_ref()))?;
     fill(page, || {
         let origin = origin(arguments.scene.as_ref());
         report::inverse_page(&result, &scene, &origin)

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
-    Outcome, Streams, angle, check_ending, check_rows_of_turn, create, fill, length, origin,
+    Outcome, Streams, angle, check_rows_of_turn, create, draw, fill, length, origin, page, picture,
     positive_angle, quantity, say,
 };
 use crate::error::Error;
@@ -71,8 +71,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     )?;
     check_rows_of_turn(arguments.every)?;
     let mut scene = streams.scene(arguments.scene.as_ref())?;
-    check_ending(arguments.plot.as_ref(), &["svg"])?;
-    check_ending(arguments.report.as_ref(), &["html", "htm"])?;
     if let Some((stroke, ratio)) = arguments.stroke.zip(arguments.rod_ratio) {
         let (crank, rod) =
             crate::kinematics::size_from_stroke(stroke, ratio, scene.geometry.offset)?;
@@ -81,12 +79,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     }
     let result = crate::kinematics::one_turn(&scene, &arguments.options())?;
     let out = create(arguments.out.as_ref())?;
-    let plot = create(arguments.plot.as_ref())?;
-    let page = create(arguments.report.as_ref())?;
+    let plot = picture(arguments.plot.as_ref())?;
+    let page = page(arguments.report.as_ref())?;
     if let Some(output) = out {
         report::turn_rows(&result, arguments.every, output)?;
     }
-    fill(plot, || report::turn_figure(&result))?;
+    draw(plot, || report::turn_figure(&result))?;
     fill(page, || {
         let origin = origin(arguments.scene.as_ref());
         report::turn_page(&result, arguments.every, &scene, &origin)

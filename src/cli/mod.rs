@@ -25,7 +25,7 @@ use crate::report::Origin;
 use crate::scene::unit::{self, Quantity};
 use crate::scene::{DUARTE, Scene};
 use streams::{
-    Streams, check_ending, check_files, create, fill, is_standard, print, say, say_styled,
+    Streams, check_files, create, draw, fill, is_standard, page, picture, print, say, say_styled,
 };
 
 /// Dynamics of the offset slider-crank from its Lagrange equation.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::{
-    Outcome, check_ending, check_files, create, fill, is_standard, origin, print, say, scene,
+    Outcome, check_files, create, draw, fill, is_standard, origin, page, picture, print, say, scene,
 };
 use crate::error::Error;
 use crate::precision::{Precision, PrecisionOptions};
@@ -100,14 +100,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let written = [&arguments.out, &arguments.plot, &arguments.report];
     let written = written.into_iter().flatten();
     check_files(&read, &written.cloned().collect::<Vec<_>>())?;
-    check_ending(arguments.plot.as_ref(), &["svg"])?;
-    check_ending(arguments.report.as_ref(), &["html", "htm"])?;
     let rows = create(arguments.out.as_ref())?;
-    let plot = create(arguments.plot.as_ref())?;
-    let page = create(arguments.report.as_ref())?;
+    let plot = picture(arguments.plot.as_ref())?;
+    let page = page(arguments.report.as_ref())?;
     let results = compare(&scenes, &arguments.options(), text_on_stdout)?;
     fill(rows, || report::precision_csv(&results))?;
-    fill(plot, || report::precision_figure(&results))?;
+    draw(plot, || report::precision_figure(&results))?;
     fill(page, || {
         report::precision_page(&results, &origin(files.first()))
     })?;

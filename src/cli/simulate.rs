@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Outcome, Streams, check_ending, create, fill, origin};
+use super::{Outcome, Streams, create, draw, fill, origin, page, picture};
 use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{self, PlotRows, Preview, RowWriter};
@@ -117,8 +117,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     )?;
     let mut scene = streams.scene(arguments.scene.as_ref())?;
     let origin = origin(arguments.scene.as_ref());
-    check_ending(arguments.plot.as_ref(), &["svg"])?;
-    check_ending(arguments.report.as_ref(), &["html", "htm"])?;
     if let Some(tolerance) = arguments.tolerance {
         // It has no place in the file.
         Scene::new(1.0, 2.0).tolerance(tolerance).check()?;
@@ -132,8 +130,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         scene = steady.start(&scene);
     }
     let output = create(arguments.out.as_ref())?;
-    let figure = create(arguments.plot.as_ref())?;
-    let page = create(arguments.report.as_ref())?;
+    let figure = picture(arguments.plot.as_ref())?;
+    let page = page(arguments.report.as_ref())?;
     let mut rows = Rows {
         plot: (figure.is_some() || page.is_some()).then(PlotRows::default),
         writer: output.map(RowWriter::new),
@@ -147,7 +145,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     summary.steady_state = steady;
     let preview = rows.preview.map_or(Vec::new(), |preview| preview.rows());
     if let Some(plot) = &rows.plot {
-        fill(figure, || plot.to_svg(&summary))?;
+        draw(figure, || plot.to_svg(&summary))?;
         fill(page, || plot.page(&summary, &scene, &origin))?;
     }
     streams.show(&summary, || report::summary(&summary, &preview))?;

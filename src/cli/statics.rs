@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
-    Outcome, Streams, angle, check_ending, check_rows_of_turn, create, fill, length, origin,
+    Outcome, Streams, angle, check_rows_of_turn, create, draw, fill, length, origin, page, picture,
     positive_angle, print, quantity,
 };
 use crate::error::Error;
@@ -122,16 +122,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     )?;
     check_rows_of_turn(arguments.every)?;
     let scene = streams.scene(arguments.scene.as_ref())?;
-    check_ending(arguments.plot.as_ref(), &["svg"])?;
-    check_ending(arguments.report.as_ref(), &["html", "htm"])?;
     let result = crate::statics::statics(&scene, &arguments.options())?;
     let out = create(arguments.out.as_ref())?;
-    let plot = create(arguments.plot.as_ref())?;
-    let page = create(arguments.report.as_ref())?;
+    let plot = picture(arguments.plot.as_ref())?;
+    let page = page(arguments.report.as_ref())?;
     if let Some(output) = out {
         report::statics_rows(&result, arguments.every, arguments.details, output)?;
     }
-    fill(plot, || report::statics_figure(&result))?;
+    draw(plot, || report::statics_figure(&result))?;
     fill(page, || {
         let origin = origin(arguments.scene.as_ref());
         report::statics_page(&result, arguments.every, &scene, &origin)

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use clap::Args;
 
-use super::{Outcome, Streams, check_ending, create, fill, origin, say};
+use super::{Outcome, Streams, fill, origin, page, say};
 use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{self, SweepWriter};
@@ -73,7 +73,6 @@ fn shard(text: &str) -> Result<[usize; 2], String> {
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let (read, out) = (arguments.scene.as_ref(), arguments.out.as_ref());
     let streams = Streams::new(&[read], out, &[arguments.report.as_ref()], arguments.json)?;
-    check_ending(arguments.report.as_ref(), &["html", "htm"])?;
     let draft = match read {
         Some(file) => Draft::load(file)?,
         None => Draft::duarte(),
@@ -94,7 +93,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     };
     let sweep = Sweep::new(draft, arguments.vary.clone(), options)?;
     let part = arguments.shard.unwrap_or([1, 1]);
-    let page = create(arguments.report.as_ref())?;
+    let page = page(arguments.report.as_ref())?;
     let mut writer = SweepWriter::new(out.map(PathBuf::as_path), &sweep, part, page.is_some())?;
     let progress = std::io::stderr().is_terminal();
     let begun = Instant::now();

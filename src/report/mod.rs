@@ -14,6 +14,7 @@ mod motion;
 mod one_turn;
 mod output;
 mod page;
+mod picture;
 mod precision;
 mod quantity;
 mod reproduce;
@@ -32,6 +33,7 @@ pub use motion::PlotRows;
 pub use one_turn::{sized, turn, turn_figure, turn_page, turn_rows};
 pub use output::{Output, is_standard_output};
 pub use page::{Origin, Page, Table};
+pub use picture::{ENDINGS, Picture};
 pub use precision::{precision, precision_csv, precision_figure, precision_notes, precision_page};
 pub use reproduce::{
     ReproductionSummary, drawing_csv, drawing_svg, file_name, reproduction, reproduction_csv,

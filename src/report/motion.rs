@@ -95,7 +95,7 @@ impl PlotRows {
         let columns: [(&str, &str, f64, Column); 3] = [
             ("slider position", "x [mm]", 1e3, |row| row.x),
             ("slider velocity", "v [m/s]", 1.0, |row| row.v),
-            ("slider acceleration", "a [m/s2]", 1.0, |row| row.a),
+            ("slider acceleration", "a [m/s²]", 1.0, |row| row.a),
         ];
         let mut figures = Vec::new();
         for (index, (title, axis, factor, column)) in columns.into_iter().enumerate() {
@@ -119,7 +119,7 @@ impl PlotRows {
                 figures.push(self.orbit(1e3 * joint.radial_m));
             }
             None => figures
-                .push(over_time("crank speed", "omega [rad/s]").line("", series(&|row| row.omega))),
+                .push(over_time("crank speed", "ω [rad/s]").line("", series(&|row| row.omega))),
         }
         panels(&summary.scene, &figures, 2)
     }

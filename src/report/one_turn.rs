@@ -215,7 +215,7 @@ pub fn turn_figure(result: &OneTurn) -> Result<String, Error> {
         let point = |row: &TurnRow| (row.kinematics.theta.to_degrees(), value(row));
         rows.iter().map(point).collect()
     };
-    let angle = || Axis::linear("crank angle [deg]").range(0.0, 360.0 * f64::from(result.turns()));
+    let angle = || Axis::degrees("crank angle θ [°]").range(0.0, 360.0 * f64::from(result.turns()));
     let mut figures: Vec<Figure> = quantities
         .into_iter()
         .enumerate()

@@ -174,7 +174,7 @@ pub fn statics_figure(result: &StaticAnalysis) -> Result<String, Error> {
             edge(band.and_then(|band| band.max)),
         )
     });
-    let angle = || Axis::linear("crank angle [deg]").range(0.0, 360.0);
+    let angle = || Axis::degrees("crank angle θ [°]").range(0.0, 360.0);
     let inside = |points: Vec<(f64, f64)>| -> Vec<(f64, f64)> {
         points
             .into_iter()

@@ -210,7 +210,7 @@ fn the_plot_has_its_axes() {
     let plot = folder.read("turn.svg");
     for text in [
         "slider position [m]",
-        "crank angle [deg]",
+        "crank angle θ [°]",
         "changed lengths",
     ] {
         assert!(plot.contains(text), "{text}");

@@ -14,6 +14,8 @@ use crate::error::Error;
 pub enum ScaleKind {
     /// Evenly.
     Linear,
+    /// Evenly, read at parts of a turn.
+    Degrees,
     /// By their logarithm; values that are not positive have no place.
     Log,
 }
@@ -33,6 +35,14 @@ impl Axis {
             label: label.into(),
             kind: ScaleKind::Linear,
             range: None,
+        }
+    }
+
+    /// A linear axis of angles in degrees, with ticks at parts of a turn; the label names the angle and its unit.
+    pub fn degrees(label: impl Into<String>) -> Axis {
+        Axis {
+            kind: ScaleKind::Degrees,
+            ..Axis::linear(label)
         }
     }
 

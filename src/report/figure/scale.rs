@@ -78,7 +78,7 @@ impl Scale {
     /// At most `most` ticks.
     pub(super) fn ticks(&self, most: usize) -> Vec<Tick> {
         match self.kind {
-            ScaleKind::Linear => self.even_ticks(self.low, self.high, most),
+            ScaleKind::Linear | ScaleKind::Degrees => self.even_ticks(self.low, self.high, most),
             ScaleKind::Log => {
                 let parts = self.parts_of_decades();
                 match self.high - self.low {
@@ -92,7 +92,14 @@ impl Scale {
 
     /// Round numbers at even distances.
     fn even_ticks(&self, low: f64, high: f64, most: usize) -> Vec<Tick> {
-        let step = round_step((high - low) / most.max(1) as f64);
+        let least = (high - low) / most.max(1) as f64;
+        let of_turn = match self.kind {
+            ScaleKind::Degrees => PARTS_OF_TURN.into_iter().find(|part| *part >= least),
+            _ => None,
+        };
+        let step = of_turn
+            .filter(|_| least > 5.0)
+            .unwrap_or_else(|| round_step(least));
         let digits = |value: f64| value.abs().max(f64::MIN_POSITIVE).log10().floor() as i32;
         let size = digits(low.abs().max(high.abs()));
         let last = digits(step * (1.0 + 1e-9));
@@ -157,7 +164,7 @@ impl Scale {
 pub(super) fn coordinate(kind: ScaleKind, value: f64) -> f64 {
     match kind {
         _ if value.abs() > LARGEST => f64::NAN,
-        ScaleKind::Linear => value,
+        ScaleKind::Linear | ScaleKind::Degrees => value,
         ScaleKind::Log if value > 0.0 => value.log10(),
         ScaleKind::Log => f64::NAN,
     }
@@ -169,6 +176,9 @@ fn power_of_ten(exponent: i32) -> String {
         _ => format!("1e{exponent}"),
     }
 }
+
+/// Parts and multiples of a turn at which angles are read, degrees.
+const PARTS_OF_TURN: [f64; 8] = [10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0, 720.0];
 
 /// The next step of 1, 2 or 5 times a power of ten.
 fn round_step(at_least: f64) -> f64 {
