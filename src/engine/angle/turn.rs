@@ -1,15 +1,13 @@
 //! The panels of one cycle.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use super::Driven;
 use super::panel::{FIRST_DEGREE, Fineness, Station};
 use crate::engine::energy::NotApplicable;
+use crate::engine::energy::piece::LONGEST;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MOST, Rule};
-
-/// Panels are not longer at first, rad.
-const LONGEST: f64 = PI + 1e-9;
 
 /// Panels of one cycle between the corners.
 pub(super) fn stations<D: Driven>(

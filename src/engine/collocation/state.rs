@@ -4,10 +4,8 @@ use std::f64::consts::TAU;
 
 use super::super::step::Node;
 use super::super::time::Start;
-use crate::numeric::angle::Angle;
-
-/// 2 pi − TAU
-const TAU_REST: f64 = 2.4492935982947064e-16;
+use crate::numeric::angle::{Angle, TAU_REST};
+use crate::numeric::exact::two_sum;
 
 /// Angle, speed and work as a number and the digits below its last place (compensated summation, Kahan).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,10 +68,10 @@ impl State {
     pub fn moved(&self, h: f64, [angle, omega, work]: [f64; 3]) -> State {
         let travel = h * self.omega;
         let lost = h.mul_add(self.omega, -travel) + h * self.omega_low;
-        let (far, below) = sum(self.theta, travel);
-        let (theta, theta_low) = sum(far, angle + (below + lost + self.theta_low));
-        let (omega, omega_low) = sum(self.omega, omega + self.omega_low);
-        let (work, work_low) = sum(self.work, work + self.work_low);
+        let (far, below) = two_sum(self.theta, travel);
+        let (theta, theta_low) = two_sum(far, angle + (below + lost + self.theta_low));
+        let (omega, omega_low) = two_sum(self.omega, omega + self.omega_low);
+        let (work, work_low) = two_sum(self.work, work + self.work_low);
         State {
             t: self.t + h,
             theta,
@@ -100,14 +98,7 @@ impl State {
         let turns = (self.theta / TAU).floor();
         self.turns += turns;
         let low = self.theta_low - turns * TAU_REST;
-        (self.theta, self.theta_low) = sum(self.theta - turns * TAU, low);
+        (self.theta, self.theta_low) = two_sum(self.theta - turns * TAU, low);
         self
     }
-}
-
-/// a + b, rounded, and the rest (Knuth's two-sum).
-fn sum(a: f64, b: f64) -> (f64, f64) {
-    let sum = a + b;
-    let back = sum - a;
-    (sum, (a - (sum - back)) + (b - back))
 }

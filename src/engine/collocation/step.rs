@@ -9,7 +9,6 @@ use super::seen::OnStep;
 use super::series::{dot, legendre};
 use super::state::State;
 use super::tableau::Tableau;
-use crate::numeric::enclosure::ellipses;
 
 /// Most sweeps of a step; one that needs more is too long.
 const SWEEPS: usize = 14;
@@ -17,8 +16,6 @@ const SWEEPS: usize = 14;
 const FEW_SWEEPS: usize = 9;
 /// What sweeps may leave of the error allowed to a step.
 const LEFT_BY_SWEEPS: f64 = 1e-2;
-/// No step ends closer to its start than this part of the time.
-const SHORTEST: f64 = 16.0 * f64::EPSILON;
 /// A step that is too long is not made shorter for a corner behind this part of it.
 const WELL_INSIDE: f64 = 0.9;
 /// Rounding of a state, in parts of itself.
@@ -29,8 +26,6 @@ pub struct Collocation<'a> {
     pub(super) motion: &'a Counted<'a>,
     tableau: &'static Tableau,
     pub(super) tolerance: f64,
-    /// Sizes of the ellipses that the nodes need.
-    ellipses: [f64; 2],
     has_detail: bool,
     has_power: bool,
     pub(super) batch: Batch,
@@ -50,7 +45,6 @@ impl<'a> Collocation<'a> {
             motion,
             tableau: Tableau::get(),
             tolerance,
-            ellipses: ellipses(NODES, LEFT_BY_SWEEPS * tolerance),
             has_detail: motion.has_detail(),
             has_power: motion.has_power(),
             batch: Batch::default(),
@@ -255,12 +249,11 @@ impl<'a> Collocation<'a> {
         }
         let h = step.length();
         let term = self.tolerance * (1.0 + state.omega.abs()) * (2 * NODES) as f64 / h;
+        let allowed = term.max(self.rounding(state, h, coefficients));
+        let (times, part) = ([state.t, state.t + h], LEFT_BY_SWEEPS * self.tolerance);
         let look = Look {
-            nodes: NODES,
-            ellipses: self.ellipses,
-            allowed: term.max(self.rounding(state, h, coefficients)),
-            least: SHORTEST * state.t.abs().max((state.t + h).abs()) / h,
             compares: true,
+            ..Look::at_step(times, NODES, part, allowed)
         };
         let way = OnStep {
             motion: self.motion,

@@ -3,12 +3,10 @@
 use super::Contact;
 use super::run::Runner;
 use crate::engine::sight::{Look, Way, hidden};
-use crate::numeric::enclosure::{Detail, Interval, ellipses};
+use crate::numeric::enclosure::{Detail, Interval};
 
 /// Order of the method: as many nodes it is worth.
 const ORDER: usize = 8;
-/// No step ends closer to its start than this part of the time.
-const SHORTEST: f64 = 16.0 * f64::EPSILON;
 
 /// A step in time.
 struct OnStep<'a, M: Contact<N>, const N: usize> {
@@ -51,13 +49,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         }
         let h = end[0] - self.y[0];
         let tolerance = self.settings.tolerance;
-        let look = Look {
-            nodes: ORDER,
-            ellipses: ellipses(ORDER, tolerance),
-            allowed: tolerance / h,
-            least: SHORTEST * end[0].abs() / h,
-            compares: false,
-        };
+        let look = Look::at_step([self.y[0], end[0]], ORDER, tolerance, tolerance / h);
         let way = OnStep {
             model: self.model,
             start: &self.y,

@@ -24,7 +24,7 @@ impl Orbit {
         let (back, later) = (self.backward.as_ref(), self.later.as_ref());
         let error = self.forward.error
             + back.map_or(0.0, |leg| leg.error)
-            + later.map_or(0.0, |later| later.error());
+            + later.map_or(0.0, |later| later.error);
         let duration = later.map_or(self.forward.duration.0, |later| later.end())
             + back.map_or(0.0, |leg| leg.duration.0);
         let left_out = match self.panel_at(until) {

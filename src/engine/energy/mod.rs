@@ -7,11 +7,12 @@
 //! makes dt/ds smooth. Where each turn gains the same work, the time of many turns is a sum in closed form.
 
 mod build;
+mod equal_gains;
 pub(in crate::engine) mod error_bound;
 mod euler_maclaurin;
 mod extreme;
+pub(in crate::engine) mod interpolated_turns;
 mod kinetic;
-mod later;
 mod noise;
 mod one_turn;
 mod orbit;

@@ -18,7 +18,7 @@ struct Station {
 
 /// The panels of a turn, fine enough for the least energy that it was made for and for all above.
 #[derive(Clone, Debug)]
-pub(super) struct OneTurn {
+pub(in crate::engine) struct OneTurn {
     stations: Vec<Station>,
     /// What the floats for its ends lack of a whole turn, rad.
     missing: f64,
@@ -100,21 +100,6 @@ impl OneTurn {
             leg.push(station.panel(kinetic));
         }
         leg
-    }
-
-    /// Angle and speed a time after its start.
-    pub fn state(&self, kinetic: f64, after: f64) -> (f64, f64) {
-        let mut left = after;
-        let rule = Rule::of(DEGREE);
-        let last = self.stations.len() - 1;
-        for station in &self.stations[..last] {
-            let duration = rule.rounded_integral(&station.slopes(kinetic));
-            if left <= duration {
-                return station.panel(kinetic).state(left);
-            }
-            left -= duration;
-        }
-        self.stations[last].panel(kinetic).state(left)
     }
 }
 

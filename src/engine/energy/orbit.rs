@@ -3,10 +3,9 @@
 use std::f64::consts::TAU;
 
 use super::build::Begin;
+use super::equal_gains::Course;
 use super::error_bound::off_by_place;
-use super::euler_maclaurin::{Course, Gains};
 use super::kinetic::at_start;
-use super::later::Later;
 use super::segment::{After, Segment};
 use super::turns::Turns;
 use super::{NotApplicable, Profile};
@@ -34,7 +33,7 @@ pub struct Orbit {
     /// From the start the other way, for motions that turn back.
     pub(super) backward: Option<Segment>,
     /// What follows after the first turns, for long motions whose turns differ.
-    pub(super) later: Option<Box<Later>>,
+    pub(super) later: Option<Box<Turns>>,
 }
 
 impl Orbit {
@@ -87,7 +86,7 @@ impl Orbit {
                 off,
                 tolerance,
             };
-            later = Gains::new(&course, FIRST_TURNS, forward.duration, until)?;
+            later = course.turns(FIRST_TURNS, forward.duration, until)?;
             if later.is_none() && !profile.is_spent() {
                 forward = leg(direction, until, f64::INFINITY)?;
             }
@@ -108,7 +107,7 @@ impl Orbit {
             off,
             forward,
             backward,
-            later: later.map(|gains| Box::new(Later::Gaining(gains))),
+            later: later.map(Box::new),
         })
     }
 
@@ -134,7 +133,7 @@ impl Orbit {
         later: Turns,
     ) -> Orbit {
         Orbit {
-            later: Some(Box::new(Later::Mapped(later))),
+            later: Some(Box::new(later)),
             ..Orbit::one_way(start, speed, leg)
         }
     }
@@ -261,10 +260,9 @@ impl Orbit {
 
     /// Last segment.
     pub(in crate::engine) fn last_leg(&self) -> &Segment {
-        match self.later.as_deref() {
-            Some(Later::Mapped(turns)) => &turns.last,
-            _ => &self.forward,
-        }
+        self.later
+            .as_ref()
+            .map_or(&self.forward, |later| &later.last)
     }
 
     /// How long it is known, s: for ever if it repeats.

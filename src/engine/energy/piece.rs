@@ -108,7 +108,7 @@ impl Piece {
 }
 
 /// The first guess of a panel's length, rad.
-pub(super) const LONGEST: f64 = PI + 1e-9;
+pub(in crate::engine) const LONGEST: f64 = PI + 1e-9;
 
 /// What the floats for the ends of a turn lack of it, rad.
 pub(super) fn missing(start: f64, direction: f64) -> f64 {

@@ -1,136 +1,34 @@
-//! Turns that follow from the kinetic energy at their start, by interpolation between turns that were computed.
+//! Many turns in one direction, each of which follows from the kinetic energy at its start.
 
 use std::f64::consts::TAU;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use super::euler_maclaurin;
+use super::interpolated_turns::{Interpolated, Mark, Turn};
 use super::segment::Segment;
 use crate::numeric::angle::Angle;
-use crate::numeric::chebyshev::{Rule, Series};
-use crate::numeric::exact::two_sum;
 
-/// The start of a turn.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::engine) struct Mark {
-    /// Turns before it, without sign.
-    pub turns: f64,
-    /// s, rounded value and rest
-    pub t: (f64, f64),
-    /// J
-    pub kinetic: f64,
-    /// Work of the loads without a potential until here, J.
-    pub work: f64,
-    /// What the rounded energy and work leave out, J: turns that gain the same round in the same direction.
-    pub low: [f64; 2],
-}
-
-impl Mark {
-    /// Seconds from here until a time.
-    pub fn until(&self, t: f64) -> f64 {
-        (t - self.t.0) - self.t.1
-    }
-
-    /// The start of the turn after `count` turns like this one.
-    pub fn after(&self, step: &Turn, count: f64) -> Mark {
-        let (sum, lost) = two_sum(self.t.0, count * step.duration);
-        let (kinetic, kinetic_low) = two_sum(self.kinetic, count * step.gain + self.low[0]);
-        let (work, work_low) = two_sum(self.work, count * step.work + self.low[1]);
-        Mark {
-            turns: self.turns + count * step.count,
-            t: two_sum(sum, lost + self.t.1),
-            kinetic,
-            work,
-            low: [kinetic_low, work_low],
-        }
-    }
-}
-
-/// What a turn does, or several that are repeated together.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::engine) struct Turn {
-    /// How many turns it is.
-    pub count: f64,
-    /// s
-    pub duration: f64,
-    /// Kinetic energy gained, J.
-    pub gain: f64,
-    /// J
-    pub work: f64,
-}
-
-/// Turns over a range of the kinetic energy at their start.
+/// How turns follow from each other.
 #[derive(Clone, Debug)]
-pub(in crate::engine) struct Cell {
-    /// Turns that are repeated together.
-    count: f64,
-    middle: f64,
-    half: f64,
-    rule: &'static Rule,
-    legs: Vec<Segment>,
-    duration: Series,
-    gain: Series,
-    work: Series,
-}
-
-impl Cell {
-    /// A cell from turns that begin with the energies `middle + half·x`, J, at the points x of a rule.
-    pub fn new(middle: f64, half: f64, rule: &'static Rule, turns: Vec<(Segment, Turn)>) -> Cell {
-        let series = |of: fn(&Turn) -> f64| {
-            let mut values = [0.0; crate::numeric::chebyshev::MOST + 1];
-            for (value, (_, turn)) in values.iter_mut().zip(&turns) {
-                *value = of(turn);
-            }
-            rule.series(&values)
-        };
-        Cell {
-            count: turns.first().map_or(1.0, |(_, turn)| turn.count),
-            middle,
-            half,
-            rule,
-            duration: series(|turn| turn.duration),
-            gain: series(|turn| turn.gain),
-            work: series(|turn| turn.work),
-            legs: turns.into_iter().map(|(leg, _)| leg).collect(),
-        }
-    }
-
-    /// What the interpolation leaves out: relative to the duration, and to the kinetic energy.
-    pub fn tail(&self) -> f64 {
-        let gain = self.gain.tail() * self.gain.largest() / self.middle;
-        self.duration.tail().max(gain)
-    }
-
-    pub fn covers(&self, kinetic: f64) -> bool {
-        (kinetic - self.middle).abs() <= self.half
-    }
-
-    pub fn turn(&self, kinetic: f64) -> Turn {
-        let x = (kinetic - self.middle) / self.half;
-        Turn {
-            count: self.count,
-            duration: self.duration.value(x),
-            gain: self.gain.value(x),
-            work: self.work.value(x),
-        }
-    }
-
-    fn leg(&self, kinetic: f64) -> Segment {
-        let x = (kinetic - self.middle) / self.half;
-        Segment::blend(&self.legs, &self.rule.shares(x)[..self.legs.len()])
-    }
+pub(in crate::engine) enum Map {
+    /// Each follows from the energy of the one before, by interpolation.
+    Interpolated(Interpolated),
+    /// Each gains the same energy; a cell begins at each mark but the last.
+    Gaining(Vec<euler_maclaurin::Cell>),
 }
 
 /// Many turns in one direction.
 #[derive(Clone, Debug)]
 pub(in crate::engine) struct Turns {
-    pub cells: Vec<Cell>,
+    pub map: Map,
     /// Starts of some of the turns, in order, the first and the last turn among them.
     pub marks: Vec<Mark>,
-    /// The last turn, as far as it was needed.
+    /// The last turns, as far as they were needed.
     pub last: Segment,
-    /// Whether the turns from the last mark but one on are all the same.
-    pub steady: bool,
     /// The turn that was asked for last.
     pub recent: Recent,
+    /// How far times may be off, s, as far as the panels say.
+    pub error: f64,
 }
 
 /// The motion in one turn, with the mark at which it begins: rows and events of a turn follow each other.
@@ -155,42 +53,88 @@ impl Clone for Recent {
     }
 }
 
+/// A place in many turns.
+#[derive(Clone, Copy, Debug)]
+enum Goal {
+    /// s
+    Time(f64),
+    /// Whole turns before it.
+    Turns(f64),
+}
+
+impl Goal {
+    /// Turns like these until it.
+    fn left(self, mark: &Mark, turn: &Turn) -> f64 {
+        match self {
+            Goal::Time(t) => mark.until(t) / turn.duration,
+            Goal::Turns(turns) => (turns - mark.turns) / turn.count,
+        }
+    }
+
+    fn is_after(self, mark: &Mark) -> bool {
+        match self {
+            Goal::Time(t) => mark.until(t) >= 0.0,
+            Goal::Turns(turns) => mark.turns <= turns,
+        }
+    }
+}
+
 impl Turns {
-    /// The turn after a mark.
-    pub fn turn(&self, kinetic: f64) -> Option<Turn> {
-        Some(self.cell(kinetic)?.turn(kinetic))
+    /// Index of the last mark before a goal.
+    fn index(&self, goal: Goal) -> usize {
+        self.marks
+            .partition_point(|mark| goal.is_after(mark))
+            .max(1)
+            - 1
     }
 
-    fn cell(&self, kinetic: f64) -> Option<&Cell> {
-        self.cells.iter().rev().find(|cell| cell.covers(kinetic))
-    }
-
-    /// The start of the turn before which `is_before` does not hold any more, from the marks before it.
-    fn find(
-        &self,
-        is_before: impl Fn(&Mark) -> bool,
-        turns_left: impl Fn(&Mark, &Turn) -> f64,
-    ) -> Mark {
-        let index = self.marks.partition_point(&is_before).max(1) - 1;
+    /// The start of the last turn before a goal.
+    fn find(&self, goal: Goal) -> Mark {
+        let index = self.index(goal);
         let mut mark = self.marks[index];
-        if index + 1 == self.marks.len() {
+        let Some(end) = self.marks.get(index + 1) else {
             return mark;
-        }
-        if self.steady && index + 2 == self.marks.len() {
-            let Some(turn) = self.turn(mark.kinetic) else {
-                return mark;
-            };
-            let turn = Turn { gain: 0.0, ..turn };
-            return mark.after(&turn, turns_left(&mark, &turn).max(0.0).floor());
-        }
-        while let Some(turn) = self.turn(mark.kinetic) {
-            let next = mark.after(&turn, 1.0);
-            if !is_before(&next) || next.turns >= self.marks[index + 1].turns {
-                break;
+        };
+        match &self.map {
+            Map::Gaining(cells) => cells[index].mark(match goal {
+                Goal::Time(t) => cells[index].turn_at(mark.until(t)),
+                Goal::Turns(turns) => turns - mark.turns,
+            }),
+            Map::Interpolated(map) if map.steady && index + 2 == self.marks.len() => {
+                let Some(turn) = map.turn(mark.kinetic) else {
+                    return mark;
+                };
+                let turn = Turn { gain: 0.0, ..turn };
+                mark.after(&turn, goal.left(&mark, &turn).max(0.0).floor())
             }
-            mark = next;
+            Map::Interpolated(map) => {
+                while let Some(turn) = map.turn(mark.kinetic) {
+                    let next = mark.after(&turn, 1.0);
+                    if !goal.is_after(&next) || next.turns >= end.turns {
+                        break;
+                    }
+                    mark = next;
+                }
+                mark
+            }
         }
-        mark
+    }
+
+    /// The start of the turn after one that is not the last.
+    fn next(&self, mark: &Mark) -> Option<Mark> {
+        let cells = match &self.map {
+            Map::Interpolated(map) => return Some(mark.after(&map.turn(mark.kinetic)?, 1.0)),
+            Map::Gaining(cells) => cells,
+        };
+        let cell = &cells[self.index(Goal::Turns(mark.turns))];
+        let turns = mark.turns - cell.first.turns + 1.0;
+        if turns < cell.count {
+            return Some(cell.mark(turns));
+        }
+        self.marks
+            .iter()
+            .find(|start| start.turns > mark.turns)
+            .copied()
     }
 
     /// The last mark.
@@ -200,17 +144,19 @@ impl Turns {
 
     /// What is asked for of the motion in the turn that begins at a mark.
     fn on_leg<T>(&self, mark: &Mark, of: impl FnOnce(&Segment) -> T) -> T {
-        let whole = mark.turns < self.last_mark().turns;
-        let Some(cell) = self.cell(mark.kinetic).filter(|_| whole) else {
+        if mark.turns >= self.last_mark().turns {
             return of(&self.last);
+        }
+        let leg = || match &self.map {
+            Map::Gaining(cells) => cells[self.index(Goal::Turns(mark.turns))].leg(mark.kinetic),
+            Map::Interpolated(map) => map.leg(mark.kinetic),
         };
-        of(&self.recent.or_new(mark, || cell.leg(mark.kinetic)))
+        of(&self.recent.or_new(mark, leg))
     }
 
     /// Angle from the start of the run's first turn, and speed.
     pub fn state(&self, t: f64, direction: f64) -> (Angle, f64) {
-        let left = |mark: &Mark, turn: &Turn| mark.until(t) / turn.duration;
-        let mark = self.find(|mark| mark.until(t) >= 0.0, left);
+        let mark = self.find(Goal::Time(t));
         let (angle, speed) = self.on_leg(&mark, |leg| leg.state(mark.until(t)));
         let angle = Angle {
             turns: angle.turns + direction * mark.turns,
@@ -222,8 +168,7 @@ impl Turns {
     /// When the crank has turned by `radians`, from the start angle `rest` (rad).
     pub fn time_of_turn(&self, radians: f64, rest: f64, direction: f64) -> Option<f64> {
         let whole = (radians / TAU).floor();
-        let left = |mark: &Mark, turn: &Turn| (whole - mark.turns) / turn.count;
-        let mark = self.find(|mark| mark.turns <= whole, left);
+        let mark = self.find(Goal::Turns(whole));
         let ahead = radians - mark.turns * TAU;
         let angle = Angle::from(rest + direction * ahead);
         let after = self.on_leg(&mark, |leg| leg.time_of(angle))?;
@@ -238,11 +183,13 @@ impl Turns {
         let mut range = self.last.speed_range(0.0, last.until(until));
         let first = whole().next().copied();
         // The energies of the turns rise or fall, but not all turns have marks.
-        let before_last = (last.turns >= 1.0).then(|| {
-            let turns = last.turns - self.cells.first().map_or(1.0, |cell| cell.count);
-            let left = |mark: &Mark, turn: &Turn| (turns - mark.turns) / turn.count;
-            self.find(|mark| mark.turns <= turns, left)
-        });
+        let cycle = match &self.map {
+            Map::Interpolated(map) => map.cells.first().map_or(1.0, |cell| cell.count),
+            Map::Gaining(_) => 1.0,
+        };
+        let before_last = last.turns - cycle;
+        let before_last =
+            (before_last >= self.marks[0].turns).then(|| self.find(Goal::Turns(before_last)));
         let marks = [
             whole().min_by(by_energy).copied(),
             whole().max_by(by_energy).copied(),
@@ -264,11 +211,28 @@ impl Turns {
             if !self.on_leg(&mark, |leg| visit(&mark, leg)) {
                 return;
             }
-            let Some(turn) = self.turn(mark.kinetic) else {
+            let Some(next) = self.next(&mark) else {
                 return;
             };
-            mark = mark.after(&turn, 1.0);
+            mark = next;
         }
         visit(&last, &self.last);
+    }
+
+    /// Turns before the first of these.
+    pub fn first(&self) -> f64 {
+        self.marks[0].turns
+    }
+
+    /// The time until which it is known, s.
+    pub fn end(&self) -> f64 {
+        self.last_mark().t.0 + self.last.duration.0
+    }
+
+    /// Largest kinetic energy until a time (s), J.
+    pub fn largest_kinetic(&self, until: f64) -> f64 {
+        let marks = self.marks.iter().filter(|mark| mark.until(until) >= 0.0);
+        let starts = marks.map(|mark| mark.kinetic);
+        starts.fold(self.last.largest_kinetic(), f64::max)
     }
 }

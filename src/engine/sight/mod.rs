@@ -4,7 +4,7 @@ mod steps;
 
 use std::f64::consts::PI;
 
-use crate::numeric::enclosure::{Detail, shown};
+use crate::numeric::enclosure::{Detail, ellipses, shown};
 
 pub use steps::{Proof, corner_on_step};
 
@@ -55,6 +55,19 @@ const COARSE: f64 = 0.2;
 const MOST_PIECES: usize = 400;
 /// Ends that are left out where a corner is at an end, off by what its place is off.
 const ENDS: [f64; 2] = [9.5367431640625e-7, 9.094947017729282e-13];
+
+impl Look {
+    /// At a step from one time to another (s), which ends no closer to its start than some roundings of the time.
+    pub fn at_step([from, to]: [f64; 2], nodes: usize, part: f64, allowed: f64) -> Look {
+        Look {
+            nodes,
+            ellipses: ellipses(nodes, part),
+            allowed,
+            least: 16.0 * f64::EPSILON * from.abs().max(to.abs()) / (to - from),
+            compares: false,
+        }
+    }
+}
 
 /// Where a panel or a step has to end.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 use super::{Hidden, Look, Way, hidden};
 use crate::engine::step::Step;
 use crate::engine::{Counted, Motion};
-use crate::numeric::enclosure::{Detail, Interval, Reach, ellipses};
+use crate::numeric::enclosure::{Detail, Interval, Reach};
 
 /// What was proved of the steps ahead.
 pub struct Proof<'a> {
@@ -11,7 +11,6 @@ pub struct Proof<'a> {
     tolerance: f64,
     /// The order of the method: as many nodes it is worth.
     order: usize,
-    ellipses: [f64; 2],
     /// Where no step hides anything, as long as it is not larger than the parts of this.
     known: Option<Reach>,
     /// Into how many parts it is divided.
@@ -20,8 +19,6 @@ pub struct Proof<'a> {
 
 /// Most steps that are looked at together.
 const MOST_AHEAD: f64 = 64.0;
-/// No step ends closer to its start than this part of the time.
-const SHORTEST: f64 = 16.0 * f64::EPSILON;
 
 impl<'a> Proof<'a> {
     /// Nothing so far, for a method of some order.
@@ -30,7 +27,6 @@ impl<'a> Proof<'a> {
             motion,
             tolerance,
             order,
-            ellipses: ellipses(order, tolerance),
             known: None,
             ahead: 8.0,
         }
@@ -50,13 +46,9 @@ impl<'a> Proof<'a> {
             return None;
         }
         let h = step.length();
-        let look = Look {
-            nodes: self.order,
-            ellipses: self.ellipses,
-            allowed: self.tolerance * (1.0 + step.start.omega.abs()) / h,
-            least: SHORTEST * step.start.t.abs().max(step.end.t.abs()) / h,
-            compares: false,
-        };
+        let allowed = self.tolerance * (1.0 + step.start.omega.abs()) / h;
+        let times = [step.start.t, step.end.t];
+        let look = Look::at_step(times, self.order, self.tolerance, allowed);
         let ahead = reach.ahead(self.ahead);
         if look.shows(|ellipse| self.motion.detail(&ahead, ellipse)) {
             self.known = Some(ahead);

@@ -4,8 +4,9 @@ mod cells;
 
 use std::f64::consts::TAU;
 
+use super::super::energy::interpolated_turns::{Interpolated, Mark, Turn};
 use super::super::energy::segment::Segment;
-use super::super::energy::turns::{Mark, Recent, Turn, Turns};
+use super::super::energy::turns::{Map, Recent, Turns};
 use super::super::energy::{NotApplicable, Orbit};
 use super::stepper::PanelStepper;
 use super::{Done, Driven, Driving, Errors, Goal, Resolution, Short, work_until};
@@ -53,13 +54,12 @@ pub(super) fn run<D: Driven>(
         rises: march.rises(),
         lost: (march.gain / march.turns).abs() * f64::from(march.driven.cycle()),
         march,
-        turns: Turns {
+        map: Interpolated {
             cells: Vec::new(),
-            marks: vec![mark],
-            last: Segment::open(),
             steady: false,
-            recent: Recent::default(),
         },
+        marks: vec![mark],
+        last: Segment::open(),
     };
     let (last, why) = way.turn_of(goal);
     let ended = way.last_turns(&last, goal, start, why)?;
@@ -70,7 +70,7 @@ pub(super) fn run<D: Driven>(
         Ended::AtGoal(_) => None,
         Ended::Short(why) => {
             let turns = start.turns + speed.signum() * last.turns;
-            let angle = way.turns.last.last_angle(turns);
+            let angle = way.last.last_angle(turns);
             angle.map(|angle| Short {
                 why: *why,
                 angle,
@@ -78,7 +78,14 @@ pub(super) fn run<D: Driven>(
             })
         }
     };
-    let orbit = Orbit::of_turns(start, speed, leg, way.turns);
+    let turns = Turns {
+        map: Map::Interpolated(way.map),
+        marks: way.marks,
+        last: way.last,
+        recent: Recent::default(),
+        error: 0.0,
+    };
+    let orbit = Orbit::of_turns(start, speed, leg, turns);
     let end = match goal {
         _ if short.is_some() => orbit.length(),
         Goal::Time(until) => until,
@@ -114,7 +121,10 @@ enum Ended {
 
 struct Way<'a, D: Driven> {
     march: PanelStepper<'a, D>,
-    turns: Turns,
+    map: Interpolated,
+    marks: Vec<Mark>,
+    /// The turn in which the goal lies, or single turns where the map ends before.
+    last: Segment,
     tail: f64,
     width: f64,
     /// Whether the energy rises from turn to turn.
@@ -126,20 +136,20 @@ struct Way<'a, D: Driven> {
 impl<D: Driven> Way<'_, D> {
     /// The start of the turn in which the goal lies, or of a turn before which the map ends, and why it does.
     fn turn_of(&mut self, goal: Goal) -> (Mark, Option<NotApplicable>) {
-        let mut mark = self.turns.marks[0];
+        let mut mark = self.marks[0];
         let first = mark.turns;
         let mut known = mark;
         let mut before = mark;
         let (mut seen, mut gained) = (0.0, f64::INFINITY);
         loop {
-            let turn = match self.turns.turn(mark.kinetic) {
+            let turn = match self.map.turn(mark.kinetic) {
                 Some(turn) => turn,
                 None => match self.extend(mark.kinetic) {
                     Ok(turn) => turn,
                     Err(why) => {
                         // The turn before is one that is completed.
                         if before.turns > known.turns {
-                            self.turns.marks.push(before);
+                            self.marks.push(before);
                         }
                         return (before, Some(why));
                     }
@@ -152,18 +162,18 @@ impl<D: Driven> Way<'_, D> {
             let is_steady = turn.gain.abs() <= 2.0 * f64::EPSILON * mark.kinetic;
             if left < 1.0 || is_steady {
                 if mark.turns > known.turns {
-                    self.turns.marks.push(mark);
+                    self.marks.push(mark);
                 }
                 if left >= 1.0 {
-                    self.turns.steady = true;
+                    self.map.steady = true;
                     let same = Turn { gain: 0.0, ..turn };
                     mark = mark.after(&same, left.floor());
-                    self.turns.marks.push(mark);
+                    self.marks.push(mark);
                 }
                 return (mark, None);
             }
             if mark.turns - known.turns >= BETWEEN_MARKS {
-                self.turns.marks.push(mark);
+                self.marks.push(mark);
                 known = mark;
             }
             let done = mark.turns - first;
@@ -203,7 +213,7 @@ impl<D: Driven> Way<'_, D> {
                     self.width = (factor * tried).min(WIDEST);
                     if cell.tail() <= self.tail {
                         let turn = cell.turn(kinetic);
-                        self.turns.cells.push(cell);
+                        self.map.cells.push(cell);
                         return Ok(turn);
                     }
                     NotApplicable::NotSmooth
@@ -243,12 +253,12 @@ impl<D: Driven> Way<'_, D> {
         loop {
             let done = match self.march.panel() {
                 Ok(done) => done,
-                Err(why) if self.turns.last.len() == 0 => return Err(why),
+                Err(why) if self.last.len() == 0 => return Err(why),
                 Err(why) => return Ok(Ended::Short(why)),
             };
             let piece = &done.panel.piece;
             let turned = (piece.to - start.rest).abs() + done.panel.turns.abs() * TAU;
-            self.turns.last.push(done.panel.clone());
+            self.last.push(done.panel.clone());
             let passed = match goal {
                 Goal::Time(until) => self.march.t.0 > (until - mark.t.0) - mark.t.1,
                 Goal::Turned(way) => turned + mark.turns * TAU >= way - 1e-12,

@@ -1,0 +1,154 @@
+//! Many turns that gain the same energy each.
+//!
+//! Where the forces depend on the angle alone and are the same in each turn, turn n begins with the kinetic
+//! energy K₀ + nW. A million turns are a few dozen cells of the energy.
+
+use super::build::Begin;
+use super::euler_maclaurin::Cell;
+use super::interpolated_turns::Mark;
+use super::one_turn::OneTurn;
+use super::segment::{After, Segment};
+use super::turns::{Map, Recent, Turns};
+use super::{NotApplicable, Profile};
+
+/// Most cells.
+const MOST_CELLS: usize = 2000;
+/// Turns after the last cell that are computed one by one.
+const LAST_TURNS: f64 = 256.0;
+/// How far a cell goes beyond the least energy that occurs in its first turn, in parts of it: the nearest
+/// singularity of T is where this energy vanishes.
+const WIDEST: f64 = 1.5;
+/// Widths below this part of the widest are given up.
+const NARROWEST: f64 = 1e-3;
+
+/// Where the turns begin, and what each gains.
+pub(super) struct Course<'a> {
+    pub profile: &'a dyn Profile,
+    /// rad
+    pub start: f64,
+    /// Sign of the speed.
+    pub direction: f64,
+    /// Kinetic energy before the first turn, J.
+    pub kinetic: f64,
+    /// J
+    pub gain: f64,
+    /// How far the gain may be off, J.
+    pub gain_error: f64,
+    /// How far the kinetic energy at the start may be off beside its own rounding, J.
+    pub off: f64,
+    /// Tail at which series end.
+    pub tolerance: f64,
+}
+
+impl Course<'_> {
+    fn kinetic_after(&self, turns: f64) -> f64 {
+        turns.mul_add(self.gain, self.kinetic)
+    }
+
+    /// How far that may be off, J.
+    fn off_after(&self, turns: f64) -> f64 {
+        self.off + f64::EPSILON * self.kinetic + turns * self.gain_error
+    }
+
+    fn mark(&self, turns: f64, t: (f64, f64)) -> Mark {
+        Mark {
+            turns,
+            t,
+            kinetic: self.kinetic_after(turns),
+            work: 0.0,
+            low: [0.0; 2],
+        }
+    }
+
+    /// The turns after the first `done` ones, which end at the time `t` (s, rounded value and rest), until a time;
+    /// none if the crank comes to rest or turns back before.
+    pub fn turns(
+        &self,
+        done: f64,
+        t: (f64, f64),
+        until: f64,
+    ) -> Result<Option<Turns>, NotApplicable> {
+        let (mut cells, mut marks, mut error) = (Vec::new(), Vec::new(), 0.0);
+        let mut mark = self.mark(done, t);
+        let mut last = None;
+        while last.is_none() && cells.len() < MOST_CELLS && !self.profile.is_spent() {
+            let Some(mut cell) = self.cell(mark) else {
+                break;
+            };
+            let after = mark.until(until);
+            let passed = cell.count.is_infinite() || cell.time(cell.count) > after;
+            let count = if passed {
+                cell.turn_at(after)
+            } else {
+                cell.count
+            };
+            let whole = if passed { count + 1.0 } else { count };
+            error += cell.error(whole, self.off_after(mark.turns + whole));
+            let end = cell.mark(count);
+            last = passed.then(|| cell.leg(end.kinetic));
+            marks.push(mark);
+            mark = if passed {
+                end
+            } else {
+                self.mark(end.turns, end.t)
+            };
+            cell.count = count;
+            cells.push(cell);
+        }
+        let last = match last {
+            Some(leg) => leg,
+            None => {
+                let begin = Begin {
+                    start: self.start,
+                    direction: self.direction,
+                    kinetic: mark.kinetic,
+                    off: self.off_after(mark.turns),
+                };
+                let left = mark.until(until);
+                let leg = Segment::build(self.profile, begin, left, self.tolerance, LAST_TURNS)?;
+                if leg.after != After::Ends || cells.is_empty() {
+                    return Ok(None);
+                }
+                error += leg.error;
+                leg
+            }
+        };
+        marks.push(mark);
+        Ok(Some(Turns {
+            map: Map::Gaining(cells),
+            marks,
+            last,
+            recent: Recent::default(),
+            error,
+        }))
+    }
+
+    fn one_turn(&self, kinetic: f64) -> Option<OneTurn> {
+        let (start, direction) = (self.start, self.direction);
+        OneTurn::new(self.profile, start, direction, kinetic)
+    }
+
+    /// The cell that begins with a turn; none if the crank is too near to rest.
+    fn cell(&self, first: Mark) -> Option<Cell> {
+        let here = self.one_turn(first.kinetic)?;
+        let least = here.least(first.kinetic);
+        let mut share = 1.0;
+        while share > NARROWEST && least > 0.0 {
+            let made = if self.gain >= 0.0 {
+                let width = share * WIDEST * least;
+                Cell::new(first, first.kinetic, width, self.gain, here.clone())
+            } else {
+                // As wide seen from its other end.
+                let width = share * least * WIDEST / (1.0 + WIDEST);
+                self.one_turn(first.kinetic - width).and_then(|turn| {
+                    Cell::new(first, first.kinetic - width, width, self.gain, turn)
+                })
+            };
+            if made.is_some() {
+                return made;
+            }
+            share *= 0.5;
+        }
+        None
+    }
+}

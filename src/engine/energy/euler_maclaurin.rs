@@ -1,0 +1,178 @@
+//! What many turns take together: the sum of Euler and Maclaurin over a smooth function of the energy.
+//!
+//! Turn n takes the time T(K₀ + nW). T is expanded in a Chebyshev series over a cell of the energy.
+
+use super::interpolated_turns::Mark;
+use super::one_turn::OneTurn;
+use super::segment::Segment;
+use crate::numeric::chebyshev::{Rule, Series};
+use crate::numeric::exact::two_sum;
+use crate::numeric::gauss;
+
+/// Degree of the series over the energy.
+const DEGREE: usize = 24;
+/// Where the series of T have decayed to rounding.
+const TAIL: f64 = 1e-14;
+/// Steps of x up to which the sum is that of Euler and Maclaurin: the next term is below rounding.
+const SMALL_STEP: f64 = 1.0 / 64.0;
+
+/// Turns over a range of the kinetic energy at their start, x in [−1, 1].
+#[derive(Clone, Debug)]
+pub(in crate::engine) struct Cell {
+    pub first: Mark,
+    /// Turns until the next cell.
+    pub count: f64,
+    /// Of x from turn to turn.
+    step: f64,
+    /// J
+    half: f64,
+    /// J
+    gain: f64,
+    /// T in the middle, s
+    usual: f64,
+    /// T less that, s, so that what little T changes has all its digits.
+    difference: Series,
+    /// What it leaves out, relative to T.
+    tail: f64,
+    /// Derivative of the series.
+    slope: Series,
+    /// The end terms of the sum.
+    correction: Series,
+    turn: OneTurn,
+}
+
+/// The end terms of the sum of Euler and Maclaurin: −T/2 + h T'/12 − h³ T'''/720 + h⁵ T⁽⁵⁾/30240; what is constant
+/// cancels.
+fn correction(difference: &Series, h: f64) -> Series {
+    let first = difference.derivative();
+    let third = first.derivative().derivative();
+    let fifth = third.derivative().derivative();
+    let terms = [
+        (difference, -0.5),
+        (&first, h / 12.0),
+        (&third, -h.powi(3) / 720.0),
+        (&fifth, h.powi(5) / 30240.0),
+    ];
+    Series::blend(terms.into_iter())
+}
+
+impl Cell {
+    /// The cell of this width from the energy `low` on (J), from whose series T follows to rounding; none if it does not, or
+    /// it holds no turn.
+    pub fn new(first: Mark, low: f64, width: f64, gain: f64, turn: OneTurn) -> Option<Cell> {
+        let (half, rule) = (0.5 * width, Rule::of(DEGREE));
+        let middle = low + half;
+        let usual = turn.duration(middle);
+        let differences = rule.values(|x| turn.duration(middle + half * x) - usual);
+        let difference = rule.series(&differences);
+        let tail = difference.tail() * (difference.largest() / usual);
+        let step = gain / half;
+        let count = (2.0 / step.abs()).floor();
+        (tail <= TAIL && count >= 1.0).then(|| Cell {
+            first,
+            count,
+            step,
+            half,
+            gain,
+            correction: correction(&difference, step),
+            slope: difference.derivative(),
+            usual,
+            difference,
+            tail,
+            turn,
+        })
+    }
+
+    fn x(&self, turns: f64) -> f64 {
+        let begin = if self.step < 0.0 { 1.0 } else { -1.0 };
+        turns.mul_add(self.step, begin)
+    }
+
+    fn kinetic(&self, turns: f64) -> f64 {
+        turns.mul_add(self.gain, self.first.kinetic)
+    }
+
+    /// How long the turn after so many takes, s.
+    fn duration(&self, turns: f64) -> f64 {
+        self.usual + self.difference.value(self.x(turns))
+    }
+
+    /// The time that the first so many turns take, s.
+    pub fn time(&self, turns: f64) -> f64 {
+        let of_difference = if self.step.abs() > SMALL_STEP {
+            let each = (0..turns as u32).map(|i| self.difference.value(self.x(f64::from(i))));
+            each.sum()
+        } else {
+            let (from, to) = (self.x(0.0), self.x(turns));
+            let mean: f64 = gauss::rule_14()
+                .iter()
+                .map(|(u, weight)| weight * self.difference.value(from + u * (to - from)))
+                .sum();
+            turns * mean + (self.correction.value(to) - self.correction.value(from))
+        };
+        turns.mul_add(self.usual, of_difference)
+    }
+
+    /// Turns before the one in which a time after the first one's start lies.
+    pub fn turn_at(&self, after: f64) -> f64 {
+        let last = (self.count - 1.0).max(0.0);
+        let mut turns = 0.0;
+        if self.step.abs() > SMALL_STEP {
+            let mut left = after;
+            while turns < last {
+                let duration = self.duration(turns);
+                if left < duration {
+                    break;
+                }
+                left -= duration;
+                turns += 1.0;
+            }
+            return turns;
+        }
+        // Newton on the sum, which is smooth in the number of turns.
+        turns = (after / self.duration(0.0)).clamp(0.0, last);
+        for _ in 0..60 {
+            let late = after - self.time(turns);
+            let next = (turns + late / self.duration(turns)).clamp(0.0, last);
+            let change = (next - turns).abs();
+            turns = next;
+            if change <= 0.01 {
+                break;
+            }
+        }
+        turns = turns.floor();
+        let left = after - self.time(turns);
+        if left < 0.0 && turns > 0.0 {
+            turns - 1.0
+        } else if turns < last && left >= self.duration(turns) {
+            turns + 1.0
+        } else {
+            turns
+        }
+    }
+
+    /// The motion of a turn that begins with a kinetic energy, J.
+    pub fn leg(&self, kinetic: f64) -> Segment {
+        self.turn.leg(kinetic)
+    }
+
+    /// The start of the turn after so many of the cell.
+    pub fn mark(&self, turns: f64) -> Mark {
+        let (sum, lost) = two_sum(self.first.t.0, self.time(turns));
+        Mark {
+            turns: self.first.turns + turns,
+            t: two_sum(sum, lost + self.first.t.1),
+            kinetic: self.kinetic(turns),
+            work: 0.0,
+            low: [0.0; 2],
+        }
+    }
+
+    /// How far the time of so many turns may be off, s, where energies are off by `off`, J.
+    pub fn error(&self, turns: f64, off: f64) -> f64 {
+        let off = off + f64::EPSILON * self.turn.largest_work();
+        let steepest = [0.0, turns].map(|turns| self.slope.value(self.x(turns)).abs() / self.half);
+        let steepest = steepest[0].max(steepest[1]);
+        turns * steepest * off + (self.tail / DEGREE as f64 + self.turn.error) * self.time(turns)
+    }
+}
