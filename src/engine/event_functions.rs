@@ -3,6 +3,7 @@
 use super::Motion;
 use super::step::Step;
 use crate::numeric::angle::Angle;
+use crate::numeric::exact::SUM_ROUNDING;
 use crate::numeric::{dip, golden, root};
 
 /// A step is looked at in pieces of this travel, rad, but in at least so many and at most so many. Between them
@@ -10,9 +11,6 @@ use crate::numeric::{dip, golden, root};
 const TRAVEL: f64 = 0.1;
 const FEWEST: f64 = 8.0;
 const MOST: f64 = 64.0;
-
-/// A dip within this part of the largest value is rounding.
-const NOISE: f64 = 64.0 * f64::EPSILON;
 
 /// A quantity that starts with the wrong sign may have had the right one within 2 to the power of minus so many of
 /// the piece.
@@ -90,7 +88,7 @@ pub fn changes<const N: usize>(
 fn has_jumped<const N: usize>(looks: &[Look<N>], index: usize, sign: f64) -> bool {
     let values = looks.iter().map(|look| look.values[index].abs());
     let largest = values.fold(0.0, f64::max);
-    looks[0].values[index] * sign < -NOISE * largest
+    looks[0].values[index] * sign < -SUM_ROUNDING * largest
 }
 
 /// Times and values of one quantity, and those of the lowest points of its dips between them.
@@ -107,7 +105,7 @@ fn with_dips<const N: usize>(
     for three in looks.windows(3).filter(|three| may_dip(three, index)) {
         let sign = three[1].values[index].signum();
         let (t, beyond) = golden::largest(|t| -sign * value(t), three[0].t, three[2].t);
-        if beyond > NOISE * largest {
+        if beyond > SUM_ROUNDING * largest {
             all.push((t, -sign * beyond));
         }
     }

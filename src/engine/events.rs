@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use super::Motion;
 use super::step::Step;
+use crate::numeric::exact::SUM_ROUNDING;
 use crate::numeric::root;
 
 /// What happened.
@@ -71,7 +72,7 @@ fn turning_brackets(step: &Step, mut bracket: impl FnMut(f64, f64)) {
         // From rest a speed may be rounding first.
         let lowest = lowest
             .map(|t| Turn::at(step, t))
-            .filter(|turn| turn.speed.abs() > 64.0 * f64::EPSILON * w0.abs().max(w1.abs()));
+            .filter(|turn| turn.speed.abs() > SUM_ROUNDING * w0.abs().max(w1.abs()));
         let mut from = before;
         for to in [lowest, Some(after)].into_iter().flatten() {
             if from.speed * to.speed < 0.0 || (to.speed == 0.0 && from.speed != 0.0) {

@@ -2,6 +2,7 @@
 
 use super::{Motion, NODES};
 use crate::numeric::angle::Angle;
+use crate::numeric::exact::SUM_ROUNDING;
 use crate::numeric::root;
 
 /// The state at one end of a step.
@@ -50,9 +51,6 @@ enum Inside {
 /// Where inside the step the acceleration is asked for. The nodes of a Lobatto rule would not do: the odd
 /// term has no acceleration there.
 const INNER: [f64; 3] = [0.25, 0.5, 0.75];
-
-/// On a shorter way than this part of the angle its ends differ by rounding alone.
-const SHORTEST: f64 = 64.0 * f64::EPSILON;
 
 impl Step {
     /// The step between two states.
@@ -192,7 +190,7 @@ impl Step {
         let (a, b) = (&self.start, &self.end);
         let (v0, v1) = (h * a.omega, h * b.omega);
         let (c0, c1) = (0.5 * h * h * a.alpha, 0.5 * h * h * b.alpha);
-        let travel = if v0.abs().max(v1.abs()) > SHORTEST * a.theta.abs() {
+        let travel = if v0.abs().max(v1.abs()) > SUM_ROUNDING * a.theta.abs() {
             b.theta - a.theta
         } else {
             // The angles say nothing about so short a way.

@@ -5,9 +5,7 @@ use super::friction::Free;
 use super::{Arms, CurveEquation, CurveTerms, LoadValue};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{Interval, Reach};
-
-/// Operations that round the value of a load.
-const ROUNDINGS: f64 = 64.0;
+use crate::numeric::exact::SUM_ROUNDING;
 
 /// Of the range of a load no ellipse around it is asked for.
 const SOME_ELLIPSE: f64 = 2.0;
@@ -105,7 +103,7 @@ impl AtRest<'_> {
         let LoadValue { torque, force } = self.equation.load(place, t, self.q, 0.0);
         let most = self.dry_magnitude(t);
         let size = torque.abs() + most.torque + (force.abs() + most.force) * place.dx.abs();
-        ROUNDINGS * f64::EPSILON * size
+        SUM_ROUNDING * size
     }
 
     /// What the dry loads oppose motion with at most, N m and N.

@@ -26,7 +26,7 @@ impl Equation {
             return Some(Singularity::Blocked);
         }
         let load = self.loads().value(t, theta, omega, &terms.pose);
-        if !load.torque.is_finite() || !load.force.is_finite() {
+        if !load.is_finite() {
             return Some(Singularity::Load);
         }
         if !self.acceleration(t, theta, omega).is_finite() {

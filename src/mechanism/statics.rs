@@ -85,7 +85,7 @@ impl Statics {
         let pose = &terms.pose;
         let mut balance = self.unknown(pose);
         let linkage = self.equation.linkage();
-        if !pose.exists() || !finite(&load) || dead_centre(linkage, pose, theta) {
+        if !pose.exists() || !load.is_finite() || dead_centre(linkage, pose, theta) {
             return balance;
         }
         let whole = (terms.dv - load.torque) / pose.dx;
@@ -125,7 +125,7 @@ impl Statics {
     fn torque_beside(&self, terms: &Terms, load: LoadValue) -> Balance {
         let pose = &terms.pose;
         let mut balance = self.unknown(pose);
-        if !pose.exists() || !finite(&load) {
+        if !pose.exists() || !load.is_finite() {
             return balance;
         }
         let torque = |force: f64| terms.dv - force * pose.dx - load.torque + 0.0;
@@ -196,11 +196,6 @@ impl Band {
             ..self
         }
     }
-}
-
-/// Whether the loads have a value: an angle may be outside a table.
-fn finite(load: &LoadValue) -> bool {
-    load.torque.is_finite() && load.force.is_finite()
 }
 
 /// Whether a crank angle cannot be told from a dead centre: x' is within what rounding of the angle changes.

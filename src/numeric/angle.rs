@@ -79,32 +79,3 @@ pub fn turns(count: u32, step: f64) -> impl Iterator<Item = f64> {
         })
         .chain([end])
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn whole_turns_leave_no_trace() {
-        let far = Angle {
-            turns: 1e6,
-            rest: 0.25,
-        };
-        let same = Angle {
-            turns: 0.0,
-            rest: TAU + 0.25,
-        }
-        .reduced();
-        assert_eq!(same.turns, 1.0);
-        assert!((same.rest - 0.25).abs() < 1e-15);
-        let small = Angle::from(-1e-5);
-        assert_eq!(small.reduced(), small);
-        assert_eq!(
-            far.minus(Angle {
-                turns: 1e6,
-                rest: 0.0
-            }),
-            0.25
-        );
-    }
-}

@@ -23,12 +23,3 @@ pub fn largest(mut f: impl FnMut(f64) -> f64, a: f64, b: f64) -> (f64, f64) {
     }
     if at_c > at_d { (c, at_c) } else { (d, at_d) }
 }
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn the_top_of_a_parabola_is_found() {
-        let (t, value) = super::largest(|t| 2.0 - (t - 0.3).powi(2), -1.0, 4.0);
-        assert!((t - 0.3).abs() < 1e-7 && (value - 2.0).abs() < 1e-15);
-    }
-}

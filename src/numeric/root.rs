@@ -78,18 +78,3 @@ pub fn within(mut f: impl FnMut(f64) -> f64, a: f64, b: f64, width: f64) -> Opti
     }
     Some(b)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn roots_are_right_to_the_last_bits() {
-        for target in [0.1, 1.0, std::f64::consts::E, 1e-9] {
-            let root = bracketed(|x| x * x * x - target, 0.0, 3.0).unwrap();
-            assert!((root / target.cbrt() - 1.0).abs() < 1e-15, "{root}");
-        }
-        assert_eq!(bracketed(f64::sin, -1.0, 0.5), Some(0.0));
-        assert_eq!(bracketed(|x| x * x + 1.0, -1.0, 1.0), None);
-    }
-}

@@ -130,7 +130,8 @@ impl Forces {
         station: &Station<D::Place>,
         start: Start,
     ) -> Values {
-        const STEP: f64 = 1e-6;
+        // The error of a central difference is least for this step.
+        let step = f64::EPSILON.cbrt();
         let table = &station.table;
         let mut rates = [0.0; MOST + 1];
         for (j, x) in station.rule.points().iter().enumerate() {
@@ -138,7 +139,7 @@ impl Forces {
             let mut rate = -table.damping[j];
             if driven.is_driven() {
                 let at = |speed: f64| self.drive(driven, station, start, j, *x, speed);
-                let (less, more) = (speed * (1.0 - STEP), speed * (1.0 + STEP));
+                let (less, more) = (speed * (1.0 - step), speed * (1.0 + step));
                 rate += (at(more) - at(less)) / (more - less);
             }
             if let Some(switch) = &table.switch {

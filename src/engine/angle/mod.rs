@@ -29,7 +29,7 @@ mod turn;
 
 use std::f64::consts::TAU;
 
-use super::energy::segment::Segment;
+use super::energy::segment::{MOST_PANELS, Segment};
 use super::energy::{NotApplicable, Orbit};
 use super::time::{FAR, Start};
 use super::work_forecast::{Ends, WorkForecast};
@@ -150,8 +150,6 @@ pub struct Resolution {
     pub most_evaluations: u64,
 }
 
-/// Most panels that are kept.
-const MOST_PANELS: usize = 200_000;
 /// Turns after which the map of a cycle takes over, where there is one.
 const TURNS_BEFORE_MAP: f64 = 48.0;
 

@@ -3,6 +3,7 @@
 use super::super::energy::NotApplicable;
 use super::super::energy::piece::{Piece, Turning};
 use super::predictor::Predictor;
+use super::sweep::SLOW;
 use super::{Driven, Table};
 use crate::numeric::chebyshev::{MOST, Rule, Values, largest};
 
@@ -53,8 +54,6 @@ pub(super) struct Fineness {
 
 /// Panels are not cut below this, rad.
 const SHORTEST: f64 = 1e-9;
-/// What a sweep is taken to leave before it is known.
-const UNKNOWN: f64 = 0.3;
 /// What the forces leave out adds up over the turns: it is to be less by this.
 const ADDED_UP: f64 = 0.1;
 /// Degree of the series that are tried first.
@@ -117,7 +116,7 @@ impl<P: Copy> Station<P> {
             work: [0.0; MOST + 1],
             largest_force: 0.0,
             past: Predictor::new(),
-            factor: UNKNOWN,
+            factor: SLOW,
             failed: false,
             rests: Vec::new(),
             is_rest: None,

@@ -1,15 +1,15 @@
 //! Whether the points of a panel show the loads on it.
 
-use std::f64::consts::TAU;
-
 use super::Driven;
 use super::Table;
 use super::panel::{Fineness, Station};
 use super::sweep::{Start, Swept};
+use crate::engine::events::ROUNDED;
 use crate::engine::sight::{Look, Way, hidden};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MOST, Series, largest};
 use crate::numeric::enclosure::{Detail, Interval, Reach, ellipses};
+use crate::numeric::exact::SUM_ROUNDING;
 
 /// The motion on a panel that was solved.
 struct OnPanel<'a, D: Driven> {
@@ -24,9 +24,6 @@ struct OnPanel<'a, D: Driven> {
     /// How far the slope of the time over x is from its mean, and how steep it is, at most.
     varies: [f64; 2],
 }
-
-/// Rounding of an angle within two turns, by a few operations, rad.
-const ROUNDED: f64 = 8.0 * f64::EPSILON * TAU;
 
 /// Where a solved panel has to end for its points to show the loads, as part of it; none if they do.
 pub(super) fn hides<D: Driven>(
@@ -55,12 +52,12 @@ pub(super) fn hides<D: Driven>(
         varies: [sum(|_| 1.0), sum(|k| k * k)],
     };
     let forces = largest(&swept.spent()[..=degree]).max(station.largest_force);
-    let rounding = 64.0 * f64::EPSILON * forces;
+    let rounding = SUM_ROUNDING * forces;
     let look = Look {
         nodes: degree,
         ellipses: ellipses(degree, fine.tail),
         allowed: rounding.max(fine.tail * start.kinetic / station.half().abs()),
-        least: ROUNDED / station.half().abs(),
+        least: 2.0 * ROUNDED / station.half().abs(),
         compares: true,
     };
     hidden(&way, look).map(|hidden| hidden.at)

@@ -5,6 +5,7 @@ use super::forces::Forces;
 use super::newton::correction;
 use super::panel::Station;
 use crate::numeric::chebyshev::{MOST, Rule, Series, Values, largest};
+use crate::numeric::exact::SUM_ROUNDING;
 
 /// The state at the start of a panel.
 #[derive(Clone, Copy, Debug)]
@@ -60,8 +61,8 @@ impl Swept {
 
 /// Most sweeps over a panel.
 const MOST_SWEEPS: u32 = 40;
-/// Sweeps that gain less than this factor give way to Newton's method.
-const SLOW: f64 = 0.3;
+/// Sweeps that gain less than this factor give way to Newton's method; taken for the factor before it is known.
+pub(super) const SLOW: f64 = 0.3;
 /// Sweeps end where what they leave is this part of the tail: it adds up over the turns.
 const SETTLED: f64 = 1e-3;
 /// Bound on the last change if the forces are evaluated once more, which is another sweep for the energy that is gained.
@@ -253,7 +254,7 @@ impl Swept {
         let largest = largest(&self.forces.total[..count]);
         let energy = half.abs() / start.kinetic;
         // Large forces that balance each other leave their rounding.
-        let noise = 64.0 * f64::EPSILON * station.largest_force;
+        let noise = SUM_ROUNDING * station.largest_force;
         let unresolved = last * energy > tail + noise * energy;
         if unresolved && last > accepted * largest && last / largest > tail + noise * energy {
             return Err(Unsolved::TooLong);

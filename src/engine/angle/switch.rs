@@ -6,17 +6,13 @@ use super::{Driven, Switch};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MOST, Rule, Series, Values};
 use crate::numeric::dip::may_dip;
+use crate::numeric::exact::SUM_ROUNDING;
 use crate::numeric::golden;
 use crate::numeric::root;
 
-/// The switch within this part of what it is the sum of has no sign.
-const NOISE: f64 = 32.0 * f64::EPSILON;
-/// A change as near to an end of a panel as this is at the end, rad: as the forces are continuous, it is felt by the
-/// square of that.
-pub(super) const AT_END: f64 = 1e-9;
-
-/// At the start of a panel that begins where the switch changes, it is zero within this part of its largest value.
-const AT_CUT: f64 = 1e-9;
+/// A change as near to an end of a panel as this is at the end, rad, and so is the switch within this part of its largest
+/// value: as the forces are continuous, that is felt by its square.
+const AT_END: f64 = 1e-9;
 
 /// What the switch does on a panel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,7 +63,7 @@ pub(super) fn begins_beyond<D: Driven>(
     let speed = start.direction * (start.kinetic * station.mobility[0]).sqrt();
     let parts = parts(driven, switch, station, start, 0, [start.t, speed]);
     let largest = parts.iter().fold(0.0f64, |m, part| m.max(part.abs()));
-    station.side * parts.iter().sum::<f64>() < -AT_CUT * largest
+    station.side * parts.iter().sum::<f64>() < -AT_END * largest
 }
 
 /// What the switch is the sum of, at a point where the time (s) and the speed (rad/s) are these.
@@ -140,13 +136,13 @@ fn values<D: Driven>(
         values[j] = station.side * parts.iter().sum::<f64>();
         largest = parts.iter().fold(largest, |m, part| m.max(part.abs()));
     }
-    (values, NOISE * largest)
+    (values, SUM_ROUNDING * largest)
 }
 
 /// The first place at which values fall below zero, by more than `noise`; −1 if they begin there.
 fn first_below<P: Copy>(station: &Station<P>, values: &Values, noise: f64) -> Option<f64> {
     let points = station.rule.points();
-    if values[0] < -noise.max(AT_CUT * values.iter().fold(0.0f64, |m, value| m.max(value.abs()))) {
+    if values[0] < -noise.max(AT_END * values.iter().fold(0.0f64, |m, value| m.max(value.abs()))) {
         return Some(-1.0);
     }
     let series = || station.rule.series(values);

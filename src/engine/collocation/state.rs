@@ -86,7 +86,7 @@ impl State {
 
     /// The state with so much more speed, rad/s.
     pub fn faster(mut self, by: f64) -> State {
-        (self.omega, self.omega_low) = sum(self.omega, self.omega_low + by);
+        (self.omega, self.omega_low) = two_sum(self.omega, self.omega_low + by);
         self
     }
 

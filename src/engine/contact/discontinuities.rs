@@ -1,11 +1,9 @@
 //! Where the law of motion changes inside a phase, or its rates have a kink: steps end there.
 
 use super::run::{Halt, Runner};
-use super::{Contact, Finish, Stretch};
+use super::{Contact, Finish, PIECES, Stretch};
 use crate::numeric::root;
 
-/// A step is looked at in so many pieces.
-const PIECES: u32 = 8;
 /// What is nearer to the beginning of a step than this part of it is the break that the step begins at.
 const BEGINS: f64 = 1e-6;
 /// Most changes at one time, beyond which none of the laws lasts.

@@ -2,11 +2,9 @@
 
 use super::run::{Halt, Runner};
 use super::step::{Dense, Stages};
-use super::{Contact, Phase, Sample};
+use super::{Contact, PIECES, Phase, Sample};
 use crate::numeric::root;
 
-/// A step is looked at in so many pieces.
-const PIECES: usize = 8;
 /// A piece is cut in two until it is this part of a step, or the cubic through its ends says that the gap stays open;
 /// in a piece as short as this the rate of the gap changes its sign at most once.
 const FINEST: f64 = 1.0 / 1024.0;
@@ -144,7 +142,7 @@ fn closing<M: Contact<N>, const N: usize>(model: &M, dense: &Dense<N>, h: f64) -
     };
     let mut before = gap(0.0);
     (1..=PIECES).find_map(|i| {
-        let after = gap(i as f64 / PIECES as f64);
+        let after = gap(f64::from(i) / f64::from(PIECES));
         let found = closing_between(&gap, before, after, h);
         before = after;
         found
@@ -203,7 +201,7 @@ fn closing_in(gap: &impl Fn(f64) -> Gap, start: Gap, end: Gap) -> Option<f64> {
 fn first_sign_change(value: impl Fn(f64) -> f64) -> Option<f64> {
     let mut before = 0.0;
     for i in 1..=PIECES {
-        let u = i as f64 / PIECES as f64;
+        let u = f64::from(i) / f64::from(PIECES);
         if value(u) < 0.0 {
             return root::bracketed(&value, before, u).or(Some(before));
         }

@@ -2,11 +2,9 @@
 
 use super::Contact;
 use super::run::Runner;
+use crate::engine::runge_kutta::Method;
 use crate::engine::sight::{Look, Way, hidden};
 use crate::numeric::enclosure::{Detail, Interval};
-
-/// Order of the method: as many nodes it is worth.
-const ORDER: usize = 8;
 
 /// A step in time.
 struct OnStep<'a, M: Contact<N>, const N: usize> {
@@ -49,7 +47,9 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         }
         let h = end[0] - self.y[0];
         let tolerance = self.settings.tolerance;
-        let look = Look::at_step([self.y[0], end[0]], ORDER, tolerance, tolerance / h);
+        // A method of some order is worth as many nodes.
+        let nodes = Method::Dop853.order();
+        let look = Look::at_step([self.y[0], end[0]], nodes, tolerance, tolerance / h);
         let way = OnStep {
             model: self.model,
             start: &self.y,

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::panel::{Panel, Tried, Uncertain};
 use super::piece::{LONGEST, Piece, Turning, missing, next_end};
-use super::segment::{After, Segment};
+use super::segment::{After, MOST_PANELS, Segment};
 use super::turn_closure::Return;
 use super::{NotApplicable, Profile};
 
@@ -21,8 +21,6 @@ pub(in crate::engine) struct Begin {
     pub off: f64,
 }
 
-/// Most panels that are tried for a leg.
-const MOST_ATTEMPTS: usize = 200_000;
 /// Panels no longer than this are taken as they are, rad: a corner that nobody announced.
 const SHORTEST: f64 = 1e-13;
 /// Below this part of the largest kinetic energy its sum over the panels has lost digits.
@@ -110,7 +108,7 @@ impl Segment {
             && (builder.leg.len() == 0 || builder.leg.duration.0 <= until)
         {
             attempts += 1;
-            if attempts > MOST_ATTEMPTS {
+            if attempts > MOST_PANELS {
                 return Err(NotApplicable::TooLong);
             }
             if builder.leg.len() > 0 && profile.is_spent() {

@@ -7,9 +7,6 @@ use super::segment::After;
 use crate::numeric::chebyshev::{Rule, Values};
 use crate::numeric::root;
 
-/// Most panels whose extremes are looked for between their points.
-const MOST_LOOKED_AT: u32 = 64;
-
 /// An extreme |speed| among the points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extreme {
@@ -150,14 +147,8 @@ fn extremes_of(slowness: &[f64], half: f64) -> [Extreme; 2] {
 pub(super) fn extreme(panels: &[&Panel], sign: f64) -> f64 {
     let at_points = panels.iter().map(|panel| panel.extreme_at_points(sign));
     let mut best = at_points.fold(f64::NEG_INFINITY, f64::max);
-    let mut looked = 0;
-    let at_most = best;
-    for panel in panels
-        .iter()
-        .filter(|panel| panel.extreme_bound(sign) >= at_most)
-    {
-        if panel.extreme_bound(sign) > best && looked < MOST_LOOKED_AT {
-            looked += 1;
+    for panel in panels {
+        if panel.extreme_bound(sign) > best {
             best = best.max(panel.extreme(sign));
         }
     }

@@ -15,9 +15,6 @@ use crate::numeric::exact::two_sum;
 /// Turns that are computed one by one before the others are summed.
 const FIRST_TURNS: f64 = 16.0;
 
-/// From the next angle this far, rad, the slope of the inertia is taken.
-const BESIDE: f64 = 1e-8;
-
 /// A motion known from its energy: angle and speed at any time.
 #[derive(Clone, Debug)]
 pub struct Orbit {
@@ -61,8 +58,9 @@ impl Orbit {
         // The kinetic energy is a product whose factors are rounded; an angle of the first turn is not.
         let mut off = f64::EPSILON * kinetic;
         if start.turns != 0.0 {
-            let beside = profile.inertia_and_force(theta + BESIDE).0;
-            off = off.hypot(off_by_place(theta, kinetic, [inertia, beside], BESIDE));
+            let apart = f64::EPSILON.sqrt();
+            let beside = profile.inertia_and_force(theta + apart).0;
+            off = off.hypot(off_by_place(theta, kinetic, [inertia, beside], apart));
         }
         let leg = |direction: f64, until: f64, most_turns: f64| {
             let begin = Begin {

@@ -6,6 +6,9 @@ use super::piece::Piece;
 use crate::numeric::angle::Angle;
 use crate::numeric::exact::two_sum;
 
+/// Most panels that are kept of a leg: 150 MB.
+pub(in crate::engine) const MOST_PANELS: usize = 200_000;
+
 /// How a leg goes on after its panels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::engine) enum After {

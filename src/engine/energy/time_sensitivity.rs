@@ -5,8 +5,6 @@ use crate::numeric::chebyshev::Values;
 
 /// What is left of the rounding of the angles of a panel in the mean of its 33 points.
 const AVERAGED: f64 = 0.18;
-/// Up to this ratio of the forces at its ends a panel is as under a constant one.
-const NEARLY_EVEN: f64 = 1.0 + 1e-6;
 
 /// Kinetic and potential energy are products of three factors each, all rounded, which moves a turning point even where
 /// their difference is exact.
@@ -61,7 +59,8 @@ impl TimeSensitivity {
     pub fn at_turn(&self, piece: &Piece, kinetic: f64, off: f64) -> f64 {
         // A force at the turning point that is less than the rounding of the other is none.
         let q = self.rise.min(1.0 / f64::EPSILON);
-        let (by_force, by_energy) = if q > NEARLY_EVEN {
+        // Half of the digits of q − 1 have to be left.
+        let (by_force, by_energy) = if q > 1.0 + f64::EPSILON.sqrt() {
             let arc = q.acosh();
             (
                 ((q - 1.0) / (q + 1.0)).sqrt() / arc,

@@ -177,10 +177,10 @@ impl Turns {
 
     /// Smallest and largest |speed| until a time.
     pub fn speed_range(&self, until: f64) -> (f64, f64) {
-        let last = self.last_mark();
+        let last = self.find(Goal::Time(until));
         let by_energy = |a: &&Mark, b: &&Mark| a.kinetic.total_cmp(&b.kinetic);
         let whole = || self.marks.iter().filter(|mark| mark.turns < last.turns);
-        let mut range = self.last.speed_range(0.0, last.until(until));
+        let mut range = self.on_leg(&last, |leg| leg.speed_range(0.0, last.until(until)));
         let first = whole().next().copied();
         // The energies of the turns rise or fall, but not all turns have marks.
         let cycle = match &self.map {
@@ -229,10 +229,18 @@ impl Turns {
         self.last_mark().t.0 + self.last.duration.0
     }
 
-    /// Largest kinetic energy until a time (s), J.
+    /// Largest kinetic energy at the starts of turns and in the last ones, as far as they begin before a time (s), J.
     pub fn largest_kinetic(&self, until: f64) -> f64 {
-        let marks = self.marks.iter().filter(|mark| mark.until(until) >= 0.0);
-        let starts = marks.map(|mark| mark.kinetic);
-        starts.fold(self.last.largest_kinetic(), f64::max)
+        let reached = self.find(Goal::Time(until));
+        let marks = self
+            .marks
+            .iter()
+            .take_while(|mark| mark.until(until) >= 0.0);
+        let most = marks.fold(reached.kinetic, |most, mark| most.max(mark.kinetic));
+        if reached.turns < self.last_mark().turns {
+            most
+        } else {
+            most.max(self.last.largest_kinetic())
+        }
     }
 }
