@@ -1,14 +1,10 @@
-//! The equation of motion as the integrators see it, and the estimate of their global error.
+//! The equation of motion as the integrators see it, and what rounding does to a run in time.
 
-use std::time::Instant;
-
-use super::checkpoints::{Checkpoints, Compared};
-use super::result::{Cost, ErrorEstimate, Judged};
 use super::roundoff_propagation::Spread;
 use super::state_transition::Slopes;
 use crate::engine::step::Step;
-use crate::engine::time::{self, Finish, Settings, Start};
-use crate::engine::{Batch, Counted, Motion};
+use crate::engine::time;
+use crate::engine::{Batch, Motion};
 use crate::mechanism::{Equation, Instants, LoadValue};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{Detail, Reach};
@@ -92,79 +88,21 @@ const EVALUATION: f64 = 1.0;
 /// An acceleration that is smaller than what this angle (rad) changes in it may be a difference of larger ones. Half or twice
 /// as much changes the stated errors of 200 random runs by 1 % at most.
 const BALANCED: f64 = 0.1;
-/// What is stated of rounding, in standard deviations.
-const DEVIATIONS: f64 = 1.5;
 /// Where rounding inside a step takes over.
 pub(super) const TIGHTEST: f64 = 1e-15;
-/// Evaluations of the collocation for one of the run that it judges, and beside them.
-pub(super) const MOST_EVALUATIONS: (u64, u64) = (20, 20_000);
+/// The method of the run again is tighter than this only by so much, for rounding inside the steps takes over, and they would
+/// collapse.
+const TIGHTEST_AGAIN: f64 = 1e-13;
+const A_LITTLE: f64 = 5.0;
 
-/// A run as it ended.
-#[derive(Clone, Copy)]
-pub(super) struct Ended<'a> {
-    /// Last step of the run.
-    pub last: &'a Step,
-    /// Evaluations it took.
-    pub evaluations: u64,
-    /// States on its way.
-    pub checkpoints: &'a Checkpoints,
-}
-
-/// Global error of a run: its distance from a much better one, and what rounding may have added to both.
-///
-/// Rounding: each step rounds θ and θ̇ to half a unit in the last place, independently of the others, and a
-/// rounded angle changes the acceleration. These errors are carried to the end along the linearised motion, for
-/// near a balance they grow with it; independent ones add up by their squares.
-pub(super) fn estimate(
-    equation: &Equation,
-    start: Start,
-    settings: &Settings,
-    run: Ended<'_>,
-) -> Option<Judged> {
-    let begun = Instant::now();
-    let forward = Forward(equation);
-    let t_end = run.last.end.t;
-    let (factor, beside) = MOST_EVALUATIONS;
-    let collocation = Settings {
-        method: time::Method::Picard,
-        tolerance: tighter(settings.tolerance),
-        t_end,
-        max_evaluations: run
-            .evaluations
-            .saturating_mul(factor)
-            .saturating_add(beside)
-            .min(settings.max_evaluations),
-        ..*settings
-    };
-    let same = Settings {
-        tolerance: (settings.tolerance / TIGHTER).max(TIGHTEST),
-        t_end,
-        ..*settings
-    };
-    let mut evaluations = 0;
-    let mut better = |settings: &Settings| {
-        // Counted anew: what the other one took leaves its limit as it is.
-        let motion = Counted::new(&forward);
-        let better = Better::run(equation, &motion, start, settings, run.checkpoints);
-        evaluations += motion.evaluations();
-        better
-    };
-    let better = better(&collocation).or_else(|| better(&same))?;
-    let cost = Cost {
-        evaluations,
-        wall_s: begun.elapsed().as_secs_f64(),
-    };
-    let end = better.distance(run);
-    Some(Judged {
-        end,
-        rows: better.compared.worst(end, MARGIN),
-        cost,
-    })
-}
-
-/// Tolerance of a run in time that is so much tighter that its own error does not count.
-pub(super) fn tighter(tolerance: f64) -> f64 {
+/// Tolerance of a second run that is so much tighter that its own error does not count.
+pub(super) fn much_tighter(tolerance: f64) -> f64 {
     (tolerance / MUCH_TIGHTER).clamp(TIGHTEST, LOOSEST)
+}
+
+/// Tolerance of the method of the run again, where that one does not get to the end.
+pub(super) fn tighter(tolerance: f64) -> f64 {
+    (tolerance / TIGHTER).max(TIGHTEST_AGAIN.min(tolerance / A_LITTLE))
 }
 
 /// What rounding does to a run in time.
@@ -210,58 +148,6 @@ impl Rounding {
         self.spread = carried.pushed(shaken, &transition, h);
         if self.rounds_states {
             self.round(end.theta, end.omega);
-        }
-    }
-
-    /// What is stated of it, rad and rad/s. What it does to the run that is judged is seen in the distance of the two.
-    pub fn stated(&self) -> [f64; 2] {
-        [self.spread.angle(), self.spread.speed()]
-            .map(|deviation| DEVIATIONS * f64::EPSILON * deviation)
-    }
-}
-
-/// The run that another is compared with.
-struct Better<'a> {
-    last: Step,
-    compared: Compared<'a>,
-    rounding: Rounding,
-}
-
-impl<'a> Better<'a> {
-    fn run(
-        equation: &Equation,
-        motion: &Counted<'_>,
-        start: Start,
-        settings: &Settings,
-        checkpoints: &'a Checkpoints,
-    ) -> Option<Better<'a>> {
-        let force = || motion.acceleration(start.t, start.angle, start.speed);
-        let moves = start.speed != 0.0 || motion.depends_on_time() || force() != 0.0;
-        let mut rounding = Rounding::new(settings.method, moves);
-        let mut compared = checkpoints.compared();
-        let (finish, last, _) = time::run(motion, start, settings, &mut |step| {
-            rounding.step(equation, motion, step);
-            compared.pass(step, |_| 1.0);
-            false
-        });
-        (finish == Finish::AtEnd).then_some(Better {
-            last,
-            compared,
-            rounding,
-        })
-    }
-
-    fn distance(&self, run: Ended<'_>) -> ErrorEstimate {
-        let (best, last) = (&self.last, run.last);
-        let whole = last.angle(last.end.theta);
-        let angle = best.angle(best.end.theta).minus(whole).abs();
-        let speed = (best.end.omega - last.end.omega).abs();
-        let [angle_noise, speed_noise] = self.rounding.stated();
-        ErrorEstimate {
-            theta_rad: MARGIN * angle + angle_noise + f64::EPSILON * whole.radians().abs(),
-            omega_rad_per_s: MARGIN * speed
-                + speed_noise
-                + 0.5 * f64::EPSILON * last.end.omega.abs(),
         }
     }
 }

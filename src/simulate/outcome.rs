@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::dense_rows::DenseRows;
 use super::record::Record;
-use super::result::{Cost, ErrorEstimate, Final, Judged, Piece, Summary};
+use super::result::{Cost, ErrorEstimate, Final, Piece, Summary};
 use super::run_setup::RunSetup;
 use super::simulation::Simulation;
 use super::stalled;
@@ -61,16 +61,6 @@ pub(super) struct Estimate {
     pub on_the_way: Option<ErrorEstimate>,
     /// None without a second run.
     pub cost: Option<Cost>,
-}
-
-impl From<Judged> for Estimate {
-    fn from(judged: Judged) -> Estimate {
-        Estimate {
-            error: judged.end,
-            on_the_way: Some(judged.rows),
-            cost: Some(judged.cost),
-        }
-    }
 }
 
 impl Estimate {

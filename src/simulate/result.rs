@@ -102,17 +102,6 @@ impl ErrorEstimate {
     }
 }
 
-/// A run that was compared with a better one.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Judged {
-    /// Error of its last state.
-    pub end: ErrorEstimate,
-    /// Error of the worst state on its way.
-    pub rows: ErrorEstimate,
-    /// What the better one cost.
-    pub cost: Cost,
-}
-
 /// A part of a run that one engine computed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Piece {

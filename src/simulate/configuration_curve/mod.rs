@@ -2,7 +2,6 @@
 
 mod arrived;
 mod end_reason;
-mod estimate;
 mod follow;
 mod recorder;
 mod release;
@@ -14,7 +13,6 @@ mod stick_slip;
 
 pub(super) use arrived::{Arrived, End, Follow, Observer, crank_state};
 pub(super) use end_reason::{warnings, why};
-pub(super) use estimate::estimate;
 pub(super) use recorder::CurveWatch;
 pub(super) use roundoff::Noise;
 pub(super) use row::{last_row, row_on_curve};

@@ -4,7 +4,6 @@ use std::borrow::Cow;
 use std::cell::OnceCell;
 
 use super::super::angle_model::AngleModel;
-use super::super::error_estimate::Forward;
 use super::super::run_setup::RunSetup;
 use super::along_curve::OnCurve;
 use super::arrived::{Arrived, End, Sink, Why};
@@ -52,13 +51,11 @@ pub(super) struct Pass<'a, 'o> {
 }
 
 impl Course<'_> {
-    /// Runs to the end.
-    pub fn run(&self, sink: &mut dyn Sink) -> Result<Arrived, Error> {
-        let forward = Forward(self.task.equation());
-        let motion = Counted::new(&forward);
+    /// Runs to the end. What else is evaluated of the motion meanwhile counts for the work limit, too.
+    pub fn run(&self, motion: &Counted<'_>, sink: &mut dyn Sink) -> Result<Arrived, Error> {
         let mut pass = Pass {
             course: self,
-            motion: &motion,
+            motion,
             sink,
             arrived: Arrived::at(self.task.first_state()),
             places: self.position.evaluations(),

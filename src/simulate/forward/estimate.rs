@@ -1,56 +1,193 @@
-//! Global error of a free motion.
+//! Global error of a free motion: its distance from a second, much finer run, and what rounding may have added to both.
+//!
+//! Rounding: each step rounds θ and θ̇ to half a unit in the last place, independently of the others, and a
+//! rounded angle changes the acceleration. These errors are carried to the end along the linearised motion, for
+//! near a balance they grow with it; independent ones add up by their squares.
 
 use std::f64::consts::TAU;
 use std::time::Instant;
 
-use super::super::angle_motion::{PLACE, late_by};
-use super::super::by_angle::{ROUNDING, finer, most_evaluations};
-use super::super::configuration_curve::{self, Follow, Noise};
-use super::super::error_estimate::{self, Forward, MARGIN, Rounding, tighter};
+use super::super::angle_motion::{PLACE, late_by, worst_row};
+use super::super::by_angle::{ROUNDING, finer, row_error};
+use super::super::by_energy;
+use super::super::checkpoints::Compared;
+use super::super::configuration_curve::{self, Noise, Phase};
+use super::super::error_estimate::{Forward, MARGIN, Rounding, much_tighter, tighter};
 use super::super::outcome::Estimate;
 use super::super::record::Record;
 use super::super::result::{Cost, ErrorEstimate};
 use super::super::roundoff_propagation::Spread;
 use super::super::state_transition::StateTransition;
-use super::super::{by_angle, by_energy};
 use super::arrived::{Arrived, Driven, End, Sink};
 use super::engine_loop::Course;
-use crate::engine::Counted;
 use crate::engine::angle::Errors;
 use crate::engine::step::Step;
-use crate::engine::time::{Settings, Start};
+use crate::engine::time::{Method, Settings, Start};
+use crate::engine::{Counted, Motion};
 use crate::error::Error;
 use crate::mechanism::{CurveEquation, Equation};
 use crate::numeric::angle::Angle;
 use crate::plan::Engine;
 use crate::scene::Extent;
 
-/// The second run is handed over at other places.
+/// The second run is handed over at other places, rad.
 const OTHER_WAIT: f64 = 1.4 * TAU;
-/// What is stated of rounding with friction, in standard deviations.
-const RUBBING_DEVIATIONS: f64 = 2.0;
-
+/// Evaluations of the second run for one of the first, and beside them.
+const MOST_EVALUATIONS: (u64, u64) = (20, 200_000);
+/// What is stated of rounding, in standard deviations.
+const DEVIATIONS: f64 = 2.0;
 /// Less of an error of the energy than this is forgotten. Half or twice as much changes none of 200 random runs.
 const FORGOTTEN: f64 = 0.1;
 
-/// Carries what rounding does from piece to piece.
-struct Shaken<'a> {
-    equation: &'a Equation,
-    motion: &'a Counted<'a>,
-    /// Of pieces over the angle, and in time without friction.
-    rounding: Rounding,
-    /// Of all, if there is friction.
-    rubbing: Option<Noise<'a>>,
+/// Global error of a run; none where no second run gets to its end.
+pub(super) fn estimate<'a>(
+    course: &'a Course<'_>,
+    arrived: &'a Arrived,
+    record: &'a Record,
+    wants_rows: bool,
+) -> impl FnOnce() -> Option<Estimate> + 'a {
+    move || match &arrived.driven {
+        Some(driven) if driven.engine == Engine::Energy => Some(by_energy::estimate(
+            course.task,
+            &driven.driving,
+            arrived.work,
+            wants_rows,
+        )),
+        _ => by_second_run(course, arrived, record, wants_rows),
+    }
 }
 
-impl Shaken<'_> {
-    /// Angle error and speed error, in rad and rad/s.
-    fn noise(&self) -> [f64; 2] {
-        match &self.rubbing {
-            Some(noise) => [noise.spread.angle(), noise.spread.speed()]
-                .map(|deviation| RUBBING_DEVIATIONS * f64::EPSILON * deviation),
-            None => self.rounding.stated(),
+fn by_second_run(
+    course: &Course<'_>,
+    arrived: &Arrived,
+    record: &Record,
+    wants_rows: bool,
+) -> Option<Estimate> {
+    let begun = Instant::now();
+    let tolerance = course.settings.tolerance;
+    let collocation = Settings {
+        method: Method::Picard,
+        tolerance: much_tighter(tolerance),
+        ..course.settings
+    };
+    let again = Settings {
+        tolerance: tighter(tolerance),
+        ..course.settings
+    };
+    let mut evaluations = 0;
+    let mut second = |settings: Settings| {
+        let (factor, beside) = MOST_EVALUATIONS;
+        let share = arrived.evaluations.saturating_mul(factor);
+        let t_end = arrived.now.t;
+        let finer = Course {
+            first: match arrived.over_angle {
+                0 => Engine::Time,
+                _ => Engine::Angle,
+            },
+            is_second: true,
+            extent: Extent::Duration(t_end),
+            resolution: finer(),
+            settings: Settings { t_end, ..settings },
+            wait: OTHER_WAIT,
+            max_evaluations: share.saturating_add(beside).min(course.max_evaluations),
+            ..course.clone()
+        };
+        let forward = Forward(course.task.equation());
+        let motion = Counted::new(&forward);
+        let mut seen = Second::new(&finer, &motion, record);
+        let best = finer.run(&motion, &mut seen).ok()?;
+        evaluations += best.evaluations + seen.noise.evaluations;
+        let arrives = matches!(best.end, End::AtGoal);
+        arrives.then_some((best, seen.spread(), seen.compared))
+    };
+    let (best, spread, compared) = second(collocation).or_else(|| second(again))?;
+    let cost = Cost {
+        evaluations,
+        wall_s: begun.elapsed().as_secs_f64(),
+    };
+    let error = distance(course, arrived, &best, spread);
+    let rows = match (&arrived.driven, &best.driven) {
+        _ if !arrived.is_one_piece() => None,
+        (Some(one), Some(other)) => wants_rows.then(|| {
+            let orbits = [one, other].map(|driven| &driven.driving.orbit);
+            worst_row(one.driving.end, error, |t| row_error(orbits, t, error))
+        }),
+        (Some(_), None) => None,
+        (None, _) => Some(compared.worst(error, MARGIN)),
+    };
+    Some(Estimate {
+        error,
+        on_the_way: rows,
+        cost: Some(cost),
+    })
+}
+
+/// Distance of two runs at the end, and what rounding may add.
+fn distance(
+    course: &Course<'_>,
+    arrived: &Arrived,
+    best: &Arrived,
+    spread: Spread,
+) -> ErrorEstimate {
+    let Start { t, angle, speed } = arrived.now;
+    let [angle_noise, speed_noise] =
+        of_crank(course, arrived, spread).map(|noise| DEVIATIONS * f64::EPSILON * noise);
+    let floor = match arrived.over_angle {
+        0 => ErrorEstimate {
+            theta_rad: f64::EPSILON * angle.radians().abs(),
+            omega_rad_per_s: f64::EPSILON * speed.abs(),
+        },
+        _ => late_by(course.task, (angle, speed), t, ROUNDING * t, PLACE),
+    };
+    ErrorEstimate {
+        theta_rad: MARGIN * angle.minus(best.now.angle).abs() + floor.theta_rad + angle_noise,
+        omega_rad_per_s: MARGIN * (speed - best.now.speed).abs()
+            + floor.omega_rad_per_s
+            + speed_noise,
+    }
+}
+
+/// The spread of a coordinate at the end as that of the crank: of its angle and its speed.
+fn of_crank(course: &Course<'_>, arrived: &Arrived, spread: Spread) -> [f64; 2] {
+    let (angle, speed) = (spread.angle(), spread.speed());
+    let (Some(followed), Some(on)) = (&arrived.on_curve, course.curve.get()) else {
+        return [angle, speed];
+    };
+    let end = &followed.last.end;
+    let place = on.equation.curve().place(end.theta);
+    let bend = Some((place.d2theta * end.omega).abs()).filter(|bend| bend.is_finite());
+    let dtheta = place.dtheta.abs();
+    [dtheta * angle, dtheta * speed + bend.unwrap_or(0.0) * angle]
+}
+
+/// What is seen of the second run: what rounding does to it, and how far it is from the states of the first.
+struct Second<'m, 'a> {
+    equation: &'m Equation,
+    motion: &'m Counted<'m>,
+    rounding: Rounding,
+    /// Along the configuration curve.
+    noise: Noise,
+    compared: Compared<'a>,
+}
+
+impl<'m, 'a> Second<'m, 'a> {
+    fn new(course: &'m Course<'_>, motion: &'m Counted<'m>, record: &'a Record) -> Second<'m, 'a> {
+        let Start { t, angle, speed } = course.task.first_state();
+        let force = || motion.acceleration(t, angle, speed);
+        let moves = speed != 0.0 || motion.depends_on_time() || force() != 0.0;
+        // Panels over the angle state themselves what rounding does to them.
+        let moves = moves && course.first == Engine::Time;
+        Second {
+            equation: course.task.equation(),
+            motion,
+            rounding: Rounding::new(course.settings.method, moves),
+            noise: Noise::default(),
+            compared: record.checkpoints.compared(),
         }
+    }
+
+    fn spread(&self) -> Spread {
+        self.rounding.spread
     }
 
     /// What becomes of a perturbation over a piece over the angle: it is early by a time, which stays, and has another
@@ -83,7 +220,7 @@ impl Shaken<'_> {
     }
 }
 
-impl Sink for Shaken<'_> {
+impl Sink for Second<'_, '_> {
     fn over_angle(&mut self, driven: &Driven) -> Result<(), Error> {
         let Driven {
             driving, from, to, ..
@@ -98,40 +235,35 @@ impl Sink for Shaken<'_> {
         let transition = self.transition([from, &to], errors);
         // By its own rounding.
         let [late, off] = [errors.late, errors.off].map(|error| error / f64::EPSILON);
-        let angle = speed * late;
-        let faster = off / (self.inertia(&to) * speed);
-        let along = [angle, self.acceleration(&to) * late];
-        let carried = |spread: Spread| {
-            spread
-                .carried(&transition)
-                .along(along[0], along[1])
-                .plus(0.0, faster)
-        };
-        self.rounding.spread = carried(self.rounding.spread);
-        if let Some(noise) = &mut self.rubbing {
-            noise.spread = carried(noise.spread);
-        }
+        let carried = self.rounding.spread.carried(&transition);
+        self.rounding.spread = carried
+            .along(speed * late, self.acceleration(&to) * late)
+            .plus(0.0, off / (self.inertia(&to) * speed));
         Ok(())
     }
 
     fn begin_in_time(&mut self, from: Start) {
-        self.rounding.round(from.angle.rest, from.speed);
+        if from.t > 0.0 {
+            self.rounding.round(from.angle.rest, from.speed);
+        }
     }
 
     fn step(&mut self, step: &Step) -> bool {
         self.rounding.step(self.equation, self.motion, step);
+        self.compared.pass(step, |_| 1.0);
         false
     }
 
     fn along_curve(
         &mut self,
-        _: &CurveEquation,
+        equation: &CurveEquation,
         _: Angle,
         run: &mut dyn FnMut(&mut dyn configuration_curve::Observer),
     ) {
-        if let Some(noise) = &mut self.rubbing {
-            run(noise);
-        }
+        run(&mut AlongCurve {
+            equation,
+            second: self,
+        });
     }
 
     fn end_in_time(&mut self, _: &Counted<'_>, _: &Step, _: &Settings) -> Option<Step> {
@@ -139,117 +271,25 @@ impl Sink for Shaken<'_> {
     }
 }
 
-/// Global error of a run, by the second run that its engine asks for, or by none; none where that does not finish.
-pub(super) fn estimate<'a>(
-    course: &'a Course<'_>,
-    arrived: &'a Arrived,
-    record: &'a Record,
-    wants_rows: bool,
-) -> impl FnOnce() -> Option<Estimate> + 'a {
-    move || match (&arrived.driven, &arrived.on_curve, &arrived.last) {
-        (Some(driven), ..) if arrived.is_one_piece() => {
-            over_angle(course, arrived, driven, wants_rows)
-        }
-        (_, Some(followed), _) if arrived.is_one_piece() => {
-            let on = course.curve.get()?;
-            let follow = Follow {
-                equation: &on.equation,
-                settings: course.settings,
-                start: on.start,
-                turn_limit: course.extent.angle(),
-                turned_from: course.task.start(),
-            };
-            configuration_curve::estimate(&follow, followed, &record.checkpoints)
-                .map(Estimate::from)
-        }
-        (_, None, Some(last)) if arrived.is_one_piece() => {
-            let run = error_estimate::Ended {
-                last,
-                evaluations: arrived.evaluations,
-                checkpoints: &record.checkpoints,
-            };
-            let task = course.task;
-            error_estimate::estimate(task.equation(), task.first_state(), &course.settings, run)
-                .map(Estimate::from)
-        }
-        _ => by_other_pieces(course, arrived),
-    }
+/// A piece of it along the configuration curve.
+struct AlongCurve<'s, 'm, 'a> {
+    equation: &'s CurveEquation,
+    second: &'s mut Second<'m, 'a>,
 }
 
-/// Of one piece over the angle.
-fn over_angle(
-    course: &Course<'_>,
-    arrived: &Arrived,
-    driven: &Driven,
-    wants_rows: bool,
-) -> Option<Estimate> {
-    let task = course.task;
-    match driven.engine {
-        Engine::Energy => Some(by_energy::estimate(
-            task,
-            &driven.driving,
-            arrived.work,
-            wants_rows,
-        )),
-        _ => match by_angle::estimate(
-            course.position,
-            task,
-            arrived.evaluations,
-            &driven.driving,
-            wants_rows,
-        ) {
-            Ok(estimate) => estimate,
-            Err(_) => by_other_pieces(course, arrived),
-        },
+impl configuration_curve::Observer for AlongCurve<'_, '_, '_> {
+    fn step(&mut self, step: &Step, phase: Phase) -> bool {
+        let Second {
+            rounding,
+            noise,
+            compared,
+            ..
+        } = &mut *self.second;
+        let curve = self.equation.curve();
+        compared.pass(step, |q| curve.place(q).dtheta);
+        rounding.spread = noise.step(rounding.spread, self.equation, step, phase);
+        false
     }
-}
 
-/// Of pieces of several engines: the distance of the last state from that of a much finer run with other pieces, and what
-/// rounding may have added to both.
-fn by_other_pieces(course: &Course<'_>, arrived: &Arrived) -> Option<Estimate> {
-    let task = course.task;
-    let equation = task.equation();
-    let begun = Instant::now();
-    let end = arrived.now;
-    let finer = Course {
-        first: Engine::Angle,
-        is_second: true,
-        extent: Extent::Duration(end.t),
-        resolution: finer(),
-        settings: Settings {
-            tolerance: tighter(course.settings.tolerance),
-            t_end: end.t,
-            ..course.settings
-        },
-        wait: OTHER_WAIT,
-        max_evaluations: most_evaluations(arrived.evaluations, course.max_evaluations),
-        ..course.clone()
-    };
-    let forward = Forward(equation);
-    let motion = Counted::new(&forward);
-    let sliding = task.maker.sliding;
-    let mut shaken = Shaken {
-        equation,
-        motion: &motion,
-        rounding: Rounding::new(finer.settings.method, true),
-        rubbing: sliding.map(|sliding| Noise::new(sliding.equation())),
-    };
-    let best = finer.run(&mut shaken).ok()?;
-    if !matches!(best.end, End::AtGoal) {
-        return None;
-    }
-    let floor = late_by(task, (end.angle, end.speed), end.t, ROUNDING * end.t, PLACE);
-    let [angle_noise, speed_noise] = shaken.noise();
-    let error = ErrorEstimate {
-        theta_rad: MARGIN * end.angle.minus(best.now.angle).abs() + floor.theta_rad + angle_noise,
-        omega_rad_per_s: MARGIN * (end.speed - best.now.speed).abs()
-            + floor.omega_rad_per_s
-            + speed_noise,
-    };
-    let for_slopes = shaken.rubbing.map_or(0, |noise| noise.evaluations.get());
-    let cost = Cost {
-        evaluations: best.evaluations + motion.evaluations() + for_slopes,
-        wall_s: begun.elapsed().as_secs_f64(),
-    };
-    Some(Estimate::of_end(error, Some(cost)))
+    fn event(&mut self, _: &'static str, _: f64, _: Angle, _: f64) {}
 }

@@ -64,7 +64,7 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
     // What rows and events cost is counted apart: it does not change how far a run goes.
     let looked_at = Counted::new(&forward);
     let mut notes = Notes::new(task, &looked_at, rows);
-    let arrived = course.run(&mut notes)?;
+    let arrived = course.run(&Counted::new(&forward), &mut notes)?;
     if matches!(arrived.end, End::Integrator(Finish::NoStart)) && arrived.over_angle == 0 {
         return Err(stop_reason::no_start(task.start(), task.scene.motion.speed));
     }
