@@ -150,7 +150,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     }
     streams.show(&summary, || report::summary(&summary, &preview))?;
     Ok(match summary.stopped {
-        Some(message) => Outcome::Incomplete(message),
+        Some(stopped) => Outcome::Incomplete(stopped.to_string()),
         None => Outcome::Done,
     })
 }

@@ -135,7 +135,7 @@ impl Cell {
         if row.failure.is_some() {
             return row;
         }
-        row.failure = summary.stopped.clone();
+        row.failure = summary.stopped.as_ref().map(ToString::to_string);
         let estimate = summary.error_estimate;
         row.estimate_theta_rad = estimate.map(|error| error.theta_rad);
         row.estimate_omega_rad_per_s = estimate.map(|error| error.omega_rad_per_s);
@@ -187,7 +187,7 @@ fn unlike(summary: &Summary, reference: Option<&Reference>) -> Option<String> {
             "goes on beyond t = {t} s, where the equations of the reference end"
         )),
         (Some(_), Some(t)) if (summary.last.t_s - t).abs() <= SAME_END * t => None,
-        (Some(why), _) => Some(why.clone()),
+        (Some(why), _) => Some(why.to_string()),
     }
 }
 

@@ -260,7 +260,7 @@ fn last_time(scene: &Scene, options: &PrecisionOptions) -> Result<f64, Error> {
             let run = run(scene, Method::Auto, false, options)?;
             match run.stopped {
                 None => Ok(run.last.t_s),
-                Some(why) => Err(Error::refused(why, "give the run a duration")),
+                Some(why) => Err(Error::refused(why.to_string(), "give the run a duration")),
             }
         }
     }

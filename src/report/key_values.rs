@@ -20,7 +20,7 @@ impl Facts {
         self.0.push((name.to_string(), value.to_string()));
     }
 
-    pub fn warnings(&mut self, warnings: &[String]) {
+    pub fn warnings(&mut self, warnings: &[impl Display]) {
         for warning in warnings {
             self.add("warning", warning);
         }

@@ -5,13 +5,15 @@ use std::time::Instant;
 
 use super::driving_torque::Drive;
 use super::outcome::{Balance, Estimate, Outcome};
-use super::record::Record;
+use super::recorder::Recorder;
 use super::result::{ErrorEstimate, Event};
-use super::row::RowSink;
+use super::row::{Row, RowSink};
+use super::row_writer::Part;
 use super::run_setup::RunSetup;
 use super::schedule::Schedule;
 use super::simulation::Simulation;
 use super::stop::Why;
+use super::warning::Warning;
 use crate::engine::time::Start;
 use crate::error::Error;
 use crate::mechanism::{CurveEquation, Limits};
@@ -20,7 +22,10 @@ use crate::plan::Engine;
 use crate::scene::Extent;
 use crate::trajectory::Trajectory;
 
-pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
+pub(super) fn run<'a>(
+    task: &'a RunSetup<'a>,
+    rows: &'a mut dyn RowSink,
+) -> Result<Simulation, Error> {
     let begun = Instant::now();
     let equation = task.equation();
     let start = task.start();
@@ -29,7 +34,6 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
     let blocked = time_to_limit(task, start, speed).filter(|t| *t < asked);
     let end = blocked.unwrap_or(asked);
     let last = start.plus(speed * end);
-    let (events, events_total) = events(task, start, speed, end);
     let drive = Drive {
         equation,
         maker: &task.maker,
@@ -44,11 +48,21 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
     };
     let (torque, warning, balance) = match blocked.is_none().then(|| drive.torque_range()) {
         Some(Ok(range)) => (Some(range), None, drive.energy_balance()),
-        Some(Err(why)) => (None, Some(why), drive.energy_balance()),
+        Some(Err(why)) => (
+            None,
+            Some(Warning::NoTorqueRange(why)),
+            drive.energy_balance(),
+        ),
         None => (None, None, unbounded),
     };
     let wall_s = begun.elapsed().as_secs_f64();
-    write_rows(task, rows, start, speed, end, blocked.is_some())?;
+    let schedule = Schedule::at_speed(task.scene.run.output_every, speed, end);
+    let mut recorder = Recorder::new(task, rows, schedule);
+    let mut part = Uniform { task, end };
+    recorder.rows(&mut part);
+    // The limit itself has no finite velocity.
+    let mut record = recorder.finish(|| blocked.is_none().then(|| part.row(end)))?;
+    (record.events, record.events_total) = events(task, end);
     let stopped = blocked.map(|_| match equation.linkage().unlocked(friction(task)) {
         Some(_) => Why::Locked,
         None => Why::DrivenToLimit,
@@ -74,11 +88,7 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
         wall_s,
         warnings: warning.into_iter().collect(),
         stopped,
-        record: Record {
-            events,
-            events_total,
-            ..Record::new(speed)
-        },
+        record,
     };
     let mut run = outcome.conclude(task);
     run.summary.driving_torque = torque;
@@ -114,77 +124,56 @@ fn time_to_limit(task: &RunSetup<'_>, start: Angle, speed: f64) -> Option<f64> {
     (speed != 0.0).then(|| left / speed.abs())
 }
 
-/// Passages of the dead centres, in the order of time.
-pub(super) fn events(task: &RunSetup<'_>, start: Angle, speed: f64, end: f64) -> (Vec<Event>, u64) {
+/// Passages of the dead centres until a time (s): the first ones, in order, and how many there are.
+pub(super) fn events(task: &RunSetup<'_>, end: f64) -> (Vec<Event>, u64) {
+    let (start, speed) = (task.start(), task.scene.motion.speed);
     if speed == 0.0 {
         return (Vec::new(), 0);
     }
-    let first: Vec<f64> = task
-        .limits
-        .dead_centres
-        .iter()
-        .map(|dead_centre| {
-            let ahead = (speed.signum() * (dead_centre.theta - start.rest)).rem_euclid(TAU);
-            if ahead == 0.0 { TAU } else { ahead }
-        })
-        .collect();
-    let turned = speed.abs() * end;
-    let passages = |ahead: f64| {
-        if turned < ahead {
-            0.0
-        } else {
-            ((turned - ahead) / TAU).floor() + 1.0
-        }
+    let dead_centres = task.limits.dead_centres.iter();
+    let ahead = |theta: f64| match (speed.signum() * (theta - start.rest)).rem_euclid(TAU) {
+        0.0 => TAU,
+        ahead => ahead,
     };
-    let total: f64 = first.iter().map(|ahead| passages(*ahead)).sum();
-    let mut angles: Vec<f64> = first
-        .iter()
-        .flat_map(|ahead| {
-            let count = passages(*ahead).min(task.options.events_kept as f64) as usize;
-            (0..count).map(move |turn| ahead + turn as f64 * TAU)
-        })
-        .collect();
-    angles.sort_by(f64::total_cmp);
-    angles.truncate(task.options.events_kept);
-    let events = angles
-        .into_iter()
-        .map(|ahead| Event {
-            kind: "dead-centre",
-            t_s: ahead / speed.abs(),
-            theta_rad: start.plus(speed.signum() * ahead).radians(),
-            omega_rad_per_s: speed,
-        })
-        .collect();
-    (events, total as u64)
+    let mut first: Vec<f64> = dead_centres.map(|dc| ahead(dc.theta)).collect();
+    first.sort_by(f64::total_cmp);
+    let turned = speed.abs() * end;
+    let passages = |ahead: &f64| ((turned - ahead) / TAU + 1.0).floor().max(0.0);
+    let total = first.iter().map(passages).sum::<f64>() as u64;
+    let event = |ahead: f64| Event {
+        kind: "dead-centre",
+        t_s: ahead / speed.abs(),
+        theta_rad: start.plus(speed.signum() * ahead).radians(),
+        omega_rad_per_s: speed,
+    };
+    let kept = total.min(task.options.events_kept as u64) as usize;
+    let again =
+        (0u32..).flat_map(|turn| first.iter().map(move |ahead| ahead + f64::from(turn) * TAU));
+    (again.take(kept).map(event).collect(), total)
 }
 
-fn write_rows(
-    task: &RunSetup<'_>,
-    rows: &mut dyn RowSink,
-    start: Angle,
-    speed: f64,
+/// The motion.
+struct Uniform<'a> {
+    task: &'a RunSetup<'a>,
     end: f64,
-    blocked: bool,
-) -> Result<(), Error> {
-    if !rows.wants_rows() {
-        return Ok(());
+}
+
+impl Part for Uniform<'_> {
+    fn times(&self) -> [f64; 2] {
+        [0.0, self.end]
     }
-    let every = task.scene.run.output_every;
-    let schedule = match Schedule::new(every, Extent::Duration(end)) {
-        // A crank at rest passes no angles: its first state and its last are the rows.
-        Schedule::Angles { .. } if speed == 0.0 => Schedule::Times { step: end, end },
-        Schedule::Angles { step } => Schedule::Times {
-            step: step / speed.abs(),
-            end,
-        },
-        schedule => schedule,
-    };
-    let mut write = |t: f64| rows.row(&task.maker.row(t, start.plus(speed * t), speed, Some(0.0)));
-    let mut index = 0;
-    while let Some(t) = schedule.time(index) {
-        write(t)?;
-        index += 1;
+
+    fn turned(&mut self, t: f64) -> f64 {
+        self.task.scene.motion.speed * t
     }
-    // The limit itself has no finite velocity.
-    if blocked { Ok(()) } else { write(end) }
+
+    fn time_of(&mut self, turned: f64, _: [f64; 2]) -> Option<f64> {
+        Some(turned / self.task.scene.motion.speed)
+    }
+
+    fn row(&mut self, t: f64) -> Row {
+        let speed = self.task.scene.motion.speed;
+        let angle = self.task.start().plus(speed * t);
+        self.task.maker.row(t, angle, speed, Some(0.0))
+    }
 }

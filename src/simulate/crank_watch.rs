@@ -46,7 +46,7 @@ impl<'a> CrankWatch<'a> {
     ) -> CrankWatch<'a> {
         let dead_centres = task.limits.dead_centres.iter();
         CrankWatch {
-            recorder: Recorder::new(task, rows),
+            recorder: Recorder::new(task, rows, task.schedule()),
             swing: Swing::new(task, task.start()),
             ends_at: None,
             passed: None,

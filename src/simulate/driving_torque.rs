@@ -5,6 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use super::outcome::Balance;
 use super::result::TorqueRange;
 use super::row::RowMaker;
+use super::warning::NoRange;
+use crate::engine::time::Start;
 use crate::mechanism::Equation;
 use crate::numeric::angle::Angle;
 use crate::numeric::{gauss, golden};
@@ -24,10 +26,6 @@ pub(super) struct Drive<'a> {
 /// Turns of a run whose loads do not repeat that are looked at.
 const MOST_TURNS: f64 = 100.0;
 
-const NOT_GIVEN: &str = "the range of the driving torque is not given";
-const TOO_LONG: &str =
-    "the loads depend on the time or the crank angle, and the run has more than 100 turns";
-
 impl Drive<'_> {
     fn torque(&self, t: f64) -> f64 {
         let angle = self.start.plus(self.speed * t);
@@ -39,17 +37,8 @@ impl Drive<'_> {
         torque - friction * self.equation.linkage().pose(angle.rest).dx
     }
 
-    /// Smallest, largest and mean driving torque: over one turn if every turn is the same and the run is
-    /// longer, else over the run.
-    ///
-    /// # Errors
-    /// Why it is not known, in words.
-    pub fn torque_range(&self) -> Result<TorqueRange, String> {
-        self.range().map_err(|why| format!("{NOT_GIVEN}: {why}"))
-    }
-
-    /// Why the torque has no finite value at a time (s).
-    fn not_finite(&self, t: f64) -> String {
+    /// The torque has no finite value at a time (s).
+    fn not_finite(&self, t: f64) -> NoRange {
         let angle = self.start.plus(self.speed * t);
         let pose = self.equation.linkage().pose(angle.rest);
         let now = Instant {
@@ -59,15 +48,24 @@ impl Drive<'_> {
             x: pose.x,
             v: pose.dx * self.speed,
         };
-        let why = match self.equation.loads().without_value(&now) {
-            _ if !pose.exists() => "the crank is at a limit".to_owned(),
-            Some(load) => format!("a load has no finite value ({load})"),
-            None => "the torque is too large for a number".to_owned(),
-        };
-        format!("{why} at t = {t} s, theta = {} rad", angle.radians())
+        let load = self.equation.loads().without_value(&now).cloned();
+        NoRange::NotFinite {
+            at_limit: !pose.exists(),
+            load: load.map(Box::new),
+            at: Start {
+                t,
+                angle,
+                speed: self.speed,
+            },
+        }
     }
 
-    fn range(&self) -> Result<TorqueRange, String> {
+    /// Smallest, largest and mean driving torque: over one turn if every turn is the same and the run is
+    /// longer, else over the run.
+    ///
+    /// # Errors
+    /// Why it is not known.
+    pub fn torque_range(&self) -> Result<TorqueRange, NoRange> {
         if self.speed == 0.0 {
             let torque = self.torque(0.0);
             let range = TorqueRange {
@@ -87,7 +85,7 @@ impl Drive<'_> {
             self.end
         };
         if span > MOST_TURNS * turn {
-            return Err(TOO_LONG.to_owned());
+            return Err(NoRange::TooManyTurns(MOST_TURNS));
         }
         let times = self.times(span);
         let torques: Vec<f64> = times.iter().map(|t| self.torque(*t)).collect();
@@ -97,9 +95,7 @@ impl Drive<'_> {
         Ok(TorqueRange {
             min_nm: -self.largest(&times, &torques, -1.0),
             max_nm: self.largest(&times, &torques, 1.0),
-            mean_nm: self
-                .mean(span)
-                .ok_or("its mean is not finite: a load has no value at an angle on the way")?,
+            mean_nm: self.mean(span).ok_or(NoRange::Mean)?,
         })
     }
 

@@ -11,8 +11,8 @@ use crate::scene::Scene;
 
 /// Within this part of the crank length x' has no sign.
 const AT_DEAD_CENTRE: f64 = 1e-12;
-/// How far beside it the sign shows, rad.
-const BESIDE: f64 = 1e-6;
+/// How far beside an angle signs show and slopes are taken, rad.
+pub(super) const BESIDE: f64 = 1e-6;
 
 /// Friction at the guide.
 #[derive(Debug)]

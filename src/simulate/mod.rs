@@ -27,6 +27,7 @@ mod recorder;
 mod result;
 mod roundoff_propagation;
 mod row;
+mod row_writer;
 mod run;
 mod run_setup;
 mod schedule;
@@ -36,6 +37,7 @@ mod state_transition;
 mod steady;
 mod stop;
 mod stop_reason;
+mod warning;
 
 pub use crate::mechanism::Reactions;
 pub use clearance::{Beyond, ClearanceSummary, ContactStatistics, Horizon, LooseFinal};
@@ -46,6 +48,9 @@ pub use result::{Cost, ErrorEstimate, Event, Final, Piece, Summary, TorqueRange}
 pub use row::{LooseRow, NoRows, Row, RowSink};
 pub use run::{simulate, simulate_rows};
 pub use simulation::Simulation;
+pub use stalled::Torques;
 pub use steady::{
     Estimated, Flywheel, LoadWork, SpeedExtreme, SteadyOptions, SteadyState, steady_state,
 };
+pub use stop::{Stopped, Why};
+pub use warning::{NoRange, Warning};

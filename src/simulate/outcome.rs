@@ -9,6 +9,7 @@ use super::run_setup::RunSetup;
 use super::simulation::Simulation;
 use super::stalled;
 use super::stop::{Stopped, Why};
+use super::warning::Warning;
 use crate::engine::time::Start;
 use crate::plan::Engine;
 use crate::scene::Extent;
@@ -28,7 +29,7 @@ pub(super) struct Outcome {
     pub steps: u64,
     /// Wall time of the solution itself, s.
     pub wall_s: f64,
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
     pub stopped: Option<Why>,
     pub record: Record,
 }
@@ -101,8 +102,7 @@ impl Outcome {
             };
         }
         if !is_bounded(low) || !is_bounded(high) {
-            let what = "the effective inertia vanishes at the dead centres, where the crank speed has no bound";
-            self.warnings.push(what.to_owned());
+            self.warnings.push(Warning::UnboundedSpeed);
         }
         self
     }
@@ -125,9 +125,7 @@ impl Outcome {
         };
         let (kept, total) = (record.events.len(), record.events_total);
         if kept > 0 && total > kept as u64 {
-            warnings.push(format!(
-                "{total} events occurred; the first {kept} are listed"
-            ));
+            warnings.push(Warning::EventsLeftOut { total, kept });
         }
         let mut pieces = record.engines;
         match pieces.last_mut() {
@@ -173,7 +171,7 @@ impl Outcome {
             events: record.events,
             events_total: total,
             warnings,
-            stopped: stopped.map(|stopped| stopped.to_string()),
+            stopped,
         };
         Simulation {
             summary,

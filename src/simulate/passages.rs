@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 
 use super::result::Event;
+use super::row::Row;
+use super::row_writer::Part;
 use super::run_setup::RunSetup;
-use super::schedule::{passed, refuse_rows};
 use crate::engine::energy::Orbit;
-use crate::error::Error;
 use crate::numeric::angle::Angle;
 use crate::numeric::root;
 
@@ -18,6 +18,7 @@ pub(super) struct Stretch<'a> {
     pub begin: f64,
     /// Last time of its own, s.
     pub end: f64,
+    pub task: &'a RunSetup<'a>,
 }
 
 impl Stretch<'_> {
@@ -28,6 +29,36 @@ impl Stretch<'_> {
 
     fn is_over(&self, t: f64) -> bool {
         t > self.end * (1.0 + 1e-14)
+    }
+}
+
+impl Part for Stretch<'_> {
+    fn times(&self) -> [f64; 2] {
+        [self.begin, self.begin + self.end]
+    }
+
+    fn turned(&mut self, t: f64) -> f64 {
+        let own = (t - self.begin).min(self.end);
+        self.orbit.state(own).0.minus(self.task.start())
+    }
+
+    fn time_of(&mut self, turned: f64, [from, to]: [f64; 2]) -> Option<f64> {
+        if !self.orbit.rotates() {
+            return root::bracketed(|t| self.turned(t) - turned, from, to);
+        }
+        let before = self.orbit.start().minus(self.task.start());
+        let own = self.orbit.time_of_turn((turned - before).abs())?;
+        Some(self.begin + own)
+    }
+
+    fn turning_times(&mut self) -> Vec<f64> {
+        let times = self.orbit.turning_times(self.end);
+        times.into_iter().map(|own| self.begin + own).collect()
+    }
+
+    fn row(&mut self, t: f64) -> Row {
+        let (angle, omega) = self.orbit.state((t - self.begin).min(self.end));
+        self.task.maker.row(t, angle, omega, None)
     }
 }
 
@@ -140,63 +171,4 @@ fn later_events(
         (until(last) - until(first)).max(0.0) as u64
     };
     dead_centres.iter().map(passes).sum()
-}
-
-/// Rows that are due in a stretch; `next` is the index of the next row at a time.
-pub(super) fn write_rows(
-    task: &RunSetup<'_>,
-    stretch: &Stretch<'_>,
-    next: &mut u64,
-    write: &mut dyn FnMut(f64, Angle, f64) -> Result<(), Error>,
-) -> Result<(), Error> {
-    let Stretch {
-        orbit, begin, end, ..
-    } = *stretch;
-    let mut at = |own: f64, t: f64| {
-        let (angle, omega) = orbit.state(own);
-        write(t, angle, omega)
-    };
-    let schedule = task.schedule();
-    if let Some(step) = schedule.angle_step() {
-        if *next == 0 {
-            at(0.0, begin)?;
-            *next = 1;
-        }
-        return each_angle(task, stretch, step, &mut |own| at(own, begin + own));
-    }
-    while let Some(t) = schedule.time(*next).filter(|t| t - begin < end) {
-        at(t - begin, t)?;
-        *next += 1;
-    }
-    Ok(())
-}
-
-/// Times at which the angle from the start of the run passes multiples of `step`.
-fn each_angle(
-    task: &RunSetup<'_>,
-    stretch: &Stretch<'_>,
-    step: f64,
-    write: &mut dyn FnMut(f64) -> Result<(), Error>,
-) -> Result<(), Error> {
-    let Stretch { orbit, end, .. } = *stretch;
-    let before = orbit.start().minus(task.start());
-    let turned = |t: f64| orbit.state(t).0.minus(task.start());
-    refuse_rows((turned(end) / step).abs(), stretch.begin + end)?;
-    let mut from = 0.0;
-    let mut turnings = orbit.turning_times(end);
-    turnings.push(end);
-    for to in turnings {
-        for k in passed(turned(from) / step, turned(to) / step) {
-            let target = k * step;
-            let t = if orbit.rotates() {
-                orbit.time_of_turn((target - before).abs())
-            } else {
-                root::bracketed(|t| turned(t) - target, from, to)
-            };
-            // A turning point may fall short of its angle by rounding.
-            write(t.unwrap_or(to))?;
-        }
-        from = to;
-    }
-    Ok(())
 }

@@ -1,7 +1,6 @@
 //! The recorder of a run: rows, events, extreme speeds and the dense motion, whatever engine computes the pieces.
 
 use std::borrow::Cow;
-use std::time::Instant;
 
 use super::configuration_curve::Phase;
 use super::dense_rows::lengthen;
@@ -9,8 +8,9 @@ use super::passages::{self, Stretch};
 use super::record::Record;
 use super::result::{Event, Piece};
 use super::row::{Row, RowSink};
+use super::row_writer::{Part, RowWriter};
 use super::run_setup::RunSetup;
-use super::schedule::{Schedule, passed};
+use super::schedule::Schedule;
 use crate::engine::Motion;
 use crate::engine::step::Step;
 use crate::error::Error;
@@ -39,10 +39,7 @@ pub(super) trait Coordinate {
 /// Records a run.
 pub(super) struct Recorder<'a> {
     task: &'a RunSetup<'a>,
-    rows: &'a mut dyn RowSink,
-    schedule: Schedule,
-    /// Index of the next row at a time; 0 before the first row of all.
-    next_row: u64,
+    writer: RowWriter<'a>,
     /// Steps and pieces of the motion that may still be kept.
     room: usize,
     /// Refined steps of the piece under way.
@@ -53,13 +50,15 @@ pub(super) struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    pub fn new(task: &'a RunSetup<'a>, rows: &'a mut dyn RowSink) -> Recorder<'a> {
+    pub fn new(
+        task: &'a RunSetup<'a>,
+        rows: &'a mut dyn RowSink,
+        schedule: Schedule,
+    ) -> Recorder<'a> {
         let speed = task.scene.motion.speed;
         Recorder {
             task,
-            rows,
-            schedule: task.schedule(),
-            next_row: 0,
+            writer: RowWriter::new(rows, schedule),
             room: task.kept,
             steps: Vec::new(),
             record: Record {
@@ -109,14 +108,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// Records a piece over the crank angle: its events, its rows, its speeds.
-    pub fn stretch(&mut self, stretch: &Stretch<'_>) -> Result<(), Error> {
-        let begun = Instant::now();
-        let result = self.rows_and_events(stretch);
-        self.record.row_time += begun.elapsed();
-        result
-    }
-
-    fn rows_and_events(&mut self, stretch: &Stretch<'_>) -> Result<(), Error> {
+    pub fn stretch(&mut self, stretch: &mut Stretch<'_>) -> Result<(), Error> {
         let task = self.task;
         let left = task.options.events_kept - self.record.events.len();
         let (events, total) = passages::events(task, stretch, left);
@@ -125,13 +117,14 @@ impl<'a> Recorder<'a> {
         let (low, high) = stretch.orbit.speed_range(stretch.end);
         let speed = &mut self.record.speed;
         *speed = (speed.0.min(low), speed.1.max(high));
-        if !self.rows.wants_rows() {
-            return Ok(());
-        }
-        let rows = &mut *self.rows;
-        let mut write =
-            |t: f64, angle: Angle, omega: f64| rows.row(&task.maker.row(t, angle, omega, None));
-        passages::write_rows(task, stretch, &mut self.next_row, &mut write)
+        self.writer.write(stretch)
+    }
+
+    /// Writes the rows of a part of the motion. True if that failed, which ends the run.
+    pub fn rows(&mut self, part: &mut dyn Part) -> bool {
+        let failed = self.writer.write(part).err();
+        self.error = self.error.take().or(failed);
+        self.error.is_some()
     }
 
     /// Keeps the motion of a piece over the crank angle, if there is room.
@@ -153,14 +146,9 @@ impl<'a> Recorder<'a> {
         phase: Option<Phase>,
     ) -> bool {
         self.record.checkpoints.pass(step);
-        if self.rows.wants_rows() {
-            let begun = Instant::now();
-            let result = self.write_rows(step, until, along);
-            self.record.row_time += begun.elapsed();
-            if let Err(error) = result {
-                self.error = Some(error);
-                return true;
-            }
+        let mut part = InStep { step, until, along };
+        if self.rows(&mut part) {
+            return true;
         }
         if self.record.pieces.is_some() && self.takes_room() {
             step.refine(along.motion());
@@ -173,6 +161,13 @@ impl<'a> Recorder<'a> {
         false
     }
 
+    /// Keeps a step of the motion as it is, if there is room.
+    pub fn keep_step(&mut self, step: Step) {
+        if self.record.pieces.is_some() && self.takes_room() {
+            self.steps.push(step);
+        }
+    }
+
     /// Keeps the steps since the last piece as one that ends at a time (s), or with its last step.
     pub fn end_piece(&mut self, end: f64) {
         let steps = std::mem::take(&mut self.steps);
@@ -182,14 +177,13 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Ends the record with the row of the last state, which is a row always.
-    pub fn finish(mut self, last: impl FnOnce() -> Row) -> Result<Record, Error> {
+    /// Ends the record with the row of the last state, which is a row always if it has finite numbers.
+    pub fn finish(mut self, last: impl FnOnce() -> Option<Row>) -> Result<Record, Error> {
         if let Some(error) = self.error.take() {
             return Err(error);
         }
-        if self.rows.wants_rows() {
-            self.rows.row(&last())?;
-        }
+        self.record.row_time = self.writer.spent;
+        self.writer.finish(last)?;
         Ok(self.record)
     }
 
@@ -203,60 +197,39 @@ impl<'a> Recorder<'a> {
         }
         room.is_some()
     }
+}
 
-    fn write_rows(
-        &mut self,
-        step: &mut Step,
-        until: f64,
-        along: &dyn Coordinate,
-    ) -> Result<(), Error> {
-        if let Some(spacing) = self.schedule.angle_step() {
-            return self.write_rows_at_angles(step, until, along, spacing);
-        }
-        while let Some(t) = self.schedule.time(self.next_row) {
-            if t > until {
-                break;
-            }
-            if t > step.start.t && t < step.end.t {
-                step.refine(along.motion());
-            }
-            self.write_row(step, t, along)?;
-            self.next_row += 1;
-        }
-        Ok(())
+/// A step until a time in it, refined where it is read inside.
+struct InStep<'a> {
+    step: &'a mut Step,
+    /// s
+    until: f64,
+    along: &'a dyn Coordinate,
+}
+
+impl Part for InStep<'_> {
+    fn times(&self) -> [f64; 2] {
+        [self.step.start.t, self.until]
     }
 
-    fn write_rows_at_angles(
-        &mut self,
-        step: &mut Step,
-        until: f64,
-        along: &dyn Coordinate,
-        spacing: f64,
-    ) -> Result<(), Error> {
-        if self.next_row == 0 {
-            self.write_row(step, step.start.t, along)?;
-            self.next_row = 1;
-        }
-        // Between the times at which the crank turns back its angle is monotone.
-        let mut cuts = along.turning_times(step);
-        cuts.retain(|t| *t < until);
-        cuts.push(until);
-        let mut from = step.start.t;
-        for to in cuts {
-            let way = |t: f64| along.turned(step, t) / spacing;
-            for k in passed(way(from), way(to)) {
-                step.refine(along.motion());
-                // A turning point may fall short of its angle by rounding.
-                let t = along.time_of(step, k * spacing, [from, to]).unwrap_or(to);
-                self.write_row(step, t, along)?;
-            }
-            from = to;
-        }
-        Ok(())
+    fn turned(&mut self, t: f64) -> f64 {
+        self.along.turned(self.step, t)
     }
 
-    fn write_row(&mut self, step: &Step, t: f64, along: &dyn Coordinate) -> Result<(), Error> {
-        let (theta, speed) = step.at(t);
-        self.rows.row(&along.row(t, step.angle(theta), speed))
+    fn time_of(&mut self, turned: f64, between: [f64; 2]) -> Option<f64> {
+        self.step.refine(self.along.motion());
+        self.along.time_of(self.step, turned, between)
+    }
+
+    fn turning_times(&mut self) -> Vec<f64> {
+        self.along.turning_times(self.step)
+    }
+
+    fn row(&mut self, t: f64) -> Row {
+        if t > self.step.start.t && t < self.step.end.t {
+            self.step.refine(self.along.motion());
+        }
+        let (theta, speed) = self.step.at(t);
+        self.along.row(t, self.step.angle(theta), speed)
     }
 }

@@ -7,6 +7,8 @@ use serde::Serialize;
 use super::clearance::ClearanceSummary;
 use super::joint_force_maxima::Peaks;
 use super::steady::SteadyState;
+use super::stop::Stopped;
+use super::warning::Warning;
 use crate::plan::Plan;
 
 /// Summary of a run; its JSON is the object that `simulate --json` prints.
@@ -66,10 +68,10 @@ pub struct Summary {
     /// How many there were.
     pub events_total: u64,
     /// What the reader should know.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
     /// Why the run ended before its time, if it did.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub stopped: Option<String>,
+    pub stopped: Option<Stopped>,
 }
 
 /// A last state.

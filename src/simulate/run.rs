@@ -10,6 +10,7 @@ use super::row::{NoRows, RowSink};
 use super::run_setup::RunSetup;
 use super::schedule::{self, Schedule};
 use super::simulation::Simulation;
+use super::warning::Warning;
 use super::{clearance, closed_form, forward, joint_force_maxima};
 use crate::error::Error;
 use crate::mechanism::{Curve, CurveEquation, Equation, Limits, Reactor};
@@ -63,9 +64,7 @@ fn run(
         let period = run.trajectory.as_ref().and_then(Trajectory::period);
         let peaks = joint_force_maxima::search(scene, summary, period, &|t| run.row(t));
         if peaks.is_none() {
-            run.summary.warnings.push(
-                "the largest joint forces are not given: the run is too long to be looked through as closely as it takes, or a force has no finite value".to_owned(),
-            );
+            run.summary.warnings.push(Warning::NoForceMaxima);
         }
         run.summary.peaks = peaks;
     }

@@ -3,16 +3,13 @@
 use super::options::Options;
 use super::row::RowMaker;
 use super::schedule::Schedule;
+use super::warning::Warning;
 use crate::engine::runge_kutta;
 use crate::engine::time::{self, Settings, Start};
 use crate::mechanism::{Class, Equation, Limits};
 use crate::numeric::angle::Angle;
 use crate::plan::{Plan, Stepper};
 use crate::scene::{Extent, Scene};
-
-/// What is said where the second run of an estimate does not get to the end within its share of work.
-const NOT_ESTIMATED: &str =
-    "the error could not be estimated: the second, tighter run did not finish";
 
 /// A scene with all that its engine needs.
 pub(super) struct RunSetup<'a> {
@@ -49,7 +46,7 @@ impl<'a> RunSetup<'a> {
     pub fn estimate<T>(
         &self,
         stopped: bool,
-        warnings: &mut Vec<String>,
+        warnings: &mut Vec<Warning>,
         second: impl FnOnce() -> Option<T>,
     ) -> Option<T> {
         if !self.options.estimate || stopped {
@@ -57,7 +54,7 @@ impl<'a> RunSetup<'a> {
         }
         let estimate = second();
         if estimate.is_none() {
-            warnings.push(NOT_ESTIMATED.to_owned());
+            warnings.push(Warning::NotEstimated);
         }
         estimate
     }

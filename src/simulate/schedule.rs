@@ -69,6 +69,19 @@ impl Schedule {
         }
     }
 
+    /// At a constant speed, rad/s, angles are times until the end, s. A crank at rest passes none: its first state and its last
+    /// are the rows.
+    pub fn at_speed(every: Option<Every>, speed: f64, end: f64) -> Schedule {
+        match Schedule::new(every, Extent::Duration(end)) {
+            Schedule::Angles { .. } if speed == 0.0 => Schedule::Times { step: end, end },
+            Schedule::Angles { step } => Schedule::Times {
+                step: step / speed.abs(),
+                end,
+            },
+            schedule => schedule,
+        }
+    }
+
     /// Time of the row with this index, if rows are due at times and it is due before the end; the end
     /// itself is the last state's.
     pub fn time(&self, index: u64) -> Option<f64> {

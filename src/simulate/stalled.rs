@@ -16,7 +16,7 @@ const OF_ITS_WAY: f64 = 1e-3;
 
 /// Torques that balance, N m.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Torques {
+pub struct Torques {
     /// Whether a motor is what drives.
     by_motor: bool,
     drive: f64,

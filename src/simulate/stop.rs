@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use serde::{Serialize, Serializer};
+
 use super::stalled::Torques;
 use crate::engine::time::Start;
 use crate::mechanism::Jam;
@@ -9,7 +11,8 @@ use crate::scene::Load;
 
 /// A run that ended before its goal.
 #[derive(Clone, Debug)]
-pub(super) struct Stopped {
+pub struct Stopped {
+    /// Why.
     pub why: Why,
     /// Time (s), crank angle and speed (rad/s) there.
     pub at: Start,
@@ -17,60 +20,87 @@ pub(super) struct Stopped {
 
 /// The reason.
 #[derive(Clone, Debug)]
-pub(super) enum Why {
+#[non_exhaustive]
+pub enum Why {
+    /// The work limit of evaluations is reached.
     WorkLimit,
     /// The steps are so short that the work limit would be reached long before the end.
     WorkLimitAhead,
+    /// The crank turns so often that the work limit would be reached long before the end.
     TooManyTurns,
-    /// The crank needs for ever.
+    /// The crank needs for ever for so many turns.
     Turns(f64),
     /// A periodic swing of this period, s.
     Period {
+        /// Turns that were asked for.
         turns: f64,
+        /// s
         period: f64,
     },
     /// So many turning points led no further than between two angles, rad.
     Caught {
+        /// Turns that were asked for.
         turns: f64,
+        /// Turning points since one led further.
         since: u64,
+        /// rad
         reach: [f64; 2],
     },
+    /// At rest for good.
     AtRest {
+        /// Turns that were asked for.
         turns: f64,
+        /// What friction holds.
         held_by: Option<Torques>,
     },
     /// Next to the balance of its torques, at a crank angle in rad.
     Stalled {
+        /// rad
         theta: f64,
+        /// What balances there.
         torques: Torques,
+        /// Turns that were asked for, if they were.
         turns: Option<f64>,
     },
+    /// At a limit of its motion, where the rod stands normal to the guide.
     AtLimit,
     /// A crank of prescribed speed at its limit.
     DrivenToLimit,
     /// Friction locks the guide of a crank of prescribed speed.
     Locked,
+    /// A load has no finite value.
     NoValue {
         /// Where it was asked for.
         asked: Start,
+        /// Which.
         load: Option<Load>,
     },
     /// A load of a mechanism with a loose joint.
     NoValueLoose(Load),
+    /// The effective inertia vanishes.
     NoInertia,
+    /// The effective inertia nearly vanishes.
     NearlyNoInertia,
     /// At a limit or dead centre on the configuration curve.
     NoInertiaOnCurve,
+    /// A load or the speed is too large for a number.
     TooLarge,
+    /// The steps have become too small.
     Singular,
+    /// On the configuration curve the steps have become too small.
     SingularOnCurve,
-    /// Coefficient of friction, and dN/dF of the guide.
+    /// The slider jams in its guide.
     Jam {
+        /// How many accelerations there are.
         solutions: Jam,
+        /// Coefficient of friction.
         mu: f64,
+        /// |dN/dF| of the guide.
         kappa: f64,
     },
+    /// A slider with a loose joint jams.
     JamLoose,
+    /// The contact is too stiff for steps in double precision.
     ContactTooStiff,
     /// No engine told why.
     Untold,
@@ -213,5 +243,18 @@ impl fmt::Display for Stopped {
                 "the run ended before its goal: {place}; no engine gave a reason, which is a defect of this program"
             ),
         }
+    }
+}
+
+/// Ends are the same if they say the same.
+impl PartialEq for Stopped {
+    fn eq(&self, other: &Stopped) -> bool {
+        self.to_string() == other.to_string()
+    }
+}
+
+impl Serialize for Stopped {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
     }
 }

@@ -111,9 +111,10 @@ impl Design {
     fn take(&mut self, summary: Summary) {
         if let Some(stopped) = &summary.stopped {
             self.outcome = Outcome::Stopped;
-            self.notes.insert(0, stopped.clone());
+            self.notes.insert(0, stopped.to_string());
         }
-        self.notes.extend(summary.warnings.iter().cloned());
+        self.notes
+            .extend(summary.warnings.iter().map(ToString::to_string));
         self.motion = Some(summary);
     }
 

@@ -218,6 +218,6 @@ fn a_slider_that_jams_is_said_to() {
         .start(0.9, 20.0)
         .duration(0.05);
     scene.slider = Some(Slider { mass: 1e-3 });
-    let stopped = run(&scene).stopped.expect("no motion");
+    let stopped = run(&scene).stopped.expect("no motion").to_string();
     assert!(stopped.contains("jams"), "{stopped}");
 }

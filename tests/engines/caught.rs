@@ -97,7 +97,7 @@ fn a_damped_crank_is_caught_once_it_has_come_no_further_for_long() {
         assert!((last - angle).abs() < 3.0 * TAU, "it never completes them");
         for method in methods {
             let summary = run(&scene, method);
-            let why = summary.stopped.expect("a reason");
+            let why = summary.stopped.expect("a reason").to_string();
             assert!(why.contains("does not complete 3 turns"), "{why}");
             assert!(why.contains("give a duration instead"), "{why}");
             let last = summary.last;
@@ -151,7 +151,7 @@ fn a_swing_that_grows_to_one_that_lasts_is_caught() {
         assert!((last + 1.5).abs() < 3.0 * TAU, "it never completes them");
         for method in methods {
             let summary = run(&scene, method);
-            let why = summary.stopped.expect("a reason");
+            let why = summary.stopped.expect("a reason").to_string();
             assert!(why.contains("does not complete 3 turns"), "{why}");
             let said = between(&why);
             let (low, high) = (said[0].min(said[1]), said[0].max(said[1]));
@@ -192,7 +192,7 @@ fn a_swing_without_loss_is_told_by_integration_in_time() {
     let scene = pendulum(0.3, 0.0, "0*theta");
     for method in [Method::Time, Method::Dop853] {
         let summary = run(&scene, method);
-        let why = summary.stopped.expect("a reason");
+        let why = summary.stopped.expect("a reason").to_string();
         assert!(why.contains("does not complete 3 turns"), "{why}");
         let [low, high] = between(&why);
         assert_close(high, 0.3, 1e-9);
@@ -212,10 +212,13 @@ fn a_crank_with_friction_is_caught_or_comes_to_rest() {
         });
         scene
     };
-    let why = run(&rubbing(0.05), Method::Auto).stopped.expect("a reason");
+    let why = run(&rubbing(0.05), Method::Auto)
+        .stopped
+        .expect("a reason")
+        .to_string();
     assert!(why.contains("comes to rest"), "{why}");
     let caught = run(&rubbing(1e-5), Method::Auto);
-    let said = between(&caught.stopped.expect("a reason"));
+    let said = between(&caught.stopped.expect("a reason").to_string());
     let long = run(&rubbing(1e-5).duration(2.0 * caught.last.t_s), Method::Auto);
     let turning = long
         .events
@@ -244,7 +247,7 @@ fn a_crank_under_a_load_in_time_is_waited_for_as_long_as_it_gets_further() {
     // The torque dies away, and the swing stays what it is then; or it goes on, too weak to get the crank over the top.
     for torque in ["0.01*exp(-t)", "0.02*sin(3*t) - 1e-4*omega"] {
         let summary = timed(-1.0, torque);
-        let why = summary.stopped.expect("a reason");
+        let why = summary.stopped.expect("a reason").to_string();
         assert!(why.contains("does not complete 3 turns"), "{why}");
         assert!(why.contains("came no further"), "{why}");
         assert!(summary.evaluations < 5_000_000, "{}", summary.evaluations);

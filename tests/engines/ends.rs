@@ -167,7 +167,7 @@ fn the_work_limit_holds_where_a_table_cuts_the_steps_short() {
         .duration(0.29);
     for method in IN_TIME {
         let summary = run(&scene, &limited(method, 20_000));
-        let why = summary.stopped.expect("a reason");
+        let why = summary.stopped.expect("a reason").to_string();
         assert!(why.contains("work limit"), "{why}");
         assert!(
             summary.evaluations < 20_100,
@@ -210,7 +210,7 @@ fn a_step_makes_no_more_than_two_turns() {
             .duration(1e6);
         for method in [Method::Dop853, Method::Dopri5] {
             let summary = run(&scene, &limited(method, 50_000));
-            let why = summary.stopped.expect("a reason");
+            let why = summary.stopped.expect("a reason").to_string();
             assert!(why.contains("work limit"), "{why}");
             let turns = summary.revolutions;
             assert!(

@@ -469,7 +469,14 @@ fn the_work_limit_holds_over_all_pieces() {
         };
         let stopped = simulate(&coasting(), &options).unwrap();
         let summary = &stopped.summary;
-        assert!(summary.stopped.as_ref().unwrap().contains("work limit"));
+        assert!(
+            summary
+                .stopped
+                .as_ref()
+                .unwrap()
+                .to_string()
+                .contains("work limit")
+        );
         assert!(
             summary.evaluations < most + 10_000,
             "{} {most}",

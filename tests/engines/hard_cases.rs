@@ -229,7 +229,7 @@ fn every_method_is_right_or_says_why_not() {
             };
             match simulate(&scene(name), &options) {
                 Ok(run) if run.summary.stopped.is_none() => check(name, &run, theta, omega, doubt),
-                Ok(run) => assert!(run.summary.stopped.unwrap().contains("stopped")),
+                Ok(run) => assert!(run.summary.stopped.unwrap().to_string().contains("stopped")),
                 Err(refused) => assert!(refused.to_string().contains("help:")),
             }
         }
@@ -240,7 +240,7 @@ fn every_method_is_right_or_says_why_not() {
 #[test]
 fn jamming_is_named_where_it_begins() {
     let run = run("09-jamming", Method::Auto);
-    let why = run.summary.stopped.expect("it jams");
+    let why = run.summary.stopped.expect("it jams").to_string();
     assert!(
         why.contains("jams") && why.contains("more than one"),
         "{why}"
@@ -303,6 +303,7 @@ fn the_work_limit_ends_every_run() {
                 assert!(run.summary.evaluations <= 5_000, "{name} {method}");
                 continue;
             };
+            let why = why.to_string();
             assert!(
                 why.contains("work limit") && why.contains("t = "),
                 "{name} {method}: {why}"

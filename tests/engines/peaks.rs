@@ -143,7 +143,7 @@ fn a_rod_that_is_hardly_long_enough_has_narrow_peaks() {
                 summary
                     .warnings
                     .iter()
-                    .any(|w| w.contains("largest joint forces"))
+                    .any(|w| w.to_string().contains("largest joint forces"))
             );
             continue;
         };

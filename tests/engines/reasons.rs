@@ -26,7 +26,7 @@ fn stopped(scene: &Scene, method: Method) -> String {
         ..Options::default()
     };
     let summary = simulate(scene, &options).expect("a run").summary;
-    summary.stopped.expect("a reason")
+    summary.stopped.expect("a reason").to_string()
 }
 
 /// The number after these words.
@@ -103,7 +103,8 @@ fn a_crank_that_swings_or_turns_has_not_stalled() {
         .expect("a run")
         .summary
         .stopped
-        .expect("a reason");
+        .expect("a reason")
+        .to_string();
     assert!(why.contains("work limit"), "{why}");
 }
 

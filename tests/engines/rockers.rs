@@ -220,7 +220,7 @@ fn a_change_point_is_crossed_with_continuous_velocities() {
         run.summary
             .warnings
             .iter()
-            .any(|w| w.contains("change point"))
+            .any(|w| w.to_string().contains("change point"))
     );
     let mut rows: Vec<Row> = Vec::new();
     simulate_rows(&scene(time), &Options::default(), &mut rows).unwrap();

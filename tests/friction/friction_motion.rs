@@ -397,7 +397,7 @@ fn jamming_is_named() {
     // μ tan φ > 1 on a part of the turn.
     let scene = |mu: f64| rubbing(leaning(0.2), mu, mu).gravity(Gravity::standard());
     let run = simulate(&scene(1.5).start(0.3, 6.0), &Options::default()).unwrap();
-    let why = run.summary.stopped.expect("jams");
+    let why = run.summary.stopped.expect("jams").to_string();
     assert!(why.contains("jams") && why.contains("t = "), "{why}");
     assert!(run.summary.last.t_s > 0.0 && run.summary.last.t_s < 1.0);
     assert!(run.summary.energy_residual.abs() < 1e-6);

@@ -436,7 +436,14 @@ fn jamming_is_named() {
         "{}",
         auto.summary.plan.reason
     );
-    assert!(auto.summary.stopped.as_ref().unwrap().contains("jams"));
+    assert!(
+        auto.summary
+            .stopped
+            .as_ref()
+            .unwrap()
+            .to_string()
+            .contains("jams")
+    );
     assert_eq!(auto.summary.stopped, timed.summary.stopped);
     let options = Options {
         method: Method::Angle,

@@ -79,7 +79,11 @@ fn friction_only_takes(setting: &Setting) -> Result<(), TestCaseError> {
     let scene = setting.scene(&Image::SAME).tolerance(1e-10);
     let mut rows: Vec<Row> = Vec::new();
     let run = simulate_rows(&scene, &Options::default(), &mut rows).unwrap();
-    prop_assert!(run.summary.stopped.is_none_or(|why| why.contains("jams")));
+    prop_assert!(
+        run.summary
+            .stopped
+            .is_none_or(|why| why.to_string().contains("jams"))
+    );
     let energies: Vec<f64> = rows.iter().map(|row| energy(&scene, row)).collect();
     let kinetic = energies[0].abs() + energies.iter().fold(0.0, |m: f64, e| m.max(e.abs()));
     let (mut least, mut moved) = (f64::INFINITY, 0.0);

@@ -53,7 +53,7 @@ fn run(scene: &Scene, method: Method, tolerance: f64) -> Result<Simulation, Test
     let run = simulate(&scene.clone().tolerance(tolerance), &options).expect("a run");
     match &run.summary.stopped {
         None => Ok(run),
-        Some(why) if why.contains("jams") => Err(TestCaseError::reject("jams")),
+        Some(why) if why.to_string().contains("jams") => Err(TestCaseError::reject("jams")),
         Some(why) => panic!("{why}"),
     }
 }

@@ -5,7 +5,7 @@ mod work;
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
-use super::guide_friction::{Grip, Sliding};
+use super::guide_friction::{BESIDE, Grip, Sliding};
 use super::marks::{Marks, in_order};
 use crate::engine::angle::{Driven, Table};
 use crate::engine::energy::Profile;
@@ -14,9 +14,6 @@ use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
 use crate::numeric::enclosure::{Detail, Reach};
 use crate::scene::Variable;
-
-/// On each side of an angle this far, rad, the slope of a load is taken.
-const BESIDE: f64 = 1e-6;
 
 /// Inertia, potential and force of an equation whose loads depend on the position alone.
 pub(super) struct AngleModel<'a> {

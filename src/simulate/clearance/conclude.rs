@@ -3,52 +3,39 @@
 use std::f64::consts::TAU;
 
 use super::super::closed_form;
+use super::super::error_estimate::MARGIN;
 use super::super::joint_force_maxima::Peaks;
 use super::super::outcome::{Balance, Estimate, Outcome};
 use super::super::record::Record as Recorded;
-use super::super::result::{ErrorEstimate, Event};
+use super::super::result::ErrorEstimate;
 use super::super::simulation::Simulation;
 use super::super::stop::Why;
+use super::super::warning::Warning;
 use super::follow::{Seen, phi};
-use super::motion::{DRIVEN, FREE, Loose};
+use super::motion::{DRIVEN, FREE};
 use super::record::{ContactStatistics, Record};
 use super::result::{Beyond, ClearanceSummary, Horizon, LooseFinal};
-use super::{Run, Tighter};
-use crate::engine::contact::Ended;
+use super::{Done, Run, Tighter};
 use crate::engine::time::Start;
 use crate::mechanism::LooseState;
 use crate::plan::Engine;
 use crate::scene::Joint;
 use crate::trajectory::Trajectory;
 
-/// What is stated is larger than the distance of the two runs by this, for the error of the second.
-const MARGIN: f64 = 1.5;
 /// Two journals at the same place: this part of the clearance apart.
 const SAME_PLACE: f64 = 0.01;
 
 impl<const N: usize> Run<'_, N> {
-    fn trajectory(&self, seen: &Seen, t_end: f64) -> Option<Trajectory> {
-        if N == DRIVEN {
-            return Some(Trajectory::uniform(
-                self.task.start(),
-                self.start.omega,
-                t_end,
-            ));
-        }
-        (self.task.kept > 0).then(|| Trajectory::from_steps(seen.steps.clone(), t_end))
-    }
-
-    #[allow(clippy::too_many_arguments)]
-    pub(super) fn concluded(
-        &self,
-        model: &Loose<'_, N>,
-        ended: &Ended<N>,
-        seen: Seen,
-        last: LooseState,
-        tighter: Option<Tighter>,
-        wall_s: f64,
-        stopped: Option<Why>,
-    ) -> Simulation {
+    pub(super) fn concluded(&self, done: Done<'_, N>, stopped: Option<Why>) -> Simulation {
+        let Done {
+            model,
+            ended,
+            seen,
+            mut record,
+            last,
+            tighter,
+            wall_s,
+        } = done;
         let [work, lost] = model.work(&ended.last);
         let at_end = model.state(&ended.last);
         let gained = self.mechanism.energy(&at_end) - self.mechanism.energy(&self.start);
@@ -70,7 +57,9 @@ impl<const N: usize> Run<'_, N> {
             horizon,
         );
         let mut warnings = self.warnings(&summary, &seen, tighter.is_some() || stopped.is_some());
-        let (events, events_total) = self.events(&seen, last.t);
+        if N == DRIVEN {
+            self.add_dead_centres(&mut record, last.t);
+        }
         let theta = self.angle(&last).radians();
         let estimate = match N {
             DRIVEN => Some((2.0 * f64::EPSILON * theta.abs(), 0.0)),
@@ -78,10 +67,9 @@ impl<const N: usize> Run<'_, N> {
                 .zip(error(|s| s.omega, 1.0 + last.omega.abs())),
         };
         if N == FREE && estimate.is_none() && self.task.options.estimate && stopped.is_none() {
-            warnings.push("the crank at the end lies beyond the reproducible horizon: its error is not stated".to_owned());
+            warnings.push(Warning::BeyondHorizon);
         }
         let peaks = seen.peaks.filter(|_| stopped.is_none()).map(Peaks::new);
-        let trajectory = self.trajectory(&seen, last.t);
         let outcome = Outcome {
             engine: Engine::Contact,
             at: Start {
@@ -106,18 +94,16 @@ impl<const N: usize> Run<'_, N> {
             wall_s,
             warnings,
             stopped,
-            record: Recorded {
-                events,
-                events_total,
-                speed: seen.speed,
-                ..Recorded::new(self.start.omega)
-            },
+            record,
         };
         let mut run = outcome.conclude(self.task);
         let result = &mut run.summary;
         result.estimate_cost = tighter.map(|t| t.cost);
         (result.peaks, result.clearance) = (peaks, Some(summary));
-        run.trajectory = trajectory;
+        if N == DRIVEN {
+            let motion = Trajectory::uniform(self.task.start(), self.start.omega, last.t);
+            run.trajectory = Some(motion);
+        }
         run
     }
 
@@ -203,46 +189,32 @@ impl<const N: usize> Run<'_, N> {
         }
     }
 
-    fn warnings(&self, summary: &ClearanceSummary, seen: &Seen, compared: bool) -> Vec<String> {
-        let mut warnings = Vec::new();
-        if self.task.options.estimate && !compared {
-            warnings.push(
-                "the reproducible horizon is not known: the second, tighter run did not finish"
-                    .to_owned(),
-            );
-        }
-        if let Some(horizon) = summary.horizon.filter(|h| !h.whole_run) {
-            warnings.push(format!(
-                "the motion is reproducible up to t = {:.6} s ({:.2} turns); beyond it only its statistics mean something",
-                horizon.t_s, horizon.revolutions
-            ));
-        }
+    fn warnings(&self, summary: &ClearanceSummary, seen: &Seen, compared: bool) -> Vec<Warning> {
+        let unknown = self.task.options.estimate && !compared;
+        let parted = summary.horizon.filter(|horizon| !horizon.whole_run);
         let deepest = seen.total.deepest;
-        if deepest > summary.radial_m {
-            warnings.push(format!(
-                "the penetration reaches {deepest:.1e} m, more than the clearance: Hertz's law for a small spot of contact does not describe it"
-            ));
-        }
-        if let Some(drawn) = summary.drawn_share.filter(|share| *share > 0.0) {
-            warnings.push(format!(
-                "the massless link is drawn for {:.1} % of the time: there a journal would leave the bearing's wall",
-                100.0 * drawn
-            ));
-        }
-        warnings
+        let deep = deepest > summary.radial_m;
+        let drawn = summary.drawn_share.filter(|share| *share > 0.0);
+        [
+            unknown.then_some(Warning::NoHorizon),
+            parted.map(|horizon| Warning::HorizonAt {
+                t: horizon.t_s,
+                turns: horizon.revolutions,
+            }),
+            deep.then_some(Warning::DeepContact(deepest)),
+            drawn.map(Warning::DrawnLink),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
     }
 
-    /// Impacts, separations and dead centres in the order of time.
-    fn events(&self, seen: &Seen, end: f64) -> (Vec<Event>, u64) {
-        let (mut events, mut total) = (seen.events.clone(), seen.events_total);
-        if N == DRIVEN {
-            let (passages, count) =
-                closed_form::events(self.task, self.task.start(), self.start.omega, end);
-            events.extend(passages);
-            total += count;
-            events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
-            events.truncate(self.task.options.events_kept);
-        }
-        (events, total)
+    /// Adds the dead centres of a crank at constant speed to the impacts and separations, in the order of time.
+    fn add_dead_centres(&self, record: &mut Recorded, end: f64) {
+        let (passages, count) = closed_form::events(self.task, end);
+        record.events.extend(passages);
+        record.events_total += count;
+        record.events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
+        record.events.truncate(self.task.options.events_kept);
     }
 }

@@ -16,19 +16,21 @@ pub use result::{Beyond, ClearanceSummary, Horizon, LooseFinal};
 
 use super::closed_form;
 use super::error_estimate::{TIGHTER, TIGHTEST};
+use super::record::Record as Recorded;
+use super::recorder::Recorder;
 use super::result::Cost;
-use super::row::{NoRows, RowSink};
+use super::row::RowSink;
 use super::run_setup::RunSetup;
 use super::schedule::Schedule;
 use super::simulation::Simulation;
 use super::stop::Why;
-use crate::engine::contact::{self, Ended, Finish, Phase, Settings, Stretch};
+use crate::engine::contact::{self, Ended, Finish, Settings, Stretch};
 use crate::engine::time::FAR;
 use crate::error::Error;
 use crate::mechanism::{LooseMechanism, LooseState};
 use crate::numeric::angle::Angle;
-use crate::scene::{ContactLaw, Every, Extent, Instant as State, Load, MotionKind};
-use follow::{Asked, Follow, Seen};
+use crate::scene::{ContactLaw, Extent, Instant as State, Load, MotionKind};
+use follow::{Follow, Seen};
 use motion::{DRIVEN, FREE, Loose};
 use record::Record;
 
@@ -82,27 +84,55 @@ impl<'a, const N: usize> Run<'a, N> {
         let begun = Instant::now();
         let corners = |t: f64| self.task.equation().loads().next_corner(t);
         let model = self.model(&corners);
-        let asked = self.asked();
-        let mut follow = Follow {
-            model: &model,
-            asked: &asked,
-            rows,
-            seen: self.seen(),
+        let every = self.task.scene.run.output_every;
+        let schedule = match N {
+            DRIVEN => Schedule::at_speed(every, self.start.omega, self.t_end),
+            _ => self.task.schedule(),
         };
+        let recorder = Recorder::new(self.task, rows, schedule);
+        let mut follow = self.follow(&model, Some(recorder));
         let tolerance = self.task.scene.run.tolerance;
         let ended = self.go(&model, tolerance, self.t_end, &mut |s| follow.take(s));
-        if let Some(error) = follow.seen.error.take() {
-            return Err(error);
+        let rows = follow.rows();
+        let Follow { recorder, seen, .. } = follow;
+        let last = seen.ends_at.unwrap_or(model.state(&ended.last));
+        let mut record = Recorded::new(self.start.omega);
+        if let Some(mut recorder) = recorder {
+            recorder.end_piece(last.t);
+            record = recorder.finish(|| Some(rows.row(&last, ended.phase)))?;
         }
-        let last = follow.seen.ends_at.unwrap_or(model.state(&ended.last));
-        follow.write_row(&last, ended.phase)?;
-        let seen = follow.seen;
-        let wall_s = (begun.elapsed() - seen.row_time).as_secs_f64();
+        let wall_s = record.wall_s(begun);
         let stopped = self.stopped(&ended, &last);
         let tighter = (self.task.options.estimate && stopped.is_none())
             .then(|| self.tighter(&model, last.t))
             .flatten();
-        Ok(self.concluded(&model, &ended, seen, last, tighter, wall_s, stopped))
+        let done = Done {
+            model: &model,
+            ended,
+            seen,
+            record,
+            last,
+            tighter,
+            wall_s,
+        };
+        Ok(self.concluded(done, stopped))
+    }
+
+    fn follow<'b>(
+        &'b self,
+        model: &'b Loose<'b, N>,
+        recorder: Option<Recorder<'b>>,
+    ) -> Follow<'b, N> {
+        let turn = TAU / self.start.omega.abs().max(1.0);
+        let width = (turn / SAMPLES_IN_A_TURN).min((self.t_end / SAMPLES_IN_A_TURN).max(1e-12));
+        let dead_centres = self.task.limits.dead_centres.iter();
+        Follow {
+            model,
+            task: self.task,
+            dead_centres: dead_centres.map(|dc| dc.theta).collect(),
+            recorder,
+            seen: Seen::new(width, self.mechanism.energy(&self.start).abs()),
+        }
     }
 
     fn model<'b>(&self, corners: &'b dyn Fn(f64) -> f64) -> Loose<'b, N>
@@ -144,56 +174,10 @@ impl<'a, const N: usize> Run<'a, N> {
         contact::run(model, start, self.linked(), settings, follower)
     }
 
-    fn seen(&self) -> Seen {
-        let turn = TAU / self.start.omega.abs().max(1.0);
-        let width = (turn / SAMPLES_IN_A_TURN).min((self.t_end / SAMPLES_IN_A_TURN).max(1e-12));
-        let energy = self.mechanism.energy(&self.start).abs();
-        Seen::new(width, self.start.omega, energy, Phase::Flight)
-    }
-
-    fn asked(&self) -> Asked<'a> {
-        let task = self.task;
-        let speed = self.start.omega;
-        let (every, extent) = match (task.scene.run.output_every, N) {
-            // At constant speed angles are times.
-            (Some(Every::Angle(step)), DRIVEN) if speed != 0.0 => (
-                Some(Every::Time(step / speed.abs())),
-                Extent::Duration(self.t_end),
-            ),
-            (every, DRIVEN) => (every, Extent::Duration(self.t_end)),
-            (every, _) => (every, task.extent),
-        };
-        Asked {
-            maker: &task.maker,
-            schedule: Schedule::new(every, extent),
-            branch: task.scene.geometry.branch.sign(),
-            turns: task.start().turns,
-            start: self.start.theta,
-            watched: task.limits.dead_centres.iter().map(|dc| dc.theta).collect(),
-            turn_limit: task.extent.angle(),
-            events_kept: task.options.events_kept,
-            keep_steps: self.task.kept > 0,
-            sampled: task.options.estimate,
-            forces: task.options.reactions,
-        }
-    }
-
     /// A second run at a tighter tolerance: its end, its record and its cost. None if it does not get there.
     fn tighter(&self, model: &Loose<'_, N>, t_end: f64) -> Option<Tighter> {
         let begun = Instant::now();
-        let asked = Asked {
-            turn_limit: None,
-            keep_steps: false,
-            forces: false,
-            events_kept: 0,
-            ..self.asked()
-        };
-        let mut follow = Follow {
-            model,
-            asked: &asked,
-            rows: &mut NoRows,
-            seen: self.seen(),
-        };
+        let mut follow = self.follow(model, None);
         let tolerance = (self.task.scene.run.tolerance / TIGHTER).max(TIGHTEST);
         let ended = self.go(model, tolerance, t_end, &mut |s| follow.take(s));
         (ended.finish == Finish::AtEnd).then(|| Tighter {
@@ -240,6 +224,17 @@ impl<'a, const N: usize> Run<'a, N> {
             rest: s.theta,
         }
     }
+}
+
+/// A run that has ended.
+struct Done<'a, const N: usize> {
+    model: &'a Loose<'a, N>,
+    ended: Ended<N>,
+    seen: Seen,
+    record: Recorded,
+    last: LooseState,
+    tighter: Option<Tighter>,
+    wall_s: f64,
 }
 
 /// The run at a tighter tolerance.

@@ -20,7 +20,7 @@ impl<const N: usize> Follow<'_, N> {
             _ => self.model.state(y),
         };
         let rates = mechanism.rates(&s, touch(phase, None));
-        let reactor = self.asked.maker.reactor.as_ref();
+        let reactor = self.task.maker.reactor;
         reactor.map_or([0.0; FORCES], |reactor| {
             sizes(&reactor.loose(mechanism.joint(), &s, &rates))
         })
@@ -28,12 +28,12 @@ impl<const N: usize> Follow<'_, N> {
 
     /// The largest sizes so far: at the places, then between the neighbours of one that may be larger.
     pub(super) fn follow_forces(&mut self, stretch: &mut Stretch<'_, N>) {
-        if !self.asked.forces {
+        if !self.task.options.reactions || self.recorder.is_none() {
             return;
         }
         let phase = stretch.phase;
         let start = stretch.start[0];
-        let end = self.seen.ends_at.map_or(stretch.end[0], |s| s.t);
+        let end = self.until(stretch);
         let places: [f64; PIECES + 1] = std::array::from_fn(|i| match i {
             PIECES => end,
             _ => start + (end - start) * i as f64 / PIECES as f64,

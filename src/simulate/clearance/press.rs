@@ -13,7 +13,7 @@ impl<const N: usize> Follow<'_, N> {
     /// Time, impulse and peak of the contact force, by Simpson's rule along the depth's quintic.
     pub(super) fn follow_contact(&mut self, stretch: &mut Stretch<'_, N>) {
         let begin = stretch.start[0];
-        let end = self.seen.ends_at.map_or(stretch.end[0], |s| s.t);
+        let end = self.until(stretch);
         let h = end - begin;
         let tally = match stretch.phase {
             Phase::Flight => return,

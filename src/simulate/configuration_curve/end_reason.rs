@@ -4,11 +4,15 @@ use super::super::run_setup::RunSetup;
 use super::super::stalled;
 use super::super::stop::Why;
 use super::super::stop_reason;
+use super::super::warning::Warning;
 use super::arrived::{Arrived, End, crank_state};
 use crate::engine::time::{FAR, Start};
 use crate::mechanism::{Class, CurveEquation};
 use crate::numeric::angle::Angle;
 use crate::scene::Extent;
+
+/// Crank lengths from a change point within which the last digits of the lengths decide.
+const NEAR: f64 = 1e-6;
 
 /// Why a run ended before its time.
 pub(in crate::simulate) fn why(
@@ -60,16 +64,10 @@ fn singular(task: &RunSetup<'_>, arrived: &Arrived, equation: &CurveEquation) ->
 }
 
 /// What the reader should know about the lengths.
-pub(in crate::simulate) fn warnings(task: &RunSetup<'_>) -> Vec<String> {
-    let linkage = task.equation().linkage();
-    let near = linkage.nearness_to_change_point();
+pub(in crate::simulate) fn warning(task: &RunSetup<'_>) -> Option<Warning> {
+    let near = task.equation().linkage().nearness_to_change_point();
     match task.limits.class {
-        Class::ChangePoint => vec![
-            "the lengths make a change point: it is passed so that all velocities stay continuous, and the branch changes there; a slightly longer or shorter rod moves differently".to_owned(),
-        ],
-        _ if near < 1e-6 => vec![format!(
-            "the lengths are {near:e} crank lengths from a change point: which way the mechanism goes there depends on their last digits"
-        )],
-        _ => Vec::new(),
+        Class::ChangePoint => Some(Warning::ChangePoint),
+        _ => (near < NEAR).then_some(Warning::NearChangePoint(near)),
     }
 }

@@ -12,7 +12,7 @@ mod senses;
 mod stick_slip;
 
 pub(super) use arrived::{Arrived, End, Follow, Observer, crank_state};
-pub(super) use end_reason::{warnings, why};
+pub(super) use end_reason::{warning, why};
 pub(super) use recorder::CurveWatch;
 pub(super) use roundoff::Noise;
 pub(super) use row::{last_row, row_on_curve};

@@ -1,7 +1,8 @@
 //! Which way the quantities that are watched have their signs as a piece of the motion begins.
 
+use super::super::guide_friction::BESIDE;
 use super::follow::Run;
-use super::stick_slip::{AHEAD, CRANK, DEAD_CENTRE, NORMAL, Phase, SPEED, Signs, against, signs};
+use super::stick_slip::{CRANK, DEAD_CENTRE, NORMAL, Phase, SPEED, Signs, against, signs};
 use crate::engine::Motion;
 use crate::engine::event_functions::EventFunction;
 use crate::engine::time::Start;
@@ -23,7 +24,7 @@ impl Run<'_, '_> {
         let values = self.quantities.values(t, angle, speed);
         let ahead = self
             .quantities
-            .values(t, angle.plus(direction * AHEAD), speed);
+            .values(t, angle.plus(direction * BESIDE), speed);
         let mut signs = signs(values, ahead, direction);
         // A start without speed says nothing about its direction.
         if speed == 0.0 && !self.follow.may_stick() {

@@ -2,6 +2,7 @@
 
 use std::cell::Cell;
 
+use super::super::guide_friction::BESIDE;
 use crate::engine::Motion;
 use crate::engine::event_functions::EventFunction;
 use crate::engine::events::ROUNDED;
@@ -165,14 +166,11 @@ impl EventFunction<QUANTITIES> for Quantities<'_> {
     }
 }
 
-/// How far ahead of a start the signs show, rad.
-pub(super) const AHEAD: f64 = 1e-6;
-
 /// The signs with which motion in `direction` (±1 of the coordinate) begins: where a quantity is zero but for the
 /// rounding of the angle, that of `ahead`, its value a little further.
 pub(super) fn signs(values: Signs, ahead: Signs, direction: f64) -> Signs {
     let mut signs: Signs = std::array::from_fn(|i| {
-        let nothing = values[i].abs() <= ROUNDED / AHEAD * ahead[i].abs();
+        let nothing = values[i].abs() <= ROUNDED / BESIDE * ahead[i].abs();
         let value = if nothing { ahead[i] } else { values[i] };
         if value < 0.0 { -1.0 } else { 1.0 }
     });

@@ -32,8 +32,9 @@ use crate::scene::Extent;
 
 /// The second run is handed over at other places, rad.
 const OTHER_WAIT: f64 = 1.4 * TAU;
-/// Evaluations of the second run for one of the first, and beside them.
-const MOST_EVALUATIONS: (u64, u64) = (20, 200_000);
+/// Evaluations of the second run for one of the first, and beside them, in time or over the angle, where tables are made.
+const FOR_ONE: u64 = 20;
+const BESIDE: [u64; 2] = [20_000, 200_000];
 /// What is stated of rounding, in standard deviations.
 const DEVIATIONS: f64 = 2.0;
 /// Less of an error of the energy than this is forgotten. Half or twice as much changes none of 200 random runs.
@@ -76,8 +77,8 @@ fn by_second_run(
     };
     let mut evaluations = 0;
     let mut second = |settings: Settings| {
-        let (factor, beside) = MOST_EVALUATIONS;
-        let share = arrived.evaluations.saturating_mul(factor);
+        let share = arrived.evaluations.saturating_mul(FOR_ONE);
+        let beside = BESIDE[usize::from(arrived.over_angle > 0)];
         let t_end = arrived.now.t;
         let finer = Course {
             first: match arrived.over_angle {
@@ -233,8 +234,9 @@ impl Sink for Second<'_, '_> {
         };
         let errors = &driving.errors;
         let transition = self.transition([from, &to], errors);
-        // By its own rounding.
-        let [late, off] = [errors.late, errors.off].map(|error| error / f64::EPSILON);
+        // Its own rounding is stated, not a standard deviation.
+        let unit = DEVIATIONS * f64::EPSILON;
+        let [late, off] = [errors.late, errors.off].map(|error| error / unit);
         let carried = self.rounding.spread.carried(&transition);
         self.rounding.spread = carried
             .along(speed * late, self.acceleration(&to) * late)

@@ -33,6 +33,7 @@ use super::row::RowSink;
 use super::run_setup::RunSetup;
 use super::simulation::Simulation;
 use super::stop_reason;
+use super::warning::Warning;
 use crate::engine::Counted;
 use crate::engine::time::Finish;
 use crate::error::Error;
@@ -72,10 +73,9 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
     let record = notes.finish(&course, &arrived)?;
     let wall_s = record.wall_s(begun);
     let stopped = caught.or_else(|| stopped(&course, &arrived));
-    let mut warnings = match arrived.on_curve {
-        Some(_) => configuration_curve::warnings(task),
-        None => Vec::new(),
-    };
+    let on_curve = arrived.on_curve.as_ref();
+    let warning = on_curve.and_then(|_| configuration_curve::warning(task));
+    let mut warnings: Vec<Warning> = warning.into_iter().collect();
     let judged = estimate::estimate(&course, &arrived, &record, wants_rows);
     let estimate = task.estimate(stopped.is_some(), &mut warnings, judged);
     let now = arrived.now;

@@ -52,17 +52,13 @@ impl<'a> Notes<'a> {
     /// The record, with the row of the end.
     pub fn finish(self, course: &Course<'_>, arrived: &Arrived) -> Result<Record, Error> {
         let Start { t, angle, speed } = arrived.now;
-        self.watch
-            .recorder
-            .finish(|| match (&arrived.on_curve, course.curve.get()) {
-                (Some(followed), Some(on)) => configuration_curve::last_row(
-                    self.task,
-                    &on.equation,
-                    self.touched,
-                    &followed.last,
-                ),
-                _ => self.task.maker.row(t, angle, speed, None),
-            })
+        let last = || match (&arrived.on_curve, course.curve.get()) {
+            (Some(followed), Some(on)) => {
+                configuration_curve::last_row(self.task, &on.equation, self.touched, &followed.last)
+            }
+            _ => self.task.maker.row(t, angle, speed, None),
+        };
+        self.watch.recorder.finish(|| Some(last()))
     }
 }
 
@@ -72,10 +68,11 @@ impl Sink for Notes<'_> {
     }
 
     fn over_angle(&mut self, driven: &Driven) -> Result<(), Error> {
-        self.watch.recorder.stretch(&Stretch {
+        self.watch.recorder.stretch(&mut Stretch {
             orbit: &driven.driving.orbit,
             begin: driven.from.t,
             end: driven.driving.end,
+            task: self.task,
         })
     }
 

@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use super::super::error_estimate::MARGIN;
 use super::super::guide_friction::Sliding;
-use super::periodic_orbit::{Found, MARGIN};
+use super::periodic_orbit::Found;
 use super::result::{Estimated, LoadWork};
 use crate::mechanism::{Equation, Limits, Linkage, single};
 use crate::numeric::angle::Angle;

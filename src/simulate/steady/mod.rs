@@ -8,6 +8,7 @@ mod result;
 mod round;
 mod timed;
 
+use super::error_estimate::MARGIN;
 use crate::error::Error;
 use crate::scene::Scene;
 use periodic_orbit::{Found, Seeker};
@@ -110,7 +111,7 @@ fn first(scene: &Scene, rests: bool, limit: u64) -> Result<Found, Error> {
 fn describe(scene: &Scene, found: &Found, check: &Found) -> SteadyState {
     let of = |value: &dyn Fn(&Found) -> f64, floor: f64| Estimated {
         value: value(found),
-        error: periodic_orbit::MARGIN * (value(found) - value(check)).abs() + floor,
+        error: MARGIN * (value(found) - value(check)).abs() + floor,
     };
     // What is left open of an energy moves the speed by half as much, relative to them.
     let relative = 0.5 * found.uncertain + periodic_orbit::ROUNDING;
@@ -125,7 +126,7 @@ fn describe(scene: &Scene, found: &Found, check: &Found) -> SteadyState {
     let (power_in_w, power_out_w) = loads::powers(&loads);
     let multiplier = Estimated {
         value: found.multiplier,
-        error: periodic_orbit::MARGIN * (found.multiplier - check.multiplier).abs()
+        error: MARGIN * (found.multiplier - check.multiplier).abs()
             + found.multiplier_error.max(check.multiplier_error),
     };
     SteadyState {

@@ -3,6 +3,8 @@
 use std::f64::consts::TAU;
 
 use super::super::angle_model::AngleModel;
+use super::super::angle_motion::LEAST_TAIL;
+use super::super::error_estimate::MARGIN;
 use super::super::guide_friction::Sliding;
 use super::Estimated;
 use super::refusal::{Over, always_gains, no_cycle, not_turned, over, unbounded};
@@ -16,12 +18,8 @@ use crate::numeric::root;
 use crate::plan::cycle_over_angle;
 use crate::scene::{Scene, Variable};
 
-/// What is stated is larger than the distance of two computations by this.
-pub(super) const MARGIN: f64 = 1.5;
 /// Relative error of speeds and times by rounding.
 pub(super) const ROUNDING: f64 = 8.0 * f64::EPSILON;
-/// Series end where rounding takes over: what a turn leaves out adds up over all turns that are remembered.
-const TAIL: f64 = 4e-15;
 /// A turn that gains no more than this part of its largest energy gains nothing.
 const NOTHING: f64 = 1e-12;
 /// First step of the search in the logarithm of the energy; of a search beside a motion that is known.
@@ -138,7 +136,8 @@ impl Seeker {
             .with_cycle(self.cycle)
             .with_friction(self.sliding.as_ref());
         let resolution = Resolution {
-            tail: TAIL,
+            // What a turn leaves out adds up over all turns that are remembered.
+            tail: LEAST_TAIL,
             other,
             most_evaluations: self.max_evaluations,
         };
