@@ -36,8 +36,8 @@ pub(super) struct Fitted {
     pub farthest_outlier: Option<usize>,
     /// Step of an encoder, or of rounding, rad, which is wider than the noise.
     pub coded: Option<f64>,
-    /// Motions with each of the errors that all samples share.
-    pub moved: Vec<Vec<MotionEstimate>>,
+    /// θ, ω, θ̈ with each of the errors that all samples share.
+    pub moved: Vec<Vec<[f64; 3]>>,
     /// Least standard deviation of a sample, rad or m.
     floor: f64,
 }

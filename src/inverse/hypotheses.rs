@@ -37,7 +37,7 @@ impl Hypothesis {
 #[derive(Clone, Copy, Debug)]
 struct Link {
     theta: f64,
-    before: usize,
+    before: Option<usize>,
 }
 
 /// Follows hypotheses through samples.
@@ -53,9 +53,6 @@ pub(super) struct Tracker<'a, 's> {
 /// Most hypotheses that are kept, and ln of the likelihood ratio beyond which one is dropped.
 const MOST: usize = 6;
 pub(super) const DROPPED: f64 = 50.0;
-
-/// The end of a path.
-const NOTHING: usize = usize::MAX;
 
 impl Tracker<'_, '_> {
     /// Noise and agility that are tried.
@@ -79,10 +76,10 @@ impl Tracker<'_, '_> {
         let ends = self.run(setting, self.values.len(), &mut links);
         let path = |end: &Hypothesis| {
             let mut theta = Vec::with_capacity(self.values.len());
-            let mut at = end.last;
-            while at != NOTHING {
-                theta.push(links[at].theta);
-                at = links[at].before;
+            let mut at = Some(end.last);
+            while let Some(link) = at {
+                theta.push(links[link].theta);
+                at = links[link].before;
             }
             theta.reverse();
             theta
@@ -141,7 +138,7 @@ impl Tracker<'_, '_> {
     fn begun(&self, sight: &Sight, links: &mut Vec<Link>) -> Hypothesis {
         links.push(Link {
             theta: sight.theta,
-            before: NOTHING,
+            before: None,
         });
         let speed = 2.0 * self.speed;
         Hypothesis {
@@ -220,7 +217,7 @@ fn extend(
         }
         links.push(Link {
             theta: found.state.mean[0],
-            before: predicted.last,
+            before: Some(predicted.last),
         });
         found.last = links.len() - 1;
         list.push(found);

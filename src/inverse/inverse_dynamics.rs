@@ -69,7 +69,7 @@ impl Backwards<'_> {
 
     /// Force on the slider, N, and torque on the crank, N m, either of which drives a motion beside the loads of the scene and the
     /// friction of the guide, dry ones against this sense of the crank. Torque where a guide locks itself: not a number.
-    fn needed(&self, t: f64, terms: &Terms, at: [f64; 3], sense: f64) -> [f64; 2] {
+    fn needed_at(&self, t: f64, terms: &Terms, at: [f64; 3], sense: f64) -> [f64; 2] {
         let ([theta, omega, alpha], pose) = (at, &terms.pose);
         let mut whole = self.equation.generalized_force(terms, omega, alpha);
         let mut known = 0.0;
@@ -88,6 +88,11 @@ impl Backwards<'_> {
         [force, torque]
     }
 
+    /// Force and torque of a motion, by `needed_at`.
+    pub fn needed(&self, t: f64, at: [f64; 3], sense: f64) -> [f64; 2] {
+        self.needed_at(t, &self.equation.terms(at[0]), at, sense.signum())
+    }
+
     /// What one state of the motion needs. At rest friction and dry loads may be anything up to their magnitude: the torque is
     /// then the middle of what is possible, and its error has the rest in it.
     pub fn demand(&self, t: f64, state: &MotionEstimate) -> Demand {
@@ -96,11 +101,11 @@ impl Backwards<'_> {
         let moves = omega.abs() > 5.0 * state.error(&[0.0, 1.0, 0.0], 0.0);
         let friction_known = moves || !self.equation.loads().are_dry() && self.guide.is_none();
         let sense = if omega < 0.0 { -1.0 } else { 1.0 };
-        let at = |terms: &Terms, at: [f64; 3]| self.needed(t, terms, at, sense);
+        let at = |terms: &Terms, at: [f64; 3]| self.needed_at(t, terms, at, sense);
         let [force, mut torque] = at(&terms, state.value);
         let mut holding = 0.0;
         if !friction_known {
-            let [_, other] = self.needed(t, &terms, state.value, -sense);
+            let [_, other] = self.needed_at(t, &terms, state.value, -sense);
             (torque, holding) = (0.5 * (torque + other), 0.5 * (torque - other).abs());
         }
         // One-sided at the limit of a rocker.

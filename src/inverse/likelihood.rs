@@ -73,11 +73,8 @@ impl Linear<'_> {
     /// Likelihood and σ for a corner frequency and a correlation.
     fn at(&self, corner: f64, correlated: Option<Autoregression>) -> Noise {
         self.evaluated(Noise {
-            corner,
-            level: 0.0,
             correlated,
-            sigma: 1.0,
-            likelihood: f64::NEG_INFINITY,
+            ..Noise::white(corner)
         })
     }
 

@@ -41,6 +41,19 @@ pub(super) struct Noise {
     pub likelihood: f64,
 }
 
+impl Noise {
+    /// White noise of the samples, and a corner frequency.
+    pub fn white(corner: f64) -> Noise {
+        Noise {
+            corner,
+            level: 0.0,
+            correlated: None,
+            sigma: 1.0,
+            likelihood: f64::NEG_INFINITY,
+        }
+    }
+}
+
 /// Standard deviations of the start, in those that the first few samples alone would leave: so diffuse that they count for
 /// 1e-6 of one sample, and so narrow that rounding keeps ten digits.
 const DIFFUSE: f64 = 1e3;

@@ -85,10 +85,11 @@ impl Source {
         record: &Record<'_>,
         motion: &[MotionEstimate],
         degree: usize,
-    ) -> Vec<MotionEstimate> {
+    ) -> Vec<[f64; 3]> {
         let theta: Vec<f64> = motion.iter().map(|m| m.value[0] + self.zero).collect();
         let found = Polynomial::new(&self.record(record), &theta, Some(degree));
-        found.map_or_else(|_| motion.to_vec(), |found| found.motion)
+        let found = found.map_or_else(|_| motion.to_vec(), |found| found.motion);
+        found.iter().map(|state| state.value).collect()
     }
 
     /// The motion that a smoother finds with this error, one step of Gauss and Newton off the one without.
@@ -97,7 +98,7 @@ impl Source {
         problem: &Problem<'_>,
         smoothed: &Smoothed,
         times: &[f64],
-    ) -> Vec<MotionEstimate> {
+    ) -> Vec<[f64; 3]> {
         let record = &problem.record;
         let problem = Problem {
             record: self.record(record),
@@ -113,7 +114,7 @@ impl Source {
             estimates: problem.smoothed(&motion, &path, smoothed.scales, &smoothed.noise),
             ..*smoothed
         };
-        parallel::list(times.len(), |i| problem.at(&moved, times[i]).estimated())
+        parallel::list(times.len(), |i| problem.at(&moved, times[i]).motion())
     }
 }
 
@@ -132,18 +133,17 @@ impl SharedErrors {
         fitted: &Fitted,
         times: &[f64],
     ) -> SharedErrors {
-        let of = |(source, moved): (&Source, &Vec<MotionEstimate>)| {
+        let of = |(source, moved): (&Source, &Vec<[f64; 3]>)| {
             let there = Backwards {
                 equation: &source.equation,
                 guide: source.guide.as_ref(),
                 ..*backwards
             };
             parallel::list(times.len(), |i| {
-                let [a, b] = [
-                    backwards.demand(times[i], &fitted.motion[i]),
-                    there.demand(times[i], &moved[i]),
-                ];
-                [b.force - a.force, b.torque - a.torque]
+                let here = fitted.motion[i].value;
+                let a = backwards.needed(times[i], here, here[1]);
+                let b = there.needed(times[i], moved[i], here[1]);
+                [0, 1].map(|k| b[k] - a[k])
             })
         };
         SharedErrors {

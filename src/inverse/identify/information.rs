@@ -33,6 +33,8 @@ pub(super) struct Information {
     norms: Vec<f64>,
     scaled: DMatrix<f64>,
     eigen: SymmetricEigen<f64, nalgebra::Dyn>,
+    /// (JᵀJ)⁻¹
+    covariance: DMatrix<f64>,
 }
 
 impl Information {
@@ -67,32 +69,27 @@ impl Information {
         let scaled = DMatrix::from_fn(n, n, |i, j| {
             dot(&columns[i], &columns[j]) / (norms[i] * norms[j])
         });
+        let eigen = SymmetricEigen::new(scaled.clone());
+        let inverse = DMatrix::from_diagonal(&eigen.eigenvalues.map(f64::recip));
+        let inverse = &eigen.eigenvectors * inverse * eigen.eigenvectors.transpose();
         let found = Information {
+            covariance: DMatrix::from_fn(n, n, |i, j| inverse[(i, j)] / (norms[i] * norms[j])),
             norms,
-            eigen: SymmetricEigen::new(scaled.clone()),
+            eigen,
             scaled,
         };
-        let (least, _) = found.weakest();
-        if least < ROUNDING {
+        if found.eigen.eigenvalues.min() < ROUNDING {
             return Err(found.alike(free));
         }
         Ok(found)
     }
 
-    /// The least eigenvalue and its place.
-    fn weakest(&self) -> (f64, usize) {
-        let values = self.eigen.eigenvalues.iter().copied().enumerate();
-        values.fold((f64::INFINITY, 0), |least, (k, value)| {
-            match value < least.0 {
-                true => (value, k),
-                false => least,
-            }
-        })
-    }
-
     /// The values of the weakest combination.
     fn group(&self) -> Vec<usize> {
-        let vector = self.eigen.eigenvectors.column(self.weakest().1);
+        let vector = self
+            .eigen
+            .eigenvectors
+            .column(self.eigen.eigenvalues.imin());
         let most = vector.amax();
         let all = 0..self.norms.len();
         all.filter(|k| vector[*k].abs() > 0.1 * most).collect()
@@ -128,18 +125,9 @@ impl Information {
         }
     }
 
-    /// An entry of the inverse.
-    fn covariance(&self, i: usize, j: usize) -> f64 {
-        let Information { norms, eigen, .. } = self;
-        let parts = (0..norms.len()).map(|k| {
-            eigen.eigenvectors[(i, k)] * eigen.eigenvectors[(j, k)] / eigen.eigenvalues[k]
-        });
-        parts.sum::<f64>() / (norms[i] * norms[j])
-    }
-
     /// Standard error of a value over σ.
     pub fn error(&self, k: usize) -> f64 {
-        self.covariance(k, k).sqrt()
+        self.covariance[(k, k)].sqrt()
     }
 
     /// Standard error of a value over σ if it were the only one.
@@ -152,7 +140,7 @@ impl Information {
         if i == j {
             return 1.0;
         }
-        self.covariance(i, j) / (self.error(i) * self.error(j))
+        self.covariance[(i, j)] / (self.error(i) * self.error(j))
     }
 
     /// (JᵀJ + σ² diag(1/w²))⁻¹ g: a step that goes about as far as w in what the record tells little of (Levenberg).
@@ -174,7 +162,7 @@ impl Information {
 
     /// (JᵀJ)⁻¹ g
     pub fn solved(&self, g: &[f64]) -> Vec<f64> {
-        let row = |i: usize| (0..g.len()).map(|j| self.covariance(i, j) * g[j]).sum();
-        (0..g.len()).map(row).collect()
+        let found = &self.covariance * DVector::from_column_slice(g);
+        found.as_slice().to_vec()
     }
 }

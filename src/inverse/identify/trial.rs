@@ -106,13 +106,7 @@ impl Trials<'_> {
 
     /// Marginal likelihood and σ for a corner frequency of the missing torque.
     pub fn at(&self, model: &Stretch, corner: f64) -> Noise {
-        let mut noise = Noise {
-            corner,
-            level: 0.0,
-            correlated: None,
-            sigma: 1.0,
-            likelihood: f64::NEG_INFINITY,
-        };
+        let mut noise = Noise::white(corner);
         let evidence = kalman::evidence::<3>(&self.deviations(model, &noise));
         let free = (evidence.samples as f64 - 2.0 - self.free.len() as f64).max(1.0);
         noise.sigma = (evidence.squares / free).sqrt().max(self.scales.floor);
