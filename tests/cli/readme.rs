@@ -77,19 +77,19 @@ fn every_command_line_works() {
         };
         let mut arguments = words(arguments);
         shown.insert(arguments[0].clone());
-        let mut file = None;
+        let mut files = Vec::new();
         for i in 1..arguments.len() {
-            let names_a_file = ["--out", "--plot"].contains(&arguments[i - 1].as_str());
+            let names_a_file = ["--out", "--plot", "--report"].contains(&arguments[i - 1].as_str());
             if names_a_file && arguments[i] != "-" {
                 let path = folder.path().join(&arguments[i]);
                 arguments[i] = path.to_str().expect("a plain path").to_owned();
-                file = Some(path);
+                files.push(path);
             }
         }
         assert!(!run(&arguments).is_empty(), "{line}");
         let written =
-            |file: PathBuf| fs::read_to_string(file).is_ok_and(|text| text.lines().count() > 2);
-        assert!(file.is_none_or(written), "{line}");
+            |file: &PathBuf| fs::read_to_string(file).is_ok_and(|text| text.lines().count() > 2);
+        assert!(files.iter().all(written), "{line}");
     }
     assert_eq!(shown, commands(), "every command is shown");
     assert!(command_lines().contains(&"cargo test".to_owned()));
