@@ -2,10 +2,12 @@
 
 use std::sync::Arc;
 
-use super::configuration_curve::{Phase, row_on_curve};
+use super::configuration_curve::{AlongCurve, Phase};
 use super::guide_friction::Sliding;
+use super::recorder::Coordinate;
 use super::row::{Row, RowMaker};
 use crate::mechanism::{CurveEquation, Equation, Reactor};
+use crate::numeric::angle::Angle;
 use crate::trajectory::Trajectory;
 
 /// All that rows of a scene are made from.
@@ -74,7 +76,8 @@ impl DenseRows {
                 let guide = frame.sliding.as_deref().map(Sliding::equation);
                 let equation = self.curve.as_deref().or(guide)?;
                 let reactor = frame.reactor.as_deref();
-                row_on_curve(equation, reactor, spell.phase, (t, angle, speed))
+                AlongCurve::new(equation, spell.phase, reactor, Angle::default())
+                    .row(t, angle, speed)
             }
             None => frame.maker().row(t, angle, speed, frame.alpha),
         };

@@ -9,7 +9,6 @@ mod checkpoints;
 mod clearance;
 mod closed_form;
 mod configuration_curve;
-mod crank_watch;
 mod dense_rows;
 mod driving_torque;
 mod energies;
@@ -36,7 +35,6 @@ mod stalled;
 mod state_transition;
 mod steady;
 mod stop;
-mod stop_reason;
 mod warning;
 
 pub use crate::mechanism::Reactions;

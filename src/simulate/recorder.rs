@@ -69,10 +69,6 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    pub fn task(&self) -> &'a RunSetup<'a> {
-        self.task
-    }
-
     /// Least and largest crank speed so far, rad/s.
     pub fn speed(&mut self) -> &mut (f64, f64) {
         &mut self.record.speed

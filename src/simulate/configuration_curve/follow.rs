@@ -2,7 +2,8 @@
 
 use std::cell::Cell;
 
-use super::arrived::{Arrived, End, Follow, Observer};
+use super::super::stop::Why;
+use super::piece::{End, Follow, Observer, Piece, crank_state};
 use super::stick_slip::{
     CLEAR, CRANK, DEAD_CENTRE, InPhase, LIMIT, NORMAL, Phase, Quantities, SPEED, Signs, TURNED,
     sliding,
@@ -22,19 +23,24 @@ pub(super) struct Run<'a, 'o> {
     pub observer: &'o mut dyn Observer,
     pub now: Start,
     pub signs: Signs,
-    pub arrived: Arrived,
+    pub piece: Piece,
 }
 
 /// What ends a piece of the motion.
 enum Cut {
-    At { t: f64, index: usize },
+    At {
+        t: f64,
+        index: usize,
+    },
     Ended(Finish),
+    /// Before a position without inertia.
+    NoInertia,
     Stopped,
 }
 
 impl Follow<'_> {
     /// Follows the motion to its end.
-    pub fn run(&self, observer: &mut dyn Observer) -> Arrived {
+    pub fn run(&self, observer: &mut dyn Observer) -> Piece {
         let Start { t, angle, speed } = self.start;
         let node = Node {
             t,
@@ -53,20 +59,18 @@ impl Follow<'_> {
             observer,
             now: self.start,
             signs: Signs::default(),
-            arrived: Arrived {
+            piece: Piece {
                 last: Step::new(angle.turns, node, node),
                 work: 0.0,
                 steps: 0,
                 evaluations: 0,
-                pieces: 0,
                 end: End::Done,
                 impossible: None,
-                vanished: false,
             },
         };
         run.begin();
-        run.arrived.evaluations += run.quantities.evaluations.get();
-        run.arrived
+        run.piece.evaluations += run.quantities.evaluations.get();
+        run.piece
     }
 
     pub fn friction(&self) -> Option<Friction> {
@@ -89,7 +93,7 @@ impl Run<'_, '_> {
             self.check_jam()
         };
         let end = end.or_else(|| self.pieces());
-        self.arrived.end = end.unwrap_or(End::Done);
+        self.piece.end = end.unwrap_or(End::Done);
     }
 
     pub(super) fn in_phase(&self, phase: Phase) -> InPhase<'_> {
@@ -104,11 +108,11 @@ impl Run<'_, '_> {
         let in_time = self.in_phase(Phase::Sticking).depends_on_time();
         let mut pace = WorkForecast::new(self.now.t, 0, self.follow.settings.ends(), in_time);
         loop {
-            self.arrived.pieces += 1;
             let from = self.now.angle;
             let end = match self.slide() {
                 Cut::Ended(Finish::AtEnd) => Some(End::Done),
                 Cut::Ended(finish) => Some(self.singular(finish)),
+                Cut::NoInertia => Some(End::Named(Why::NoInertiaOnCurve.into())),
                 Cut::Stopped => Some(End::Stopped),
                 Cut::At { index: TURNED, .. } => Some(End::Done),
                 Cut::At { index: CLEAR, .. } => Some(self.jam()),
@@ -127,7 +131,7 @@ impl Run<'_, '_> {
             if end.is_some() || self.now.t >= self.follow.settings.t_end {
                 return end.or(Some(End::Done));
             }
-            let spent = self.arrived.evaluations + self.quantities.evaluations.get();
+            let spent = self.piece.evaluations + self.quantities.evaluations.get();
             if spent >= self.follow.settings.max_evaluations {
                 return Some(End::Integrator(Finish::WorkLimit));
             }
@@ -158,7 +162,7 @@ impl Run<'_, '_> {
         let in_phase = InPhase { equation, phase };
         let motion = Counted::new(&in_phase);
         let looked_at = Counted::new(&in_phase);
-        let spent = self.arrived.evaluations + self.quantities.evaluations.get();
+        let spent = self.piece.evaluations + self.quantities.evaluations.get();
         let settings = Settings {
             max_evaluations: self.follow.settings.max_evaluations.saturating_sub(spent),
             ..self.follow.settings
@@ -205,34 +209,29 @@ impl Run<'_, '_> {
                 };
                 observer.event(kind, change.t, step.angle(theta), speed);
             }
-            stopped = observer.step(&step, phase);
+            stopped = observer.step(&step, Some(phase));
             vanished = vanishing && equation.vanishes_at(step.end.theta);
             stopped || vanished
         });
-        self.arrived.steps += steps;
-        self.arrived.impossible = motion.impossible().map(|(t, angle, speed)| {
-            let curve = equation.curve();
-            let omega = curve.place(angle.rest).dtheta * speed;
-            (t, curve.crank_angle(angle).radians(), omega)
-        });
+        self.piece.steps += steps;
+        self.piece.impossible = motion
+            .impossible()
+            .map(|(t, angle, speed)| crank_state(equation.curve(), Start { t, angle, speed }));
         let Some((step, change)) = cut else {
-            self.arrived.evaluations += motion.evaluations();
+            self.piece.evaluations += motion.evaluations();
             self.arrive(if beyond {
                 Step::new(last.turns, last.start, last.start)
             } else {
                 last
             });
-            self.arrived.vanished = vanished;
-            return if stopped {
-                Cut::Stopped
-            } else if vanished {
-                Cut::Ended(Finish::StepTooSmall)
-            } else {
-                Cut::Ended(finish)
+            return match (stopped, vanished) {
+                (true, _) => Cut::Stopped,
+                (_, true) => Cut::NoInertia,
+                _ => Cut::Ended(finish),
             };
         };
         let last = self.shorten(&motion, &step, change, phase);
-        self.arrived.evaluations += motion.evaluations();
+        self.piece.evaluations += motion.evaluations();
         self.arrive(last);
         Cut::At {
             t: change.t,
@@ -270,18 +269,18 @@ impl Run<'_, '_> {
             step
         };
         rested(&until(t, &mut |step| {
-            observer.step(&rested(step), phase);
+            observer.step(&rested(step), Some(phase));
             false
         }))
     }
 
     pub fn arrive(&mut self, last: Step) {
-        self.arrived.work += last.end.work;
+        self.piece.work += last.end.work;
         self.now = Start {
             t: last.end.t,
             angle: last.angle(last.end.theta).reduced(),
             speed: last.end.omega,
         };
-        self.arrived.last = last;
+        self.piece.last = last;
     }
 }

@@ -1,28 +1,37 @@
 //! Motion in time on the configuration curve: past the limits of a rocker, and with Coulomb friction.
 
-mod arrived;
-mod end_reason;
+mod coordinate;
 mod follow;
-mod recorder;
+mod piece;
 mod release;
 mod rest;
 mod roundoff;
-mod row;
-mod senses;
 mod stick_slip;
 
-pub(super) use arrived::{Arrived, End, Follow, Observer, crank_state};
-pub(super) use end_reason::{warning, why};
-pub(super) use recorder::CurveWatch;
+use std::sync::Arc;
+
+pub(super) use coordinate::AlongCurve;
+pub(super) use piece::{End, Follow, Observer, Piece, crank_state};
 pub(super) use roundoff::Noise;
-pub(super) use row::{last_row, row_on_curve};
 pub(super) use stick_slip::Phase;
 
 use super::outcome::Balance;
 use super::run_setup::RunSetup;
+use super::warning::Warning;
+use crate::engine::step::Step;
 use crate::engine::time::Start;
-use crate::mechanism::{Curve, CurveEquation, Equation};
+use crate::mechanism::{Class, Curve, CurveEquation, Equation};
 use crate::numeric::angle::Angle;
+
+/// Crank lengths from a change point within which the last digits of the lengths decide.
+const NEAR: f64 = 1e-6;
+
+/// The equation on the configuration curve, and the start of the run on it.
+#[derive(Clone)]
+pub(super) struct OnCurve {
+    pub equation: Arc<CurveEquation>,
+    pub start: Start,
+}
 
 /// Whether a free motion in time is computed here.
 pub(super) fn serves(task: &RunSetup<'_>) -> bool {
@@ -30,43 +39,53 @@ pub(super) fn serves(task: &RunSetup<'_>) -> bool {
     !task.turns_fully() || may_stick
 }
 
-/// The equation on the curve of the start, and the start on it; none where no curve goes through it.
-pub(super) fn through_start(task: &RunSetup<'_>) -> Option<(CurveEquation, Start)> {
-    let (curve, angle) = Curve::through(task.equation().linkage(), task.start())?;
-    let speed = match task.scene.motion.speed {
-        0.0 => 0.0,
-        speed => speed / curve.place(angle.rest).dtheta,
-    };
-    let start = Start {
-        t: 0.0,
-        angle,
-        speed,
-    };
-    Some((CurveEquation::new(task.scene, curve), start))
+/// What the reader should know about the lengths.
+pub(super) fn warning(task: &RunSetup<'_>) -> Option<Warning> {
+    let near = task.equation().linkage().nearness_to_change_point();
+    match task.limits.class {
+        Class::ChangePoint => Some(Warning::ChangePoint),
+        _ => (near < NEAR).then_some(Warning::NearChangePoint(near)),
+    }
 }
 
-/// Energy at the end against that at the start and the work.
-pub(super) fn energy_balance(
-    constrained: &CurveEquation,
-    equation: &Equation,
-    start: Start,
-    arrived: &Arrived,
-    speed: f64,
-) -> Balance {
-    let last = &arrived.last;
-    let angle = last.angle(last.end.theta);
-    let turns = constrained.curve().crank_angle(start.angle).turns;
-    let potential = |q: Angle| constrained.potential_energy(equation, q, turns);
-    let kinetic = [
-        constrained.kinetic_energy(start.angle, start.speed),
-        constrained.kinetic_energy(angle, last.end.omega),
-    ];
-    let rise = potential(angle) - potential(start.angle);
-    let gained = (kinetic[1] - kinetic[0]) + rise;
-    let peak = equation.kinetic_energy(constrained.curve().crank_angle(angle).rest, speed);
-    let peak = if peak.is_finite() { peak } else { 0.0 };
-    Balance::new(
-        gained - arrived.work,
-        &[kinetic[0], kinetic[1], rise, arrived.work, peak],
-    )
+impl OnCurve {
+    /// The equation on the curve of the start, and the start on it; none where no curve goes through it.
+    pub fn through_start(task: &RunSetup<'_>) -> Option<OnCurve> {
+        let (curve, angle) = Curve::through(task.equation().linkage(), task.start())?;
+        let speed = match task.scene.motion.speed {
+            0.0 => 0.0,
+            speed => speed / curve.place(angle.rest).dtheta,
+        };
+        let start = Start {
+            t: 0.0,
+            angle,
+            speed,
+        };
+        let equation = Arc::new(CurveEquation::new(task.scene, curve));
+        Some(OnCurve { equation, start })
+    }
+
+    /// Energy at the end of the last step against that at the start and the work (J), for a run whose crank was this fast
+    /// (rad/s).
+    pub fn energy_balance(
+        &self,
+        equation: &Equation,
+        last: &Step,
+        work: f64,
+        fastest: f64,
+    ) -> Balance {
+        let (on, start) = (&self.equation, self.start);
+        let angle = last.angle(last.end.theta);
+        let turns = on.curve().crank_angle(start.angle).turns;
+        let potential = |q: Angle| on.potential_energy(equation, q, turns);
+        let kinetic = [
+            on.kinetic_energy(start.angle, start.speed),
+            on.kinetic_energy(angle, last.end.omega),
+        ];
+        let rise = potential(angle) - potential(start.angle);
+        let gained = (kinetic[1] - kinetic[0]) + rise;
+        let peak = equation.kinetic_energy(on.curve().crank_angle(angle).rest, fastest);
+        let peak = if peak.is_finite() { peak } else { 0.0 };
+        Balance::new(gained - work, &[kinetic[0], kinetic[1], rise, work, peak])
+    }
 }

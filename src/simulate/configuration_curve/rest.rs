@@ -1,9 +1,13 @@
 //! From motion to rest and from rest to motion, and where rigid bodies do not say how it goes on.
 
-use super::arrived::End;
+use super::super::guide_friction::BESIDE;
+use super::super::stop::Why;
 use super::follow::Run;
+use super::piece::End;
 use super::release::{self, Release};
-use super::stick_slip::{DEAD_CENTRE, Phase, SPEED};
+use super::stick_slip::{CRANK, DEAD_CENTRE, NORMAL, Phase, SPEED, Signs, against, signs};
+use crate::engine::Motion;
+use crate::engine::event_functions::EventFunction;
 use crate::engine::step::{Node, Step};
 use crate::engine::time::{Finish, Start};
 use crate::mechanism::FromRest;
@@ -50,13 +54,13 @@ impl Run<'_, '_> {
         };
         let changes = equation.loads().reads().has(Variable::T);
         let (release, looked) = if changes {
-            let spent = self.arrived.evaluations + self.quantities.evaluations.get();
+            let spent = self.piece.evaluations + self.quantities.evaluations.get();
             let allowed = self.follow.settings.max_evaluations.saturating_sub(spent);
             release::time(&equation.at_rest(angle), mu_static, t, end, allowed)
         } else {
             (Release::Never, 0)
         };
-        self.arrived.evaluations += looked;
+        self.piece.evaluations += looked;
         let kind = match release {
             Release::Never => "rest",
             _ => "stick",
@@ -73,7 +77,7 @@ impl Run<'_, '_> {
             ..Node::default()
         };
         let still = Step::new(angle.turns, node(t), node(until));
-        self.observer.step(&still, Phase::Sticking);
+        self.observer.step(&still, Some(Phase::Sticking));
         self.arrive(still);
         match release {
             Release::Never => return Err(End::Done),
@@ -96,11 +100,11 @@ impl Run<'_, '_> {
         let Start { t, angle, speed } = self.now;
         let free = self.follow.equation.free(t, angle, speed);
         let mu = self.follow.friction().map_or(0.0, |f| f.coefficient);
-        End::Jam {
+        End::Named(Box::new(Why::Jam {
             solutions: free.jam(mu, self.signs[SPEED] * self.signs[DEAD_CENTRE]),
             mu,
             kappa: free.kappa.abs(),
-        }
+        }))
     }
 
     /// A run whose steps became too small next to jamming has jammed.
@@ -115,5 +119,42 @@ impl Run<'_, '_> {
             }
         }
         End::Integrator(finish)
+    }
+
+    /// The signs with which motion in `direction` (±1 of the coordinate) begins.
+    pub fn signs_for(&self, direction: f64) -> Signs {
+        let equation = self.follow.equation;
+        if equation.loads().are_dry() {
+            // The sign of N follows from those of the speeds.
+            let seen = self.seen(direction);
+            self.quantities.against.set(against(equation, &seen));
+        }
+        self.seen(direction)
+    }
+
+    fn seen(&self, direction: f64) -> Signs {
+        let Start { t, angle, speed } = self.now;
+        let values = self.quantities.values(t, angle, speed);
+        let ahead = self
+            .quantities
+            .values(t, angle.plus(direction * BESIDE), speed);
+        let mut signs = signs(values, ahead, direction);
+        // A start without speed says nothing about its direction.
+        if speed == 0.0 && !self.follow.may_stick() {
+            let motion = self.in_phase(Phase::FREE);
+            if motion.acceleration(t, angle, speed) < 0.0 {
+                signs[SPEED] = -1.0;
+            }
+        }
+        signs
+    }
+
+    /// Where dry loads turn round, the normal force jumps.
+    pub fn oppose(&mut self, index: usize) {
+        let equation = self.follow.equation;
+        if equation.loads().are_dry() && matches!(index, DEAD_CENTRE | CRANK) {
+            self.quantities.against.set(against(equation, &self.signs));
+            self.signs[NORMAL] = self.seen(self.signs[SPEED])[NORMAL];
+        }
     }
 }

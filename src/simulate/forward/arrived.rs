@@ -2,19 +2,17 @@
 
 use std::borrow::Cow;
 
-use super::super::{configuration_curve, stop};
+use super::super::configuration_curve::{End, Observer, OnCurve};
 use crate::engine::Counted;
 use crate::engine::angle::Driving;
 use crate::engine::energy::NotApplicable;
 use crate::engine::step::Step;
-use crate::engine::time::{Finish, Settings, Start};
+use crate::engine::time::{Settings, Start};
 use crate::error::Error;
-use crate::mechanism::CurveEquation;
-use crate::numeric::angle::Angle;
 use crate::plan::Engine;
 
 /// Takes what is computed.
-pub(super) trait Sink {
+pub(super) trait Sink: Observer {
     /// An engine takes over at a time, s.
     fn begins(&mut self, _engine: Engine, _from: f64, _why: Cow<'static, str>) {}
 
@@ -24,28 +22,18 @@ pub(super) trait Sink {
     /// Keeps the motion of a piece over the angle that is one of several.
     fn keep(&mut self, _driven: Driven) {}
 
-    /// A piece in time begins.
-    fn begin_in_time(&mut self, from: Start);
-
-    /// A step of it; true ends the run.
-    fn step(&mut self, step: &Step) -> bool;
-
-    /// A piece in time along the configuration curve: from this coordinate (rad): calls `run` with what takes
-    /// it.
-    fn along_curve(
-        &mut self,
-        equation: &CurveEquation,
-        start: Angle,
-        run: &mut dyn FnMut(&mut dyn configuration_curve::Observer),
-    );
+    /// A piece in time begins, on a configuration curve or with the crank angle as its coordinate.
+    fn begin_in_time(&mut self, from: Start, on: Option<&OnCurve>);
 
     /// A piece in time has ended; the last step, if the run ends inside it.
     fn end_in_time(
         &mut self,
-        motion: &Counted<'_>,
-        last: &Step,
-        settings: &Settings,
-    ) -> Option<Step>;
+        _motion: &Counted<'_>,
+        _last: &Step,
+        _settings: &Settings,
+    ) -> Option<Step> {
+        None
+    }
 }
 
 /// A piece over the angle in the time of the run.
@@ -67,28 +55,15 @@ pub(super) enum Why {
     NotApplicable(NotApplicable),
 }
 
-/// How a pass ended.
-#[derive(Clone, Debug)]
-pub(super) enum End {
-    /// At its time, or after its turns, or another piece follows.
-    AtGoal,
-    /// The integrator in time could not go on, or the work limit is reached.
-    Integrator(Finish),
-    /// Why is told by the piece along the configuration curve.
-    Elsewhere,
-    /// For a reason that its engine names.
-    Named(stop::Why),
-}
-
 /// Where a pass arrived.
 pub(super) struct Arrived {
     pub now: Start,
     /// Last step, if the pass ended in time.
     pub last: Option<Step>,
+    /// Whether that followed the configuration curve.
+    pub on_curve: bool,
     /// Last piece, if that was over the angle, until another one follows; at the end, if it is the only one.
     pub driven: Option<Driven>,
-    /// Where its last piece in time arrived, if that followed the configuration curve.
-    pub on_curve: Option<configuration_curve::Arrived>,
     /// Work of all that has no potential, J.
     pub work: f64,
     /// Largest kinetic energy at the ends of panels and steps, J.
@@ -99,8 +74,8 @@ pub(super) struct Arrived {
     pub over_angle: u64,
     pub in_time: u64,
     pub end: End,
-    /// Time, angle and speed of the last evaluation without a finite result.
-    pub impossible: Option<(f64, Angle, f64)>,
+    /// Time, crank angle and speed of the last evaluation without a finite result.
+    pub impossible: Option<Start>,
 }
 
 impl Arrived {
@@ -109,15 +84,15 @@ impl Arrived {
         Arrived {
             now: start,
             last: None,
+            on_curve: false,
             driven: None,
-            on_curve: None,
             work: 0.0,
             largest_kinetic: 0.0,
             evaluations: 0,
             steps: 0,
             over_angle: 0,
             in_time: 0,
-            end: End::AtGoal,
+            end: End::Done,
             impossible: None,
         }
     }

@@ -4,14 +4,14 @@ use std::borrow::Cow;
 use std::cell::OnceCell;
 
 use super::super::angle_model::AngleModel;
+use super::super::configuration_curve::{End, OnCurve};
 use super::super::run_setup::RunSetup;
-use super::along_curve::OnCurve;
-use super::arrived::{Arrived, End, Sink, Why};
-use super::refusal;
+use super::arrived::{Arrived, Sink, Why};
+use super::stop_reason;
 use crate::engine::Counted;
 use crate::engine::angle::Resolution;
 use crate::engine::energy::NotApplicable;
-use crate::engine::time::{Finish, Settings, Start};
+use crate::engine::time::{Finish, Settings};
 use crate::error::Error;
 use crate::plan::{Engine, Method};
 use crate::scene::Extent;
@@ -43,10 +43,8 @@ pub(super) struct Pass<'a, 'o> {
     pub arrived: Arrived,
     /// Positions tabulated before it.
     places: u64,
-    /// Evaluations of loads over the angle.
-    pub over_angle: u64,
-    /// Evaluations along the configuration curve.
-    pub on_curve: u64,
+    /// Evaluations of loads over the angle and along the configuration curve.
+    pub beside: u64,
     pub wait: f64,
 }
 
@@ -59,8 +57,7 @@ impl Course<'_> {
             sink,
             arrived: Arrived::at(self.task.first_state()),
             places: self.position.evaluations(),
-            over_angle: 0,
-            on_curve: 0,
+            beside: 0,
             wait: self.wait,
         };
         pass.pieces()?;
@@ -70,23 +67,19 @@ impl Course<'_> {
         let spent = pass.spent();
         let mut arrived = pass.arrived;
         arrived.evaluations = spent;
-        arrived.impossible = motion.impossible();
         Ok(arrived)
-    }
-
-    /// Whether a run has come to its time, or its turns did not take for ever.
-    pub fn is_at_goal(&self, now: &Start) -> bool {
-        match self.extent {
-            Extent::Duration(duration) => now.t >= duration,
-            Extent::Revolutions(_) => now.t < self.settings.t_end,
-        }
     }
 }
 
 impl Pass<'_, '_> {
-    pub fn spent(&self) -> u64 {
+    fn spent(&self) -> u64 {
         let places = self.course.position.evaluations() - self.places;
-        places + self.over_angle + self.on_curve + self.motion.evaluations()
+        places + self.beside + self.motion.evaluations()
+    }
+
+    /// Evaluations that are left of the work limit.
+    pub fn left(&self) -> u64 {
+        self.course.max_evaluations.saturating_sub(self.spent())
     }
 
     fn pieces(&mut self) -> Result<(), Error> {
@@ -123,7 +116,7 @@ impl Pass<'_, '_> {
         let plan = &self.course.task.plan;
         if !self.has_begun() {
             if self.course.task.options.method != Method::Auto && !self.course.is_second {
-                return Err(refusal::of(self.course.task, why));
+                return Err(stop_reason::refusal(self.course.task, why));
             }
             // What an engine that could not begin has tabulated is not of this run.
             self.places = self.course.position.evaluations();
@@ -156,7 +149,7 @@ impl Pass<'_, '_> {
     fn reason(&self, next: Engine, why: Why) -> Cow<'static, str> {
         match why {
             Why::NotApplicable(why) if next == Engine::Time => {
-                refusal::why(self.course.task, why).into()
+                stop_reason::not_applicable(self.course.task, why).into()
             }
             _ => "the crank turns".into(),
         }

@@ -5,20 +5,21 @@
 //! near a balance they grow with it; independent ones add up by their squares.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 use std::time::Instant;
 
 use super::super::angle_motion::{PLACE, late_by, worst_row};
 use super::super::by_angle::{ROUNDING, finer, row_error};
 use super::super::by_energy;
 use super::super::checkpoints::Compared;
-use super::super::configuration_curve::{self, Noise, Phase};
+use super::super::configuration_curve::{End, Noise, Observer, OnCurve, Phase};
 use super::super::error_estimate::{Forward, MARGIN, Rounding, much_tighter, tighter};
 use super::super::outcome::Estimate;
 use super::super::record::Record;
 use super::super::result::{Cost, ErrorEstimate};
 use super::super::roundoff_propagation::Spread;
 use super::super::state_transition::StateTransition;
-use super::arrived::{Arrived, Driven, End, Sink};
+use super::arrived::{Arrived, Driven, Sink};
 use super::engine_loop::Course;
 use crate::engine::angle::Errors;
 use crate::engine::step::Step;
@@ -26,7 +27,6 @@ use crate::engine::time::{Method, Settings, Start};
 use crate::engine::{Counted, Motion};
 use crate::error::Error;
 use crate::mechanism::{CurveEquation, Equation};
-use crate::numeric::angle::Angle;
 use crate::plan::Engine;
 use crate::scene::Extent;
 
@@ -98,7 +98,7 @@ fn by_second_run(
         let mut seen = Second::new(&finer, &motion, record);
         let best = finer.run(&motion, &mut seen).ok()?;
         evaluations += best.evaluations + seen.noise.evaluations;
-        let arrives = matches!(best.end, End::AtGoal);
+        let arrives = matches!(best.end, End::Done);
         arrives.then_some((best, seen.spread(), seen.compared))
     };
     let (best, spread, compared) = second(collocation).or_else(|| second(again))?;
@@ -151,10 +151,10 @@ fn distance(
 /// The spread of a coordinate at the end as that of the crank: of its angle and its speed.
 fn of_crank(course: &Course<'_>, arrived: &Arrived, spread: Spread) -> [f64; 2] {
     let (angle, speed) = (spread.angle(), spread.speed());
-    let (Some(followed), Some(on)) = (&arrived.on_curve, course.curve.get()) else {
+    let on = course.curve.get().filter(|_| arrived.on_curve);
+    let (Some(Step { end, .. }), Some(on)) = (arrived.last, on) else {
         return [angle, speed];
     };
-    let end = &followed.last.end;
     let place = on.equation.curve().place(end.theta);
     let bend = Some((place.d2theta * end.omega).abs()).filter(|bend| bend.is_finite());
     let dtheta = place.dtheta.abs();
@@ -166,7 +166,8 @@ struct Second<'m, 'a> {
     equation: &'m Equation,
     motion: &'m Counted<'m>,
     rounding: Rounding,
-    /// Along the configuration curve.
+    /// The configuration curve of the last piece in time, if it follows one, and what rounding does along it.
+    on: Option<Arc<CurveEquation>>,
     noise: Noise,
     compared: Compared<'a>,
 }
@@ -182,6 +183,7 @@ impl<'m, 'a> Second<'m, 'a> {
             equation: course.task.equation(),
             motion,
             rounding: Rounding::new(course.settings.method, moves),
+            on: None,
             noise: Noise::default(),
             compared: record.checkpoints.compared(),
         }
@@ -244,54 +246,32 @@ impl Sink for Second<'_, '_> {
         Ok(())
     }
 
-    fn begin_in_time(&mut self, from: Start) {
-        if from.t > 0.0 {
+    fn begin_in_time(&mut self, from: Start, on: Option<&OnCurve>) {
+        self.on = on.map(|on| on.equation.clone());
+        if on.is_none() && from.t > 0.0 {
             self.rounding.round(from.angle.rest, from.speed);
         }
     }
-
-    fn step(&mut self, step: &Step) -> bool {
-        self.rounding.step(self.equation, self.motion, step);
-        self.compared.pass(step, |_| 1.0);
-        false
-    }
-
-    fn along_curve(
-        &mut self,
-        equation: &CurveEquation,
-        _: Angle,
-        run: &mut dyn FnMut(&mut dyn configuration_curve::Observer),
-    ) {
-        run(&mut AlongCurve {
-            equation,
-            second: self,
-        });
-    }
-
-    fn end_in_time(&mut self, _: &Counted<'_>, _: &Step, _: &Settings) -> Option<Step> {
-        None
-    }
 }
 
-/// A piece of it along the configuration curve.
-struct AlongCurve<'s, 'm, 'a> {
-    equation: &'s CurveEquation,
-    second: &'s mut Second<'m, 'a>,
-}
-
-impl configuration_curve::Observer for AlongCurve<'_, '_, '_> {
-    fn step(&mut self, step: &Step, phase: Phase) -> bool {
+impl Observer for Second<'_, '_> {
+    fn step(&mut self, step: &Step, phase: Option<Phase>) -> bool {
         let Second {
             rounding,
             noise,
             compared,
             ..
-        } = &mut *self.second;
-        let curve = self.equation.curve();
-        compared.pass(step, |q| curve.place(q).dtheta);
-        rounding.spread = noise.step(rounding.spread, self.equation, step, phase);
+        } = self;
+        match self.on.as_deref().zip(phase) {
+            Some((on, phase)) => {
+                compared.pass(step, |q| on.curve().place(q).dtheta);
+                rounding.spread = noise.step(rounding.spread, on, step, phase);
+            }
+            None => {
+                rounding.step(self.equation, self.motion, step);
+                compared.pass(step, |_| 1.0);
+            }
+        }
         false
     }
-
-    fn event(&mut self, _: &'static str, _: f64, _: Angle, _: f64) {}
 }

@@ -1,38 +1,35 @@
 //! A free motion: the engines of its plan take turns in one loop, one recorder takes what they compute, and one conclusion
 //! makes the result, its errors and its energy balance.
 
-mod along_curve;
 mod arrived;
 mod clear;
+mod crank;
 mod engine_loop;
 mod estimate;
 mod in_time;
 mod notes;
 mod over_angle;
-mod refusal;
-mod stopped;
+mod stop_reason;
 
 use std::cell::OnceCell;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::time::Instant;
 
-use arrived::{Arrived, Driven, End};
+use arrived::{Arrived, Driven};
 use engine_loop::Course;
 use notes::Notes;
-use stopped::stopped;
 
 use super::angle_model::AngleModel;
 use super::angle_motion::balance;
 use super::by_angle;
-use super::configuration_curve;
+use super::configuration_curve::{self, End};
 use super::error_estimate::Forward;
 use super::outcome::{Balance, Outcome};
 use super::record::Record;
 use super::row::RowSink;
 use super::run_setup::RunSetup;
 use super::simulation::Simulation;
-use super::stop_reason;
 use super::warning::Warning;
 use crate::engine::Counted;
 use crate::engine::time::Finish;
@@ -67,14 +64,16 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
     let mut notes = Notes::new(task, &looked_at, rows);
     let arrived = course.run(&Counted::new(&forward), &mut notes)?;
     if matches!(arrived.end, End::Integrator(Finish::NoStart)) && arrived.over_angle == 0 {
-        return Err(stop_reason::no_start(task.start(), task.scene.motion.speed));
+        return Err(stop_reason::no_start(task));
     }
-    let caught = notes.caught(&course);
-    let record = notes.finish(&course, &arrived)?;
+    let caught = notes.caught();
+    let record = notes.finish(&arrived)?;
     let wall_s = record.wall_s(begun);
-    let stopped = caught.or_else(|| stopped(&course, &arrived));
-    let on_curve = arrived.on_curve.as_ref();
-    let warning = on_curve.and_then(|_| configuration_curve::warning(task));
+    let stopped = caught.or_else(|| stop_reason::reason(&course, &arrived));
+    let warning = arrived
+        .on_curve
+        .then(|| configuration_curve::warning(task))
+        .flatten();
     let mut warnings: Vec<Warning> = warning.into_iter().collect();
     let judged = estimate::estimate(&course, &arrived, &record, wants_rows);
     let estimate = task.estimate(stopped.is_some(), &mut warnings, judged);
@@ -129,15 +128,10 @@ fn engine(arrived: &Arrived) -> Engine {
 
 fn energy_balance(course: &Course<'_>, arrived: &Arrived, record: &Record) -> Balance {
     let equation = course.task.equation();
-    match (&arrived.on_curve, course.curve.get()) {
-        (Some(followed), Some(on)) if arrived.over_angle == 0 => {
-            configuration_curve::energy_balance(
-                &on.equation,
-                equation,
-                on.start,
-                followed,
-                record.fastest(),
-            )
+    let on = course.curve.get().filter(|_| arrived.on_curve);
+    match (arrived.last, on) {
+        (Some(last), Some(on)) if arrived.over_angle == 0 => {
+            on.energy_balance(equation, &last, arrived.work, record.fastest())
         }
         _ => {
             let at = &arrived.now;

@@ -1,74 +1,269 @@
-//! A run as it is recorded, whatever engine computes it.
+//! A run as it is recorded, whatever engine computes it: rows, dead centres, turning points, speeds, and where it ends inside
+//! a step.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use super::super::bounded_motion::Swing;
-use super::super::configuration_curve::{self, CurveWatch, Phase};
-use super::super::crank_watch::CrankWatch;
+use super::super::configuration_curve::{AlongCurve, Observer, OnCurve, Phase, crank_state};
 use super::super::passages::{Stretch, is_dead_centre};
 use super::super::record::Record;
+use super::super::recorder::{Coordinate, Recorder};
+use super::super::result::Event;
 use super::super::row::RowSink;
 use super::super::run_setup::RunSetup;
 use super::super::stop::Why;
 use super::arrived::{Arrived, Driven, Sink};
-use super::engine_loop::Course;
+use super::crank::Crank;
 use crate::engine::Counted;
+use crate::engine::events::{self, Crossing};
 use crate::engine::step::Step;
-use crate::engine::time::{Settings, Start};
+use crate::engine::time::{self, Settings, Start};
 use crate::error::Error;
 use crate::mechanism::CurveEquation;
 use crate::numeric::angle::Angle;
 use crate::plan::Engine;
 use crate::trajectory::Trajectory;
 
+/// Two passages of a dead centre this near to each other (rad) are one, at the end of a piece and the start of the next.
+const SAME_PLACE: f64 = 1e-9;
+
 /// Notes of a run.
 pub(super) struct Notes<'a> {
     task: &'a RunSetup<'a>,
-    watch: CrankWatch<'a>,
-    /// How the slider touched its guide at the end of a piece along the configuration curve.
-    touched: Phase,
+    recorder: Recorder<'a>,
+    motion: &'a Counted<'a>,
+    /// In [0, 2π), rad.
+    dead_centres: Vec<f64>,
+    /// Turning points, if they may show that the crank never completes its turns.
+    swing: Option<Swing>,
+    /// When (s) the run ends inside the last step, and why.
+    ends_at: Option<(f64, EndsBy)>,
+    /// The start of a piece at a dead centre that was noted before.
+    passed: Option<Start>,
+    crossings: Vec<(f64, Crossing)>,
+    /// The configuration curve of the last piece in time, if it follows one.
+    on: Option<Arc<CurveEquation>>,
+    /// How the slider touched its guide at last.
+    phase: Phase,
+}
+
+/// What ends a run inside a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum EndsBy {
+    /// Its turns are complete.
+    Turns,
+    /// The crank swings to and fro and came no further for long.
+    Swing,
 }
 
 impl<'a> Notes<'a> {
     pub fn new(
         task: &'a RunSetup<'a>,
-        looked_at: &'a Counted<'a>,
+        motion: &'a Counted<'a>,
         rows: &'a mut dyn RowSink,
     ) -> Notes<'a> {
+        let dead_centres = task.limits.dead_centres.iter();
         Notes {
             task,
-            watch: CrankWatch::new(task, looked_at, rows),
-            touched: Phase::Sticking,
+            recorder: Recorder::new(task, rows, task.schedule()),
+            motion,
+            dead_centres: dead_centres.map(|dc| dc.theta).collect(),
+            swing: Swing::new(task, task.start()),
+            ends_at: None,
+            passed: None,
+            crossings: Vec::new(),
+            on: None,
+            phase: Phase::Sticking,
         }
     }
 
     /// Why the run ended, if the crank is caught.
-    pub fn caught(&self, course: &Course<'_>) -> Option<Why> {
-        let curve = course.curve.get().map(|on| on.equation.curve());
+    pub fn caught(&self) -> Option<Why> {
+        let curve = self.on.as_ref().map(|on| on.curve());
         let crank = |at| curve.map_or(at, |curve| curve.crank_angle(at));
-        self.watch.swing?.why(crank)
+        self.swing?.why(crank)
     }
 
     /// The record, with the row of the end.
-    pub fn finish(self, course: &Course<'_>, arrived: &Arrived) -> Result<Record, Error> {
+    pub fn finish(self, arrived: &Arrived) -> Result<Record, Error> {
         let Start { t, angle, speed } = arrived.now;
-        let last = || match (&arrived.on_curve, course.curve.get()) {
-            (Some(followed), Some(on)) => {
-                configuration_curve::last_row(self.task, &on.equation, self.touched, &followed.last)
+        let Notes {
+            task, on, phase, ..
+        } = self;
+        let last = || match (arrived.last, on.filter(|_| arrived.on_curve)) {
+            (Some(last), Some(on)) => {
+                along(task, &on, phase).row(t, last.angle(last.end.theta), last.end.omega)
             }
-            _ => self.task.maker.row(t, angle, speed, None),
+            _ => task.maker.row(t, angle, speed, None),
         };
-        self.watch.recorder.finish(|| Some(last()))
+        self.recorder.finish(|| Some(last()))
+    }
+
+    /// A step of the crank; true ends the run.
+    fn step_of_crank(&mut self, mut step: Step) -> bool {
+        self.reach_turn_limit(&mut step);
+        self.look_for_events(&mut step);
+        if self.ends_at.is_none() {
+            self.follow_speed(&mut step);
+        }
+        let until = self.ends_at.map_or(step.end.t, |(t, _)| t);
+        let crank = Crank {
+            maker: &self.task.maker,
+            motion: self.motion,
+            start: self.task.start(),
+            crossings: &self.crossings,
+        };
+        self.recorder.step(&mut step, until, &crank, None) || self.ends_at.is_some()
+    }
+
+    /// A step along the configuration curve; true ends the run.
+    fn step_on_curve(&mut self, mut step: Step, on: &CurveEquation, phase: Phase) -> bool {
+        self.phase = phase;
+        let along = along(self.task, on, phase);
+        if phase != Phase::Sticking {
+            let speed = self.recorder.speed();
+            let crank = |step: &Step, t: f64| along.crank_speed(step, t);
+            *speed = events::follow(&mut step, along.motion(), *speed, crank);
+        }
+        let until = step.end.t;
+        let fails = self.recorder.step(&mut step, until, &along, Some(phase));
+        fails || self.swing.is_some_and(|swing| swing.is_caught())
+    }
+
+    /// Least and largest speed.
+    fn follow_speed(&mut self, step: &mut Step) {
+        let speed = self.recorder.speed();
+        *speed = events::follow_speed(step, self.motion, *speed);
+    }
+
+    /// How far the crank has turned at an angle of a step, rad.
+    fn turned(&self, step: &Step, theta: f64) -> f64 {
+        step.angle(theta).minus(self.task.start())
+    }
+
+    /// The last step up to where the run ends inside it, integrated anew; at a turn limit once more, to meet it exactly.
+    fn shortened(
+        &mut self,
+        motion: &Counted<'_>,
+        step: &Step,
+        settings: &Settings,
+    ) -> Option<Step> {
+        let until = |t_end: f64, sink: &mut dyn FnMut(&Step) -> bool| {
+            time::shortened(motion, step, t_end, settings, sink)
+        };
+        let (mut t, by) = self.ends_at?;
+        if let Some(limit) = self.task.extent.angle().filter(|_| by == EndsBy::Turns) {
+            for _ in 0..3 {
+                let end = until(t, &mut |_| false);
+                let turned = self.turned(&end, end.end.theta);
+                let missing = limit.copysign(turned) - turned;
+                if missing == 0.0 || end.end.omega == 0.0 {
+                    break;
+                }
+                t = (t + missing / end.end.omega).clamp(step.start.t, step.end.t);
+            }
+        }
+        Some(until(t, &mut |step| {
+            self.follow_speed(&mut step.clone());
+            false
+        }))
+    }
+
+    fn reach_turn_limit(&mut self, step: &mut Step) {
+        let Some(limit) = self.task.extent.angle() else {
+            return;
+        };
+        if self.turned(step, step.end.theta).abs() < limit {
+            return;
+        }
+        step.refine(self.motion);
+        let beyond = self.turned(step, step.end.theta);
+        let target = step.end.theta - (beyond - limit.copysign(beyond));
+        let t = step.time_of_angle(target, step.start.t, step.end.t);
+        self.ends_at = Some((t.unwrap_or(step.end.t), EndsBy::Turns));
+    }
+
+    fn look_for_events(&mut self, step: &mut Step) {
+        let mut crossings = std::mem::take(&mut self.crossings);
+        events::crossings(step, &self.dead_centres, &mut crossings);
+        let wanted = self.recorder.keeps_events() || self.swing.is_some();
+        if !step.is_refined() && !crossings.is_empty() && wanted {
+            step.refine(self.motion);
+            events::crossings(step, &self.dead_centres, &mut crossings);
+        }
+        for &(t, what) in &crossings {
+            // An event at the end of the run may be off it by rounding.
+            let end = self.ends_at.map_or(t, |(t, _)| t);
+            if t > end * (1.0 + 8.0 * f64::EPSILON) {
+                break;
+            }
+            self.happens(step, t.min(end), what);
+            if matches!(self.ends_at, Some((_, EndsBy::Swing))) {
+                break;
+            }
+        }
+        self.crossings = crossings;
+    }
+
+    /// Records a crossing at a time (s) of a step, and whether it ends the run.
+    fn happens(&mut self, step: &Step, t: f64, what: Crossing) {
+        let (theta, omega) = step.at(t);
+        let at = step.angle(theta);
+        if let Some(passed) = self.passed.take()
+            && at.minus(passed.angle).abs() < SAME_PLACE
+            && omega * passed.speed > 0.0
+        {
+            return;
+        }
+        match what {
+            Crossing::Angle(_) => self.event("dead-centre", t, at, omega),
+            Crossing::Turning => self.event("turning-point", t, at, 0.0),
+        }
+        if what == Crossing::Turning && self.swing.is_some_and(|swing| swing.is_caught()) {
+            self.ends_at = Some((t, EndsBy::Swing));
+        }
+    }
+}
+
+/// The coordinate of a curve in one phase.
+fn along<'a>(task: &'a RunSetup<'_>, on: &'a CurveEquation, phase: Phase) -> AlongCurve<'a> {
+    AlongCurve::new(on, phase, task.maker.reactor, task.start())
+}
+
+impl Observer for Notes<'_> {
+    fn step(&mut self, step: &Step, phase: Option<Phase>) -> bool {
+        match self.on.clone().zip(phase) {
+            Some((on, phase)) => self.step_on_curve(*step, &on, phase),
+            None => self.step_of_crank(*step),
+        }
+    }
+
+    fn event(&mut self, kind: &'static str, t: f64, angle: Angle, speed: f64) {
+        if kind == "turning-point"
+            && let Some(swing) = &mut self.swing
+        {
+            swing.turns_at(angle);
+        }
+        let at = Start { t, angle, speed };
+        let crank = |on: &Arc<CurveEquation>| crank_state(on.curve(), at);
+        let at = self.on.as_ref().map_or(at, crank);
+        self.recorder.event(|| Event {
+            kind,
+            t_s: t,
+            theta_rad: at.angle.radians(),
+            omega_rad_per_s: at.speed,
+        });
     }
 }
 
 impl Sink for Notes<'_> {
     fn begins(&mut self, engine: Engine, from: f64, why: Cow<'static, str>) {
-        self.watch.recorder.begins(engine, from, why);
+        self.recorder.begins(engine, from, why);
     }
 
     fn over_angle(&mut self, driven: &Driven) -> Result<(), Error> {
-        self.watch.recorder.stretch(&mut Stretch {
+        self.recorder.stretch(&mut Stretch {
             orbit: &driven.driving.orbit,
             begin: driven.from.t,
             end: driven.driving.end,
@@ -78,37 +273,17 @@ impl Sink for Notes<'_> {
 
     fn keep(&mut self, driven: Driven) {
         let (from, until) = (driven.from.t, driven.to.t);
-        let recorder = &mut self.watch.recorder;
-        recorder.keep(|| Trajectory::orbit(driven.driving.orbit, from, until));
+        self.recorder
+            .keep(|| Trajectory::orbit(driven.driving.orbit, from, until));
     }
 
-    fn begin_in_time(&mut self, from: Start) {
-        self.watch.passed = (from.t > 0.0 && is_dead_centre(self.task, from.angle.rest))
-            .then_some((from.angle, from.speed));
-    }
-
-    fn step(&mut self, step: &Step) -> bool {
-        self.watch.step(step)
-    }
-
-    fn along_curve(
-        &mut self,
-        equation: &CurveEquation,
-        start: Angle,
-        run: &mut dyn FnMut(&mut dyn configuration_curve::Observer),
-    ) {
-        if !self.task.turns_fully() {
-            self.watch.swing = Swing::new(self.task, start);
+    fn begin_in_time(&mut self, from: Start, on: Option<&OnCurve>) {
+        self.on = on.map(|on| on.equation.clone());
+        let again = on.is_none() && from.t > 0.0 && is_dead_centre(self.task, from.angle.rest);
+        self.passed = again.then_some(from);
+        if on.is_some() && !self.task.turns_fully() {
+            self.swing = Swing::new(self.task, from.angle);
         }
-        let mut watch = CurveWatch {
-            equation,
-            recorder: &mut self.watch.recorder,
-            swing: self.watch.swing,
-            phase: Phase::Sticking,
-        };
-        run(&mut watch);
-        (self.touched, self.watch.swing) = (watch.phase, watch.swing);
-        self.watch.recorder.end_piece(f64::INFINITY);
     }
 
     fn end_in_time(
@@ -117,12 +292,9 @@ impl Sink for Notes<'_> {
         last: &Step,
         settings: &Settings,
     ) -> Option<Step> {
-        let shortened = self
-            .watch
-            .ends_at
-            .map(|_| self.watch.shortened(motion, last, settings));
+        let shortened = self.shortened(motion, last, settings);
         let end = shortened.as_ref().unwrap_or(last).end.t;
-        self.watch.recorder.end_piece(end);
+        self.recorder.end_piece(end);
         shortened
     }
 }

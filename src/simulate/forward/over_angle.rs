@@ -4,7 +4,8 @@ use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 use super::super::by_energy;
-use super::arrived::{Driven, End, Why};
+use super::super::configuration_curve::End;
+use super::arrived::{Driven, Why};
 use super::engine_loop::Pass;
 use crate::engine::angle::{self, Driving, Goal, Resolution};
 use crate::engine::energy::NotApplicable;
@@ -21,7 +22,7 @@ impl Pass<'_, '_> {
             Err(why) => return Ok(Why::NotApplicable(why)),
         };
         if let Some(why) = solved.stopped {
-            self.arrived.end = End::Named(why);
+            self.arrived.end = End::Named(why.into());
         }
         let (angle, speed) = solved.driving.orbit.state(solved.driving.end);
         let to = Start {
@@ -84,7 +85,7 @@ impl Pass<'_, '_> {
             }
         };
         let resolution = Resolution {
-            most_evaluations: course.max_evaluations.saturating_sub(self.spent()),
+            most_evaluations: self.left(),
             ..course.resolution
         };
         angle::run(course.position, now, goal, resolution)
@@ -101,13 +102,13 @@ impl Pass<'_, '_> {
         self.keep();
         let arrived = &mut self.arrived;
         let from = arrived.now;
-        self.over_angle += driving.evaluations;
+        self.beside += driving.evaluations;
         arrived.work += driving.work;
         arrived.steps += driving.orbit.panels() as u64;
         arrived.over_angle += 1;
         let largest = driving.orbit.largest_kinetic(driving.end);
         arrived.largest_kinetic = arrived.largest_kinetic.max(largest);
-        (arrived.last, arrived.on_curve) = (None, None);
+        (arrived.last, arrived.on_curve) = (None, false);
         arrived.now = to;
         let driven = Driven {
             driving,

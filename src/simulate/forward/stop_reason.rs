@@ -1,0 +1,122 @@
+//! Why a free motion ends before its goal, cannot begin, or cannot be served by an engine.
+
+use super::super::angle_motion;
+use super::super::configuration_curve::End;
+use super::super::run_setup::RunSetup;
+use super::super::stalled;
+use super::super::stop::Why;
+use super::arrived::Arrived;
+use super::engine_loop::Course;
+use crate::engine::energy::NotApplicable;
+use crate::engine::time::{Finish, Start};
+use crate::error::Error;
+use crate::mechanism::{CurveEquation, Equation, Singularity};
+use crate::scene::{Extent, Instant};
+
+/// Why the run ended before its time, if it did.
+pub(super) fn reason(course: &Course<'_>, arrived: &Arrived) -> Option<Why> {
+    let task = course.task;
+    let finish = match (&arrived.end, task.extent) {
+        (End::Named(why), _) => return Some((**why).clone()),
+        (End::Integrator(finish), _) => *finish,
+        (End::AtRest, Extent::Revolutions(turns)) => {
+            let theta = arrived.now.angle.radians();
+            let held_by = task.turns_fully().then(|| stalled::torques(task, theta));
+            return Some(Why::AtRest { turns, held_by });
+        }
+        _ => return None,
+    };
+    Some(match finish {
+        Finish::WorkLimit => Why::WorkLimit,
+        Finish::WorkLimitAhead => Why::WorkLimitAhead,
+        Finish::TooManyTurns => Why::TooManyTurns,
+        _ => match course.curve.get().filter(|_| arrived.on_curve) {
+            Some(on) => singular_on_curve(task.equation(), &on.equation, arrived),
+            None => singular(task.equation(), arrived),
+        },
+    })
+}
+
+/// Why the steps of the crank became too small.
+fn singular(equation: &Equation, arrived: &Arrived) -> Why {
+    let at = arrived.impossible.unwrap_or(arrived.now);
+    match equation.obstacle(at.t, at.angle, at.speed) {
+        Some(Singularity::Blocked) => Why::AtLimit,
+        Some(Singularity::Load) => no_value(equation, at),
+        Some(Singularity::NoInertia) => Why::NoInertia,
+        Some(Singularity::TooLarge) => Why::TooLarge,
+        None if nearly_vanishes(equation, arrived.now.angle.rest) => Why::NearlyNoInertia,
+        None => Why::Singular,
+    }
+}
+
+/// Why the steps along the configuration curve became too small.
+fn singular_on_curve(equation: &Equation, on: &CurveEquation, arrived: &Arrived) -> Why {
+    let impossible = arrived.impossible.filter(|at| {
+        !equation
+            .load(at.t, at.angle.radians(), at.speed)
+            .is_finite()
+    });
+    let stands = arrived.last.map(|last| last.end.theta);
+    match (impossible, stands) {
+        (Some(at), _) => no_value(equation, at),
+        (None, Some(q)) if on.vanishes_at(q) => Why::NoInertiaOnCurve,
+        _ => Why::SingularOnCurve,
+    }
+}
+
+/// A load has no finite value at a state: which.
+fn no_value(equation: &Equation, asked: Start) -> Why {
+    let theta = asked.angle.radians();
+    let pose = equation.linkage().pose(theta);
+    let now = Instant {
+        t: asked.t,
+        theta,
+        omega: asked.speed,
+        x: pose.x,
+        v: pose.dx * asked.speed,
+    };
+    let load = equation.loads().without_value(&now).cloned();
+    Why::NoValue { asked, load }
+}
+
+/// Whether the inertia is next to nothing at an angle (rad), compared with that a radian further.
+fn nearly_vanishes(equation: &Equation, theta: f64) -> bool {
+    let inertia = |theta: f64| equation.terms(theta).inertia.m;
+    inertia(theta) < 1e-9 * inertia(theta + 1.0)
+}
+
+/// Why a run cannot begin that nothing else is wrong with.
+pub(super) fn no_start(task: &RunSetup<'_>) -> Error {
+    let Start { angle, speed, .. } = task.first_state();
+    Error::refused(
+        format!(
+            "no motion begins at the start, theta = {} rad, omega = {speed} rad/s: the equation has no finite acceleration next to it",
+            angle.radians()
+        ),
+        "start at another angle, or check the loads there",
+    )
+}
+
+/// Why an engine over the angle cannot serve a task.
+pub(super) fn not_applicable(task: &RunSetup<'_>, why: NotApplicable) -> &'static str {
+    match task.maker.sliding {
+        Some(sliding) if sliding.jams() => "the slider jams in its guide at an angle of the turn",
+        _ if why == NotApplicable::NotFinite && !task.turns_fully() => {
+            "the mechanism reaches the limit of its motion"
+        }
+        _ => angle_motion::reason(why),
+    }
+}
+
+/// Refuses a method that is asked for and cannot begin.
+pub(super) fn refusal(task: &RunSetup<'_>, why: NotApplicable) -> Error {
+    Error::refused(
+        format!(
+            "method {} cannot serve this scene: {}",
+            task.options.method,
+            not_applicable(task, why)
+        ),
+        "use --method auto or time",
+    )
+}
