@@ -3,10 +3,11 @@
 //! each such likelihood: the one with the moments that the code leaves of what all other samples say. Where the shaft is slow
 //! the codes inside a step say nothing and the passages say much; where it is fast each is worth step²/12.
 
+use super::estimate::Estimate;
 use super::interval::{Cavity, Site};
 use super::likelihood::Linear;
 use super::linearised::Prior;
-use super::problem::{Estimate, Problem};
+use super::problem::Problem;
 use super::quantised::{Codes, Interval};
 use super::smoother::{AT_REST, Smoothed, change};
 use crate::numeric::parallel;
@@ -184,7 +185,7 @@ impl Problem<'_> {
         let mut found = Vec::new();
         for candidate in self.tried(&kinematic, false) {
             (self.record.values, self.record.weights) = first.clone();
-            let smoothed = self.iterated(&candidate, &kinematic);
+            let smoothed = self.iterated(&candidate, &kinematic, self.all());
             if !smoothed.settled {
                 continue;
             }

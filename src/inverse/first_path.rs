@@ -14,10 +14,7 @@ pub(super) fn straight(problem: &Problem<'_>) -> Path {
     let (theta, last) = (&record.values, record.values.len() - 1);
     let speed = (theta[last] - theta[0]) / (record.times[last] - record.times[0]);
     let state = |t: &f64| [theta[0] + speed * (t - times[0]), speed, 0.0, 0.0];
-    Path {
-        states: times.iter().map(state).collect(),
-        variances: None,
-    }
+    Path::whole(times.iter().map(state).collect(), None)
 }
 
 /// A first path along crank angles, rad, with their slopes.
@@ -30,10 +27,7 @@ pub(super) fn coarse(problem: &Problem<'_>, theta: &[f64]) -> Path {
         let slope = (theta[next] - theta[next - 1]) / (b - a);
         [theta[next - 1] + slope * (t - a), slope, 0.0, 0.0]
     });
-    Path {
-        states: states.collect(),
-        variances: None,
-    }
+    Path::whole(states.collect(), Some(vec![0.0; times.len()]))
 }
 
 impl Problem<'_> {
@@ -57,14 +51,19 @@ impl Problem<'_> {
     }
 
     /// The states of a prior along a smoothed motion, at some ranges of nodes.
-    pub fn path_of(&self, prior: Prior, from: &Smoothed, ranges: &[Range<usize>]) -> Path {
-        let mut states = vec![State::default(); from.estimates.len()];
-        for range in ranges {
-            let some = parallel::list(range.len(), |k| self.state_of(prior, from, range.start + k));
-            states[range.clone()].copy_from_slice(&some);
+    pub fn path_of(&self, prior: Prior, from: &Smoothed, ranges: Vec<Range<usize>>) -> Path {
+        let along = |range: &Range<usize>| {
+            let first = range.start;
+            parallel::list(range.len(), |k| self.state_of(prior, from, first + k))
+        };
+        let variances = || {
+            let nodes = ranges.iter().flat_map(Clone::clone);
+            nodes.map(|k| from.estimates[k].covariance[0]).collect()
+        };
+        Path {
+            states: ranges.iter().flat_map(along).collect(),
+            variances: (!self.record.is_linear()).then(variances),
+            ranges,
         }
-        let variances = (!self.record.is_linear())
-            .then(|| from.estimates.iter().map(|e| e.covariance[0]).collect());
-        Path { states, variances }
     }
 }

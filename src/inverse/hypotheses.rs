@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use super::kalman::{Gaussian, Matrix, Sample, Step, Vector};
+use super::kalman::{Gaussian, Sample, Step, diagonal};
 use super::measurement_model::Sensor;
 
 /// Noise of the samples and agility of the crank.
@@ -143,12 +143,8 @@ impl Tracker<'_, '_> {
         let speed = 2.0 * self.speed;
         Hypothesis {
             state: Gaussian {
-                mean: Vector::from([sight.theta, 0.0, 0.0]),
-                covariance: Matrix::from_diagonal(&Vector::from([
-                    sight.variance,
-                    speed * speed,
-                    speed.powi(4),
-                ])),
+                mean: [sight.theta, 0.0, 0.0],
+                covariance: diagonal([sight.variance, speed * speed, speed.powi(4)]),
             },
             score: sight.score,
             begin: sight.theta,
@@ -175,9 +171,9 @@ fn step(dt: f64, jerk: f64) -> Step<3> {
         [q(3, 6.0), q(2, 2.0), q(1, 1.0)],
     ];
     Step {
-        transition: Matrix::from([[1.0, 0.0, 0.0], [dt, 1.0, 0.0], [0.5 * dt * dt, dt, 1.0]]),
-        offset: Vector::zeros(),
-        noise: Matrix::from(noise),
+        transition: [[1.0, dt, 0.5 * dt * dt], [0.0, 1.0, dt], [0.0, 0.0, 1.0]],
+        offset: [0.0; 3],
+        noise,
     }
 }
 
@@ -189,14 +185,14 @@ fn extend(
     list: &mut Vec<Hypothesis>,
 ) {
     let nearest = ((predicted.state.mean[0] - sight.theta) / TAU).round();
-    let spread = predicted.state.covariance[(0, 0)] + sight.variance;
+    let spread = predicted.state.covariance[0][0] + sight.variance;
     let reach = if spread.sqrt() > 0.1 * TAU { 1 } else { 0 };
     for turn in -reach..=reach {
         let theta = sight.theta + (nearest + f64::from(turn)) * TAU;
         let mut found = *predicted;
         let (error, spread) = found.state.update(&Sample {
             value: theta,
-            row: Vector::from([1.0, 0.0, 0.0]),
+            row: [1.0, 0.0, 0.0],
             variance: sight.variance,
         });
         // Outliers count as such, by the tails of Student's distribution with four degrees of freedom.
@@ -209,9 +205,11 @@ fn extend(
         found.score += sight.score - 0.5 * spread.ln() - tails;
         if off > 25.0 {
             // It moves the path no further than five standard deviations would.
-            let before = predicted.state;
+            let (before, there) = (predicted.state, found.state.mean);
+            let part = 5.0 / off.sqrt();
+            let between = |k: usize| before.mean[k] + part * (there[k] - before.mean[k]);
             found.state = Gaussian {
-                mean: before.mean.lerp(&found.state.mean, 5.0 / off.sqrt()),
+                mean: std::array::from_fn(between),
                 ..before
             };
         }
@@ -231,8 +229,8 @@ fn prune(list: &mut Vec<Hypothesis>) {
     for k in 0..list.len() {
         let now = list[k];
         let agrees = |other: &Hypothesis| {
-            let off = other.state.mean - now.state.mean;
-            (0..2).all(|i| off[i] * off[i] < now.state.covariance[(i, i)])
+            let off = |i: usize| other.state.mean[i] - now.state.mean[i];
+            (0..2).all(|i| off(i).powi(2) < now.state.covariance[i][i])
         };
         let drop =
             now.score < list[0].score - DROPPED || list[..kept].iter().any(agrees) || kept == MOST;

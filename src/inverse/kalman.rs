@@ -3,15 +3,25 @@
 //!
 //! x(k+1) = Φ x(k) + c + w, w ~ N(0, Q);   y(k) = H x(k) + e, e ~ N(0, R).
 
-use nalgebra::{Cholesky, SMatrix, SVector};
+// Sums over rows and columns, as the textbook writes them.
+#![allow(clippy::needless_range_loop)]
 
 use super::state_space::Deviations;
 
-/// Column of N numbers.
-pub(super) type Vector<const N: usize> = SVector<f64, N>;
+/// N numbers.
+pub(super) type Vector<const N: usize> = [f64; N];
 
 /// N rows of N numbers.
-pub(super) type Matrix<const N: usize> = SMatrix<f64, N, N>;
+pub(super) type Matrix<const N: usize> = [[f64; N]; N];
+
+/// A matrix with these numbers on its diagonal.
+pub(super) fn diagonal<const N: usize>(numbers: Vector<N>) -> Matrix<N> {
+    let mut matrix = [[0.0; N]; N];
+    for (k, number) in numbers.into_iter().enumerate() {
+        matrix[k][k] = number;
+    }
+    matrix
+}
 
 /// One step of the model, from a node to the next.
 #[derive(Clone, Copy, Debug)]
@@ -57,22 +67,28 @@ pub(super) struct Evidence {
 
 impl<const N: usize> Gaussian<N> {
     /// The distribution one step later.
-    #[inline]
+    #[inline(always)]
     pub fn predicted(&self, step: &Step<N>) -> Gaussian<N> {
         Gaussian {
-            mean: times(&step.transition, &self.mean) + step.offset,
+            mean: sum(times(&step.transition, &self.mean), step.offset),
             covariance: congruent(&step.transition, &self.covariance, &step.noise),
         }
     }
 
     /// Takes a sample in; its prediction error and the variance of that.
-    #[inline]
+    #[inline(always)]
     pub fn update(&mut self, sample: &Sample<N>) -> (f64, f64) {
         let shared = times(&self.covariance, &sample.row);
-        let variance = shared.dot(&sample.row) + sample.variance;
-        let error = sample.value - sample.row.dot(&self.mean);
-        self.mean += shared * (error / variance);
-        self.covariance -= Matrix::from_fn(|i, j| shared[i] * shared[j] / variance);
+        let variance = dot(&shared, &sample.row) + sample.variance;
+        let error = sample.value - dot(&sample.row, &self.mean);
+        let per = 1.0 / variance;
+        for i in 0..N {
+            let gain = shared[i] * per;
+            self.mean[i] += gain * error;
+            for j in 0..N {
+                self.covariance[i][j] -= gain * shared[j];
+            }
+        }
         (error, variance)
     }
 }
@@ -139,67 +155,118 @@ pub(super) fn smooth<const N: usize>(
 }
 
 /// The smoothed distribution one step before `later`, where the filter predicted `predicted`.
-#[inline]
+#[inline(always)]
 fn earlier<const N: usize>(
     step: &Step<N>,
     inverse: &Matrix<N>,
     predicted: &Gaussian<N>,
     later: &Gaussian<N>,
 ) -> Gaussian<N> {
-    // Q W
-    let share = precision(&predicted.covariance, &step.noise).transpose();
-    let noise = times(&share, &(later.mean - predicted.mean));
-    let kept = Matrix::identity() - share;
-    let left = step.noise - product(&share, &step.noise);
+    // Q W and I - Q W
+    let share = shares(&predicted.covariance, &step.noise);
+    let mut kept = share.map(|row| row.map(|part| -part));
+    (0..N).for_each(|k| kept[k][k] += 1.0);
+    let found = sum(later.mean, predicted.mean.map(|value| -value));
+    let noise = sum(step.offset, times(&share, &found));
+    // Q - Q W Q = (I - Q W) Q
+    let left = product(&kept, &step.noise);
     let before = congruent(&kept, &later.covariance, &left);
     Gaussian {
-        mean: times(inverse, &(later.mean - step.offset - noise)),
-        covariance: congruent(inverse, &before, &Matrix::zeros()),
+        mean: times(inverse, &sum(later.mean, noise.map(|value| -value))),
+        covariance: congruent(inverse, &before, &[[0.0; N]; N]),
     }
 }
 
 /// A P Aᵀ + Q, symmetric.
-#[inline]
+#[inline(always)]
 fn congruent<const N: usize>(a: &Matrix<N>, p: &Matrix<N>, q: &Matrix<N>) -> Matrix<N> {
     let half = product(a, p);
-    let mut whole = product(&half, &a.transpose()) + q;
-    whole.fill_upper_triangle_with_lower_triangle();
+    let mut whole = *q;
+    for i in 0..N {
+        for j in 0..=i {
+            whole[i][j] += dot(&half[i], &a[j]);
+            whole[j][i] = whole[i][j];
+        }
+    }
     whole
 }
 
-/// A B, in loops that are short enough to be unrolled.
-#[inline]
+/// A B
+#[inline(always)]
 fn product<const N: usize>(a: &Matrix<N>, b: &Matrix<N>) -> Matrix<N> {
-    let column = |b: &[f64; N]| times(a, &Vector::from(*b)).into();
-    Matrix::from(b.data.0.map(|b| column(&b)))
+    let mut whole = [[0.0; N]; N];
+    for i in 0..N {
+        for k in 0..N {
+            for j in 0..N {
+                whole[i][j] += a[i][k] * b[k][j];
+            }
+        }
+    }
+    whole
 }
 
 /// A x
-#[inline]
+#[inline(always)]
 fn times<const N: usize>(a: &Matrix<N>, x: &Vector<N>) -> Vector<N> {
-    let mut sum = [0.0; N];
-    for (column, x) in a.data.0.iter().zip(&x.data.0[0]) {
-        for (sum, a) in sum.iter_mut().zip(column) {
-            *sum += a * x;
-        }
-    }
-    Vector::from(sum)
+    std::array::from_fn(|i| dot(&a[i], x))
 }
 
-/// P⁻¹ A for a covariance P, scaled to a unit diagonal to which its rounding is added.
-#[inline]
-fn precision<const N: usize>(p: &Matrix<N>, a: &Matrix<N>) -> Matrix<N> {
-    let scale = p.diagonal().map(|variance| 1.0 / variance.sqrt());
-    let mut unit = p.component_mul(&(scale * scale.transpose()));
+#[inline(always)]
+fn dot<const N: usize>(a: &Vector<N>, b: &Vector<N>) -> f64 {
+    let mut sum = 0.0;
     for k in 0..N {
-        unit[(k, k)] += f64::EPSILON;
+        sum += a[k] * b[k];
     }
-    let scaled = Matrix::from_fn(|i, j| scale[i] * a[(i, j)]);
-    match Cholesky::new_with_substitute(unit, f64::EPSILON) {
-        Some(factor) => {
-            let solved = factor.solve(&scaled);
-            Matrix::from_fn(|i, j| scale[i] * solved[(i, j)])
+    sum
+}
+
+#[inline(always)]
+fn sum<const N: usize>(a: Vector<N>, b: Vector<N>) -> Vector<N> {
+    std::array::from_fn(|k| a[k] + b[k])
+}
+
+/// Q P⁻¹ for a covariance P and a symmetric Q, by the factors of Cholesky of P, scaled to a unit diagonal to which its rounding
+/// is added.
+#[inline(always)]
+fn shares<const N: usize>(p: &Matrix<N>, q: &Matrix<N>) -> Matrix<N> {
+    let scale: Vector<N> = std::array::from_fn(|k| 1.0 / p[k][k].sqrt());
+    // L below the diagonal, and 1/L on it.
+    let mut factor = [[0.0; N]; N];
+    for j in 0..N {
+        let mut pivot = 1.0 + f64::EPSILON;
+        for k in 0..j {
+            pivot -= factor[j][k] * factor[j][k];
         }
-        None => Matrix::from_element(f64::NAN),
+        let pivot = if pivot <= 0.0 { f64::EPSILON } else { pivot };
+        let per = 1.0 / pivot.sqrt();
+        factor[j][j] = per;
+        for i in j + 1..N {
+            let mut left = scale[i] * scale[j] * p[i][j];
+            for k in 0..j {
+                left -= factor[i][k] * factor[j][k];
+            }
+            factor[i][j] = left * per;
+        }
     }
+    let solved = |row: &Vector<N>| {
+        let mut x: Vector<N> = std::array::from_fn(|k| row[k] * scale[k]);
+        for i in 0..N {
+            for k in 0..i {
+                x[i] -= factor[i][k] * x[k];
+            }
+            x[i] *= factor[i][i];
+        }
+        for i in (0..N).rev() {
+            for k in i + 1..N {
+                x[i] -= factor[k][i] * x[k];
+            }
+            x[i] *= factor[i][i];
+        }
+        std::array::from_fn(|k| x[k] * scale[k])
+    };
+    let mut whole = [[0.0; N]; N];
+    for i in 0..N {
+        whole[i] = solved(&q[i]);
+    }
+    whole
 }

@@ -1,9 +1,11 @@
 //! The linear model of a record about a path, and its smoothed motion.
 
+use std::ops::Range;
+
+use super::estimate::Estimate;
 use super::kalman;
 use super::likelihood::{Linear, Stretch};
-use super::linearised::{Motion, Prior, Rates, State};
-use super::motion_estimate::MotionEstimate;
+use super::linearised::{Motion, Prior, Rates};
 use super::quantised::Codes;
 use super::record::{Grid, Path, Record, hermite};
 use super::scales::{Noise, Scales};
@@ -11,34 +13,6 @@ use super::smoother::Smoothed;
 use super::state_space::Deviations;
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
-
-/// The smoothed motion at a node.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Estimate {
-    pub state: State,
-    /// rad/s²
-    pub alpha: f64,
-    /// Covariance of θ, ω, θ̈: 00, 01, 11, 02, 12, 22.
-    pub covariance: [f64; 6],
-    /// Prediction error of the samples of the node over its standard deviation; not a number without samples.
-    pub innovation: f64,
-}
-
-impl Estimate {
-    /// θ, ω, θ̈.
-    pub fn motion(&self) -> [f64; 3] {
-        [self.state[0], self.state[1], self.alpha]
-    }
-
-    /// The motion with its errors.
-    pub fn estimated(&self) -> MotionEstimate {
-        MotionEstimate {
-            value: self.motion(),
-            covariance: self.covariance,
-            rounding: [f64::EPSILON * self.state[0].abs(), 0.0, 0.0],
-        }
-    }
-}
 
 /// Nodes that one thread smooths at a time, at least, beside those at both ends that are shared with its neighbours.
 const PIECE: usize = 8192;
@@ -112,41 +86,44 @@ impl<'a> Problem<'a> {
         &self,
         motion: &Motion<'_>,
         path: &Path,
-        range: std::ops::Range<usize>,
+        range: Range<usize>,
         sigma: f64,
     ) -> Stretch {
-        let times = &self.grid.times;
-        let rates: Vec<Rates> = range
-            .clone()
-            .map(|k| motion.rates(times[k], &path.states[k]))
-            .collect();
-        let steps = (range.start..range.end - 1).map(|k| {
-            let at = k - range.start;
-            let ends = [&path.states[k], &path.states[k + 1]];
-            motion.linearised([times[k], times[k + 1]], ends, [&rates[at], &rates[at + 1]])
+        let times = &self.grid.times[range.clone()];
+        let piece = path.piece(&range);
+        let states = piece.states;
+        let pairs = times.iter().zip(states);
+        let rates: Vec<Rates> = pairs.map(|(t, state)| motion.rates(*t, state)).collect();
+        let steps = (0..states.len() - 1).map(|k| {
+            let ends = [&states[k], &states[k + 1]];
+            motion.linearised([times[k], times[k + 1]], ends, [&rates[k], &rates[k + 1]])
         });
         Stretch {
             steps: steps.collect(),
             observed: range
-                .clone()
-                .map(|k| self.record.observed(&self.grid, path, k, sigma))
+                .map(|k| self.record.observed(&self.grid, &piece, k, sigma))
                 .collect(),
         }
     }
 
     /// The ranges of nodes by which hyper-parameters are estimated: all, or of long records a few stretches.
-    pub fn sampled(&self) -> Vec<std::ops::Range<usize>> {
+    pub fn sampled(&self) -> Vec<Range<usize>> {
         const MOST: usize = 6000;
         const PARTS: usize = 4;
         let nodes = self.grid.len();
         if nodes <= MOST {
-            return std::iter::once(0..nodes).collect();
+            return self.all();
         }
         let length = MOST / PARTS;
         let begin = |part: usize| (nodes - length) * part / (PARTS - 1);
         (0..PARTS)
             .map(|part| begin(part)..begin(part) + length)
             .collect()
+    }
+
+    /// The range of all nodes.
+    pub fn all(&self) -> Vec<Range<usize>> {
+        std::iter::once(0..self.grid.len()).collect()
     }
 
     /// Stretches of the linear model for the estimate of hyper-parameters.
@@ -159,20 +136,14 @@ impl<'a> Problem<'a> {
     }
 
     /// Typical sizes along a path with a prior.
-    pub fn scales(
-        &self,
-        motion: &Motion<'_>,
-        state: impl Fn(usize) -> State,
-        slope: f64,
-        shape: [f64; 2],
-    ) -> Scales {
+    pub fn scales(&self, motion: &Motion<'_>, path: &Path, slope: f64, shape: [f64; 2]) -> Scales {
         let times = &self.grid.times;
         let duration = times[times.len() - 1] - times[0];
         let samples = self.record.times.len() as f64;
-        let stride = times.len().div_ceil(1000);
+        let stride = path.states.len().div_ceil(1000);
         let (mut lever, mut count) = (0.0, 0.0);
-        for k in (0..times.len()).step_by(stride) {
-            let rates = motion.rates(times[k], &state(k));
+        for (node, state) in path.nodes().step_by(stride) {
+            let rates = motion.rates(times[node], state);
             if rates.by_unknown.is_finite() {
                 lever += rates.by_unknown * rates.by_unknown;
                 count += 1.0;
@@ -184,7 +155,7 @@ impl<'a> Problem<'a> {
             slope,
             lever: (lever / count).sqrt(),
             motion: shape,
-            speed: spread((0..times.len()).step_by(stride).map(|k| state(k)[1])),
+            speed: spread(path.states.iter().step_by(stride).map(|state| state[1])),
             floor: self.record.floor,
             known: self.record.codes.map(Codes::spread),
         }
@@ -203,10 +174,10 @@ impl<'a> Problem<'a> {
         let shared = FORGOTTEN / noise.corner;
         let density = nodes as f64 / scales.duration;
         let length = PIECE.max((4.0 * shared * density).min(nodes as f64) as usize);
-        let job = |(piece, found): (usize, &mut [Estimate])| {
-            let core = piece * length..piece * length + found.len();
+        let job = |(core, known, found): (Range<usize>, Range<usize>, &mut [Estimate])| {
             let from = times.partition_point(|t| *t < times[core.start] - shared);
             let to = times.partition_point(|t| *t <= times[core.end - 1] + shared);
+            let (from, to) = (from.max(known.start), to.min(known.end));
             let stretch = self.stretch(motion, path, from..to, noise.sigma);
             let linear = Linear {
                 stretches: &[],
@@ -217,8 +188,19 @@ impl<'a> Problem<'a> {
             let all = self.estimates(motion, path, from, &model, noise);
             found.copy_from_slice(&all[core.start - from..core.end - from]);
         };
-        let mut found = vec![Estimate::default(); nodes];
-        parallel::each(found.chunks_mut(length).enumerate(), job);
+        let mut found = vec![Estimate::default(); path.states.len()];
+        let mut jobs = Vec::new();
+        let mut rest = &mut found[..];
+        for range in &path.ranges {
+            let (mine, after) = rest.split_at_mut(range.len());
+            rest = after;
+            let cores = range.clone().step_by(length);
+            let job = |(first, part): (usize, _)| {
+                (first..range.end.min(first + length), range.clone(), part)
+            };
+            jobs.extend(cores.zip(mine.chunks_mut(length)).map(job));
+        }
+        parallel::each(jobs.into_iter(), job);
         found
     }
 
@@ -246,20 +228,21 @@ impl<'a> Problem<'a> {
         noise: &Noise,
     ) -> Vec<Estimate> {
         let (deviations, innovations) = kalman::smooth::<N>(model);
+        let piece = path.piece(&(from..from + deviations.len()));
         let variance = noise.sigma * noise.sigma;
         let dimension = model.prior.states();
         let estimate =
             |(at, (deviation, innovation)): (usize, (&kalman::Gaussian<N>, &Option<f64>))| {
-                let mut state = path.states[from + at];
+                let mut state = piece.states[at];
                 let pairs = state.iter_mut().zip(&deviation.mean).take(dimension);
                 pairs.for_each(|(value, change)| *value += change);
                 let rates = motion.rates(self.grid.times[from + at], &state);
                 let gradient = [rates.by_theta, rates.by_omega, rates.by_unknown];
                 let p = &deviation.covariance;
                 let across: [f64; 3] =
-                    std::array::from_fn(|i| (0..3).map(|k| p[(i, k)] * gradient[k]).sum::<f64>());
+                    std::array::from_fn(|i| (0..3).map(|k| p[i][k] * gradient[k]).sum::<f64>());
                 let own: f64 = (0..3).map(|k| gradient[k] * across[k]).sum();
-                let covariance = [p[(0, 0)], p[(0, 1)], p[(1, 1)], across[0], across[1], own];
+                let covariance = [p[0][0], p[0][1], p[1][1], across[0], across[1], own];
                 Estimate {
                     state,
                     alpha: rates.alpha,

@@ -43,18 +43,83 @@ pub(super) struct Grid {
 /// A path: the nominal one of a linear model.
 #[derive(Clone, Debug)]
 pub(super) struct Path {
-    /// One for each node.
+    /// The nodes along which it is known, rising.
+    pub ranges: Vec<Range<usize>>,
+    /// One for each of these nodes.
     pub states: Vec<State>,
     /// Variance of the crank angle, rad², where the samples are so curved in it that it counts.
     pub variances: Option<Vec<f64>>,
 }
 
+/// A stretch of a path.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece<'a> {
+    /// The first node.
+    pub first: usize,
+    pub states: &'a [State],
+    pub variances: Option<&'a [f64]>,
+}
+
 impl Path {
+    /// A path along all nodes.
+    pub fn whole(states: Vec<State>, variances: Option<Vec<f64>>) -> Path {
+        Path {
+            ranges: std::iter::once(0..states.len()).collect(),
+            states,
+            variances,
+        }
+    }
+
+    /// The part along some nodes of one of its ranges.
+    pub fn piece(&self, nodes: &Range<usize>) -> Piece<'_> {
+        let mut before = 0;
+        for range in &self.ranges {
+            if range.contains(&nodes.start) {
+                before += nodes.start - range.start;
+                break;
+            }
+            before += range.len();
+        }
+        let places = before..before + nodes.len();
+        Piece {
+            first: nodes.start,
+            states: &self.states[places.clone()],
+            variances: self.variances.as_ref().map(|list| &list[places]),
+        }
+    }
+
+    /// This path along some nodes of its ranges alone.
+    pub fn along(&self, ranges: Vec<Range<usize>>) -> Path {
+        let pieces: Vec<Piece<'_>> = ranges.iter().map(|range| self.piece(range)).collect();
+        let variances = || pieces.iter().filter_map(|piece| piece.variances);
+        Path {
+            states: pieces
+                .iter()
+                .flat_map(|piece| piece.states)
+                .copied()
+                .collect(),
+            variances: self
+                .variances
+                .is_some()
+                .then(|| variances().flatten().copied().collect()),
+            ranges,
+        }
+    }
+
+    /// The nodes with their states.
+    pub fn nodes(&self) -> impl Iterator<Item = (usize, &State)> {
+        self.ranges.iter().flat_map(Clone::clone).zip(&self.states)
+    }
+}
+
+impl Piece<'_> {
     /// Crank angle at a time, rad.
     fn angle(&self, grid: &Grid, t: f64) -> f64 {
-        let (a, b) = grid.around(t);
-        let state = |k: usize| [self.states[k][0], self.states[k][1]];
-        hermite([grid.times[a], grid.times[b]], [state(a), state(b)], t)[0]
+        let last = self.first + self.states.len() - 1;
+        let a = grid.around(t).0.clamp(self.first, last - 1);
+        let state = |k: usize| [0, 1].map(|i| self.states[k - self.first][i]);
+        let times = [grid.times[a], grid.times[a + 1]];
+        hermite(times, [state(a), state(a + 1)], t)[0]
     }
 }
 
@@ -178,7 +243,7 @@ impl Record<'_> {
     }
 
     /// What the samples of a node show beside a nominal state.
-    pub fn observed(&self, grid: &Grid, path: &Path, node: usize, sigma: f64) -> Observed {
+    pub fn observed(&self, grid: &Grid, path: &Piece<'_>, node: usize, sigma: f64) -> Observed {
         let none = Observed {
             variance: f64::INFINITY,
             ..Observed::default()
@@ -188,13 +253,13 @@ impl Record<'_> {
         for i in range {
             let theta = match grid.block > 0.0 {
                 true => path.angle(grid, self.times[i]),
-                false => path.states[node][0],
+                false => path.states[node - path.first][0],
             };
             let (residual, shown) = self.sensor.residual(self.values[i], theta);
             let mut precision = self.weights[i];
-            if let Some(variances) = &path.variances {
+            if let Some(variances) = path.variances {
                 // What the curvature of h leaves beside its tangent.
-                let bent = 0.5 * shown.curvature * variances[node] / sigma;
+                let bent = 0.5 * shown.curvature * variances[node - path.first] / sigma;
                 precision /= 1.0 + precision * 2.0 * bent * bent;
             }
             if !(precision > 0.0 && residual.is_finite() && shown.slope.is_finite()) {

@@ -121,8 +121,7 @@ fn without_outliers<'a>(
             break;
         };
         let before = std::mem::replace(&mut problem.record.weights, weights);
-        let all = 0..problem.grid.len();
-        let path = problem.path_of(KINEMATIC, &kinematic, std::slice::from_ref(&all));
+        let path = problem.path_of(KINEMATIC, &kinematic, problem.all());
         kinematic = problem.kinematic(path, kinematic.noise.sigma);
         if outliers::alike(&before, &problem.record.weights) {
             break;

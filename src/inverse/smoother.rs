@@ -1,10 +1,13 @@
 //! The smoothed motion: Gauss-Newton iterations of the linear smoother about the last path (iterated extended smoother), the
 //! prior chosen by marginal likelihood.
 
+use std::ops::Range;
+
+use super::estimate::Estimate;
 use super::likelihood::Linear;
 use super::linearised::Prior;
 use super::prior::{Candidate, KINEMATIC, LADDERS, likelihood, listed};
-use super::problem::{Estimate, Problem};
+use super::problem::Problem;
 use super::record::Path;
 use super::residual_tests::Whiteness;
 use super::scales::{Noise, Scales};
@@ -22,107 +25,51 @@ pub(super) struct Smoothed {
 }
 
 impl Smoothed {
-    /// The path of the smoothed states, with their variances where the samples are curved in the crank angle.
+    /// The path of the states that were smoothed at all nodes, with their variances where the samples are curved in the crank
+    /// angle.
     pub fn path(&self, is_curved: bool) -> Path {
-        let variances = || self.estimates.iter().map(|e| e.covariance[0]).collect();
-        Path {
-            states: self.estimates.iter().map(|e| e.state).collect(),
-            variances: is_curved.then(variances),
-        }
+        let variances = || variances(&self.estimates);
+        let states = self.estimates.iter().map(|e| e.state);
+        Path::whole(states.collect(), is_curved.then(variances))
     }
 }
 
 /// Most iterations of Gauss and Newton.
-const ITERATIONS: usize = 12;
-
-/// First standard deviation of a sample over the way between two, and the factor by which it is lowered: the prior of the start
-/// is then as wide as that way.
-const LARGE: f64 = 1e-3;
-
-/// Nodes from which on one pass is enough where the model is linear.
-const MANY: usize = 100_000;
+pub(super) const ITERATIONS: usize = 12;
 
 /// Change of the path, in its standard errors, at which the iterations have come to rest.
 pub(super) const AT_REST: f64 = 0.05;
 
 impl Problem<'_> {
-    /// The motion without mechanics, from a first path.
-    pub fn kinematic(&self, mut path: Path, sigma: f64) -> Smoothed {
-        let motion = self.motion(KINEMATIC);
-        let slope = self.slope(&path);
-        // The start of this prior is compared with others only once the motion is known.
-        let mut shape = [1.0, 1.0];
-        let mut best: Option<Smoothed> = None;
-        let is_linear = self.record.is_linear();
-        let mut sigma = sigma;
-        // The prior of the start is so many σ wide: a σ that is large at first, and lowered, makes it wide enough.
-        let mut floor = LARGE * slope * self.way();
-        for iteration in 0..ITERATIONS {
-            floor = floor.max(self.record.floor);
-            let scales = Scales {
-                floor,
-                ..self.scales(&motion, |node| path.states[node], slope, shape)
-            };
-            let noise = match &best {
-                Some(last) if iteration > 6 => last.noise,
-                last => {
-                    let stretches = self.stretches(&motion, &path, sigma);
-                    let linear = Linear {
-                        stretches: &stretches,
-                        prior: KINEMATIC,
-                        scales,
-                    };
-                    match last {
-                        Some(last) => linear.maximised(last.noise.corner, None),
-                        None => linear.anywhere(),
-                    }
-                }
-            };
-            let estimates = self.smoothed(&motion, &path, scales, &noise);
-            let change = change(&estimates, &path);
-            sigma = noise.sigma;
-            path = Path {
-                states: estimates.iter().map(|e| e.state).collect(),
-                variances: (!is_linear)
-                    .then(|| estimates.iter().map(|e| e.covariance[0]).collect()),
-            };
-            let rms = |k: usize| {
-                (estimates.iter().map(|e| e.state[k].powi(2)).sum::<f64>() / estimates.len() as f64)
-                    .sqrt()
-            };
-            shape = [rms(2).max(f64::MIN_POSITIVE), rms(3).max(f64::MIN_POSITIVE)];
-            let lowered = floor <= self.record.floor || noise.sigma > 3.0 * floor;
-            let settled = lowered && (change < AT_REST || is_linear);
-            best = Some(Smoothed {
-                prior: KINEMATIC,
-                noise,
-                scales,
-                estimates,
-                settled,
-            });
-            // A second pass takes what is lost to rounding about a straight line.
-            let many = self.grid.len() > MANY;
-            if settled && (!is_linear || iteration > 0 || many) {
+    /// A motion that was smoothed at some of the nodes, smoothed at all with its noise, about paths from this first one.
+    pub fn completed(&self, found: Smoothed, mut path: Path) -> Smoothed {
+        if found.estimates.len() == self.grid.len() {
+            return found;
+        }
+        let motion = self.motion(found.prior);
+        let is_linear = found.prior == KINEMATIC && self.record.is_linear();
+        let mut whole = Smoothed {
+            settled: false,
+            ..found
+        };
+        for _ in 0..ITERATIONS {
+            // The former ones take their memory.
+            whole.estimates = Vec::new();
+            whole.estimates = self.smoothed(&motion, &path, whole.scales, &whole.noise);
+            let change = path.moved(&whole.estimates);
+            whole.settled = found.settled && (is_linear || change < AT_REST);
+            if whole.settled || !change.is_finite() {
                 break;
             }
-            if !lowered {
-                floor *= LARGE;
-            }
         }
-        let Some(mut found) = best else {
-            unreachable!("at least one iteration")
-        };
-        found.scales.motion = shape;
-        found.scales.floor = self.record.floor;
-        found
+        whole
     }
 
     /// A prior about a smoothed path.
     fn candidate(&self, prior: Prior, from: &Smoothed, correlated: bool) -> Candidate {
         let motion = self.motion(prior);
-        let path = self.path_of(prior, from, &self.sampled());
-        let state = |node: usize| self.state_of(prior, from, node);
-        let scales = self.scales(&motion, state, from.scales.slope, from.scales.motion);
+        let path = self.path_of(prior, from, self.sampled());
+        let scales = self.scales(&motion, &path, from.scales.slope, from.scales.motion);
         let stretches = self.stretches(&motion, &path, from.noise.sigma);
         let linear = Linear {
             stretches: &stretches,
@@ -147,9 +94,10 @@ impl Problem<'_> {
     /// first. Noise of the samples is correlated where the prediction errors say so, and the likelihood agrees.
     pub fn likeliest(&self, kinematic: Smoothed) -> (Smoothed, Vec<(Prior, f64)>) {
         let white = self.tried(&kinematic, false);
-        let Some(found) = self.first_settled(&white, &kinematic) else {
+        let Some(mut found) = self.first_settled(&white, &kinematic) else {
             return (kinematic, listed(&white));
         };
+        let mut tried = listed(&white);
         let innovations = found.estimates.iter().map(|e| e.innovation);
         let is_noise = found.noise.sigma > 1.5 * self.record.floor && self.record.codes.is_none();
         if is_noise && Whiteness::of(innovations).is_violated() {
@@ -157,12 +105,13 @@ impl Problem<'_> {
             // Two parameters more (Schwarz 1978).
             let cost = (self.record.times.len() as f64).ln();
             if likelihood(&correlated) > likelihood(&white) + cost
-                && let Some(found) = self.first_settled(&correlated, &kinematic)
+                && let Some(other) = self.first_settled(&correlated, &kinematic)
             {
-                return (found, listed(&correlated));
+                (found, tried) = (other, listed(&correlated));
             }
         }
-        (found, listed(&white))
+        let path = self.path_of(found.prior, &kinematic, self.all());
+        (self.completed(found, path), tried)
     }
 
     /// ln of the marginal likelihood of the samples by the likeliest prior about a smoothed motion.
@@ -203,7 +152,7 @@ impl Problem<'_> {
             if before >= candidate.noise.likelihood {
                 break;
             }
-            let found = self.iterated(candidate, kinematic);
+            let found = self.iterated(candidate, kinematic, self.sampled());
             if found.settled && found.noise.likelihood > before {
                 best = Some(found);
             }
@@ -211,15 +160,19 @@ impl Problem<'_> {
         best
     }
 
-    /// The smoothed motion with a prior, about paths that approach it.
-    pub fn iterated(&self, candidate: &Candidate, kinematic: &Smoothed) -> Smoothed {
+    /// The smoothed motion with a prior at some ranges of nodes, about paths that approach it.
+    pub fn iterated(
+        &self,
+        candidate: &Candidate,
+        kinematic: &Smoothed,
+        ranges: Vec<Range<usize>>,
+    ) -> Smoothed {
         let Candidate {
             prior,
             mut noise,
             scales,
         } = *candidate;
-        let all = 0..self.grid.len();
-        let mut path = self.path_of(prior, kinematic, std::slice::from_ref(&all));
+        let mut path = self.path_of(prior, kinematic, ranges);
         let motion = self.motion(prior);
         let mut result = Smoothed {
             prior,
@@ -246,14 +199,8 @@ impl Problem<'_> {
                     noise = linear.with_level(&noise);
                 }
             }
-            // The former ones take their memory.
-            result.estimates = Vec::new();
             let estimates = self.smoothed(&motion, &path, scales, &noise);
-            let change = change(&estimates, &path);
-            path.states = estimates.iter().map(|e| e.state).collect();
-            if path.variances.is_some() {
-                path.variances = Some(estimates.iter().map(|e| e.covariance[0]).collect());
-            }
+            let change = path.moved(&estimates);
             (result.noise, result.estimates) = (noise, estimates);
             // The noise of the second iteration has in it what makes the band hold.
             if change < AT_REST && (iteration > 0 || prior.order == 1) {
@@ -265,6 +212,23 @@ impl Problem<'_> {
             }
         }
         result
+    }
+}
+
+fn variances(estimates: &[Estimate]) -> Vec<f64> {
+    estimates.iter().map(|e| e.covariance[0]).collect()
+}
+
+impl Path {
+    /// Moves to the smoothed states; root mean square change of the crank angles in their standard errors.
+    pub fn moved(&mut self, estimates: &[Estimate]) -> f64 {
+        let change = change(estimates, self);
+        self.states.clear();
+        self.states.extend(estimates.iter().map(|e| e.state));
+        if let Some(list) = &mut self.variances {
+            *list = variances(estimates);
+        }
+        change
     }
 }
 

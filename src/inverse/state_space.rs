@@ -1,6 +1,8 @@
 //! The deviations from a nominal path as a state-space model: u is an integrated Wiener process (Gauss-Newton; Bell 1994).
 
-use super::kalman::{Gaussian, Matrix, Sample, Step, Vector};
+#![allow(clippy::needless_range_loop)]
+
+use super::kalman::{Gaussian, Matrix, Sample, Step, diagonal};
 use super::linearised::{Linearised, Prior, State};
 
 /// Mean deviation of the samples of a node from the nominal path.
@@ -47,68 +49,66 @@ impl Deviations<'_> {
     }
 
     /// The step from a node to the next.
-    #[inline]
+    #[inline(always)]
     pub fn step<const N: usize>(&self, node: usize) -> Step<N> {
         let step = &self.steps[node];
         let dimension = self.prior.states();
-        let mut transition = Matrix::identity();
-        let mut noise = Matrix::zeros();
-        for (row, top) in step.top.iter().enumerate() {
-            for (column, value) in top[..dimension].iter().enumerate() {
-                transition[(row, column)] = *value;
-            }
+        let mut transition = diagonal([1.0; N]);
+        let mut offset = [0.0; N];
+        for i in 0..dimension.min(N) {
+            transition[0][i] = step.top[0][i];
+            transition[1][i] = step.top[1][i];
+            offset[i] = step.defect[i];
         }
-        let offset = |i: usize, _| if i < dimension { step.defect[i] } else { 0.0 };
         self.integrate(step, step.h, &mut transition);
+        let mut noise = [[0.0; N]; N];
         self.add_noise(step, &mut noise);
         if let Some(Autoregression { decay, white }) = self.correlated {
-            transition[(N - 1, N - 1)] = (-decay * step.h).exp();
-            noise[(N - 1, N - 1)] = (1.0 - white) * -(-2.0 * decay * step.h).exp_m1();
+            transition[N - 1][N - 1] = (-decay * step.h).exp();
+            noise[N - 1][N - 1] = (1.0 - white) * -(-2.0 * decay * step.h).exp_m1();
         }
         Step {
             transition,
-            offset: Vector::from_fn(offset),
+            offset,
             noise,
         }
     }
 
     /// Φ⁻¹ = [[B⁻¹, −B⁻¹ C T⁻¹], [0, T⁻¹]] of Φ = [[B, C], [0, T]].
-    #[inline]
+    #[inline(always)]
     pub fn inverse<const N: usize>(&self, node: usize) -> Matrix<N> {
         let step = &self.steps[node];
-        let mut inverse = Matrix::<N>::identity();
+        let mut inverse = diagonal([1.0; N]);
         let [[a, b, ..], [c, d, ..]] = step.top;
         let per = 1.0 / (a * d - b * c);
         let small = [[d * per, -b * per], [-c * per, a * per]];
         for row in 0..2 {
-            for column in 0..2 {
-                inverse[(row, column)] = small[row][column];
-            }
+            inverse[row][..2].copy_from_slice(&small[row]);
         }
         self.integrate(step, -step.h, &mut inverse);
-        for k in 2..self.prior.states() {
+        for k in 2..self.prior.states().min(N) {
             let [p, q] = [0, 1].map(|row| {
-                let parts = (2..=k).map(|i| step.top[row][i] * inverse[(i, k)]);
+                let parts = (2..=k).map(|i| step.top[row][i] * inverse[i][k]);
                 parts.sum::<f64>()
             });
             for row in 0..2 {
-                inverse[(row, k)] = -(small[row][0] * p + small[row][1] * q);
+                inverse[row][k] = -(small[row][0] * p + small[row][1] * q);
             }
         }
         if let Some(correlated) = self.correlated {
-            inverse[(N - 1, N - 1)] = (correlated.decay * step.h).exp();
+            inverse[N - 1][N - 1] = (correlated.decay * step.h).exp();
         }
         inverse
     }
 
     /// What was measured at a node.
-    #[inline]
+    #[inline(always)]
     pub fn sample<const N: usize>(&self, node: usize) -> Option<Sample<N>> {
         let observed = &self.observed[node];
         if observed.variance == f64::INFINITY {
             return None;
         }
-        let mut row = Vector::zeros();
+        let mut row = [0.0; N];
         row[0] = observed.slope;
         let mut variance = observed.variance;
         if let Some(correlated) = self.correlated {
@@ -124,60 +124,70 @@ impl Deviations<'_> {
 
     /// Mean and covariance before the first sample.
     pub fn start<const N: usize>(&self) -> Gaussian<N> {
-        let mut covariance = Matrix::zeros();
+        let mut variances = [0.0; N];
         for k in 0..self.prior.states() {
-            covariance[(k, k)] = self.spread[k] * self.spread[k];
+            variances[k] = self.spread[k] * self.spread[k];
         }
         if let Some(correlated) = self.correlated {
-            covariance[(N - 1, N - 1)] = 1.0 - correlated.white;
+            variances[N - 1] = 1.0 - correlated.white;
         }
         Gaussian {
-            mean: Vector::zeros(),
-            covariance,
+            mean: [0.0; N],
+            covariance: diagonal(variances),
         }
     }
 
     /// What the derivatives of u and g add to u and to those below them over a time.
-    #[inline]
+    #[inline(always)]
     fn integrate<const N: usize>(&self, step: &Linearised, time: f64, matrix: &mut Matrix<N>) {
-        let last = 2 + self.prior.order;
-        for i in 2..last {
-            let mut factor = 1.0;
-            for k in i + 1..last {
-                factor *= time / (k - i) as f64;
-                matrix[(i, k)] = factor;
-            }
+        if self.prior.order > 1 {
+            matrix[2][3] = time;
         }
         if self.prior.follows_speed {
-            matrix[(2, last)] = time * step.tilt;
+            matrix[2][2 + self.prior.order] = time * step.tilt;
         }
     }
 
     /// ∫ ψ ψᵀ ds of the responses ψ of the state to units of white noise.
-    #[inline]
+    #[inline(always)]
     fn add_noise<const N: usize>(&self, step: &Linearised, noise: &mut Matrix<N>) {
         let (h, b, tilt) = (step.h, step.lever, step.tilt);
-        // Responses a (s/h)^p at a time s after an impulse, p from one less than their number to 0, at these states.
-        let mut add = |states: &[usize], response: &[f64], density: f64| {
-            let top = 2 * states.len() - 1;
-            for (m, i) in states.iter().enumerate() {
-                for (n, j) in states.iter().enumerate() {
-                    let power = (top - m - n) as f64;
-                    noise[(*i, *j)] += density * h * response[m] * response[n] / power;
+        let (h2, h3) = (h * h / 2.0, h * h * h / 6.0);
+        let of_level = [b * h2, b * h, 1.0];
+        match self.prior.order {
+            1 => add(noise, &of_level, h * (self.noise + self.level)),
+            _ => {
+                add(noise, &[b * h3, b * h2, h, 1.0], h * self.noise);
+                if self.level > 0.0 {
+                    add(noise, &of_level, h * self.level);
                 }
             }
-        };
-        let (h2, h3) = (h * h / 2.0, h * h * h / 6.0);
-        match self.prior.order {
-            1 => add(&[0, 1, 2], &[b * h2, b * h, 1.0], self.noise + self.level),
-            _ => add(&[0, 1, 2, 3], &[b * h3, b * h2, h, 1.0], self.noise),
-        }
-        if self.prior.order > 1 && self.level > 0.0 {
-            add(&[0, 1, 2], &[b * h2, b * h, 1.0], self.level);
         }
         if self.drift > 0.0 {
             let response = [b * tilt * h3, b * tilt * h2, tilt * h, 1.0];
-            add(&[0, 1, 2, 2 + self.prior.order], &response, self.drift);
+            add(noise, &response, h * self.drift);
+        }
+    }
+}
+
+/// Adds to Q the noise whose unit, a time s before the end of a step h, becomes this response times (s/h)^p, p from one less than
+/// the number of states that respond down to 0.
+#[inline(always)]
+fn add<const N: usize, const R: usize>(noise: &mut Matrix<N>, response: &[f64; R], density: f64) {
+    for i in 0..R.min(N) {
+        for j in 0..R.min(N) {
+            let per = const {
+                [
+                    1.0,
+                    1.0 / 2.0,
+                    1.0 / 3.0,
+                    1.0 / 4.0,
+                    1.0 / 5.0,
+                    1.0 / 6.0,
+                    1.0 / 7.0,
+                ]
+            };
+            noise[i][j] += density * per[2 * R - 2 - i - j] * response[i] * response[j];
         }
     }
 }
@@ -214,8 +224,10 @@ mod tests {
             spread: [1.0; 4],
         };
         let (step, inverse): (Step<5>, Matrix<5>) = (model.step(0), model.inverse(0));
-        let x = Vector::from([0.3, -1.0, 2.0, 0.7, 0.2]);
-        let back = inverse * (step.transition * x);
-        assert!((x - back).amax() < 1e-14);
+        let x = [0.3, -1.0, 2.0, 0.7, 0.2];
+        let times =
+            |a: &Matrix<5>, x: [f64; 5]| a.map(|row| (0..5).map(|k| row[k] * x[k]).sum::<f64>());
+        let back = times(&inverse, times(&step.transition, x));
+        assert!((0..5).all(|k| (x[k] - back[k]).abs() < 1e-14));
     }
 }

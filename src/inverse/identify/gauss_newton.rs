@@ -74,17 +74,9 @@ impl<'a> Search<'a> {
     ) -> Search<'a> {
         let states = smooth.estimates.iter();
         let states = states.map(|e| [e.state[0], e.state[1], 0.0, 0.0]);
-        let path = Path {
-            states: states.collect(),
-            variances: None,
-        };
+        let path = Path::whole(states.collect(), None);
         let motion = problem.motion(MISSING);
-        let scales = problem.scales(
-            &motion,
-            |node| path.states[node],
-            smooth.scales.slope,
-            smooth.scales.motion,
-        );
+        let scales = problem.scales(&motion, &path, smooth.scales.slope, smooth.scales.motion);
         let trials = Trials {
             scene_at,
             free,
@@ -235,7 +227,7 @@ impl<'a> Search<'a> {
             for (value, change) in state.iter_mut().zip(&deviation.mean) {
                 *value += change;
             }
-            let variance = deviation.covariance[(0, 0)] * noise.sigma * noise.sigma;
+            let variance = deviation.covariance[0][0] * noise.sigma * noise.sigma;
             let least = (1e-14 * state[0]).powi(2).max(f64::MIN_POSITIVE);
             sum += deviation.mean[0].powi(2) / variance.max(least);
         }

@@ -1,0 +1,80 @@
+//! The motion without mechanics: what the samples alone say, by white snap, with the noise that makes them likeliest.
+
+use super::likelihood::Linear;
+use super::prior::KINEMATIC;
+use super::problem::Problem;
+use super::record::Path;
+use super::scales::Scales;
+use super::smoother::{AT_REST, ITERATIONS, Smoothed};
+
+/// First standard deviation of a sample over the way between two, and the factor by which it is lowered: the prior of the start
+/// is then as wide as that way.
+const LARGE: f64 = 1e-3;
+
+impl Problem<'_> {
+    /// The motion without mechanics, from a first path.
+    pub fn kinematic(&self, first: Path, sigma: f64) -> Smoothed {
+        let motion = self.motion(KINEMATIC);
+        let slope = self.slope(&first);
+        let mut path = first.along(self.sampled());
+        // The start of this prior is compared with others only once the motion is known.
+        let mut shape = [1.0, 1.0];
+        let mut best: Option<Smoothed> = None;
+        let is_linear = self.record.is_linear();
+        let mut sigma = sigma;
+        // The prior of the start is so many σ wide: a σ that is large at first, and lowered, makes it wide enough.
+        let mut floor = LARGE * slope * self.way();
+        for iteration in 0..ITERATIONS {
+            floor = floor.max(self.record.floor);
+            let scales = Scales {
+                floor,
+                ..self.scales(&motion, &path, slope, shape)
+            };
+            let noise = match &best {
+                Some(last) if iteration > 6 => last.noise,
+                last => {
+                    let stretches = self.stretches(&motion, &path, sigma);
+                    let linear = Linear {
+                        stretches: &stretches,
+                        prior: KINEMATIC,
+                        scales,
+                    };
+                    match last {
+                        Some(last) => linear.maximised(last.noise.corner, None),
+                        None => linear.anywhere(),
+                    }
+                }
+            };
+            let estimates = self.smoothed(&motion, &path, scales, &noise);
+            let change = path.moved(&estimates);
+            sigma = noise.sigma;
+            let rms = |k: usize| {
+                (estimates.iter().map(|e| e.state[k].powi(2)).sum::<f64>() / estimates.len() as f64)
+                    .sqrt()
+            };
+            shape = [rms(2).max(f64::MIN_POSITIVE), rms(3).max(f64::MIN_POSITIVE)];
+            let lowered = floor <= self.record.floor || noise.sigma > 3.0 * floor;
+            let settled = lowered && (change < AT_REST || is_linear);
+            best = Some(Smoothed {
+                prior: KINEMATIC,
+                noise,
+                scales,
+                estimates,
+                settled,
+            });
+            // A second pass takes what is lost to rounding about a straight line.
+            if settled && (!is_linear || iteration > 0) {
+                break;
+            }
+            if !lowered {
+                floor *= LARGE;
+            }
+        }
+        let Some(mut found) = best else {
+            unreachable!("at least one iteration")
+        };
+        found.scales.motion = shape;
+        found.scales.floor = self.record.floor;
+        self.completed(found, first)
+    }
+}
