@@ -1,7 +1,7 @@
 //! Changes of sign of watched quantities inside steps.
 
-use super::Motion;
 use super::step::Step;
+use super::{Motion, PIECES};
 use crate::numeric::angle::Angle;
 use crate::numeric::exact::SUM_ROUNDING;
 use crate::numeric::{dip, golden, root};
@@ -9,12 +9,8 @@ use crate::numeric::{dip, golden, root};
 /// A step is looked at in pieces of this travel, rad, but in at least so many and at most so many. Between them
 /// parabolas tell where a quantity may leave its sign and come back.
 const TRAVEL: f64 = 0.1;
-const FEWEST: f64 = 8.0;
+const FEWEST: f64 = PIECES as f64;
 const MOST: f64 = 64.0;
-
-/// A quantity that starts with the wrong sign may have had the right one within 2 to the power of minus so many of
-/// the piece.
-const HALVINGS: i32 = 24;
 
 /// The quantities whose signs are watched, at time t (s), angle and speed.
 pub trait EventFunction<const N: usize> {
@@ -124,7 +120,8 @@ fn may_dip<const N: usize>(three: &[Look<N>], index: usize) -> bool {
 /// so that the motion goes on.
 fn left_early(value: impl Fn(f64) -> f64, from: f64, to: f64, inside: bool) -> f64 {
     let mut after = to;
-    for _ in 0..HALVINGS {
+    // Half of the digits of the piece: a quantity is as exact as the square of the time beside an extreme.
+    while after - from > f64::EPSILON.sqrt() * (to - from) {
         let t = from + 0.5 * (after - from);
         if t <= from || t >= after {
             break;

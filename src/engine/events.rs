@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::Motion;
 use super::step::Step;
+use super::{Motion, NODES, PIECES};
 use crate::numeric::exact::SUM_ROUNDING;
 use crate::numeric::root;
 
@@ -15,10 +15,6 @@ pub enum Crossing {
     /// The speed changed its sign.
     Turning,
 }
-
-/// A step whose speed may vanish inside is cut into pieces, on each of which the speed has at most one
-/// extreme.
-const PIECES: usize = 8;
 
 /// Most turning points that are found in a step.
 const TURNINGS: usize = 6;
@@ -125,7 +121,7 @@ fn passages(step: &Step, watched: &[f64], from: f64, to: f64, found: &mut Vec<(f
 }
 
 /// Pieces of a step in which an extreme is looked for: a polynomial of its own may go up and down several times.
-const PIECES_OF_POLYNOMIAL: usize = 12;
+const PIECES_OF_POLYNOMIAL: usize = NODES;
 const PIECES_BETWEEN_ENDS: usize = 2;
 
 /// How the acceleration of a step goes at equally spaced times.

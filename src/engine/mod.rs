@@ -10,7 +10,6 @@ pub mod runge_kutta;
 pub mod sight;
 pub mod step;
 pub mod time;
-pub mod work_forecast;
 
 use std::cell::Cell;
 
@@ -66,6 +65,9 @@ pub trait Motion {
         }
     }
 }
+
+/// Pieces of a step in each of which a quantity changes its sign at most once, and the speed has one extreme at most.
+pub const PIECES: usize = 8;
 
 /// Instants in a batch.
 pub const NODES: usize = 12;

@@ -5,9 +5,8 @@ use std::f64::consts::TAU;
 use super::collocation;
 use super::runge_kutta;
 use super::runge_kutta::{Call, Ended};
-use super::sight::Proof;
+use super::sight::hides;
 use super::step::{Node, Step};
-use super::work_forecast::{Ends, WorkForecast};
 use super::{Counted, Motion};
 use crate::numeric::angle::Angle;
 
@@ -37,17 +36,6 @@ pub struct Settings {
     pub work_unit: f64,
 }
 
-impl Settings {
-    /// Where a run ends.
-    pub fn ends(&self) -> Ends {
-        Ends {
-            t: self.t_end,
-            way: self.way,
-            evaluations: self.max_evaluations,
-        }
-    }
-}
-
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Finish {
@@ -57,10 +45,6 @@ pub enum Finish {
     Stopped,
     /// The work limit is reached.
     WorkLimit,
-    /// At the pace of the last steps it would be reached long before the end.
-    WorkLimitAhead,
-    /// At the speed of the last turns it would be.
-    TooManyTurns,
     /// The step size became too small for the time to move on: a singularity.
     StepTooSmall,
     /// There is no acceleration at the start.
@@ -96,30 +80,10 @@ pub fn run(
     settings: &Settings,
     sink: &mut dyn FnMut(&Step) -> bool,
 ) -> (Finish, Step, u64) {
-    let mut pace = WorkForecast::new(
-        start.t,
-        motion.evaluations(),
-        settings.ends(),
-        motion.depends_on_time(),
-    );
-    let mut hopeless = None;
-    let watched = &mut |step: &Step| {
-        if sink(step) {
-            return true;
-        }
-        let travel = step.end.theta - step.start.theta;
-        hopeless = pace.is_hopeless(motion.evaluations(), step.end.t, travel);
-        hopeless.is_some()
-    };
-    let (finish, last, steps) = match settings.method {
-        Method::Picard => collocation::run(motion, start, settings, watched),
-        Method::Library(method) => in_calls(motion, start, settings, method, watched),
-    };
-    let finish = match finish {
-        Finish::Stopped => hopeless.unwrap_or(Finish::Stopped),
-        other => other,
-    };
-    (finish, last, steps)
+    match settings.method {
+        Method::Picard => collocation::run(motion, start, settings, sink),
+        Method::Library(method) => in_calls(motion, start, settings, method, sink),
+    }
 }
 
 fn in_calls(
@@ -143,7 +107,6 @@ fn in_calls(
         return (Finish::NoStart, last, steps);
     }
     let mut first_step = 0.0;
-    let mut proof = Proof::new(motion, settings.tolerance, method.order());
     let mut hidden = f64::INFINITY;
     loop {
         let spent = motion.evaluations();
@@ -166,7 +129,7 @@ fn in_calls(
             max_steps: left.min(u64::from(u32::MAX)) as u32,
             work_unit: settings.work_unit,
             observer: &mut |step| {
-                rejected = Rejected::of(step, &mut proof);
+                rejected = Rejected::of(motion, step, method, settings.tolerance);
                 if rejected.is_some() {
                     return true;
                 }
@@ -207,12 +170,17 @@ enum Rejected {
 }
 
 impl Rejected {
-    fn of(step: &Step, proof: &mut Proof<'_>) -> Option<Rejected> {
+    fn of(
+        motion: &Counted<'_>,
+        step: &Step,
+        method: runge_kutta::Method,
+        tolerance: f64,
+    ) -> Option<Rejected> {
         let travel = (step.end.theta - step.start.theta).abs();
         if travel > LONGEST {
             return Some(Rejected::TooLong(step.length() * TAU / travel));
         }
-        proof.hides(step).map(Rejected::Hides)
+        hides(motion, step, method.order(), tolerance).map(Rejected::Hides)
     }
 }
 

@@ -77,7 +77,6 @@ impl AtRest<'_> {
             t: Interval::new(from, to),
             angle: Interval::point(self.q.radians()),
             speed: Interval::point(0.0),
-            parts: 1.0,
         };
         let seen = self.equation.curve().seen(&reach, loads.meet_slider());
         let terms = &self.terms;

@@ -35,6 +35,19 @@ pub struct Positions<const N: usize> {
     pub dv: [f64; N],
 }
 
+impl<const N: usize> Positions<N> {
+    fn zero() -> Positions<N> {
+        let [x, dx, m, half_dm, dv] = [[0.0; N]; 5];
+        Positions {
+            x,
+            dx,
+            m,
+            half_dm,
+            dv,
+        }
+    }
+}
+
 impl Equation {
     /// θ̈ (rad/s²) at N instants, and the power (W) of the loads without a potential, as
     /// [`Equation::acceleration_and_power`] gives them one by one, to rounding.
@@ -80,13 +93,7 @@ impl Equation {
     /// Positions at the first `count` angles; what is beyond is zero.
     pub fn first_positions<const N: usize>(&self, theta: &[f64; N], count: usize) -> Positions<N> {
         const LANES: usize = 4;
-        let mut all = Positions {
-            x: [0.0; N],
-            dx: [0.0; N],
-            m: [0.0; N],
-            half_dm: [0.0; N],
-            dv: [0.0; N],
-        };
+        let mut all = Positions::zero();
         for begin in (0..count).step_by(LANES) {
             let some = std::array::from_fn(|i| theta[(begin + i).min(N - 1)]);
             let at: Positions<LANES> = self.positions(&some);
@@ -103,13 +110,7 @@ impl Equation {
 
     #[inline(always)]
     fn sides<const N: usize>(&self, pose: impl Fn(usize) -> Pose) -> Positions<N> {
-        let mut sides = Positions {
-            x: [0.0; N],
-            dx: [0.0; N],
-            m: [0.0; N],
-            half_dm: [0.0; N],
-            dv: [0.0; N],
-        };
+        let mut sides = Positions::zero();
         let terms = self.terms_without_cases();
         for i in 0..N {
             let Terms { pose, inertia, dv } = terms(pose(i));

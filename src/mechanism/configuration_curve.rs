@@ -13,6 +13,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use super::limits::SAME;
 use super::rocker::Rocker;
 use super::{Class, Limits, Linkage};
 use crate::numeric::angle::Angle;
@@ -70,9 +71,6 @@ impl Place {
     }
 }
 
-/// Below this the rod counts as standing normal to the guide, as cos Φ.
-const NORMAL: f64 = 4.0 * f64::EPSILON;
-
 impl Curve {
     /// The positions that can be reached from crank angle `theta` (rad) on the linkage's branch, and the
     /// coordinate of that position. None where there is no position, and at the crossing of a change point,
@@ -93,7 +91,7 @@ impl Curve {
                 return Some((curve.started_at(q, theta), q));
             }
             Class::DoubleRocker => {}
-            Class::ChangePoint if pose.cos_phi <= NORMAL.sqrt() => {
+            Class::ChangePoint if pose.cos_phi <= SAME.sqrt() => {
                 // At a limit that is no crossing the crank does not point normal to the guide.
                 if pose.cos.abs() < 1e-6 {
                     return None;

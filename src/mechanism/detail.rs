@@ -12,38 +12,25 @@ struct Around<'a> {
 }
 
 impl Around<'_> {
-    /// A variable over the piece, and of how many parts each has nodes of its own.
-    fn real(&self, variable: Variable) -> (Interval, f64) {
-        let Seen {
-            t,
-            theta,
-            omega,
-            x,
-            v,
-            parts,
-            ..
-        } = *self.seen;
+    /// A variable over the piece.
+    fn real(&self, variable: Variable) -> Interval {
         match variable {
-            Variable::T => (t, parts),
-            Variable::Theta => (theta, parts),
-            Variable::Omega => (omega, parts),
-            // A part of the way may be a larger one of the stroke.
-            Variable::X => (x, 1.0),
-            Variable::V => (v, 1.0),
+            Variable::T => self.seen.t,
+            Variable::Theta => self.seen.theta,
+            Variable::Omega => self.seen.omega,
+            Variable::X => self.seen.x,
+            Variable::V => self.seen.v,
         }
     }
 
     fn variable(&self, variable: Variable) -> Enclosed {
-        let (real, parts) = self.real(variable);
-        Enclosed::in_parts(real, self.ellipse, parts)
+        Enclosed::variable(self.real(variable), self.ellipse)
     }
 
-    /// A closure shows what it does where no part is wider than its finest scale.
+    /// A closure shows what it does where the piece is no wider than its finest scale.
     fn closure(&self, scales: &[(Variable, f64)]) -> Detail {
-        let hides = scales.iter().any(|&(variable, scale)| {
-            let (real, parts) = self.real(variable);
-            2.0 * real.half() > scale * parts
-        });
+        let mut scales = scales.iter();
+        let hides = scales.any(|&(variable, scale)| 2.0 * self.real(variable).half() > scale);
         if hides { Detail::HIDDEN } else { Detail::NONE }
     }
 
@@ -137,7 +124,6 @@ impl Loads {
             t: none,
             angle,
             speed: none,
-            parts: 1.0,
         };
         let seen = linkage.seen(&reach, self.meet_slider());
         Self::detail_of(&[&self.placed], &seen, seen.arms(), ellipse)
@@ -157,23 +143,17 @@ impl Loads {
 }
 
 impl CurveEquation {
-    /// How far a load of one changes q̈ (rad/s²) of a motion that slides with c = −μ sgn(v) sgn(N), at the ends and the
-    /// middle of a range of coordinates (rad): the nodes of a step show what the linkage does between them.
+    /// How far a load of one changes q̈ (rad/s²) of a motion that slides with c = −μ sgn(v) sgn(N), in the middle of a range of
+    /// coordinates (rad): the nodes of a step show what the linkage does on it.
     pub fn arms(&self, q: Interval, c: f64) -> Arms {
-        let at = |q: f64| {
-            let terms = self.across(q);
-            let CurveTerms { place, m, a, .. } = terms;
-            let gain = place.dx / m;
-            let rubbed = gain * c / (1.0 - c * (a * gain - terms.x_n));
-            let arm = |along: f64, aside: f64| along / m + rubbed * (a * along / m - aside);
-            Arms {
-                torque: arm(place.dtheta, terms.theta_n),
-                force: arm(place.dx, terms.x_n),
-            }
-        };
-        [q.low, q.middle(), q.high]
-            .map(at)
-            .into_iter()
-            .fold(Arms::default(), Arms::larger)
+        let terms = self.across(q.middle());
+        let CurveTerms { place, m, a, .. } = terms;
+        let gain = place.dx / m;
+        let rubbed = gain * c / (1.0 - c * (a * gain - terms.x_n));
+        let arm = |along: f64, aside: f64| along / m + rubbed * (a * along / m - aside);
+        Arms {
+            torque: arm(place.dtheta, terms.theta_n),
+            force: arm(place.dx, terms.x_n),
+        }
     }
 }

@@ -90,7 +90,7 @@ const NORMAL: f64 = 1e-3;
 
 /// Lengths that differ by less than this part of crank and rod together count as equal: reading rod, crank and offset rounds
 /// their difference by ε of that at most, and by 3 ε where the unit is no power of ten of a metre, like an inch.
-const SAME: f64 = 4.0 * f64::EPSILON;
+pub(super) const SAME: f64 = 4.0 * f64::EPSILON;
 
 impl Limits {
     /// The limits of a linkage, for a crank that turns in the direction of `speed` (its sign alone
@@ -170,18 +170,24 @@ impl Linkage {
     /// Crank angles, in [−π/2, 3π/2], at which the rod stands normal to the guide, where the branches meet: the limits of a
     /// crank that cannot turn fully, and what a change point has in their place; empty for a crank that turns fully.
     pub fn limit_angles(&self) -> Vec<f64> {
-        let Linkage { r, l, e, .. } = *self;
+        let Linkage { r, l, .. } = *self;
         let same = SAME * (l + r);
-        let limit = |lift: f64, below: f64| {
-            let exists = below >= -same && r + lift >= -same;
-            let cos_squared = (below * (r + lift)).max(0.0) / (r * r);
-            exists.then(|| (lift / r).atan2(cos_squared.sqrt()))
-        };
-        let up = limit(l - e, -sum3(l, -e, -r));
-        let down = limit(l + e, -sum3(l, e, -r)).map(|down| -down);
-        let both = up.into_iter().chain(down);
+        let [up, down] = limits(self, |below, lift| below >= -same && r + lift >= -same);
+        let both = up.into_iter().chain(down.map(|down| -down));
         both.flat_map(|angle| [angle, PI - angle]).collect()
     }
+}
+
+/// Crank angles θ and −θ, in [−π/2, π/2], at which A is as high and as low as the rod reaches, where they are limits for the way
+/// that the reach ends before the top of the crank's circle, and for the height of the reach, m: sin θ = ±(l ∓ e)/r, from its
+/// cosine where it is near one, cos² = (r − l ± e)(r + l ∓ e)/r².
+fn limits(linkage: &Linkage, exists: impl Fn(f64, f64) -> bool) -> [Option<f64>; 2] {
+    let Linkage { r, l, e, .. } = *linkage;
+    [e, -e].map(|e| {
+        let (lift, below) = (l - e, -sum3(l, -e, -r));
+        let cos_squared = (below * (r + lift)).max(0.0) / (r * r);
+        exists(below, lift).then(|| (lift / r).atan2(cos_squared.sqrt()))
+    })
 }
 
 /// Outer: |OP| = l + r with A between. Inner: |OP| = |l − r|. On branch s the outer one has x of the sign
@@ -221,17 +227,11 @@ fn positive(theta: f64) -> f64 {
 
 /// Angles at which |e + r sin θ| ≤ l.
 fn reach(linkage: &Linkage, class: Class) -> Vec<[f64; 2]> {
-    let Linkage { r, l, e, .. } = *linkage;
+    let Linkage { r, l, .. } = *linkage;
     if class == Class::RotatingCrank || linkage.margin() >= -SAME * (l + r) {
         return Vec::new();
     }
-    // sin θ = ±(l ∓ e)/r, from its cosine where it is near one: cos² = (r − l ± e)(r + l ∓ e)/r².
-    let limit = |lift: f64, below: f64| {
-        let cos_squared = below * (r + lift) / (r * r);
-        (below > 0.0).then(|| (lift / r).atan2(cos_squared.sqrt()))
-    };
-    let up = limit(l - e, -sum3(l, -e, -r));
-    let down = limit(l + e, -sum3(l, e, -r));
+    let [up, down] = limits(linkage, |below, _| below > 0.0);
     match (up, down) {
         (Some(up), Some(down)) => vec![[-down, up], [PI - up, PI + down]],
         (Some(up), None) => vec![[PI - up, TAU + up]],

@@ -2,6 +2,7 @@
 //!
 //! sin φ = (e + r sin θ)/l, x = r cos θ + s l cos φ, s = ±1 for the assembly branch.
 
+use super::limits::SAME;
 use crate::numeric::exact::sum3;
 use crate::scene::{Branch, Geometry};
 
@@ -123,7 +124,7 @@ impl Linkage {
     /// Whether the rod reaches the guide at crank angle `theta` (rad), to rounding.
     pub fn reaches(&self, theta: f64) -> bool {
         let height = (self.e + self.r * theta.sin()).abs();
-        height <= self.l + 4.0 * f64::EPSILON * (self.l + self.r)
+        height <= self.l + SAME * (self.l + self.r)
     }
 
     /// How far the lengths are from those of a change point, in crank lengths.

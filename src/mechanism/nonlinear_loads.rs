@@ -50,10 +50,11 @@ impl NonlinearLoads {
     }
 
     pub fn value(&self, now: &Instant) -> LoadValue {
-        let sum = |loads: &[Load], on_slider: bool| {
-            let values = loads.iter().map(|load| single(load, on_slider, now));
-            values.sum::<f64>()
-        };
+        self.sum(|load, on_slider| single(load, on_slider, now))
+    }
+
+    fn sum(&self, value: impl Fn(&Load, bool) -> f64) -> LoadValue {
+        let sum = |loads: &[Load], on_slider| loads.iter().map(|load| value(load, on_slider)).sum();
         LoadValue {
             torque: sum(&self.torques, false),
             force: sum(&self.forces, true),
@@ -70,16 +71,7 @@ impl NonlinearLoads {
 
     /// The sums of the magnitudes of loads that oppose motion, N m and N.
     pub fn magnitude(&self, now: &Instant) -> LoadValue {
-        let sum = |loads: &[Load], on_slider: bool| {
-            let values = loads.iter();
-            values
-                .map(|load| single_magnitude(load, on_slider, now))
-                .sum::<f64>()
-        };
-        LoadValue {
-            torque: sum(&self.torques, false),
-            force: sum(&self.forces, true),
-        }
+        self.sum(|load, on_slider| single_magnitude(load, on_slider, now))
     }
 
     pub fn loads(&self) -> impl Iterator<Item = &Load> {
@@ -94,10 +86,12 @@ pub(super) fn single_magnitude(load: &Load, on_slider: bool, now: &Instant) -> f
         v: now.v.abs(),
         ..*now
     };
-    match load {
-        Load::Dry(magnitude) => single(magnitude, on_slider, &now),
-        magnitude => single(magnitude, on_slider, &now),
-    }
+    let magnitude = if let Load::Dry(magnitude) = load {
+        magnitude
+    } else {
+        load
+    };
+    single(magnitude, on_slider, &now)
 }
 
 /// Value of one load, as a torque (N m) or as a force on the slider (N).

@@ -22,8 +22,6 @@ pub struct Seen {
     pub v: Interval,
     /// x', m/rad of the coordinate.
     pub dx: Interval,
-    /// Nodes are those of one of so many equal parts of time, angle and speed.
-    pub parts: f64,
 }
 
 /// What a load of one does: torques, per N m, and slider forces, per N.
@@ -119,7 +117,6 @@ impl Linkage {
             x,
             v: dx * reach.speed,
             dx,
-            parts: reach.parts,
         }
     }
 }
@@ -188,68 +185,6 @@ impl Curve {
             x: places.x,
             v: places.dx * reach.speed,
             dx: places.dx,
-            // A part of the way may be a larger one of the crank angle.
-            parts: 1.0,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::mechanism::{Class, Limits};
-    use crate::numeric::angle::Angle;
-    use crate::scene::{Branch, Geometry};
-
-    /// Crank, rod, offset (m) and start (rad): each kind of curve.
-    const CURVES: [([f64; 3], f64); 6] = [
-        ([0.05, 0.15, 0.01], 0.3),
-        ([0.15, 0.05, 0.01], 0.2),
-        ([0.15, 0.05, -0.01], 3.0),
-        ([0.1, 0.12, 0.05], 0.4),
-        ([0.1, 0.12, -0.05], 0.4),
-        ([0.1, 0.1, 0.0], 0.4),
-    ];
-
-    #[test]
-    fn every_position_lies_in_its_enclosure() {
-        let mut kinds = std::collections::BTreeSet::new();
-        for (lengths, start) in CURVES {
-            for branch in [Branch::Right, Branch::Left] {
-                let [crank, rod, offset] = lengths;
-                let geometry = Geometry {
-                    crank,
-                    rod,
-                    offset,
-                    branch,
-                };
-                let linkage = Linkage::new(&geometry);
-                kinds.insert(format!("{:?}", Class::of(&linkage)));
-                assert!(Limits::new(&linkage, start).dead_centres.len() < 9);
-                let (curve, _) = Curve::through(&linkage, Angle::from(start)).expect("a position");
-                for k in 0..200 {
-                    let low = -7.0 + 0.07 * f64::from(k);
-                    let width = 2.0f64.powi(-(k % 12));
-                    let q = Interval::new(low, low + width);
-                    let places = curve.enclose(q);
-                    for part in 0..=20 {
-                        let q = low + width * f64::from(part) / 20.0;
-                        let place = curve.place(q);
-                        let theta = curve.crank_angle(Angle::from(q)).radians();
-                        let holds = |of: Interval, value: f64| {
-                            assert!(
-                                of.widened(1e-13).contains(value),
-                                "{of:?} {value} {curve:?}"
-                            );
-                        };
-                        holds(places.angle, theta);
-                        holds(places.dangle, place.dtheta);
-                        holds(places.x, place.x);
-                        holds(places.dx, place.dx);
-                    }
-                }
-            }
-        }
-        assert_eq!(kinds.len(), 4, "{kinds:?}");
     }
 }

@@ -187,7 +187,7 @@ fn reduced(at: f64, period: f64, lacks: f64) -> f64 {
 }
 
 /// What the float of a period lacks, if that is a number of turns of 2π, or one of up to 720 equal parts of a turn.
-fn lacks(period: f64) -> f64 {
+pub fn lacks(period: f64) -> f64 {
     const MOST_PARTS: f64 = 720.0;
     let turns = (period / TAU).round().max(1.0);
     let parts = (TAU / period).round().max(1.0);
@@ -244,6 +244,3 @@ fn end_slope(h0: f64, h1: f64, rise0: f64, rise1: f64) -> f64 {
         slope
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -41,7 +41,7 @@ impl Default for PrecisionOptions {
 }
 
 /// One method at one tolerance. What does not exist is empty.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct PrecisionRow {
     /// The method, as `--method` names it; `contact` for scenes with a loose joint.
     pub method: String,
@@ -87,20 +87,7 @@ impl PrecisionRow {
         PrecisionRow {
             method: method.to_string(),
             tolerance,
-            error_theta_rad: None,
-            error_omega_rad_per_s: None,
-            estimate_theta_rad: None,
-            estimate_omega_rad_per_s: None,
-            error_slider_x_m: None,
-            estimate_slider_x_m: None,
-            wall_s: None,
-            wall_median_s: None,
-            runs: 0,
-            evaluations: None,
-            steps: None,
-            error_is_bound: false,
-            measured_against: None,
-            failure: None,
+            ..PrecisionRow::default()
         }
     }
 }

@@ -66,9 +66,7 @@ pub(super) fn reason(unserved: NotApplicable) -> &'static str {
         NotApplicable::NotFinite => "a load has no finite value on the way",
         NotApplicable::NotSmooth => "a load is not smooth",
         NotApplicable::TooSlow => "the crank comes too near to rest",
-        NotApplicable::WorkLimit | NotApplicable::TooManyTurns => {
-            "it takes more evaluations than the work limit allows"
-        }
+        NotApplicable::WorkLimit => "it takes more evaluations than the work limit allows",
         NotApplicable::TooLong => {
             "its turns differ from each other, and they are too many to be kept"
         }

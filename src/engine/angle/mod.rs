@@ -29,10 +29,10 @@ mod turn;
 
 use std::f64::consts::TAU;
 
+use super::energy::piece::SAME_ANGLE;
 use super::energy::segment::{MOST_PANELS, Segment};
 use super::energy::{NotApplicable, Orbit};
-use super::time::{FAR, Start};
-use super::work_forecast::{Ends, WorkForecast};
+use super::time::Start;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
 use crate::numeric::enclosure::{Detail, Reach};
@@ -172,21 +172,9 @@ pub fn run<D: Driven>(
     }
     march.gives_up = true;
     let reads_time = driven.is_driven() && driven.reads_time();
-    let repeats = !reads_time && !march.has_switch();
-    let mut pace = pace(&march, goal, reads_time);
-    let way = f64::from(driven.cycle()) * TAU;
+    let repeats = !reads_time && march.stations[0].table.switch.is_none();
     let mut leg = Segment::open();
     loop {
-        let spent = march.spent();
-        let done = march.at_cycle() && leg.len() > 0;
-        if done && pace.is_hopeless(spent, march.t.0, way).is_some() {
-            return Ok(ended(
-                march,
-                leg,
-                (start, speed),
-                NotApplicable::TooManyTurns,
-            ));
-        }
         if repeats && march.at_cycle() && march.turns.abs() >= TURNS_BEFORE_MAP {
             return poincare_map::run(march, leg, start, speed, goal, resolution);
         }
@@ -204,7 +192,7 @@ pub fn run<D: Driven>(
         leg.push(panel);
         let passed = match goal {
             Goal::Time(until) => leg.duration.0 > until,
-            Goal::Turned(way) => turned >= way - 1e-12,
+            Goal::Turned(way) => turned >= way - SAME_ANGLE,
         };
         if passed {
             let orbit = Orbit::one_way(start, speed, leg);
@@ -223,20 +211,6 @@ pub fn run<D: Driven>(
             });
         }
     }
-}
-
-/// What tells whether a run whose turns are run through one by one will reach its goal.
-fn pace<D: Driven>(march: &PanelStepper<'_, D>, goal: Goal, reads_time: bool) -> WorkForecast {
-    let (t, way) = match goal {
-        Goal::Time(until) => (until, f64::INFINITY),
-        Goal::Turned(way) => (FAR, way),
-    };
-    let ends = Ends {
-        t,
-        way,
-        evaluations: march.most_evaluations,
-    };
-    WorkForecast::new(0.0, march.spent(), ends, reads_time)
 }
 
 /// A run that ended before its goal, from an angle with a speed (rad/s).

@@ -6,9 +6,7 @@ use super::stepper::PanelStepper;
 use super::{Driven, Resolution};
 use crate::engine::energy::{NotApplicable, Orbit};
 use crate::numeric::angle::Angle;
-
-/// Relative error of a cycle's gain by rounding, against its largest energy.
-const NOISE: f64 = 4e-15;
+use crate::numeric::chebyshev::ROUNDING;
 
 /// A cycle of some turns.
 pub struct Cycle {
@@ -65,16 +63,12 @@ impl<'a, D: Driven> Turns<'a, D> {
 
     /// The panels of a cycle, and the least energy at their points, J.
     fn whole_turn(&mut self, kinetic: f64) -> Result<(Segment, f64), NotApplicable> {
-        let mut leg = Segment::open();
         let mut least = kinetic;
-        self.march.restart(kinetic);
-        loop {
-            leg.push(self.march.panel()?.panel);
-            least = least.min(self.march.least());
-            if self.march.at_cycle() {
-                return Ok((leg, least));
-            }
-        }
+        let leg = self.march.cycle(kinetic, |march| {
+            least = least.min(march.least());
+            Ok(())
+        })?;
+        Ok((leg, least))
     }
 
     /// The cycle that begins with a kinetic energy, J.
@@ -84,14 +78,14 @@ impl<'a, D: Driven> Turns<'a, D> {
     pub fn turn(&mut self, kinetic: f64) -> Result<Cycle, NotApplicable> {
         let (leg, least) = self.whole_turn(kinetic)?;
         let speed = self.speed(kinetic);
-        let largest = self.march.fastest();
+        let largest = self.march.fastest;
         Ok(Cycle {
             period: leg.duration.0,
             orbit: Orbit::one_way(self.start, speed, leg),
             speed,
             gain: self.march.gain,
             largest,
-            uncertain: NOISE * largest / least,
+            uncertain: ROUNDING * largest / least,
         })
     }
 }
@@ -106,10 +100,10 @@ impl<D: Driven> CycleMap for Turns<'_, D> {
     }
 
     fn largest(&self) -> f64 {
-        self.march.fastest()
+        self.march.fastest
     }
 
     fn noise(&self) -> f64 {
-        NOISE
+        ROUNDING
     }
 }

@@ -52,8 +52,9 @@ pub(super) struct Fineness {
     pub speed: f64,
 }
 
-/// Panels are not cut below this, rad.
-const SHORTEST: f64 = 1e-9;
+/// The shortest panel, rad; a corner or a change of the switch as near to an end of a panel is at the end. The forces are
+/// continuous at a change: it is felt by the square of this.
+pub(super) const SHORTEST: f64 = 1e-9;
 /// What the forces leave out adds up over the turns: it is to be less by this.
 const ADDED_UP: f64 = 0.1;
 /// Degree of the series that are tried first.

@@ -1,6 +1,7 @@
 //! Panels that were not solved: another degree, or cut.
 
 use super::Driven;
+use super::panel::{Fineness, Station};
 use super::stepper::PanelStepper;
 use super::sweep::Unsolved;
 use crate::engine::energy::NotApplicable;
@@ -22,7 +23,7 @@ impl<D: Driven> PanelStepper<'_, D> {
     /// Raises the degree of the next panel, or cuts it: for this turn, and for all if it happens again or will.
     pub(super) fn refine(&mut self, why: Unsolved) -> Result<(), NotApplicable> {
         self.refined = true;
-        let fastest = self.fastest();
+        let fastest = self.fastest;
         let for_now = !self.parts.is_empty();
         let station = self
             .parts
@@ -66,17 +67,26 @@ impl<D: Driven> PanelStepper<'_, D> {
     /// Cuts every panel that failed for good.
     pub fn settle(&mut self) -> Result<(), NotApplicable> {
         let stations = std::mem::take(&mut self.stations);
-        for station in stations {
-            let parts = if station.failed {
-                station.parts(self.driven, 0.5, self.fine)?
-            } else {
-                None
-            };
-            match parts {
-                Some(parts) => self.stations.extend(parts),
-                None => self.stations.push(station),
-            }
-        }
+        self.stations = cut(self.driven, stations, 0.5, self.fine, |of| of.failed)?;
         Ok(())
     }
+}
+
+/// Cuts some of the panels at a part of them, as far as they are long enough.
+pub(super) fn cut<D: Driven>(
+    driven: &D,
+    stations: Vec<Station<D::Place>>,
+    share: f64,
+    fine: Fineness,
+    which: impl Fn(&Station<D::Place>) -> bool,
+) -> Result<Vec<Station<D::Place>>, NotApplicable> {
+    let mut all = Vec::with_capacity(2 * stations.len());
+    for station in stations {
+        let parts = which(&station).then(|| station.parts(driven, share, fine));
+        match parts.transpose()?.flatten() {
+            Some(parts) => all.extend(parts),
+            None => all.push(station),
+        }
+    }
+    Ok(all)
 }

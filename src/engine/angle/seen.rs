@@ -80,7 +80,6 @@ pub(super) fn at_speeds<D: Driven>(
             t: Interval::default(),
             angle: Interval::point(angle.radians()),
             speed,
-            parts: 1.0,
         };
         look.shows(|ellipse| driven.detail(&reach, ellipse))
     })
@@ -104,9 +103,7 @@ impl<D: Driven> OnPanel<'_, D> {
 }
 
 impl<D: Driven> Way for OnPanel<'_, D> {
-    type Part = Reach;
-
-    fn reach(&self, from: f64, to: f64) -> Reach {
+    fn detail(&self, from: f64, to: f64, ellipse: f64) -> Detail {
         let slope = &self.swept.slope;
         let [about, steep] = self.varies;
         let by_mean = Interval::point(slope.coefficient(0)).widened(about);
@@ -120,12 +117,12 @@ impl<D: Driven> Way for OnPanel<'_, D> {
             .fold(f64::INFINITY, |least: f64, slope| least.min(*slope));
         // What turns is slower everywhere than at twice the largest speed of the points.
         let low = slowness.low.max(0.5 * least);
-        Reach {
+        let reach = Reach {
             t: Interval::between(self.time(from), self.time(to)),
             angle: Interval::between(self.angle(from).radians(), self.angle(to).radians()),
             speed: Interval::between(self.speed(low), self.speed(slowness.high.max(low))),
-            parts: 1.0,
-        }
+        };
+        self.driven.detail(&reach, ellipse)
     }
 
     fn missed(&self, at: f64) -> f64 {
@@ -148,9 +145,5 @@ impl<D: Driven> Way for OnPanel<'_, D> {
         let squared = table.switch.map_or(0.0, |switch| switch.force[0]) * speed * speed;
         let force = table.push[0] - table.damping[0] * speed + squared + driven;
         force - self.spent.value(x)
-    }
-
-    fn detail(&self, reach: &Reach, ellipse: f64) -> Detail {
-        self.driven.detail(reach, ellipse)
     }
 }

@@ -4,8 +4,10 @@ use super::super::energy::NotApplicable;
 use super::super::energy::error_bound::off_by_place;
 use super::super::energy::panel::Panel;
 use super::super::energy::piece::Piece;
+use super::super::energy::segment::Segment;
 use super::errors::{Errors, uncertain};
 use super::panel::{Fineness, Station};
+use super::refine::cut;
 use super::seen::hides;
 use super::sweep::{Start, Swept, sweep};
 use super::switch::{Side, begins_beyond, side};
@@ -48,7 +50,8 @@ pub(super) struct PanelStepper<'a, D: Driven> {
     pub evaluations: u64,
     /// Positions that were tabulated before it.
     positions: u64,
-    fastest: f64,
+    /// Largest kinetic energy at the ends of panels so far, J.
+    pub fastest: f64,
     start: Angle,
     pub most_evaluations: u64,
     /// Whether a panel was cut or its degree raised since this was last cleared.
@@ -82,14 +85,7 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
         let positions = driven.positions();
         let mut stations = stations(driven, start, fine)?;
         if resolution.other {
-            let mut cut = Vec::with_capacity(2 * stations.len());
-            for station in stations {
-                match station.parts(driven, 0.37, fine)? {
-                    Some(parts) => cut.extend(parts),
-                    None => cut.push(station),
-                }
-            }
-            stations = cut;
+            stations = cut(driven, stations, 0.37, fine, |_| true)?;
         }
         let kinetic = 0.5 * stations[0].table.inertia[0] * speed * speed;
         if !kinetic.is_finite() {
@@ -98,11 +94,9 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
         if kinetic == 0.0 {
             return Err(NotApplicable::TooSlow);
         }
-        let Station {
-            piece, rule, table, ..
-        } = &stations[0];
-        let beside = piece.angle(rule.points()[1]) - piece.from;
-        let [here, next, ..] = table.inertia;
+        let first = &stations[0];
+        let beside = first.piece.angle(first.rule.points()[1]) - first.piece.from;
+        let [here, next, ..] = first.table.inertia;
         let off = off_by_place(start.rest, kinetic, [here, next], beside);
         Ok(PanelStepper {
             driven,
@@ -147,21 +141,6 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
         self.hid = false;
     }
 
-    /// Whether the forces have two forms.
-    pub fn has_switch(&self) -> bool {
-        self.stations[0].table.switch.is_some()
-    }
-
-    /// Whether the kinetic energy has risen over the run.
-    pub fn rises(&self) -> bool {
-        self.gain > 0.0
-    }
-
-    /// Largest kinetic energy at the ends of panels so far, J.
-    pub fn fastest(&self) -> f64 {
-        self.fastest
-    }
-
     /// Evaluations of the loads and positions that were tabulated.
     pub fn spent(&self) -> u64 {
         self.evaluations + self.driven.positions() - self.positions
@@ -182,6 +161,23 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
     /// Whether the next panel begins a cycle.
     pub fn at_cycle(&self) -> bool {
         self.next == 0 && self.parts.is_empty()
+    }
+
+    /// The panels of the cycle that begins with a kinetic energy, J; `visit` sees the run after each of them, and may end it.
+    pub fn cycle(
+        &mut self,
+        kinetic: f64,
+        mut visit: impl FnMut(&Self) -> Result<(), NotApplicable>,
+    ) -> Result<Segment, NotApplicable> {
+        self.restart(kinetic);
+        let mut leg = Segment::open();
+        loop {
+            leg.push(self.panel()?.panel);
+            visit(self)?;
+            if self.at_cycle() {
+                return Ok(leg);
+            }
+        }
     }
 
     /// The next panel.

@@ -71,8 +71,6 @@ const SETTLED_BEFORE_LAST: f64 = 1e-2;
 const LEAST_FACTOR: f64 = 1e-3;
 /// The last terms of a series of speeds by what it leaves out, where it decays slowly.
 const REMAINDER: f64 = 0.25;
-/// What is left of a relative change at rounding.
-const ROUNDING: f64 = 1e-14;
 
 /// Why a panel is not solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -124,7 +122,7 @@ pub(super) fn sweep<D: Driven>(
         } else {
             station.factor
         };
-        let at_rounding = largest < ROUNDING && largest >= SLOW * before;
+        let at_rounding = largest < SUM_ROUNDING && largest >= SLOW * before;
         if newton {
             if largest * factor.min(SLOW) <= tail || at_rounding {
                 swept.evaluate(driven, station, start)?;
@@ -244,7 +242,7 @@ impl Swept {
         known.ok_or(Unsolved::TooLong)?;
         self.slope = rule.series(&self.slopes);
         let noise = 8.0 * f64::EPSILON * (1.0 + station.piece.from.abs() / half.abs());
-        let wanted = (REMAINDER * tail).max(tail.min(ROUNDING));
+        let wanted = (REMAINDER * tail).max(tail.min(SUM_ROUNDING));
         if self.slope.tail() > wanted.max(noise) {
             return Err(Unsolved::TooLong);
         }

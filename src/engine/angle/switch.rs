@@ -1,6 +1,6 @@
 //! Where the switch changes its sign on a panel, and with it the form of the forces.
 
-use super::panel::Station;
+use super::panel::{SHORTEST, Station};
 use super::sweep::{Start, Swept};
 use super::{Driven, Switch};
 use crate::numeric::angle::Angle;
@@ -9,10 +9,6 @@ use crate::numeric::dip::may_dip;
 use crate::numeric::exact::SUM_ROUNDING;
 use crate::numeric::golden;
 use crate::numeric::root;
-
-/// A change as near to an end of a panel as this is at the end, rad, and so is the switch within this part of its largest
-/// value: as the forces are continuous, that is felt by its square.
-const AT_END: f64 = 1e-9;
 
 /// What the switch does on a panel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,9 +37,9 @@ pub(super) fn side<D: Driven>(
     };
     let length = 2.0 * station.half().abs();
     let share = 0.5 * (x + 1.0);
-    if share * length < AT_END {
+    if share * length < SHORTEST {
         Side::Other
-    } else if (1.0 - share) * length < AT_END {
+    } else if (1.0 - share) * length < SHORTEST {
         Side::Stays
     } else {
         Side::Leaves(share)
@@ -63,7 +59,7 @@ pub(super) fn begins_beyond<D: Driven>(
     let speed = start.direction * (start.kinetic * station.mobility[0]).sqrt();
     let parts = parts(driven, switch, station, start, 0, [start.t, speed]);
     let largest = parts.iter().fold(0.0f64, |m, part| m.max(part.abs()));
-    station.side * parts.iter().sum::<f64>() < -AT_END * largest
+    station.side * parts.iter().sum::<f64>() < -SHORTEST * largest
 }
 
 /// What the switch is the sum of, at a point where the time (s) and the speed (rad/s) are these.
@@ -142,7 +138,8 @@ fn values<D: Driven>(
 /// The first place at which values fall below zero, by more than `noise`; −1 if they begin there.
 fn first_below<P: Copy>(station: &Station<P>, values: &Values, noise: f64) -> Option<f64> {
     let points = station.rule.points();
-    if values[0] < -noise.max(AT_END * values.iter().fold(0.0f64, |m, value| m.max(value.abs()))) {
+    if values[0] < -noise.max(SHORTEST * values.iter().fold(0.0f64, |m, value| m.max(value.abs())))
+    {
         return Some(-1.0);
     }
     let series = || station.rule.series(values);

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::Driven;
-use super::panel::{FIRST_DEGREE, Fineness, Station};
+use super::panel::{FIRST_DEGREE, Fineness, SHORTEST, Station};
 use crate::engine::energy::NotApplicable;
 use crate::engine::energy::piece::LONGEST;
 use crate::numeric::angle::Angle;
@@ -44,7 +44,7 @@ fn between<D: Driven>(
         let mut ends: Vec<f64> = corners
             .iter()
             .map(|corner| (direction * (corner - phase)).rem_euclid(cycle * TAU) - before * TAU)
-            .filter(|ahead| *ahead > 1e-9 && *ahead < TAU - 1e-9)
+            .filter(|ahead| *ahead > SHORTEST && *ahead < TAU - SHORTEST)
             .collect();
         ends.sort_by(f64::total_cmp);
         ends.push(TAU);

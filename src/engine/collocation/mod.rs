@@ -8,7 +8,6 @@
 mod attempt;
 mod error;
 mod newton;
-mod seen;
 mod series;
 mod state;
 mod step;
@@ -20,6 +19,7 @@ use super::step::{Node, Step};
 use super::time::{Finish, Settings, Start};
 use super::{Counted, Motion};
 use attempt::{Accepted, Failed, Try};
+pub(super) use series::legendre;
 use state::State;
 use step::Collocation;
 pub use tableau::Tableau;

@@ -18,7 +18,7 @@ pub(super) fn dot(a: &[f64; NODES], b: &[f64; NODES]) -> f64 {
 }
 
 /// A Legendre series at many places, by its recurrence.
-pub(super) fn legendre<const N: usize>(coefficients: &[f64; NODES], x: [f64; N]) -> [f64; N] {
+pub fn legendre<const N: usize>(coefficients: &[f64; NODES], x: [f64; N]) -> [f64; N] {
     let (mut p, mut before) = ([1.0; N], [0.0; N]);
     let mut sum = [0.0; N];
     for (k, coefficient) in coefficients.iter().enumerate() {

@@ -1,11 +1,10 @@
 //! One step: sweeps until the motion stays, then its error and the next length.
 
-use super::super::sight::{Hidden, Look, hidden};
+use super::super::sight::{Hidden, Look, OnStep, hidden};
 use super::super::step::{Step, TERMS};
 use super::super::{Batch, Counted, Motion, NODES};
 use super::attempt::{Accepted, Failed, Try};
 use super::newton::Newton;
-use super::seen::OnStep;
 use super::series::{dot, legendre};
 use super::state::State;
 use super::tableau::Tableau;
@@ -257,9 +256,8 @@ impl<'a> Collocation<'a> {
         };
         let way = OnStep {
             motion: self.motion,
-            state,
             step,
-            coefficients,
+            nodes: Some(coefficients),
         };
         hidden(&way, look)
     }

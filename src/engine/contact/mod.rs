@@ -21,8 +21,8 @@ use crate::numeric::enclosure::{Detail, Interval};
 pub use accepted_step::Stretch;
 pub use run::{Ended, Finish, run};
 
-/// Pieces of a step in each of which a quantity changes its sign at most once.
-const PIECES: u32 = 8;
+/// Pieces of a step.
+const PIECES: u32 = super::PIECES as u32;
 
 /// What the motion is doing.
 #[derive(Clone, Copy, Debug, PartialEq)]

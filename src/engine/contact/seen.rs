@@ -16,26 +16,17 @@ struct OnStep<'a, M: Contact<N>, const N: usize> {
 }
 
 impl<M: Contact<N>, const N: usize> Way for OnStep<'_, M, N> {
-    type Part = [Interval; N];
-
     /// The parabola from the start with its rates to the end; off it is less than its own bend.
-    fn reach(&self, from: f64, to: f64) -> [Interval; N] {
+    fn detail(&self, from: f64, to: f64, ellipse: f64) -> Detail {
         let h = self.end[0] - self.start[0];
-        std::array::from_fn(|i| {
+        let reach = std::array::from_fn(|i| {
             let straight = h * self.first[i];
             let bend = self.end[i] - self.start[i] - straight;
             let at = |u: f64| self.start[i] + u * (straight + u * bend);
             let width = to - from;
             Interval::between(at(from), at(to)).widened(bend.abs() * width * width)
-        })
-    }
-
-    fn missed(&self, _at: f64) -> f64 {
-        0.0
-    }
-
-    fn detail(&self, part: &[Interval; N], ellipse: f64) -> Detail {
-        self.model.detail(part, ellipse)
+        });
+        self.model.detail(&reach, ellipse)
     }
 }
 

@@ -1,6 +1,6 @@
 //! One step of the explicit method on a state of fixed size.
 
-use super::dop853::*;
+use super::dop853::{DENSE, DENSE_STAGES, ERRORS, STAGES, Term};
 
 /// Stages of one step from `start`, along any independent variable.
 #[derive(Clone, Debug)]
@@ -11,7 +11,8 @@ pub(super) struct Stages<const N: usize> {
     end: [f64; N],
 }
 
-fn sum<const N: usize, const M: usize>(k: &[[f64; N]], terms: &[Term; M]) -> [f64; N] {
+#[inline(always)]
+fn sum<const N: usize>(k: &[[f64; N]], terms: &[Term]) -> [f64; N] {
     let mut total = [0.0; N];
     for (stage, weight) in terms {
         for i in 0..N {
@@ -21,20 +22,21 @@ fn sum<const N: usize, const M: usize>(k: &[[f64; N]], terms: &[Term; M]) -> [f6
     total
 }
 
-fn moved<const N: usize, const M: usize>(
+#[inline(always)]
+fn moved<const N: usize>(
     start: &[f64; N],
     length: f64,
     k: &[[f64; N]],
-    terms: &[Term; M],
+    terms: &[Term],
 ) -> [f64; N] {
     let slope = sum(k, terms);
     std::array::from_fn(|i| start[i] + length * slope[i])
 }
 
 /// Sum of the coefficients: the node of a stage.
-const fn node<const M: usize>(terms: &[Term; M]) -> f64 {
+const fn node(terms: &[Term]) -> f64 {
     let (mut total, mut i) = (0.0, 0);
-    while i < M {
+    while i < terms.len() {
         total += terms[i].1;
         i += 1;
     }
@@ -53,23 +55,14 @@ impl<const N: usize> Stages<N> {
     ) -> Stages<N> {
         let mut k = [[0.0; N]; 13];
         k[0] = *first;
-        macro_rules! stage {
-            ($index:literal, $terms:ident) => {
-                k[$index] = rates(const { node(&$terms) }, &moved(start, length, &k, &$terms));
-            };
+        macro_rules! stages {
+            ($($index:literal)*) => {$(
+                let terms = const { STAGES[$index - 1] };
+                k[$index] = rates(const { node(STAGES[$index - 1]) }, &moved(start, length, &k, terms));
+            )*};
         }
-        stage!(1, A1);
-        stage!(2, A2);
-        stage!(3, A3);
-        stage!(4, A4);
-        stage!(5, A5);
-        stage!(6, A6);
-        stage!(7, A7);
-        stage!(8, A8);
-        stage!(9, A9);
-        stage!(10, A10);
-        stage!(11, A11);
-        let end = moved(start, length, &k, &B);
+        stages!(1 2 3 4 5 6 7 8 9 10 11);
+        let end = moved(start, length, &k, STAGES[11]);
         Stages {
             k,
             start: *start,
@@ -91,7 +84,7 @@ impl<const N: usize> Stages<N> {
     /// Local error in units of `scale`, the root of the mean of squares over `counted` components: the
     /// estimate of order 5, lowered where that of order 3 is larger still (Hairer, Nørsett and Wanner, II.10).
     pub fn error(&self, scale: &[f64; N], counted: usize) -> f64 {
-        let (fifth, third) = (sum(&self.k, &E5), sum(&self.k, &E3));
+        let (fifth, third) = (sum(&self.k, ERRORS[0]), sum(&self.k, ERRORS[1]));
         let (mut five, mut three) = (0.0, 0.0);
         for i in 0..counted {
             let (a, b) = (fifth[i] / scale[i], third[i] / scale[i]);
@@ -109,10 +102,10 @@ impl<const N: usize> Stages<N> {
         let mut k = [[0.0; N]; 16];
         k[..13].copy_from_slice(&self.k);
         let (start, h) = (&self.start, self.length);
-        k[13] = rates(const { node(&A13) }, &moved(start, h, &k, &A13));
-        k[14] = rates(const { node(&A14) }, &moved(start, h, &k, &A14));
-        k[15] = rates(const { node(&A15) }, &moved(start, h, &k, &A15));
-        let higher = [sum(&k, &D0), sum(&k, &D1), sum(&k, &D2), sum(&k, &D3)];
+        for (stage, terms) in DENSE_STAGES.into_iter().enumerate() {
+            k[13 + stage] = rates(node(terms), &moved(start, h, &k, terms));
+        }
+        let higher = DENSE.map(|terms| sum(&k, terms));
         let mut terms = [[0.0; N]; 7];
         for i in 0..N {
             let rise = self.end[i] - start[i];

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::panel::{Panel, Tried, Uncertain};
-use super::piece::{LONGEST, Piece, Turning, missing, next_end};
+use super::piece::{LONGEST, Piece, SAME_ANGLE, Turning, missing, next_end};
 use super::segment::{After, MOST_PANELS, Segment};
 use super::turn_closure::Return;
 use super::{NotApplicable, Profile};
@@ -163,7 +163,7 @@ impl Builder<'_> {
         let direction = self.begin.direction;
         let mut to = next_end(self.profile.corners(), self.at, direction, self.length);
         to = self.profile.corner_between(self.at, to).unwrap_or(to);
-        if self.gain.is_some() && direction * (to - self.whole_turn) > -1e-12 {
+        if self.gain.is_some() && direction * (to - self.whole_turn) > -SAME_ANGLE {
             to = self.whole_turn;
         }
         let at_rest = self.kinetic == 0.0;

@@ -6,13 +6,11 @@ use super::interpolated_turns::Mark;
 use super::one_turn::OneTurn;
 use super::segment::Segment;
 use crate::numeric::chebyshev::{Rule, Series};
-use crate::numeric::exact::two_sum;
+use crate::numeric::exact::{SUM_ROUNDING, two_sum};
 use crate::numeric::gauss;
 
 /// Degree of the series over the energy.
 const DEGREE: usize = 24;
-/// Where the series of T have decayed to rounding.
-const TAIL: f64 = 1e-14;
 /// Steps of x up to which the sum is that of Euler and Maclaurin: the next term is below rounding.
 const SMALL_STEP: f64 = 1.0 / 64.0;
 
@@ -68,7 +66,7 @@ impl Cell {
         let tail = difference.tail() * (difference.largest() / usual);
         let step = gain / half;
         let count = (2.0 / step.abs()).floor();
-        (tail <= TAIL && count >= 1.0).then(|| Cell {
+        (tail <= SUM_ROUNDING && count >= 1.0).then(|| Cell {
             first,
             count,
             step,

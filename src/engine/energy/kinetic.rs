@@ -2,7 +2,7 @@
 
 use super::NotApplicable;
 use super::panel::Tried;
-use super::piece::{Piece, Turning};
+use super::piece::{Piece, SAME_ANGLE, Turning};
 use crate::numeric::chebyshev::{Rule, Series, Values};
 use crate::numeric::{gauss, root};
 
@@ -16,16 +16,14 @@ pub(super) struct Energy<'a> {
     pub force: &'a Series,
 }
 
-/// A start whose speed the force makes up in a shorter way than this, rad, is not told from one at rest.
-const LEAST_WAY: f64 = 1e-12;
-
-/// The kinetic energy (J) of a start at an angle (rad) under a force (N m), if a motion can be computed from it.
+/// The kinetic energy (J) of a start at an angle (rad) under a force (N m), if a motion can be computed from it. A start whose
+/// speed the force makes up within one angle is not told from one at rest.
 pub(super) fn at_start(theta: f64, kinetic: f64, force: f64) -> Result<f64, NotApplicable> {
     if !kinetic.is_finite() || !force.is_finite() {
         Err(NotApplicable::NotFinite)
     } else if kinetic == 0.0 && force == 0.0 {
         Err(NotApplicable::Equilibrium)
-    } else if kinetic > 0.0 && kinetic < LEAST_WAY * theta.abs().max(1.0) * force.abs() {
+    } else if kinetic > 0.0 && kinetic < SAME_ANGLE * theta.abs().max(1.0) * force.abs() {
         Err(NotApplicable::TooSlow)
     } else {
         Ok(kinetic)

@@ -5,7 +5,7 @@ use super::build::Begin;
 use super::panel::{DEGREE, Panel};
 use super::piece::{Piece, missing};
 use super::segment::{After, Segment};
-use crate::numeric::chebyshev::{Rule, Values};
+use crate::numeric::chebyshev::{ROUNDING, Rule, Values};
 use crate::numeric::exact::two_sum;
 
 /// A panel with inertia (kg m²) and work since the start of the turn (J) at its points.
@@ -26,9 +26,6 @@ pub(in crate::engine) struct OneTurn {
     pub error: f64,
 }
 
-/// Series of a turn go to rounding: what they leave out adds up over the turns.
-const TAIL: f64 = 4e-15;
-
 impl OneTurn {
     /// None if the crank does not complete the turn with the kinetic energy `kinetic` (J) at its start, or only
     /// just.
@@ -40,7 +37,8 @@ impl OneTurn {
             kinetic,
             off: 0.0,
         };
-        let leg = Segment::build(profile, begin, until, TAIL, 1.0).ok()?;
+        // What series leave out adds up over the turns.
+        let leg = Segment::build(profile, begin, until, ROUNDING, 1.0).ok()?;
         if leg.after != After::GoesOn {
             return None;
         }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::Orbit;
 use super::panel::Panel;
-use super::piece::Piece;
+use super::piece::{Piece, SAME_ANGLE};
 use super::segment::{After, Segment};
 use crate::numeric::angle::Angle;
 
@@ -21,8 +21,7 @@ pub struct Passage {
     pub turning: bool,
 }
 
-/// What is as near to a mark as this is at it, rad; far from zero angles are rounded more than that.
-const NEAR: f64 = 1e-12;
+/// Rounding of angles far from zero, in parts of themselves.
 const ROUNDED: f64 = 8.0 * f64::EPSILON;
 
 impl Piece {
@@ -32,7 +31,7 @@ impl Piece {
     }
 
     fn near(&self) -> f64 {
-        NEAR.max(ROUNDED * self.from.abs().max(self.to.abs()))
+        SAME_ANGLE.max(ROUNDED * self.from.abs().max(self.to.abs()))
     }
 
     /// The next of some marked angles beyond a part of the piece, and how far it is ahead of the start, rad; its start
@@ -78,7 +77,8 @@ impl Segment {
         let turning = self.turning_point();
         self.each_panel(|panel, begin| {
             panel.each_mark(marks, |after, angle, speed| {
-                let turns_back = turning.is_some_and(|(end, _)| angle.minus(end).abs() <= NEAR);
+                let turns_back =
+                    turning.is_some_and(|(end, _)| angle.minus(end).abs() <= SAME_ANGLE);
                 turns_back || visit(begin + after, angle, speed)
             })
         })
@@ -143,7 +143,7 @@ impl Orbit {
             let marked = marks
                 .iter()
                 .map(apart)
-                .any(|apart| apart.min(TAU - apart) < NEAR);
+                .any(|apart| apart.min(TAU - apart) < SAME_ANGLE);
             let passed = |t: f64, speed: f64| self.passage(t, start, speed, self.from_rest);
             let there = 2.0 * self.forward.duration.0;
             if marked || self.from_rest {

@@ -107,6 +107,9 @@ impl Piece {
     }
 }
 
+/// Angles that differ by less are the same, rad: some hundred roundings of a sum of turns.
+pub(in crate::engine) const SAME_ANGLE: f64 = 1e-12;
+
 /// The first guess of a panel's length, rad.
 pub(in crate::engine) const LONGEST: f64 = PI + 1e-9;
 
@@ -119,7 +122,7 @@ pub(super) fn missing(start: f64, direction: f64) -> f64 {
 pub(super) fn next_end(corners: &[f64], at: f64, direction: f64, length: f64) -> f64 {
     let turn = (at / TAU).floor() * TAU;
     let mut end = at + direction * length.min(LONGEST);
-    let near = 1e-12 * at.abs().max(1.0);
+    let near = SAME_ANGLE * at.abs().max(1.0);
     for shift in [-TAU, 0.0, TAU] {
         let place = |corner: &f64| corner + turn + shift;
         let next = if direction > 0.0 {

@@ -6,15 +6,12 @@ use std::f64::consts::PI;
 
 use crate::numeric::enclosure::{Detail, ellipses, shown};
 
-pub use steps::{Proof, corner_on_step};
+pub use steps::{OnStep, hides};
 
 /// The motion on a panel or a step, over its part from 0 to 1.
 pub trait Way {
-    /// The values of all that forces depend on.
-    type Part;
-
-    /// The values between two parts of it.
-    fn reach(&self, from: f64, to: f64) -> Self::Part;
+    /// What the force does between two parts of it, and in an ellipse of this size around that.
+    fn detail(&self, from: f64, to: f64, ellipse: f64) -> Detail;
 
     /// Where a corner of the force is known to be inside a part of it, the first one.
     fn corner(&self, _from: f64, _to: f64) -> Option<f64> {
@@ -22,10 +19,9 @@ pub trait Way {
     }
 
     /// The force there less that which the nodes show.
-    fn missed(&self, at: f64) -> f64;
-
-    /// What the force does on a piece of the motion, and in an ellipse of this size around it.
-    fn detail(&self, part: &Self::Part, ellipse: f64) -> Detail;
+    fn missed(&self, _at: f64) -> f64 {
+        0.0
+    }
 }
 
 /// How a panel or a step is looked at.
@@ -89,8 +85,7 @@ pub fn hidden(way: &impl Way, look: Look) -> Option<Hidden> {
 impl Look {
     /// What the force does on a piece, and how many nodes show it, where its own are enough.
     fn nodes_on(&self, way: &impl Way, from: f64, to: f64) -> (Detail, Option<usize>) {
-        let part = way.reach(from, to);
-        self.nodes_for(|ellipse| way.detail(&part, ellipse))
+        self.nodes_for(|ellipse| way.detail(from, to, ellipse))
     }
 
     fn nodes_for(&self, detail: impl Fn(f64) -> Detail) -> (Detail, Option<usize>) {
@@ -106,7 +101,7 @@ impl Look {
     fn end(&self, way: &impl Way, piece: fn(f64) -> [f64; 2]) -> f64 {
         let little = |end: &f64| {
             let [from, to] = piece(*end);
-            let detail = way.detail(&way.reach(from, to), self.ellipses[0]);
+            let detail = way.detail(from, to, self.ellipses[0]);
             detail.change * end <= AT_CORNER * self.allowed
         };
         ENDS.into_iter().find(little).unwrap_or(0.0)

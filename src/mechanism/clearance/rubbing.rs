@@ -1,6 +1,7 @@
 //! Coulomb friction of the slider in its guide while a joint is loose.
 
 use super::{JointTouch, LooseMechanism, LooseState};
+use crate::numeric::exact::SUM_ROUNDING;
 
 /// How the slider rubs in its guide.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -22,10 +23,6 @@ pub struct GuideForces {
     /// Along +x, N.
     pub friction: f64,
 }
-
-/// A slider that is held is let go where the force exceeds what holds by this part, and one that slides has turned
-/// round where its velocity has, by this part of the speeds that occur: less than either is rounding.
-const DOUBT: f64 = 1e-14;
 
 impl LooseMechanism {
     /// Whether the guide has friction.
@@ -51,11 +48,11 @@ impl LooseMechanism {
         Rubbing::Slides(-self.held(s, touch).friction.signum())
     }
 
-    /// By how much the guide could hold the slider more than it has to, N.
+    /// By how much the guide could hold the slider more than it has to, N, beyond rounding.
     fn hold(&self, s: &LooseState, touch: JointTouch) -> f64 {
         let forces = self.held(s, touch);
         let most = self.guide.map_or(0.0, |guide| guide.static_coefficient) * forces.normal.abs();
-        most * (1.0 + DOUBT) - forces.friction.abs() * (1.0 - DOUBT)
+        most * (1.0 + SUM_ROUNDING) - forces.friction.abs() * (1.0 - SUM_ROUNDING)
     }
 
     fn held(&self, s: &LooseState, touch: JointTouch) -> GuideForces {
@@ -77,7 +74,7 @@ impl LooseMechanism {
             Rubbing::Sticks => [self.hold(s, touch), 1.0],
             Rubbing::Slides(direction) => {
                 let rates = self.rates_in(s, &self.frame(s), touch, rubbing);
-                [direction * s.v + DOUBT * speed, rates.guide.normal]
+                [direction * s.v + SUM_ROUNDING * speed, rates.guide.normal]
             }
         }
     }

@@ -37,7 +37,6 @@ impl LooseMechanism {
             x: between(|s| s.x),
             v: between(|s| s.v),
             dx: Interval::WHOLE,
-            parts: 1.0,
         };
         loads.detail(&seen, self.arms(low, sizes), ellipse)
     }

@@ -9,6 +9,9 @@ pub use rule::Rule;
 /// The largest degree of a series.
 pub const MOST: usize = 32;
 
+/// What rounding leaves of the last terms of a series and of an integral by a rule, relative to the largest.
+pub const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
 /// Values at the points of a rule, or coefficients; what is beyond its degree is zero.
 pub type Values = [f64; MOST + 1];
 

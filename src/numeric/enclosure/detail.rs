@@ -11,41 +11,6 @@ pub struct Reach {
     pub angle: Interval,
     /// rad/s
     pub speed: Interval,
-    /// Nodes are those of one of so many equal parts of it, wherever in it that may lie.
-    pub parts: f64,
-}
-
-impl Reach {
-    /// Whether another one lies in it, and is no larger than a part of it.
-    pub fn holds(&self, other: &Reach) -> bool {
-        let pairs = [
-            (self.t, other.t),
-            (self.angle, other.angle),
-            (self.speed, other.speed),
-        ];
-        pairs.iter().all(|(own, other)| {
-            own.low <= other.low
-                && other.high <= own.high
-                && other.half() * self.parts <= own.half()
-        })
-    }
-
-    /// So many times as far as it goes, ahead in time and angle, with half as many parts: the steps to come may be twice as
-    /// large.
-    pub fn ahead(&self, times: f64) -> Reach {
-        let width = |of: Interval| 2.0 * of.half() * times;
-        let later = |of: Interval| Interval::new(of.low, of.low + width(of));
-        let angle = match self.speed.low + self.speed.high < 0.0 {
-            true => -later(-self.angle),
-            false => later(self.angle),
-        };
-        Reach {
-            t: later(self.t),
-            angle,
-            speed: self.speed.widened(self.speed.half() * (times - 1.0)),
-            parts: 0.5 * times,
-        }
-    }
 }
 
 /// What a function does on a piece of a motion.

@@ -48,12 +48,7 @@ impl Enclosed {
 
     /// A variable over an interval, and in the Bernstein ellipse of this size around it.
     pub fn variable(real: Interval, ellipse: f64) -> Enclosed {
-        Enclosed::in_parts(real, ellipse, 1.0)
-    }
-
-    /// A variable over an interval, and in the ellipses of this size around all intervals in it that are shorter by `parts`.
-    pub fn in_parts(real: Interval, ellipse: f64, parts: f64) -> Enclosed {
-        let half = real.half() / parts;
+        let half = real.half();
         let [along, across] =
             [ellipse + 1.0 / ellipse, ellipse - 1.0 / ellipse].map(|axis| 0.5 * half * axis);
         let plane = Rectangle {

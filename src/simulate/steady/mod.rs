@@ -27,7 +27,7 @@ impl Default for SteadyOptions {
     fn default() -> SteadyOptions {
         SteadyOptions {
             fluctuation: None,
-            max_evaluations: 2_000_000_000,
+            max_evaluations: super::Options::default().max_evaluations,
         }
     }
 }

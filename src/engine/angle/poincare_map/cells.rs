@@ -57,27 +57,23 @@ impl<D: Driven> Way<'_, D> {
 
     /// A turn that begins with this energy, J, and its speeds, rad/s.
     fn whole_turn(&mut self, kinetic: f64) -> Result<((Segment, Turn), Interval), NotApplicable> {
-        self.march.restart(kinetic);
         self.march.gives_up = false;
-        let mut leg = Segment::open();
         let mut speeds: Option<Interval> = None;
-        loop {
-            leg.push(self.march.panel()?.panel);
-            // Panels that end at a place of this energy alone make another turn of it.
-            if self.march.hid {
-                return Err(NotApplicable::NotSmooth);
-            }
-            let here = self.march.speeds();
+        let leg = self.march.cycle(kinetic, |march| {
+            let here = march.speeds();
             speeds = Some(speeds.map_or(here, |all| all.hull(here)));
-            if self.march.at_cycle() {
-                let turn = Turn {
-                    count: self.march.turns.abs(),
-                    duration: self.march.t.0,
-                    gain: self.march.gain,
-                    work: self.march.work,
-                };
-                return Ok(((leg, turn), speeds.unwrap_or_default()));
+            // Panels that end at a place of this energy alone make another turn of it.
+            match march.hid {
+                true => Err(NotApplicable::NotSmooth),
+                false => Ok(()),
             }
-        }
+        })?;
+        let turn = Turn {
+            count: self.march.turns.abs(),
+            duration: self.march.t.0,
+            gain: self.march.gain,
+            work: self.march.work,
+        };
+        Ok(((leg, turn), speeds.unwrap_or_default()))
     }
 }

@@ -5,6 +5,7 @@ mod cells;
 use std::f64::consts::TAU;
 
 use super::super::energy::interpolated_turns::{Interpolated, Mark, Turn};
+use super::super::energy::piece::SAME_ANGLE;
 use super::super::energy::segment::Segment;
 use super::super::energy::turns::{Map, Recent, Turns};
 use super::super::energy::{NotApplicable, Orbit};
@@ -22,11 +23,8 @@ const NARROWEST: f64 = 1e-7;
 const SAFETY: f64 = 0.2;
 /// Turns between the marks that are kept.
 const BETWEEN_MARKS: f64 = 64.0;
-/// Most turns that are iterated.
-const MOST_TURNS: f64 = 2e9;
-/// After so many it is seen whether there are too many; turns that rise to a steady one before gain less by then, in the
-/// same measure.
-const WINDOW: f64 = 1e6;
+/// Most turns that are iterated, some seconds: beyond them the work limit is reached.
+const MOST_TURNS: f64 = 1e8;
 
 /// Turns that are run through one by one where the map ends, before another run takes over.
 const MOST_SINGLE_TURNS: f64 = 64.0;
@@ -51,7 +49,7 @@ pub(super) fn run<D: Driven>(
     let mut way = Way {
         tail: resolution.tail,
         width: WIDEST,
-        rises: march.rises(),
+        rises: march.gain > 0.0,
         lost: (march.gain / march.turns).abs() * f64::from(march.driven.cycle()),
         march,
         map: Interpolated {
@@ -140,7 +138,6 @@ impl<D: Driven> Way<'_, D> {
         let first = mark.turns;
         let mut known = mark;
         let mut before = mark;
-        let (mut seen, mut gained) = (0.0, f64::INFINITY);
         loop {
             let turn = match self.map.turn(mark.kinetic) {
                 Some(turn) => turn,
@@ -176,17 +173,8 @@ impl<D: Driven> Way<'_, D> {
                 self.marks.push(mark);
                 known = mark;
             }
-            let done = mark.turns - first;
-            if done > MOST_TURNS {
+            if mark.turns - first > MOST_TURNS {
                 return (known, Some(NotApplicable::WorkLimit));
-            }
-            if done >= seen {
-                // Turns that rise become shorter: more of them are left than this.
-                let rises = turn.gain > 0.0 && turn.gain >= gained * (1.0 - WINDOW / MOST_TURNS);
-                if rises && left > MOST_TURNS {
-                    return (known, Some(NotApplicable::TooManyTurns));
-                }
-                (seen, gained) = (seen + WINDOW, turn.gain);
             }
             self.rises = turn.gain > 0.0;
             self.lost = turn.gain.abs();
@@ -242,11 +230,10 @@ impl<D: Driven> Way<'_, D> {
         self.march.restart(mark.kinetic);
         self.march.gives_up = true;
         let most = match map_ended {
-            None | Some(NotApplicable::WorkLimit | NotApplicable::TooManyTurns) => 1.0,
+            None | Some(NotApplicable::WorkLimit) => 1.0,
             Some(_) => MOST_SINGLE_TURNS,
         };
-        let limited = map_ended
-            .filter(|why| matches!(why, NotApplicable::WorkLimit | NotApplicable::TooManyTurns));
+        let limited = map_ended.filter(|why| *why == NotApplicable::WorkLimit);
         if limited.is_some() {
             self.march.most_evaluations = u64::MAX;
         }
@@ -261,7 +248,7 @@ impl<D: Driven> Way<'_, D> {
             self.last.push(done.panel.clone());
             let passed = match goal {
                 Goal::Time(until) => self.march.t.0 > (until - mark.t.0) - mark.t.1,
-                Goal::Turned(way) => turned + mark.turns * TAU >= way - 1e-12,
+                Goal::Turned(way) => turned + mark.turns * TAU >= way - SAME_ANGLE,
             };
             let all = self.march.at_cycle() && self.march.turns.abs() >= most;
             match map_ended {

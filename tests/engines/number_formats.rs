@@ -1,6 +1,10 @@
-//! Tests of interpolation.
+//! Interpolation and double-double arithmetic against published values and whole numbers.
 
-use super::*;
+use std::f64::consts::TAU;
+
+use slider_crank::numeric::angle::TAU_REST;
+use slider_crank::numeric::double_double::DoubleDouble;
+use slider_crank::numeric::interpolate::{Curve, Interpolation, lacks};
 
 /// Values of an independent implementation (scipy.interpolate.PchipInterpolator).
 #[test]
@@ -75,4 +79,52 @@ fn a_periodic_curve_closes_smoothly() {
     assert!((curve.value(1.0) - curve.value(1.0 + 40.0 * TAU)).abs() < 1e-13);
     assert!((curve.value(1.0) - curve.value(1.0 - 3.0 * TAU)).abs() < 1e-14);
     assert!((slope(0.0) - slope(TAU - 1e-9)).abs() < 1e-6);
+}
+
+/// What a number has beyond its nearest float.
+fn low(a: DoubleDouble) -> f64 {
+    (a - a.value()).value()
+}
+
+fn close(a: DoubleDouble, b: DoubleDouble) -> bool {
+    (a - b).value().abs() <= 1e-30 * b.value().abs().max(1.0)
+}
+
+#[test]
+fn the_rules_of_arithmetic_hold() {
+    let mut a = DoubleDouble::from(0.3);
+    for k in 1..500 {
+        let b = DoubleDouble::from(1.7 * f64::from(k)).sqrt() / 3.0;
+        assert!(close(a / b * b, a) && close((a - b) + b, a));
+        assert!(close(
+            b * b * 9.0,
+            DoubleDouble::from(1.7 * f64::from(k)) * (b / b)
+        ));
+        assert!(close((a + b) * (a - b), a * a - b * b));
+        a = (a * b + 0.1) / (b + 1.0);
+    }
+    // 1/3 is 0.333…: the second half is what the first leaves out.
+    let third = DoubleDouble::ONE / 3.0;
+    assert_eq!((third * 3.0 - 1.0).value().abs() < 1e-31, low(third) != 0.0);
+    assert!(DoubleDouble::from(-1.0).sqrt().value().is_nan());
+}
+
+#[test]
+fn sine_and_cosine_are_right_to_the_last_digits() {
+    for k in -400..400 {
+        let a = DoubleDouble::from(0.37 * f64::from(k)) + 1e-17;
+        let b = DoubleDouble::from(1.1 - 5000.0 * f64::from(k));
+        let ((sin_a, cos_a), (sin_b, cos_b)) = (a.sin_cos(), b.sin_cos());
+        let (sin, cos) = (a + b).sin_cos();
+        assert!(close(sin_a * sin_a + cos_a * cos_a, DoubleDouble::ONE));
+        // The sum of the angles is rounded too.
+        let close = |x: DoubleDouble, y| (x - y).value().abs() < 1e-25;
+        assert!(close(sin, sin_a * cos_b + cos_a * sin_b), "{k}");
+        assert!(close(cos, cos_a * cos_b - sin_a * sin_b), "{k}");
+    }
+    // Digits 17 to 32 of sine and cosine of a half.
+    let (sin, cos) = DoubleDouble::from(0.5).sin_cos();
+    assert_eq!((sin.value(), cos.value()), 0.5f64.sin_cos());
+    assert!((low(sin) - -5.103969860556013e-18).abs() < 1e-31);
+    assert!((low(cos) - -4.2623149864279997e-17).abs() < 1e-31);
 }

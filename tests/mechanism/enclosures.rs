@@ -1,0 +1,63 @@
+//! Ranges of positions hold every position in them, on each kind of configuration curve.
+
+use slider_crank::mechanism::{Class, Curve, Limits, Linkage};
+use slider_crank::numeric::angle::Angle;
+use slider_crank::numeric::enclosure::{Interval, Reach};
+use slider_crank::scene::{Branch, Geometry};
+
+/// Crank, rod, offset (m) and start (rad): each kind of curve.
+const CURVES: [([f64; 3], f64); 6] = [
+    ([0.05, 0.15, 0.01], 0.3),
+    ([0.15, 0.05, 0.01], 0.2),
+    ([0.15, 0.05, -0.01], 3.0),
+    ([0.1, 0.12, 0.05], 0.4),
+    ([0.1, 0.12, -0.05], 0.4),
+    ([0.1, 0.1, 0.0], 0.4),
+];
+
+#[test]
+fn every_position_lies_in_its_enclosure() {
+    let mut kinds = std::collections::BTreeSet::new();
+    for (lengths, start) in CURVES {
+        for branch in [Branch::Right, Branch::Left] {
+            let [crank, rod, offset] = lengths;
+            let geometry = Geometry {
+                crank,
+                rod,
+                offset,
+                branch,
+            };
+            let linkage = Linkage::new(&geometry);
+            kinds.insert(format!("{:?}", Class::of(&linkage)));
+            assert!(Limits::new(&linkage, start).dead_centres.len() < 9);
+            let (curve, _) = Curve::through(&linkage, Angle::from(start)).expect("a position");
+            for k in 0..200 {
+                let low = -7.0 + 0.07 * f64::from(k);
+                let width = 2.0f64.powi(-(k % 12));
+                let q = Interval::new(low, low + width);
+                let reach = Reach {
+                    t: Interval::point(0.0),
+                    angle: q,
+                    speed: Interval::point(1.0),
+                };
+                let seen = curve.seen(&reach, true);
+                for part in 0..=20 {
+                    let q = low + width * f64::from(part) / 20.0;
+                    let place = curve.place(q);
+                    let theta = curve.crank_angle(Angle::from(q)).radians();
+                    let holds = |of: Interval, value: f64| {
+                        assert!(
+                            of.widened(1e-13).contains(value),
+                            "{of:?} {value} {curve:?}"
+                        );
+                    };
+                    holds(seen.theta, theta);
+                    holds(seen.omega, place.dtheta);
+                    holds(seen.x, place.x);
+                    holds(seen.dx, place.dx);
+                }
+            }
+        }
+    }
+    assert_eq!(kinds.len(), 4, "{kinds:?}");
+}
