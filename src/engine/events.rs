@@ -29,7 +29,7 @@ pub fn crossings(step: &Step, watched: &[f64], found: &mut Vec<(f64, Crossing)>)
     let mut count = 1;
     turning_brackets(step, |from, to| {
         if count <= TURNINGS
-            && let Some(t) = step.time_of_rest(from, to)
+            && let Some(t) = root::bracketed(|t| step.at(t).1, from, to)
             && t > step.start.t
         {
             found.push((t, Crossing::Turning));
@@ -61,7 +61,7 @@ fn turning_brackets(step: &Step, mut bracket: impl FnMut(f64, f64)) {
         // A speed that comes nearer to zero at first, and then leaves again.
         let dips = before.approach < 0.0 && after.approach > 0.0 || before.speed == 0.0;
         let lowest = if dips {
-            step.time_of_extreme_speed(before.t, t)
+            root::bracketed(|t| step.acceleration_at(t), before.t, t)
         } else {
             None
         };

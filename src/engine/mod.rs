@@ -56,10 +56,7 @@ pub trait Motion {
     /// Accelerations and powers of a batch.
     fn fill(&self, batch: &mut Batch) {
         for i in 0..NODES {
-            let angle = Angle {
-                turns: batch.turns,
-                rest: batch.theta[i],
-            };
+            let angle = Angle::new(batch.turns, batch.theta[i]);
             (batch.alpha[i], batch.power[i]) =
                 self.acceleration_and_power(batch.t[i], angle, batch.omega[i]);
         }
@@ -177,10 +174,7 @@ impl Motion for Counted<'_> {
         self.motion.fill(batch);
         self.evaluations.set(self.evaluations.get() + NODES as u64);
         for i in 0..NODES {
-            let angle = Angle {
-                turns: batch.turns,
-                rest: batch.theta[i],
-            };
+            let angle = Angle::new(batch.turns, batch.theta[i]);
             self.remember(batch.alpha[i], batch.t[i], angle, batch.omega[i]);
         }
     }

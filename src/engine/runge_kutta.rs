@@ -166,10 +166,7 @@ struct Adapter<'a, 's> {
 impl<const N: usize> System<f64, SVector<f64, N>> for Adapter<'_, '_> {
     fn system(&self, x: f64, y: &SVector<f64, N>, dy: &mut SVector<f64, N>) {
         let t = self.call.start.t + self.clock.map_or(x, |i| y[i]);
-        let angle = Angle {
-            turns: self.call.turns,
-            rest: y[0],
-        };
+        let angle = Angle::new(self.call.turns, y[0]);
         dy[0] = y[1];
         if let Some(i) = self.work {
             let (alpha, power) = self.call.motion.acceleration_and_power(t, angle, y[1]);

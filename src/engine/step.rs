@@ -91,10 +91,7 @@ impl Step {
 
     /// The whole angle that belongs to `theta` of this step.
     pub fn angle(&self, theta: f64) -> Angle {
-        Angle {
-            turns: self.turns,
-            rest: theta,
-        }
+        Angle::new(self.turns, theta)
     }
 
     /// Angle (beside the turns) and speed at time t inside the step.
@@ -232,15 +229,5 @@ impl Step {
     /// sides of it there.
     pub fn time_of_angle(&self, theta: f64, from: f64, to: f64) -> Option<f64> {
         root::bracketed(|t| self.at(t).0 - theta, from, to)
-    }
-
-    /// When the speed is extreme between `from` and `to`, s.
-    pub fn time_of_extreme_speed(&self, from: f64, to: f64) -> Option<f64> {
-        root::bracketed(|t| self.acceleration_at(t), from, to)
-    }
-
-    /// When the speed vanishes between `from` and `to`, s.
-    pub fn time_of_rest(&self, from: f64, to: f64) -> Option<f64> {
-        root::bracketed(|t| self.at(t).1, from, to)
     }
 }

@@ -61,10 +61,7 @@ impl Equation {
         let loads = self.loads();
         for i in 0..N {
             let (x, dx, omega) = (sides.x[i], sides.dx[i], at.omega[i]);
-            let angle = Angle {
-                turns: at.turns,
-                rest: at.theta[i],
-            };
+            let angle = Angle::new(at.turns, at.theta[i]);
             let steady = loads.with_potential_at(x);
             let spent = loads.without_potential_beside(at.of_time[i], at.t[i], angle, omega, x, dx);
             let spent = spent.torque + spent.force * dx;

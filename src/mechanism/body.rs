@@ -4,35 +4,53 @@
 use super::{Linkage, Pose};
 use crate::scene::{RodModel, Scene};
 
-/// Where the mass of a body sits.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Body {
-    /// Fixed to the crank: coordinates along O→A and to its left, m.
-    OnCrank {
-        /// kg
-        mass: f64,
-        /// m
-        along: f64,
-        /// m
-        left: f64,
-    },
-    /// Fixed to the rod: coordinates of its centre of gravity from A along A→P and to its left, m;
-    /// moment of inertia about it, kg m².
-    OnRod {
-        /// kg
-        mass: f64,
-        /// m
-        along: f64,
-        /// m
-        left: f64,
-        /// kg m²
-        inertia: f64,
-    },
-    /// Fixed to the slider.
-    OnSlider {
-        /// kg
-        mass: f64,
-    },
+/// What a body is fixed to.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Link {
+    /// Crank, from O to A.
+    Crank,
+    /// Rod, from A to P.
+    #[default]
+    Rod,
+    /// Slider.
+    Slider,
+}
+
+/// A body and where its mass sits.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Body {
+    /// What it is fixed to.
+    pub on: Link,
+    /// kg
+    pub mass: f64,
+    /// Centre of gravity along the link from the end that it begins at, m.
+    pub along: f64,
+    /// Centre of gravity to the left of that, m.
+    pub left: f64,
+    /// Moment of inertia about the centre of gravity, kg m²; of a crank about O.
+    pub inertia: f64,
+}
+
+impl Body {
+    /// A point mass on a link.
+    fn point(on: Link, mass: f64, along: f64, left: f64) -> Body {
+        let inertia = 0.0;
+        Body {
+            on,
+            mass,
+            along,
+            left,
+            inertia,
+        }
+    }
+
+    /// Centre of gravity from the end that its link begins at, m, for the direction of the link (a unit vector).
+    pub(super) fn arm(&self, [cos, sin]: [f64; 2]) -> [f64; 2] {
+        [
+            self.along * cos - self.left * sin,
+            self.along * sin + self.left * cos,
+        ]
+    }
 }
 
 /// Derivatives of a body's path and turn angle with respect to the crank angle.
@@ -135,22 +153,17 @@ impl Bodies {
         if let Some(crank) = &scene.crank {
             bodies.crank_inertia = crank.inertia;
             if crank.mass != 0.0 {
-                bodies.heavy.push(Body::OnCrank {
-                    mass: crank.mass,
-                    along: crank.cg,
-                    left: crank.cg_lateral,
-                });
+                let body = Body::point(Link::Crank, crank.mass, crank.cg, crank.cg_lateral);
+                bodies.heavy.push(body);
             }
         }
         if let Some(rod) = &scene.rod {
             match rod.model {
                 RodModel::Massless => {}
                 RodModel::Rigid => {
-                    let body = Body::OnRod {
-                        mass: rod.mass,
-                        along: rod.cg,
-                        left: rod.cg_lateral,
+                    let body = Body {
                         inertia: rod.central_inertia().max(0.0),
+                        ..Body::point(Link::Rod, rod.mass, rod.cg, rod.cg_lateral)
                     };
                     bodies.moving.push(body);
                     bodies.heavy.push(body);
@@ -159,30 +172,23 @@ impl Bodies {
                     let at_wrist_pin = rod.mass * rod.cg / scene.geometry.rod;
                     let at_crank_pin = rod.mass - at_wrist_pin;
                     bodies.crank_inertia += at_crank_pin * r * r;
-                    bodies.heavy.push(Body::OnCrank {
-                        mass: at_crank_pin,
-                        along: r,
-                        left: 0.0,
-                    });
+                    let body = Body::point(Link::Crank, at_crank_pin, r, 0.0);
+                    bodies.heavy.push(body);
                     slider_mass += at_wrist_pin;
                 }
                 RodModel::SpinOnly => {
-                    bodies.moving.push(Body::OnRod {
-                        mass: 0.0,
-                        along: 0.0,
-                        left: 0.0,
+                    bodies.moving.push(Body {
                         inertia: rod.inertia,
+                        ..Body::default()
                     });
-                    bodies.heavy.push(Body::OnCrank {
-                        mass: rod.mass,
-                        along: scene.geometry.rod + rod.cg,
-                        left: 0.0,
-                    });
+                    let along = scene.geometry.rod + rod.cg;
+                    let body = Body::point(Link::Crank, rod.mass, along, 0.0);
+                    bodies.heavy.push(body);
                 }
             }
         }
         if slider_mass != 0.0 {
-            let slider = Body::OnSlider { mass: slider_mass };
+            let slider = Body::point(Link::Slider, slider_mass, 0.0, 0.0);
             bodies.moving.push(slider);
             bodies.heavy.push(slider);
         }
@@ -192,10 +198,6 @@ impl Bodies {
     /// Whether anything resists acceleration, in some position.
     pub fn have_inertia(&self) -> bool {
         let mut moving = self.moving.iter();
-        self.crank_inertia != 0.0
-            || moving.any(|body| match *body {
-                Body::OnRod { mass, inertia, .. } => mass != 0.0 || inertia != 0.0,
-                Body::OnCrank { mass, .. } | Body::OnSlider { mass } => mass != 0.0,
-            })
+        self.crank_inertia != 0.0 || moving.any(|body| body.mass != 0.0 || body.inertia != 0.0)
     }
 }

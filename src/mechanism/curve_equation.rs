@@ -5,7 +5,7 @@
 //! N = A q̈ + B q̇² + V_n − Q_n with A = Σ m p_n·p' + I ψ_n ψ', B = Σ m p_n·p'' + I ψ_n ψ''.
 
 use super::friction::{Free, Touch};
-use super::{Bodies, Body, Curve, Equation, Loads, Place, Sense};
+use super::{Bodies, Body, Curve, Equation, Link, Loads, Place, Sense};
 use crate::numeric::angle::Angle;
 use crate::scene::{Friction, Instant, Scene};
 
@@ -114,7 +114,7 @@ impl CurveEquation {
             x_n: frame.x_n,
         };
         for body in &self.moving {
-            let (mass, inertia, way) = frame.of(body);
+            let (mass, inertia, way) = (body.mass, body.inertia, frame.of(body));
             let ([along, bend, aside], [spin, twist, tilt]) = (way.p, way.psi);
             terms.m += mass * dot(along, along) + inertia * spin * spin;
             terms.half_dm += mass * dot(along, bend) + inertia * spin * twist;
@@ -123,9 +123,9 @@ impl CurveEquation {
         }
         if self.gravity != [0.0; 2] {
             for body in &self.heavy {
-                let (mass, _, way) = frame.of(body);
-                terms.dv -= mass * dot(self.gravity, way.p[0]);
-                terms.dv_n -= mass * dot(self.gravity, way.p[2]);
+                let way = frame.of(body);
+                terms.dv -= body.mass * dot(self.gravity, way.p[0]);
+                terms.dv_n -= body.mass * dot(self.gravity, way.p[2]);
             }
         }
         terms
@@ -236,36 +236,21 @@ struct Frame<'a> {
 }
 
 impl Frame<'_> {
-    fn of(&self, body: &Body) -> (f64, f64, Way) {
-        match *body {
-            Body::OnCrank { mass, along, left } => {
-                let (sin, cos) = (self.place.sin, self.place.cos);
-                let arm = [along * cos - left * sin, along * sin + left * cos];
-                (mass, 0.0, turning(arm, self.theta))
-            }
-            Body::OnRod {
-                mass,
-                along,
-                left,
-                inertia,
-            } => {
-                let [dx, dy] = self.along;
-                let arm = [along * dx - left * dy, along * dy + left * dx];
+    fn of(&self, body: &Body) -> Way {
+        match body.on {
+            Link::Crank => turning(body.arm([self.place.cos, self.place.sin]), self.theta),
+            Link::Rod => {
                 let pin = turning(self.a, self.theta);
-                let rest = turning(arm, self.rod.map(|turn| -turn));
+                let rest = turning(body.arm(self.along), self.rod.map(|turn| -turn));
                 let p = std::array::from_fn(|i| {
                     [pin.p[i][0] + rest.p[i][0], pin.p[i][1] + rest.p[i][1]]
                 });
-                (mass, inertia, Way { p, psi: rest.psi })
+                Way { p, psi: rest.psi }
             }
-            Body::OnSlider { mass } => (
-                mass,
-                0.0,
-                Way {
-                    p: [[self.place.dx, 0.0], [self.place.d2x, 0.0], [self.x_n, 1.0]],
-                    psi: [0.0; 3],
-                },
-            ),
+            Link::Slider => Way {
+                p: [[self.place.dx, 0.0], [self.place.d2x, 0.0], [self.x_n, 1.0]],
+                psi: [0.0; 3],
+            },
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The Lagrange equation M θ̈ + ½ M' θ̇² + V' = Q, forward and backward.
 
-use super::{Bodies, Body, Linkage, LoadValue, Loads, Path, Pose};
+use super::{Bodies, Body, Link, Linkage, LoadValue, Loads, Path, Pose};
 use crate::numeric::angle::Angle;
 use crate::scene::Scene;
 
@@ -44,20 +44,12 @@ pub struct Terms {
 pub struct Equation {
     linkage: Linkage,
     crank_inertia: f64,
-    rod: Option<RodInertia>,
+    rod: Option<Body>,
     slider_mass: f64,
     weight: Option<Weight>,
     loads: Loads,
     heavy: Vec<Body>,
     gravity: [f64; 2],
-}
-
-#[derive(Clone, Copy, Debug, Default)]
-struct RodInertia {
-    mass: f64,
-    along: f64,
-    left: f64,
-    inertia: f64,
 }
 
 /// V' = sine·sin θ + cosine·cos θ − rod weight · p' − slider weight·x'.
@@ -86,24 +78,13 @@ impl Equation {
             gravity,
         };
         for body in &bodies.moving {
-            match *body {
-                Body::OnCrank { mass, along, left } => {
-                    equation.crank_inertia += mass * (along * along + left * left);
+            match body.on {
+                Link::Crank => {
+                    let squared = body.along * body.along + body.left * body.left;
+                    equation.crank_inertia += body.mass * squared;
                 }
-                Body::OnRod {
-                    mass,
-                    along,
-                    left,
-                    inertia,
-                } => {
-                    equation.rod = Some(RodInertia {
-                        mass,
-                        along,
-                        left,
-                        inertia,
-                    });
-                }
-                Body::OnSlider { mass } => equation.slider_mass += mass,
+                Link::Rod => equation.rod = Some(*body),
+                Link::Slider => equation.slider_mass += body.mass,
             }
         }
         equation.weight = weight(&equation.heavy, gravity);
@@ -140,7 +121,7 @@ impl Equation {
     }
 
     #[inline(always)]
-    fn terms_of(&self, pose: Pose, rod: Option<&RodInertia>, weight: Option<&Weight>) -> Terms {
+    fn terms_of(&self, pose: Pose, rod: Option<&Body>, weight: Option<&Weight>) -> Terms {
         let mut inertia = Inertia {
             m: self.crank_inertia,
             half_dm: 0.0,
@@ -239,27 +220,17 @@ impl Equation {
     pub(super) fn gravity_at(&self, crank: [f64; 2], rod: [f64; 2], x: f64) -> f64 {
         let [gx, gy] = self.gravity;
         let energy = |body: &Body| {
-            let (mass, place) = self.place(body, crank, rod, x);
-            -mass * (gx * place[0] + gy * place[1])
+            let place = match body.on {
+                Link::Crank => body.arm(crank),
+                Link::Rod => {
+                    let (pin, arm) = (crank.map(|part| self.linkage.r * part), body.arm(rod));
+                    [pin[0] + arm[0], pin[1] + arm[1]]
+                }
+                Link::Slider => [x, -self.linkage.e],
+            };
+            -body.mass * (gx * place[0] + gy * place[1])
         };
         self.heavy.iter().map(energy).sum()
-    }
-
-    /// Mass and place of a body.
-    fn place(&self, body: &Body, crank: [f64; 2], rod: [f64; 2], x: f64) -> (f64, [f64; 2]) {
-        let turned = |[cos, sin]: [f64; 2], along: f64, left: f64| {
-            [along * cos - left * sin, along * sin + left * cos]
-        };
-        match *body {
-            Body::OnCrank { mass, along, left } => (mass, turned(crank, along, left)),
-            Body::OnRod {
-                mass, along, left, ..
-            } => {
-                let (pin, arm) = (turned(crank, self.linkage.r, 0.0), turned(rod, along, left));
-                (mass, [pin[0] + arm[0], pin[1] + arm[1]])
-            }
-            Body::OnSlider { mass } => (mass, [x, -self.linkage.e]),
-        }
     }
 }
 
@@ -276,13 +247,14 @@ fn weight(heavy: &[Body], gravity: [f64; 2]) -> Option<Weight> {
     let [gx, gy] = gravity;
     let mut weight = Weight::default();
     for body in heavy {
-        match *body {
-            Body::OnCrank { mass, along, left } => {
+        let (mass, along, left) = (body.mass, body.along, body.left);
+        match body.on {
+            Link::Crank => {
                 weight.sine += mass * (gx * along + gy * left);
                 weight.cosine += mass * (gx * left - gy * along);
             }
-            Body::OnRod { mass, .. } => weight.rod = [mass * gx, mass * gy],
-            Body::OnSlider { mass } => weight.slider += mass * gx,
+            Link::Rod => weight.rod = [mass * gx, mass * gy],
+            Link::Slider => weight.slider += mass * gx,
         }
     }
     Some(weight)

@@ -74,24 +74,24 @@ impl Linkage {
     /// The linkage of a scene's geometry.
     pub fn new(geometry: &Geometry) -> Linkage {
         let (r, l, e) = (geometry.crank, geometry.rod, geometry.offset);
+        Linkage::of(r, l, e, geometry.branch.sign())
+    }
+
+    fn of(r: f64, l: f64, e: f64, s: f64) -> Linkage {
+        let (above, below) = (heights(l, e, r), heights(l, -e, r));
         Linkage {
             r,
             l,
             e,
-            s: geometry.branch.sign(),
-            above: heights(l, e, r),
-            below: heights(l, -e, r),
+            s,
+            above,
+            below,
         }
     }
 
     /// The linkage with another rod length, m.
     pub fn with_rod(&self, l: f64) -> Linkage {
-        Linkage {
-            l,
-            above: heights(l, self.e, self.r),
-            below: heights(l, -self.e, self.r),
-            ..*self
-        }
+        Linkage::of(self.r, l, self.e, self.s)
     }
 
     /// The linkage that reaches as far as the guide does not lock itself by a friction coefficient, if there are positions
@@ -111,14 +111,7 @@ impl Linkage {
 
     /// Crank and rod exchanged: r sin θ = l sin Φ − e. `s` is the sign of cos θ.
     pub(super) fn exchanged(&self, s: f64) -> Linkage {
-        Linkage {
-            r: self.l,
-            l: self.r,
-            e: -self.e,
-            s,
-            above: heights(self.r, -self.e, self.l),
-            below: heights(self.r, self.e, self.l),
-        }
+        Linkage::of(self.l, self.r, -self.e, s)
     }
 
     /// Whether the rod reaches the guide at crank angle `theta` (rad), to rounding.

@@ -152,11 +152,6 @@ impl Loads {
         self.torque
     }
 
-    /// Whether a constant torque does work in every turn.
-    pub fn turn_the_crank(&self) -> bool {
-        self.torque != 0.0
-    }
-
     /// The next time after `t` (s) at which a load is not smooth in time.
     pub fn next_corner(&self, t: f64) -> f64 {
         self.called()
@@ -166,14 +161,9 @@ impl Loads {
 
     /// Torque and force of all loads together.
     pub fn value(&self, t: f64, theta: impl Into<Angle>, omega: f64, pose: &Pose) -> LoadValue {
-        let steady = self.with_potential(pose);
+        let steady = self.with_potential_at(pose.x);
         let rest = self.without_potential(t, theta, omega, pose);
         steady.plus(rest)
-    }
-
-    /// Torque and force of the loads that have a potential.
-    pub fn with_potential(&self, pose: &Pose) -> LoadValue {
-        self.with_potential_at(pose.x)
     }
 
     /// Loads with a potential at slider position x, m.

@@ -36,7 +36,7 @@ mod torque_slope;
 
 pub use at_rest::{AtRest, Held};
 pub use batch::Instants;
-pub use body::{Bodies, Body, Path};
+pub use body::{Bodies, Body, Link, Path};
 pub use clearance::{
     Depth, GuideForces, JointTouch, LooseMechanism, LooseRates, LooseState, NormalForce, Rubbing,
     SpeedSizes, Turned,

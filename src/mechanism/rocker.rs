@@ -90,10 +90,7 @@ impl Rocker {
             let cosine = self.crank.cosine(sin, cos);
             (0.0, (self.crank.root * sin).atan2(cosine))
         };
-        Angle {
-            turns: self.mirror * turns,
-            rest: self.mirror * (2.0 * half - FRAC_PI_2),
-        }
+        Angle::new(self.mirror * turns, self.mirror * (2.0 * half - FRAC_PI_2))
     }
 
     /// Whether two positions of the same lengths lie on one curve, on which the slider moves.

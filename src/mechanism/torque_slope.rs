@@ -1,6 +1,6 @@
 //! Derivatives of the driving torque at constant speed with respect to the lengths, in closed form.
 
-use super::{Bodies, Body, Length, Linkage, Path, Pose, PoseSlope, single};
+use super::{Bodies, Body, Length, Link, Linkage, Path, Pose, PoseSlope, single};
 use crate::error::Error;
 use crate::scene::{Instant, Load, RodModel, Scene, Variables};
 
@@ -47,11 +47,10 @@ impl TorqueSlope {
         match &scene.rod {
             Some(rod) if rod.model == RodModel::TwoMass => {
                 // Its mass at the crank pin moves with the pin, and is not fixed to the crank.
-                let on_crank = |body: &Body| matches!(body, Body::OnCrank { .. });
-                if let Some(last) = found.heavy.iter().rposition(on_crank)
-                    && let Body::OnCrank { mass, .. } = found.heavy.remove(last)
-                {
-                    found.two_mass = Some([rod.mass, rod.cg, mass]);
+                let on_crank = |body: &Body| body.on == Link::Crank;
+                if let Some(last) = found.heavy.iter().rposition(on_crank) {
+                    let at_crank_pin = found.heavy.remove(last).mass;
+                    found.two_mass = Some([rod.mass, rod.cg, at_crank_pin]);
                 }
             }
             Some(rod) if rod.model == RodModel::SpinOnly => found.spin_only = Some(rod.mass),
@@ -86,15 +85,16 @@ impl TorqueSlope {
         let slope = self.linkage.slope(pose, length);
         let squared = omega * omega;
         let moving = self.moving.iter().map(|body| {
-            let (mass, inertia, path, change) = self.paths(body, pose, &slope);
+            let (mass, inertia) = (body.mass, body.inertia);
+            let [path, change] = self.paths(body, pose, &slope);
             let bilinear = |a: &Path, b: &Path| {
                 mass * (a.dp[0] * b.d2p[0] + a.dp[1] * b.d2p[1]) + inertia * a.dpsi * b.d2psi
             };
             squared * (bilinear(&change, &path) + bilinear(&path, &change))
         });
         let heavy = self.heavy.iter().map(|body| {
-            let (mass, _, _, change) = self.paths(body, pose, &slope);
-            -mass * (self.gravity[0] * change.dp[0] + self.gravity[1] * change.dp[1])
+            let [_, change] = self.paths(body, pose, &slope);
+            -body.mass * (self.gravity[0] * change.dp[0] + self.gravity[1] * change.dp[1])
         });
         let inertia: f64 = moving.chain(heavy).sum();
         let now = Instant {
@@ -114,19 +114,12 @@ impl TorqueSlope {
         inertia - force * slope.dx - force_slope * pose.dx + self.moved_mass(pose, squared, length)
     }
 
-    /// Mass, moment of inertia, path, and the change of the path with the length.
-    fn paths(&self, body: &Body, pose: &Pose, slope: &PoseSlope) -> (f64, f64, Path, Path) {
-        match *body {
-            Body::OnCrank { mass, along, left } => {
-                let path = Path::on_crank(pose, along, left);
-                (mass, 0.0, path, Path::default())
-            }
-            Body::OnRod {
-                mass,
-                along,
-                left,
-                inertia,
-            } => {
+    /// The path of a body, and its change with the length.
+    fn paths(&self, body: &Body, pose: &Pose, slope: &PoseSlope) -> [Path; 2] {
+        let (along, left) = (body.along, body.left);
+        match body.on {
+            Link::Crank => [Path::on_crank(pose, along, left), Path::default()],
+            Link::Rod => {
                 let path = Path::on_rod(&self.linkage, pose, along, left);
                 let pin = Path::on_crank(pose, slope.crank, 0.0);
                 let part = |pin: [f64; 2], [x, y]: [f64; 2]| {
@@ -139,15 +132,15 @@ impl TorqueSlope {
                     dpsi: -s * slope.dphi,
                     d2psi: -s * slope.d2phi,
                 };
-                (mass, inertia, path, change)
+                [path, change]
             }
-            Body::OnSlider { mass } => {
+            Link::Slider => {
                 let change = Path {
                     dp: [slope.dx, 0.0],
                     d2p: [slope.d2x, 0.0],
                     ..Path::default()
                 };
-                (mass, 0.0, Path::on_slider(pose), change)
+                [Path::on_slider(pose), change]
             }
         }
     }

@@ -16,11 +16,16 @@ pub struct Angle {
 
 impl From<f64> for Angle {
     fn from(rest: f64) -> Angle {
-        Angle { turns: 0.0, rest }
+        Angle::new(0.0, rest)
     }
 }
 
 impl Angle {
+    /// So many whole turns and the rest, rad.
+    pub fn new(turns: f64, rest: f64) -> Angle {
+        Angle { turns, rest }
+    }
+
     /// The whole angle, rad, rounded once.
     pub fn radians(self) -> f64 {
         self.turns * TAU + (self.turns * TAU_REST + self.rest)
@@ -33,27 +38,20 @@ impl Angle {
             return self;
         }
         let turns = (self.rest / TAU).floor();
-        Angle {
-            turns: self.turns + turns,
-            rest: (self.rest - turns * TAU) - turns * TAU_REST,
-        }
+        Angle::new(
+            self.turns + turns,
+            (self.rest - turns * TAU) - turns * TAU_REST,
+        )
     }
 
     /// This angle minus another, rad.
     pub fn minus(self, other: Angle) -> f64 {
-        Angle {
-            turns: self.turns - other.turns,
-            rest: self.rest - other.rest,
-        }
-        .radians()
+        Angle::new(self.turns - other.turns, self.rest - other.rest).radians()
     }
 
     /// This angle and `more` radians.
     pub fn plus(self, more: f64) -> Angle {
-        Angle {
-            turns: self.turns,
-            rest: self.rest + more,
-        }
+        Angle::new(self.turns, self.rest + more)
     }
 }
 

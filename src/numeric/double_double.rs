@@ -34,6 +34,8 @@ fn product(a: f64, b: f64) -> (f64, f64) {
 }
 
 impl DoubleDouble {
+    /// Relative rounding of one operation: some 2⁻¹⁰⁴ (Dekker).
+    pub const ROUNDING: f64 = f64::EPSILON * f64::EPSILON;
     /// Zero.
     pub const ZERO: DoubleDouble = DoubleDouble {
         high: 0.0,

@@ -161,23 +161,6 @@ fn advance<T: Real>(
     sums.map(total)
 }
 
-impl Expansion<f64> {
-    /// The polynomial at `t`, up to a degree.
-    pub fn value(&self, degree: usize, t: f64) -> f64 {
-        let s = (t - self.middle) / self.half;
-        let (mut before, mut now, mut sum) = (0.0, 0.0, 0.0);
-        for (j, coefficient) in self.coefficients.iter().enumerate().take(degree + 1) {
-            let next = match j {
-                0 => 1.0 / self.norms[0],
-                _ => ((s - self.centres[j - 1]) * now - self.norms[j - 1] * before) / self.norms[j],
-            };
-            (before, now) = (now, next);
-            sum += coefficient * now;
-        }
-        sum
-    }
-}
-
 impl<T: Copy> Expansion<T> {
     /// The expansion in other numbers.
     pub fn convert<S>(&self, number: &impl Fn(T) -> S) -> Expansion<S> {

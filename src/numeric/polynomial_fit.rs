@@ -47,10 +47,6 @@ pub struct PolynomialFit {
     pub standard_errors: Vec<f64>,
     /// Standard deviation of a target, at least the floor.
     pub sigma: f64,
-    /// Root mean square of the residuals.
-    pub rms: f64,
-    /// Coefficient of determination; none where all targets are those of one constant.
-    pub r_squared: Option<f64>,
     /// Condition number of the matrix of powers, in the Frobenius norm.
     pub condition: f64,
     basis: Expansion<f64>,
@@ -120,8 +116,6 @@ impl PolynomialFit {
             coefficients: powers.coefficients,
             standard_errors: powers.errors.iter().map(|e| e * sigma).collect(),
             sigma,
-            rms: (squares[degree] / rows as f64).sqrt(),
-            r_squared: (squares[0] > 0.0).then(|| 1.0 - squares[degree] / squares[0]),
             condition: powers.condition,
             basis: found.convert(&|x: T| x.value()),
         })

@@ -1,6 +1,6 @@
 //! The precisions least squares are solved in.
 
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Sub};
 
 use super::double_double::DoubleDouble;
 
@@ -13,12 +13,8 @@ pub trait Real:
     + Sub<Output = Self>
     + Mul<Output = Self>
     + Div<Output = Self>
-    + Neg<Output = Self>
     + From<f64>
 {
-    /// Relative rounding error of one operation, about.
-    const ROUNDING: f64;
-
     /// The nearest float.
     fn value(self) -> f64;
 
@@ -27,8 +23,6 @@ pub trait Real:
 }
 
 impl Real for f64 {
-    const ROUNDING: f64 = f64::EPSILON;
-
     fn value(self) -> f64 {
         self
     }
@@ -39,8 +33,6 @@ impl Real for f64 {
 }
 
 impl Real for DoubleDouble {
-    const ROUNDING: f64 = 5e-32;
-
     fn value(self) -> f64 {
         DoubleDouble::value(self)
     }

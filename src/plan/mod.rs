@@ -2,9 +2,11 @@
 //! coordinate, events and engine; `explain` prints it.
 
 mod choice;
+mod contact;
 mod cycle;
 mod method;
 mod refusal;
+mod rubbing;
 mod terms;
 
 use std::borrow::Cow;
@@ -12,6 +14,7 @@ use std::borrow::Cow;
 use serde::Serialize;
 
 use choice::{after, choose};
+use contact::contact_state;
 pub(crate) use cycle::over_angle as cycle_over_angle;
 pub use cycle::{Cycle, LoadPeriod};
 pub use method::Method;
@@ -177,14 +180,7 @@ fn state(engine: Engine, scene: &Scene, loads: &Loads) -> Vec<&'static str> {
     match engine {
         Engine::ClosedForm | Engine::Energy => Vec::new(),
         Engine::Angle => vec!["kinetic energy", "t"],
-        Engine::Contact => {
-            let crank: &[_] = match is_prescribed(scene) {
-                true => &[],
-                false => &["theta", "omega"],
-            };
-            let free: &[_] = &["psi", "x", "psi.", "v", "work", "energy lost"];
-            [&["t"], crank, free].concat()
-        }
+        Engine::Contact => contact_state(is_prescribed(scene)),
         Engine::Time => {
             let mut state = match is_limited(scene) {
                 true => vec!["coordinate q", "its speed"],

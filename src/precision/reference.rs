@@ -31,7 +31,7 @@ pub struct Reference {
 const MARGIN: f64 = 4.0;
 
 /// Relative rounding of the last operations in double-double arithmetic.
-const ROUNDING: f64 = 1e-29;
+const ROUNDING: f64 = 256.0 * DoubleDouble::ROUNDING;
 
 /// Ends of the series of the two runs, and where iterations end. Coarser ones follow for motions near a limit,
 /// where digits are lost; loads in floats have their rounding in the series.

@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
+use super::dense_rows::Frame;
 use super::guide_friction::Sliding;
+use super::last_row::LastRow;
 use super::options::Options;
-use super::row::{NoRows, RowMaker, RowSink};
+use super::row::{NoRows, RowSink};
 use super::run_setup::RunSetup;
 use super::schedule::{self, Schedule};
 use super::simulation::Simulation;
@@ -82,9 +84,18 @@ fn run_keeping(
         None | Some(Extent::Revolutions(0.0)) => Extent::Duration(0.0),
         Some(extent) => extent,
     };
-    let equation = Equation::new(scene);
+    let equation = Arc::new(Equation::new(scene));
     let free = scene.motion.kind == MotionKind::Free;
+    let reactor = options.reactions.then(|| Reactor::new(scene)).transpose()?;
     let sliding = Sliding::new(scene, &equation).filter(|_| free);
+    let frame = Frame {
+        reactor: reactor.map(Arc::new),
+        driving_torque: options.driving_torque,
+        guide: guide(scene, &equation).map(Arc::new),
+        sliding: sliding.map(Arc::new),
+        alpha: (!free).then_some(0.0),
+        equation: equation.clone(),
+    };
     let task = RunSetup {
         scene,
         options,
@@ -92,16 +103,7 @@ fn run_keeping(
         extent,
         kept,
         limits: Limits::new(equation.linkage(), scene.motion.speed),
-        maker: RowMaker {
-            reactor: match options.reactions {
-                true => Some(Arc::new(Reactor::new(scene)?)),
-                false => None,
-            },
-            driving_torque: options.driving_torque,
-            guide: guide(scene, &equation).map(Arc::new),
-            sliding: sliding.map(Arc::new),
-            equation: Arc::new(equation),
-        },
+        maker: frame.maker(),
     };
     if is_open(&task) && rows.wants_rows() {
         let blind = Options {
@@ -114,14 +116,15 @@ fn run_keeping(
         let end = seen.last.t_s;
         schedule::refuse_rows(task.schedule().rows_until(end), end)?;
     }
+    let mut rows = LastRow::new(rows);
     let mut run = match task.plan.engine {
-        Engine::ClosedForm => closed_form::run(&task, rows),
-        Engine::Contact => clearance::run(&task, rows),
-        Engine::Energy | Engine::Angle | Engine::Time => forward::run(&task, rows),
+        Engine::ClosedForm => closed_form::run(&task, &mut rows),
+        Engine::Contact => clearance::run(&task, &mut rows),
+        Engine::Energy | Engine::Angle | Engine::Time => forward::run(&task, &mut rows),
     }?;
+    rows.finish()?;
     if run.summary.clearance.is_none() {
-        run.dense.maker = Some(task.maker);
-        run.dense.alpha = (!free).then_some(0.0);
+        run.dense.frame = Some(frame);
     }
     Ok(run)
 }

@@ -68,8 +68,7 @@ pub struct FixedPoint {
 /// [`NoCycle`] with the reason.
 pub fn fixed_point(map: &mut dyn CycleMap, step: f64) -> Result<FixedPoint, NoCycle> {
     let first = map.first();
-    let mut search = Search { map };
-    let (low, high, approached) = search.bracket(first, step)?;
+    let (low, high, approached) = bracket(map, first, step)?;
     // Close to the root rounding may give another sign: the values that made the bracket stay.
     let known = |kinetic: f64| {
         let mut ends = [low, high].into_iter();
@@ -78,7 +77,7 @@ pub fn fixed_point(map: &mut dyn CycleMap, step: f64) -> Result<FixedPoint, NoCy
     let mut failed = None;
     let kinetic = root::bracketed(
         |kinetic| {
-            let gain = known(kinetic).map_or_else(|| search.map.gain(kinetic), Ok);
+            let gain = known(kinetic).map_or_else(|| map.gain(kinetic), Ok);
             gain.unwrap_or_else(|unserved| {
                 failed = Some(unserved);
                 f64::NAN
@@ -88,18 +87,13 @@ pub fn fixed_point(map: &mut dyn CycleMap, step: f64) -> Result<FixedPoint, NoCy
         high.kinetic,
     );
     let kinetic = kinetic.ok_or(failed.unwrap_or(NotApplicable::NotSmooth))?;
-    let (slope, slope_error) = search.slope(kinetic)?;
+    let (slope, slope_error) = slope(map, kinetic)?;
     Ok(FixedPoint {
         kinetic,
         slope,
         slope_error,
         approached,
     })
-}
-
-/// What looks for it.
-struct Search<'a> {
-    map: &'a mut dyn CycleMap,
 }
 
 /// A cycle that was looked at.
@@ -111,128 +105,138 @@ struct Looked {
     gain: f64,
 }
 
-impl Search<'_> {
-    /// d gain/d energy, by differences over three distances, and its error.
-    fn slope(&mut self, kinetic: f64) -> Result<(f64, f64), NotApplicable> {
-        let mut slope = Err(NotApplicable::TooSlow);
-        for part in [2.5e-3, 1e-5, 1e-7] {
-            slope = self.slope_over(kinetic, part);
-            if slope.is_ok() {
-                break;
-            }
-        }
-        slope
-    }
-
-    fn slope_over(&mut self, kinetic: f64, part: f64) -> Result<(f64, f64), NotApplicable> {
-        let mut slopes = [0.0; 3];
-        let mut largest = kinetic;
-        for (slope, times) in slopes.iter_mut().zip([1.0, 2.0, 4.0]) {
-            let way = times * part * kinetic;
-            let ahead = self.map.gain(kinetic + way)?;
-            *slope = (ahead - self.map.gain(kinetic - way)?) / (2.0 * way);
-            largest = largest.max(self.map.largest());
-        }
-        // Richardson: the errors go with the second and fourth power of the distance.
-        let better = [0, 1].map(|i| (4.0 * slopes[i] - slopes[i + 1]) / 3.0);
-        let best = (16.0 * better[0] - better[1]) / 15.0;
-        let noise = self.map.noise() * largest / (part * kinetic);
-        Ok((best, (best - better[0]).abs() + noise))
-    }
-
-    /// A cycle; none if the crank does not complete the turn.
-    fn look(&mut self, kinetic: f64) -> Result<Option<Looked>, NoCycle> {
-        match self.map.gain(kinetic) {
-            Ok(gain) => Ok(Some(Looked { kinetic, gain })),
-            Err(NotApplicable::TooSlow | NotApplicable::NotSmooth) => Ok(None),
-            Err(unserved) => Err(unserved.into()),
+/// d gain/d energy, by differences over three distances, and its error.
+fn slope(map: &mut dyn CycleMap, kinetic: f64) -> Result<(f64, f64), NotApplicable> {
+    let mut slope = Err(NotApplicable::TooSlow);
+    for part in [2.5e-3, 1e-5, 1e-7] {
+        slope = slope_over(map, kinetic, part);
+        if slope.is_ok() {
+            break;
         }
     }
+    slope
+}
 
-    /// A turn that gains, one above it that loses, and whether the motion from the first energy goes there.
-    fn bracket(&mut self, first: f64, step: f64) -> Result<(Looked, Looked, bool), NoCycle> {
-        let at_first = self.look(first)?;
-        let gain = at_first.map(|looked| looked.gain);
-        if let Some(looked) = at_first.filter(|looked| looked.gain <= 0.0)
-            && let Some((low, high)) = self.below(looked, step)?
-        {
-            return Ok((low, high, true));
-        }
-        let (low, high) = self.above(at_first, first, step)?;
-        Ok((low, high, gain.is_some_and(|gain| gain > 0.0)))
+fn slope_over(
+    map: &mut dyn CycleMap,
+    kinetic: f64,
+    part: f64,
+) -> Result<(f64, f64), NotApplicable> {
+    let mut slopes = [0.0; 3];
+    let mut largest = kinetic;
+    for (slope, times) in slopes.iter_mut().zip([1.0, 2.0, 4.0]) {
+        let way = times * part * kinetic;
+        let ahead = map.gain(kinetic + way)?;
+        *slope = (ahead - map.gain(kinetic - way)?) / (2.0 * way);
+        largest = largest.max(map.largest());
     }
+    // Richardson: the errors go with the second and fourth power of the distance.
+    let better = [0, 1].map(|i| (4.0 * slopes[i] - slopes[i + 1]) / 3.0);
+    let best = (16.0 * better[0] - better[1]) / 15.0;
+    let noise = map.noise() * largest / (part * kinetic);
+    Ok((best, (best - better[0]).abs() + noise))
+}
 
-    /// The nearest such turns below one that loses.
-    fn below(&mut self, first: Looked, step: f64) -> Result<Option<(Looked, Looked)>, NoCycle> {
-        let (mut high, mut step) = (first, step);
-        if first.gain == 0.0 {
-            return Ok(Some((first, first)));
-        }
-        while (first.kinetic / high.kinetic).ln() < FARTHEST {
-            let kinetic = high.kinetic * (-step).exp();
-            match self.look(kinetic)? {
-                Some(looked) if looked.gain >= 0.0 => return Ok(Some((looked, high))),
-                Some(looked) => high = looked,
-                None => return self.near_stop(kinetic, high),
-            }
-            step = (2.0 * step).min(LONGEST);
-        }
-        Ok(None)
+/// A cycle; none if the crank does not complete the turn.
+fn look(map: &mut dyn CycleMap, kinetic: f64) -> Result<Option<Looked>, NoCycle> {
+    match map.gain(kinetic) {
+        Ok(gain) => Ok(Some(Looked { kinetic, gain })),
+        Err(NotApplicable::TooSlow | NotApplicable::NotSmooth) => Ok(None),
+        Err(unserved) => Err(unserved.into()),
     }
+}
 
-    /// The nearest such turns above.
-    fn above(
-        &mut self,
-        at_first: Option<Looked>,
-        first: f64,
-        step: f64,
-    ) -> Result<(Looked, Looked), NoCycle> {
-        let (mut kinetic, mut step) = (first, step);
-        let (mut gains, mut stops, mut turned) = (None, None, false);
-        let mut looked = at_first;
-        while (kinetic / first).ln() < FARTHEST {
-            turned |= looked.is_some();
-            match looked {
-                None => (gains, stops) = (None, Some(kinetic)),
-                Some(looked) if looked.gain >= 0.0 => gains = Some(looked),
-                Some(loses) => {
-                    if let Some(low) = gains {
-                        return Ok((low, loses));
-                    }
-                    if let Some(stops) = stops.take()
-                        && let Some(found) = self.near_stop(stops, loses)?
-                    {
-                        return Ok(found);
-                    }
+/// A turn that gains, one above it that loses, and whether the motion from the first energy goes there.
+fn bracket(
+    map: &mut dyn CycleMap,
+    first: f64,
+    step: f64,
+) -> Result<(Looked, Looked, bool), NoCycle> {
+    let at_first = look(map, first)?;
+    let gain = at_first.map(|looked| looked.gain);
+    if let Some(looked) = at_first.filter(|looked| looked.gain <= 0.0)
+        && let Some((low, high)) = below(map, looked, step)?
+    {
+        return Ok((low, high, true));
+    }
+    let (low, high) = above(map, at_first, first, step)?;
+    Ok((low, high, gain.is_some_and(|gain| gain > 0.0)))
+}
+
+/// The nearest such turns below one that loses.
+fn below(
+    map: &mut dyn CycleMap,
+    first: Looked,
+    step: f64,
+) -> Result<Option<(Looked, Looked)>, NoCycle> {
+    let (mut high, mut step) = (first, step);
+    if first.gain == 0.0 {
+        return Ok(Some((first, first)));
+    }
+    while (first.kinetic / high.kinetic).ln() < FARTHEST {
+        let kinetic = high.kinetic * (-step).exp();
+        match look(map, kinetic)? {
+            Some(looked) if looked.gain >= 0.0 => return Ok(Some((looked, high))),
+            Some(looked) => high = looked,
+            None => return near_stop(map, kinetic, high),
+        }
+        step = (2.0 * step).min(LONGEST);
+    }
+    Ok(None)
+}
+
+/// The nearest such turns above.
+fn above(
+    map: &mut dyn CycleMap,
+    at_first: Option<Looked>,
+    first: f64,
+    step: f64,
+) -> Result<(Looked, Looked), NoCycle> {
+    let (mut kinetic, mut step) = (first, step);
+    let (mut gains, mut stops, mut turned) = (None, None, false);
+    let mut looked = at_first;
+    while (kinetic / first).ln() < FARTHEST {
+        turned |= looked.is_some();
+        match looked {
+            None => (gains, stops) = (None, Some(kinetic)),
+            Some(looked) if looked.gain >= 0.0 => gains = Some(looked),
+            Some(loses) => {
+                if let Some(low) = gains {
+                    return Ok((low, loses));
+                }
+                if let Some(stops) = stops.take()
+                    && let Some(found) = near_stop(map, stops, loses)?
+                {
+                    return Ok(found);
                 }
             }
-            kinetic *= step.exp();
-            step = (2.0 * step).min(LONGEST);
-            looked = self.look(kinetic)?;
         }
-        Err(match (gains, turned) {
-            (Some(_), _) => NoCycle::Gains,
-            (None, true) => NoCycle::Stops,
-            // No energy at all was enough: then it is not for want of energy.
-            (None, false) => NotApplicable::NotSmooth.into(),
-        })
+        kinetic *= step.exp();
+        step = (2.0 * step).min(LONGEST);
+        looked = look(map, kinetic)?;
     }
+    Err(match (gains, turned) {
+        (Some(_), _) => NoCycle::Gains,
+        (None, true) => NoCycle::Stops,
+        // No energy at all was enough: then it is not for want of energy.
+        (None, false) => NotApplicable::NotSmooth.into(),
+    })
+}
 
-    /// Fixed point between an energy whose turn is not completed and a turn that loses.
-    fn near_stop(
-        &mut self,
-        stops: f64,
-        loses: Looked,
-    ) -> Result<Option<(Looked, Looked)>, NoCycle> {
-        let (mut stops, mut loses) = (stops, loses);
-        for _ in 0..HALVINGS {
-            let kinetic = (stops * loses.kinetic).sqrt();
-            match self.look(kinetic)? {
-                None => stops = kinetic,
-                Some(looked) if looked.gain >= 0.0 => return Ok(Some((looked, loses))),
-                Some(looked) => loses = looked,
-            }
+/// Fixed point between an energy whose turn is not completed and a turn that loses.
+fn near_stop(
+    map: &mut dyn CycleMap,
+    stops: f64,
+    loses: Looked,
+) -> Result<Option<(Looked, Looked)>, NoCycle> {
+    let (mut stops, mut loses) = (stops, loses);
+    for _ in 0..HALVINGS {
+        let kinetic = (stops * loses.kinetic).sqrt();
+        match look(map, kinetic)? {
+            None => stops = kinetic,
+            Some(looked) if looked.gain >= 0.0 => return Ok(Some((looked, loses))),
+            Some(looked) => loses = looked,
         }
-        Ok(None)
     }
+    Ok(None)
 }

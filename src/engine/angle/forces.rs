@@ -115,10 +115,7 @@ impl Forces {
         x: f64,
         speed: f64,
     ) -> f64 {
-        let angle = Angle {
-            turns: start.turns,
-            rest: station.piece.angle(x),
-        };
+        let angle = Angle::new(start.turns, station.piece.angle(x));
         let place = &station.table.places[j];
         driven.drive(place, start.t + self.times[j], angle, speed)
     }

@@ -72,10 +72,7 @@ pub(super) fn at_speeds<D: Driven>(
 ) -> bool {
     let points = &station.rule.points()[..=station.rule.degree()];
     points.iter().all(|x| {
-        let angle = Angle {
-            turns: station.turns,
-            rest: station.piece.angle(*x),
-        };
+        let angle = Angle::new(station.turns, station.piece.angle(*x));
         let reach = Reach {
             t: Interval::default(),
             angle: Interval::point(angle.radians()),
@@ -87,10 +84,7 @@ pub(super) fn at_speeds<D: Driven>(
 
 impl<D: Driven> OnPanel<'_, D> {
     fn angle(&self, at: f64) -> Angle {
-        Angle {
-            turns: self.start.turns,
-            rest: self.station.piece.angle(2.0 * at - 1.0),
-        }
+        Angle::new(self.start.turns, self.station.piece.angle(2.0 * at - 1.0))
     }
 
     fn time(&self, at: f64) -> f64 {

@@ -72,10 +72,7 @@ fn parts<D: Driven>(
     [t, speed]: [f64; 2],
 ) -> [f64; 4] {
     let driven = if driven.is_driven() {
-        let angle = Angle {
-            turns: start.turns,
-            rest: station.piece.angle(station.rule.points()[j]),
-        };
+        let angle = Angle::new(start.turns, station.piece.angle(station.rule.points()[j]));
         driven.drive_switch(&station.table.places[j], t, angle, speed)
     } else {
         0.0

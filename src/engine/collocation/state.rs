@@ -46,10 +46,7 @@ impl State {
 
     /// The whole angle.
     pub fn angle(&self) -> Angle {
-        Angle {
-            turns: self.turns,
-            rest: self.theta,
-        }
+        Angle::new(self.turns, self.theta)
     }
 
     /// The state as the end of a step.

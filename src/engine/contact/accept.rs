@@ -6,8 +6,13 @@ use super::{Contact, Finish, Phase, Sample, Stretch};
 
 impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     /// Takes a step in time as accepted.
-    pub fn accept(&mut self, mut stages: Stages<N>, h: f64) -> Halt {
+    pub fn accept(&mut self, stages: Stages<N>, h: f64) -> Halt {
         let end = self.snapped(*stages.end(), h);
+        self.accept_at(stages, end)
+    }
+
+    /// Takes a step in time as accepted, with its end.
+    pub fn accept_at(&mut self, mut stages: Stages<N>, end: [f64; N]) -> Halt {
         let then = self.sample(None, &end);
         stages.set_last_rate(then.rates);
         self.accept_to(&stages, end, then)

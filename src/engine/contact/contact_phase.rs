@@ -119,7 +119,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             let mut rates = |c: f64, y: &[f64; N]| along(s0 + c * length, y);
             let mut stages = Stages::new(&mut rates, &self.y, &first, length);
             self.evaluations += 11;
-            let error = self.error(&stages, &scale);
+            let error = stages.error(&scale, self.counted);
             let end = *stages.end();
             let next = if ds == to - s { to } else { s + ds };
             let then = self.sample(Some(next * next), &end);

@@ -83,7 +83,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     /// Accepts the beginning of a step, of about length h, ended where a value with its rate vanishes.
     fn cut(&mut self, h: f64, value: impl Fn(&M, &[f64; N]) -> (f64, f64)) -> Halt {
         let (model, phase) = (self.model, self.phase);
-        let mut stages = self.try_step(h);
+        let stages = self.try_step(h);
         let mut end = *stages.end();
         for _ in 0..3 {
             let (now, rate) = value(model, &end);
@@ -96,9 +96,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             end = nudged(&end, dt, |y| model.sample(&near, phase, None, y).rates);
             self.evaluations += 2;
         }
-        let then = self.sample(None, &end);
-        stages.set_last_rate(then.rates);
-        self.accept_to(&stages, end, then)
+        self.accept_at(stages, end)
     }
 }
 

@@ -60,7 +60,7 @@ pub(super) struct Runner<'a, M: Contact<N>, const N: usize> {
     pub evaluations: u64,
     pub steps: u64,
     sizes: [f64; N],
-    counted: usize,
+    pub counted: usize,
 }
 
 /// Why a run does not go on.
@@ -188,10 +188,6 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         })
     }
 
-    pub fn error(&self, stages: &Stages<N>, scale: &[f64; N]) -> f64 {
-        stages.error(scale, self.counted)
-    }
-
     /// A step in time of this length, not yet accepted.
     #[inline]
     pub fn try_step(&mut self, h: f64) -> Stages<N> {
@@ -217,7 +213,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
                 return Err(Finish::StepTooSmall);
             }
             let stages = self.try_step(h);
-            let error = self.error(&stages, &self.scale(h));
+            let error = stages.error(&self.scale(h), self.counted);
             if error <= 1.0 {
                 if let Some(shorter) = self.hides(stages.end()) {
                     self.h = shorter;
@@ -247,11 +243,9 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     }
 
     fn link(&mut self) -> Halt {
-        let (mut stages, h) = self.controlled_step(f64::INFINITY)?;
+        let (stages, h) = self.controlled_step(f64::INFINITY)?;
         let end = self.snapped(self.model.relinked(stages.end()), h);
-        let then = self.sample(None, &end);
-        stages.set_last_rate(then.rates);
-        self.accept_to(&stages, end, then)
+        self.accept_at(stages, end)
     }
 }
 

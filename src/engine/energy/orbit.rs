@@ -188,10 +188,7 @@ impl Orbit {
         } else {
             0.0
         };
-        let angle = Angle {
-            turns: self.start.turns + turns + angle.turns,
-            rest: angle.rest,
-        };
+        let angle = Angle::new(self.start.turns + turns + angle.turns, angle.rest);
         (angle, speed)
     }
 
@@ -240,9 +237,11 @@ impl Orbit {
     /// When the crank has turned by `radians` from the start.
     pub fn time_of_turn(&self, radians: f64) -> Option<f64> {
         let turns = (radians / TAU).floor();
-        let angle = |turns: f64| Angle {
-            turns: self.direction * turns,
-            rest: self.start.rest + self.direction * (radians - (radians / TAU).floor() * TAU),
+        let angle = |turns: f64| {
+            Angle::new(
+                self.direction * turns,
+                self.start.rest + self.direction * (radians - (radians / TAU).floor() * TAU),
+            )
         };
         if self.rotates() {
             let after = self.forward.time_of(angle(0.0))?;

@@ -52,10 +52,7 @@ impl Panel {
             beyond = ahead;
             let at = self.piece.from + ahead.copysign(self.piece.span());
             let turns = ((at - mark) / TAU).round();
-            let angle = Angle {
-                turns: self.turns + turns,
-                rest: mark,
-            };
+            let angle = Angle::new(self.turns + turns, mark);
             let at_end = ahead >= self.piece.span().abs() - self.piece.near();
             let (after, speed) = if at_end {
                 (self.duration.0, self.speed(1.0))
@@ -97,10 +94,7 @@ impl Orbit {
                 let turns = self.direction * mark.turns + angle.turns;
                 visit(Passage {
                     t: mark.t.0 + (mark.t.1 + after),
-                    angle: Angle {
-                        turns: self.start.turns + turns,
-                        rest: angle.rest,
-                    },
+                    angle: Angle::new(self.start.turns + turns, angle.rest),
                     speed,
                     turning: false,
                 })
@@ -184,10 +178,7 @@ impl Orbit {
     fn passage(&self, t: f64, angle: Angle, speed: f64, turning: bool) -> Passage {
         Passage {
             t,
-            angle: Angle {
-                turns: self.start.turns + angle.turns,
-                rest: angle.rest,
-            },
+            angle: Angle::new(self.start.turns + angle.turns, angle.rest),
             speed: if turning { 0.0 } else { speed },
             turning,
         }

@@ -98,7 +98,7 @@ impl Segment {
         let panel = &self.panels[index];
         let (rest, speed) = panel.state(after - self.begins[index]);
         let turns = panel.turns;
-        (Angle { turns, rest }, speed)
+        (Angle::new(turns, rest), speed)
     }
 
     /// Calls for each panel with the time at which it begins, s, until it says that it is enough; whether it never
@@ -117,18 +117,12 @@ impl Segment {
     /// The angle at its end, for a start with these whole turns; none without panels.
     pub fn last_angle(&self, turns: f64) -> Option<Angle> {
         let panel = self.panels.last()?;
-        Some(Angle {
-            turns: turns + panel.turns,
-            rest: panel.piece.to,
-        })
+        Some(Angle::new(turns + panel.turns, panel.piece.to))
     }
 
     /// Time, s, at which an angle is reached; none if it is not on the leg.
     pub fn time_of(&self, angle: Angle) -> Option<f64> {
-        let local = |panel: &Panel| Angle {
-            turns: angle.turns - panel.turns,
-            rest: angle.rest,
-        };
+        let local = |panel: &Panel| Angle::new(angle.turns - panel.turns, angle.rest);
         let mut inside = self.panels.iter().zip(&self.begins).filter(|(panel, _)| {
             let piece = &panel.piece;
             let theta = local(panel).radians();

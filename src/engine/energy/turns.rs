@@ -158,10 +158,7 @@ impl Turns {
     pub fn state(&self, t: f64, direction: f64) -> (Angle, f64) {
         let mark = self.find(Goal::Time(t));
         let (angle, speed) = self.on_leg(&mark, |leg| leg.state(mark.until(t)));
-        let angle = Angle {
-            turns: angle.turns + direction * mark.turns,
-            rest: angle.rest,
-        };
+        let angle = Angle::new(angle.turns + direction * mark.turns, angle.rest);
         (angle, speed)
     }
 

@@ -123,10 +123,7 @@ impl LooseMechanism {
         let Some(loads) = &self.loads else {
             return LoadValue::default();
         };
-        let theta = Angle {
-            turns: self.turns,
-            rest: s.theta,
-        };
+        let theta = Angle::new(self.turns, s.theta);
         loads.at(&Instant {
             t: s.t,
             theta: theta.radians(),

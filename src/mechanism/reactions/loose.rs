@@ -1,6 +1,6 @@
 //! Joint and guide forces of a mechanism with a loose joint.
 
-use super::{Known, Path, Reactions, Reactor, Ways, turned};
+use super::{Known, Path, Reactions, Reactor, Ways};
 use crate::mechanism::{LooseRates, LooseState};
 use crate::scene::Joint;
 
@@ -18,7 +18,7 @@ impl Reactor {
             ..Path::default()
         };
         let pin = crank.map(|part| linkage.r * part);
-        let arm = turned(axis, &self.rod);
+        let arm = self.rod.arm(axis);
         let [fx, fy] = rates.on_rod;
         // The rod moves with the body that it is pinned to; its end at the crank, and the force that is known.
         let (rod, end, known) = match joint {
@@ -35,7 +35,7 @@ impl Reactor {
             }
         };
         let ways = Ways {
-            crank: Path::turning(turned(crank, &self.crank), crank_turn),
+            crank: Path::turning(self.crank.arm(crank), crank_turn),
             rod,
             slider,
             pin: end,

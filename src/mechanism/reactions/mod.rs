@@ -2,7 +2,7 @@
 
 mod loose;
 
-use super::{Equation, Linkage, LoadValue, Path, Place, Pose};
+use super::{Body, Equation, Link, Linkage, LoadValue, Path, Place, Pose};
 use crate::error::Error;
 use crate::numeric::angle::Angle;
 use crate::scene::{RodModel, Scene};
@@ -47,15 +47,6 @@ pub struct Reactor {
     slider_mass: f64,
 }
 
-#[derive(Clone, Copy, Debug, Default)]
-struct Body {
-    mass: f64,
-    along: f64,
-    left: f64,
-    /// about the centre of gravity for the rod, about O for the crank
-    inertia: f64,
-}
-
 /// What the force at the wrist pin follows from.
 enum Known {
     /// Force on the slider along the guide, N, and the moments about A; that fails at a limit.
@@ -94,6 +85,7 @@ impl Reactor {
         };
         if let Some(crank) = &scene.crank {
             reactor.crank = Body {
+                on: Link::Crank,
                 mass: crank.mass,
                 along: crank.cg,
                 left: crank.cg_lateral,
@@ -114,6 +106,7 @@ impl Reactor {
                 }
             };
             reactor.rod = Body {
+                on: Link::Rod,
                 mass: rod.mass,
                 along: rod.cg,
                 left: rod.cg_lateral,
@@ -152,9 +145,9 @@ impl Reactor {
         let pin = crank.map(|part| linkage.r * part);
         let crank_turn = [place.dtheta, place.d2theta];
         let ways = Ways {
-            crank: Path::turning(turned(crank, &self.crank), crank_turn),
+            crank: Path::turning(self.crank.arm(crank), crank_turn),
             rod: Path::turning(pin, crank_turn).carrying(&Path::turning(
-                turned(axis, &self.rod),
+                self.rod.arm(axis),
                 [-place.drod, -place.d2rod],
             )),
             slider: Path {
@@ -192,7 +185,7 @@ impl Reactor {
         let slider_needs = needs(self.slider_mass, [slider_acceleration, 0.0]);
 
         let axis = ways.axis;
-        let centre = turned(axis, &self.rod);
+        let centre = self.rod.arm(axis);
         let wrist_pin = match *known {
             // Slider along x; the rod's moments about A: (P − A) × wrist pin force = −(spin and inertia).
             Known::Load(force) => {
@@ -263,14 +256,6 @@ impl Reactor {
         let load = equation.loads().value(t, theta, omega, &pose);
         self.reactions(&pose, omega, alpha, &load)
     }
-}
-
-/// A body's centre of gravity from the end that its axis (a unit vector) begins at, m.
-fn turned([cos, sin]: [f64; 2], body: &Body) -> [f64; 2] {
-    [
-        body.along * cos - body.left * sin,
-        body.along * sin + body.left * cos,
-    ]
 }
 
 fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {

@@ -51,10 +51,7 @@ impl Enclosed {
         let half = real.half();
         let [along, across] =
             [ellipse + 1.0 / ellipse, ellipse - 1.0 / ellipse].map(|axis| 0.5 * half * axis);
-        let plane = Rectangle {
-            re: real.widened(along - half),
-            im: Interval::new(-across, across),
-        };
+        let plane = Rectangle::new(real.widened(along - half), Interval::new(-across, across));
         Enclosed {
             real,
             plane: Some(plane),
@@ -64,6 +61,14 @@ impl Enclosed {
     /// Values of a function that is not known to be analytic.
     pub const fn jumps(real: Interval) -> Enclosed {
         Enclosed { real, plane: None }
+    }
+
+    /// An entire function.
+    fn map(self, real: fn(Interval) -> Interval, plane: fn(Rectangle) -> Rectangle) -> Enclosed {
+        Enclosed {
+            real: real(self.real),
+            plane: self.plane.map(plane),
+        }
     }
 
     /// A function that is rising over the interval, with its continuation.
@@ -92,10 +97,7 @@ impl Enclosed {
 
     /// Squares.
     pub fn square(self) -> Enclosed {
-        Enclosed {
-            real: self.real.square(),
-            plane: self.plane.map(Rectangle::square),
-        }
+        self.map(Interval::square, Rectangle::square)
     }
 
     /// 1/z
@@ -113,18 +115,12 @@ impl Enclosed {
 
     /// Sines.
     pub fn sin(self) -> Enclosed {
-        Enclosed {
-            real: self.real.sin(),
-            plane: self.plane.map(Rectangle::sin),
-        }
+        self.map(Interval::sin, Rectangle::sin)
     }
 
     /// Cosines.
     pub fn cos(self) -> Enclosed {
-        Enclosed {
-            real: self.real.cos(),
-            plane: self.plane.map(Rectangle::cos),
-        }
+        self.map(Interval::cos, Rectangle::cos)
     }
 
     /// Tangents.
@@ -170,10 +166,7 @@ impl Enclosed {
 
     /// Hyperbolic cosines.
     pub fn cosh(self) -> Enclosed {
-        Enclosed {
-            real: self.real.cosh(),
-            plane: self.plane.map(Rectangle::cosh),
-        }
+        self.map(Interval::cosh, Rectangle::cosh)
     }
 
     /// Hyperbolic tangents, from (1 − u)/(1 + u), u = e^(−2z), which does not overflow on the right, and is odd.
@@ -280,9 +273,6 @@ impl Neg for Enclosed {
     type Output = Enclosed;
 
     fn neg(self) -> Enclosed {
-        Enclosed {
-            real: -self.real,
-            plane: self.plane.map(Neg::neg),
-        }
+        self.map(Neg::neg, Neg::neg)
     }
 }

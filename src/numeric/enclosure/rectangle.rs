@@ -14,6 +14,11 @@ pub struct Rectangle {
 }
 
 impl Rectangle {
+    /// From real and imaginary parts.
+    pub fn new(re: Interval, im: Interval) -> Rectangle {
+        Rectangle { re, im }
+    }
+
     /// One real number.
     pub fn point(at: f64) -> Rectangle {
         Rectangle::real(Interval::point(at))
@@ -21,8 +26,7 @@ impl Rectangle {
 
     /// Real numbers.
     pub fn real(re: Interval) -> Rectangle {
-        let im = Interval::point(0.0);
-        Rectangle { re, im }
+        Rectangle::new(re, Interval::point(0.0))
     }
 
     /// How far a value in it may be from its middle.
@@ -33,10 +37,7 @@ impl Rectangle {
     /// Squares.
     pub fn square(self) -> Rectangle {
         let product = self.re * self.im;
-        Rectangle {
-            re: self.re.square() - self.im.square(),
-            im: product + product,
-        }
+        Rectangle::new(self.re.square() - self.im.square(), product + product)
     }
 
     /// 1/z; none if zero is in it.
@@ -46,28 +47,19 @@ impl Rectangle {
             return None;
         }
         let by = size.reciprocal();
-        Some(Rectangle {
-            re: self.re * by,
-            im: -(self.im * by),
-        })
+        Some(Rectangle::new(self.re * by, -(self.im * by)))
     }
 
     /// Times a real number.
     pub fn times(self, by: f64) -> Rectangle {
         let by = Interval::point(by);
-        Rectangle {
-            re: self.re * by,
-            im: self.im * by,
-        }
+        Rectangle::new(self.re * by, self.im * by)
     }
 
     /// e^z
     pub fn exp(self) -> Rectangle {
         let size = self.re.rising(f64::exp);
-        Rectangle {
-            re: size * self.im.cos(),
-            im: size * self.im.sin(),
-        }
+        Rectangle::new(size * self.im.cos(), size * self.im.sin())
     }
 
     /// ln z, where the real parts are positive; none elsewhere.
@@ -77,10 +69,10 @@ impl Rectangle {
         }
         let size = self.re.square() + self.im.square();
         let half = Interval::point(0.5);
-        Some(Rectangle {
-            re: half * size.rising(f64::ln),
-            im: (self.im * self.re.reciprocal()).rising(f64::atan),
-        })
+        Some(Rectangle::new(
+            half * size.rising(f64::ln),
+            (self.im * self.re.reciprocal()).rising(f64::atan),
+        ))
     }
 
     /// The root with a positive real part, where the real parts are positive; none elsewhere.
@@ -90,34 +82,34 @@ impl Rectangle {
 
     /// sin z
     pub fn sin(self) -> Rectangle {
-        Rectangle {
-            re: self.re.sin() * self.im.cosh(),
-            im: self.re.cos() * self.im.rising(f64::sinh),
-        }
+        Rectangle::new(
+            self.re.sin() * self.im.cosh(),
+            self.re.cos() * self.im.rising(f64::sinh),
+        )
     }
 
     /// cos z
     pub fn cos(self) -> Rectangle {
-        Rectangle {
-            re: self.re.cos() * self.im.cosh(),
-            im: -(self.re.sin() * self.im.rising(f64::sinh)),
-        }
+        Rectangle::new(
+            self.re.cos() * self.im.cosh(),
+            -(self.re.sin() * self.im.rising(f64::sinh)),
+        )
     }
 
     /// sinh z
     pub fn sinh(self) -> Rectangle {
-        Rectangle {
-            re: self.re.rising(f64::sinh) * self.im.cos(),
-            im: self.re.cosh() * self.im.sin(),
-        }
+        Rectangle::new(
+            self.re.rising(f64::sinh) * self.im.cos(),
+            self.re.cosh() * self.im.sin(),
+        )
     }
 
     /// cosh z
     pub fn cosh(self) -> Rectangle {
-        Rectangle {
-            re: self.re.cosh() * self.im.cos(),
-            im: self.re.rising(f64::sinh) * self.im.sin(),
-        }
+        Rectangle::new(
+            self.re.cosh() * self.im.cos(),
+            self.re.rising(f64::sinh) * self.im.sin(),
+        )
     }
 
     /// The values of an analytic function with a given slope: the mean value theorem on a convex set.
@@ -131,10 +123,7 @@ impl Add for Rectangle {
     type Output = Rectangle;
 
     fn add(self, other: Rectangle) -> Rectangle {
-        Rectangle {
-            re: self.re + other.re,
-            im: self.im + other.im,
-        }
+        Rectangle::new(self.re + other.re, self.im + other.im)
     }
 }
 
@@ -142,10 +131,7 @@ impl Sub for Rectangle {
     type Output = Rectangle;
 
     fn sub(self, other: Rectangle) -> Rectangle {
-        Rectangle {
-            re: self.re - other.re,
-            im: self.im - other.im,
-        }
+        Rectangle::new(self.re - other.re, self.im - other.im)
     }
 }
 
@@ -153,10 +139,7 @@ impl Neg for Rectangle {
     type Output = Rectangle;
 
     fn neg(self) -> Rectangle {
-        Rectangle {
-            re: -self.re,
-            im: -self.im,
-        }
+        Rectangle::new(-self.re, -self.im)
     }
 }
 
@@ -164,9 +147,9 @@ impl Mul for Rectangle {
     type Output = Rectangle;
 
     fn mul(self, other: Rectangle) -> Rectangle {
-        Rectangle {
-            re: self.re * other.re - self.im * other.im,
-            im: self.re * other.im + self.im * other.re,
-        }
+        Rectangle::new(
+            self.re * other.re - self.im * other.im,
+            self.re * other.im + self.im * other.re,
+        )
     }
 }

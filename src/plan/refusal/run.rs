@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use super::problem;
 use crate::mechanism::{Curve, CurveEquation, Limits, Linkage};
 use crate::numeric::angle::Angle;
 use crate::scene::{Extent, Load, MotionKind, Problem, Scene, Variable};
@@ -10,7 +11,7 @@ use crate::scene::{Extent, Load, MotionKind, Problem, Scene, Variable};
 pub(super) fn problems(scene: &Scene, linkage: &Linkage, starts: bool, list: &mut Vec<Problem>) {
     let turns = match scene.run.extent {
         None => {
-            list.push(Problem::new(
+            list.push(problem(
                 "run",
                 "the scene does not say how long the run is",
                 "add [run] with duration = \"1 s\" or revolutions = 10",
@@ -25,7 +26,7 @@ pub(super) fn problems(scene: &Scene, linkage: &Linkage, starts: bool, list: &mu
         return;
     }
     if let Some(widest) = widest_turn(scene, linkage).filter(|widest| turns * TAU > *widest) {
-        list.push(Problem::new(
+        list.push(problem(
             "run.revolutions",
             format!(
                 "run.revolutions: the crank cannot turn by more than {} deg between its limits and never completes {turns} turns",
@@ -34,7 +35,7 @@ pub(super) fn problems(scene: &Scene, linkage: &Linkage, starts: bool, list: &mu
             "give run.duration instead",
         ));
     } else if scene.motion.speed == 0.0 && (!free || starts && is_balanced(scene, linkage)) {
-        list.push(Problem::new(
+        list.push(problem(
             "run.revolutions",
             format!("a crank at rest never completes {turns} turns"),
             "give motion.speed, or run.duration",

@@ -64,7 +64,7 @@ impl<'a> AngleModel<'a> {
             of_loads,
             marks: Marks::new(equation, start, speed),
             marks_are_corners: false,
-            repeats: loads.have_potential() && !loads.turn_the_crank(),
+            repeats: loads.have_potential() && loads.constant_torque() == 0.0,
             work_of_turn: None,
             evaluations: Cell::new(0),
             most_evaluations: u64::MAX,

@@ -5,7 +5,6 @@ mod arrived;
 mod clear;
 mod crank;
 mod engine_loop;
-mod errors_over_angle;
 mod estimate;
 mod in_time;
 mod notes;
@@ -22,10 +21,12 @@ use engine_loop::Course;
 use notes::Notes;
 
 use super::angle_model::AngleModel;
+use super::angle_motion::balance;
+use super::by_angle;
 use super::configuration_curve::{self, End};
 use super::error_estimate::Forward;
 use super::outcome::{Balance, Outcome};
-use super::recorder::Record;
+use super::record::Record;
 use super::row::RowSink;
 use super::run_setup::RunSetup;
 use super::simulation::Simulation;
@@ -51,7 +52,7 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
         first: task.plan.engine,
         is_second: false,
         extent: task.extent,
-        resolution: over_angle::plain(task),
+        resolution: by_angle::plain(task),
         settings: task.settings(),
         wait: WAIT,
         max_evaluations: task.options.max_evaluations,
@@ -74,11 +75,8 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
         .then(|| configuration_curve::warning(task))
         .flatten();
     let mut warnings: Vec<Warning> = warning.into_iter().collect();
-    let mut estimate = None;
-    if task.options.estimate && stopped.is_none() {
-        estimate = estimate::estimate(&course, &arrived, &record, wants_rows);
-        warnings.extend(estimate.is_none().then_some(Warning::NotEstimated));
-    }
+    let judged = estimate::estimate(&course, &arrived, &record, wants_rows);
+    let estimate = task.estimate(stopped.is_some(), &mut warnings, judged);
     let now = arrived.now;
     let outcome = Outcome {
         at: now,
@@ -104,7 +102,7 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
 fn position<'a>(task: &'a RunSetup<'_>) -> AngleModel<'a> {
     let speed = task.scene.motion.speed;
     let mut position = AngleModel::new(task.equation(), &task.limits, task.start(), speed)
-        .with_friction(task.maker.sliding.as_deref())
+        .with_friction(task.maker.sliding)
         .with_limit(task.options.max_evaluations);
     if task.plan.engine == Engine::Time {
         return position;
@@ -142,7 +140,7 @@ fn energy_balance(course: &Course<'_>, arrived: &Arrived, record: &Record) -> Ba
                 _ => 0.0,
             };
             let largest = arrived.largest_kinetic.max(fastest);
-            Balance::of_crank(course.task, at, arrived.work, largest)
+            balance(course.task, at, arrived.work, largest)
         }
     }
 }

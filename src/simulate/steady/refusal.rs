@@ -1,6 +1,6 @@
 //! Scenes without a periodic steady state over the crank angle, with the reason.
 
-use super::super::stop::not_applicable;
+use super::super::angle_motion;
 use crate::engine::angle::NoCycle;
 use crate::engine::energy::NotApplicable;
 use crate::error::Error;
@@ -89,7 +89,7 @@ pub(super) fn no_cycle(reason: NoCycle) -> Error {
         NoCycle::NotApplicable(reason) => (
             format!(
                 "the steady state cannot be computed: {}",
-                not_applicable(reason)
+                angle_motion::reason(reason)
             ),
             "look at the loads; or simulate until the motion repeats",
         ),
