@@ -1,12 +1,12 @@
 //! Which engine computes a motion, and why.
 
 use std::borrow::Cow;
+use std::f64::consts::TAU;
 
-use super::contact::contact;
 use super::cycle::{self, named};
-use super::{Candidate, Engine, Method, Stepper, rubbing};
+use super::{Candidate, Engine, Method, Stepper};
 use crate::error::Error;
-use crate::mechanism::{Class, Linkage, Loads};
+use crate::mechanism::{Class, Curve, CurveEquation, Linkage, Loads};
 use crate::scene::{Load, MotionKind, Scene, Variable, Variables};
 
 /// An engine with its reason.
@@ -18,7 +18,7 @@ pub(super) struct Choice {
 
 impl Choice {
     /// An engine that has no stepper.
-    pub fn of(engine: Engine, reason: impl Into<Cow<'static, str>>) -> Choice {
+    fn of(engine: Engine, reason: impl Into<Cow<'static, str>>) -> Choice {
         Choice {
             engine,
             stepper: None,
@@ -26,8 +26,13 @@ impl Choice {
         }
     }
 
+    /// The time engine, by sweeps over Gauss nodes.
+    fn by_sweeps(reason: impl Into<Cow<'static, str>>) -> Choice {
+        Choice::in_time(Stepper::Picard, reason)
+    }
+
     /// The time engine.
-    pub fn in_time(stepper: Stepper, reason: impl Into<Cow<'static, str>>) -> Choice {
+    fn in_time(stepper: Stepper, reason: impl Into<Cow<'static, str>>) -> Choice {
         Choice {
             engine: Engine::Time,
             stepper: Some(stepper),
@@ -63,118 +68,122 @@ pub(super) fn after(
     }
 }
 
+const IN_TIME: &str = "use --method auto, time, dop853 or dopri5";
+const WITHOUT_ENERGY: &str = "use --method auto, angle, time, dop853 or dopri5";
+
 /// The first engine that serves a scene without parts of zero strength, or the one that is asked for.
 pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Choice, Error> {
     if scene.clearance.is_some() {
-        return contact(method);
+        return for_all(
+            method,
+            &[Method::Auto],
+            Choice::of(
+                Engine::Contact,
+                "a joint has clearance: rod and slider move freely of it but for the contact force; flight and contact are integrated apart",
+            ),
+            "a scene with clearance in a joint",
+            "use --method auto, or take [clearance] out of the scene",
+        );
     }
     if scene.motion.kind == MotionKind::ConstantSpeed {
-        return prescribed(method);
+        return for_all(
+            method,
+            &[Method::Auto, Method::ClosedForm],
+            Choice::of(
+                Engine::ClosedForm,
+                "the crank speed is prescribed: nothing to integrate, the equation is read backwards",
+            ),
+            "a scene whose crank speed is prescribed",
+            "use --method auto, or motion kind = \"free\"",
+        );
     }
     let asked = "asked for; the loads and the start decide the motion";
     let class = Class::of(&Linkage::new(&scene.geometry));
     match method {
-        Method::ClosedForm => Err(Error::refused(
-            "method closed-form cannot serve a free motion",
+        Method::ClosedForm => Err(cannot_serve(
+            method,
+            "a free motion",
             "use --method auto, or motion kind = \"constant-speed\"",
         )),
         Method::Dop853 => Ok(Choice::in_time(Stepper::Dop853, asked)),
         Method::Dopri5 => Ok(Choice::in_time(Stepper::Dopri5, asked)),
-        Method::Time => Ok(by_sweeps()),
-        Method::Auto | Method::Energy | Method::Angle => {
-            if class == Class::ChangePoint {
-                change_point(method)
-            } else if loads.are_dry() {
-                dry(method)
-            } else if scene.friction.is_some() {
-                rubbing::engine(method, scene, class)
-            } else {
-                over_angle(method, scene)
-            }
-        }
-    }
-}
-
-fn by_sweeps() -> Choice {
-    Choice::in_time(
-        Stepper::Picard,
-        "the loads and the start decide the motion: integration in time, by sweeps over Gauss nodes",
-    )
-}
-
-fn prescribed(method: Method) -> Result<Choice, Error> {
-    if matches!(method, Method::Auto | Method::ClosedForm) {
-        Ok(Choice::of(
-            Engine::ClosedForm,
-            "the crank speed is prescribed: nothing to integrate, the equation is read backwards",
-        ))
-    } else {
-        Err(Error::refused(
-            format!("method {method} cannot serve a scene whose crank speed is prescribed"),
-            "use --method auto, or motion kind = \"free\"",
-        ))
-    }
-}
-
-fn change_point(method: Method) -> Result<Choice, Error> {
-    if method == Method::Auto {
-        Ok(Choice::in_time(
-            Stepper::Picard,
-            "a change point: integration in time along the configuration curve",
-        ))
-    } else {
-        Err(Error::refused(
-            format!(
-                "method {method} cannot serve the lengths of a change point, which it passes onto the other branch"
-            ),
-            "use --method auto, time, dop853 or dopri5",
-        ))
-    }
-}
-
-/// Loads that oppose motion turn round with the crank and with the slider.
-fn dry(method: Method) -> Result<Choice, Error> {
-    match method {
-        Method::Auto => Ok(Choice::in_time(
-            Stepper::Picard,
-            "a load opposes motion: integration in time, piece by piece between the places where crank or slider turn back or rest",
+        Method::Time => Ok(Choice::by_sweeps(
+            "the loads and the start decide the motion: integration in time, by sweeps over Gauss nodes",
         )),
-        _ => Err(Error::refused(
-            format!(
-                "method {method} cannot serve a load of kind \"dry\", which turns round with the motion"
+        _ if class == Class::ChangePoint => for_all(
+            method,
+            &[Method::Auto],
+            Choice::by_sweeps("a change point: integration in time along the configuration curve"),
+            "the lengths of a change point, which it passes onto the other branch",
+            IN_TIME,
+        ),
+        // Loads that oppose motion turn round with the crank and with the slider.
+        _ if loads.are_dry() => for_all(
+            method,
+            &[Method::Auto],
+            Choice::by_sweeps(
+                "a load opposes motion: integration in time, piece by piece between the places where crank or slider turn back or rest",
             ),
-            "use --method auto, time, dop853 or dopri5",
-        )),
+            "a load of kind \"dry\", which turns round with the motion",
+            IN_TIME,
+        ),
+        _ => over_angle(method, scene, class),
     }
 }
 
-/// Without friction: the energy, else the crank angle, else the time as the independent variable.
-fn over_angle(method: Method, scene: &Scene) -> Result<Choice, Error> {
-    match method {
-        Method::Auto | Method::Energy if why_not_energy(scene).is_none() => Ok(Choice::of(
+/// The one engine that there is for a scene, for these methods.
+fn for_all(
+    method: Method,
+    methods: &[Method],
+    choice: Choice,
+    what: &str,
+    help: &str,
+) -> Result<Choice, Error> {
+    match methods.contains(&method) {
+        true => Ok(choice),
+        false => Err(cannot_serve(method, what, help)),
+    }
+}
+
+fn cannot_serve(method: Method, what: &str, help: &str) -> Error {
+    Error::refused(format!("method {method} cannot serve {what}"), help)
+}
+
+/// The energy, else the crank angle, else the time as the independent variable.
+fn over_angle(method: Method, scene: &Scene, class: Class) -> Result<Choice, Error> {
+    let rubs = scene.friction.is_some();
+    let without_energy = match rubs {
+        true => Some("Coulomb friction, whose work depends on the speed".to_owned()),
+        false => why_not_energy(scene).map(|why| format!("this scene: {why}")),
+    };
+    let scene_is = match rubs {
+        true => "this motion with Coulomb friction",
+        false => "this scene",
+    };
+    match (method, without_energy) {
+        (Method::Auto | Method::Energy, None) => Ok(Choice::of(
             Engine::Energy,
             "every load depends on the position alone: omega from the energy, time from one quadrature",
         )),
-        Method::Energy => Err(Error::refused(
-            format!(
-                "method energy cannot serve this scene: {}",
-                why_not_energy(scene).unwrap_or_default()
-            ),
-            "use --method auto, angle, time, dop853 or dopri5",
-        )),
-        _ => match why_not_angle(scene) {
+        (Method::Energy, Some(what)) => Err(cannot_serve(method, &what, WITHOUT_ENERGY)),
+        _ => match why_not_angle(scene, class) {
+            None if rubs => Ok(Choice::of(
+                Engine::Angle,
+                "the crank turns: its energy and the time over the crank angle, with Coulomb friction piece by piece between its changes; where it comes near to rest, integration in time takes over",
+            )),
             None => Ok(Choice::of(
                 Engine::Angle,
                 "the crank turns: its energy and the time over the crank angle; where it comes near to rest, integration in time takes over",
             )),
-            Some(why) if method == Method::Angle => Err(Error::refused(
-                format!("method angle cannot serve this scene: {why}"),
-                "use --method auto, time, dop853 or dopri5",
-            )),
-            Some(why) => Ok(Choice::in_time(
-                Stepper::Picard,
-                format!("{why}: integration in time, by sweeps over Gauss nodes"),
-            )),
+            Some(why) if method == Method::Angle => {
+                Err(cannot_serve(method, &format!("{scene_is}: {why}"), IN_TIME))
+            }
+            Some(why) if rubs => Ok(Choice::by_sweeps(format!(
+                "Coulomb friction, and {why}: integration in time, piece by piece between its changes"
+            ))),
+            Some(why) => Ok(Choice::by_sweeps(format!(
+                "{why}: integration in time, by sweeps over Gauss nodes"
+            ))),
         },
     }
 }
@@ -196,12 +205,32 @@ fn why_not_energy(scene: &Scene) -> Option<String> {
 }
 
 /// What keeps the crank angle from being the independent variable from the start: a crank at rest, a load whose corners
-/// are not known, or one without a cycle that could be tabulated.
-pub(super) fn why_not_angle(scene: &Scene) -> Option<String> {
+/// are not known, or one without a cycle that could be tabulated; with friction also limits, and a guide that jams.
+fn why_not_angle(scene: &Scene, class: Class) -> Option<String> {
+    let rubs = scene.friction.is_some();
+    if rubs && class != Class::RotatingCrank {
+        return Some("the crank cannot turn fully".to_owned());
+    }
     if scene.motion.speed == 0.0 {
         return Some("the crank starts at rest".to_owned());
     }
-    why_corners(scene).or_else(|| cycle::over_angle(scene).err())
+    let why = why_corners(scene).or_else(|| cycle::over_angle(scene).err());
+    let jams = || "the slider jams in its guide at an angle of the turn".to_owned();
+    why.or_else(|| (rubs && self::jams(scene)).then(jams))
+}
+
+/// Angles of a turn at which the guide is looked at.
+const PLACES: u32 = 64;
+
+/// Whether rigid bodies jam at one of some angles of the turn.
+fn jams(scene: &Scene) -> bool {
+    let linkage = Linkage::new(&scene.geometry);
+    let guide = CurveEquation::new(scene, Curve::on_crank(&linkage));
+    let mu = guide
+        .friction()
+        .map_or(0.0, |friction| friction.coefficient);
+    let theta = |i: u32| TAU * f64::from(i) / f64::from(PLACES);
+    (0..PLACES).any(|i| guide.across(theta(i)).normal().grip(mu).is_none())
 }
 
 /// The first load whose corners are not known as crank angles, and why.

@@ -2,11 +2,9 @@
 //! coordinate, events and engine; `explain` prints it.
 
 mod choice;
-mod contact;
 mod cycle;
 mod method;
 mod refusal;
-mod rubbing;
 mod terms;
 
 use std::borrow::Cow;
@@ -14,7 +12,6 @@ use std::borrow::Cow;
 use serde::Serialize;
 
 use choice::{after, choose};
-use contact::contact_state;
 pub(crate) use cycle::over_angle as cycle_over_angle;
 pub use cycle::{Cycle, LoadPeriod};
 pub use method::Method;
@@ -180,7 +177,14 @@ fn state(engine: Engine, scene: &Scene, loads: &Loads) -> Vec<&'static str> {
     match engine {
         Engine::ClosedForm | Engine::Energy => Vec::new(),
         Engine::Angle => vec!["kinetic energy", "t"],
-        Engine::Contact => contact_state(is_prescribed(scene)),
+        Engine::Contact => {
+            let crank: &[_] = match is_prescribed(scene) {
+                true => &[],
+                false => &["theta", "omega"],
+            };
+            let free: &[_] = &["psi", "x", "psi.", "v", "work", "energy lost"];
+            [&["t"], crank, free].concat()
+        }
         Engine::Time => {
             let mut state = match is_limited(scene) {
                 true => vec!["coordinate q", "its speed"],

@@ -98,7 +98,11 @@ pub(super) fn run<'a>(
 
 /// The coefficient of friction of the guide.
 fn friction(task: &RunSetup<'_>) -> f64 {
-    let friction = task.maker.guide.and_then(CurveEquation::friction);
+    let friction = task
+        .maker
+        .guide
+        .as_deref()
+        .and_then(CurveEquation::friction);
     friction.map_or(0.0, |friction| friction.coefficient)
 }
 

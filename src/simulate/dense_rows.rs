@@ -6,35 +6,9 @@ use super::configuration_curve::{AlongCurve, Phase};
 use super::guide_friction::Sliding;
 use super::recorder::Coordinate;
 use super::row::{Row, RowMaker};
-use crate::mechanism::{CurveEquation, Equation, Reactor};
+use crate::mechanism::CurveEquation;
 use crate::numeric::angle::Angle;
 use crate::trajectory::Trajectory;
-
-/// All that rows of a scene are made from.
-#[derive(Clone, Debug)]
-pub(super) struct Frame {
-    pub equation: Arc<Equation>,
-    pub reactor: Option<Arc<Reactor>>,
-    pub driving_torque: bool,
-    /// The guide of a prescribed motion, if it has friction.
-    pub guide: Option<Arc<CurveEquation>>,
-    /// The guide of a crank that turns freely, if it has friction.
-    pub sliding: Option<Arc<Sliding>>,
-    /// Crank acceleration of a prescribed motion, rad/s².
-    pub alpha: Option<f64>,
-}
-
-impl Frame {
-    pub fn maker(&self) -> RowMaker<'_> {
-        RowMaker {
-            equation: &self.equation,
-            reactor: self.reactor.as_deref(),
-            driving_torque: self.driving_torque,
-            guide: self.guide.as_deref(),
-            sliding: self.sliding.as_deref(),
-        }
-    }
-}
 
 /// A time during which the slider touches its guide in one way, on the configuration curve.
 #[derive(Clone, Copy, Debug)]
@@ -57,7 +31,9 @@ pub(super) fn lengthen(spells: &mut Vec<Spell>, [from, until]: [f64; 2], phase: 
 /// What makes rows of a finished run.
 #[derive(Clone, Debug, Default)]
 pub(super) struct DenseRows {
-    pub frame: Option<Frame>,
+    pub maker: Option<RowMaker>,
+    /// Crank acceleration of a prescribed motion, rad/s².
+    pub alpha: Option<f64>,
     /// The configuration curve whose coordinate the whole run follows, if it does.
     pub curve: Option<Arc<CurveEquation>>,
     /// When the motion was computed along a configuration curve, in order.
@@ -67,19 +43,19 @@ pub(super) struct DenseRows {
 impl DenseRows {
     /// The row at a time, s; none outside the run, of a loose joint, and where a number is not finite.
     pub fn row(&self, trajectory: &Trajectory, t: f64) -> Option<Row> {
-        let frame = self.frame.as_ref()?;
+        let maker = self.maker.as_ref()?;
         let (angle, speed) = trajectory.coordinate(t)?;
         let after = self.spells.partition_point(|spell| spell.until < t);
         let spell = self.spells.get(after).filter(|spell| spell.from <= t);
         let row = match spell {
             Some(spell) => {
-                let guide = frame.sliding.as_deref().map(Sliding::equation);
+                let guide = maker.sliding.as_deref().map(Sliding::equation);
                 let equation = self.curve.as_deref().or(guide)?;
-                let reactor = frame.reactor.as_deref();
+                let reactor = maker.reactor.as_deref();
                 AlongCurve::new(equation, spell.phase, reactor, Angle::default())
                     .row(t, angle, speed)
             }
-            None => frame.maker().row(t, angle, speed, frame.alpha),
+            None => maker.row(t, angle, speed, self.alpha),
         };
         [row.theta, row.omega, row.alpha, row.x, row.v, row.a]
             .iter()

@@ -15,7 +15,7 @@ use crate::scene::{Instant, Variable};
 /// A run at constant speed.
 pub(super) struct Drive<'a> {
     pub equation: &'a Equation,
-    pub maker: &'a RowMaker<'a>,
+    pub maker: &'a RowMaker,
     pub start: Angle,
     /// rad/s
     pub speed: f64,

@@ -70,6 +70,8 @@ impl Motion for Forward<'_> {
     }
 }
 
+/// Where rounding takes over from the decay of the coefficients of a series, as part of the largest.
+pub(super) const LEAST_TAIL: f64 = 4e-15;
 /// The second run of the estimate is so much tighter that its own error does not count, whatever the first
 /// one's happens to be: at the order of collocation two more digits take a fifth more evaluations.
 pub(super) const MUCH_TIGHTER: f64 = 1e4;

@@ -1,10 +1,7 @@
 //! Forward motion: scene in, trajectory, rows and summary out; the engines of the plan take turns between located events.
 
 mod angle_model;
-mod angle_motion;
 mod bounded_motion;
-mod by_angle;
-mod by_energy;
 mod checkpoints;
 mod clearance;
 mod closed_form;
@@ -16,12 +13,10 @@ mod error_estimate;
 mod forward;
 mod guide_friction;
 mod joint_force_maxima;
-mod last_row;
 mod marks;
 mod options;
 mod outcome;
 mod passages;
-mod record;
 mod recorder;
 mod result;
 mod roundoff_propagation;

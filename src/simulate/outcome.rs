@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::dense_rows::DenseRows;
-use super::record::Record;
+use super::recorder::Record;
 use super::result::{Cost, ErrorEstimate, Final, Piece, Summary};
 use super::run_setup::RunSetup;
 use super::simulation::Simulation;
@@ -11,6 +11,7 @@ use super::stalled;
 use super::stop::{Stopped, Why};
 use super::warning::Warning;
 use crate::engine::time::Start;
+use crate::numeric::angle::Angle;
 use crate::plan::Engine;
 use crate::scene::Extent;
 use crate::trajectory::Trajectory;
@@ -51,6 +52,21 @@ impl Balance {
             residual,
             largest: energies.iter().fold(0.0, largest),
         }
+    }
+
+    /// Of a run whose largest kinetic energy (J) is known; `work` of the loads without potential, J.
+    pub fn of_crank(task: &RunSetup<'_>, at: &Start, work: f64, largest_kinetic: f64) -> Balance {
+        let equation = task.equation();
+        let start = task.start();
+        let turned = Angle {
+            turns: at.angle.turns - start.turns,
+            rest: at.angle.rest,
+        };
+        let begin = equation.kinetic_energy(start.rest, task.scene.motion.speed)
+            + equation.potential_energy(start.rest);
+        let last =
+            equation.kinetic_energy(at.angle.rest, at.speed) + equation.potential_energy(turned);
+        Balance::new(last - begin - work, &[largest_kinetic, begin, last, work])
     }
 }
 

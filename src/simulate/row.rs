@@ -1,5 +1,7 @@
 //! Output rows: the state of the mechanism at one time.
 
+use std::sync::Arc;
+
 use super::guide_friction::Sliding;
 use crate::error::Error;
 use crate::mechanism::{CurveEquation, Equation, Reactions, Reactor};
@@ -80,21 +82,21 @@ impl RowSink for Vec<Row> {
 }
 
 /// Makes rows from states.
-#[derive(Debug)]
-pub(super) struct RowMaker<'a> {
-    pub equation: &'a Equation,
-    pub reactor: Option<&'a Reactor>,
+#[derive(Clone, Debug)]
+pub(super) struct RowMaker {
+    pub equation: Arc<Equation>,
+    pub reactor: Option<Arc<Reactor>>,
     pub driving_torque: bool,
     /// The guide of a prescribed motion, if it has friction.
-    pub guide: Option<&'a CurveEquation>,
+    pub guide: Option<Arc<CurveEquation>>,
     /// The guide of a crank that turns freely, if it has friction.
-    pub sliding: Option<&'a Sliding>,
+    pub sliding: Option<Arc<Sliding>>,
 }
 
-impl RowMaker<'_> {
+impl RowMaker {
     /// Friction on the slider (N, along +x) in a prescribed motion; not a number where the guide locks itself.
     pub fn friction(&self, t: f64, angle: Angle, omega: f64, alpha: f64) -> f64 {
-        self.guide.map_or(0.0, |guide| {
+        self.guide.as_ref().map_or(0.0, |guide| {
             let touch = guide.driven(t, angle, omega, alpha);
             touch.map_or(f64::NAN, |touch| touch.friction)
         })
@@ -102,7 +104,7 @@ impl RowMaker<'_> {
 
     /// θ̈ of a free motion, rad/s², and the friction on the slider, N.
     pub fn forward(&self, t: f64, angle: Angle, omega: f64) -> (f64, f64) {
-        match self.sliding {
+        match &self.sliding {
             Some(sliding) => {
                 let (alpha, touch) = sliding.state(t, angle, omega);
                 (alpha, touch.friction)
@@ -118,7 +120,7 @@ impl RowMaker<'_> {
             Some(alpha) => (alpha, self.friction(t, angle, omega, alpha)),
             None => self.forward(t, angle, omega),
         };
-        let reactions = self.reactor.map(|reactor| {
+        let reactions = self.reactor.as_ref().map(|reactor| {
             let mut load = self.equation.loads().value(t, angle, omega, &pose);
             load.force += friction;
             reactor.reactions(&pose, omega, alpha, &load)

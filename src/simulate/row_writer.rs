@@ -34,7 +34,16 @@ pub(super) struct RowWriter<'a> {
     next: u64,
     /// Time spent on rows.
     pub spent: Duration,
+    /// The last row that was due: it is left out if the last state, which is a row always, has the same time.
+    held: Option<Row>,
+    /// Time of the row before it, s.
+    before: f64,
+    /// Rows that the sink has taken.
+    taken: u64,
 }
+
+/// A row due this much of the spacing before the end is the end, but for the rounding of its time.
+const SAME_TIME: f64 = 1e-9;
 
 impl<'a> RowWriter<'a> {
     pub fn new(rows: &'a mut dyn RowSink, schedule: Schedule) -> RowWriter<'a> {
@@ -43,6 +52,9 @@ impl<'a> RowWriter<'a> {
             schedule,
             next: 0,
             spent: Duration::ZERO,
+            held: None,
+            before: 0.0,
+            taken: 0,
         }
     }
 
@@ -60,16 +72,38 @@ impl<'a> RowWriter<'a> {
         result
     }
 
-    /// The last row.
-    pub fn finish(self, row: impl FnOnce() -> Option<Row>) -> Result<(), Error> {
-        let row = self.rows.wants_rows().then(row).flatten();
-        row.map_or(Ok(()), |row| self.rows.row(&row))
+    /// After the last row that is due, that of the last state.
+    pub fn finish(mut self, last: impl FnOnce() -> Option<Row>) -> Result<(), Error> {
+        let last = self.rows.wants_rows().then(last).flatten();
+        let before = self.before;
+        let is_last = |due: &Row| {
+            let last = last.map_or(f64::INFINITY, |row| row.t);
+            last - due.t <= SAME_TIME * (due.t - before) + 4.0 * f64::EPSILON * last
+        };
+        let due = self
+            .held
+            .take()
+            .filter(|due| last.is_none() || !is_last(due));
+        due.iter()
+            .chain(&last)
+            .try_for_each(|row| self.rows.row(row))
+    }
+
+    /// Hands on the row before.
+    fn put(&mut self, row: Row) -> Result<(), Error> {
+        let Some(due) = self.held.replace(row) else {
+            return Ok(());
+        };
+        self.before = due.t;
+        self.taken += 1;
+        refuse_rows(self.taken as f64, due.t)?;
+        self.rows.row(&due)
     }
 
     fn at_times(&mut self, part: &mut dyn Part) -> Result<(), Error> {
         let [_, until] = part.times();
         while let Some(t) = self.schedule.time(self.next).filter(|t| *t <= until) {
-            self.rows.row(&part.row(t))?;
+            self.put(part.row(t))?;
             self.next += 1;
         }
         Ok(())
@@ -79,7 +113,7 @@ impl<'a> RowWriter<'a> {
         let [mut from, until] = part.times();
         refuse_rows((part.turned(until) / spacing).abs(), until)?;
         if self.next == 0 {
-            self.rows.row(&part.row(from))?;
+            self.put(part.row(from))?;
             self.next = 1;
         }
         // Between the times at which the crank turns back its angle is monotone.
@@ -91,7 +125,7 @@ impl<'a> RowWriter<'a> {
             for k in passed(before, after) {
                 // A turning point may fall short of its angle by rounding.
                 let t = part.time_of(k * spacing, [from, to]).unwrap_or(to);
-                self.rows.row(&part.row(t))?;
+                self.put(part.row(t))?;
             }
             from = to;
         }

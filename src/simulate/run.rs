@@ -2,11 +2,9 @@
 
 use std::sync::Arc;
 
-use super::dense_rows::Frame;
 use super::guide_friction::Sliding;
-use super::last_row::LastRow;
 use super::options::Options;
-use super::row::{NoRows, RowSink};
+use super::row::{NoRows, RowMaker, RowSink};
 use super::run_setup::RunSetup;
 use super::schedule::{self, Schedule};
 use super::simulation::Simulation;
@@ -84,18 +82,9 @@ fn run_keeping(
         None | Some(Extent::Revolutions(0.0)) => Extent::Duration(0.0),
         Some(extent) => extent,
     };
-    let equation = Arc::new(Equation::new(scene));
+    let equation = Equation::new(scene);
     let free = scene.motion.kind == MotionKind::Free;
-    let reactor = options.reactions.then(|| Reactor::new(scene)).transpose()?;
     let sliding = Sliding::new(scene, &equation).filter(|_| free);
-    let frame = Frame {
-        reactor: reactor.map(Arc::new),
-        driving_torque: options.driving_torque,
-        guide: guide(scene, &equation).map(Arc::new),
-        sliding: sliding.map(Arc::new),
-        alpha: (!free).then_some(0.0),
-        equation: equation.clone(),
-    };
     let task = RunSetup {
         scene,
         options,
@@ -103,7 +92,16 @@ fn run_keeping(
         extent,
         kept,
         limits: Limits::new(equation.linkage(), scene.motion.speed),
-        maker: frame.maker(),
+        maker: RowMaker {
+            reactor: match options.reactions {
+                true => Some(Arc::new(Reactor::new(scene)?)),
+                false => None,
+            },
+            driving_torque: options.driving_torque,
+            guide: guide(scene, &equation).map(Arc::new),
+            sliding: sliding.map(Arc::new),
+            equation: Arc::new(equation),
+        },
     };
     if is_open(&task) && rows.wants_rows() {
         let blind = Options {
@@ -116,15 +114,14 @@ fn run_keeping(
         let end = seen.last.t_s;
         schedule::refuse_rows(task.schedule().rows_until(end), end)?;
     }
-    let mut rows = LastRow::new(rows);
     let mut run = match task.plan.engine {
-        Engine::ClosedForm => closed_form::run(&task, &mut rows),
-        Engine::Contact => clearance::run(&task, &mut rows),
-        Engine::Energy | Engine::Angle | Engine::Time => forward::run(&task, &mut rows),
+        Engine::ClosedForm => closed_form::run(&task, rows),
+        Engine::Contact => clearance::run(&task, rows),
+        Engine::Energy | Engine::Angle | Engine::Time => forward::run(&task, rows),
     }?;
-    rows.finish()?;
     if run.summary.clearance.is_none() {
-        run.dense.frame = Some(frame);
+        run.dense.maker = Some(task.maker);
+        run.dense.alpha = (!free).then_some(0.0);
     }
     Ok(run)
 }

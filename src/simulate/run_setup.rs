@@ -3,7 +3,6 @@
 use super::options::Options;
 use super::row::RowMaker;
 use super::schedule::Schedule;
-use super::warning::Warning;
 use crate::engine::runge_kutta;
 use crate::engine::time::{self, Settings, Start};
 use crate::mechanism::{Class, Equation, Limits};
@@ -20,17 +19,17 @@ pub(super) struct RunSetup<'a> {
     /// Most steps or pieces of the dense motion that are kept.
     pub kept: usize,
     pub limits: Limits,
-    pub maker: RowMaker<'a>,
+    pub maker: RowMaker,
 }
 
-impl<'a> RunSetup<'a> {
+impl RunSetup<'_> {
     /// When rows are due.
     pub fn schedule(&self) -> Schedule {
         Schedule::new(self.scene.run.output_every, self.extent)
     }
 
-    pub fn equation(&self) -> &'a Equation {
-        self.maker.equation
+    pub fn equation(&self) -> &Equation {
+        &self.maker.equation
     }
 
     pub fn start(&self) -> Angle {
@@ -40,23 +39,6 @@ impl<'a> RunSetup<'a> {
     /// Whether the crank turns right round.
     pub fn turns_fully(&self) -> bool {
         self.limits.class == Class::RotatingCrank
-    }
-
-    /// The error estimate, if one is asked for and the run was not stopped; a warning if its second run does not finish.
-    pub fn estimate<T>(
-        &self,
-        stopped: bool,
-        warnings: &mut Vec<Warning>,
-        second: impl FnOnce() -> Option<T>,
-    ) -> Option<T> {
-        if !self.options.estimate || stopped {
-            return None;
-        }
-        let estimate = second();
-        if estimate.is_none() {
-            warnings.push(Warning::NotEstimated);
-        }
-        estimate
     }
 
     /// The state of the crank at the start.

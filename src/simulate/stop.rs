@@ -5,6 +5,7 @@ use std::fmt;
 use serde::{Serialize, Serializer};
 
 use super::stalled::Torques;
+use crate::engine::energy::NotApplicable;
 use crate::engine::time::Start;
 use crate::mechanism::Jam;
 use crate::scene::Load;
@@ -244,5 +245,19 @@ impl PartialEq for Stopped {
 impl Serialize for Stopped {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)
+    }
+}
+
+/// Why a motion over the crank angle does not go on.
+pub(super) fn not_applicable(unserved: NotApplicable) -> &'static str {
+    match unserved {
+        NotApplicable::Equilibrium => "it starts at rest without a force",
+        NotApplicable::NotFinite => "a load has no finite value on the way",
+        NotApplicable::NotSmooth => "a load is not smooth",
+        NotApplicable::TooSlow => "the crank comes too near to rest",
+        NotApplicable::WorkLimit => "it takes more evaluations than the work limit allows",
+        NotApplicable::TooLong => {
+            "its turns differ from each other, and they are too many to be kept"
+        }
     }
 }

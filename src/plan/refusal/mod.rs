@@ -1,6 +1,5 @@
 //! What cannot be simulated, though each value of the scene is possible: the one place that decides it.
 
-mod inertia;
 mod model;
 mod run;
 mod start;
@@ -8,7 +7,7 @@ mod start;
 pub(super) use model::problems as not_modelled;
 
 use crate::mechanism::Linkage;
-use crate::scene::{Problem, Problems, Scene};
+use crate::scene::{Problems, Scene};
 
 /// Refuses a scene that has no simulation, whatever the method.
 ///
@@ -27,9 +26,4 @@ pub fn refuse(scene: &Scene) -> Result<(), Problems> {
     let starts = list.is_empty();
     run::problems(&reduced, &linkage, starts, &mut list);
     scene.refused(list)
-}
-
-/// A problem of the value of a key.
-fn problem(field: &str, what: impl Into<String>, help: impl Into<String>) -> Problem {
-    Problem::new(field, what, help)
 }

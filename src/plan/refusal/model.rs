@@ -1,7 +1,5 @@
 //! Parts that do not go together, and mechanisms whose loads decide no motion.
 
-use super::inertia;
-use super::problem;
 use crate::mechanism::{Bodies, Class, Curve, Linkage, LooseMechanism};
 use crate::numeric::angle::Angle;
 use crate::scene::{ContactLaw, Load, MotionKind, Problem, RodModel, Scene};
@@ -29,7 +27,7 @@ fn friction(scene: &Scene, list: &mut Vec<Problem>) {
         return;
     }
     if scene.rod.is_some_and(|rod| rod.model == RodModel::SpinOnly) {
-        list.push(problem(
+        list.push(Problem::new(
             "rod.model",
             "the rod model \"spin-only\" leaves out the rod's translation, so no normal force goes with it",
             "use model = \"rigid\" or \"two-mass\" with [friction]",
@@ -37,7 +35,7 @@ fn friction(scene: &Scene, list: &mut Vec<Problem>) {
     }
     let law = scene.clearance.map(|clearance| clearance.law);
     if law == Some(ContactLaw::MasslessLink) {
-        list.push(problem(
+        list.push(Problem::new(
             "clearance.contact_law",
             "Coulomb friction at the guide together with a massless link in a joint is not modelled",
             "use another contact_law, or take [friction] out of the scene",
@@ -47,14 +45,18 @@ fn friction(scene: &Scene, list: &mut Vec<Problem>) {
 
 fn free(scene: &Scene, linkage: &Linkage, list: &mut Vec<Problem>) {
     if !Bodies::new(scene).have_inertia() {
-        list.push(inertia::none());
+        list.push(Problem::new(
+            "crank.inertia",
+            "the mechanism has no inertia, so its loads decide no motion",
+            "give the crank an inertia, or the rod or the slider a mass, or use motion kind = \"constant-speed\"",
+        ));
     }
     let at_crossing = || {
         linkage.reaches(scene.motion.angle)
             && Curve::through(linkage, Angle::from(scene.motion.angle).reduced()).is_none()
     };
     if Class::of(linkage) == Class::ChangePoint && at_crossing() {
-        list.push(problem(
+        list.push(Problem::new(
             "motion.angle",
             "motion.angle is the change point of these lengths, where the mechanism may go on in two ways, and the scene does not say which",
             "start away from it, or change a length a little to say which mechanism is meant",
@@ -67,7 +69,7 @@ fn dry(scene: &Scene, list: &mut Vec<Problem>) {
     for (name, loads) in [("torque", &scene.torques), ("force", &scene.forces)] {
         let dry = |load: &Load| matches!(load, Load::Dry(_));
         for (i, _) in loads.iter().enumerate().filter(|(_, load)| dry(load)) {
-            list.push(problem(
+            list.push(Problem::new(
                 &format!("{name}[{}].kind", i + 1),
                 "a load of kind \"dry\" together with clearance in a joint is not modelled",
                 "use kind = \"viscous\", or take [clearance] out of the scene",
@@ -79,7 +81,7 @@ fn dry(scene: &Scene, list: &mut Vec<Problem>) {
 /// With clearance: lengths at which joints with play decide nothing, and a prescribed motion that the rod cannot follow.
 fn loose(scene: &Scene, slack: f64, linkage: &Linkage, list: &mut Vec<Problem>) {
     if Class::of(linkage) == Class::ChangePoint {
-        list.push(problem(
+        list.push(Problem::new(
             "geometry.rod",
             "the lengths make a change point, where joints with clearance may go on in two ways",
             "change a length a little to say which mechanism is meant",
@@ -88,7 +90,7 @@ fn loose(scene: &Scene, slack: f64, linkage: &Linkage, list: &mut Vec<Problem>) 
     }
     let prescribed = scene.motion.kind == MotionKind::ConstantSpeed;
     if prescribed && linkage.margin() + slack < 0.0 {
-        list.push(problem(
+        list.push(Problem::new(
             "motion.kind",
             "the crank cannot turn fully, and at constant speed nothing gives way but the loose joint",
             "use motion kind = \"free\", or lengths whose crank turns fully",

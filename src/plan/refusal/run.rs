@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use super::problem;
 use crate::mechanism::{Curve, CurveEquation, Limits, Linkage};
 use crate::numeric::angle::Angle;
 use crate::scene::{Extent, Load, MotionKind, Problem, Scene, Variable};
@@ -11,7 +10,7 @@ use crate::scene::{Extent, Load, MotionKind, Problem, Scene, Variable};
 pub(super) fn problems(scene: &Scene, linkage: &Linkage, starts: bool, list: &mut Vec<Problem>) {
     let turns = match scene.run.extent {
         None => {
-            list.push(problem(
+            list.push(Problem::new(
                 "run",
                 "the scene does not say how long the run is",
                 "add [run] with duration = \"1 s\" or revolutions = 10",
@@ -26,7 +25,7 @@ pub(super) fn problems(scene: &Scene, linkage: &Linkage, starts: bool, list: &mu
         return;
     }
     if let Some(widest) = widest_turn(scene, linkage).filter(|widest| turns * TAU > *widest) {
-        list.push(problem(
+        list.push(Problem::new(
             "run.revolutions",
             format!(
                 "run.revolutions: the crank cannot turn by more than {} deg between its limits and never completes {turns} turns",
@@ -35,7 +34,7 @@ pub(super) fn problems(scene: &Scene, linkage: &Linkage, starts: bool, list: &mu
             "give run.duration instead",
         ));
     } else if scene.motion.speed == 0.0 && (!free || starts && is_balanced(scene, linkage)) {
-        list.push(problem(
+        list.push(Problem::new(
             "run.revolutions",
             format!("a crank at rest never completes {turns} turns"),
             "give motion.speed, or run.duration",

@@ -1,7 +1,5 @@
 //! Starts from which no motion begins.
 
-use super::inertia;
-use super::problem;
 use crate::mechanism::{Class, Curve, CurveEquation, Limits, Linkage, LooseMechanism, single};
 use crate::numeric::angle::Angle;
 use crate::scene::{Clearance, Instant, Load, MotionKind, Problem, Scene};
@@ -30,7 +28,7 @@ fn free(scene: &Scene, linkage: &Linkage, list: &mut Vec<Problem>) {
     };
     let place = curve.place(q.rest);
     if place.dtheta.abs() < NO_SPEED && speed != 0.0 {
-        list.push(problem(
+        list.push(Problem::new(
             "motion.speed",
             "motion.speed: at motion.angle the rod stands normal to the guide, and the crank has no speed there",
             "start at rest, or away from the limit",
@@ -44,11 +42,25 @@ fn free(scene: &Scene, linkage: &Linkage, list: &mut Vec<Problem>) {
     let equation = CurveEquation::new(scene, curve);
     let before = list.len();
     loads(scene, &equation.instant(&place, 0.0, q, pace), list);
-    if inertia::vanishes(&equation, q.rest) {
-        list.push(inertia::at_start(theta.radians()));
+    if vanishes(&equation, q.rest) {
+        list.push(Problem::new(
+            "motion.angle",
+            format!(
+                "the effective inertia vanishes at the start, theta = {} rad",
+                theta.radians()
+            ),
+            "give the crank an inertia, or start away from the dead centre",
+        ));
     } else if list.len() == before && !equation.free(0.0, q, pace).acceleration.is_finite() {
         list.push(too_large(theta));
     }
+}
+
+/// Whether M vanishes at coordinate `q` (rad): it is so small there that rounding `q` makes more of it.
+fn vanishes(equation: &CurveEquation, q: f64) -> bool {
+    let m = |q: f64| equation.across(q).m;
+    let rounding = 4.0 * f64::EPSILON * q.abs().max(1.0);
+    !m(q).is_normal() || m(q) < 0.25 * (m(q - rounding) + m(q + rounding))
 }
 
 /// Loads that have no value at the start.
@@ -77,7 +89,7 @@ fn no_value(field: &str, load: &Load, value: f64, now: &Instant) -> Problem {
             "check the domain of its formula, and what it divides by",
         ),
     };
-    problem(
+    Problem::new(
         &format!("{field}.{key}"),
         format!(
             "a load has no finite value at the start: {field} is {value} at t = 0, theta = {theta} rad, omega = {omega} rad/s"
@@ -87,7 +99,7 @@ fn no_value(field: &str, load: &Load, value: f64, now: &Instant) -> Problem {
 }
 
 fn too_large(theta: Angle) -> Problem {
-    problem(
+    Problem::new(
         "motion",
         format!(
             "the loads or the speed are too large to be computed with at the start, theta = {} rad: the acceleration has no value in double precision",
@@ -101,7 +113,7 @@ fn out_of_reach(theta: Angle, reach: &[[f64; 2]]) -> Problem {
     let range =
         |[from, to]: &[f64; 2]| format!("{:.6} to {:.6} deg", from.to_degrees(), to.to_degrees());
     let ranges: Vec<String> = reach.iter().map(range).collect();
-    problem(
+    Problem::new(
         "motion.angle",
         format!(
             "motion.angle: the mechanism has no position at crank angle {} rad: the rod does not reach the guide or stands normal to it",
@@ -136,7 +148,7 @@ fn driven(scene: &Scene, linkage: &Linkage, list: &mut Vec<Problem>) {
         return;
     }
     if linkage.unlocked(mu).is_some() {
-        list.push(problem(
+        list.push(Problem::new(
             "motion.angle",
             format!(
                 "motion.angle: at crank angle {} rad the guide locks itself, as the coefficient of friction times tan phi is 1 or more: no crank torque moves it at constant speed",
@@ -145,7 +157,7 @@ fn driven(scene: &Scene, linkage: &Linkage, list: &mut Vec<Problem>) {
             "start where |e + r sin(theta)| is less than l/sqrt(1 + coefficient^2), or reduce the friction",
         ));
     } else if Class::of(linkage) == Class::ChangePoint {
-        list.push(problem(
+        list.push(Problem::new(
             "motion.angle",
             format!("at crank angle {} rad the mechanism is at its change point, which no constant speed passes", theta.radians()),
             "start away from it",

@@ -6,7 +6,7 @@ use super::super::closed_form;
 use super::super::error_estimate::MARGIN;
 use super::super::joint_force_maxima::Peaks;
 use super::super::outcome::{Balance, Estimate, Outcome};
-use super::super::record::Record as Recorded;
+use super::super::recorder::Record as Recorded;
 use super::super::result::ErrorEstimate;
 use super::super::simulation::Simulation;
 use super::super::stop::Why;

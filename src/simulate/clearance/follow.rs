@@ -223,6 +223,7 @@ impl<const N: usize> LooseRows<'_, N> {
             phi: phi(s.psi, self.task.scene.geometry.branch.sign()),
             reactions: maker
                 .reactor
+                .as_ref()
                 .map(|reactor| reactor.loose(mechanism.joint(), s, &rates)),
             driving_torque: maker.driving_torque.then_some(rates.driving_torque),
             clearance: Some(LooseRow {

@@ -16,8 +16,7 @@ pub use result::{Beyond, ClearanceSummary, Horizon, LooseFinal};
 
 use super::closed_form;
 use super::error_estimate::{TIGHTER, TIGHTEST};
-use super::record::Record as Recorded;
-use super::recorder::Recorder;
+use super::recorder::{Record as Recorded, Recorder};
 use super::result::Cost;
 use super::row::RowSink;
 use super::run_setup::RunSetup;

@@ -20,7 +20,7 @@ impl<const N: usize> Follow<'_, N> {
             _ => self.model.state(y),
         };
         let rates = mechanism.rates(&s, touch(phase, None));
-        let reactor = self.task.maker.reactor;
+        let reactor = self.task.maker.reactor.as_ref();
         reactor.map_or([0.0; FORCES], |reactor| {
             sizes(&reactor.loose(mechanism.joint(), &s, &rates))
         })

@@ -9,7 +9,7 @@ use crate::numeric::angle::Angle;
 
 /// The crank angle as the coordinate of a step.
 pub(super) struct Crank<'a> {
-    pub maker: &'a RowMaker<'a>,
+    pub maker: &'a RowMaker,
     pub motion: &'a Counted<'a>,
     pub start: Angle,
     pub crossings: &'a [(f64, Crossing)],

@@ -8,19 +8,18 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::super::angle_motion::{PLACE, late_by, worst_row};
-use super::super::by_angle::{ROUNDING, finer, row_error};
-use super::super::by_energy;
 use super::super::checkpoints::Compared;
 use super::super::configuration_curve::{End, Noise, Observer, OnCurve, Phase};
 use super::super::error_estimate::{Forward, MARGIN, Rounding, much_tighter, tighter};
 use super::super::outcome::Estimate;
-use super::super::record::Record;
+use super::super::recorder::Record;
 use super::super::result::{Cost, ErrorEstimate};
 use super::super::roundoff_propagation::Spread;
 use super::super::state_transition::StateTransition;
 use super::arrived::{Arrived, Driven, Sink};
 use super::engine_loop::Course;
+use super::errors_over_angle::{PLACE, ROUNDING, by_energy, late_by, row_error, worst_row};
+use super::over_angle::finer;
 use crate::engine::angle::Errors;
 use crate::engine::step::Step;
 use crate::engine::time::{Method, Settings, Start};
@@ -41,19 +40,18 @@ const DEVIATIONS: f64 = 2.0;
 const FORGOTTEN: f64 = 0.1;
 
 /// Global error of a run; none where no second run gets to its end.
-pub(super) fn estimate<'a>(
-    course: &'a Course<'_>,
-    arrived: &'a Arrived,
-    record: &'a Record,
+pub(super) fn estimate(
+    course: &Course<'_>,
+    arrived: &Arrived,
+    record: &Record,
     wants_rows: bool,
-) -> impl FnOnce() -> Option<Estimate> + 'a {
-    move || match &arrived.driven {
-        Some(driven) if driven.engine == Engine::Energy => Some(by_energy::estimate(
-            course.task,
-            &driven.driving,
-            arrived.work,
-            wants_rows,
-        )),
+) -> Option<Estimate> {
+    match &arrived.driven {
+        Some(Driven {
+            driving, engine, ..
+        }) if *engine == Engine::Energy => {
+            Some(by_energy(course.task, driving, arrived.work, wants_rows))
+        }
         _ => by_second_run(course, arrived, record, wants_rows),
     }
 }

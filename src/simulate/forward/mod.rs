@@ -5,6 +5,7 @@ mod arrived;
 mod clear;
 mod crank;
 mod engine_loop;
+mod errors_over_angle;
 mod estimate;
 mod in_time;
 mod notes;
@@ -21,12 +22,10 @@ use engine_loop::Course;
 use notes::Notes;
 
 use super::angle_model::AngleModel;
-use super::angle_motion::balance;
-use super::by_angle;
 use super::configuration_curve::{self, End};
 use super::error_estimate::Forward;
 use super::outcome::{Balance, Outcome};
-use super::record::Record;
+use super::recorder::Record;
 use super::row::RowSink;
 use super::run_setup::RunSetup;
 use super::simulation::Simulation;
@@ -52,7 +51,7 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
         first: task.plan.engine,
         is_second: false,
         extent: task.extent,
-        resolution: by_angle::plain(task),
+        resolution: over_angle::plain(task),
         settings: task.settings(),
         wait: WAIT,
         max_evaluations: task.options.max_evaluations,
@@ -75,8 +74,11 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
         .then(|| configuration_curve::warning(task))
         .flatten();
     let mut warnings: Vec<Warning> = warning.into_iter().collect();
-    let judged = estimate::estimate(&course, &arrived, &record, wants_rows);
-    let estimate = task.estimate(stopped.is_some(), &mut warnings, judged);
+    let mut estimate = None;
+    if task.options.estimate && stopped.is_none() {
+        estimate = estimate::estimate(&course, &arrived, &record, wants_rows);
+        warnings.extend(estimate.is_none().then_some(Warning::NotEstimated));
+    }
     let now = arrived.now;
     let outcome = Outcome {
         at: now,
@@ -102,7 +104,7 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
 fn position<'a>(task: &'a RunSetup<'_>) -> AngleModel<'a> {
     let speed = task.scene.motion.speed;
     let mut position = AngleModel::new(task.equation(), &task.limits, task.start(), speed)
-        .with_friction(task.maker.sliding)
+        .with_friction(task.maker.sliding.as_deref())
         .with_limit(task.options.max_evaluations);
     if task.plan.engine == Engine::Time {
         return position;
@@ -140,7 +142,7 @@ fn energy_balance(course: &Course<'_>, arrived: &Arrived, record: &Record) -> Ba
                 _ => 0.0,
             };
             let largest = arrived.largest_kinetic.max(fastest);
-            balance(course.task, at, arrived.work, largest)
+            Balance::of_crank(course.task, at, arrived.work, largest)
         }
     }
 }

@@ -7,8 +7,7 @@ use std::sync::Arc;
 use super::super::bounded_motion::Swing;
 use super::super::configuration_curve::{AlongCurve, Observer, OnCurve, Phase, crank_state};
 use super::super::passages::{Stretch, is_dead_centre};
-use super::super::record::Record;
-use super::super::recorder::{Coordinate, Recorder};
+use super::super::recorder::{Coordinate, Record, Recorder};
 use super::super::result::Event;
 use super::super::row::RowSink;
 use super::super::run_setup::RunSetup;
@@ -228,7 +227,7 @@ impl<'a> Notes<'a> {
 
 /// The coordinate of a curve in one phase.
 fn along<'a>(task: &'a RunSetup<'_>, on: &'a CurveEquation, phase: Phase) -> AlongCurve<'a> {
-    AlongCurve::new(on, phase, task.maker.reactor, task.start())
+    AlongCurve::new(on, phase, task.maker.reactor.as_deref(), task.start())
 }
 
 impl Observer for Notes<'_> {

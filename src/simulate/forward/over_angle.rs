@@ -3,21 +3,33 @@
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-use super::super::by_energy;
+use super::super::angle_model::AngleModel;
 use super::super::configuration_curve::End;
+use super::super::error_estimate::LEAST_TAIL;
+use super::super::run_setup::RunSetup;
+use super::super::stop;
 use super::arrived::{Driven, Why};
 use super::engine_loop::Pass;
 use crate::engine::angle::{self, Driving, Goal, Resolution};
-use crate::engine::energy::NotApplicable;
+use crate::engine::energy::{NotApplicable, Orbit};
 use crate::engine::time::Start;
 use crate::error::Error;
+use crate::numeric::root;
 use crate::plan::Engine;
 use crate::scene::Extent;
+
+/// Series end where their coefficients have decayed to this part of the tolerance: of the angle engine, times what a series is
+/// worse inside a panel, where friction may cut it;
+const SHARE_OVER_ANGLE: f64 = 1e-2;
+const CUT: f64 = 0.03;
+/// of the energy engine, and at this at the latest, for all digits but the last ones.
+const SHARE_OF_ENERGY: f64 = 0.1;
+const MOST_TAIL: f64 = 1e-13;
 
 impl Pass<'_, '_> {
     /// The whole run from its energy.
     pub fn by_energy(&mut self, reason: Cow<'static, str>) -> Result<Why, Error> {
-        let solved = match by_energy::solve(self.course.task, self.course.position) {
+        let solved = match solve(self.course.task, self.course.position) {
             Ok(solved) => solved,
             Err(why) => return Ok(Why::NotApplicable(why)),
         };
@@ -128,4 +140,115 @@ impl Pass<'_, '_> {
             self.sink.keep(driven);
         }
     }
+}
+
+/// As fine as the tolerance asks for.
+pub(super) fn plain(task: &RunSetup<'_>) -> Resolution {
+    let share = match &task.maker.sliding {
+        Some(_) => SHARE_OVER_ANGLE * CUT,
+        None => SHARE_OVER_ANGLE,
+    };
+    Resolution {
+        tail: (share * task.scene.run.tolerance).max(LEAST_TAIL),
+        other: false,
+        most_evaluations: task.options.max_evaluations,
+    }
+}
+
+/// Finer, and cut at other angles: two runs on the same panels would have the same error.
+pub(super) fn finer() -> Resolution {
+    Resolution {
+        tail: LEAST_TAIL,
+        other: true,
+        most_evaluations: u64::MAX,
+    }
+}
+
+/// A whole run, and why it ends before its goal, if it does.
+struct Solved {
+    driving: Driving,
+    stopped: Option<stop::Why>,
+}
+
+/// Solves a task.
+fn solve(task: &RunSetup<'_>, position: &AngleModel<'_>) -> Result<Solved, NotApplicable> {
+    let speed = task.scene.motion.speed;
+    let tail = (SHARE_OF_ENERGY * task.scene.run.tolerance).clamp(LEAST_TAIL, MOST_TAIL);
+    let (orbit, end, stopped) = until_the_end(task, |until| {
+        Orbit::new(position, task.start(), speed, until, tail)
+    })?;
+    let work = position.work(task.start(), orbit.state(end).0);
+    let driving = Driving::whole(orbit, end, work);
+    Ok(Solved { driving, stopped })
+}
+
+/// A motion, its last time, and why it does not complete its turns, if it does not.
+type Ended = (Orbit, f64, Option<stop::Why>);
+
+/// The motion and its last time.
+fn until_the_end(
+    task: &RunSetup<'_>,
+    mut orbit_until: impl FnMut(f64) -> Result<Orbit, NotApplicable>,
+) -> Result<Ended, NotApplicable> {
+    let turns = match task.extent {
+        Extent::Duration(duration) => {
+            let orbit = orbit_until(duration)?;
+            return Ok(match cut_short(&orbit, duration) {
+                Some((end, why)) => (orbit, end, Some(why)),
+                None => (orbit, duration, None),
+            });
+        }
+        Extent::Revolutions(turns) => turns,
+    };
+    let radians = turns * TAU;
+    let speed = task.scene.motion.speed;
+    // Long enough for the turns: twice as long again and again, unless the motion repeats.
+    let mut until = if speed == 0.0 {
+        1.0
+    } else {
+        radians / speed.abs()
+    };
+    for _ in 0..60 {
+        let orbit = orbit_until(until)?;
+        let period = orbit.period().map(|period| period.0);
+        let known = period.unwrap_or(until.min(orbit.length()));
+        let reached = if orbit.turns_back() {
+            time_of_way(task, &orbit, radians, known)
+        } else {
+            orbit.time_of_turn(radians)
+        };
+        match (reached, period) {
+            (Some(end), _) => return Ok((orbit, end, None)),
+            (None, Some(period)) => {
+                let why = stop::Why::Period { turns, period };
+                return Ok((orbit, period, Some(why)));
+            }
+            (None, None) => match cut_short(&orbit, until) {
+                Some((end, why)) => return Ok((orbit, end, Some(why))),
+                None => until *= 2.0,
+            },
+        }
+    }
+    Err(NotApplicable::TooLong)
+}
+
+/// Where (s) the work limit ends a motion that is wanted until a time (s), and why, if it does.
+fn cut_short(orbit: &Orbit, until: f64) -> Option<(f64, stop::Why)> {
+    let end = orbit.length();
+    (end < until).then_some((end, stop::Why::WorkLimit))
+}
+
+/// When a motion that turns back is first so far (rad) from its start, either way.
+fn time_of_way(task: &RunSetup<'_>, orbit: &Orbit, radians: f64, until: f64) -> Option<f64> {
+    let beyond = |t: f64| orbit.state(t).0.minus(task.start()).abs() - radians;
+    let mut from = 0.0;
+    let mut ends = orbit.turning_times(until);
+    ends.push(until);
+    for to in ends {
+        if beyond(to) >= 0.0 {
+            return root::bracketed(beyond, from, to);
+        }
+        from = to;
+    }
+    None
 }

@@ -1,10 +1,9 @@
 //! Why a free motion ends before its goal, cannot begin, or cannot be served by an engine.
 
-use super::super::angle_motion;
 use super::super::configuration_curve::End;
 use super::super::run_setup::RunSetup;
 use super::super::stalled;
-use super::super::stop::Why;
+use super::super::stop::{self, Why};
 use super::arrived::Arrived;
 use super::engine_loop::Course;
 use crate::engine::energy::NotApplicable;
@@ -98,12 +97,12 @@ pub(super) fn no_start(task: &RunSetup<'_>) -> Error {
 
 /// Why an engine over the angle cannot serve a task.
 pub(super) fn not_applicable(task: &RunSetup<'_>, why: NotApplicable) -> &'static str {
-    match task.maker.sliding {
+    match &task.maker.sliding {
         Some(sliding) if sliding.jams() => "the slider jams in its guide at an angle of the turn",
         _ if why == NotApplicable::NotFinite && !task.turns_fully() => {
             "the mechanism reaches the limit of its motion"
         }
-        _ => angle_motion::reason(why),
+        _ => stop::not_applicable(why),
     }
 }
 

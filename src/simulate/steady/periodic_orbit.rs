@@ -3,8 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::super::angle_model::AngleModel;
-use super::super::angle_motion::LEAST_TAIL;
-use super::super::error_estimate::MARGIN;
+use super::super::error_estimate::{LEAST_TAIL, MARGIN};
 use super::super::guide_friction::Sliding;
 use super::Estimated;
 use super::refusal::{Over, always_gains, no_cycle, not_turned, over, unbounded};

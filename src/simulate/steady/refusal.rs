@@ -1,6 +1,6 @@
 //! Scenes without a periodic steady state over the crank angle, with the reason.
 
-use super::super::angle_motion;
+use super::super::stop::not_applicable;
 use crate::engine::angle::NoCycle;
 use crate::engine::energy::NotApplicable;
 use crate::error::Error;
@@ -89,7 +89,7 @@ pub(super) fn no_cycle(reason: NoCycle) -> Error {
         NoCycle::NotApplicable(reason) => (
             format!(
                 "the steady state cannot be computed: {}",
-                angle_motion::reason(reason)
+                not_applicable(reason)
             ),
             "look at the loads; or simulate until the motion repeats",
         ),

@@ -1,0 +1,129 @@
+//! Errors of motions over the crank angle: by rounding of times and places, and by what their series leave out.
+
+use super::super::error_estimate::MARGIN;
+use super::super::outcome::{Balance, Estimate};
+use super::super::result::ErrorEstimate;
+use super::super::run_setup::RunSetup;
+use crate::engine::angle::Driving;
+use crate::engine::energy::Orbit;
+use crate::engine::time::Start;
+use crate::numeric::angle::Angle;
+
+/// Relative error of times by rounding, of the angle engine;
+pub(super) const ROUNDING: f64 = 2.5 * f64::EPSILON;
+/// of the energy engine, by rounding of the positions and of the kinetic energy at the start,
+const ROUNDING_BY_ENERGY: f64 = f64::EPSILON;
+/// and where the crank comes to rest, next to which the time hangs on the force: a difference, which is rounded more.
+const ROUNDING_AT_REST: f64 = 4.0 * f64::EPSILON;
+
+/// Times of a run at which its rows are judged.
+const LOOKED_AT: u32 = 64;
+
+/// Error of the worst row of a run until a time (s), by that of rows spread over the run.
+pub(super) fn worst_row(
+    end: f64,
+    last: ErrorEstimate,
+    error: impl Fn(f64) -> ErrorEstimate,
+) -> ErrorEstimate {
+    // Multiples of the golden section fall everywhere in panels, however these divide the run.
+    let golden = 0.5 * (5f64.sqrt() - 1.0);
+    let times = (1..=LOOKED_AT).map(|i| (f64::from(i) * golden).fract() * end);
+    times.fold(last, |worst, t| worst.max(error(t)))
+}
+
+/// How far an angle in its turn is rounded at most, rad.
+pub(super) const PLACE: f64 = 2.0 * f64::EPSILON;
+
+/// Error of a state if its time may be off by `late` (s): it moves the state along the motion. The angle in its
+/// turn is right to `place` (rad), and rounded once more with its turns. The speed comes from series of 33
+/// terms, whose sum is rounded by half of √33 units. These errors are independent.
+pub(super) fn late_by(
+    task: &RunSetup<'_>,
+    (angle, omega): (Angle, f64),
+    end: f64,
+    late: f64,
+    place: f64,
+) -> ErrorEstimate {
+    let (alpha, _) = task.maker.forward(end, angle, omega);
+    let rounding = place + 0.5 * f64::EPSILON * angle.radians().abs();
+    ErrorEstimate {
+        theta_rad: (omega * late).hypot(rounding),
+        omega_rad_per_s: (alpha * late).hypot(3.0 * f64::EPSILON * omega),
+    }
+}
+
+/// Error of the last state, and of the worst row.
+pub(super) fn by_energy(
+    task: &RunSetup<'_>,
+    driving: &Driving,
+    work: f64,
+    wants_rows: bool,
+) -> Estimate {
+    let (orbit, end) = (&driving.orbit, driving.end);
+    let last = orbit.state(end);
+    let mut error = rounded(task, (orbit, end), last);
+    error.omega_rad_per_s += left_out(task, (orbit, end), last, work);
+    Estimate {
+        error,
+        on_the_way: wants_rows.then(|| worst_row(end, error, |t| row_by_energy(task, orbit, t))),
+        cost: None,
+    }
+}
+
+/// Error of a state by that of its time, and by the rounding of its place and of energies.
+fn rounded(task: &RunSetup<'_>, (orbit, t): (&Orbit, f64), state: (Angle, f64)) -> ErrorEstimate {
+    let rests = task.scene.motion.speed == 0.0 || orbit.turns_back();
+    let rounding = if rests {
+        ROUNDING_AT_REST
+    } else {
+        ROUNDING_BY_ENERGY
+    };
+    let late = orbit.time_error(t) + rounding * t;
+    let place = orbit.rounding(t).map_or(PLACE, |place| place.min(PLACE));
+    let mut error = late_by(task, state, t, late, place);
+    error.theta_rad = error.theta_rad.hypot(orbit.misplaced(t));
+    let (angle, omega) = state;
+    let momentum = task.equation().terms(angle.rest).inertia.m * omega.abs();
+    // Not a number at rest.
+    let kinetic = 0.5 * momentum * omega.abs();
+    let by_energy = (orbit.energy_error(t, kinetic) / momentum).min(omega.abs());
+    error.omega_rad_per_s = error.omega_rad_per_s.hypot(by_energy);
+    error
+}
+
+/// How far the speed may be off that of its angle, rad/s: what the series leave out of it there, or less if
+/// the energy of the state says so.
+fn left_out(
+    task: &RunSetup<'_>,
+    (orbit, end): (&Orbit, f64),
+    last: (Angle, f64),
+    work: f64,
+) -> f64 {
+    let (angle, omega) = last;
+    let at = Start {
+        t: end,
+        angle,
+        speed: omega,
+    };
+    let balance = Balance::of_crank(task, &at, work, orbit.largest_kinetic(end));
+    let momentum = task.equation().terms(angle.rest).inertia.m * omega.abs();
+    let seen = (1.5 * balance.residual.abs() + f64::EPSILON * balance.largest) / momentum;
+    (orbit.speed_error(end) * omega.abs()).min(seen)
+}
+
+/// Error of a row at a time, s.
+fn row_by_energy(task: &RunSetup<'_>, orbit: &Orbit, t: f64) -> ErrorEstimate {
+    let state = orbit.state(t);
+    let mut error = rounded(task, (orbit, t), state);
+    error.omega_rad_per_s += orbit.speed_error(t) * state.1.abs();
+    error
+}
+
+/// Error of a row at a time (s) of two motions, the error of the last one added.
+pub(super) fn row_error(orbits: [&Orbit; 2], t: f64, last: ErrorEstimate) -> ErrorEstimate {
+    let [(angle, speed), (other, faster)] = orbits.map(|orbit| orbit.state(t));
+    ErrorEstimate {
+        theta_rad: MARGIN * angle.minus(other).abs() + last.theta_rad,
+        omega_rad_per_s: MARGIN * (speed - faster).abs() + last.omega_rad_per_s,
+    }
+}
