@@ -21,14 +21,132 @@ pub(super) struct Stretch<'a> {
     pub task: &'a RunSetup<'a>,
 }
 
+/// What is as near to a dead centre as this is at it, rad; far from zero angles are rounded more than that.
+const NEAR: f64 = 1e-12;
+
 impl Stretch<'_> {
-    /// Sign of the turns it makes: +1 or −1.
-    fn direction(&self) -> f64 {
-        self.orbit.direction()
+    /// What of a way (rad) is rounding.
+    fn near(way: f64) -> f64 {
+        NEAR.max(8.0 * f64::EPSILON * way)
     }
 
-    fn is_over(&self, t: f64) -> bool {
-        t > self.end * (1.0 + 1e-14)
+    /// How far (rad) each dead centre is ahead of an angle in a direction: in (0, 2π], for the angle itself is not passed.
+    fn ahead(&self, of: Angle, direction: f64) -> Vec<(f64, f64)> {
+        let dead_centres = self.task.limits.dead_centres.iter();
+        let mut all: Vec<(f64, f64)> = dead_centres
+            .map(|dead_centre| {
+                let ahead = (direction * (dead_centre.theta - of.rest)).rem_euclid(TAU);
+                let here = ahead <= Stretch::near(of.rest.abs());
+                (if here { TAU } else { ahead }, dead_centre.theta)
+            })
+            .collect();
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        all
+    }
+
+    /// The passage of a dead centre (rad) at a time of the motion (s), so far (rad) from an angle.
+    fn passage(&self, t: f64, from: Angle, way: f64, dead_centre: f64) -> Event {
+        let turns = ((from.rest + way - dead_centre) / TAU).round();
+        let at = Angle::new(from.turns + turns, dead_centre);
+        Event {
+            kind: "dead-centre",
+            t_s: t,
+            theta_rad: at.radians(),
+            omega_rad_per_s: self.orbit.state(t).1,
+        }
+    }
+
+    /// Dead centres of a motion that does not turn back, in its own time: each is passed once in a turn.
+    fn one_way(&self, kept: usize) -> (Vec<Event>, u64) {
+        let (orbit, start) = (self.orbit, self.orbit.start());
+        let direction = orbit.direction();
+        let all = orbit.state(self.end).0.minus(start).abs() + Stretch::near(start.rest.abs());
+        let way = all * (1.0 + 4.0 * f64::EPSILON);
+        let first = self.ahead(start, direction);
+        let count = |(ahead, _): &(f64, f64)| ((way - ahead) / TAU + 1.0).floor().max(0.0) as u64;
+        let total = first.iter().map(count).sum();
+        let turns = (0u32..).flat_map(|turn| {
+            let before = f64::from(turn) * TAU;
+            first.iter().map(move |(ahead, dc)| (before + ahead, *dc))
+        });
+        let events =
+            turns
+                .take_while(|(ahead, _)| *ahead <= way)
+                .take(kept)
+                .map(|(ahead, dead_centre)| {
+                    let t = orbit.time_of_turn(ahead).unwrap_or(self.end);
+                    self.passage(t.min(self.end), start, direction * ahead, dead_centre)
+                });
+        (events.collect(), total)
+    }
+
+    /// Dead centres and turning points of a motion to and fro until a time (s), in its own time.
+    fn to_and_fro(&self, until: f64) -> Vec<Event> {
+        let orbit = self.orbit;
+        let turnings = orbit.turning_times(until);
+        let mut cuts = turnings.clone();
+        cuts.push(until);
+        let (mut events, mut from) = (Vec::new(), 0.0);
+        for (i, to) in cuts.into_iter().enumerate() {
+            let turns_back = i < turnings.len();
+            let [begin, end] = [from, to].map(|t| orbit.state(t).0);
+            let (direction, span) = (end.minus(begin).signum(), end.minus(begin).abs());
+            let near = Stretch::near(span);
+            let last = if turns_back { span - near } else { span + near };
+            for (ahead, dead_centre) in self.ahead(begin, direction) {
+                let mut ahead = ahead;
+                while ahead <= last {
+                    let beyond = |t: f64| orbit.state(t).0.minus(begin).abs() - ahead;
+                    let t = root::bracketed(beyond, from, to).unwrap_or(to);
+                    events.push(self.passage(t, begin, direction * ahead, dead_centre));
+                    ahead += TAU;
+                }
+            }
+            if turns_back {
+                events.push(Event {
+                    kind: "turning-point",
+                    t_s: to,
+                    theta_rad: end.radians(),
+                    omega_rad_per_s: 0.0,
+                });
+            }
+            from = to;
+        }
+        events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
+        events
+    }
+
+    /// Dead centres and turning points in the order of time: the first ones, at most `kept`, and how many there are.
+    pub fn events(&self, kept: usize) -> (Vec<Event>, u64) {
+        let (mut events, total) = match (self.orbit.turns_back(), self.orbit.period()) {
+            (false, _) => self.one_way(kept),
+            (true, Some((period, _))) if period < self.end => {
+                let once = self.to_and_fro(period);
+                let again = |event: &Event| ((self.end - event.t_s) / period + 1.0 + 1e-9).floor();
+                let total = once.iter().map(again).sum::<f64>();
+                let rounds = (0u32..).flat_map(|round| {
+                    let before = f64::from(round) * period;
+                    once.iter().map(move |event| Event {
+                        t_s: before + event.t_s,
+                        ..*event
+                    })
+                });
+                let kept = if once.is_empty() { 0 } else { kept };
+                let over = self.end * (1.0 + 1e-14);
+                let first = rounds.take_while(|event| event.t_s <= over).take(kept);
+                (first.collect(), total as u64)
+            }
+            (true, _) => {
+                let mut events = self.to_and_fro(self.end);
+                let total = events.len() as u64;
+                events.truncate(kept);
+                (events, total)
+            }
+        };
+        for event in &mut events {
+            event.t_s += self.begin;
+        }
+        (events, total)
     }
 }
 
@@ -43,7 +161,7 @@ impl Part for Stretch<'_> {
     }
 
     fn time_of(&mut self, turned: f64, [from, to]: [f64; 2]) -> Option<f64> {
-        if !self.orbit.rotates() {
+        if self.orbit.turns_back() {
             return root::bracketed(|t| self.turned(t) - turned, from, to);
         }
         let before = self.orbit.start().minus(self.task.start());
@@ -62,113 +180,10 @@ impl Part for Stretch<'_> {
     }
 }
 
-/// Dead centres and turning points in the order of time, those of a period again and again: the first ones, at most
-/// `kept`, and how many there are.
-pub(super) fn events(task: &RunSetup<'_>, stretch: &Stretch<'_>, kept: usize) -> (Vec<Event>, u64) {
-    let Stretch {
-        orbit, begin, end, ..
-    } = *stretch;
-    let mut once: Vec<(f64, &'static str, Angle, f64)> = Vec::new();
-    let marks = dead_centres(task);
-    for passage in orbit.passages(&marks) {
-        let kind = if passage.turning {
-            "turning-point"
-        } else {
-            "dead-centre"
-        };
-        once.push((passage.t, kind, passage.angle, passage.speed));
-    }
-    let period = orbit.period().map_or(f64::INFINITY, |period| period.0);
-    let total = once
-        .iter()
-        .filter(|event| !stretch.is_over(event.0))
-        .map(|event| {
-            if period.is_finite() {
-                ((end - event.0) / period + 1e-9).floor() + 1.0
-            } else {
-                1.0
-            }
-        })
-        .sum::<f64>();
-    let mut events = Vec::new();
-    let mut round = 0.0;
-    'all: loop {
-        for (t, kind, angle, speed) in &once {
-            let t = if round == 0.0 { *t } else { t + round * period };
-            if stretch.is_over(t) || events.len() >= kept {
-                break 'all;
-            }
-            let turns = if orbit.rotates() {
-                round * stretch.direction()
-            } else {
-                0.0
-            };
-            let angle = Angle {
-                turns: angle.turns + turns,
-                rest: angle.rest,
-            };
-            events.push(Event {
-                kind,
-                t_s: begin + t,
-                theta_rad: angle.radians(),
-                omega_rad_per_s: *speed,
-            });
-        }
-        round += 1.0;
-        if !period.is_finite() || once.is_empty() {
-            break;
-        }
-    }
-    let later = later_events(&marks, stretch, kept, &mut events);
-    (events, total as u64 + later)
-}
-
-/// Crank angles of the dead centres, in [0, 2π).
-fn dead_centres(task: &RunSetup<'_>) -> Vec<f64> {
-    let dead_centres = task.limits.dead_centres.iter();
-    dead_centres.map(|dead_centre| dead_centre.theta).collect()
-}
-
 /// Whether a crank angle, rad, is that of a dead centre.
 pub(super) fn is_dead_centre(task: &RunSetup<'_>, theta: f64) -> bool {
     task.limits.dead_centres.iter().any(|dead_centre| {
         let apart = (theta - dead_centre.theta).rem_euclid(TAU);
         apart.min(TAU - apart) < 1e-12
     })
-}
-
-/// Adds the dead centres of the turns after the first ones, and says how many there are.
-fn later_events(
-    dead_centres: &[f64],
-    stretch: &Stretch<'_>,
-    kept: usize,
-    events: &mut Vec<Event>,
-) -> u64 {
-    let orbit = stretch.orbit;
-    // Each dead centre is passed once in a turn.
-    let Some(first) = orbit.later_from() else {
-        return 0;
-    };
-    orbit.later_passages(dead_centres, |passage| {
-        if stretch.is_over(passage.t) {
-            return false;
-        }
-        if events.len() < kept {
-            events.push(Event {
-                kind: "dead-centre",
-                t_s: stretch.begin + passage.t,
-                theta_rad: passage.angle.radians(),
-                omega_rad_per_s: passage.speed,
-            });
-        }
-        events.len() < kept
-    });
-    let start = orbit.start();
-    let last = orbit.state(stretch.end).0.minus(start).abs();
-    let passes = |dead_centre: &f64| {
-        let ahead = (stretch.direction() * (dead_centre - start.rest)).rem_euclid(TAU);
-        let until = |way: f64| ((way - ahead) / TAU + 1e-12).floor();
-        (until(last) - until(first)).max(0.0) as u64
-    };
-    dead_centres.iter().map(passes).sum()
 }

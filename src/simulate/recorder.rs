@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use super::checkpoints::Checkpoints;
 use super::configuration_curve::Phase;
 use super::dense_rows::{Spell, lengthen};
-use super::passages::{self, Stretch};
+use super::passages::Stretch;
 use super::result::{Event, Piece};
 use super::row::{Row, RowSink};
 use super::row_writer::{Part, RowWriter};
@@ -152,9 +152,8 @@ impl<'a> Recorder<'a> {
 
     /// Records a piece over the crank angle: its events, its rows, its speeds.
     pub fn stretch(&mut self, stretch: &mut Stretch<'_>) -> Result<(), Error> {
-        let task = self.task;
-        let left = task.options.events_kept - self.record.events.len();
-        let (events, total) = passages::events(task, stretch, left);
+        let left = self.task.options.events_kept - self.record.events.len();
+        let (events, total) = stretch.events(left);
         self.record.events.extend(events);
         self.record.events_total += total;
         let (low, high) = stretch.orbit.speed_range(stretch.end);

@@ -17,17 +17,16 @@ mod noise;
 mod one_turn;
 mod orbit;
 pub(in crate::engine) mod panel;
-mod passages;
 pub(in crate::engine) mod piece;
 pub(in crate::engine) mod segment;
 mod time_sensitivity;
 mod turn_closure;
+mod turning_points;
 pub(in crate::engine) mod turns;
 
 use crate::numeric::chebyshev::Values;
 
 pub use orbit::Orbit;
-pub use passages::Passage;
 
 /// What the engine needs of a mechanism.
 pub trait Profile {

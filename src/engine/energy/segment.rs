@@ -2,7 +2,7 @@
 
 use super::extreme::extreme;
 use super::panel::Panel;
-use super::piece::Piece;
+use super::piece::{Piece, SAME_ANGLE};
 use crate::numeric::angle::Angle;
 use crate::numeric::exact::two_sum;
 
@@ -101,35 +101,33 @@ impl Segment {
         (Angle::new(turns, rest), speed)
     }
 
-    /// Calls for each panel with the time at which it begins, s, until it says that it is enough; whether it never
-    /// did.
-    pub fn each_panel(&self, mut visit: impl FnMut(&Panel, f64) -> bool) -> bool {
-        let mut pairs = self.panels.iter().zip(&self.begins);
-        pairs.all(|(panel, begin)| visit(panel, *begin))
-    }
-
-    /// Where and when (s) it turns back, if it does.
-    pub fn turning_point(&self) -> Option<(Angle, f64)> {
-        let end = self.last_angle(0.0)?;
-        (self.after == After::TurnsBack).then_some((end, self.duration.0))
-    }
-
     /// The angle at its end, for a start with these whole turns; none without panels.
     pub fn last_angle(&self, turns: f64) -> Option<Angle> {
         let panel = self.panels.last()?;
         Some(Angle::new(turns + panel.turns, panel.piece.to))
     }
 
-    /// Time, s, at which an angle is reached; none if it is not on the leg.
+    /// Time, s, at which an angle is reached; none if it is not on the leg. What is off its ends by rounding is at them.
     pub fn time_of(&self, angle: Angle) -> Option<f64> {
-        let local = |panel: &Panel| Angle::new(angle.turns - panel.turns, angle.rest);
+        let local = |panel: &Panel| {
+            let turns = angle.turns - panel.turns;
+            Angle { turns, ..angle }.radians()
+        };
         let mut inside = self.panels.iter().zip(&self.begins).filter(|(panel, _)| {
             let piece = &panel.piece;
-            let theta = local(panel).radians();
-            (piece.from.min(piece.to)..=piece.from.max(piece.to)).contains(&theta)
+            (piece.from.min(piece.to)..=piece.from.max(piece.to)).contains(&local(panel))
         });
-        let (panel, begin) = inside.next()?;
-        Some(begin + panel.time_of(local(panel).radians()))
+        if let Some((panel, begin)) = inside.next() {
+            return Some(begin + panel.time_of(local(panel)));
+        }
+        let (first, last) = (self.panels.first()?, self.panels.last()?);
+        let is_near = |panel: &Panel, end: f64| (local(panel) - end).abs() <= SAME_ANGLE;
+        let at_end = || is_near(last, last.piece.to).then_some(self.duration.0);
+        if is_near(first, first.piece.from) {
+            Some(0.0)
+        } else {
+            at_end()
+        }
     }
 
     /// Smallest and largest |speed| between two times.

@@ -120,23 +120,6 @@ impl Turns {
         }
     }
 
-    /// The start of the turn after one that is not the last.
-    fn next(&self, mark: &Mark) -> Option<Mark> {
-        let cells = match &self.map {
-            Map::Interpolated(map) => return Some(mark.after(&map.turn(mark.kinetic)?, 1.0)),
-            Map::Gaining(cells) => cells,
-        };
-        let cell = &cells[self.index(Goal::Turns(mark.turns))];
-        let turns = mark.turns - cell.first.turns + 1.0;
-        if turns < cell.count {
-            return Some(cell.mark(turns));
-        }
-        self.marks
-            .iter()
-            .find(|start| start.turns > mark.turns)
-            .copied()
-    }
-
     /// The last mark.
     pub fn last_mark(&self) -> &Mark {
         &self.marks[self.marks.len() - 1]
@@ -198,27 +181,6 @@ impl Turns {
             range = (range.0.min(low), range.1.max(high));
         }
         range
-    }
-
-    /// Calls for each turn in order, with its start and its motion, until it says that it is enough.
-    pub fn each_turn(&self, mut visit: impl FnMut(&Mark, &Segment) -> bool) {
-        let last = *self.last_mark();
-        let mut mark = self.marks[0];
-        while mark.turns < last.turns {
-            if !self.on_leg(&mark, |leg| visit(&mark, leg)) {
-                return;
-            }
-            let Some(next) = self.next(&mark) else {
-                return;
-            };
-            mark = next;
-        }
-        visit(&last, &self.last);
-    }
-
-    /// Turns before the first of these.
-    pub fn first(&self) -> f64 {
-        self.marks[0].turns
     }
 
     /// The time until which it is known, s.
