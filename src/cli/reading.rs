@@ -20,6 +20,10 @@ pub(super) struct ReadingArguments {
     /// The column of the motion, by header or number, with its unit: "Winkel[deg]", "3[counts]"
     #[arg(long, value_name = "COL[UNIT]")]
     motion: Option<String>,
+    /// A column of a known torque on the crank or force on the slider, by header or number, with its unit: "motor[N m]";
+    /// it acts beside the loads of the scene. May be given several times
+    #[arg(long, value_name = "COL[UNIT]")]
+    known: Vec<String>,
     /// Counts of an encoder in a turn of the crank
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1..))]
     counts_per_turn: Option<u32>,
@@ -45,6 +49,7 @@ impl ReadingArguments {
             column: self.column,
             time: self.time.clone(),
             motion: self.motion.clone(),
+            known: self.known.clone(),
             counts_per_turn: self.counts_per_turn,
             x_zero: self.x_zero.unwrap_or(0.0),
             skip: self.skip,

@@ -13,7 +13,7 @@ pub(super) fn straight(problem: &Problem<'_>) -> Path {
     let (times, record) = (&problem.grid.times, &problem.record);
     let (theta, last) = (&record.values, record.values.len() - 1);
     let speed = (theta[last] - theta[0]) / (record.times[last] - record.times[0]);
-    let state = |t: &f64| [theta[0] + speed * (t - times[0]), speed, 0.0, 0.0];
+    let state = |t: &f64| [theta[0] + speed * (t - times[0]), speed, 0.0, 0.0, 0.0];
     Path::whole(times.iter().map(state).collect(), None)
 }
 
@@ -25,7 +25,7 @@ pub(super) fn coarse(problem: &Problem<'_>, theta: &[f64]) -> Path {
         let next = problem.grid.first[node].clamp(1, last);
         let (a, b) = (record.times[next - 1], record.times[next]);
         let slope = (theta[next] - theta[next - 1]) / (b - a);
-        [theta[next - 1] + slope * (t - a), slope, 0.0, 0.0]
+        [theta[next - 1] + slope * (t - a), slope, 0.0, 0.0, 0.0]
     });
     Path::whole(states.collect(), Some(vec![0.0; times.len()]))
 }
@@ -35,7 +35,7 @@ impl Problem<'_> {
     pub fn state_of(&self, prior: Prior, from: &Smoothed, node: usize) -> State {
         let [theta, omega, alpha] = from.estimates[node].motion();
         if prior.unknown == Unknown::Acceleration {
-            return [theta, omega, alpha, from.estimates[node].state[3]];
+            return [theta, omega, alpha, from.estimates[node].state[3], 0.0];
         }
         let terms = self.equation.terms(theta);
         let t = self.record.origin + self.grid.times[node];
@@ -47,7 +47,7 @@ impl Problem<'_> {
             Unknown::Force => torque * dx / (dx * dx + 0.01 * r * r),
             _ => torque,
         };
-        [theta, omega, unknown, 0.0]
+        [theta, omega, unknown, 0.0, 0.0]
     }
 
     /// The states of a prior along a smoothed motion, at some ranges of nodes.

@@ -10,7 +10,7 @@ use super::residual_tests::Whiteness;
 use super::samples::{kinematic, record};
 use super::shared_errors::Source;
 use super::smoother::Smoothed;
-use super::summary::{CandidateSummary, FitSummary};
+use super::summary::{CandidateSummary, FitSummary, SensorSummary};
 use super::{FitKind, FitSize, InverseOptions};
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
@@ -76,7 +76,8 @@ impl Fitted {
             }
             _ => {}
         }
-        let mut simple = (options.fit == FitKind::Auto && is_within_a_turn(&angles.theta))
+        let may_be_simple = options.fit == FitKind::Auto && record.beside.is_empty();
+        let mut simple = (may_be_simple && is_within_a_turn(&angles.theta))
             .then(|| polynomial("within one turn it leaves nothing but noise").ok())
             .flatten()
             .filter(|polynomial| polynomial.settled && !polynomial.patterned);
@@ -153,6 +154,11 @@ impl Fitted {
         let mut fitted = Fitted::of_motion(samples, motion);
         let size = |row: &usize| fitted.residuals[*row].abs();
         fitted.farthest_outlier = record.outliers().max_by(|a, b| size(a).total_cmp(&size(b)));
+        let beside = record.beside.iter().map(|other| SensorSummary {
+            column: other.sensor.measured.name(),
+            sigma: other.sigma,
+            mean_residual: other.mean,
+        });
         fitted.coded = record.codes.map(|codes| codes.step);
         let list = candidates
             .iter()
@@ -176,6 +182,7 @@ impl Fitted {
             parameters,
             corner_hz: Some(smoothed.noise.corner / std::f64::consts::TAU),
             noise_correlation_s: smoothed.noise.correlated.map(|c| 1.0 / c.decay),
+            beside: beside.collect(),
             outliers: record.outliers().count(),
             residual_lag_one: whiteness.lag_one,
             residual_runs: whiteness.runs,

@@ -59,7 +59,8 @@ impl Linear<'_> {
             match model.dimension() {
                 3 => kalman::evidence::<3>(&model),
                 4 => kalman::evidence::<4>(&model),
-                _ => kalman::evidence::<5>(&model),
+                5 => kalman::evidence::<5>(&model),
+                _ => kalman::evidence::<6>(&model),
             }
         };
         let parts = self.stretches.iter().map(of);

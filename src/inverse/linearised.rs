@@ -6,9 +6,9 @@
 use crate::mechanism::Equation;
 
 /// Largest order of a prior.
-pub(super) const ORDERS: usize = 2;
+pub(super) const ORDERS: usize = 3;
 
-/// θ, ω, u, and its derivative or g.
+/// θ, ω, u, and its derivatives or g.
 pub(super) type State = [f64; 2 + ORDERS];
 
 /// What is unknown and varies as an integrated Wiener process.
@@ -41,12 +41,15 @@ impl Prior {
     /// What varies at random, in words.
     pub fn name(self) -> &'static str {
         match (self.unknown, self.order, self.follows_speed) {
+            (Unknown::Acceleration, 3, _) => "angle with white crackle, without mechanics",
             (Unknown::Acceleration, ..) => "angle with white snap, without mechanics",
             (.., true) => "torque that follows the speed, and a Wiener process",
             (Unknown::Torque, 1, _) => "torque as a Wiener process",
-            (Unknown::Torque, ..) => "torque as an integrated Wiener process",
+            (Unknown::Torque, 2, _) => "torque as an integrated Wiener process",
+            (Unknown::Torque, ..) => "torque as a twice integrated Wiener process",
             (Unknown::Force, 1, _) => "force as a Wiener process",
-            (Unknown::Force, ..) => "force as an integrated Wiener process",
+            (Unknown::Force, 2, _) => "force as an integrated Wiener process",
+            (Unknown::Force, ..) => "force as a twice integrated Wiener process",
         }
     }
 }
@@ -177,7 +180,7 @@ impl Motion<'_> {
         }
         let mut defect = self.later(h, tilt, a);
         let after = if self.prior.unknown == Unknown::Acceleration {
-            [0, 1].map(|row| (0..4).map(|k| top[row][k] * a[k]).sum::<f64>())
+            [0, 1].map(|row| a.iter().zip(&top[row]).map(|(a, top)| a * top).sum::<f64>())
         } else {
             // Simpson's rule for ω and θ; the noise of u is not part of the prediction.
             let first = rates[0].alpha;

@@ -62,6 +62,7 @@ mod residual_tests;
 mod row;
 mod samples;
 mod scales;
+mod sensors_beside;
 mod shared_errors;
 mod smoother;
 mod state_space;
@@ -74,7 +75,9 @@ pub use bands::{BandRule, DeadCentreBand};
 pub use options::{FitKind, FitSize, InverseOptions};
 pub use row::{InverseRow, Residual};
 pub use shared_errors::BudgetShare;
-pub use summary::{CandidateSummary, DataSummary, FitSummary, ForceRange, InverseSummary};
+pub use summary::{
+    CandidateSummary, DataSummary, FitSummary, ForceRange, InverseSummary, SensorSummary,
+};
 
 use self::fitted::Fitted;
 use self::guide::Guide;
@@ -142,6 +145,7 @@ pub fn inverse_of_uncertain(
     measurement: &Measurement,
     options: &InverseOptions,
 ) -> Result<Inverse, Error> {
+    let scene = &measurement.known_in(scene);
     let plan = refusals::plan(scene)?;
     let reactor = options.reactions.then(|| Reactor::new(scene)).transpose()?;
     let guide = Guide::new(scene)?;
@@ -154,11 +158,13 @@ pub fn inverse_of_uncertain(
     let angles = branch_choice::crank_angles(&sensor, measurement, &equation, &scene.motion)?;
     let noted = angles.warnings.clone();
     let codes = match measurement.measured() {
-        Measured::Theta => Codes::of(&angles.theta, measurement.resolution()),
+        Measured::Theta if !measurement.has_sensors_beside() => {
+            Codes::of(&angles.theta, measurement.resolution())
+        }
         _ => None,
     };
     let zero = codes.and_then(|codes| codes.zero_error());
-    let sources = shared_errors::sources(scene, uncertain, zero)?;
+    let sources = shared_errors::sources(scene, uncertain, measurement, zero)?;
     let fitted = Fitted::new(measurement, &angles, &equation, options, &sources)
         .map_err(|what| Error::refused(what, "give more samples, or another --fit or --degree"))?;
     let backwards = Backwards {

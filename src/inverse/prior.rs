@@ -10,15 +10,18 @@ pub(super) const KINEMATIC: Prior = Prior {
     follows_speed: false,
 };
 
-/// The priors of an unknown by their order. An order more errs less where there is no noise at all, but its band does not
-/// hold where u varies with the speed.
-const fn ladder(unknown: Unknown) -> [Prior; 2] {
+/// The priors of an unknown by their order.
+const fn ladder(unknown: Unknown) -> [Prior; 3] {
     let first = Prior {
         unknown,
         order: 1,
         follows_speed: false,
     };
-    [first, Prior { order: 2, ..first }]
+    [
+        first,
+        Prior { order: 2, ..first },
+        Prior { order: 3, ..first },
+    ]
 }
 
 /// A torque in proportion to the speed, and a Wiener process.
@@ -33,7 +36,13 @@ pub(super) const LADDERS: [&[Prior]; 4] = [
     &ladder(Unknown::Force),
     &ladder(Unknown::Torque),
     &[FOLLOWING],
-    &[KINEMATIC],
+    &[
+        KINEMATIC,
+        Prior {
+            order: 3,
+            ..KINEMATIC
+        },
+    ],
 ];
 
 /// A prior with its noise, about a path.

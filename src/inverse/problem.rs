@@ -47,7 +47,7 @@ impl<'a> Problem<'a> {
         let part = part.clamp(0.0, 1.0);
         let between = |k: usize| a.covariance[k] + part * (b.covariance[k] - a.covariance[k]);
         Estimate {
-            state: [theta, omega, unknown, a.state[3]],
+            state: [theta, omega, unknown, a.state[3], a.state[4]],
             alpha: motion.acceleration(t, theta, omega, unknown)[0],
             covariance: std::array::from_fn(between),
             innovation: f64::NAN,
@@ -215,7 +215,8 @@ impl<'a> Problem<'a> {
         match model.dimension() {
             3 => self.estimated::<3>(motion, path, from, model, noise),
             4 => self.estimated::<4>(motion, path, from, model, noise),
-            _ => self.estimated::<5>(motion, path, from, model, noise),
+            5 => self.estimated::<5>(motion, path, from, model, noise),
+            _ => self.estimated::<6>(motion, path, from, model, noise),
         }
     }
 

@@ -6,6 +6,7 @@ use std::ops::Range;
 use super::linearised::State;
 use super::measurement_model::Sensor;
 use super::quantised::{Codes, Interval};
+use super::sensors_beside::SensorBeside;
 use super::state_space::Observed;
 use crate::scene::Measured;
 
@@ -23,6 +24,8 @@ pub(super) struct Record<'a> {
     pub codes: Option<Codes>,
     /// Intervals in the place of the samples that go in steps: normal distributions at `values` stand for them.
     pub intervals: Vec<Interval>,
+    /// Other sensors of the motion.
+    pub beside: Vec<SensorBeside<'a>>,
     /// Least standard deviation of a sample, rad or m.
     pub floor: f64,
     /// Time of the scene at time 0 of the record, s.
@@ -214,6 +217,9 @@ impl Record<'_> {
         self.times = self.times[range.clone()].to_vec().into();
         self.values = self.values[range.clone()].to_vec();
         self.weights.truncate(range.len());
+        for sensor in &mut self.beside {
+            sensor.values = sensor.values[range.clone()].to_vec().into();
+        }
     }
 
     /// This record with the intervals of its codes in the place of the samples.
@@ -224,6 +230,7 @@ impl Record<'_> {
             values: intervals.iter().map(|i| i.middle).collect(),
             weights: vec![1.0; intervals.len()],
             intervals,
+            beside: Vec::new(),
             ..*self
         }
     }
@@ -237,9 +244,17 @@ impl Record<'_> {
         far.map(|i| self.intervals.get(i).map_or(i, |interval| interval.sample))
     }
 
-    /// Whether what was measured is the crank angle itself.
+    /// Whether what was measured is the crank angle itself, and nothing else.
     pub fn is_linear(&self) -> bool {
-        self.sensor.measured == Measured::Theta
+        self.sensor.measured == Measured::Theta && self.beside.is_empty()
+    }
+
+    /// Crank angle of a path at a sample of a node, rad.
+    pub fn angle(&self, grid: &Grid, path: &Piece<'_>, node: usize, sample: usize) -> f64 {
+        match grid.block > 0.0 {
+            true => path.angle(grid, self.times[sample]),
+            false => path.states[node - path.first][0],
+        }
     }
 
     /// What the samples of a node show beside a nominal state.
@@ -251,10 +266,7 @@ impl Record<'_> {
         let range = grid.first[node]..grid.first[node + 1];
         let (mut weight, mut sum, mut slope) = (0.0, 0.0, 0.0);
         for i in range {
-            let theta = match grid.block > 0.0 {
-                true => path.angle(grid, self.times[i]),
-                false => path.states[node - path.first][0],
-            };
+            let theta = self.angle(grid, path, node, i);
             let (residual, shown) = self.sensor.residual(self.values[i], theta);
             let mut precision = self.weights[i];
             if let Some(variances) = path.variances {
@@ -268,6 +280,10 @@ impl Record<'_> {
             weight += precision;
             sum += precision * residual;
             slope += precision * shown.slope;
+        }
+        if !self.beside.is_empty() {
+            let own = (weight > 0.0).then(|| [slope * slope / weight, slope * sum / weight]);
+            return self.observed_by_all(own.unwrap_or_default(), grid, path, node, sigma);
         }
         if weight == 0.0 {
             return none;

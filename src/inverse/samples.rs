@@ -1,14 +1,16 @@
 //! The samples of a measurement as the smoother and the polynomial take them.
 
 use super::branch_tracking::CrankAngles;
+use super::measurement_model::{Scale, Sensor};
 use super::prior::KINEMATIC;
 use super::problem::Problem;
 use super::quantised::Codes;
 use super::record::{Grid, Path, Record};
+use super::sensors_beside::SensorBeside;
 use super::smoother::Smoothed;
 use super::{first_path, outliers};
 use crate::mechanism::Equation;
-use crate::scene::{Measured, Measurement};
+use crate::scene::{Beside, BesideColumn, Measured, Measurement};
 
 /// Units of rounding of computed values.
 const COMPUTED: f64 = 2.0;
@@ -34,9 +36,28 @@ pub(super) fn record<'a>(measurement: &'a Measurement, angles: &CrankAngles<'a>)
         values,
         codes: None,
         intervals: Vec::new(),
+        beside: sensors_beside(measurement, sensor),
         floor: (measurement.resolution() / 12f64.sqrt()).max(COMPUTED * f64::EPSILON * largest),
         origin: measurement.origin(),
     }
+}
+
+/// The sensors beside that of a record, whose noise is not known yet.
+fn sensors_beside<'a>(measurement: &'a Measurement, own: Sensor<'a>) -> Vec<SensorBeside<'a>> {
+    let of = |column: &'a BesideColumn| match column.beside {
+        Beside::Sensor(measured) => Some(SensorBeside {
+            sensor: Sensor {
+                measured,
+                scale: Scale::TRUE,
+                ..own
+            },
+            values: column.values.as_slice().into(),
+            sigma: f64::INFINITY,
+            mean: 0.0,
+        }),
+        _ => None,
+    };
+    measurement.beside().iter().filter_map(of).collect()
 }
 
 /// A record with its nodes.
@@ -62,11 +83,15 @@ pub(super) fn kinematic<'a>(
 ) -> (Problem<'a>, Smoothed) {
     let samples = || record(measurement, angles);
     let codes = match angles.sensor.measured {
-        Measured::Theta => Codes::of(&angles.theta, measurement.resolution()),
+        Measured::Theta if !measurement.has_sensors_beside() => {
+            Codes::of(&angles.theta, measurement.resolution())
+        }
         _ => None,
     };
     let Some(codes) = codes else {
-        return without_outliers(samples(), angles, equation, 0.0);
+        let (mut problem, kinematic) = without_outliers(samples(), angles, equation, 0.0);
+        let kinematic = problem.by_all_sensors(kinematic);
+        return (problem, kinematic);
     };
     let coded = samples().coded(codes);
     let is_whole = coded.times.len() == measurement.len();

@@ -75,7 +75,7 @@ impl Scales {
 
     /// Spectral density of the process noise over σ².
     pub fn density(&self, corner: f64, order: usize) -> f64 {
-        let integrations = i32::try_from(2 * (order + 2)).unwrap_or(8);
+        let integrations = i32::try_from(2 * (order + 2)).unwrap_or(10);
         corner.powi(integrations) * self.spacing / (self.lever * self.slope).powi(2)
     }
 }

@@ -12,11 +12,12 @@ use super::polynomial::Polynomial;
 use super::problem::Problem;
 use super::record::Record;
 use super::row::InverseRow;
+use super::sensors_beside::SensorBeside;
 use super::smoother::Smoothed;
 use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
-use crate::scene::{Scene, UncertainValue};
+use crate::scene::{Measurement, Scene, UncertainValue};
 
 /// Share of a source in the error of the slider force.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -42,6 +43,7 @@ pub(super) struct Source {
 pub(super) fn sources(
     scene: &Scene,
     uncertain: &[UncertainValue],
+    measurement: &Measurement,
     zero: Option<f64>,
 ) -> Result<Vec<Source>, Error> {
     let source = |name: &str, scene: &Scene, zero: f64| {
@@ -54,12 +56,24 @@ pub(super) fn sources(
     };
     let of_scene = uncertain
         .iter()
-        .map(|one| source(&one.key, &one.moved, 0.0));
+        .map(|one| source(&one.key, &measurement.known_in(&one.moved), 0.0));
     let of_zero = zero.map(|zero| source("zero of the encoder", scene, zero));
     of_scene.chain(of_zero).collect()
 }
 
 impl Source {
+    fn beside<'a>(&'a self, record: &'a Record<'a>) -> Vec<SensorBeside<'a>> {
+        let moved = |other: &'a SensorBeside<'a>| SensorBeside {
+            sensor: Sensor {
+                linkage: self.equation.linkage(),
+                ..other.sensor
+            },
+            values: other.values.as_ref().into(),
+            ..*other
+        };
+        record.beside.iter().map(moved).collect()
+    }
+
     fn record<'a>(&'a self, record: &'a Record<'a>) -> Record<'a> {
         Record {
             sensor: Sensor {
@@ -75,6 +89,7 @@ impl Source {
             weights: record.weights.clone(),
             codes: None,
             intervals: Vec::new(),
+            beside: self.beside(record),
             ..*record
         }
     }

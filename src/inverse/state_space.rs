@@ -143,6 +143,10 @@ impl Deviations<'_> {
         if self.prior.order > 1 {
             matrix[2][3] = time;
         }
+        if self.prior.order > 2 {
+            matrix[2][4] = 0.5 * time * time;
+            matrix[3][4] = time;
+        }
         if self.prior.follows_speed {
             matrix[2][2 + self.prior.order] = time * step.tilt;
         }
@@ -155,39 +159,55 @@ impl Deviations<'_> {
         let (h2, h3) = (h * h / 2.0, h * h * h / 6.0);
         let of_level = [b * h2, b * h, 1.0];
         match self.prior.order {
-            1 => add(noise, &of_level, h * (self.noise + self.level)),
+            1 => add(noise, [0, 1, 2], &of_level, h * (self.noise + self.level)),
+            2 => add(
+                noise,
+                [0, 1, 2, 3],
+                &[b * h3, b * h2, h, 1.0],
+                h * self.noise,
+            ),
             _ => {
-                add(noise, &[b * h3, b * h2, h, 1.0], h * self.noise);
-                if self.level > 0.0 {
-                    add(noise, &of_level, h * self.level);
-                }
+                let response = [b * h3 * h / 4.0, b * h3, h2, h, 1.0];
+                add(noise, [0, 1, 2, 3, 4], &response, h * self.noise);
             }
         }
+        if self.prior.order > 1 && self.level > 0.0 {
+            add(noise, [0, 1, 2], &of_level, h * self.level);
+        }
         if self.drift > 0.0 {
+            let states = [0, 1, 2, 2 + self.prior.order];
             let response = [b * tilt * h3, b * tilt * h2, tilt * h, 1.0];
-            add(noise, &response, h * self.drift);
+            add(noise, states, &response, h * self.drift);
         }
     }
 }
 
-/// Adds to Q the noise whose unit, a time s before the end of a step h, becomes this response times (s/h)^p, p from one less than
-/// the number of states that respond down to 0.
+/// ∫ s^p ds from 0 to 1.
+const PER: [f64; 9] = [
+    1.0,
+    1.0 / 2.0,
+    1.0 / 3.0,
+    1.0 / 4.0,
+    1.0 / 5.0,
+    1.0 / 6.0,
+    1.0 / 7.0,
+    1.0 / 8.0,
+    1.0 / 9.0,
+];
+
+/// Adds to Q the noise whose unit, a time s before the end of a step h, becomes this response times (s/h)^p in some states, p from
+/// one less than their number down to 0.
 #[inline(always)]
-fn add<const N: usize, const R: usize>(noise: &mut Matrix<N>, response: &[f64; R], density: f64) {
-    for i in 0..R.min(N) {
-        for j in 0..R.min(N) {
-            let per = const {
-                [
-                    1.0,
-                    1.0 / 2.0,
-                    1.0 / 3.0,
-                    1.0 / 4.0,
-                    1.0 / 5.0,
-                    1.0 / 6.0,
-                    1.0 / 7.0,
-                ]
-            };
-            noise[i][j] += density * per[2 * R - 2 - i - j] * response[i] * response[j];
+fn add<const N: usize, const R: usize>(
+    noise: &mut Matrix<N>,
+    states: [usize; R],
+    response: &[f64; R],
+    density: f64,
+) {
+    for m in 0..R {
+        for n in 0..R {
+            let of_both = PER[2 * R - 2 - m - n] * response[m] * response[n];
+            noise[states[m]][states[n]] += density * of_both;
         }
     }
 }
@@ -221,7 +241,7 @@ mod tests {
                 decay: 2.0,
                 white: 0.1,
             }),
-            spread: [1.0; 4],
+            spread: [1.0; 5],
         };
         let (step, inverse): (Step<5>, Matrix<5>) = (model.step(0), model.inverse(0));
         let x = [0.3, -1.0, 2.0, 0.7, 0.2];

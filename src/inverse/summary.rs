@@ -92,12 +92,25 @@ pub struct FitSummary {
     pub corner_hz: Option<f64>,
     /// Correlation time of the noise of the samples, s, where it is not white.
     pub noise_correlation_s: Option<f64>,
+    /// Other sensors of the motion.
+    pub beside: Vec<SensorSummary>,
     /// Samples that hardly count because they are far off.
     pub outliers: usize,
     /// Correlation of each residual with the next; of a smoother, of each prediction error.
     pub residual_lag_one: f64,
     /// Runs of one sign among them, in standard deviations from what noise has.
     pub residual_runs: f64,
+}
+
+/// A sensor beside that of the record.
+#[derive(Clone, Debug, Serialize)]
+pub struct SensorSummary {
+    /// What it measures.
+    pub column: &'static str,
+    /// Standard deviation of a sample, rad or m.
+    pub sigma: f64,
+    /// Mean of measured minus fitted, rad or m.
+    pub mean_residual: f64,
 }
 
 /// A prior that was compared with others.

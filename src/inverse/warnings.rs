@@ -105,6 +105,18 @@ pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> 
             measurement.shown(fitted.residuals[farthest])
         ));
     }
+    if summary.kind == "polynomial" && measurement.has_sensors_beside() {
+        warnings.push(alone(measurement));
+    }
+    for sensor in &summary.beside {
+        let off = sensor.mean_residual;
+        if off.abs() > 5.0 * sensor.sigma / rows.sqrt() {
+            warnings.push(format!(
+                "{} is off by {off:.2e} (SI) in the mean beside the motion: check its zero, and the lengths of the scene",
+                sensor.column
+            ));
+        }
+    }
     if let Some(step) = fitted.coded {
         warnings.push(format!(
             "the values go in steps of {}, and the noise is less than a step: each sample says within which step the angle is",
@@ -123,14 +135,25 @@ pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> 
     warnings
 }
 
+/// What is said where one sensor alone is taken of several.
+pub(super) fn alone(measurement: &Measurement) -> String {
+    let name = measurement.measured().name();
+    format!("{name} alone is taken, not the sensors beside it: only the smoother takes several")
+}
+
 /// What is said where the samples tell nothing of what happens within a turn.
 fn slow(fitted: &Fitted, measurement: &Measurement) -> Option<String> {
     let times = measurement.elapsed();
     let [first, last] = [0, times.len() - 1];
-    let turns = (fitted.motion[last].value[0] - fitted.motion[first].value[0]).abs() / TAU;
+    let steps = fitted
+        .motion
+        .windows(2)
+        .map(|w| w[1].value[0] - w[0].value[0]);
+    let turns = steps.map(f64::abs).sum::<f64>() / TAU;
     let turn = (times[last] - times[first]) / turns;
     let resolved = 1.0 / fitted.summary.corner_hz?;
-    (turns > 1.0 && resolved > turn).then(|| {
+    // The inertia varies twice in a turn.
+    (turns > 1.0 && 2.0 * resolved > turn).then(|| {
         format!(
             "the noise hides how the torque varies in less than about {resolved:.1e} s, and a turn takes {turn:.1e} s: what it does within each turn is neither in the result nor in its band"
         )

@@ -50,7 +50,7 @@ pub use body::{Crank, InertiaAbout, Rod, RodModel, Slider};
 pub use clearance::{Clearance, ContactLaw, Joint};
 pub use expression::{Expression, ExpressionError};
 pub use load::Load;
-pub use measurement::{DUARTE_MOTION, Measured, Measurement, Reading};
+pub use measurement::{Beside, BesideColumn, DUARTE_MOTION, Measured, Measurement, Reading};
 pub use motion::{Every, Extent, Motion, MotionKind, Run};
 pub use parts::{Branch, Friction, Geometry, Gravity};
 pub use period::{Period, Repeats, WhyNot};

@@ -440,7 +440,7 @@ fn a_sample_far_off_is_noted_even_among_few() {
 }
 
 #[test]
-fn gaps_and_unused_columns_are_noted() {
+fn gaps_and_columns_beside_are_noted() {
     let mut rows: Vec<String> = (0..40)
         .map(|i| {
             format!(
@@ -456,7 +456,7 @@ fn gaps_and_unused_columns_are_noted() {
         .done()
         .json();
     let warnings = summary["warnings"].to_string();
-    assert!(warnings.contains("x is not used"), "{warnings}");
+    assert!(warnings.contains("x beside it"), "{warnings}");
     assert!(
         warnings.contains("1 gap, the first before line 22 (time 0.28)"),
         "{warnings}"

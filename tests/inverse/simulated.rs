@@ -5,7 +5,7 @@
 use std::f64::consts::TAU;
 
 use slider_crank::inverse::{FitKind, Inverse, InverseOptions, inverse};
-use slider_crank::scene::{Crank, Measured, Measurement, Scene, Slider};
+use slider_crank::scene::{Beside, Crank, Measured, Measurement, Scene, Slider};
 
 use super::noise::Random;
 use super::white_snap::white_snap;
@@ -362,4 +362,59 @@ fn slider_positions() {
     }
     println!("{report}");
     assert!(failures.is_empty(), "{failures}");
+}
+
+/// A crank angle and a slider position, each of noise, tell more together than either alone, and the noise of the second is found:
+/// its standard deviation within four of its standard errors σ/√(2n).
+#[test]
+fn two_sensors_tell_more_than_one() {
+    let mut random = Random(0x2b99_1204_77aa_1c0d);
+    let (mut logs, mut report) = (Vec::new(), String::new());
+    for motion in &MOTIONS {
+        let truth = motion.run();
+        let noise = 1e-3 * CRANK;
+        let angle = measure(&truth, Sensor::Angle(3e-3), &mut random);
+        let slider = measure(&truth, Sensor::AngleModel(1e-3, 1.0), &mut random);
+        let samples = Measurement::new(Measured::Theta, angle.t.clone(), angle.values.clone())
+            .and_then(|samples| samples.with(Beside::Sensor(Measured::X), slider.values.clone()))
+            .expect("samples");
+        let both = inverse(&scene(motion, 1.0), &samples, &InverseOptions::default());
+        let both = both.expect("an inversion");
+        let [error, covered] = judge(&truth, &angle, &both);
+        let [alone, _] = judge(&truth, &angle, &found(motion, &angle, 1.0));
+        let sigma = both.summary.fit.beside[0].sigma;
+        report += &format!(
+            "{}: {error:.3} of {alone:.3} N, covered {covered:.3}, noise {sigma:.3e} m\n",
+            motion.name
+        );
+        let four = 4.0 * noise / (2.0 * truth.t.len() as f64).sqrt();
+        assert!((sigma - noise).abs() < four, "{report}");
+        assert!(covered > 0.85, "{report}");
+        logs.push((error / alone).ln());
+    }
+    println!("{report}");
+    assert!(logs.iter().sum::<f64>() < -0.5, "{report}");
+}
+
+/// Of a torque that acts, a known part as a column leaves the force of the rest.
+#[test]
+fn a_known_torque_leaves_the_force_of_the_rest() {
+    let mut random = Random(0x77aa_1c0d_2b99_1204);
+    for motion in &MOTIONS {
+        let mut truth = motion.run();
+        let record = measure(&truth, Sensor::Angle(1e-4), &mut random);
+        let motor: Vec<f64> = truth.t.iter().map(|t| 3.0 * (9.0 * t).sin()).collect();
+        let samples = Measurement::new(record.measured, record.t.clone(), record.values.clone())
+            .and_then(|samples| samples.with(Beside::Torque, motor.clone()));
+        let options = InverseOptions::default();
+        let found = inverse(&scene(motion, 1.0), &samples.expect("samples"), &options);
+        let found = found.expect("an inversion");
+        for (torque, known) in truth.torque.iter_mut().zip(&motor) {
+            *torque -= known;
+        }
+        let [error, covered] = judge(&truth, &record, &found);
+        // What is left out would be a force of 3 N m over a lever arm of at most 53 mm.
+        assert!(error < 20.0, "{}: {error} N", motion.name);
+        assert!(covered > 0.85, "{}: {covered}", motion.name);
+    }
 }

@@ -73,7 +73,7 @@ impl<'a> Search<'a> {
         smooth: &Smoothed,
     ) -> Search<'a> {
         let states = smooth.estimates.iter();
-        let states = states.map(|e| [e.state[0], e.state[1], 0.0, 0.0]);
+        let states = states.map(|e| [e.state[0], e.state[1], 0.0, 0.0, 0.0]);
         let path = Path::whole(states.collect(), None);
         let motion = problem.motion(MISSING);
         let scales = problem.scales(&motion, &path, smooth.scales.slope, smooth.scales.motion);

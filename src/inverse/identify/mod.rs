@@ -17,6 +17,7 @@ use super::measurement_model::{Scale, Sensor};
 use super::record::Grid;
 use super::residual_tests::Whiteness;
 use super::samples::{first_path, kinematic};
+use super::warnings::alone;
 use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::numeric::student;
@@ -75,6 +76,7 @@ pub fn identify(
     measurement: &Measurement,
 ) -> Result<Identification, Error> {
     check(free)?;
+    let scene_at = &|values: &[f64]| Ok(measurement.known_in(&scene_at(values)?));
     let start: Vec<f64> = free.iter().map(|one| one.start).collect();
     let scene = scene_at(&start)?;
     modelled(&scene)?;
@@ -99,6 +101,8 @@ pub fn identify(
     let found = search.run()?;
     let mut warnings = measurement.notes().to_vec();
     warnings.extend(angles.warnings);
+    let several = measurement.has_sensors_beside();
+    warnings.extend(several.then(|| alone(measurement)));
     warnings.extend(warnings_of(&found, free, measurement));
     let samples = found.samples;
     let freedom = samples as f64 - 2.0 - free.len() as f64;

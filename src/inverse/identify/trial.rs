@@ -69,6 +69,7 @@ impl Trials<'_> {
                 weights: record.weights.clone(),
                 codes: None,
                 intervals: Vec::new(),
+                beside: Vec::new(),
                 ..*record
             },
             grid: self.problem.grid.clone(),

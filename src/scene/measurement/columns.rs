@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use super::{Measured, Reading};
+use super::{Beside, Measured, Reading};
 use crate::scene::Problem;
 use crate::scene::csv::Column;
 use crate::scene::csv::header::{self, Header};
@@ -26,6 +26,9 @@ const WORDS: [(&str, Measured); 8] = [
 
 /// Units, and names without a unit, of a column that counts the steps of an encoder.
 const COUNTS: [&str; 5] = ["count", "counts", "pulses", "ticks", "increments"];
+
+/// Most columns that are read of a file.
+pub(super) const MOST_COLUMNS: usize = 8;
 
 const HELP: &str = "the header names the columns with their units, as `t [s],theta [deg]`, the motion theta, gamma or x; or say which they are, by name or number: --time \"1[s]\" --motion \"2[deg]\"; lines above the header: --skip 3";
 
@@ -135,10 +138,11 @@ fn choose(
 #[derive(Clone, Debug)]
 pub(super) struct Columns {
     pub measured: Measured,
-    /// Positions of time and value.
-    pub at: [usize; 2],
+    /// Positions of time, value, and the columns beside them.
+    pub at: Vec<usize>,
     pub time: Column,
     pub value: Column,
+    pub beside: Vec<(Beside, Column)>,
     /// What the reader should know.
     pub notes: Vec<String>,
 }
@@ -174,12 +178,45 @@ impl Columns {
             return Err(none(format!("no column is called {wanted}")));
         };
         let (measured, value) = motion(column, reading)?;
+        let mut at = vec![time.at, column.at];
+        let mut beside = Vec::new();
+        for other in &found[1..] {
+            let (measured, unit) = motion(other, reading)?;
+            at.push(other.at);
+            beside.push((Beside::Sensor(measured), unit));
+        }
+        let sensors = beside.len();
+        let is_x = |(beside, _): &(Beside, Column)| *beside == Beside::Sensor(Measured::X);
+        if reading.x_zero != 0.0 && measured != Measured::X && !beside.iter().any(is_x) {
+            let what = format!(
+                "--x-zero belongs to x, and the motion is {}",
+                measured.name()
+            );
+            return Err(column.wrong(what, "leave it out"));
+        }
+        for option in &reading.known {
+            let Some(known) = choose(list, "--known", Some(option), |_| false)? else {
+                return Err(none("--known names no column".to_owned()));
+            };
+            let unit = &known.header.unit;
+            let is_torque = unit::factor(unit, Quantity::Torque).is_ok();
+            let (kind, quantity) = match is_torque {
+                true => (Beside::Torque, Quantity::Torque),
+                false => (Beside::Force, Quantity::Force),
+            };
+            at.push(known.at);
+            beside.push((kind, known.column(quantity, "--known")?));
+        }
+        if at.len() > MOST_COLUMNS {
+            let what = format!("{} columns are to be read", at.len());
+            return Err(none(format!("{what}, and {MOST_COLUMNS} are the most")));
+        }
         let mut notes = Vec::new();
-        if found.len() > 1 {
+        if sensors > 0 {
             let others = found[1..].iter().map(|other| other.header.name.as_str());
             let others: Vec<&str> = others.collect();
             notes.push(format!(
-                "the motion is taken from the column {}; {} is not used",
+                "the motion is taken from the column {}, and {} beside it by a noise of its own (--column takes one alone)",
                 column.header.name,
                 others.join(" and ")
             ));
@@ -190,9 +227,10 @@ impl Columns {
         }
         Ok(Columns {
             measured,
-            at: [time.at, column.at],
+            at,
             time: time.column(Quantity::Time, "--time")?,
             value,
+            beside,
             notes,
         })
     }
@@ -209,13 +247,6 @@ fn motion(column: &Named, reading: &Reading) -> Result<(Measured, Column), Probl
         };
         return Err(column.wrong(what, HELP));
     };
-    if reading.x_zero != 0.0 && measured != Measured::X {
-        let what = format!(
-            "--x-zero belongs to x, and the motion is {}",
-            measured.name()
-        );
-        return Err(column.wrong(what, "leave it out"));
-    }
     let counts = reading.counts_per_turn;
     let is_count = column.is_count() || unit.is_empty() && counts.is_some();
     match (is_count && measured == Measured::Theta, counts) {
@@ -228,10 +259,10 @@ fn motion(column: &Named, reading: &Reading) -> Result<(Measured, Column), Probl
             format!("`{raw}` are counts of an encoder"),
             "say how many there are in a turn: --counts-per-turn 1024",
         )),
-        (false, Some(_)) => Err(column.wrong(
+        (false, Some(_)) if measured == Measured::Theta => Err(column.wrong(
             format!("--counts-per-turn belongs to counts, and the unit of `{raw}` is `{unit}`"),
             "leave it out, or give the column of the counts: --motion \"2[counts]\"",
         )),
-        (false, None) => Ok((measured, column.column(measured.quantity(), "--motion")?)),
+        (false, _) => Ok((measured, column.column(measured.quantity(), "--motion")?)),
     }
 }

@@ -14,7 +14,7 @@ pub enum Measured {
 }
 
 impl Measured {
-    /// All quantities; of several in one file the first is taken.
+    /// All quantities; of several in one file the first is that of the record, and the others stand beside it.
     pub const ALL: [Measured; 3] = [Measured::Theta, Measured::Gamma, Measured::X];
 
     /// Name in headers.
@@ -48,6 +48,26 @@ impl Measured {
     }
 }
 
+/// What a column holds beside time and motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Beside {
+    /// Another measured quantity of the motion.
+    Sensor(Measured),
+    /// A torque on the crank that is known, N m.
+    Torque,
+    /// A force on the slider that is known, N.
+    Force,
+}
+
+/// Values of a column beside time and motion, SI.
+#[derive(Clone, Debug)]
+pub struct BesideColumn {
+    /// What it holds.
+    pub beside: Beside,
+    /// One value for each sample.
+    pub values: Vec<f64>,
+}
+
 impl std::str::FromStr for Measured {
     type Err = String;
 
@@ -68,6 +88,8 @@ pub struct Reading {
     pub time: Option<String>,
     /// The column of the motion, as that of the time.
     pub motion: Option<String>,
+    /// Columns of torques on the crank and forces on the slider that are known, as that of the time.
+    pub known: Vec<String>,
     /// Counts of an encoder in a turn of the crank.
     pub counts_per_turn: Option<u32>,
     /// What a slider position shows where the slider is at the crank pivot, m.

@@ -13,9 +13,9 @@ use std::path::{Path, PathBuf};
 
 use super::csv::Column;
 use super::csv::lines::{Dialect, line_number, span};
-use super::{Problem, Problems, text};
+use super::{Interpolation, Load, Problem, Problems, Scene, Table, Variable, text};
 use crate::error::Error;
-pub use measured::{Measured, Reading};
+pub use measured::{Beside, BesideColumn, Measured, Reading};
 
 /// The motion of Duarte et al. 2018 (11), sampled; see the comments in the file.
 pub const DUARTE_MOTION: &str = include_str!("../../../data/duarte-motion.csv");
@@ -53,6 +53,7 @@ pub struct Measurement {
     spacing: f64,
     values: Vec<f64>,
     resolution: f64,
+    beside: Vec<BesideColumn>,
     notes: Vec<String>,
     source: Option<Source>,
 }
@@ -80,6 +81,42 @@ impl Measurement {
         Ok(measurement)
     }
 
+    /// These samples with another column: a second sensor, or a torque or force that is known, one value for each sample, SI.
+    ///
+    /// # Errors
+    /// [`Problems`]: other numbers of values, or values that are not finite.
+    pub fn with(mut self, beside: Beside, values: Vec<f64>) -> Result<Measurement, Problems> {
+        self.beside.push(BesideColumn { beside, values });
+        self.check_beside()?;
+        Ok(self)
+    }
+
+    /// What was measured or is known beside the motion.
+    pub fn beside(&self) -> &[BesideColumn] {
+        &self.beside
+    }
+
+    /// Whether the motion has other sensors.
+    pub(crate) fn has_sensors_beside(&self) -> bool {
+        let is_sensor = |column: &BesideColumn| matches!(column.beside, Beside::Sensor(_));
+        self.beside.iter().any(is_sensor)
+    }
+
+    /// A scene with the torques and forces that the record knows: between the samples a straight line.
+    pub(crate) fn known_in(&self, scene: &Scene) -> Scene {
+        let mut scene = scene.clone();
+        for BesideColumn { beside, values } in &self.beside {
+            let times = &self.times;
+            let table = || Table::new(Variable::T, times, values, Interpolation::Linear, None);
+            match (beside, table()) {
+                (Beside::Torque, Ok(table)) => scene = scene.torque(Load::Table(table)),
+                (Beside::Force, Ok(table)) => scene = scene.force(Load::Table(table)),
+                _ => {}
+            }
+        }
+        scene
+    }
+
     /// Samples as they are.
     fn raw(measured: Measured, times: Vec<f64>, values: Vec<f64>) -> Measurement {
         Measurement {
@@ -90,6 +127,7 @@ impl Measurement {
             spacing: 0.0,
             values,
             resolution: 0.0,
+            beside: Vec::new(),
             notes: Vec::new(),
             source: None,
         }

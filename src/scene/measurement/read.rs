@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use super::columns::Columns;
+use super::columns::{Columns, MOST_COLUMNS};
 use super::digits::Digits;
 use super::heading::Heading;
 use super::listed::Listed;
-use super::{Measurement, Reading, Source};
+use super::{Beside, BesideColumn, Measured, Measurement, Reading, Source};
 use crate::numeric::parallel;
 use crate::scene::csv::cell::{self, NotANumber};
 use crate::scene::csv::lines::{Dialect, OPEN_QUOTE, span};
@@ -52,46 +52,64 @@ pub(super) fn measurement(
         counted: heading.counted(),
         decimal_comma: reading.decimal_comma,
     };
-    let mut samples = rows.samples();
+    let samples = rows.samples();
     if let Some(list) = samples.wrong.refused(&text) {
         return Err(Problems::in_file(file, &text, list));
     }
     let step = match columns.value.unit.as_str() {
         "counts" => 1.0,
-        _ => samples.digits.step(&samples.values),
+        _ => samples.digits.step(&samples.columns[1]),
     };
-    for (time, value) in samples.times.iter_mut().zip(&mut samples.values) {
-        *time *= columns.time.factor;
-        *value = *value * columns.value.factor - reading.x_zero;
-    }
+    let zero = |measured: Measured| match measured {
+        Measured::X => reading.x_zero,
+        _ => 0.0,
+    };
+    let scaled = |mut values: Vec<f64>, factor: f64, zero: f64| {
+        values.iter_mut().for_each(|v| *v = *v * factor - zero);
+        values
+    };
+    let mut lists = samples.columns.into_iter();
+    let mut next = |factor: f64, zero: f64| scaled(lists.next().unwrap_or_default(), factor, zero);
+    let times = next(columns.time.factor, 0.0);
+    let values = next(columns.value.factor, zero(columns.measured));
+    let of_beside = |(beside, column): &(Beside, _)| {
+        let column: &crate::scene::csv::Column = column;
+        let zero = match beside {
+            Beside::Sensor(measured) => zero(*measured),
+            _ => 0.0,
+        };
+        BesideColumn {
+            beside: *beside,
+            values: next(column.factor, zero),
+        }
+    };
     Ok(Measurement {
         resolution: columns.value.factor * step,
+        beside: columns.beside.iter().map(of_beside).collect(),
         notes: columns.notes,
         source: Some(Source {
             file: file.to_owned(),
             dialect,
-            at: columns.at,
+            at: [columns.at[0], columns.at[1]],
             time: columns.time,
             value: columns.value,
             text,
         }),
-        ..Measurement::raw(columns.measured, samples.times, samples.values)
+        ..Measurement::raw(columns.measured, times, values)
     })
 }
 
-/// Times, values, how finely these are printed, and what is wrong.
+/// The numbers of each column, how finely the values are printed, and what is wrong.
 struct Samples {
-    times: Vec<f64>,
-    values: Vec<f64>,
+    columns: Vec<Vec<f64>>,
     digits: Digits,
     wrong: Listed,
 }
 
 impl Samples {
-    fn with_room_for(count: usize) -> Samples {
+    fn with_room_for(count: usize, columns: usize) -> Samples {
         Samples {
-            times: Vec::with_capacity(count),
-            values: Vec::with_capacity(count),
+            columns: vec![Vec::with_capacity(count); columns],
             digits: Digits::NONE,
             wrong: Listed::default(),
         }
@@ -113,7 +131,7 @@ impl Rows<'_> {
     /// The samples of all rows, read in pieces of whole lines side by side.
     fn samples(&self) -> Samples {
         let mut rest = &self.text[self.dialect.start..];
-        let mut all = Samples::with_room_for(rest.len() / 16);
+        let mut all = Samples::with_room_for(rest.len() / 16, self.columns.at.len());
         let pieces = std::iter::from_fn(|| {
             let from = PIECE.min(rest.len());
             let end = rest.as_bytes()[from..]
@@ -124,8 +142,9 @@ impl Rows<'_> {
             (!piece.is_empty()).then_some(piece)
         });
         for found in parallel::map(pieces, |piece| self.samples_of(piece)) {
-            all.times.extend(found.times);
-            all.values.extend(found.values);
+            for (all, more) in all.columns.iter_mut().zip(found.columns) {
+                all.extend(more);
+            }
             all.digits = all.digits.or(found.digits);
             all.wrong.join(found.wrong);
         }
@@ -133,7 +152,7 @@ impl Rows<'_> {
     }
 
     fn samples_of(&self, piece: &str) -> Samples {
-        let mut samples = Samples::with_room_for(0);
+        let mut samples = Samples::with_room_for(0, self.columns.at.len());
         for row in self.dialect.rows_of(piece) {
             self.read(row, &mut samples);
         }
@@ -141,10 +160,12 @@ impl Rows<'_> {
     }
 
     fn read(&self, row: &str, samples: &mut Samples) {
-        let (mut pair, mut count, mut excess) = ([""; 2], 0, false);
+        let (mut found, mut count, mut excess) = ([""; MOST_COLUMNS], 0, false);
+        let wanted = &self.columns.at;
+        let found = &mut found[..wanted.len()];
         for (at, cell) in self.dialect.cells(row).enumerate() {
-            for (mine, wanted) in pair.iter_mut().zip(self.columns.at) {
-                if at == wanted {
+            for (mine, wanted) in found.iter_mut().zip(wanted) {
+                if at == *wanted {
                     *mine = cell;
                 }
             }
@@ -167,19 +188,24 @@ impl Rows<'_> {
             };
             return wrong("row", row, what, help);
         }
-        let numbers = pair.map(|cell| cell::parse(cell, self.decimal_comma));
-        if let [Ok(time), Ok(value)] = numbers {
-            samples.times.push(time);
-            samples.values.push(value);
-            let text = cell::with_point(pair[1], self.decimal_comma);
-            samples.digits = samples.digits.or(Digits::of(&text.unwrap_or_default()));
-            return;
-        }
-        let names = ["time", self.columns.measured.name()];
-        for ((number, cell), name) in numbers.into_iter().zip(pair).zip(names) {
-            if let Err(NotANumber { what, help }) = number {
-                wrong(name, cell, what, help);
+        let mut numbers = [0.0; MOST_COLUMNS];
+        let mut is_right = true;
+        for (k, cell) in found.iter().enumerate() {
+            match cell::parse(cell, self.decimal_comma) {
+                Ok(number) => numbers[k] = number,
+                Err(NotANumber { what, help }) => {
+                    let name = ["time", self.columns.measured.name(), "value"][k.min(2)];
+                    wrong(name, cell, what, help);
+                    is_right = false;
+                }
             }
+        }
+        if is_right {
+            for (list, number) in samples.columns.iter_mut().zip(numbers) {
+                list.push(number);
+            }
+            let text = cell::with_point(found[1], self.decimal_comma);
+            samples.digits = samples.digits.or(Digits::of(&text.unwrap_or_default()));
         }
     }
 }

@@ -58,9 +58,32 @@ impl Measurement {
         if let Some(list) = refused {
             return Err(self.refused(list));
         }
+        self.check_beside()?;
         let spaced = self.space_evenly();
         let notes = [self.gaps(), self.far_from_zero(), self.at_rest(), spaced];
         self.notes.extend(notes.into_iter().flatten());
+        Ok(())
+    }
+
+    /// Says what is wrong with the columns beside the motion.
+    pub(super) fn check_beside(&self) -> Result<(), Problems> {
+        for column in &self.beside {
+            let values = &column.values;
+            let odd = values.iter().position(|v| v.is_nan() || v.abs() > LARGEST);
+            let what = match odd {
+                Some(at) => format!(
+                    "{} in {} is not a usable number",
+                    show(values[at]),
+                    self.place(at)
+                ),
+                None if values.len() != self.len() => {
+                    format!("{} values for {} samples", values.len(), self.len())
+                }
+                None => continue,
+            };
+            let help = "give a finite value for each sample";
+            return Err(self.refused(vec![Problem::new("columns", what, help)]));
+        }
         Ok(())
     }
 
