@@ -2,6 +2,7 @@
 
 use super::describe;
 use super::periodic_orbit::{Found, Seeker};
+use super::refusal::Refusal;
 use super::result::{Estimated, Flywheel};
 use crate::error::Error;
 use crate::mechanism::Equation;
@@ -25,22 +26,14 @@ pub(super) fn size(
     limit: u64,
 ) -> Result<Flywheel, Error> {
     if !(wanted > 0.0 && wanted < 2.0) {
-        return Err(Error::refused(
-            format!("a coefficient of fluctuation of {wanted} is asked for"),
-            "give a number between 0 and 2, like 0.02",
-        ));
+        return Err(Refusal::NoCoefficient(wanted).into());
     }
     let excess = |added: f64| -> Result<f64, Error> {
         let found = Seeker::new(&with(scene, added), found.speed, limit).find()?;
         Ok((found.fluctuation() / wanted).ln())
     };
     if present.value <= present.error {
-        return Err(Error::refused(
-            format!(
-                "no flywheel gives a coefficient of fluctuation of {wanted}: the speed is constant without one"
-            ),
-            "a flywheel is for a speed that varies",
-        ));
+        return Err(Refusal::ConstantSpeed(wanted).into());
     }
     let (low, high) = if present.value > wanted {
         heavier(scene, &excess)?
@@ -59,12 +52,7 @@ pub(super) fn size(
         high,
     );
     let Some(added) = added else {
-        return Err(failed.unwrap_or_else(|| {
-            Error::refused(
-                format!("no flywheel was found for a coefficient of fluctuation of {wanted}"),
-                "ask for another coefficient",
-            )
-        }));
+        return Err(failed.unwrap_or_else(|| Refusal::NotFound(wanted).into()));
     };
     let scene = with(scene, added);
     scene.check()?;
@@ -99,10 +87,7 @@ fn heavier(scene: &Scene, excess: &Excess<'_>) -> Result<(f64, f64), Error> {
         }
         (low, high) = (high, 2.0 * high);
     }
-    Err(Error::refused(
-        format!("no flywheel up to {high:.1e} kg m2 makes the coefficient of fluctuation so small"),
-        "ask for a larger coefficient",
-    ))
+    Err(Refusal::TooHeavy(high).into())
 }
 
 /// Inertias between which it rises to the wanted one, as far as inertia can be taken away.
@@ -125,13 +110,8 @@ fn lighter(scene: &Scene, wanted: f64, excess: &Excess<'_>) -> Result<(f64, f64)
             }
         }
     }
-    Err(Error::refused(
-        format!(
-            "a coefficient of fluctuation of {wanted} needs a crank of less inertia than its mass has, or less than none; the largest that was reached is {:.6}",
-            wanted * largest.exp()
-        ),
-        "ask for a smaller coefficient",
-    ))
+    let largest = wanted * largest.exp();
+    Err(Refusal::TooLight { wanted, largest }.into())
 }
 
 /// The scene with more inertia of the crank, kg m².

@@ -12,6 +12,7 @@ use super::error_estimate::MARGIN;
 use crate::error::Error;
 use crate::scene::Scene;
 use periodic_orbit::{Found, Seeker};
+use refusal::Refusal;
 pub use result::{Estimated, Flywheel, LoadWork, SpeedExtreme, SteadyState};
 
 /// What is asked for.
@@ -94,14 +95,8 @@ fn first(scene: &Scene, rests: bool, limit: u64) -> Result<Found, Error> {
     }
     // Any speed serves to begin with.
     match [1.0, -1.0].map(|speed| Seeker::new(scene, speed, limit).find()) {
-        [Ok(found), _] | [_, Ok(found)] if found.any_speed => Err(Error::refused(
-            "the start is at rest, and no load depends on the speed: every speed is periodic",
-            "give a start speed: motion.speed",
-        )),
-        [Ok(_), Ok(_)] => Err(Error::refused(
-            "the start is at rest, and the crank has a steady state in either sense of rotation",
-            "give motion.speed the sign of the rotation that is meant",
-        )),
+        [Ok(found), _] | [_, Ok(found)] if found.any_speed => Err(Refusal::AnySpeed.into()),
+        [Ok(_), Ok(_)] => Err(Refusal::EitherSense.into()),
         [Ok(found), Err(_)] | [Err(_), Ok(found)] => Ok(found),
         [Err(error), Err(_)] => Err(error),
     }

@@ -6,10 +6,10 @@ use super::super::angle_model::AngleModel;
 use super::super::error_estimate::{LEAST_TAIL, MARGIN};
 use super::super::guide_friction::Sliding;
 use super::Estimated;
-use super::refusal::{Over, always_gains, no_cycle, not_turned, over, unbounded};
+use super::refusal::{Over, Refusal, not_turned, over};
 use super::round::{Motion, Round, Rounds};
 use super::timed::Timed;
-use crate::engine::angle::{self, FixedPoint, NoCycle, Resolution};
+use crate::engine::angle::{self, FixedPoint, Resolution};
 use crate::error::Error;
 use crate::mechanism::{Equation, Limits};
 use crate::numeric::angle::Angle;
@@ -120,7 +120,7 @@ impl Seeker {
         let inertia = |theta: f64| self.equation.terms(theta).inertia.m;
         let vanishes = |theta: f64| inertia(theta) <= 1e-12 * inertia(theta + 1.0);
         if limits.dead_centres.iter().any(|dc| vanishes(dc.theta)) {
-            return Err(unbounded());
+            return Err(Refusal::Unbounded.into());
         }
         if over(&self.scene) == Over::Time {
             let (turns, most) = (self.cycle, self.max_evaluations);
@@ -154,13 +154,16 @@ impl Seeker {
         if self.any_speed() {
             let round = rounds.round(rounds.first()).map_err(not_turned)?;
             if round.gain.abs() > NOTHING.max(rounds.noise()) * round.largest {
-                return Err(always_gains(round.gain));
+                return Err(match round.gain > 0.0 {
+                    true => Refusal::AlwaysGains(round.gain).into(),
+                    false => Refusal::AlwaysLoses(-round.gain).into(),
+                });
             }
             return self.found(round, None);
         }
-        let fixed = angle::fixed_point(rounds, step).map_err(no_cycle)?;
+        let fixed = angle::fixed_point(rounds, step).map_err(Refusal::from)?;
         let round = rounds.round(fixed.kinetic);
-        let round = round.map_err(|why| no_cycle(NoCycle::NotApplicable(why)))?;
+        let round = round.map_err(Refusal::NotComputed)?;
         self.found(round, Some((fixed, rounds.noise())))
     }
 
@@ -195,7 +198,11 @@ impl Seeker {
             .extremes
             .iter()
             .all(|extreme| extreme.omega.is_finite());
-        if known { Ok(found) } else { Err(unbounded()) }
+        if known {
+            Ok(found)
+        } else {
+            Err(Refusal::Unbounded.into())
+        }
     }
 
     /// θ̈, rad/s².
