@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::reading::ReadingArguments;
-use super::{Outcome, Streams, create, draw, fill, is_standard, origin, page, picture};
+use super::{Outcome, PlotOfRows, Streams, create, draw, fill, is_standard, origin, page};
 use crate::error::Error;
 use crate::inverse::{self, AsPrinted, FitKind, FitSize, InverseOptions};
 use crate::report;
@@ -44,15 +44,14 @@ pub(super) struct Arguments {
     /// Writes samples, fit and residuals as CSV to this file
     #[arg(long, value_name = "FILE")]
     residuals: Option<PathBuf>,
-    /// Draws samples, fit, residuals, force and torque with their bands to this SVG file
-    #[arg(long, value_name = "FILE")]
-    plot: Option<PathBuf>,
     /// Writes mechanism, samples, curves with their bands and key figures as one HTML page to this file
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
     /// Prints the summary as one JSON object
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    plot: PlotOfRows,
 }
 
 fn kind(text: &str) -> Result<FitKind, String> {
@@ -115,7 +114,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         arguments.out.as_ref(),
         &[
             arguments.residuals.as_ref(),
-            arguments.plot.as_ref(),
+            arguments.plot.path(),
             arguments.report.as_ref(),
         ],
         arguments.json,
@@ -150,7 +149,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         .transpose()?;
     let out = create(arguments.out.as_ref())?;
     let residuals = create(arguments.residuals.as_ref())?;
-    let plot = picture(arguments.plot.as_ref())?;
+    let plot = arguments.plot.open()?;
     let page = page(arguments.report.as_ref())?;
     // What is odd in the data may be why it is refused.
     let uncertain = draft.uncertain()?;
@@ -158,13 +157,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         .map_err(|error| error.with_notes(measurement.notes()))?;
     let of_printed = printed.as_ref().and_then(AsPrinted::warning);
     result.summary.warnings.extend(of_printed);
+    draw(plot, || {
+        report::inverse_figure(&result, printed.as_ref(), &arguments.plot.view())
+    })?;
     if let Some(output) = out {
         report::inverse_rows(&result, printed.as_ref(), output)?;
     }
     if let Some(output) = residuals {
         report::residuals(&result, output)?;
     }
-    draw(plot, || report::inverse_figure(&result, printed.as_ref()))?;
     fill(page, || {
         let origin = origin(arguments.scene.as_ref());
         report::inverse_page(&result, &scene, &origin)

@@ -5,13 +5,13 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
-    Outcome, Streams, angle, check_rows_of_turn, create, draw, fill, length, origin, page, picture,
-    positive_angle, quantity, say,
+    Outcome, PlotOfRows, Streams, angle, check_rows_of_turn, create, draw, fill, length, origin,
+    page, positive_angle, quantity, say,
 };
 use crate::error::Error;
 use crate::kinematics::Length;
 use crate::kinematics::TurnOptions;
-use crate::report;
+use crate::report::{self, Diagram};
 use crate::scene::unit::Quantity;
 
 /// Arguments of `kinematics`.
@@ -28,6 +28,14 @@ pub(super) struct Arguments {
     /// Adds the forces at the scene's speed, taken as constant: torque, inertia forces, joint and shaking forces
     #[arg(long)]
     forces: bool,
+    /// Part of the reciprocating mass that the counterweight of the diagrams of the forces balances
+    #[arg(
+        long,
+        value_name = "NUMBER",
+        default_value_t = 0.5,
+        allow_hyphen_values = true
+    )]
+    balance: f64,
     /// Adds the derivatives of motion and driving torque with respect to crank, rod and offset
     #[arg(long)]
     sensitivity: bool,
@@ -51,22 +59,24 @@ pub(super) struct Arguments {
     /// Closes the loop by Newton-Raphson too, from this guess of the rod's angle seen from the slider, like "180 deg"
     #[arg(long, value_name = "ANGLE", value_parser = angle, allow_hyphen_values = true)]
     newton_guess: Option<f64>,
-    /// Draws position, velocity, acceleration, and torque with --forces, to this SVG file
-    #[arg(long, value_name = "FILE")]
-    plot: Option<PathBuf>,
     /// Writes the mechanism, curves and key figures as one HTML page to this file
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
     /// Prints the summary as one JSON object
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    plot: PlotOfRows,
+    /// Draws a diagram of the forces in place of columns: turning-moment, pressure-volume, polar, orders or balance
+    #[arg(long, value_name = "NAME", value_parser = diagram, requires = "plot", conflicts_with_all = ["show", "over"], help_heading = "Picture")]
+    diagram: Option<Diagram>,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let streams = Streams::new(
         &[arguments.scene.as_ref()],
         arguments.out.as_ref(),
-        &[arguments.plot.as_ref(), arguments.report.as_ref()],
+        &[arguments.plot.path(), arguments.report.as_ref()],
         arguments.json,
     )?;
     check_rows_of_turn(arguments.every)?;
@@ -79,12 +89,18 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     }
     let result = crate::kinematics::one_turn(&scene, &arguments.options())?;
     let out = create(arguments.out.as_ref())?;
-    let plot = picture(arguments.plot.as_ref())?;
+    let plot = arguments.plot.open()?;
     let page = page(arguments.report.as_ref())?;
+    draw(plot, || match arguments.diagram {
+        None => report::turn_figure(&result, &arguments.plot.view()),
+        Some(diagram) => {
+            let svg = diagram.svg(&result, &scene, arguments.plot.view().size)?;
+            svg.ok_or_else(|| nothing_to_draw(diagram))
+        }
+    })?;
     if let Some(output) = out {
         report::turn_rows(&result, arguments.every, output)?;
     }
-    draw(plot, || report::turn_figure(&result))?;
     fill(page, || {
         let origin = origin(arguments.scene.as_ref());
         report::turn_page(&result, arguments.every, &scene, &origin)
@@ -96,13 +112,27 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
 impl Arguments {
     fn options(&self) -> TurnOptions {
         TurnOptions {
-            forces: self.forces,
+            forces: self.forces || self.diagram.is_some(),
+            balance: Some(self.balance),
             sensitivity: self.sensitivity,
             change: self.change.clone(),
             offsets: self.with_offset.clone(),
             iterate_from: self.newton_guess,
         }
     }
+}
+
+fn nothing_to_draw(diagram: Diagram) -> Error {
+    let help = match diagram {
+        Diagram::PressureVolume => "the scene needs a load of the kind gas",
+        _ => "the crank has to turn fully",
+    };
+    Error::refused(format!("there is no {} diagram", diagram.name()), help)
+}
+
+fn diagram(text: &str) -> Result<Diagram, String> {
+    let known = Diagram::ALL.into_iter().find(|known| known.name() == text);
+    known.ok_or_else(|| format!("known are {}", Diagram::ALL.map(Diagram::name).join(", ")))
 }
 
 /// A length and its new value.

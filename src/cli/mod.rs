@@ -5,6 +5,7 @@ mod explain;
 mod identify;
 mod inverse;
 mod kinematics;
+mod picture;
 mod precision;
 mod reading;
 mod reproduce;
@@ -24,8 +25,9 @@ use crate::error::Error;
 use crate::report::Origin;
 use crate::scene::unit::{self, Quantity};
 use crate::scene::{DUARTE, Scene};
+use picture::{Plot, PlotOfRows};
 use streams::{
-    Streams, check_files, create, draw, fill, is_standard, page, picture, print, say, say_styled,
+    Streams, check_files, create, draw, fill, is_standard, page, print, say, say_styled,
 };
 
 /// Dynamics of the offset slider-crank from its Lagrange equation.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::{
-    Outcome, check_files, create, draw, fill, is_standard, origin, page, picture, print, say, scene,
+    Outcome, Plot, check_files, create, draw, fill, is_standard, origin, page, print, say, scene,
 };
 use crate::error::Error;
 use crate::precision::{Precision, PrecisionOptions};
@@ -24,9 +24,8 @@ pub(super) struct Arguments {
     /// Writes the rows as CSV to this file, `-` for standard output
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Draws error against time as SVG to this file, one panel for each scene; `-` for standard output
-    #[arg(long, value_name = "FILE")]
-    plot: Option<PathBuf>,
+    #[command(flatten)]
+    plot: Plot,
     /// Writes error against time as one HTML page to this file
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -69,7 +68,7 @@ impl Arguments {
     fn text_on_stdout(&self) -> Result<bool, Error> {
         let others = [
             is_standard(self.out.as_ref()),
-            is_standard(self.plot.as_ref()),
+            is_standard(self.plot.plot.as_ref()),
             is_standard(self.report.as_ref()),
             self.json,
         ];
@@ -97,15 +96,17 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let scenes = scenes(&files)?;
     let tables = scenes.iter().flat_map(Scene::table_files);
     let read: Vec<&Path> = files.iter().map(PathBuf::as_path).chain(tables).collect();
-    let written = [&arguments.out, &arguments.plot, &arguments.report];
+    let written = [&arguments.out, &arguments.plot.plot, &arguments.report];
     let written = written.into_iter().flatten();
     check_files(&read, &written.cloned().collect::<Vec<_>>())?;
     let rows = create(arguments.out.as_ref())?;
-    let plot = picture(arguments.plot.as_ref())?;
+    let plot = arguments.plot.open()?;
     let page = page(arguments.report.as_ref())?;
     let results = compare(&scenes, &arguments.options(), text_on_stdout)?;
     fill(rows, || report::precision_csv(&results))?;
-    draw(plot, || report::precision_figure(&results))?;
+    draw(plot, || {
+        report::precision_figure(&results, arguments.plot.size())
+    })?;
     fill(page, || {
         report::precision_page(&results, &origin(files.first()))
     })?;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Outcome, Streams, create, draw, fill, origin, page, picture};
+use super::{Outcome, PlotOfRows, Streams, create, draw, fill, origin, page};
 use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{self, PlotRows, Preview, RowWriter};
@@ -19,9 +19,6 @@ pub(super) struct Arguments {
     /// Writes the rows as CSV to this file, `-` for standard output
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Draws the rows as SVG: slider motion, and of a loose joint the force and the journal's path
-    #[arg(long, value_name = "FILE")]
-    plot: Option<PathBuf>,
     /// Writes the mechanism in motion, curves, key figures and what is modelled as one HTML page to this file
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -60,6 +57,8 @@ pub(super) struct Arguments {
     /// Most events that are listed
     #[arg(long, value_name = "COUNT", default_value_t = Options::default().events_kept)]
     max_events: usize,
+    #[command(flatten)]
+    plot: PlotOfRows,
 }
 
 /// Rows to a file, to a preview, or both.
@@ -67,6 +66,8 @@ struct Rows {
     writer: Option<RowWriter>,
     preview: Option<Preview>,
     plot: Option<PlotRows>,
+    /// Whether a joint is loose.
+    loose: bool,
 }
 
 impl RowSink for Rows {
@@ -79,12 +80,20 @@ impl RowSink for Rows {
             preview.take(row);
         }
         if let Some(plot) = &mut self.plot {
-            plot.take(row);
+            plot.take(row)?;
         }
         match &mut self.writer {
             Some(writer) => writer.row(row),
             None => Ok(()),
         }
+    }
+
+    fn wants_steps(&self) -> bool {
+        self.loose && self.plot.is_some()
+    }
+
+    fn step(&mut self, row: &Row) -> Result<(), Error> {
+        self.plot.as_mut().map_or(Ok(()), |plot| plot.take(row))
     }
 }
 
@@ -112,7 +121,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let streams = Streams::new(
         &[arguments.scene.as_ref()],
         arguments.out.as_ref(),
-        &[arguments.plot.as_ref(), arguments.report.as_ref()],
+        &[arguments.plot.path(), arguments.report.as_ref()],
         arguments.json,
     )?;
     let mut scene = streams.scene(arguments.scene.as_ref())?;
@@ -130,12 +139,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         scene = steady.start(&scene);
     }
     let output = create(arguments.out.as_ref())?;
-    let figure = picture(arguments.plot.as_ref())?;
+    let figure = arguments.plot.open()?;
     let page = page(arguments.report.as_ref())?;
     let mut rows = Rows {
-        plot: (figure.is_some() || page.is_some()).then(PlotRows::default),
+        plot: (figure.is_some() || page.is_some()).then(|| PlotRows::new(arguments.plot.view())),
         writer: output.map(RowWriter::new),
         preview: streams.text_on_stdout().then(Preview::default),
+        loose: scene.clearance.is_some(),
     };
     let result = crate::simulate::simulate_rows(&scene, &arguments.options(), &mut rows)?;
     if let Some(writer) = rows.writer {
@@ -145,7 +155,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     summary.steady_state = steady;
     let preview = rows.preview.map_or(Vec::new(), |preview| preview.rows());
     if let Some(plot) = &rows.plot {
-        draw(figure, || plot.to_svg(&summary))?;
+        draw(figure, || plot.to_svg(&summary, &scene))?;
         fill(page, || plot.page(&summary, &scene, &origin))?;
     }
     streams.show(&summary, || report::summary(&summary, &preview))?;

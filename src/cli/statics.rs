@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
-    Outcome, Streams, angle, check_rows_of_turn, create, draw, fill, length, origin, page, picture,
-    positive_angle, print, quantity,
+    Outcome, PlotOfRows, Streams, angle, check_rows_of_turn, create, draw, fill, length, origin,
+    page, positive_angle, print, quantity,
 };
 use crate::error::Error;
 use crate::report;
@@ -50,9 +50,6 @@ pub(super) struct Arguments {
     /// Writes the rows as CSV to this file, `-` for standard output
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Draws force or torque with its friction band, and the side thrust, to this SVG file
-    #[arg(long, value_name = "FILE")]
-    plot: Option<PathBuf>,
     /// Writes the mechanism, curves and key figures as one HTML page to this file
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -70,6 +67,8 @@ pub(super) struct Arguments {
     /// Prints the summary as one JSON object
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    plot: PlotOfRows,
 }
 
 fn torque(text: &str) -> Result<f64, String> {
@@ -117,19 +116,21 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let streams = Streams::new(
         &[arguments.scene.as_ref()],
         arguments.out.as_ref(),
-        &[arguments.plot.as_ref(), arguments.report.as_ref()],
+        &[arguments.plot.path(), arguments.report.as_ref()],
         arguments.json,
     )?;
     check_rows_of_turn(arguments.every)?;
     let scene = streams.scene(arguments.scene.as_ref())?;
     let result = crate::statics::statics(&scene, &arguments.options())?;
     let out = create(arguments.out.as_ref())?;
-    let plot = picture(arguments.plot.as_ref())?;
+    let plot = arguments.plot.open()?;
     let page = page(arguments.report.as_ref())?;
+    draw(plot, || {
+        report::statics_figure(&result, &arguments.plot.view())
+    })?;
     if let Some(output) = out {
         report::statics_rows(&result, arguments.every, arguments.details, output)?;
     }
-    draw(plot, || report::statics_figure(&result))?;
     fill(page, || {
         let origin = origin(arguments.scene.as_ref());
         report::statics_page(&result, arguments.every, &scene, &origin)

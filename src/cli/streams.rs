@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use crate::error::Error;
-use crate::report::{self, ENDINGS, Output, Picture};
+use crate::report::{self, Output, Picture};
 use crate::scene::{Scene, printable};
 
 /// The files and streams of a command, checked before anything is computed.
@@ -132,7 +132,7 @@ fn place(path: &Path) -> PathBuf {
 ///
 /// # Errors
 /// [`Error::Refused`].
-fn check_ending(path: Option<&PathBuf>, written: &[&str]) -> Result<(), Error> {
+pub(super) fn check_ending(path: Option<&PathBuf>, written: &[&str]) -> Result<(), Error> {
     let Some((path, ending)) = path.and_then(|path| Some((path, path.extension()?))) else {
         return Ok(());
     };
@@ -183,15 +183,6 @@ pub(super) fn fill(
     text: impl FnOnce() -> Result<String, Error>,
 ) -> Result<(), Error> {
     output.map_or(Ok(()), |output| output.text(&text()?))
-}
-
-/// Opens a picture that may be asked for.
-///
-/// # Errors
-/// [`Error::Refused`] if its ending is not one of a picture; [`Error::Write`].
-pub(super) fn picture(path: Option<&PathBuf>) -> Result<Option<Picture>, Error> {
-    check_ending(path, &ENDINGS)?;
-    path.map(|path| Picture::create(path)).transpose()
 }
 
 /// Draws a figure, given as SVG, to a picture that may be asked for.

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::Located;
 use crate::error::Error;
 use crate::mechanism::{
-    Equation, EquivalentMasses, InertiaForces, Limits, Linkage, Reactions, Reactor,
+    Equation, EquivalentMasses, InertiaForces, Limits, Linkage, Loads, Reactions, Reactor,
 };
 use crate::numeric::{angle, difference, root};
 use crate::plan::Cycle;
@@ -95,8 +95,12 @@ pub fn forces(scene: &Scene) -> Result<ForceAnalysis, Error> {
 }
 
 impl ForceAnalysis {
-    fn linkage(&self) -> &Linkage {
+    pub(super) fn linkage(&self) -> &Linkage {
         self.equation.linkage()
+    }
+
+    pub(super) fn loads(&self) -> &Loads {
+        self.equation.loads()
     }
 
     /// Driving torque at a crank angle, N m; time counts from θ = 0.
@@ -135,7 +139,7 @@ impl ForceAnalysis {
     }
 
     /// The angle at which the cycle ends, rad.
-    fn whole(&self) -> f64 {
+    pub(super) fn whole(&self) -> f64 {
         f64::from(self.cycle_turns) * TAU
     }
 

@@ -1,12 +1,16 @@
 //! One turn of the crank in closed form: positions, dead centres, extremes, and the forces at constant speed.
 
 mod closed_form;
+mod diagrams;
 mod forces;
 mod offsets;
 mod one_turn;
+mod turning_moment;
 
 pub use crate::mechanism::{Length, size_from_stroke};
 pub use closed_form::{DeadCentre, Kinematics, KinematicsRow, Located, NamedPosition, kinematics};
+pub use diagrams::{Balance, Diagrams, Indicated, Order};
 pub use forces::{ForceAnalysis, ForceRow, StrokeTorque, forces};
 pub use offsets::{OffsetExtremes, offset_extremes};
 pub use one_turn::{LengthSlope, LoopCheck, OneTurn, TurnOptions, TurnRow, one_turn};
+pub use turning_moment::{Area, TurningMoment};

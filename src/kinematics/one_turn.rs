@@ -4,6 +4,7 @@
 use serde::Serialize;
 
 use super::closed_form::{Kinematics, KinematicsRow, kinematics};
+use super::diagrams::Diagrams;
 use super::forces::{ForceAnalysis, ForceRow, forces};
 use super::offsets::{OffsetExtremes, offset_extremes};
 use crate::error::Error;
@@ -16,6 +17,8 @@ use crate::scene::Scene;
 pub struct TurnOptions {
     /// Forces at the scene's speed.
     pub forces: bool,
+    /// The diagrams of the forces, with a counterweight for this part of the reciprocating mass.
+    pub balance: Option<f64>,
     /// Derivatives with respect to crank, rod and offset.
     pub sensitivity: bool,
     /// Lengths (m) of a second mechanism that the first is compared with.
@@ -35,6 +38,9 @@ pub struct OneTurn {
     /// Forces at constant speed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub forces: Option<ForceAnalysis>,
+    /// Diagrams of the forces.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub diagrams: Option<Diagrams>,
     /// The mechanism with changed lengths.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub changed: Option<Kinematics>,
@@ -136,7 +142,9 @@ pub fn one_turn(scene: &Scene, options: &TurnOptions) -> Result<OneTurn, Error> 
         let what = format!("the forces are those of the first turn, others may differ: {why}");
         kinematics.warnings.push(what);
     }
+    let balanced = forces.as_ref().zip(options.balance);
     Ok(OneTurn {
+        diagrams: balanced.and_then(|(forces, part)| forces.diagrams(scene, part)),
         forces,
         changed: changed(scene, &options.change)?,
         offsets: offset_extremes(scene, &options.offsets)?,

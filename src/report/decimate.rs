@@ -1,19 +1,26 @@
 //! A bounded number of items, evenly spread over a sequence of unknown length.
 
-/// Every n-th item of a sequence; n doubles when the items get too many.
+/// One item of every n of a sequence, that of the largest weight; n doubles when the items get too many.
 #[derive(Debug)]
 pub(super) struct Thinned<T> {
     most: usize,
+    weight: fn(&T) -> f64,
     kept: Vec<T>,
     seen: u64,
     stride: u64,
 }
 
 impl<T> Thinned<T> {
-    /// At most `most` items will be kept.
+    /// At most `most` items will be kept, evenly spread.
     pub fn new(most: usize) -> Thinned<T> {
+        Thinned::weighted(most, |_| 0.0)
+    }
+
+    /// At most `most` items will be kept, of neighbours the first one of the largest weight.
+    pub fn weighted(most: usize, weight: fn(&T) -> f64) -> Thinned<T> {
         Thinned {
             most,
+            weight,
             kept: Vec::new(),
             seen: 0,
             stride: 1,
@@ -22,18 +29,34 @@ impl<T> Thinned<T> {
 
     /// Takes an item; keeps it if it is one of the few.
     pub fn take(&mut self, item: T) {
-        if self.seen.is_multiple_of(self.stride) {
-            self.kept.push(item);
-        }
+        let weight = self.weight;
+        let begins = self.seen.is_multiple_of(self.stride);
         self.seen += 1;
-        if self.kept.len() > self.most {
-            let mut index = 0;
-            self.kept.retain(|_| {
-                index += 1;
-                index % 2 == 1
-            });
-            self.stride *= 2;
+        match self.kept.last_mut() {
+            Some(last) if !begins => {
+                if weight(&item) > weight(last) {
+                    *last = item;
+                }
+            }
+            _ => self.kept.push(item),
         }
+        if self.kept.len() > self.most {
+            self.halve();
+        }
+    }
+
+    fn halve(&mut self) {
+        let weight = self.weight;
+        let mut index = 0;
+        self.kept.dedup_by(|next, last| {
+            index += 1;
+            let second = index % 2 == 1;
+            if second && weight(next) > weight(last) {
+                std::mem::swap(next, last);
+            }
+            second
+        });
+        self.stride *= 2;
     }
 
     /// Every so many items are kept.

@@ -2,8 +2,11 @@
 
 mod atomic_file;
 mod calibration;
+mod columns;
 mod csv;
+mod curves;
 mod decimate;
+mod diagrams;
 mod explain;
 mod figure;
 mod identify;
@@ -22,17 +25,20 @@ mod rows;
 mod statics;
 mod steady;
 mod sweep;
+mod table;
 mod text;
 
 pub use calibration::calibration;
+pub use curves::View;
+pub use diagrams::Diagram;
 pub use explain::explanation;
-pub use figure::{Axis, Figure, ScaleKind, panels};
+pub use figure::{Axis, Figure, ScaleKind, Shape, Sheet};
 pub use identify::{identification, identification_csv};
 pub use inverse::{inverse, inverse_figure, inverse_page, inverse_rows, residuals};
 pub use motion::PlotRows;
 pub use one_turn::{sized, turn, turn_figure, turn_page, turn_rows};
 pub use output::{Output, is_standard_output};
-pub use page::{Origin, Page, Table};
+pub use page::{Origin, Page};
 pub use picture::{ENDINGS, Picture};
 pub use precision::{precision, precision_csv, precision_figure, precision_notes, precision_page};
 pub use reproduce::{
@@ -43,6 +49,7 @@ pub use statics::{statics, statics_figure, statics_page, statics_rows};
 pub use sweep::{
     SweepExtreme, SweepRange, SweepSummary, SweepWriter, VariedKey, sweep_page, sweep_text,
 };
+pub use table::Table;
 pub use text::summary;
 
 use crate::error::Error;

@@ -1,54 +1,65 @@
-//! The motion of a run as a figure.
+//! The motion of a run as a figure and as a page.
 
 use std::f64::consts::TAU;
 
+use super::curves::{Shown, View};
 use super::decimate::Thinned;
-use super::figure::{Axis, Figure, panels};
-use super::page::{Origin, Page, Table};
+use super::figure::{Axis, Figure};
+use super::page::{Origin, Page};
 use super::rows::{cells, header};
+use super::table::Table;
 use super::text::facts;
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::simulate::{Energies, Row, Summary};
 
-/// Rows for a figure, evenly thinned out where there are more than a figure can show.
+/// Rows for a figure, thinned out where there are more than a figure can show: the largest contact forces are kept.
 #[derive(Debug)]
-pub struct PlotRows(Thinned<Row>);
-
-/// Of the area of one panel in two columns, so that a circle looks like one.
-const WIDTH_OVER_HEIGHT: f64 = 1.65;
+pub struct PlotRows {
+    view: View,
+    rows: Thinned<Row>,
+}
 
 /// Most rows that are kept.
 const MOST: usize = 100_000;
 
-impl Default for PlotRows {
-    fn default() -> PlotRows {
-        PlotRows(Thinned::new(MOST))
-    }
-}
-
 impl PlotRows {
-    /// Takes a row.
-    pub fn take(&mut self, row: &Row) {
-        self.0.take(*row);
+    /// No rows yet; what is to be seen of them.
+    pub fn new(view: View) -> PlotRows {
+        let force = |row: &Row| row.clearance.map_or(0.0, |joint| joint.force);
+        PlotRows {
+            view,
+            rows: Thinned::weighted(MOST, force),
+        }
     }
 
-    /// The rows by columns, with their energies.
-    fn table(&self, scene: &Scene) -> Table {
-        let rows = self.0.kept();
-        let energies = Energies::of(scene);
-        let mut names = rows.first().map_or(String::new(), header);
-        if energies.is_some() {
-            names.push_str(",kinetic_energy_j,potential_energy_j,whole_energy_j");
+    /// Takes a row.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] at the first row if it has not the columns that are to be seen.
+    pub fn take(&mut self, row: &Row) -> Result<(), Error> {
+        if self.rows.kept().is_empty() {
+            self.view.check(&columns(row))?;
         }
-        let mut table = Table::new(&names);
-        table.stride = self.0.stride();
-        for row in rows {
+        self.rows.take(*row);
+        Ok(())
+    }
+
+    /// The rows by columns, with their energies, and how far the slider is from where ideal joints would have it.
+    fn table(&self, scene: &Scene) -> Table {
+        let mut rows = self.rows.kept().to_vec();
+        // States at steps come after the rows inside of the step.
+        rows.sort_by(|one, other| one.t.total_cmp(&other.t));
+        let energies = Energies::of(scene);
+        let mut table = Table::new(&rows.first().map_or(String::new(), columns));
+        table.stride = self.rows.stride();
+        for row in &rows {
+            let [kinetic, potential] = energies
+                .as_ref()
+                .map_or([f64::NAN; 2], |energies| energies.at(row));
             let mut cells = cells(row);
-            if let Some(energies) = &energies {
-                let [kinetic, potential] = energies.at(row);
-                cells.extend([kinetic, potential, kinetic + potential]);
-            }
+            cells.extend([kinetic, potential, kinetic + potential]);
+            cells.extend(row.clearance.map(|joint| row.x - joint.ideal[0]));
             table.push(cells);
         }
         table
@@ -67,83 +78,63 @@ impl PlotRows {
             .html()
     }
 
-    /// Slider motion over time, beside that of ideal joints where a joint is loose, with the contact force and
-    /// the journal's path; else the crank's speed.
+    /// What is to be seen as SVG: by itself the slider's motion over time, beside that of ideal joints where a joint is
+    /// loose, with the contact force and the journal's path; else the crank's speed.
     ///
     /// # Errors
     /// [`Error::Refused`] if there is nothing to draw.
-    pub fn to_svg(&self, summary: &Summary) -> Result<String, Error> {
-        let end = self.0.kept().last().map_or(0.0, |row| row.t);
-        let (scale, unit) = if end < 0.5 { (1e3, "ms") } else { (1.0, "s") };
-        let over_time = |title: &str, axis: &str| {
-            Figure::new(
-                title,
-                Axis::linear(format!("time [{unit}]")),
-                Axis::linear(axis),
-            )
+    pub fn to_svg(&self, summary: &Summary, scene: &Scene) -> Result<String, Error> {
+        let short = self.rows.kept().last().is_some_and(|row| row.t < 0.5);
+        let mut shown = Shown {
+            title: &summary.scene,
+            show: &["x", "v", "a", "omega"],
+            over: if short { "t:ms" } else { "t" },
+            columns: 2,
+            ..Shown::default()
         };
-        let series = |value: &dyn Fn(&Row) -> f64| -> Vec<(f64, f64)> {
-            self.0
-                .kept()
-                .iter()
-                .map(|row| (scale * row.t, value(row)))
-                .collect()
-        };
-        let loose = self.0.kept().iter().any(|row| row.clearance.is_some());
-        let ideal = |row: &Row, index: usize| row.clearance.map_or(f64::NAN, |c| c.ideal[index]);
-        type Column = fn(&Row) -> f64;
-        let columns: [(&str, &str, f64, Column); 3] = [
-            ("slider position", "x [mm]", 1e3, |row| row.x),
-            ("slider velocity", "v [m/s]", 1.0, |row| row.v),
-            ("slider acceleration", "a [m/s²]", 1.0, |row| row.a),
-        ];
-        let mut figures = Vec::new();
-        for (index, (title, axis, factor, column)) in columns.into_iter().enumerate() {
-            let mut figure = over_time(title, axis);
-            let label = if loose { "with clearance" } else { "" };
-            figure = figure.line(label, series(&|row| factor * column(row)));
-            if loose {
-                figure = figure.dashed("ideal joints", series(&|row| factor * ideal(row, index)));
-            }
-            figures.push(figure);
+        if let Some(joint) = &summary.clearance {
+            shown.show = &[
+                "x",
+                "x_ideal",
+                "v",
+                "v_ideal",
+                "a",
+                "a_ideal",
+                "contact_force",
+                "slider_deviation",
+            ];
+            shown.beside = vec![self.orbit(1e3 * joint.radial_m)];
         }
-        match &summary.clearance {
-            Some(joint) => {
-                let force = |row: &Row| row.clearance.map_or(f64::NAN, |c| c.force);
-                figures.push(over_time("contact force", "F [N]").line("", series(&force)));
-                let off = |row: &Row| 1e3 * (row.x - ideal(row, 0));
-                figures.push(
-                    over_time("slider position, off the ideal joint's", "x - x ideal [mm]")
-                        .line("", series(&off)),
-                );
-                figures.push(self.orbit(1e3 * joint.radial_m));
-            }
-            None => figures
-                .push(over_time("crank speed", "ω [rad/s]").line("", series(&|row| row.omega))),
-        }
-        panels(&summary.scene, &figures, 2)
+        self.view.svg(&self.table(scene), shown)
     }
 
     /// Path of the journal's centre in the bearing, with the circle of the clearance, mm.
     fn orbit(&self, radial: f64) -> Figure {
-        let path = self.0.kept().iter().filter_map(|row| row.clearance);
+        let path = self.rows.kept().iter().filter_map(|row| row.clearance);
         let path: Vec<_> = path
             .map(|joint| (1e3 * joint.journal[0], 1e3 * joint.journal[1]))
             .collect();
-        let reach = path
-            .iter()
-            .fold(radial, |most, (x, y)| most.max(x.hypot(*y)));
         let circle = (0..=180).map(|i| {
             let (sin, cos) = (f64::from(i) / 180.0 * TAU).sin_cos();
             (radial * cos, radial * sin)
         });
-        let axis = |name: &str, most: f64| Axis::linear(name).range(-most, most);
         Figure::new(
             "path of the journal's centre in the bearing",
-            axis("along x [mm]", 1.1 * WIDTH_OVER_HEIGHT * reach),
-            axis("along y [mm]", 1.1 * reach),
+            Axis::linear("along x [mm]"),
+            Axis::linear("along y [mm]"),
         )
+        .equal()
         .line("journal", path)
         .dashed("radial clearance", circle.collect())
     }
+}
+
+/// Names of the columns that are drawn of rows like this one.
+fn columns(row: &Row) -> String {
+    let mut names = header(row);
+    names.push_str(",kinetic_energy_j,potential_energy_j,whole_energy_j");
+    if row.clearance.is_some() {
+        names.push_str(",slider_deviation_m");
+    }
+    names
 }

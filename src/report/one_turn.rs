@@ -1,13 +1,17 @@
 //! One turn as CSV, text and figure.
 
+use std::f64::consts::PI;
 use std::fmt::Write;
 
+use super::Output;
 use super::csv::{line, write_all};
+use super::curves::{Shown, View};
+use super::diagrams::{self, Diagram};
 use super::key_values::{Facts, degrees, fact, given, six};
-use super::page::{Origin, Page, Table};
+use super::page::{Origin, Page};
 use super::rows::{REACTIONS, reactions};
+use super::table::Table;
 use super::text::{NAMES, extreme, kinematics};
-use super::{Axis, Figure, Output, panels};
 use crate::error::Error;
 use crate::kinematics::{ForceAnalysis, Located, OffsetExtremes, OneTurn, StrokeTorque, TurnRow};
 use crate::scene::Scene;
@@ -36,13 +40,14 @@ pub fn turn_page(
     scene: &Scene,
     origin: &Origin,
 ) -> Result<String, Error> {
-    let mut table = Table::new(&columns(result));
-    for row in result.rows(every) {
-        table.push(values(&row));
+    let mut diagrams = Vec::new();
+    for diagram in Diagram::ALL {
+        diagrams.extend(diagram.svg(result, scene, None)?);
     }
     Page::new(origin, &facts(result))
-        .table(&table)
+        .table(&table(result, every))
         .mechanism(scene)
+        .figures(diagrams)
         .html()
 }
 
@@ -126,6 +131,9 @@ fn facts(result: &OneTurn) -> Facts {
     if let Some(analysis) = &result.forces {
         forces(&mut facts, analysis);
     }
+    if let Some(found) = &result.diagrams {
+        diagrams::facts(&mut facts, found);
+    }
     let unit = match result.kinematics.speed_rad_per_s {
         Some(_) => "m/s2",
         None => "m/rad2",
@@ -197,64 +205,63 @@ fn offset(with: &OffsetExtremes, unit: &str) -> String {
     line
 }
 
-/// Slider position, velocity and acceleration over the crank angle, with those of the changed lengths, and
-/// the driving torque, exact and to first order.
-pub fn turn_figure(result: &OneTurn) -> Result<String, Error> {
+/// The rows by columns, so many radians apart, with the motion of the changed lengths beside that of the scene.
+fn table(result: &OneTurn, every: f64) -> Table {
+    let mut names = columns(result);
     let moves = result.kinematics.speed_rad_per_s.is_some();
-    let quantities = if moves {
-        [
-            "slider position [m]",
-            "slider velocity [m/s]",
-            "slider acceleration [m/s2]",
-        ]
-    } else {
-        ["slider position [m]", "x' [m/rad]", "x'' [m/rad2]"]
-    };
-    let rows: Vec<TurnRow> = result.rows(1f64.to_radians()).collect();
-    let of = |value: &dyn Fn(&TurnRow) -> f64| -> Vec<(f64, f64)> {
-        let point = |row: &TurnRow| (row.kinematics.theta.to_degrees(), value(row));
-        rows.iter().map(point).collect()
-    };
-    let angle = || Axis::degrees("crank angle θ [°]").range(0.0, 360.0 * f64::from(result.turns()));
-    let mut figures: Vec<Figure> = quantities
-        .into_iter()
-        .enumerate()
-        .map(|(i, name)| {
-            let motion = move |row: &TurnRow| match row.kinematics.rates {
-                Some([v, a, ..]) => [row.kinematics.x, v, a][i],
-                None => [row.kinematics.x, row.kinematics.dx, row.kinematics.d2x][i],
-            };
-            let figure = Figure::new("", angle(), Axis::linear(name));
-            match result.changed {
-                None => figure.line("", of(&motion)),
-                Some(_) => {
-                    let changed =
-                        move |row: &TurnRow| motion(row) + row.change.map_or(f64::NAN, |c| c[i]);
-                    figure
-                        .line("scene", of(&motion))
-                        .dashed("changed lengths", of(&changed))
-                }
-            }
-        })
-        .collect();
-    if result.forces.is_some() {
-        let value = |row: &TurnRow, first: bool| {
-            row.forces.map_or(f64::NAN, |forces| {
-                if first {
-                    forces.first_order_torque
-                } else {
-                    forces.torque
-                }
-            })
-        };
-        figures.push(
-            Figure::new("", angle(), Axis::linear("driving torque [N m]"))
-                .line("exact", of(&|row| value(row, false)))
-                .dashed(
-                    "reciprocating mass, first order",
-                    of(&|row| value(row, true)),
-                ),
-        );
+    if result.changed.is_some() {
+        names.push_str(if moves {
+            ",x_changed_m,v_changed_m_per_s,a_changed_m_per_s2"
+        } else {
+            ",x_changed_m,dx_changed_m_per_rad,d2x_changed_m_per_rad2"
+        });
     }
-    panels(&result.kinematics.scene, &figures, 1)
+    let mut table = Table::new(&names);
+    for row in result.rows(every) {
+        let at = &row.kinematics;
+        let motion = match at.rates {
+            Some([v, a, ..]) => [at.x, v, a],
+            None => [at.x, at.dx, at.d2x],
+        };
+        let mut cells = values(&row);
+        if let Some(change) = row.change {
+            cells.extend(
+                motion
+                    .iter()
+                    .zip(change)
+                    .map(|(value, change)| value + change),
+            );
+        }
+        table.push(cells);
+    }
+    table
+}
+
+/// Crank angle between the points of a figure, rad.
+const SPACING: f64 = PI / 360.0;
+
+/// What is to be seen over the crank angle, as SVG: by itself the slider's motion, with that of the changed lengths, and
+/// the driving torque, exact and to first order.
+///
+/// # Errors
+/// [`Error::Refused`] if a column is not there.
+pub fn turn_figure(result: &OneTurn, view: &View) -> Result<String, Error> {
+    let shown = Shown {
+        title: &result.kinematics.scene,
+        show: match result.kinematics.speed_rad_per_s {
+            Some(_) => &[
+                "x",
+                "x_changed",
+                "v",
+                "v_changed",
+                "a",
+                "a_changed",
+                "crank_torque",
+                "crank_torque_first_order",
+            ],
+            None => &["x", "x_changed", "dx", "dx_changed", "d2x", "d2x_changed"],
+        },
+        ..Shown::default()
+    };
+    view.svg(&table(result, SPACING), shown)
 }

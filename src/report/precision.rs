@@ -3,9 +3,10 @@
 use std::fmt::Write;
 
 use super::csv::{quoted, shortest};
-use super::figure::{Axis, Figure, panels};
+use super::figure::{Axis, Figure, Shape, Sheet};
 use super::key_values::{Facts, six};
-use super::page::{Origin, Page, Scatter, Table};
+use super::page::{Origin, Page, Scatter};
+use super::table::Table;
 use crate::error::Error;
 use crate::precision::{Precision, PrecisionRow};
 use crate::scene::printable;
@@ -201,35 +202,41 @@ pub fn precision_notes(scene: &Precision) -> Vec<String> {
     notes
 }
 
-/// Error of the crank angle against time, one panel for each scene.
-pub fn precision_figure(scenes: &[Precision]) -> Result<String, Error> {
-    let figures: Vec<_> = scenes.iter().map(panel).collect();
-    match &figures[..] {
-        [only] => only.to_svg(),
-        _ => panels("Speed against error", &figures, 2),
+/// Error of the crank angle against time, one panel for each scene with measured errors; a method has one colour in all.
+///
+/// # Errors
+/// [`Error::Refused`] if there is no room for all scenes.
+pub fn precision_figure(scenes: &[Precision], size: Option<Shape>) -> Result<String, Error> {
+    let mut methods: Vec<&str> = Vec::new();
+    for row in scenes.iter().flat_map(|scene| &scene.rows) {
+        if measured(row).is_some() && !methods.contains(&row.method.as_str()) {
+            methods.push(&row.method);
+        }
     }
+    let any = |scene: &&Precision| scene.rows.iter().any(|row| measured(row).is_some());
+    let told = scenes.iter().filter(any);
+    let figures: Vec<_> = told.map(|scene| panel(scene, &methods)).collect();
+    let sheet = Sheet {
+        title: "Speed against error",
+        columns: 2,
+        size,
+    };
+    sheet.svg(&figures)
 }
 
-fn panel(scene: &Precision) -> Figure {
-    let mut figure = Figure::new(
+/// Time and error of a row that has both.
+fn measured(row: &PrecisionRow) -> Option<(f64, f64)> {
+    row.wall_s.zip(row.error_theta_rad)
+}
+
+fn panel(scene: &Precision, methods: &[&str]) -> Figure {
+    let figure = Figure::new(
         scene.scene.clone(),
         Axis::log("wall time, least of repeated runs [s]"),
         Axis::log("error of the crank angle at the end [rad]"),
     );
-    let mut methods: Vec<&str> = Vec::new();
-    for row in &scene.rows {
-        if !methods.contains(&row.method.as_str()) {
-            methods.push(&row.method);
-        }
-    }
-    for method in methods {
-        let rows = scene.rows.iter().filter(|row| row.method == method);
-        let points: Vec<_> = rows
-            .filter_map(|row| Some((row.wall_s?, row.error_theta_rad?)))
-            .collect();
-        if !points.is_empty() {
-            figure = figure.line_with_points(method, points);
-        }
-    }
-    figure
+    methods.iter().fold(figure, |figure, method| {
+        let rows = scene.rows.iter().filter(|row| row.method == *method);
+        figure.line_with_points(*method, rows.filter_map(measured).collect())
+    })
 }

@@ -5,6 +5,12 @@ use std::f64::consts::PI;
 
 use serde::Serialize;
 
+/// The name of a column without its unit, and the ending that tells the unit.
+pub(super) fn split(column: &str) -> (&str, &str) {
+    let ending = UNITS.iter().find(|(ending, ..)| column.ends_with(ending));
+    column.split_at(column.len() - ending.map_or(0, |(ending, ..)| ending.len()))
+}
+
 /// A column of rows for people.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Quantity {
@@ -45,7 +51,7 @@ const UNITS: [(&str, &str, f64); 22] = [
 ];
 
 /// Columns with a symbol: the name without unit, the words, and the panel.
-const KNOWN: [(&str, &str, &str); 15] = [
+const KNOWN: [(&str, &str, &str); 16] = [
     ("t", "time t", ""),
     ("theta", "crank angle θ", "crank angle"),
     ("omega", "crank speed ω", "crank speed"),
@@ -59,19 +65,27 @@ const KNOWN: [(&str, &str, &str); 15] = [
     ("dphi", "φ′", "derivatives of the rod angle"),
     ("d2phi", "φ″", "derivatives of the rod angle"),
     ("transmission", "transmission angle", "transmission angle"),
+    ("side_thrust", "side thrust", "side thrust"),
     ("self_locking", "self-locking", ""),
     ("near_dead_centre", "near a dead centre", ""),
 ];
 
 /// Additions to the name of a column that is drawn beside it.
-const BESIDE: [&str; 5] = ["ideal", "first_order", "change", "measured", "fitted"];
+const BESIDE: [&str; 6] = [
+    "ideal",
+    "first_order",
+    "changed",
+    "change",
+    "measured",
+    "fitted",
+];
 
 impl Quantity {
     /// Of a column.
     pub fn of(column: &str) -> Quantity {
-        let unit = UNITS.iter().find(|(ending, ..)| column.ends_with(ending));
-        let (ending, unit, factor) = unit.copied().unwrap_or(("", "", 1.0));
-        let name = &column[..column.len() - ending.len()];
+        let (name, ending) = split(column);
+        let unit = UNITS.iter().find(|(known, ..)| *known == ending);
+        let (_, unit, factor) = unit.copied().unwrap_or(("", "", 1.0));
         // Errors are far smaller than a degree.
         let (unit, factor) = match name.starts_with("error") || name.starts_with("estimate") {
             true if ending == "_rad" => ("rad", 1.0),

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::csv::{quoted, shortest};
 use super::key_values::rounded;
-use super::{Axis, Figure, panels};
+use super::{Axis, Figure, Sheet};
 use crate::error::Error;
 use crate::reproduce::{Drawing, Entry, Plot, Reproduction, Style, Verdict};
 
@@ -168,17 +168,17 @@ pub fn drawing_csv(drawing: &Drawing) -> Result<String, Error> {
 
 /// A figure as SVG.
 pub fn drawing_svg(drawing: &Drawing) -> Result<String, Error> {
-    match drawing.plots.as_slice() {
-        [plot] => figure(&drawing.title, plot).to_svg(),
-        plots => {
-            let figures: Vec<Figure> = plots.iter().map(|plot| figure("", plot)).collect();
-            panels(&drawing.title, &figures, 2)
-        }
-    }
+    let figures: Vec<Figure> = drawing.plots.iter().map(figure).collect();
+    let sheet = Sheet {
+        title: &drawing.title,
+        columns: 2,
+        size: None,
+    };
+    sheet.svg(&figures)
 }
 
-fn figure(title: &str, plot: &Plot) -> Figure {
-    let start = Figure::new(title, Axis::linear(&plot.x), Axis::linear(&plot.y));
+fn figure(plot: &Plot) -> Figure {
+    let start = Figure::new("", Axis::linear(&plot.x), Axis::linear(&plot.y));
     plot.series.iter().fold(start, |figure, series| {
         let (label, points) = (series.label.as_str(), series.points.clone());
         match series.style {

@@ -1,12 +1,15 @@
 //! Static equilibrium as CSV and text.
 
+use std::f64::consts::PI;
 use std::fmt::Write;
 
+use super::Output;
 use super::csv::{self, write_all};
+use super::curves::{Shown, View};
 use super::key_values::{Facts, fact, given};
-use super::page::{Origin, Page, Table};
+use super::page::{Origin, Page};
+use super::table::Table;
 use super::text::{NAMES, extreme, place};
-use super::{Axis, Figure, Output, panels};
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::statics::{StaticAnalysis, StaticsRow};
@@ -67,12 +70,8 @@ pub fn statics_page(
     scene: &Scene,
     origin: &Origin,
 ) -> Result<String, Error> {
-    let mut table = Table::new(&header(result, true));
-    for row in result.rows(every) {
-        table.push(cells(&row, true));
-    }
     Page::new(origin, &facts(result))
-        .table(&table)
+        .table(&table(result, every))
         .mechanism(scene)
         .with_poles()
         .html()
@@ -144,55 +143,28 @@ fn line(text: &mut String, cells: &[String; 6]) {
     );
 }
 
-/// What is sought over the crank angle, with its friction band, and the side thrust.
-pub fn statics_figure(result: &StaticAnalysis) -> Result<String, Error> {
-    let rows: Vec<StaticsRow> = result.rows(1f64.to_radians()).collect();
-    let of = |value: &dyn Fn(&StaticsRow) -> Option<f64>| -> Vec<(f64, f64)> {
-        let point = |row: &StaticsRow| (row.theta.to_degrees(), value(row).unwrap_or(f64::NAN));
-        rows.iter().map(point).collect()
+/// Crank angle between the points of a figure, rad.
+const SPACING: f64 = PI / 360.0;
+
+/// What is to be seen over the crank angle, as SVG: by itself what is sought, with its friction band, and the side thrust.
+///
+/// # Errors
+/// [`Error::Refused`] if a column is not there.
+pub fn statics_figure(result: &StaticAnalysis, view: &View) -> Result<String, Error> {
+    let shown = Shown {
+        title: &result.scene,
+        show: &["slider_force", "crank_torque", "side_thrust"],
+        has_poles: true,
+        ..Shown::default()
     };
-    let value = of(&|row| row.balance.band.map(|band| band.value));
-    // Towards a dead centre the force grows without bound; what is worth seeing is around its median.
-    let mut sizes: Vec<f64> = value
-        .iter()
-        .map(|(_, y)| y.abs())
-        .filter(|y| y.is_finite())
-        .collect();
-    sizes.sort_by(f64::total_cmp);
-    let most = 5.0
-        * sizes
-            .get(sizes.len() / 2)
-            .copied()
-            .unwrap_or(1.0)
-            .max(f64::MIN_POSITIVE);
-    let band = rows.iter().map(|row| {
-        let edge = |edge: Option<f64>| edge.unwrap_or(f64::NAN).clamp(-most, most);
-        let band = row.balance.band;
-        (
-            row.theta.to_degrees(),
-            edge(band.and_then(|band| band.min)),
-            edge(band.and_then(|band| band.max)),
-        )
-    });
-    let angle = || Axis::degrees("crank angle θ [°]").range(0.0, 360.0);
-    let inside = |points: Vec<(f64, f64)>| -> Vec<(f64, f64)> {
-        points
-            .into_iter()
-            .map(|(x, y)| (x, if y.abs() <= most { y } else { f64::NAN }))
-            .collect()
-    };
-    let name = match result.sought {
-        "crank-torque" => "crank torque [N m]",
-        _ => "slider force [N]",
-    };
-    let mut sought = Figure::new("", angle(), Axis::linear(name));
-    if result.friction > 0.0 {
-        sought = sought.band("held by friction", band.collect());
+    view.svg(&table(result, SPACING), shown)
+}
+
+/// The rows by columns, so many radians apart.
+fn table(result: &StaticAnalysis, every: f64) -> Table {
+    let mut table = Table::new(&header(result, true));
+    for row in result.rows(every) {
+        table.push(cells(&row, true));
     }
-    let thrust = of(&|row| row.balance.side_thrust);
-    let figures = [
-        sought.line("without friction", inside(value)),
-        Figure::new("", angle(), Axis::linear("side thrust [N]")).line("", thrust),
-    ];
-    panels(&result.scene, &figures, 1)
+    table
 }

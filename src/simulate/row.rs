@@ -58,6 +58,20 @@ pub trait RowSink {
     /// # Errors
     /// An error ends the run.
     fn row(&mut self, row: &Row) -> Result<(), Error>;
+
+    /// Whether states at steps of the computation are wanted too, where a joint is loose: its impacts are shorter than the
+    /// time between rows.
+    fn wants_steps(&self) -> bool {
+        false
+    }
+
+    /// Takes the state at a step of the computation.
+    ///
+    /// # Errors
+    /// An error ends the run.
+    fn step(&mut self, _: &Row) -> Result<(), Error> {
+        Ok(())
+    }
 }
 
 /// No rows.

@@ -26,6 +26,9 @@ pub(super) trait Part {
     fn row(&mut self, t: f64) -> Row;
 }
 
+/// A curve through so many points of a step shows its shape.
+const PLACES: u32 = 4;
+
 /// Writes rows.
 pub(super) struct RowWriter<'a> {
     rows: &'a mut dyn RowSink,
@@ -68,6 +71,10 @@ impl<'a> RowWriter<'a> {
             Some(spacing) => self.at_angles(part, spacing),
             None => self.at_times(part),
         };
+        let result = match self.rows.wants_steps() {
+            true => result.and_then(|()| self.inside(part)),
+            false => result,
+        };
         self.spent += begun.elapsed();
         result
     }
@@ -107,6 +114,15 @@ impl<'a> RowWriter<'a> {
             self.next += 1;
         }
         Ok(())
+    }
+
+    /// States inside a part and at its end.
+    fn inside(&mut self, part: &mut dyn Part) -> Result<(), Error> {
+        let [from, until] = part.times();
+        (1..=PLACES).try_for_each(|k| {
+            let t = from + (until - from) * f64::from(k) / f64::from(PLACES);
+            self.rows.step(&part.row(t))
+        })
     }
 
     fn at_angles(&mut self, part: &mut dyn Part, spacing: f64) -> Result<(), Error> {

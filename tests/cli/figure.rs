@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use slider_crank::report::{Axis, Figure, panels};
+use slider_crank::report::{Axis, Figure, Shape, Sheet};
 
 fn svg(figure: &Figure) -> String {
     let text = figure.to_svg().expect("a figure");
@@ -227,7 +227,9 @@ fn series_of_one_label_share_colour_and_entry() {
     assert_eq!(lines(&svg, FIRST).len(), 2, "the line and its sample");
     let unnamed = plain().line("", sine(9)).line("", sine(5));
     let lines_of = |colour| lines(&unnamed.to_svg().expect("a figure"), colour).len();
-    assert_eq!([lines_of(FIRST), lines_of("#D55E00")], [1, 1], "no samples");
+    assert_eq!(lines_of(FIRST), 1, "no sample");
+    // Lines are told apart by their strokes too: the second is drawn in dashes.
+    assert!(lines_of("#D55E00") > 10, "dashes");
 }
 
 #[test]
@@ -354,7 +356,15 @@ fn panels_stand_side_by_side() {
         (number("width"), number("height"))
     };
     let one = size(&svg(&figures[0]));
-    let two = panels("All", &figures, 2).expect("a figure");
+    let panels = |title, figures: &[Figure], columns| {
+        let sheet = Sheet {
+            title,
+            columns,
+            size: None,
+        };
+        sheet.svg(figures).expect("a figure")
+    };
+    let two = panels("All", &figures, 2);
     check(&two);
     assert_eq!(size(&two).0, 2.0 * one.0);
     assert!(size(&two).1 > 2.0 * one.1);
@@ -362,7 +372,28 @@ fn panels_stand_side_by_side() {
         assert!(texts(&two).contains(&text.to_owned()), "{text}");
     }
     for columns in [0, 1, 3, 100] {
-        check(&panels("", &figures, columns).expect("a figure"));
+        check(&panels("", &figures, columns));
     }
-    check(&panels("none", &[], 2).expect("a sheet"));
+    check(&panels("none", &[], 2));
+}
+
+#[test]
+fn a_sheet_has_the_size_it_is_given() {
+    let (x, y) = axes();
+    let figures = [Figure::new("one", x, y).line("a", sine(20))];
+    let sheet = |width, height| Sheet {
+        title: "All & <more>",
+        size: Some(Shape { width, height }),
+        ..Sheet::default()
+    };
+    let svg = sheet(90.0, 70.0).svg(&figures).expect("a figure");
+    check(&svg);
+    assert_eq!(attribute(&svg, "width"), "90mm");
+    assert_eq!(attribute(&svg, "height"), "70mm");
+    assert!(svg.contains("<title>All &amp; &lt;more&gt;</title>"));
+    let small = sheet(10.0, 70.0).svg(&figures).expect_err("too small");
+    assert!(
+        small.to_string().contains("too small for 1 panels"),
+        "{small}"
+    );
 }

@@ -13,6 +13,7 @@ mod kinematics;
 mod limits;
 mod one_turn;
 mod page;
+mod pictures;
 mod precision;
 mod program;
 mod readme;

@@ -209,9 +209,9 @@ fn the_plot_has_its_axes() {
         .done();
     let plot = folder.read("turn.svg");
     for text in [
-        "slider position [m]",
+        "slider position [mm]",
         "crank angle θ [°]",
-        "changed lengths",
+        "slider position x, changed",
     ] {
         assert!(plot.contains(text), "{text}");
     }

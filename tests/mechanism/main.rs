@@ -4,6 +4,7 @@
 mod support;
 
 mod design;
+mod diagrams;
 mod enclosures;
 mod fold;
 mod forces;

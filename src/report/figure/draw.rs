@@ -10,10 +10,10 @@ use super::clip::{inside, pieces};
 use super::legend::{self, Legend};
 use super::marks::{self, Place, marker, path};
 use super::page::{
-    self, Area, EDGE, FINE, Failure, TEXT, TITLE, fitted, font, line_height, text_width, wrapped,
+    self, Area, EDGE, FINE, Failure, TEXT, TITLE, font, line_height, text_width, wrapped,
 };
 use super::scale::{Scale, Tick};
-use super::{Figure, Look, Series};
+use super::{Figure, Look, Numbered, Series};
 
 /// Free space on the right of the axes, pixels; it holds half a tick label.
 const RIGHT: i32 = 34;
@@ -32,6 +32,7 @@ pub(super) fn panel<'a>(
     area: &Area<'a>,
     figure: &Figure,
     (width, height): (i32, i32),
+    y_area: i32,
 ) -> Result<(), Failure<'a>> {
     let title = wrapped(&figure.title, TITLE, width - 2 * EDGE);
     page::write_lines(area, &title, TITLE, (width / 2, EDGE))?;
@@ -41,7 +42,7 @@ pub(super) fn panel<'a>(
     let axes = area
         .clone()
         .shrink((0, top * FINE), (width * FINE, (bottom - top) * FINE));
-    series(&axes, figure, (width, bottom - top))?;
+    series(&axes, figure, (width, bottom - top), y_area)?;
     legend.draw(area, bottom)
 }
 
@@ -72,18 +73,51 @@ impl ValueFormatter<f64> for Ticked {
     }
 }
 
-fn series<'a>(area: &Area<'a>, figure: &Figure, size: (i32, i32)) -> Result<(), Failure<'a>> {
-    let x = Scale::new(&figure.x, figure.values(|(x, _, _)| [x, x]));
-    let y = Scale::new(&figure.y, figure.values(|(_, low, high)| [low, high]));
-    let widest = |ticks: &[Tick]| {
-        let widths = ticks.iter().map(|tick| text_width(&tick.label, TEXT));
-        widths.max().unwrap_or(0)
-    };
-    let x_area = 2 * line_height(TEXT) + 20;
-    let rows = (size.1 - x_area) / TICK_DISTANCE;
-    let y_ticks = y.ticks(rows.max(2) as usize);
-    let y_area = widest(&y_ticks) + line_height(TEXT) + 22;
+/// Height of the label and ticks of the x axis, pixels.
+fn x_area(figure: &Figure) -> i32 {
+    let lines = if figure.x.label.is_empty() { 1 } else { 2 };
+    lines * line_height(TEXT) + 20
+}
+
+fn widest(ticks: &[Tick]) -> i32 {
+    let widths = ticks.iter().map(|tick| text_width(&tick.label, TEXT));
+    widths.max().unwrap_or(0)
+}
+
+/// Most ticks of the y axis in a panel of a height in pixels.
+fn rows(figure: &Figure, height: i32) -> usize {
+    ((height - x_area(figure)) / TICK_DISTANCE).max(2) as usize
+}
+
+/// The y axis of a panel of a height in pixels, with its ticks.
+fn y_axis(figure: &Figure, height: i32) -> (Scale, Vec<Tick>) {
+    let scale = Scale::new(&figure.y, figure.values(|(_, low, high)| [low, high]));
+    let ticks = scale.ticks(rows(figure, height));
+    (scale, ticks)
+}
+
+/// Width of the label and the ticks of the y axis in a panel of a height in pixels.
+pub(super) fn y_area(figure: &Figure, height: i32) -> i32 {
+    widest(&y_axis(figure, height).1) + line_height(TEXT) + 22
+}
+
+fn series<'a>(
+    area: &Area<'a>,
+    figure: &Figure,
+    size: (i32, i32),
+    y_area: i32,
+) -> Result<(), Failure<'a>> {
+    let mut x = Scale::new(&figure.x, figure.values(|(x, _, _)| [x, x]));
+    let (mut y, mut y_ticks) = y_axis(figure, size.1);
     let length = size.0 - y_area - EDGE - RIGHT;
+    if figure.is_equal {
+        let height = size.1 - x_area(figure);
+        let [width, height] = [length, height].map(f64::from);
+        let per_pixel = (x.length() / width).max(y.length() / height);
+        x.lengthen(per_pixel * width);
+        y.lengthen(per_pixel * height);
+        y_ticks = y.ticks(rows(figure, size.1));
+    }
     // As many ticks as their labels leave room for.
     let x_ticks = (2..=10)
         .rev()
@@ -94,7 +128,7 @@ fn series<'a>(area: &Area<'a>, figure: &Figure, size: (i32, i32)) -> Result<(), 
     let mut chart = ChartBuilder::on(area)
         .margin_left(EDGE * FINE)
         .margin_right(RIGHT * FINE)
-        .x_label_area_size(x_area * FINE)
+        .x_label_area_size(x_area(figure) * FINE)
         .y_label_area_size(y_area * FINE)
         .build_cartesian_2d(Ticked(x_ticks), Ticked(y_ticks))?;
     let mut mesh = chart.configure_mesh();
@@ -105,10 +139,10 @@ fn series<'a>(area: &Area<'a>, figure: &Figure, size: (i32, i32)) -> Result<(), 
         .label_style(font(TEXT))
         .axis_desc_style(font(TEXT));
     if !figure.x.label.is_empty() {
-        mesh.x_desc(fitted(&figure.x.label, length + RIGHT));
+        mesh.x_desc(figure.x.label_within(length + RIGHT));
     }
     if !figure.y.label.is_empty() {
-        mesh.y_desc(fitted(&figure.y.label, size.1 - x_area));
+        mesh.y_desc(figure.y.label_within(size.1 - x_area(figure)));
     }
     mesh.draw()?;
     let inner = chart.plotting_area().strip_coord_spec();
@@ -133,22 +167,24 @@ impl<'a> Canvas<'a> {
         }
         // Bands lie under lines, lines under points.
         for layer in 0..3 {
-            for (index, series) in figure.numbered() {
-                self.layer(layer, index, series)?;
+            for numbered in figure.numbered() {
+                self.layer(layer, &numbered)?;
             }
         }
         Ok(())
     }
 
-    fn layer(&self, layer: u32, index: usize, series: &Series) -> Result<(), Failure<'a>> {
+    fn layer(&self, layer: u32, numbered: &Numbered) -> Result<(), Failure<'a>> {
+        let (series, index) = (numbered.series, numbered.colour);
         let colour = marks::colour(series.look, index);
+        let dashes = marks::dashes(numbered);
         match (layer, series.look) {
             (0, Look::Band) => self.band(series, colour),
             (0, Look::VerticalMark) => {
                 let x = self.x.position(series.points[0].0);
                 if inside((x, 0.0)) {
                     let ends = vec![self.place((x, 0.0)), self.place((x, 1.0))];
-                    path(&self.area, ends, colour, true)?;
+                    path(&self.area, ends, colour, dashes)?;
                 }
                 Ok(())
             }
@@ -158,7 +194,7 @@ impl<'a> Canvas<'a> {
                     match places[..] {
                         // A line through one point cannot be seen.
                         [only] => marker(&self.area, index, only, colour)?,
-                        _ => path(&self.area, places, colour, series.look == Look::Dashed)?,
+                        _ => path(&self.area, places, colour, dashes)?,
                     }
                 }
                 Ok(())

@@ -5,7 +5,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::marks::{self, Place, marker, path};
 use super::page::{Area, EDGE, FINE, Failure, TEXT, fitted, font, line_height, text_width};
-use super::{Figure, Look, Series};
+use super::{Figure, Look, Numbered};
 
 /// Width of the sample of a series, pixels.
 const SAMPLE: i32 = 30;
@@ -18,31 +18,41 @@ pub(super) fn row_height() -> i32 {
     line_height(TEXT) + 4
 }
 
+/// Series of one label, and the label as it fits.
+pub(super) struct Entry<'f> {
+    series: Vec<Numbered<'f>>,
+    label: String,
+}
+
 /// The legend: rows of entries that fit beside each other.
 pub(super) struct Legend<'f> {
-    pub(super) rows: Vec<Vec<(usize, Vec<&'f Series>, String)>>,
+    pub(super) rows: Vec<Vec<Entry<'f>>>,
     width: i32,
 }
 
 impl<'f> Legend<'f> {
     pub(super) fn new(figure: &'f Figure, width: i32) -> Legend<'f> {
-        let mut entries: Vec<(usize, Vec<&Series>, String)> = Vec::new();
-        for (index, series) in figure.numbered() {
-            let same =
-                |(_, of, _): &&mut (usize, Vec<&Series>, String)| of[0].label == series.label;
-            match entries.iter_mut().find(same) {
-                _ if series.label.is_empty() => (),
-                Some((_, of, _)) => of.push(series),
+        let mut entries: Vec<Entry> = Vec::new();
+        for numbered in figure.numbered() {
+            let label = &numbered.series.label;
+            let known = |entry: &&mut Entry| entry.series[0].series.label == *label;
+            match entries.iter_mut().find(known) {
+                _ if label.is_empty() || numbered.series.points.is_empty() => (),
+                Some(entry) => entry.series.push(numbered),
                 None => {
                     let most = width - 2 * EDGE - SAMPLE - GAP;
-                    entries.push((index, vec![series], fitted(&series.label, most)));
+                    let label = fitted(label, most);
+                    entries.push(Entry {
+                        series: vec![numbered],
+                        label,
+                    });
                 }
             }
         }
         let mut rows: Vec<Vec<_>> = Vec::new();
         let mut left = 0;
         for entry in entries {
-            let needed = entry_width(&entry.2);
+            let needed = entry_width(&entry.label);
             match rows.last_mut() {
                 Some(row) if needed <= left => row.push(entry),
                 _ => {
@@ -58,12 +68,12 @@ impl<'f> Legend<'f> {
     pub(super) fn draw<'a>(&self, area: &Area<'a>, top: i32) -> Result<(), Failure<'a>> {
         let left_centre = Pos::new(HPos::Left, VPos::Center);
         for (row, y) in self.rows.iter().zip((top..).step_by(row_height() as usize)) {
-            let needed: i32 = row.iter().map(|(_, _, label)| entry_width(label)).sum();
+            let needed: i32 = row.iter().map(|entry| entry_width(&entry.label)).sum();
             let mut x = (self.width - needed) / 2;
             let y = (y + row_height() / 2) * FINE;
-            for (index, series, label) in row {
+            for Entry { series, label } in row {
                 for one in series {
-                    sample(area, *index, one, (x * FINE, y))?;
+                    sample(area, one, (x * FINE, y))?;
                 }
                 let at = ((x + SAMPLE + 6) * FINE, y);
                 let style = font(TEXT).pos(left_centre);
@@ -79,18 +89,11 @@ fn entry_width(label: &str) -> i32 {
     SAMPLE + text_width(label, TEXT) + GAP
 }
 
-fn sample<'a>(
-    area: &Area<'a>,
-    index: usize,
-    series: &Series,
-    (x, y): Place,
-) -> Result<(), Failure<'a>> {
-    let (colour, end, half) = (
-        marks::colour(series.look, index),
-        x + SAMPLE * FINE,
-        5 * FINE,
-    );
-    if series.look == Look::Band {
+fn sample<'a>(area: &Area<'a>, of: &Numbered, (x, y): Place) -> Result<(), Failure<'a>> {
+    let look = of.series.look;
+    let colour = marks::colour(look, of.colour);
+    let (end, half) = (x + SAMPLE * FINE, 5 * FINE);
+    if look == Look::Band {
         let corners = vec![
             (x, y - half),
             (end, y - half),
@@ -99,12 +102,11 @@ fn sample<'a>(
         ];
         return marks::filled(area, corners, colour);
     }
-    if series.look != Look::Points {
-        let dashed = matches!(series.look, Look::Dashed | Look::VerticalMark);
-        path(area, vec![(x, y), (end, y)], colour, dashed)?;
+    if look != Look::Points {
+        path(area, vec![(x, y), (end, y)], colour, marks::dashes(of))?;
     }
-    if matches!(series.look, Look::Points | Look::LineWithPoints) {
-        marker(area, index, ((x + end) / 2, y), colour)?;
+    if matches!(look, Look::Points | Look::LineWithPoints) {
+        marker(area, of.colour, ((x + end) / 2, y), colour)?;
     }
     Ok(())
 }

@@ -3,8 +3,8 @@
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 
-use super::Look;
 use super::page::{Area, FINE, Failure};
+use super::{Look, Numbered};
 
 /// Okabe and Ito's colours without yellow, which is hard to see on white; dark ones first.
 const COLOURS: [RGBColor; 7] = [
@@ -33,8 +33,9 @@ const SHAPES: [&[(f64, f64)]; 5] = [
 /// Radius of a marker, pixels.
 const RADIUS: f64 = 3.2;
 
-/// Length of dashes and of the gaps between them, pixels.
-const DASH: (i32, i32) = (7, 4);
+/// Length of dashes and of the gaps between them, pixels: of the lines of a panel one after the other. A dashed series
+/// has the last.
+const STROKES: [Option<(i32, i32)>; 4] = [None, Some((15, 4)), Some((3, 3)), Some((7, 4))];
 
 /// A place on the fine grid.
 pub(super) type Place = (i32, i32);
@@ -44,6 +45,15 @@ pub(super) fn colour(look: Look, index: usize) -> RGBColor {
     match look {
         Look::VerticalMark => GREY,
         _ => COLOURS[index % COLOURS.len()],
+    }
+}
+
+/// Dashes and gaps of the stroke of a series, pixels; none of a line that is drawn through.
+pub(super) fn dashes(of: &Numbered) -> Option<(i32, i32)> {
+    match of.series.look {
+        Look::Dashed | Look::VerticalMark => STROKES[STROKES.len() - 1],
+        Look::Line => STROKES[of.line % STROKES.len()],
+        _ => None,
     }
 }
 
@@ -68,14 +78,15 @@ pub(super) fn path<'a>(
     area: &Area<'a>,
     places: Vec<Place>,
     colour: RGBColor,
-    dashed: bool,
+    dashes: Option<(i32, i32)>,
 ) -> Result<(), Failure<'a>> {
     let stroke = colour.stroke_width((1.7 * f64::from(FINE)) as u32);
-    if dashed {
-        let (dash, gap) = (DASH.0 * FINE, DASH.1 * FINE);
-        area.draw(&DashedPathElement::new(places, dash, gap, stroke))
-    } else {
-        area.draw(&PathElement::new(places, stroke))
+    match dashes {
+        Some((dash, gap)) => {
+            let (dash, gap) = (dash * FINE, gap * FINE);
+            area.draw(&DashedPathElement::new(places, dash, gap, stroke))
+        }
+        None => area.draw(&PathElement::new(places, stroke)),
     }
 }
 

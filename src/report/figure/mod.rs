@@ -1,5 +1,6 @@
 //! Figures as SVG: lines, points and bands over linear or logarithmic axes.
 
+mod axis;
 mod clip;
 mod draw;
 mod legend;
@@ -8,63 +9,7 @@ mod page;
 mod scale;
 
 use crate::error::Error;
-
-/// How values are spread over an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ScaleKind {
-    /// Evenly.
-    Linear,
-    /// Evenly, read at parts of a turn.
-    Degrees,
-    /// By their logarithm; values that are not positive have no place.
-    Log,
-}
-
-/// An axis.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Axis {
-    label: String,
-    kind: ScaleKind,
-    range: Option<(f64, f64)>,
-}
-
-impl Axis {
-    /// A linear axis; the label names the quantity and its unit.
-    pub fn linear(label: impl Into<String>) -> Axis {
-        Axis {
-            label: label.into(),
-            kind: ScaleKind::Linear,
-            range: None,
-        }
-    }
-
-    /// A linear axis of angles in degrees, with ticks at parts of a turn; the label names the angle and its unit.
-    pub fn degrees(label: impl Into<String>) -> Axis {
-        Axis {
-            kind: ScaleKind::Degrees,
-            ..Axis::linear(label)
-        }
-    }
-
-    /// A logarithmic axis; the label names the quantity and its unit.
-    pub fn log(label: impl Into<String>) -> Axis {
-        Axis {
-            kind: ScaleKind::Log,
-            ..Axis::linear(label)
-        }
-    }
-
-    /// Shows exactly this range; what lies outside is cut off. Without it the axis fits the values.
-    pub fn range(mut self, low: f64, high: f64) -> Axis {
-        self.range = Some((low, high));
-        self
-    }
-
-    /// Whether a value has a place on the axis.
-    fn shows(&self, value: f64) -> bool {
-        scale::coordinate(self.kind, value).is_finite()
-    }
-}
+pub use axis::{Axis, ScaleKind};
 
 /// What is drawn of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,6 +28,16 @@ struct Series {
     label: String,
     look: Look,
     points: Vec<(f64, f64, f64)>,
+}
+
+/// A series with the numbers by which it is told apart.
+#[derive(Clone, Copy, Debug)]
+struct Numbered<'a> {
+    /// Number of its colour and marker.
+    colour: usize,
+    /// Number of its stroke, among the lines.
+    line: usize,
+    series: &'a Series,
 }
 
 /// A figure: a title, two axes and series of points.
@@ -110,18 +65,32 @@ pub struct Figure {
     title: String,
     x: Axis,
     y: Axis,
+    /// Whether both axes have one scale.
+    is_equal: bool,
     series: Vec<Series>,
 }
 
 impl Figure {
+    /// Its horizontal axis.
+    pub(super) fn x_axis(&mut self) -> &mut Axis {
+        &mut self.x
+    }
+
     /// A figure without series.
     pub fn new(title: impl Into<String>, x: Axis, y: Axis) -> Figure {
         Figure {
             title: title.into(),
             x,
             y,
+            is_equal: false,
             series: Vec::new(),
         }
+    }
+
+    /// With one scale for both linear axes, so that a circle looks like one.
+    pub fn equal(mut self) -> Figure {
+        self.is_equal = true;
+        self
     }
 
     /// A line through points (x, y), broken where y is not a number.
@@ -159,9 +128,12 @@ impl Figure {
         self.with(label, Look::VerticalMark, vec![(x, f64::NAN)])
     }
 
-    /// The figure as SVG; the same figure gives the same text.
+    /// The figure as SVG; equal figures give equal texts.
+    ///
+    /// # Errors
+    /// [`Error::Write`], which would be a defect.
     pub fn to_svg(&self) -> Result<String, Error> {
-        page::svg("", std::slice::from_ref(self), 1)
+        Sheet::default().svg(std::slice::from_ref(self))
     }
 
     fn with(mut self, label: impl Into<String>, look: Look, points: Vec<(f64, f64)>) -> Figure {
@@ -195,9 +167,10 @@ impl Figure {
             .all(|value| value.is_nan())
     }
 
-    /// The series with the numbers of their colours: one number for each label.
-    fn numbered(&self) -> Vec<(usize, &Series)> {
+    /// The series with the numbers of their looks: one number for each label.
+    fn numbered(&self) -> Vec<Numbered<'_>> {
         let mut labels: Vec<&str> = Vec::new();
+        let mut lines: Vec<usize> = Vec::new();
         let mut numbered = Vec::new();
         for series in &self.series {
             let label = series.label.as_str();
@@ -206,13 +179,47 @@ impl Figure {
             if known.is_none() && series.look != Look::VerticalMark {
                 labels.push(label);
             }
-            numbered.push((known.unwrap_or(labels.len().saturating_sub(1)), series));
+            let colour = known.unwrap_or(labels.len().saturating_sub(1));
+            if series.look == Look::Line && !lines.contains(&colour) {
+                lines.push(colour);
+            }
+            let line = lines.iter().position(|line| *line == colour);
+            numbered.push(Numbered {
+                colour,
+                line: line.unwrap_or(0),
+                series,
+            });
         }
         numbered
     }
 }
 
-/// Several figures side by side in `columns` columns, row by row, under a common title.
-pub fn panels(title: &str, figures: &[Figure], columns: usize) -> Result<String, Error> {
-    page::svg(title, figures, columns.max(1))
+/// Width and height of a picture, mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shape {
+    /// mm
+    pub width: f64,
+    /// mm
+    pub height: f64,
+}
+
+/// Several figures on one sheet, side by side in `columns` columns, row by row, under a common title.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sheet<'a> {
+    /// Above all figures.
+    pub title: &'a str,
+    /// Figures beside each other; 0 is 1.
+    pub columns: usize,
+    /// Size of the sheet; without it each figure has its usual one.
+    pub size: Option<Shape>,
+}
+
+impl Sheet<'_> {
+    /// The figures as SVG; equal figures give equal texts.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] if the sheet is too small for them.
+    pub fn svg(&self, figures: &[Figure]) -> Result<String, Error> {
+        page::svg(self, figures)
+    }
 }

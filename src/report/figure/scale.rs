@@ -62,6 +62,18 @@ impl Scale {
         }
     }
 
+    /// Length of the axis in its coordinate.
+    pub(super) fn length(&self) -> f64 {
+        self.high - self.low
+    }
+
+    /// Makes the axis so long, with the middle where it is.
+    pub(super) fn lengthen(&mut self, length: f64) {
+        let more = 0.5 * (length - self.length());
+        self.low -= more;
+        self.high += more;
+    }
+
     /// Where a value lies: 0 to 1 inside the limits; not a number if it has no place on this axis.
     pub(super) fn position(&self, value: f64) -> f64 {
         (coordinate(self.kind, value) - self.low) / (self.high - self.low)

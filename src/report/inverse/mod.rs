@@ -4,6 +4,5 @@ mod plot;
 mod rows;
 mod text;
 
-pub use plot::inverse_figure;
-pub use rows::{inverse_page, inverse_rows, residuals};
+pub use rows::{inverse_figure, inverse_page, inverse_rows, residuals};
 pub use text::inverse;

@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::inverse::{AsPrinted, Inverse, InverseRow};
 use crate::report::key_values::rounded;
-use crate::report::{Axis, Figure, panels};
+use crate::report::{Axis, Figure, Shape, Sheet};
 
 /// Points of a curve that a figure shows.
 const POINTS: usize = 2000;
@@ -24,14 +24,23 @@ const LONG_ARM: f64 = 0.1;
 const MARGIN: f64 = 0.04;
 
 /// Data, fit, residuals, force and torque side by side, as SVG; with the forces as Duarte et al. print them if given.
-pub fn inverse_figure(result: &Inverse, printed: Option<&AsPrinted>) -> Result<String, Error> {
+pub(super) fn figure(
+    result: &Inverse,
+    printed: Option<&AsPrinted>,
+    size: Option<Shape>,
+) -> Result<String, Error> {
     let figures = [
         motion(result),
         residuals(result),
         forces(result, printed),
         torques(result),
     ];
-    panels(&result.summary.scene, &figures, 2)
+    let sheet = Sheet {
+        title: &result.summary.scene,
+        columns: 2,
+        size,
+    };
+    sheet.svg(&figures)
 }
 
 /// The time of all samples, whether or not they have a force.

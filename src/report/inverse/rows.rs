@@ -1,12 +1,15 @@
 //! Rows of `inverse` as CSV, made for millions of them.
 
+use super::plot;
 use super::text::facts;
 use crate::error::Error;
 use crate::inverse::{AsPrinted, Inverse, InverseRow};
 use crate::report::Output;
 use crate::report::csv::{line, write_all};
-use crate::report::page::{Origin, Page, Table};
+use crate::report::curves::{Shown, View};
+use crate::report::page::{Origin, Page};
 use crate::report::rows::{REACTIONS, reactions};
+use crate::report::table::Table;
 use crate::scene::Scene;
 
 const COLUMNS: &str = "t_s,theta_rad,omega_rad_per_s,alpha_rad_per_s2,slider_force_n,slider_force_se_n,crank_torque_nm,near_dead_centre,crank_torque_se_nm";
@@ -46,6 +49,41 @@ const MOST: usize = 100_000;
 /// # Errors
 /// [`Error::Write`].
 pub fn inverse_page(result: &Inverse, scene: &Scene, origin: &Origin) -> Result<String, Error> {
+    let table = table(result);
+    Page::new(origin, &facts(result))
+        .table(&table)
+        .mechanism(scene)
+        .band(result.summary.band_factor)
+        .with_poles()
+        .html()
+}
+
+/// What is to be seen as SVG; by itself data and fit, residuals, force and torque, with the forces as Duarte et al. print
+/// them if given.
+///
+/// # Errors
+/// [`Error::Refused`] if a column is not there, or no room.
+pub fn inverse_figure(
+    result: &Inverse,
+    printed: Option<&AsPrinted>,
+    view: &View,
+) -> Result<String, Error> {
+    if view.is_default() {
+        return plot::figure(result, printed, view.size);
+    }
+    let shown = Shown {
+        title: &result.summary.scene,
+        show: &["slider_force", "crank_torque"],
+        over: "t",
+        band: result.summary.band_factor,
+        has_poles: true,
+        ..Shown::default()
+    };
+    view.svg(&table(result), shown)
+}
+
+/// Rows by columns, with what was measured.
+fn table(result: &Inverse) -> Table {
     let data = &result.summary.data;
     let (name, unit) = (data.column, data.unit);
     let mut table = Table::new(&format!("{COLUMNS},{name}_measured_{unit},residual_{unit}"));
@@ -62,12 +100,7 @@ pub fn inverse_page(result: &Inverse, scene: &Scene, origin: &Origin) -> Result<
                 .chain([sample.measured, sample.residual]),
         );
     }
-    Page::new(origin, &facts(result))
-        .table(&table)
-        .mechanism(scene)
-        .band(result.summary.band_factor)
-        .with_poles()
-        .html()
+    table
 }
 
 /// Writes what was measured, what the fit gives, and the difference.

@@ -1,18 +1,16 @@
 //! A result as one HTML page that opens offline: the mechanism in motion, linked plots, key figures, plan and scene.
 
 mod drawing;
-mod table;
 
 use minijinja::{AutoEscape, Environment, Value, context};
 use serde::Serialize;
 
 use super::key_values::Facts;
+use super::table::{Shown, Table};
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::simulate::{Event, Summary};
 use drawing::Drawing;
-use table::Shown;
-pub use table::Table;
 
 const TEMPLATE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("style.css");
@@ -51,6 +49,7 @@ pub struct Page<'a> {
     has_poles: bool,
     scatter: Option<Scatter>,
     notes: Vec<String>,
+    figures: Vec<String>,
 }
 
 /// A fact for the template.
@@ -130,6 +129,7 @@ impl<'a> Page<'a> {
             has_poles: false,
             scatter: None,
             notes: Vec::new(),
+            figures: Vec::new(),
         }
     }
 
@@ -169,6 +169,12 @@ impl<'a> Page<'a> {
                 .push(format!("The first {listed} of {total} events are listed."));
         }
         self.events = events;
+        self
+    }
+
+    /// With figures, given as SVG, that stand as they are.
+    pub(super) fn figures(mut self, figures: Vec<String>) -> Page<'a> {
+        self.figures = figures;
         self
     }
 
@@ -219,6 +225,7 @@ impl<'a> Page<'a> {
             command => &self.origin.command,
             events => Value::from_serialize(&listed),
             events_left => self.events.len().saturating_sub(LISTED),
+            figures => Value::from_serialize(&self.figures),
             has_scatter => self.scatter.is_some(),
             has_motion => self.drawing.is_some() && self.table.is_some(),
             style => Value::from_safe_string(STYLE.to_owned()),

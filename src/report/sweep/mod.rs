@@ -11,7 +11,7 @@ use std::path::Path;
 use super::csv::{failed, quoted};
 use super::decimate::Thinned;
 use super::output::{Output, is_standard_output, is_stream};
-use super::page::Table;
+use super::table::Table;
 use crate::error::Error;
 use crate::sweep::{Design, Sweep};
 use ranges::Tally;

@@ -7,7 +7,8 @@ use std::ops::Range;
 use serde::Serialize;
 
 use super::super::key_values::{Facts, fact, six};
-use super::super::page::{Origin, Page, Scatter, Table};
+use super::super::page::{Origin, Page, Scatter};
+use super::super::table::Table;
 use super::columns::{before_figures, header};
 use crate::error::Error;
 use crate::sweep::Sweep;

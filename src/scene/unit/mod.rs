@@ -194,6 +194,19 @@ pub fn factor(unit: &str, quantity: Quantity) -> Result<f64, UnitError> {
     parse(&format!("1 {unit}"), quantity)
 }
 
+/// How many of one unit are one of another, both of the same kind, like 100 for `"m"` in `"cm"`.
+///
+/// # Errors
+/// What is wrong with a unit, in words.
+pub fn ratio(of: &str, to: &str) -> Result<f64, String> {
+    let [one, other] = [of, to].map(|unit| format!("1 {unit}"));
+    let (one, other) = (measure(&one)?, measure(&other)?);
+    match one.factor.dimension == other.factor.dimension {
+        true => Ok(one.value / other.value),
+        false => Err(format!("`{to}` is no unit of what is shown in {of}")),
+    }
+}
+
 /// Whether a text is a unit of any quantity.
 pub(super) fn is_unit(text: &str) -> bool {
     !text.trim().is_empty() && grammar::unit_factor(text.trim()).is_ok()

@@ -1,4 +1,4 @@
-//! Columns of rows as the page reads them.
+//! Rows of a result by their columns, as pictures and pages read them.
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -11,7 +11,7 @@ use crate::report::quantity::Quantity;
 pub struct Table {
     columns: Vec<Column>,
     /// Every so many rows of the result are here.
-    pub(in crate::report) stride: u64,
+    pub(super) stride: u64,
 }
 
 #[derive(Debug)]
@@ -50,7 +50,7 @@ impl Table {
     }
 
     /// Rows of the cells of a CSV file: numbers where all cells of a column are, in one unit.
-    pub(in crate::report) fn of_cells(header: &[String], rows: &[Vec<String>]) -> Table {
+    pub(super) fn of_cells(header: &[String], rows: &[Vec<String>]) -> Table {
         let column = |(i, name): (usize, &String)| Column {
             name: name.clone(),
             cells: Cells::of(rows.iter().map(|row| row.get(i).map_or("", String::as_str))),
@@ -61,8 +61,17 @@ impl Table {
         }
     }
 
+    /// Values of a column in SI, or in the unit that people wrote; none of words.
+    pub(super) fn numbers(&self, name: &str) -> Option<&[f64]> {
+        let column = self.columns.iter().find(|column| column.name == name)?;
+        match &column.cells {
+            Cells::Numbers(values, _) => Some(values),
+            Cells::Words(_) => None,
+        }
+    }
+
     /// Names of the columns.
-    pub(in crate::report) fn names(&self) -> impl Iterator<Item = &str> {
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.columns.iter().map(|column| column.name.as_str())
     }
 

@@ -1,0 +1,235 @@
+//! What engineers read off the diagrams of a cycle at constant speed: turning moment, indicated work, orders of the shaking
+//! force and of the torque, balance of the first order.
+
+use std::f64::consts::{PI, TAU};
+
+use serde::Serialize;
+
+use super::forces::ForceAnalysis;
+use super::turning_moment::TurningMoment;
+use crate::mechanism::Limits;
+use crate::numeric::gauss;
+use crate::scene::{Load, Scene};
+
+/// Diagrams of a cycle.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Diagrams {
+    /// Driving torque and its mean.
+    pub turning_moment: TurningMoment,
+    /// Work of the gas on the piston; none without a pressure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub indicated: Option<Indicated>,
+    /// Fourier coefficients of the shaking force and of the driving torque.
+    pub orders: Vec<Order>,
+    /// A counterweight on the crank.
+    pub balance: Balance,
+}
+
+/// Work of the gas on the piston over the cycle.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Indicated {
+    /// J; positive: the gas drives the crank.
+    pub work_j: f64,
+    /// m³
+    pub swept_volume_m3: f64,
+    /// Mean effective pressure: the work over the swept volume, Pa.
+    pub mean_effective_pressure_pa: f64,
+    /// W
+    pub power_w: f64,
+}
+
+/// One order: amplitudes of what repeats so many times a turn.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Order {
+    /// Per turn.
+    pub order: f64,
+    /// Shaking force along x, N.
+    pub shaking_x_n: f64,
+    /// Shaking force along y, N.
+    pub shaking_y_n: f64,
+    /// Shaking moment, N m.
+    pub shaking_moment_nm: f64,
+    /// Driving torque, N m.
+    pub torque_nm: f64,
+}
+
+/// A counterweight for the rotating mass and a part of the reciprocating mass. The first order of the shaking force is one
+/// vector that turns with the crank and one that turns against it; a counterweight changes only the former.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Balance {
+    /// Part of the first order of the reciprocating mass that it balances; 0.5 leaves the least largest force of first order.
+    pub part: f64,
+    /// Mass times distance from the crank's axis, kg m.
+    pub counterweight_kg_m: f64,
+    /// Its angle from the crank, rad in [0, 2π).
+    pub angle_rad: f64,
+    /// What turns with the crank without the counterweight, N.
+    pub forward_n: f64,
+    /// What turns with it and is left, N.
+    pub forward_left_n: f64,
+    /// What turns against it, N.
+    pub backward_n: f64,
+    /// Largest shaking force of all orders without the counterweight, N.
+    pub largest_n: f64,
+    /// Largest with it, N.
+    pub largest_left_n: f64,
+}
+
+/// Highest order.
+const HIGHEST: u32 = 12;
+
+/// Samples of a turn: the rectangle rule is exact for orders up to this less the highest.
+const SAMPLES: u32 = 2048;
+
+/// Error of areas as a part of the largest torque times a turn.
+pub(super) const TOLERANCE: f64 = 1e-12;
+
+impl ForceAnalysis {
+    /// The diagrams of the cycle, with a counterweight for this part of the reciprocating mass; none of a crank that cannot
+    /// turn fully.
+    pub fn diagrams(&self, scene: &Scene, part: f64) -> Option<Diagrams> {
+        let samples = self.samples();
+        if !samples.iter().flatten().all(|value| value.is_finite()) {
+            return None;
+        }
+        Some(Diagrams {
+            turning_moment: self.turning_moment(),
+            indicated: self.indicated(scene),
+            orders: self.orders(&samples),
+            balance: self.balance(&samples, part),
+        })
+    }
+
+    /// Where pieces of a smooth torque end, rad, from the start of the cycle to its end.
+    pub(super) fn pieces(&self) -> Vec<f64> {
+        let whole = self.whole();
+        let mut ends = self.loads().corners_between(0.0, whole);
+        ends.extend((0..=8 * self.cycle_turns).map(|k| f64::from(k) * (PI / 4.0)));
+        ends.retain(|end| (0.0..=whole).contains(end));
+        ends.sort_by(f64::total_cmp);
+        ends.dedup();
+        ends
+    }
+
+    /// Work of all pressures of the scene.
+    fn indicated(&self, scene: &Scene) -> Option<Indicated> {
+        let gases = scene.forces.iter().filter_map(|load| match load {
+            Load::Gas {
+                pressure,
+                ambient,
+                area,
+                towards_crank,
+            } => Some((pressure, *ambient, *area * towards_crank)),
+            _ => None,
+        });
+        let gases: Vec<_> = gases.collect();
+        let area = gases
+            .iter()
+            .fold(0.0, |most: f64, (.., area)| most.max(area.abs()));
+        if gases.is_empty() {
+            return None;
+        }
+        let linkage = self.linkage();
+        let scene_stroke = Limits::new(linkage, self.speed_rad_per_s).stroke;
+        let power = |theta: f64| {
+            let force: f64 = gases
+                .iter()
+                .map(|(pressure, ambient, area)| (pressure.value(theta) - ambient) * area)
+                .sum();
+            force * linkage.pose(theta).dx
+        };
+        let pieces = self.pieces();
+        let largest = pieces
+            .iter()
+            .fold(0.0, |most: f64, end| most.max(power(*end).abs()));
+        let work: f64 = pieces
+            .windows(2)
+            .map(|w| gauss::adaptive(&power, w[0], w[1], TOLERANCE * largest * (w[1] - w[0])))
+            .sum();
+        let swept = area * scene_stroke;
+        // The crank of a negative speed passes the cycle backwards.
+        let work = work * self.speed_rad_per_s.signum();
+        Some(Indicated {
+            work_j: work,
+            swept_volume_m3: swept,
+            mean_effective_pressure_pa: work / swept,
+            power_w: work * self.speed_rad_per_s.abs() / self.whole(),
+        })
+    }
+
+    /// Shaking force, shaking moment and torque at equal steps of the cycle.
+    fn samples(&self) -> Vec<[f64; 4]> {
+        let count = self.cycle_turns * SAMPLES;
+        let at = |k: u32| self.whole() * f64::from(k) / f64::from(count);
+        let row = |k: u32| {
+            let row = self.row(at(k));
+            let [x, y] = row.reactions.shaking;
+            [x, y, row.reactions.shaking_moment, row.torque]
+        };
+        (0..count).map(row).collect()
+    }
+
+    fn orders(&self, samples: &[[f64; 4]]) -> Vec<Order> {
+        let turns = self.cycle_turns;
+        let order = |k: u32| {
+            let [x, y, moment, torque] =
+                coefficients(samples, k).map(|[cos, sin]| 2.0 * cos.hypot(sin));
+            Order {
+                order: f64::from(k) / f64::from(turns),
+                shaking_x_n: x,
+                shaking_y_n: y,
+                shaking_moment_nm: moment,
+                torque_nm: torque,
+            }
+        };
+        (1..=HIGHEST * turns).map(order).collect()
+    }
+
+    fn balance(&self, samples: &[[f64; 4]], part: f64) -> Balance {
+        let [[xc, xs], [yc, ys], ..] = coefficients(samples, self.cycle_turns);
+        // x + iy = forward e^{iθ} + backward e^{-iθ}.
+        let forward = [xc + ys, yc - xs];
+        let backward = [xc - ys, yc + xs];
+        let [with, against] = [forward, backward].map(|[re, im]| re.hypot(im));
+        let taken = with + (2.0 * part - 1.0) * against;
+        let unit = if with > 0.0 {
+            forward.map(|c| c / with)
+        } else {
+            [1.0, 0.0]
+        };
+        let counter = unit.map(|c| -taken * c);
+        let largest = |counter: [f64; 2]| {
+            let forces = samples.iter().enumerate().map(|(k, [x, y, ..])| {
+                let theta = self.whole() * k as f64 / samples.len() as f64;
+                let (sin, cos) = theta.sin_cos();
+                let [re, im] = counter;
+                (x + re * cos - im * sin).hypot(y + re * sin + im * cos)
+            });
+            forces.fold(0.0, f64::max)
+        };
+        Balance {
+            part,
+            counterweight_kg_m: taken.abs() / self.speed_rad_per_s.powi(2),
+            angle_rad: counter[1].atan2(counter[0]).rem_euclid(TAU) % TAU,
+            forward_n: with,
+            forward_left_n: (with - taken).abs(),
+            backward_n: against,
+            largest_n: largest([0.0, 0.0]),
+            largest_left_n: largest(counter),
+        }
+    }
+}
+
+/// Means of the columns times cosine and sine of what repeats k times in the cycle.
+fn coefficients(samples: &[[f64; 4]], k: u32) -> [[f64; 2]; 4] {
+    let count = samples.len() as f64;
+    let mut sums = [[0.0, 0.0]; 4];
+    for (index, sample) in samples.iter().enumerate() {
+        let (sin, cos) = (TAU * f64::from(k) * index as f64 / count).sin_cos();
+        for ([even, odd], value) in sums.iter_mut().zip(sample) {
+            *even += value * cos / count;
+            *odd += value * sin / count;
+        }
+    }
+    sums
+}

@@ -1,0 +1,101 @@
+//! The turning moment: the driving torque over a cycle at constant speed, and the energies a flywheel has to store.
+
+use serde::Serialize;
+
+use super::diagrams::TOLERANCE;
+use super::forces::ForceAnalysis;
+use crate::numeric::{gauss, root};
+
+/// The driving torque over the crank angle beside its mean: their areas are energies that a flywheel stores and gives back.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TurningMoment {
+    /// N m
+    pub mean_nm: f64,
+    /// Work per cycle of what drives the crank, J; of the sign of the torque.
+    pub work_j: f64,
+    /// Greatest minus least of the stored energy, J.
+    pub fluctuation_j: f64,
+    /// Between crossings of the mean.
+    pub areas: Vec<Area>,
+}
+
+/// An area between the torque and its mean.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Area {
+    /// rad
+    pub from_rad: f64,
+    /// rad
+    pub to_rad: f64,
+    /// J; positive where the torque is above its mean.
+    pub energy_j: f64,
+}
+
+/// Parts of an eighth of a turn in which the torque crosses its mean once at most.
+const LOOKS: u32 = 16;
+
+impl ForceAnalysis {
+    /// Mean of the driving torque, and the areas on either side of it.
+    pub(super) fn turning_moment(&self) -> TurningMoment {
+        let pieces = self.pieces();
+        let torque = |theta: f64| self.torque(theta);
+        let largest = pieces
+            .iter()
+            .fold(0.0, |most: f64, end| most.max(torque(*end).abs()));
+        let area = |f: &dyn Fn(f64) -> f64, from: f64, to: f64| {
+            gauss::adaptive(f, from, to, TOLERANCE * largest * (to - from))
+        };
+        let work: f64 = pieces.windows(2).map(|w| area(&torque, w[0], w[1])).sum();
+        let mean = work / self.whole();
+        let above = |theta: f64| torque(theta % self.whole()) - mean;
+        let mut cuts: Vec<_> = self
+            .crossings(&pieces, above)
+            .into_iter()
+            .map(|at| (at, true))
+            .collect();
+        cuts.extend(pieces.iter().skip(1).map(|end| (*end, false)));
+        cuts.sort_by(|one, other| one.0.total_cmp(&other.0));
+        // Energy above the mean from the start of the cycle to each crossing.
+        let (mut stored, mut from) = (0.0, 0.0);
+        let mut crossings: Vec<(f64, f64)> = Vec::new();
+        for (to, crosses) in cuts {
+            stored += area(&|theta| torque(theta) - mean, from, to);
+            from = to;
+            crossings.extend(crosses.then_some((to, stored)));
+        }
+        let next = crossings.iter().skip(1).copied();
+        // The last area ends in the next cycle.
+        let first = crossings
+            .first()
+            .map(|(to, energy)| (to + self.whole(), energy + stored));
+        let areas = crossings.iter().zip(next.chain(first));
+        let energies = || crossings.iter().map(|(_, energy)| *energy);
+        TurningMoment {
+            mean_nm: mean,
+            work_j: work,
+            fluctuation_j: (energies().fold(f64::NEG_INFINITY, f64::max)
+                - energies().fold(f64::INFINITY, f64::min))
+            .max(0.0),
+            areas: areas
+                .map(|((from, before), (to, after))| Area {
+                    from_rad: *from,
+                    to_rad: to,
+                    energy_j: after - before,
+                })
+                .collect(),
+        }
+    }
+
+    /// Where a function of the cycle changes its sign, rad. It is looked at in the middle of parts of the pieces, as it may
+    /// vanish at their ends.
+    fn crossings(&self, pieces: &[f64], of: impl Fn(f64) -> f64) -> Vec<f64> {
+        let middles = pieces.windows(2).flat_map(|piece| {
+            let step = (piece[1] - piece[0]) / f64::from(LOOKS);
+            (0..LOOKS).map(move |k| piece[0] + (f64::from(k) + 0.5) * step)
+        });
+        let mut middles: Vec<f64> = middles.collect();
+        middles.extend(middles.first().map(|first| first + self.whole()));
+        let crossing = |w: &[f64]| root::bracketed(&of, w[0], w[1]);
+        let crossings = middles.windows(2).filter_map(crossing);
+        crossings.map(|theta| theta % self.whole()).collect()
+    }
+}

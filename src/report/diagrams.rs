@@ -1,0 +1,277 @@
+//! The diagrams of the trade: turning moment, indicator diagram, polar diagrams of the loads on pins and bearings, orders,
+//! balance of the first order.
+
+use std::f64::consts::PI;
+
+use super::figure::{Axis, Figure, Shape, Sheet};
+use super::key_values::{Facts, degrees, fact, six};
+use crate::error::Error;
+use crate::kinematics::{Diagrams, OneTurn, Order, TurnRow};
+use crate::scene::{Load, Scene};
+
+/// A diagram of the forces over a cycle at constant speed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Diagram {
+    /// Driving torque with its mean and the areas between them.
+    TurningMoment,
+    /// Pressure over the swept volume.
+    PressureVolume,
+    /// Loads on crank pin and crank bearing in the frame that turns with the crank, and on the bearing at rest.
+    Polar,
+    /// Amplitudes of shaking force and driving torque by order.
+    Orders,
+    /// Shaking force, without and with the counterweight.
+    Balance,
+}
+
+impl Diagram {
+    /// All diagrams.
+    pub const ALL: [Diagram; 5] = [
+        Diagram::TurningMoment,
+        Diagram::PressureVolume,
+        Diagram::Polar,
+        Diagram::Orders,
+        Diagram::Balance,
+    ];
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Diagram::TurningMoment => "turning-moment",
+            Diagram::PressureVolume => "pressure-volume",
+            Diagram::Polar => "polar",
+            Diagram::Orders => "orders",
+            Diagram::Balance => "balance",
+        }
+    }
+
+    /// The diagram as SVG; none of a scene that has nothing to show in it.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] if it does not fit into `size`.
+    pub fn svg(
+        self,
+        result: &OneTurn,
+        scene: &Scene,
+        size: Option<Shape>,
+    ) -> Result<Option<String>, Error> {
+        let Some(diagrams) = &result.diagrams else {
+            return Ok(None);
+        };
+        let rows: Vec<TurnRow> = result.rows(SPACING).collect();
+        let figures = match self {
+            Diagram::TurningMoment => vec![turning_moment(diagrams, &rows)],
+            Diagram::PressureVolume => pressures(scene, &rows),
+            Diagram::Polar => polar(&rows),
+            Diagram::Orders => orders(&diagrams.orders),
+            Diagram::Balance => vec![balance(diagrams, result, &rows)],
+        };
+        if figures.is_empty() {
+            return Ok(None);
+        }
+        let sheet = Sheet {
+            title: &result.kinematics.scene,
+            columns: if figures.len() > 2 { 2 } else { 1 },
+            size,
+        };
+        sheet.svg(&figures).map(Some)
+    }
+}
+
+/// Crank angle between the points of a diagram, rad.
+const SPACING: f64 = PI / 360.0;
+
+/// What is read off the diagrams.
+pub(super) fn facts(facts: &mut Facts, diagrams: &Diagrams) {
+    let moment = &diagrams.turning_moment;
+    let (mean, work) = (six(moment.mean_nm), six(moment.work_j));
+    let fluctuation = six(moment.fluctuation_j);
+    fact!(
+        facts,
+        "mean torque",
+        "{mean} N m, {work} J a cycle; energy fluctuates by {fluctuation} J"
+    );
+    if let Some(indicated) = &diagrams.indicated {
+        let (work, power) = (six(indicated.work_j), six(indicated.power_w));
+        let pressure = six(1e-5 * indicated.mean_effective_pressure_pa);
+        let volume = six(1e6 * indicated.swept_volume_m3);
+        fact!(
+            facts,
+            "indicated work",
+            "{work} J a cycle, {power} W; mean effective pressure {pressure} bar over {volume} cm3"
+        );
+    }
+    let balance = &diagrams.balance;
+    let (moment, angle) = (six(balance.counterweight_kg_m), degrees(balance.angle_rad));
+    let part = balance.part;
+    fact!(
+        facts,
+        "counterweight",
+        "{moment} kg m at {angle} deg from the crank, for {part} of the reciprocating mass"
+    );
+    let [before, after] = [balance.largest_n, balance.largest_left_n].map(six);
+    let [forward, left, backward] = [
+        balance.forward_n,
+        balance.forward_left_n,
+        balance.backward_n,
+    ]
+    .map(six);
+    fact!(
+        facts,
+        "  shaking force",
+        "at most {before} N, with it {after} N"
+    );
+    fact!(
+        facts,
+        "  first order",
+        "{forward} N with the crank, {left} N with the counterweight; {backward} N against it"
+    );
+}
+
+fn over_angle(title: &str, label: &str) -> Figure {
+    Figure::new(
+        title,
+        Axis::degrees("crank angle θ [°]"),
+        Axis::linear(label),
+    )
+}
+
+fn turning_moment(diagrams: &Diagrams, rows: &[TurnRow]) -> Figure {
+    let moment = &diagrams.turning_moment;
+    let mean = moment.mean_nm;
+    let torque = |row: &TurnRow| row.forces.map_or(f64::NAN, |forces| forces.torque);
+    let at = |row: &TurnRow| row.kinematics.theta.to_degrees();
+    let above = format!("energy; it fluctuates by {} J", six(moment.fluctuation_j));
+    over_angle("turning moment", "driving torque [N m]")
+        .line(
+            "driving torque",
+            rows.iter().map(|row| (at(row), torque(row))).collect(),
+        )
+        .line(
+            format!("mean {} N m", six(mean)),
+            rows.iter().map(|row| (at(row), mean)).collect(),
+        )
+        .band(
+            above,
+            rows.iter()
+                .map(|row| (at(row), mean, torque(row)))
+                .collect(),
+        )
+}
+
+/// One figure for each pressure of the scene.
+fn pressures(scene: &Scene, rows: &[TurnRow]) -> Vec<Figure> {
+    let far = rows
+        .iter()
+        .map(|row| row.kinematics.x.abs())
+        .fold(0.0, f64::max);
+    let gases = scene.forces.iter().filter_map(|load| match load {
+        Load::Gas { pressure, area, .. } => Some((pressure, *area)),
+        _ => None,
+    });
+    let figure = |(pressure, area): (&crate::scene::Table, f64)| {
+        let points = rows.iter().map(|row| {
+            let volume = area * (far - row.kinematics.x.abs());
+            (1e6 * volume, 1e-5 * pressure.value(row.kinematics.theta))
+        });
+        Figure::new(
+            "indicator diagram",
+            Axis::linear("swept volume [cm³]"),
+            Axis::linear("pressure [bar]"),
+        )
+        .line("", points.collect())
+    };
+    gases.map(figure).collect()
+}
+
+fn polar(rows: &[TurnRow]) -> Vec<Figure> {
+    let of = |value: &dyn Fn(&TurnRow) -> Option<[f64; 2]>| -> Vec<(f64, f64)> {
+        let values = rows.iter().filter_map(value);
+        values.map(|[x, y]| (x, y)).collect()
+    };
+    // Components along the crank and a quarter of a turn ahead of it.
+    let turning = |row: &TurnRow, [x, y]: [f64; 2]| {
+        let (sin, cos) = row.kinematics.theta.sin_cos();
+        [x * cos + y * sin, y * cos - x * sin]
+    };
+    let in_crank = |title: &str, points: Vec<(f64, f64)>| {
+        Figure::new(
+            title,
+            Axis::linear("along the crank [N]"),
+            Axis::linear("across it [N]"),
+        )
+        .equal()
+        .line("", points)
+        .points("", vec![(0.0, 0.0)])
+    };
+    let at_rest = |title: &str, points: Vec<(f64, f64)>| {
+        Figure::new(
+            title,
+            Axis::linear("along x [N]"),
+            Axis::linear("along y [N]"),
+        )
+        .equal()
+        .line("", points)
+        .points("", vec![(0.0, 0.0)])
+    };
+    vec![
+        in_crank(
+            "force on the rod at the crank pin, turning with the crank",
+            of(&|row| Some(turning(row, row.forces?.reactions.crank_pin))),
+        ),
+        in_crank(
+            "force on the crank at its bearing, turning with the crank",
+            of(&|row| Some(turning(row, row.forces?.reactions.crank_bearing))),
+        ),
+        at_rest(
+            "force on the crank at its bearing, at rest",
+            of(&|row| Some(row.forces?.reactions.crank_bearing)),
+        ),
+        at_rest(
+            "force on the slider at the wrist pin, at rest",
+            of(&|row| Some(row.forces?.reactions.wrist_pin)),
+        ),
+    ]
+}
+
+fn orders(orders: &[Order]) -> Vec<Figure> {
+    let stems = |label: &str, value: fn(&Order) -> f64| {
+        let ends = orders.iter().map(|order| (order.order, value(order)));
+        let stems = ends
+            .clone()
+            .flat_map(|(k, size)| [(k, 0.0), (k, size), (f64::NAN, size)]);
+        Figure::new("", Axis::linear("order, times a turn"), Axis::linear(label))
+            .line("", stems.collect())
+    };
+    vec![
+        stems("shaking force, along x [N]", |order| order.shaking_x_n),
+        stems("shaking force, along y [N]", |order| order.shaking_y_n),
+        stems("shaking moment [N m]", |order| order.shaking_moment_nm),
+        stems("driving torque [N m]", |order| order.torque_nm),
+    ]
+}
+
+fn balance(diagrams: &Diagrams, result: &OneTurn, rows: &[TurnRow]) -> Figure {
+    let balance = &diagrams.balance;
+    let speed = result
+        .forces
+        .as_ref()
+        .map_or(0.0, |forces| forces.speed_rad_per_s);
+    let size = balance.counterweight_kg_m * speed * speed;
+    let force = |row: &TurnRow, part: f64| {
+        let [x, y] = row
+            .forces
+            .map_or([f64::NAN; 2], |forces| forces.reactions.shaking);
+        let (sin, cos) = (row.kinematics.theta + balance.angle_rad).sin_cos();
+        (x + part * size * cos, y + part * size * sin)
+    };
+    let with = format!("with {} kg m", six(balance.counterweight_kg_m));
+    let axis = |name: &str| Axis::linear(format!("along {name} [N]"));
+    Figure::new("shaking force over the cycle", axis("x"), axis("y"))
+        .equal()
+        .line(
+            "without counterweight",
+            rows.iter().map(|row| force(row, 0.0)).collect(),
+        )
+        .line(with, rows.iter().map(|row| force(row, 1.0)).collect())
+}
