@@ -1,6 +1,8 @@
 //! The commands: arguments -> question -> report. One file each.
 
+mod animate;
 mod check;
+mod compare;
 mod explain;
 mod identify;
 mod inverse;
@@ -48,6 +50,10 @@ enum Command {
     Identify(identify::Arguments),
     /// One turn in closed form: dead centres, stroke, time ratio, extremes
     Kinematics(kinematics::Arguments),
+    /// Several motions over each other: scenes, rows, measurements; their differences
+    Compare(compare::Arguments),
+    /// The mechanism to scale: in motion as GIF, at an angle as DXF or picture
+    Animate(animate::Arguments),
     /// Speed against error: every method at a ladder of tolerances
     Precision(precision::Arguments),
     /// Static slider force against crank torque, with the band that friction allows
@@ -79,6 +85,8 @@ pub fn main() -> ExitCode {
         Command::Inverse(arguments) => inverse::run(&arguments),
         Command::Identify(arguments) => identify::run(&arguments),
         Command::Kinematics(arguments) => kinematics::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
+        Command::Animate(arguments) => animate::run(&arguments),
         Command::Precision(arguments) => precision::run(&arguments),
         Command::Statics(arguments) => statics::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),

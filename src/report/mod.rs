@@ -3,6 +3,7 @@
 mod atomic_file;
 mod calibration;
 mod columns;
+mod compare;
 mod csv;
 mod curves;
 mod decimate;
@@ -22,6 +23,7 @@ mod precision;
 mod quantity;
 mod reproduce;
 mod rows;
+mod sketch;
 mod statics;
 mod steady;
 mod sweep;
@@ -29,6 +31,7 @@ mod table;
 mod text;
 
 pub use calibration::calibration;
+pub use compare::{Comparison, Difference, Motion};
 pub use curves::View;
 pub use diagrams::Diagram;
 pub use explain::explanation;
@@ -45,6 +48,7 @@ pub use reproduce::{
     ReproductionSummary, drawing_csv, drawing_svg, file_name, reproduction, reproduction_csv,
 };
 pub use rows::{Preview, RowWriter};
+pub use sketch::{Pose, Sketch, animation};
 pub use statics::{statics, statics_figure, statics_page, statics_rows};
 pub use sweep::{
     SweepExtreme, SweepRange, SweepSummary, SweepWriter, VariedKey, sweep_page, sweep_text,

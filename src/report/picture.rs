@@ -58,11 +58,7 @@ impl Picture {
             Format::Png => png(svg),
             Format::Pdf => pdf(svg),
         };
-        let bytes = bytes.map_err(|error| Error::Write {
-            target: "figure".to_owned(),
-            source: std::io::Error::other(error),
-        })?;
-        self.output.write(&bytes)?;
+        self.output.write(&bytes.map_err(failed)?)?;
         self.output.finish()
     }
 }
@@ -79,18 +75,29 @@ fn tree(svg: &str) -> Result<Tree, String> {
     Tree::from_str(svg, &options).map_err(|error| error.to_string())
 }
 
-fn png(svg: &str) -> Result<Vec<u8>, String> {
+/// A figure as pixels, so many for each of the figure.
+pub(super) fn pixels(svg: &str, scale: f32) -> Result<Pixmap, String> {
     let tree = tree(svg)?;
     let size = tree.size().to_int_size();
-    let size = size.scale_by(SCALE).ok_or("a figure without extent")?;
+    let size = size.scale_by(scale).ok_or("a figure without extent")?;
     let mut pixels =
-        Pixmap::new(size.width(), size.height()).ok_or("a figure too large for a PNG")?;
-    resvg::render(
-        &tree,
-        Transform::from_scale(SCALE, SCALE),
-        &mut pixels.as_mut(),
-    );
+        Pixmap::new(size.width(), size.height()).ok_or("a figure too large for pixels")?;
+    let scaled = Transform::from_scale(scale, scale);
+    resvg::render(&tree, scaled, &mut pixels.as_mut());
+    Ok(pixels)
+}
+
+fn png(svg: &str) -> Result<Vec<u8>, String> {
+    let pixels = pixels(svg, SCALE)?;
     pixels.encode_png().map_err(|error| error.to_string())
+}
+
+/// A figure that could not be written.
+pub(super) fn failed(reason: String) -> Error {
+    Error::Write {
+        target: "figure".to_owned(),
+        source: std::io::Error::other(reason),
+    }
 }
 
 fn pdf(svg: &str) -> Result<Vec<u8>, String> {

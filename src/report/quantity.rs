@@ -91,6 +91,10 @@ impl Quantity {
             true if ending == "_rad" => ("rad", 1.0),
             _ => (unit, factor),
         };
+        let (name, of) = match name.rsplit_once("_of_") {
+            Some((name, number)) if number.parse::<u32>().is_ok() => (name, Some(number)),
+            _ => (name, None),
+        };
         let beside = BESIDE.iter().find_map(|more| {
             let (first, last) = (name.strip_prefix(more), name.strip_suffix(more));
             let rest = first.or(last)?.trim_matches('_');
@@ -102,6 +106,7 @@ impl Quantity {
             Some((_, words, group)) => ((*words).to_owned(), (*group).to_owned()),
             None => (base.replace('_', " "), group(base, unit)),
         };
+        let more = of.map_or(more, |number| format!("motion {number}"));
         let label = if more.is_empty() {
             words
         } else {

@@ -1,6 +1,6 @@
 //! What pictures show: chosen columns over a chosen column, peaks and poles as they are.
 
-use super::program::{Folder, free};
+use super::program::{Folder, driven, free};
 
 const GOOD: &str = "duration = \"0.1 s\"";
 
@@ -130,4 +130,106 @@ fn no_line_crosses_a_pole() {
     for (low, high) in ends {
         assert!(low > top || high < bottom, "{low} to {high} crosses");
     }
+}
+
+/// The pose of a linkage in line with its guide follows from the triangle crank, rod, guide.
+#[test]
+fn a_linkage_is_drawn_in_millimetres() {
+    let folder = Folder::with("[geometry]\ncrank = \"30 mm\"\nrod = \"50 mm\"\n");
+    let at = ["--at", "90 deg", "--out", "linkage.dxf"];
+    folder
+        .run(&[&["animate", "scene.toml"][..], &at].concat())
+        .done();
+    let dxf = folder.read("linkage.dxf");
+    let lines: Vec<&str> = dxf.lines().collect();
+    assert_eq!(lines.len() % 2, 0, "codes and values");
+    assert!(dxf.ends_with("0\nENDSEC\n0\nEOF\n"));
+    let rod = lines
+        .windows(2)
+        .position(|pair| pair == ["8", "ROD"])
+        .expect("the rod");
+    let value = |code: &str| -> f64 {
+        let pairs = lines[rod..].chunks(2);
+        let mut found = pairs.filter(|pair| pair[0] == code).map(|pair| pair[1]);
+        found.next().expect("a value").parse().expect("a number")
+    };
+    let ends = ["10", "20", "11", "21"].map(value);
+    for (found, expected) in ends.iter().zip([0.0, 30.0, 40.0, 0.0]) {
+        assert!((found - expected).abs() < 1e-12, "{ends:?}");
+    }
+    let picture = [
+        "animate",
+        "scene.toml",
+        "--at",
+        "90 deg",
+        "--out",
+        "linkage.png",
+    ];
+    folder.run(&picture).done();
+    let beyond = ["animate", "scene.toml", "--out", "linkage.txt"];
+    folder.run(&beyond).fails(2, &["linkage.txt"]);
+}
+
+#[test]
+fn a_motion_is_animated() {
+    let folder = Folder::with(&free(GOOD));
+    let motion = ["animate", "scene.toml", "--frames", "5", "--seconds", "1"];
+    folder
+        .run(&[&motion[..], &["--out", "motion.gif"]].concat())
+        .done();
+    let gif = std::fs::read(folder.path("motion.gif")).expect("a file");
+    assert!(gif.starts_with(b"GIF89a") && gif.ends_with(&[0x3b]));
+    // A graphic control extension stands before each frame; 20 hundredths of a second are its delay.
+    let control = [0x21, 0xf9, 0x04];
+    let frames: Vec<_> = gif
+        .windows(6)
+        .filter(|part| part.starts_with(&control))
+        .collect();
+    assert_eq!(frames.len(), 5);
+    assert!(frames.iter().all(|frame| frame[4] == 20), "{frames:?}");
+    let both = ["animate", "scene.toml", "--at", "1 deg", "--out", "x.gif"];
+    folder.run(&both).fails(2, &["--at"]);
+}
+
+/// Uniform motions at 30 and 33 rad/s part by 3 rad/s.
+#[test]
+fn motions_are_compared() {
+    let folder = Folder::with(&driven("duration = \"0.1 s\""));
+    let other = folder.read("scene.toml");
+    let speed = other
+        .lines()
+        .find(|line| line.starts_with("speed"))
+        .expect("a speed");
+    let faster = other.replace(speed, "speed = \"33 rad/s\"");
+    let slower = other.replace(speed, "speed = \"30 rad/s\"");
+    std::fs::write(folder.path("fast.toml"), faster).expect("a file");
+    std::fs::write(folder.path("slow.toml"), slower).expect("a file");
+    folder
+        .run(&["simulate", "slow.toml", "--out", "slow.csv"])
+        .done();
+    for first in ["slow.toml", "slow.csv"] {
+        let compare = [
+            "compare",
+            first,
+            "fast.toml",
+            "--json",
+            "--out",
+            "both.csv",
+            "--plot",
+            "x.svg",
+        ];
+        let found = folder.run(&compare).json();
+        let differences = found["differences"].as_array().expect("a list");
+        let theta = differences
+            .iter()
+            .find(|one| one["column"] == "theta_rad")
+            .expect("theta");
+        let largest = theta["largest"].as_f64().expect("a number");
+        assert!((largest - 0.3).abs() < 1e-12, "{theta}");
+        assert!((theta["at_s"].as_f64().expect("a time") - 0.1).abs() < 1e-12);
+        let rows = folder.read("both.csv");
+        assert!(rows.starts_with("t_s,theta_of_1_rad,theta_of_2_rad,theta_difference_2_rad,"));
+        assert!(folder.read("x.svg").contains("crank angle θ, motion 2"));
+    }
+    folder.run(&["compare", "slow.toml"]).fails(2, &["2"]);
 }

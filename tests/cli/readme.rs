@@ -87,8 +87,7 @@ fn every_command_line_works() {
             }
         }
         assert!(!run(&arguments).is_empty(), "{line}");
-        let written =
-            |file: &PathBuf| fs::read_to_string(file).is_ok_and(|text| text.lines().count() > 2);
+        let written = |file: &PathBuf| fs::metadata(file).is_ok_and(|about| about.len() > 100);
         assert!(files.iter().all(written), "{line}");
     }
     assert_eq!(shown, commands(), "every command is shown");

@@ -10,6 +10,7 @@ mod scale;
 
 use crate::error::Error;
 pub use axis::{Axis, ScaleKind};
+pub(super) use page::escaped;
 
 /// What is drawn of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

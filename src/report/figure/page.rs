@@ -123,15 +123,15 @@ fn description(sheet: &Sheet, figures: &[Figure]) -> String {
         format!("{}{titled}{y} over {x}", figure.title)
     });
     let shown = shown.collect::<Vec<_>>().join("; ");
-    let escaped = |text: &str| {
-        let plain: String = text.chars().filter(|c| !c.is_control()).collect();
-        plain
-            .replace('&', "&amp;")
-            .replace('<', "&lt;")
-            .replace('>', "&gt;")
-    };
     let (title, shown) = (escaped(sheet.title), escaped(&shown));
     format!("<title>{title}</title>\n<desc>{shown}</desc>")
+}
+
+/// A text in XML, without control characters, as it has none.
+pub(in crate::report) fn escaped(text: &str) -> String {
+    let plain: String = text.chars().filter(|c| !c.is_control()).collect();
+    let text = plain.replace('&', "&amp;");
+    text.replace('<', "&lt;").replace('>', "&gt;")
 }
 
 fn on_sheet(
@@ -210,7 +210,7 @@ pub(super) fn wrapped(text: &str, size: i32, width: i32) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split(|c: char| c.is_whitespace() || c.is_control()) {
         let mut word = word.to_owned();
-        while text_width(&word, size) > width {
+        while !word.is_empty() && text_width(&word, size) > width {
             word.pop();
         }
         match lines.last_mut() {

@@ -3,7 +3,9 @@
 const page = JSON.parse(document.getElementById("data").textContent);
 
 function decoded(text) {
-  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  const letters = atob(text);
+  const bytes = new Uint8Array(letters.length);
+  for (let i = 0; i < bytes.length; i++) bytes[i] = letters.charCodeAt(i);
   return new Float64Array(bytes.buffer);
 }
 

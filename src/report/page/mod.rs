@@ -1,16 +1,14 @@
 //! A result as one HTML page that opens offline: the mechanism in motion, linked plots, key figures, plan and scene.
 
-mod drawing;
-
 use minijinja::{AutoEscape, Environment, Value, context};
 use serde::Serialize;
 
 use super::key_values::Facts;
+use super::sketch::Drawing;
 use super::table::{Shown, Table};
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::simulate::{Event, Summary};
-use drawing::Drawing;
 
 const TEMPLATE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("style.css");

@@ -1,4 +1,4 @@
-//! What the page needs to draw the mechanism to scale.
+//! The lengths of the mechanism, as drawings and the page need them.
 
 use serde::Serialize;
 
@@ -6,18 +6,18 @@ use crate::scene::{Joint, Scene};
 
 /// Lengths of the mechanism, m; points of bodies along and to the left of them.
 #[derive(Debug, Serialize)]
-pub(super) struct Drawing {
-    crank: f64,
-    rod: f64,
-    offset: f64,
+pub(in crate::report) struct Drawing {
+    pub crank: f64,
+    pub rod: f64,
+    pub offset: f64,
     /// The branch, ±1.
-    branch: f64,
+    pub branch: f64,
     /// Centre of gravity from the crank pivot.
     #[serde(skip_serializing_if = "Option::is_none")]
-    crank_cg: Option<[f64; 2]>,
+    pub crank_cg: Option<[f64; 2]>,
     /// Centre of gravity from the crank pin.
     #[serde(skip_serializing_if = "Option::is_none")]
-    rod_cg: Option<[f64; 2]>,
+    pub rod_cg: Option<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     loose: Option<Loose>,
 }

@@ -1,0 +1,231 @@
+//! Several motions over each other, with their differences.
+
+mod motion;
+
+use std::fmt::Write;
+
+use serde::Serialize;
+
+use super::csv::{line, write_all};
+use super::curves::{Shown, View};
+use super::key_values::{Facts, fact, six};
+use super::page::{Origin, Page};
+use super::quantity::{Quantity, split};
+use super::table::Table;
+use super::{Output, json};
+use crate::error::Error;
+pub use motion::Motion;
+use motion::TIME;
+
+/// Motions at common times, with what they differ by from the first.
+#[derive(Debug, Serialize)]
+pub struct Comparison {
+    /// Where the motions come from, in order.
+    pub motions: Vec<String>,
+    /// Number of times.
+    pub rows: usize,
+    /// Differences of each motion from the first, by column.
+    pub differences: Vec<Difference>,
+    /// What is to be known beside them.
+    pub warnings: Vec<String>,
+    #[serde(skip)]
+    table: Table,
+}
+
+/// Differences of a column from that of the first motion, in SI.
+#[derive(Clone, Debug, Serialize)]
+pub struct Difference {
+    /// The column with its unit.
+    pub column: String,
+    /// The motion that is compared with the first.
+    pub motion: String,
+    /// Largest size.
+    pub largest: f64,
+    /// When it occurs, s.
+    pub at_s: f64,
+    /// Root of the mean square.
+    pub rms: f64,
+    /// At the last common time.
+    pub last: f64,
+}
+
+impl Comparison {
+    /// Compares motions at the times of the first. Angles are taken to the same turn at the first common time.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] if motions have no column or no time in common.
+    pub fn new(motions: &[Motion]) -> Result<Comparison, Error> {
+        let [first, others @ ..] = motions else {
+            return Err(Error::refused(
+                "there is no motion",
+                "give two scenes or files",
+            ));
+        };
+        let times = first.times();
+        let shared = |name: &&str| {
+            *name != TIME
+                && others
+                    .iter()
+                    .all(|other| other.table.numbers(name).is_some())
+        };
+        let columns: Vec<&str> = first.table.names().filter(shared).collect();
+        let mut names = TIME.to_owned();
+        let mut values = vec![times.to_vec()];
+        let mut differences = Vec::new();
+        let mut warnings = Vec::new();
+        for column in columns {
+            let (base, unit) = split(column);
+            let own = first.table.numbers(column).unwrap_or_default();
+            let _ = write!(names, ",{base}_of_1{unit}");
+            values.push(own.to_vec());
+            for (number, other) in (2..).zip(others) {
+                let (mut theirs, between) = other.at(column, times);
+                let mut off: Vec<f64> = theirs.iter().zip(own).map(|(b, a)| b - a).collect();
+                if unit == "_rad" {
+                    let turns = whole_turns(&off);
+                    theirs
+                        .iter_mut()
+                        .chain(&mut off)
+                        .for_each(|value| *value -= turns);
+                }
+                let _ = write!(
+                    names,
+                    ",{base}_of_{number}{unit},{base}_difference_{number}{unit}"
+                );
+                differences.extend(difference(column, &other.name, times, &off));
+                if between && base == "theta" {
+                    let name = &other.name;
+                    warnings.push(format!(
+                        "{name} has other times: cubics through four of its rows stand between them"
+                    ));
+                }
+                values.extend([theirs, off]);
+            }
+        }
+        if differences.is_empty() {
+            return Err(Error::refused(
+                "the motions have no column in common at any time of the first",
+                "compare scenes, rows of `simulate --out` or measured motions with overlapping times",
+            ));
+        }
+        let mut table = Table::new(&names);
+        for k in 0..times.len() {
+            table.push(values.iter().map(|column| column[k]));
+        }
+        Ok(Comparison {
+            motions: motions.iter().map(|motion| motion.name.clone()).collect(),
+            rows: times.len(),
+            differences,
+            warnings,
+            table,
+        })
+    }
+
+    /// Writes times, values and differences.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn rows(&self, output: Output) -> Result<(), Error> {
+        let names: Vec<&str> = self.table.names().collect();
+        let columns: Vec<&[f64]> = names
+            .iter()
+            .filter_map(|name| self.table.numbers(name))
+            .collect();
+        let rows: Vec<usize> = (0..self.rows).collect();
+        write_all(output, &names.join(","), &rows, |row, text| {
+            line(columns.iter().map(|column| column[*row]), text);
+        })
+    }
+
+    /// The summary as text.
+    pub fn text(&self) -> String {
+        self.facts().lines(24)
+    }
+
+    /// The summary as one JSON object.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn json(&self) -> Result<String, Error> {
+        json(self)
+    }
+
+    fn facts(&self) -> Facts {
+        let mut facts = Facts::of(&self.motions.join(", "));
+        for (number, name) in (1..).zip(&self.motions) {
+            facts.add(format_args!("motion {number}"), name);
+        }
+        let count = self.rows;
+        fact!(facts, "compared", "at the {count} times of motion 1");
+        for found in &self.differences {
+            let quantity = Quantity::of(&found.column);
+            let shown = |value: f64| six(quantity.factor * value);
+            let (largest, rms, last) = (shown(found.largest), shown(found.rms), shown(found.last));
+            let (unit, at) = (&quantity.unit, six(found.at_s));
+            let name = match self.motions.len() {
+                2 => quantity.label.clone(),
+                _ => format!("{} {}", found.motion, quantity.label),
+            };
+            fact!(
+                facts,
+                name,
+                "differs by at most {largest} {unit} at {at} s, rms {rms}, at last {last}"
+            );
+        }
+        facts.warnings(&self.warnings);
+        facts
+    }
+
+    /// What is to be seen as SVG: by itself position and speed of crank and slider.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] if a column is not there.
+    pub fn figure(&self, view: &View) -> Result<String, Error> {
+        let shown = Shown {
+            title: &self.motions.join(", "),
+            show: &[
+                "theta_of",
+                "theta_difference",
+                "omega_of",
+                "omega_difference",
+                "x_of",
+                "x_difference",
+                "v_of",
+                "v_difference",
+            ],
+            over: "t",
+            columns: 2,
+            ..Shown::default()
+        };
+        view.svg(&self.table, shown)
+    }
+
+    /// The comparison as one page.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn page(&self, origin: &Origin) -> Result<String, Error> {
+        Page::new(origin, &self.facts()).table(&self.table).html()
+    }
+}
+
+/// Whole turns (rad) between two angles where both are first known.
+fn whole_turns(off: &[f64]) -> f64 {
+    let first = off.iter().find(|value| value.is_finite());
+    let turn = std::f64::consts::TAU;
+    first.map_or(0.0, |off| turn * (off / turn).round())
+}
+
+fn difference(column: &str, motion: &str, times: &[f64], off: &[f64]) -> Option<Difference> {
+    let known = || times.iter().zip(off).filter(|(_, off)| off.is_finite());
+    let (at, largest) = known().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+    let count = known().count() as f64;
+    Some(Difference {
+        column: column.to_owned(),
+        motion: motion.to_owned(),
+        largest: largest.abs(),
+        at_s: *at,
+        rms: (known().map(|(_, off)| off * off).sum::<f64>() / count).sqrt(),
+        last: *known().next_back()?.1,
+    })
+}

@@ -1,0 +1,114 @@
+//! A motion by its rows.
+
+use std::path::Path;
+
+use crate::error::Error;
+use crate::report::quantity::split;
+use crate::report::rows::{cells, header};
+use crate::report::table::Table;
+use crate::scene::{Measured, Measurement, Reading};
+use crate::simulate::Row;
+
+/// A motion by its rows, and where it comes from.
+#[derive(Debug)]
+pub struct Motion {
+    pub(super) name: String,
+    pub(super) table: Table,
+}
+
+impl Motion {
+    /// Of the rows of a run.
+    pub fn of_rows(name: &str, rows: &[Row]) -> Motion {
+        let mut table = Table::new(&rows.first().map_or(TIME.to_owned(), header));
+        for row in rows {
+            table.push(cells(row));
+        }
+        Motion {
+            name: name.to_owned(),
+            table,
+        }
+    }
+
+    /// Of a file: rows as this program writes them, else a measured motion.
+    ///
+    /// # Errors
+    /// [`Error::Read`] and [`Error::Scene`] for a file that is neither.
+    pub fn of_file(file: &Path) -> Result<Motion, Error> {
+        let name = file.display().to_string();
+        if let Some(table) = own_rows(file) {
+            return Ok(Motion { name, table });
+        }
+        let measured = Measurement::load(file, &Reading::default())?;
+        let column = match measured.measured() {
+            Measured::Theta => "theta_rad",
+            Measured::Gamma => "gamma_rad",
+            Measured::X => "x_m",
+        };
+        let mut table = Table::new(&format!("{TIME},{column}"));
+        for (t, value) in measured.times().iter().zip(measured.values()) {
+            table.push([*t, *value]);
+        }
+        Ok(Motion { name, table })
+    }
+
+    /// The times of its rows, s.
+    pub fn times(&self) -> &[f64] {
+        self.table.numbers(TIME).unwrap_or_default()
+    }
+
+    /// A column at other times, not a number outside of its rows; and whether that took interpolation.
+    pub(super) fn at(&self, column: &str, times: &[f64]) -> (Vec<f64>, bool) {
+        let own = self.times();
+        let values = self.table.numbers(column).unwrap_or_default();
+        let mut between = false;
+        let mut value = |t: f64| {
+            let after = own.partition_point(|own| *own < t);
+            match own.get(after) {
+                Some(own) if *own == t => values[after],
+                Some(_) if after > 0 => {
+                    between = true;
+                    interpolated(own, values, after, t)
+                }
+                _ => f64::NAN,
+            }
+        };
+        (times.iter().map(|t| value(*t)).collect(), between)
+    }
+}
+
+/// The column of times.
+pub(super) const TIME: &str = "t_s";
+
+/// Rows as this program writes them: numbers in SI under names with units, the time first.
+fn own_rows(file: &Path) -> Option<Table> {
+    let mut reader = ::csv::Reader::from_path(file).ok()?;
+    let names: Vec<String> = reader.headers().ok()?.iter().map(str::to_owned).collect();
+    let known = names
+        .iter()
+        .all(|name| !split(name).1.is_empty() || name.starts_with("near_"));
+    if names.first().is_none_or(|first| first != TIME) || names.len() < 2 || !known {
+        return None;
+    }
+    let rows: Result<Vec<Vec<String>>, _> = reader
+        .records()
+        .map(|row| row.map(|row| row.iter().map(str::to_owned).collect()))
+        .collect();
+    let table = Table::of_cells(&names, &rows.ok()?);
+    names
+        .iter()
+        .all(|name| table.numbers(name).is_some())
+        .then_some(table)
+}
+
+/// The cubic through the four rows about a time, before row `after`.
+fn interpolated(times: &[f64], values: &[f64], after: usize, t: f64) -> f64 {
+    let first = after.saturating_sub(2).min(times.len().saturating_sub(4));
+    let nodes = first..(first + 4).min(times.len());
+    let basis = |k: usize| {
+        let others = nodes.clone().filter(|other| *other != k);
+        others
+            .map(|other| (t - times[other]) / (times[k] - times[other]))
+            .product::<f64>()
+    };
+    nodes.clone().map(|k| values[k] * basis(k)).sum()
+}
