@@ -6,11 +6,9 @@ use crate::numeric::angle::Angle;
 use crate::numeric::exact::SUM_ROUNDING;
 use crate::numeric::{dip, golden, root};
 
-/// A step is looked at in pieces of this travel, rad, but in at least so many and at most so many. Between them
-/// parabolas tell where a quantity may leave its sign and come back.
-const TRAVEL: f64 = 0.1;
-const FEWEST: f64 = PIECES as f64;
-const MOST: f64 = 64.0;
+/// A step is looked at in pieces of this travel, rad, but at least in [`PIECES`]. Between them parabolas tell where a
+/// quantity may leave its sign and come back.
+const PIECE_TRAVEL: f64 = 0.1;
 
 /// The quantities whose signs are watched, at time t (s), angle and speed.
 pub trait EventFunction<const N: usize> {
@@ -38,7 +36,7 @@ pub fn changes<const N: usize>(
     signs: &mut [f64; N],
 ) -> Vec<Change> {
     let travel = (step.end.theta - step.start.theta).abs();
-    let pieces = (travel / TRAVEL).ceil().clamp(FEWEST, MOST) as usize;
+    let pieces = PIECES.max((travel / PIECE_TRAVEL).ceil() as usize);
     let rough = sampled(step, watched, pieces);
     let left = |i: usize| {
         let mut inside = rough[1..].iter();
@@ -150,10 +148,10 @@ fn look<const N: usize>(step: &Step, watched: &dyn EventFunction<N>, t: f64) -> 
 
 /// Steps end at jumps of loads. The first and the last look are this part of the step beside its ends, so that they show the
 /// values inside.
-const BESIDE: f64 = 1e-9;
+const BESIDE_END: f64 = 1e-9;
 
 fn time(step: &Step, piece: usize, pieces: usize) -> f64 {
-    let part = (piece as f64 / pieces as f64).clamp(BESIDE, 1.0 - BESIDE);
+    let part = (piece as f64 / pieces as f64).clamp(BESIDE_END, 1.0 - BESIDE_END);
     step.start.t + step.length() * part
 }
 

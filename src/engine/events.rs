@@ -120,15 +120,15 @@ fn passages(step: &Step, watched: &[f64], from: f64, to: f64, found: &mut Vec<(f
     }
 }
 
-/// Pieces of a step in which an extreme is looked for: a polynomial of its own may go up and down several times.
-const PIECES_OF_POLYNOMIAL: usize = NODES;
+/// Pieces of a step without a polynomial of its own, in which an extreme is looked for.
 const PIECES_BETWEEN_ENDS: usize = 2;
 
-/// How the acceleration of a step goes at equally spaced times.
-fn accelerations(step: &Step) -> ([f64; PIECES_OF_POLYNOMIAL + 1], usize) {
-    let mut all = [0.0; PIECES_OF_POLYNOMIAL + 1];
+/// How the acceleration of a step goes at equally spaced times; a polynomial of its own may go up and down as often as it has
+/// nodes.
+fn accelerations(step: &Step) -> ([f64; NODES + 1], usize) {
+    let mut all = [0.0; NODES + 1];
     if step.has_polynomial() {
-        return (step.accelerations(), PIECES_OF_POLYNOMIAL);
+        return (step.accelerations(), NODES);
     }
     let few: [f64; PIECES_BETWEEN_ENDS + 1] = step.accelerations();
     all[..few.len()].copy_from_slice(&few);
@@ -157,8 +157,7 @@ pub fn follow(
     at: impl Fn(&Step, f64) -> (f64, f64),
 ) -> (f64, f64) {
     let look = |step: &Step, range| {
-        let rates: [f64; PIECES_OF_POLYNOMIAL + 1] =
-            std::array::from_fn(|i| at(step, part(step, i, PIECES_OF_POLYNOMIAL)).1);
+        let rates: [f64; NODES + 1] = std::array::from_fn(|i| at(step, part(step, i, NODES)).1);
         widened(step, range, &rates, |t| at(step, t).0, |t| at(step, t).1)
     };
     refine_for(step, motion, known, |step, t| at(step, t).0, look);

@@ -67,7 +67,7 @@ const STEPS_IN_A_CALL: usize = 256;
 
 /// A longer way (rad) of one step is no motion that its polynomial follows, nor one whose events can be listed: the step
 /// is tried again, as one of a turn.
-const LONGEST: f64 = 2.0 * TAU;
+const LONGEST_STEP: f64 = 2.0 * TAU;
 
 /// A last time (s) from which on a run has none of its own.
 pub const FAR: f64 = 1e9;
@@ -177,7 +177,7 @@ impl Rejected {
         tolerance: f64,
     ) -> Option<Rejected> {
         let travel = (step.end.theta - step.start.theta).abs();
-        if travel > LONGEST {
+        if travel > LONGEST_STEP {
             return Some(Rejected::TooLong(step.length() * TAU / travel));
         }
         hides(motion, step, method.order(), tolerance).map(Rejected::Hides)

@@ -13,7 +13,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::limits::SAME;
+use super::limits::SAME_LENGTHS;
 use super::rocker::Rocker;
 use super::{Class, Limits, Linkage};
 use crate::numeric::angle::Angle;
@@ -91,7 +91,7 @@ impl Curve {
                 return Some((curve.started_at(q, theta), q));
             }
             Class::DoubleRocker => {}
-            Class::ChangePoint if pose.cos_phi <= SAME.sqrt() => {
+            Class::ChangePoint if pose.cos_phi <= SAME_LENGTHS.sqrt() => {
                 // At a limit that is no crossing the crank does not point normal to the guide.
                 if pose.cos.abs() < 1e-6 {
                     return None;

@@ -23,7 +23,7 @@ impl Class {
     /// The class of a linkage.
     pub fn of(linkage: &Linkage) -> Class {
         let Linkage { r, l, e, .. } = *linkage;
-        let same = SAME * (l + r);
+        let same = SAME_LENGTHS * (l + r);
         let crank_turns = linkage.margin();
         let rod_turns = sum3(r, -l, -e.abs());
         let assembles = sum3(l, r, -e.abs());
@@ -86,11 +86,11 @@ pub struct Limits {
 }
 
 /// At this cos φ the rod counts as normal to the guide: what follows has no digits in the crank angle.
-const NORMAL: f64 = 1e-3;
+const NEARLY_NORMAL: f64 = 1e-3;
 
 /// Lengths that differ by less than this part of crank and rod together count as equal: reading rod, crank and offset rounds
 /// their difference by ε of that at most, and by 3 ε where the unit is no power of ten of a metre, like an inch.
-pub(super) const SAME: f64 = 4.0 * f64::EPSILON;
+pub(super) const SAME_LENGTHS: f64 = 4.0 * f64::EPSILON;
 
 impl Limits {
     /// The limits of a linkage, for a crank that turns in the direction of `speed` (its sign alone
@@ -136,7 +136,7 @@ impl Limits {
     /// Reachable crank angles, rad, that keep clear of the positions where the rod is normal to the guide
     /// (by 0.001 rad of the rod's angle); empty: all.
     pub fn clear_reach(linkage: &Linkage) -> Vec<[f64; 2]> {
-        let shorter = linkage.with_rod(linkage.l * (1.0 - 0.5 * NORMAL * NORMAL));
+        let shorter = linkage.with_rod(linkage.l * (1.0 - 0.5 * NEARLY_NORMAL * NEARLY_NORMAL));
         let class = Class::of(linkage);
         if class == Class::RotatingCrank {
             return Vec::new();
@@ -171,7 +171,7 @@ impl Linkage {
     /// crank that cannot turn fully, and what a change point has in their place; empty for a crank that turns fully.
     pub fn limit_angles(&self) -> Vec<f64> {
         let Linkage { r, l, .. } = *self;
-        let same = SAME * (l + r);
+        let same = SAME_LENGTHS * (l + r);
         let [up, down] = limits(self, |below, lift| below >= -same && r + lift >= -same);
         let both = up.into_iter().chain(down.map(|down| -down));
         both.flat_map(|angle| [angle, PI - angle]).collect()
@@ -200,7 +200,7 @@ fn dead_centre(linkage: &Linkage, outer: bool) -> Option<DeadCentre> {
         false => ([r, -l], -s),
     };
     let squared = sum3(reach[0], reach[1], -e) * sum3(reach[0], reach[1], e);
-    let on_border = squared.abs() <= SAME * (l + r) * (l + r);
+    let on_border = squared.abs() <= SAME_LENGTHS * (l + r) * (l + r);
     if squared < 0.0 && !on_border {
         return None;
     }
@@ -228,7 +228,7 @@ fn positive(theta: f64) -> f64 {
 /// Angles at which |e + r sin θ| ≤ l.
 fn reach(linkage: &Linkage, class: Class) -> Vec<[f64; 2]> {
     let Linkage { r, l, .. } = *linkage;
-    if class == Class::RotatingCrank || linkage.margin() >= -SAME * (l + r) {
+    if class == Class::RotatingCrank || linkage.margin() >= -SAME_LENGTHS * (l + r) {
         return Vec::new();
     }
     let [up, down] = limits(linkage, |below, _| below > 0.0);

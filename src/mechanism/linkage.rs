@@ -2,7 +2,7 @@
 //!
 //! sin φ = (e + r sin θ)/l, x = r cos θ + s l cos φ, s = ±1 for the assembly branch.
 
-use super::limits::SAME;
+use super::limits::SAME_LENGTHS;
 use crate::numeric::exact::sum3;
 use crate::scene::{Branch, Geometry};
 
@@ -117,7 +117,7 @@ impl Linkage {
     /// Whether the rod reaches the guide at crank angle `theta` (rad), to rounding.
     pub fn reaches(&self, theta: f64) -> bool {
         let height = (self.e + self.r * theta.sin()).abs();
-        height <= self.l + SAME * (self.l + self.r)
+        height <= self.l + SAME_LENGTHS * (self.l + self.r)
     }
 
     /// How far the lengths are from those of a change point, in crank lengths.

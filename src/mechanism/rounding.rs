@@ -4,9 +4,6 @@ use super::Equation;
 use crate::numeric::angle::Angle;
 use crate::scene::Instant;
 
-/// Relative change of the slider's position from which the slope of the loads is taken.
-const CHANGE: f64 = 1e-6;
-
 impl Equation {
     /// Size of the terms whose sum is M θ̈, N m, at time t (s), crank angle and speed (rad/s): half a unit in the last
     /// place of it is what rounding may do to the sum. A load counts with what a change of the slider's position by
@@ -22,13 +19,14 @@ impl Equation {
             x: pose.x,
             v: pose.dx * omega,
         };
+        let change = f64::EPSILON.cbrt();
         let place = pose.x.abs() + self.linkage().r;
         let moved = Instant {
-            x: pose.x + CHANGE * place,
+            x: pose.x + change * place,
             ..now
         };
         let [here, there] = [now, moved].map(|now| self.loads().at(&now));
-        let changed = |here: f64, there: f64| here.abs() + (there - here).abs() / CHANGE;
+        let changed = |here: f64, there: f64| here.abs() + (there - here).abs() / change;
         let lever = pose.dx.abs();
         let parts = self.linkage().r * (pose.cos * pose.sin_phi / pose.cos_phi).abs();
         let force = changed(here.force, there.force) * lever + here.force.abs() * parts;

@@ -2,7 +2,7 @@
 
 /// A dip may go unseen where the parabola comes as near to zero as this part of its sag over the wider of the two
 /// gaps.
-const NEAR: f64 = 0.25;
+const NEAR_SAG: f64 = 0.25;
 
 /// Whether a function with these values at three places in order may fall below zero between them where the values
 /// do not.
@@ -23,5 +23,5 @@ pub fn may_dip(x: [f64; 3], y: [f64; 3]) -> bool {
     }
     let (from, on) = (lowest - x[0], lowest - x[1]);
     let gap = (x[1] - x[0]).max(x[2] - x[1]);
-    y[0] + from * (slopes[0] + bend * on) < NEAR * bend * gap * gap
+    y[0] + from * (slopes[0] + bend * on) < NEAR_SAG * bend * gap * gap
 }

@@ -58,9 +58,6 @@ pub const HIGHEST_CHOSEN: usize = 12;
 /// Most equations that are solved in double-double arithmetic.
 const MOST_IN_DOUBLE: usize = 10_000;
 
-/// Relative standard deviation of targets that were computed in floats.
-const COMPUTED: f64 = 2.0 * f64::EPSILON;
-
 impl PolynomialFit {
     /// Fits a polynomial of a degree, or of the degree with the least criterion of Schwarz (Ann. Statist. 6 (1978) 461).
     /// Its second derivative is what is asked for: that of Akaike takes a degree too high in one record of four, with
@@ -106,8 +103,9 @@ impl PolynomialFit {
         }
         let squares: Vec<f64> = found.squares.iter().map(|s| s.value()).collect();
         let size = target.iter().fold(0.0f64, |size, y| size.max(y.abs()));
-        let degree =
-            degree.unwrap_or_else(|| likeliest(&squares, rows, floor.max(COMPUTED * size)));
+        // Targets that were computed in floats are off by some units in the last place.
+        let floor_of = |size: f64| floor.max(2.0 * f64::EPSILON * size);
+        let degree = degree.unwrap_or_else(|| likeliest(&squares, rows, floor_of(size)));
         found.truncate(degree);
         let free = (rows - degree - 1) as f64;
         let sigma = (squares[degree] / free).sqrt().max(floor);

@@ -12,10 +12,10 @@ const QUARTER: [f64; 3] = [
 ];
 
 /// Added to a number of moderate size, it leaves the nearest whole number in the last bits.
-const ROUND: f64 = 6_755_399_441_055_744.0;
+const ROUNDING_SHIFT: f64 = 6_755_399_441_055_744.0;
 
 /// Beyond this the reduction to one quarter would lose digits.
-const FAR: f64 = 1e4 * PI;
+const REDUCTION_RANGE: f64 = 1e4 * PI;
 
 /// Minimax coefficients on ±π/4 (fdlibm, k_sin.c and k_cos.c).
 const SINE: [f64; 6] = [
@@ -41,7 +41,7 @@ pub fn sin_cos<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {
     let (mut sin, mut cos) = ([0.0; N], [0.0; N]);
     let mut near = true;
     for i in 0..N {
-        near &= angles[i].abs() < FAR;
+        near &= angles[i].abs() < REDUCTION_RANGE;
         (sin[i], cos[i]) = near_zero(angles[i]);
     }
     if !near {
@@ -54,8 +54,8 @@ pub fn sin_cos<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {
 
 #[inline(always)]
 fn near_zero(angle: f64) -> (f64, f64) {
-    let shifted = angle * FRAC_2_PI + ROUND;
-    let (quarters, bits) = (shifted - ROUND, shifted.to_bits());
+    let shifted = angle * FRAC_2_PI + ROUNDING_SHIFT;
+    let (quarters, bits) = (shifted - ROUNDING_SHIFT, shifted.to_bits());
     let r = ((angle - quarters * QUARTER[0]) - quarters * QUARTER[1]) - quarters * QUARTER[2];
     let z = r * r;
     let [s1, s2, s3, s4, s5, s6] = SINE;

@@ -9,8 +9,8 @@ use crate::numeric::gauss::legendre;
 /// Collocation points of a step.
 const STAGES: usize = 16;
 
-/// Newton steps before a step is made shorter.
-const ITERATIONS: usize = 25;
+/// Steps of Newton's method, which squares what is left: one that takes more does not converge.
+pub(super) const ITERATIONS: usize = 25;
 
 /// A step this much shorter than the run is none.
 const SHORTEST: f64 = 1e-14;

@@ -4,7 +4,7 @@ use crate::numeric::double_double::DoubleDouble;
 
 use std::f64::consts::TAU;
 
-use super::collocation::{self, Acceleration, CORNER, Place, Resolution};
+use super::collocation::{self, Acceleration, CORNER, ITERATIONS, Place, Resolution};
 use super::extended::{Extended, State};
 use crate::mechanism::{Class, Equation, Limits, Linkage};
 use crate::scene::{Load, MotionKind, Scene, Variable};
@@ -141,7 +141,7 @@ impl Motion {
     ) -> Option<Place> {
         let turn = DoubleDouble::TAU * start.omega.value().signum();
         let mut period = DoubleDouble::from((turn / start.omega).value());
-        for _ in 0..NEWTON_STEPS {
+        for _ in 0..ITERATIONS {
             let end = until(period.value())?;
             let change = (start.theta + turn - end.theta) / end.omega;
             let found = DoubleDouble::from(period.value()) + change;
@@ -165,9 +165,6 @@ impl Motion {
         None
     }
 }
-
-/// Most steps in search of the period.
-const NEWTON_STEPS: usize = 40;
 
 impl Acceleration for Motion {
     fn exactly(&self, t: DoubleDouble, theta: DoubleDouble, omega: DoubleDouble) -> DoubleDouble {

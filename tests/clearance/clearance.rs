@@ -178,9 +178,10 @@ fn impacts_and_end_agree_with_another_integration() {
     }
 }
 
-/// d/dt ∂L/∂q̇ = ∂L/∂q by differences, at states apart and pressed together without damping.
+/// d/dt ∂L/∂q̇ = ∂L/∂q and the rate of the gap by differences, at states apart and pressed together without damping.
 fn lagrange(scene: &Scene, clearance: Clearance, s: LooseState) -> Result<(), TestCaseError> {
     let mechanism = LooseMechanism::new(scene, clearance).expect("a mechanism");
+    let none = [0.0; 3];
     let pressed = mechanism.depth(&s).0 > 0.0;
     let touch = match pressed {
         true => JointTouch::Pressed {
@@ -199,9 +200,21 @@ fn lagrange(scene: &Scene, clearance: Clearance, s: LooseState) -> Result<(), Te
         v: s.v + dv[2],
         ..*s
     };
+    // The gap is (c² − ε²)/2c with the journal ε off the centre, and its rate that of this.
+    let [across, up] = mechanism.journal(&s);
+    let c = clearance.radial;
+    let (gap, gap_rate) = mechanism.gap(&s);
+    let expected = (c * c - across * across - up * up) / (2.0 * c);
+    prop_assert!((gap - expected).abs() < 1e-15, "{gap} {expected}");
+    let short = 1e-7;
+    let near = |sign: f64| {
+        let dq = [s.omega, s.spin, s.v].map(|rate| sign * short * rate);
+        mechanism.gap(&moved(&s, dq, none)).0
+    };
+    let rate = (near(1.0) - near(-1.0)) / (2.0 * short);
+    prop_assert!((gap_rate - rate).abs() < 1e-6, "{gap_rate} {rate}");
     let lagrangian = |s: &LooseState| 2.0 * mechanism.kinetic(s) - mechanism.energy(s);
     let unit = |i: usize, size: f64| std::array::from_fn(|k| if k == i { size } else { 0.0 });
-    let none = [0.0; 3];
     // Kinetic energy is quadratic in the speeds, so a difference over a large step is exact.
     let momentum = |s: &LooseState, i: usize| {
         let at = |h: f64| mechanism.kinetic(&moved(s, none, unit(i, h)));

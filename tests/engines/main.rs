@@ -8,6 +8,7 @@ mod allocations;
 mod angle_engine;
 mod caught;
 mod closures;
+mod crossings;
 mod cycles;
 mod ends;
 mod energy_engine;

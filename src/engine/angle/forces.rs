@@ -4,7 +4,7 @@ use super::Driven;
 use super::panel::Station;
 use super::sweep::Start;
 use crate::numeric::angle::Angle;
-use crate::numeric::chebyshev::{MOST, Values};
+use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 use crate::numeric::enclosure::Interval;
 
 /// Forces at the points of a panel, N m.
@@ -21,7 +21,7 @@ pub(super) struct Forces {
 
 impl Forces {
     pub fn new() -> Forces {
-        let zero = [0.0; MOST + 1];
+        let zero = [0.0; MAX_DEGREE + 1];
         Forces {
             total: zero,
             spent: zero,
@@ -56,7 +56,7 @@ impl Forces {
         }
         if driven.is_driven() {
             if driven.reads_time() {
-                let mut slopes = [0.0; MOST + 1];
+                let mut slopes = [0.0; MAX_DEGREE + 1];
                 self.fill_slopes(station, &mut slopes)?;
                 self.times = station.rule.integrals(&slopes);
             }
@@ -130,7 +130,7 @@ impl Forces {
         // The error of a central difference is least for this step.
         let step = f64::EPSILON.cbrt();
         let table = &station.table;
-        let mut rates = [0.0; MOST + 1];
+        let mut rates = [0.0; MAX_DEGREE + 1];
         for (j, x) in station.rule.points().iter().enumerate() {
             let speed = self.speeds[j];
             let mut rate = -table.damping[j];

@@ -150,8 +150,9 @@ pub struct Resolution {
     pub most_evaluations: u64,
 }
 
-/// Turns after which the map of a cycle takes over, where there is one.
-const TURNS_BEFORE_MAP: f64 = 48.0;
+/// Turns that are run through one by one before the map of a cycle takes over, and where it ends; turns between those whose
+/// starts are kept.
+const FEW_TURNS: f64 = 48.0;
 
 /// Runs from a start until the goal is reached, or until the angle cannot be the independent variable any more.
 ///
@@ -175,7 +176,7 @@ pub fn run<D: Driven>(
     let repeats = !reads_time && march.stations[0].table.switch.is_none();
     let mut leg = Segment::open();
     loop {
-        if repeats && march.at_cycle() && march.turns.abs() >= TURNS_BEFORE_MAP {
+        if repeats && march.at_cycle() && march.turns.abs() >= FEW_TURNS {
             return poincare_map::run(march, leg, start, speed, goal, resolution);
         }
         let next = if leg.len() < MOST_PANELS {

@@ -3,9 +3,9 @@
 use super::super::energy::NotApplicable;
 use super::super::energy::piece::{Piece, Turning};
 use super::predictor::Predictor;
-use super::sweep::SLOW;
+use super::sweep::SLOW_FACTOR;
 use super::{Driven, Table};
-use crate::numeric::chebyshev::{MOST, Rule, Values, largest};
+use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Values, largest};
 
 /// A panel with what depends on the position alone: the same in each cycle.
 #[derive(Clone)]
@@ -73,7 +73,7 @@ impl<P: Copy> Station<P> {
     ) -> Result<Station<P>, NotApplicable> {
         let mut station = Station::empty(turns, ends, Rule::of(first), side);
         station.tabulate(driven)?;
-        station.resolve(driven, fine, MOST)?;
+        station.resolve(driven, fine, MAX_DEGREE)?;
         Ok(station)
     }
 
@@ -113,11 +113,11 @@ impl<P: Copy> Station<P> {
             rule,
             table: Table::default(),
             side,
-            mobility: [0.0; MOST + 1],
-            work: [0.0; MOST + 1],
+            mobility: [0.0; MAX_DEGREE + 1],
+            work: [0.0; MAX_DEGREE + 1],
             largest_force: 0.0,
             past: Predictor::new(),
-            factor: SLOW,
+            factor: SLOW_FACTOR,
             failed: false,
             rests: Vec::new(),
             is_rest: None,

@@ -7,17 +7,17 @@ use super::sweep::Unsolved;
 use crate::engine::energy::NotApplicable;
 
 /// With less than this part of the largest kinetic energy the crank is near to rest.
-const SLOW: f64 = 1e-2;
+const NEAR_REST: f64 = 1e-2;
 /// Half of a panel of a crank near to rest is not cut below this, rad: a step in time passes the place. Half or twice as much
 /// changes none of 200 random runs.
-const SHORT: f64 = 1e-3;
+const SHORTEST_NEAR_REST: f64 = 1e-3;
 /// With less than this part of it a crank that seems to stop on a panel, half of which is this long, rad, is not
 /// followed to where it does: towards there each panel is a fraction of the one before, and a step in time passes.
-const STOPS: f64 = 0.1;
-const SOON: f64 = 0.25;
+const STOPPING_ENERGY: f64 = 0.1;
+const STOPPING_LENGTH: f64 = 0.25;
 /// Work of the position below this part of the kinetic energy is not the reason that a panel is too long: it will be in
 /// the next turn too.
-const LITTLE: f64 = 0.1;
+const SMALL_WORK: f64 = 0.1;
 
 impl<D: Driven> PanelStepper<'_, D> {
     /// Raises the degree of the next panel, or cuts it: for this turn, and for all if it happens again or will.
@@ -33,18 +33,18 @@ impl<D: Driven> PanelStepper<'_, D> {
             return Ok(());
         }
         let half = station.half().abs();
-        let slow = self.kinetic < SLOW * fastest;
+        let slow = self.kinetic < NEAR_REST * fastest;
         let stops = self.gives_up
             && why == Unsolved::Stops
-            && self.kinetic < STOPS * fastest
-            && half < SOON;
-        if stops || slow && half < SHORT {
+            && self.kinetic < STOPPING_ENERGY * fastest
+            && half < STOPPING_LENGTH;
+        if stops || slow && half < SHORTEST_NEAR_REST {
             return Err(NotApplicable::TooSlow);
         }
         let Some([first, second]) = station.parts(self.driven, 0.5, self.fine)? else {
             // Its forces may have brought it to this energy within a small part of a radian.
             let force = station.table.force[0] + station.table.push[0];
-            return Err(if slow || self.kinetic < SLOW * force.abs() {
+            return Err(if slow || self.kinetic < NEAR_REST * force.abs() {
                 NotApplicable::TooSlow
             } else {
                 NotApplicable::NotSmooth
@@ -54,7 +54,9 @@ impl<D: Driven> PanelStepper<'_, D> {
             self.parts.pop();
             self.parts.extend([second, first]);
         } else if station.failed
-            || station.is_new() && half > SOON && station.largest_work() < LITTLE * self.kinetic
+            || station.is_new()
+                && half > STOPPING_LENGTH
+                && station.largest_work() < SMALL_WORK * self.kinetic
         {
             self.stations.splice(self.next..=self.next, [first, second]);
         } else {

@@ -7,7 +7,7 @@ use super::sweep::{Start, Swept};
 use crate::engine::events::ROUNDED;
 use crate::engine::sight::{Look, Way, hidden};
 use crate::numeric::angle::Angle;
-use crate::numeric::chebyshev::{MOST, Series, largest};
+use crate::numeric::chebyshev::{MAX_DEGREE, Series, largest};
 use crate::numeric::enclosure::{Detail, Interval, Reach, ellipses};
 use crate::numeric::exact::SUM_ROUNDING;
 
@@ -123,7 +123,7 @@ impl<D: Driven> Way for OnPanel<'_, D> {
         let x = 2.0 * at - 1.0;
         let speed = self.speed(self.swept.slope.value(x));
         let mut table = Table::default();
-        let mut angles = [0.0; MOST + 1];
+        let mut angles = [0.0; MAX_DEGREE + 1];
         angles[0] = self.angle(at).rest;
         // The direction of the panel is that of its angles.
         angles[1] = self.station.piece.to;

@@ -4,7 +4,7 @@ use super::Driven;
 use super::forces::Forces;
 use super::newton::correction;
 use super::panel::Station;
-use crate::numeric::chebyshev::{MOST, Rule, Series, Values, largest};
+use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values, largest};
 use crate::numeric::exact::SUM_ROUNDING;
 
 /// The state at the start of a panel.
@@ -41,7 +41,7 @@ pub(super) struct Swept {
 impl Swept {
     /// Room for the motion on a panel.
     pub fn new() -> Swept {
-        let zero = [0.0; MOST + 1];
+        let zero = [0.0; MAX_DEGREE + 1];
         Swept {
             kinetic: zero,
             slopes: zero,
@@ -62,11 +62,9 @@ impl Swept {
 /// Most sweeps over a panel.
 const MOST_SWEEPS: u32 = 40;
 /// Sweeps that gain less than this factor give way to Newton's method; taken for the factor before it is known.
-pub(super) const SLOW: f64 = 0.3;
+pub(super) const SLOW_FACTOR: f64 = 0.3;
 /// Sweeps end where what they leave is this part of the tail: it adds up over the turns.
 const SETTLED: f64 = 1e-3;
-/// Bound on the last change if the forces are evaluated once more, which is another sweep for the energy that is gained.
-const SETTLED_BEFORE_LAST: f64 = 1e-2;
 /// Least factor that a sweep is taken to leave.
 const LEAST_FACTOR: f64 = 1e-3;
 /// The last terms of a series of speeds by what it leaves out, where it decays slowly.
@@ -94,7 +92,8 @@ pub(super) fn sweep<D: Driven>(
     let settled = if is_driven {
         SETTLED
     } else {
-        SETTLED_BEFORE_LAST
+        // They are evaluated once more, which is another sweep for the energy that is gained.
+        10.0 * SETTLED
     };
     let reads_time = is_driven && driven.reads_time();
     station.guess(start.kinetic, reads_time, &mut swept.kinetic);
@@ -122,9 +121,9 @@ pub(super) fn sweep<D: Driven>(
         } else {
             station.factor
         };
-        let at_rounding = largest < SUM_ROUNDING && largest >= SLOW * before;
+        let at_rounding = largest < SUM_ROUNDING && largest >= SLOW_FACTOR * before;
         if newton {
-            if largest * factor.min(SLOW) <= tail || at_rounding {
+            if largest * factor.min(SLOW_FACTOR) <= tail || at_rounding {
                 swept.evaluate(driven, station, start)?;
                 return swept.finish(station, start, tail);
             }
@@ -140,7 +139,7 @@ pub(super) fn sweep<D: Driven>(
             return Ok(());
         } else if before.is_finite() {
             station.factor = factor.max(LEAST_FACTOR);
-            newton = factor > SLOW;
+            newton = factor > SLOW_FACTOR;
         }
         before = largest;
     }
@@ -214,7 +213,7 @@ impl Swept {
         let count = station.rule.degree() + 1;
         let (kinetic, work) = (&self.kinetic[..count], &station.work[..count]);
         let (spent, push) = (&self.forces.spent[..count], &station.table.push[..count]);
-        let mut slopes = [0.0; MOST + 1];
+        let mut slopes = [0.0; MAX_DEGREE + 1];
         for j in 0..count {
             slopes[j] = 0.5 * (spent[j] - push[j]) / (kinetic[j] - work[j]).sqrt();
         }

@@ -4,7 +4,7 @@ use super::panel::{SHORTEST, Station};
 use super::sweep::{Start, Swept};
 use super::{Driven, Switch};
 use crate::numeric::angle::Angle;
-use crate::numeric::chebyshev::{MOST, Rule, Series, Values};
+use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values};
 use crate::numeric::dip::may_dip;
 use crate::numeric::exact::SUM_ROUNDING;
 use crate::numeric::golden;
@@ -112,10 +112,10 @@ fn values<D: Driven>(
     let times = if driven.is_driven() && driven.reads_time() {
         station.rule.integrals(&swept.slopes)
     } else {
-        [0.0; MOST + 1]
+        [0.0; MAX_DEGREE + 1]
     };
     let mut largest: f64 = 0.0;
-    let mut values = [0.0; MOST + 1];
+    let mut values = [0.0; MAX_DEGREE + 1];
     for j in 0..=station.rule.degree() {
         let speed = length / swept.slopes[j];
         let parts = parts(

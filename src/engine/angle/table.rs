@@ -1,6 +1,6 @@
 //! What is tabulated at the points of a panel.
 
-use crate::numeric::chebyshev::{MOST, Values};
+use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 
 /// What depends on the angle alone, at some angles.
 #[derive(Clone)]
@@ -36,10 +36,10 @@ pub struct Switch {
 impl Default for Switch {
     fn default() -> Switch {
         Switch {
-            force: [0.0; MOST + 1],
-            place: [0.0; MOST + 1],
-            rate: [0.0; MOST + 1],
-            square: [0.0; MOST + 1],
+            force: [0.0; MAX_DEGREE + 1],
+            place: [0.0; MAX_DEGREE + 1],
+            rate: [0.0; MAX_DEGREE + 1],
+            square: [0.0; MAX_DEGREE + 1],
         }
     }
 }
@@ -47,10 +47,10 @@ impl Default for Switch {
 impl<P> Default for Table<P> {
     fn default() -> Table<P> {
         Table {
-            inertia: [0.0; MOST + 1],
-            force: [0.0; MOST + 1],
-            push: [0.0; MOST + 1],
-            damping: [0.0; MOST + 1],
+            inertia: [0.0; MAX_DEGREE + 1],
+            force: [0.0; MAX_DEGREE + 1],
+            push: [0.0; MAX_DEGREE + 1],
+            damping: [0.0; MAX_DEGREE + 1],
             places: Vec::new(),
             switch: None,
         }

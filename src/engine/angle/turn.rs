@@ -7,7 +7,7 @@ use super::panel::{FIRST_DEGREE, Fineness, SHORTEST, Station};
 use crate::engine::energy::NotApplicable;
 use crate::engine::energy::piece::LONGEST;
 use crate::numeric::angle::Angle;
-use crate::numeric::chebyshev::{MOST, Rule};
+use crate::numeric::chebyshev::{MAX_DEGREE, Rule};
 
 /// Panels of one cycle between the corners.
 pub(super) fn stations<D: Driven>(
@@ -23,7 +23,7 @@ pub(super) fn stations<D: Driven>(
             return Ok(list);
         }
     }
-    Ok(between(driven, all, start, fine, MOST)?.unwrap_or_default())
+    Ok(between(driven, all, start, fine, MAX_DEGREE)?.unwrap_or_default())
 }
 
 /// Panels between some corners; none if one of them is not resolved up to the degree `most`.
@@ -65,7 +65,7 @@ fn between<D: Driven>(
                 let degree = list.last().map_or(FIRST_DEGREE, |last| last.rule.degree());
                 let mut station = Station::empty(turns, ends, Rule::of(degree), 1.0);
                 station.tabulate(driven)?;
-                if !station.resolve(driven, fine, most)? && most < MOST {
+                if !station.resolve(driven, fine, most)? && most < MAX_DEGREE {
                     return Ok(None);
                 }
                 list.push(station);

@@ -25,8 +25,8 @@ use step::Collocation;
 pub use tableau::Tableau;
 
 /// Factors by which a step may change.
-const LEAST: f64 = 0.1;
-const MOST: f64 = 4.0;
+const LEAST_FACTOR: f64 = 0.1;
+const GREATEST_FACTOR: f64 = 4.0;
 
 /// Integrates and hands every accepted step to `sink`, which ends the run by returning true. Returns how
 /// the run ended, the last step and the number of steps.
@@ -76,17 +76,17 @@ pub fn run(
             Err(_) if h <= 2.0 * f64::EPSILON * state.t.abs() => {
                 return (Finish::StepTooSmall, last, steps);
             }
-            Err(Failed::TooLong(factor)) => wanted = h * factor.clamp(LEAST, 0.9),
+            Err(Failed::TooLong(factor)) => wanted = h * factor.clamp(LEAST_FACTOR, 0.9),
             Err(Failed::Hides(at)) => hidden = state.t + at * h,
             Err(Failed::Meets { at, factor }) => {
                 hidden = state.t + at * h;
-                wanted = h * factor.clamp(LEAST, 0.9);
+                wanted = h * factor.clamp(LEAST_FACTOR, 0.9);
             }
             Ok(Accepted { step, next, factor }) => {
                 let whole = length >= way;
                 // What is left of the way to a corner says little about the step that follows it.
                 wanted = if whole || factor < 1.0 {
-                    length * factor.clamp(LEAST, MOST)
+                    length * factor.clamp(LEAST_FACTOR, GREATEST_FACTOR)
                 } else {
                     wanted
                 };

@@ -7,7 +7,7 @@ use super::{Contact, Phase};
 use crate::numeric::root;
 
 /// The rate of the depth may change by about this part while the depth's root is the independent variable.
-const CHANGE: f64 = 0.3;
+const RATE_CHANGE: f64 = 0.3;
 
 impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     pub(super) fn touch(&mut self, approach: f64) -> Halt {
@@ -79,12 +79,12 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
 
     /// Depth up to which the root may be the independent variable, from the deceleration at a trial depth.
     fn reach(&mut self, rate: f64) -> f64 {
-        const TRIAL: f64 = 1e-6;
+        const TRIAL_DEPTH: f64 = 1e-6;
         let y = self.y;
         let free = self.sample(Some(0.0), &y).depth_acceleration;
-        let pressed = self.sample(Some(TRIAL), &y).depth_acceleration;
-        let growth = (free - pressed).max(0.0) / (TRIAL * TRIAL.sqrt());
-        let energy = 0.5 * CHANGE * rate * rate;
+        let pressed = self.sample(Some(TRIAL_DEPTH), &y).depth_acceleration;
+        let growth = (free - pressed).max(0.0) / (TRIAL_DEPTH * TRIAL_DEPTH.sqrt());
+        let energy = 0.5 * RATE_CHANGE * rate * rate;
         let by_wall = (energy / growth.max(1e-300)).powf(0.4);
         by_wall.min(energy / free.abs().max(1e-300))
     }
@@ -92,7 +92,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     /// Whether the contact is on its way out, with a rate that hardly changes until then.
     fn leaves(&mut self) -> bool {
         let (depth, rate) = (self.now.depth, self.now.depth_rate);
-        let bounded = |acceleration: f64| acceleration.abs() * depth < CHANGE * rate * rate;
+        let bounded = |acceleration: f64| acceleration.abs() * depth < RATE_CHANGE * rate * rate;
         if rate >= 0.0 || depth <= 0.0 || !bounded(self.now.depth_acceleration) {
             return false;
         }

@@ -1,11 +1,12 @@
 //! Where the law of motion changes inside a phase, or its rates have a kink: steps end there.
 
 use super::run::{Halt, Runner};
-use super::{Contact, Finish, PIECES, Stretch};
+use super::{Contact, Finish, Stretch};
+use crate::engine::PIECES;
 use crate::numeric::root;
 
 /// What is nearer to the beginning of a step than this part of it is the break that the step begins at.
-const BEGINS: f64 = 1e-6;
+const SAME_BREAK: f64 = 1e-6;
 /// Most changes at one time, beyond which none of the laws lasts.
 const MOST_AT_ONCE: u32 = 4;
 
@@ -58,7 +59,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         for i in 1..=PIECES {
             let to = match i {
                 PIECES => stretch.end[0],
-                _ => start + h * f64::from(i) / f64::from(PIECES),
+                _ => start + h * i as f64 / PIECES as f64,
             };
             let y = stretch.at(to);
             let after = breaks(&y)?;
@@ -66,7 +67,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             let kink = (before[1] * after[1] < 0.0)
                 .then(|| root::bracketed(|t| value(1, t), from, to))
                 .flatten()
-                .filter(|t| t - start > BEGINS * h);
+                .filter(|t| t - start > SAME_BREAK * h);
             let end = (after[0] < 0.0).then(|| match before[0] > 0.0 {
                 true => root::bracketed(|t| value(0, t), from, to).unwrap_or(from),
                 false => from,

@@ -2,14 +2,15 @@
 
 use super::run::{Halt, Runner};
 use super::step::{Dense, Stages};
-use super::{Contact, PIECES, Phase, Sample};
+use super::{Contact, Phase, Sample};
+use crate::engine::PIECES;
 use crate::numeric::root;
 
 /// A piece is cut in two until it is this part of a step, or the cubic through its ends says that the gap stays open;
 /// in a piece as short as this the rate of the gap changes its sign at most once.
-const FINEST: f64 = 1.0 / 1024.0;
+const FINEST_PIECE: f64 = 1.0 / 1024.0;
 /// The gap may be off the cubic by this times what it is off in the middle of a piece.
-const DOUBT: f64 = 4.0;
+const CUBIC_MARGIN: f64 = 4.0;
 
 impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     pub(super) fn fly(&mut self) -> Halt {
@@ -140,7 +141,7 @@ fn closing<M: Contact<N>, const N: usize>(model: &M, dense: &Dense<N>, h: f64) -
     };
     let mut before = gap(0.0);
     (1..=PIECES).find_map(|i| {
-        let after = gap(f64::from(i) / f64::from(PIECES));
+        let after = gap(i as f64 / PIECES as f64);
         let found = closing_between(&gap, before, after, h);
         before = after;
         found
@@ -160,10 +161,10 @@ fn closing_between(gap: &impl Fn(f64) -> Gap, from: Gap, to: Gap, h: f64) -> Opt
     let middle = gap(0.5 * (from.u + to.u));
     let off = middle.value - 0.125 * (a + 3.0 * (b + c) + d);
     let turned = middle.rate * width - 0.75 * (c + d - a - b);
-    let doubt = DOUBT * (off.abs() + 0.25 * turned.abs());
+    let doubt = CUBIC_MARGIN * (off.abs() + 0.25 * turned.abs());
     if cubic.into_iter().fold(f64::INFINITY, f64::min) > doubt {
         None
-    } else if to.u - from.u > FINEST {
+    } else if to.u - from.u > FINEST_PIECE {
         closing_between(gap, from, middle, h).or_else(|| closing_between(gap, middle, to, h))
     } else {
         closing_in(gap, from, to)
@@ -199,7 +200,7 @@ fn closing_in(gap: &impl Fn(f64) -> Gap, start: Gap, end: Gap) -> Option<f64> {
 fn first_sign_change(value: impl Fn(f64) -> f64) -> Option<f64> {
     let mut before = 0.0;
     for i in 1..=PIECES {
-        let u = f64::from(i) / f64::from(PIECES);
+        let u = i as f64 / PIECES as f64;
         if value(u) < 0.0 {
             return root::bracketed(&value, before, u).or(Some(before));
         }

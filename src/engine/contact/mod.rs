@@ -21,9 +21,6 @@ use crate::numeric::enclosure::{Detail, Interval};
 pub use accepted_step::Stretch;
 pub use run::{Ended, Finish, run};
 
-/// Pieces of a step.
-const PIECES: u32 = super::PIECES as u32;
-
 /// What the motion is doing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Phase {

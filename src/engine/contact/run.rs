@@ -5,7 +5,7 @@ use super::step::Stages;
 use super::{Contact, Phase, Sample, Settings, Stretch};
 
 /// Most relative error of the force that is put down to rounding of the depth.
-const MOST_DOUBT: f64 = 1e-6;
+const MAX_FORCE_DOUBT: f64 = 1e-6;
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -177,7 +177,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     pub fn scale(&self, h: f64) -> [f64; N] {
         let doubt = match self.phase {
             Phase::Contact { .. } if self.now.depth > 0.0 => {
-                (2.0 * self.model.rounding(&self.y) / self.now.depth).min(MOST_DOUBT)
+                (2.0 * self.model.rounding(&self.y) / self.now.depth).min(MAX_FORCE_DOUBT)
             }
             _ => 0.0,
         };

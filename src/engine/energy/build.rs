@@ -38,7 +38,7 @@ struct Ahead {
 }
 
 /// A last panel's energy is a mean over points that are rounded, each by some units: it is seen to so many.
-const SEEN: f64 = 2.0;
+const SEEN_UNITS: f64 = 2.0;
 
 /// What is better than a panel.
 enum Better {
@@ -215,7 +215,7 @@ impl Builder<'_> {
             from, to, turning, ..
         } = panel.piece;
         if turning != Turning::AtEnd
-            || missed <= SEEN * f64::EPSILON * self.kinetic
+            || missed <= SEEN_UNITS * f64::EPSILON * self.kinetic
             || missed > 0.5 * ahead.missed
         {
             return Better::None;

@@ -11,8 +11,6 @@ use super::segment::{After, Segment};
 use super::turns::{Map, Recent, Turns};
 use super::{NotApplicable, Profile};
 
-/// Most cells.
-const MOST_CELLS: usize = 2000;
 /// Turns after the last cell that are computed one by one.
 const LAST_TURNS: f64 = 256.0;
 /// How far a cell goes beyond the least energy that occurs in its first turn, in parts of it: the nearest
@@ -71,7 +69,7 @@ impl Course<'_> {
         let (mut cells, mut marks, mut error) = (Vec::new(), Vec::new(), 0.0);
         let mut mark = self.mark(done, t);
         let mut last = None;
-        while last.is_none() && cells.len() < MOST_CELLS && !self.profile.is_spent() {
+        while last.is_none() && !self.profile.is_spent() {
             let Some(mut cell) = self.cell(mark) else {
                 break;
             };

@@ -71,7 +71,7 @@ impl Cell {
     /// A cell from turns that begin with the energies `middle + half·x`, J, at the points x of a rule.
     pub fn new(middle: f64, half: f64, rule: &'static Rule, turns: Vec<(Segment, Turn)>) -> Cell {
         let series = |of: fn(&Turn) -> f64| {
-            let mut values = [0.0; crate::numeric::chebyshev::MOST + 1];
+            let mut values = [0.0; crate::numeric::chebyshev::MAX_DEGREE + 1];
             for (value, (_, turn)) in values.iter_mut().zip(&turns) {
                 *value = of(turn);
             }

@@ -5,7 +5,7 @@ use super::piece::Turning;
 use crate::numeric::chebyshev::Values;
 
 /// The last two terms of a series show so many units of the rounding of its values.
-const SEEN: f64 = 8.0;
+const SEEN_UNITS: f64 = 8.0;
 
 /// What rounding leaves of the last terms of series, relative to the largest.
 pub(super) struct Noise {
@@ -25,9 +25,9 @@ impl Noise {
         };
         let ((light, heavy), (low, high)) = (range(inertia), range(force));
         let span = energy.piece.span().abs();
-        let units = SEEN * f64::EPSILON;
+        let units = SEEN_UNITS * f64::EPSILON;
         let place = units * energy.piece.from.abs() / span;
-        let off = place * (high - low) + SEEN * rounding;
+        let off = place * (high - low) + SEEN_UNITS * rounding;
         let of_energy = match energy.piece.turning {
             Turning::Nowhere => off * span / energy.kinetic,
             _ => off / low.abs().min(high.abs()),

@@ -9,11 +9,11 @@ use super::{NotApplicable, Profile};
 use crate::numeric::chebyshev::{self, Rule, Series, Values};
 
 /// Degree of the series: half a turn of a usual engine is right to rounding.
-pub(super) const DEGREE: usize = chebyshev::MOST;
+pub(super) const DEGREE: usize = chebyshev::MAX_DEGREE;
 
 /// Panels next to a balance are shorter than this, rad. Half or twice as much changes the stated errors of 200 random runs by
 /// 12 % at most.
-const SHORT: f64 = 0.1;
+const NEAR_BALANCE: f64 = 0.1;
 
 /// A piece with its series.
 #[derive(Clone, Debug)]
@@ -80,7 +80,7 @@ impl Panel {
             return Err(NotApplicable::NotFinite);
         }
         // Only next to a balance, where panels are short, may forces be small differences of large ones.
-        let near_balance = piece.span().abs() < SHORT;
+        let near_balance = piece.span().abs() < NEAR_BALANCE;
         let rounding = if near_balance {
             profile.rounding(piece.from)
         } else {

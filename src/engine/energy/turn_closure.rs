@@ -16,7 +16,7 @@ pub(super) struct Return<'a> {
 }
 
 /// From farther away nothing is gained, rad.
-const NEAR: f64 = 0.5;
+const NEAR_END: f64 = 0.5;
 
 impl<'a> Return<'a> {
     /// None where the turns differ.
@@ -39,7 +39,7 @@ impl<'a> Return<'a> {
     }
 
     fn is_near(&self, theta: f64) -> bool {
-        (self.angle - theta).abs() <= NEAR
+        (self.angle - theta).abs() <= NEAR_END
     }
 
     /// Kinetic energy, J, at an angle, rad; none if it is too far away.
@@ -58,7 +58,7 @@ impl<'a> Return<'a> {
         if !self.is_near(guess) {
             return None;
         }
-        let at = self.angle + (at - self.angle).clamp(-NEAR, NEAR);
+        let at = self.angle + (at - self.angle).clamp(-NEAR_END, NEAR_END);
         let rest = root::bracketed(|theta| self.force(theta), at, self.angle)?;
         root::bracketed(|theta| self.energy(theta), at, rest)
     }

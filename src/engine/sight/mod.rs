@@ -39,18 +39,16 @@ pub struct Look {
     pub compares: bool,
 }
 
-/// A corner or a jump is found to so many halvings of the whole.
+/// A corner or a jump is found to so many halvings of the whole: the place in a panel is rounded by more.
 const HALVINGS: i32 = 46;
 /// Part of what is allowed that each corner may leave.
 const AT_CORNER: f64 = 1e-4;
-/// Part of what is allowed that may be missed on the shorter side of a corner.
-const BESIDE_CORNER: f64 = 10.0 * AT_CORNER;
 /// A step whose nodes are not to be compared shows what it shows on pieces of about a quarter: its stages are so far apart.
-const COARSE: f64 = 0.2;
+const SHOWN_PIECE: f64 = 0.2;
 /// Most pieces of one panel that are looked at.
 const MOST_PIECES: usize = 400;
 /// Ends that are left out where a corner is at an end, off by what its place is off.
-const ENDS: [f64; 2] = [9.5367431640625e-7, 9.094947017729282e-13];
+const END_PARTS: [f64; 2] = [9.5367431640625e-7, 9.094947017729282e-13];
 
 impl Look {
     /// At a step from one time to another (s), which ends no closer to its start than some roundings of the time.
@@ -104,7 +102,7 @@ impl Look {
             let detail = way.detail(from, to, self.ellipses[0]);
             detail.change * end <= AT_CORNER * self.allowed
         };
-        ENDS.into_iter().find(little).unwrap_or(0.0)
+        END_PARTS.into_iter().find(little).unwrap_or(0.0)
     }
 }
 
@@ -203,7 +201,7 @@ impl Search {
     /// Whether there is a corner so near to an end that the nodes are all on one side, and something on the other.
     fn cuts_off(&self) -> bool {
         let [before, behind] = self.missed;
-        let share = BESIDE_CORNER * self.look.allowed;
+        let share = 10.0 * AT_CORNER * self.look.allowed;
         let missed = self.corner.map(|at| if at < 0.5 { before } else { behind });
         self.look.compares && missed.is_some_and(|missed| missed > share)
     }
@@ -234,7 +232,7 @@ impl Search {
             return;
         }
         if !self.look.compares {
-            if to - from < COARSE {
+            if to - from < SHOWN_PIECE {
                 (self.is_missed, self.first) = (true, Some([from, to]));
             }
             return;

@@ -9,7 +9,7 @@ pub struct Turned {
 }
 
 /// Beyond this angle, rad, the series is not exact to rounding.
-const NEAR: f64 = 0.02;
+const SERIES_RANGE: f64 = 0.02;
 
 impl Turned {
     /// At a crank angle and a direction of the rod, rad.
@@ -40,7 +40,7 @@ impl Turned {
 #[inline(always)]
 fn turned([from, sin, cos]: &[f64; 3], angle: f64) -> (f64, f64) {
     let turn = angle - from;
-    if turn.abs() > NEAR {
+    if turn.abs() > SERIES_RANGE {
         return angle.sin_cos();
     }
     let q = turn * turn;

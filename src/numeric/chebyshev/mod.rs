@@ -7,13 +7,13 @@ mod transform;
 pub use rule::Rule;
 
 /// The largest degree of a series.
-pub const MOST: usize = 32;
+pub const MAX_DEGREE: usize = 32;
 
 /// What rounding leaves of the last terms of a series and of an integral by a rule, relative to the largest.
 pub const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Values at the points of a rule, or coefficients; what is beyond its degree is zero.
-pub type Values = [f64; MOST + 1];
+pub type Values = [f64; MAX_DEGREE + 1];
 
 /// The largest of some values, as a magnitude.
 pub fn largest(values: &[f64]) -> f64 {
@@ -86,7 +86,7 @@ impl Series {
     /// Integral from −1; the term beyond the degree is left out, for it is as small as the tail.
     pub fn integral(&self) -> Series {
         let c = |k: usize| self.terms().get(k).copied().unwrap_or(0.0);
-        let mut result = [0.0; MOST + 1];
+        let mut result = [0.0; MAX_DEGREE + 1];
         let mut at_start = 0.0;
         let mut sign = -1.0;
         for (k, term) in result.iter_mut().enumerate().take(self.degree + 1).skip(1) {
@@ -101,7 +101,7 @@ impl Series {
 
     /// The sum of series of one degree, each times its share.
     pub fn blend<'a>(parts: impl Iterator<Item = (&'a Series, f64)>) -> Series {
-        let mut sum = Series::new(0, [0.0; MOST + 1]);
+        let mut sum = Series::new(0, [0.0; MAX_DEGREE + 1]);
         for (series, share) in parts {
             sum.degree = series.degree;
             for (c, part) in sum.coefficients.iter_mut().zip(&series.coefficients) {
@@ -113,7 +113,7 @@ impl Series {
 
     /// Derivative.
     pub fn derivative(&self) -> Series {
-        let mut result = [0.0; MOST + 1];
+        let mut result = [0.0; MAX_DEGREE + 1];
         for k in (0..self.degree).rev() {
             let after = result.get(k + 2).copied().unwrap_or(0.0);
             result[k] = after + 2.0 * (k + 1) as f64 * self.coefficients[k + 1];

@@ -5,7 +5,7 @@ use std::fmt;
 use std::sync::OnceLock;
 
 use super::transform::{HALF, Half, Matrices};
-use super::{MOST, Series, Values};
+use super::{MAX_DEGREE, Series, Values};
 use crate::numeric::exact::two_sum;
 
 /// Sums that are kept apart; all degrees are multiples of it.
@@ -22,7 +22,7 @@ pub struct Rule {
     /// Integrals from 0 to the points.
     integrals: Matrices,
     /// Shares of the values in the last two coefficients.
-    last: [[f64; 2]; MOST + 1],
+    last: [[f64; 2]; MAX_DEGREE + 1],
     /// The matrix of integration, once it is asked for.
     integration: OnceLock<Vec<Values>>,
 }
@@ -49,11 +49,11 @@ impl Rule {
     fn new(degree: usize) -> Rule {
         let mut rule = Rule {
             degree,
-            points: [0.0; MOST + 1],
-            weights: [0.0; MOST + 1],
+            points: [0.0; MAX_DEGREE + 1],
+            weights: [0.0; MAX_DEGREE + 1],
             series: Matrices::new(),
             integrals: Matrices::new(),
-            last: [[0.0; 2]; MOST + 1],
+            last: [[0.0; 2]; MAX_DEGREE + 1],
             integration: OnceLock::new(),
         };
         let n = degree as f64;
@@ -76,7 +76,7 @@ impl Rule {
         }
         rule.fill_integrals(&cosines);
         for j in 0..=degree {
-            let mut unit = [0.0; MOST + 1];
+            let mut unit = [0.0; MAX_DEGREE + 1];
             unit[j] = 1.0;
             let series = rule.series(&unit);
             rule.last[j] = [series.coefficient(degree - 1), series.coefficient(degree)];
@@ -135,7 +135,7 @@ impl Rule {
 
     /// Values of a function at the points.
     pub fn values(&self, mut f: impl FnMut(f64) -> f64) -> Values {
-        let mut values = [0.0; MOST + 1];
+        let mut values = [0.0; MAX_DEGREE + 1];
         for (value, x) in values.iter_mut().zip(self.points()) {
             *value = f(*x);
         }
@@ -180,9 +180,9 @@ impl Rule {
     /// The matrix of [`Self::integrals`], by rows.
     pub fn integration(&self) -> &[Values] {
         self.integration.get_or_init(|| {
-            let mut rows = vec![[0.0; MOST + 1]; self.degree + 1];
+            let mut rows = vec![[0.0; MAX_DEGREE + 1]; self.degree + 1];
             for j in 0..=self.degree {
-                let mut unit = [0.0; MOST + 1];
+                let mut unit = [0.0; MAX_DEGREE + 1];
                 unit[j] = 1.0;
                 let column = self.integrals(&unit);
                 for (row, value) in rows.iter_mut().zip(column) {
@@ -219,11 +219,11 @@ impl Rule {
     /// Shares of the values at the points in the value at `x` of the polynomial through them (barycentric
     /// formula; Trefethen, theorem 5.2).
     pub fn shares(&self, x: f64) -> Values {
-        let mut shares = [0.0; MOST + 1];
+        let mut shares = [0.0; MAX_DEGREE + 1];
         let mut sum = 0.0;
         for (j, point) in self.points().iter().enumerate() {
             if x == *point {
-                shares = [0.0; MOST + 1];
+                shares = [0.0; MAX_DEGREE + 1];
                 shares[j] = 1.0;
                 return shares;
             }

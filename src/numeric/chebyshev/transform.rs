@@ -3,10 +3,10 @@
 //! The points are symmetric, so even and odd parts of a function are transformed apart, with half the
 //! points each. Degrees are constants here, so that the compiler keeps the sums in registers, two in each.
 
-use super::{MOST, Values};
+use super::{MAX_DEGREE, Values};
 
 /// Half of the largest degree, the middle point, and one for pairs of rows to be complete.
-pub(super) const HALF: usize = MOST / 2 + 2;
+pub(super) const HALF: usize = MAX_DEGREE / 2 + 2;
 
 /// What belongs to half of the points or coefficients.
 pub(super) type Half = [f64; HALF];
@@ -51,7 +51,7 @@ impl Matrices {
     /// Coefficients, where the matrices give the even and the odd ones.
     pub fn coefficients<const DEGREE: usize, const ROWS: usize>(&self, values: &Values) -> Values {
         let [even, odd] = self.products::<DEGREE, ROWS>(values);
-        let mut coefficients = [0.0; MOST + 1];
+        let mut coefficients = [0.0; MAX_DEGREE + 1];
         for k in 0..DEGREE / 2 {
             coefficients[2 * k] = even[k];
             coefficients[2 * k + 1] = odd[k];
@@ -65,7 +65,7 @@ impl Matrices {
     pub fn integrals<const DEGREE: usize, const ROWS: usize>(&self, values: &Values) -> Values {
         let [odd, even] = self.products::<DEGREE, ROWS>(values);
         let from_start = odd[0] - even[0];
-        let mut integrals = [0.0; MOST + 1];
+        let mut integrals = [0.0; MAX_DEGREE + 1];
         for j in 0..=DEGREE / 2 {
             integrals[j] = from_start + even[j] - odd[j];
             integrals[DEGREE - j] = from_start + even[j] + odd[j];

@@ -11,7 +11,7 @@ pub struct Wanted {
     pub part: f64,
 }
 
-/// Pieces are not halved more often.
+/// A corner or a jump is found to so many halvings of the whole, which leave some units of its last place.
 const HALVINGS: usize = 50;
 /// Most pieces that are looked at.
 const MOST_PIECES: usize = 100_000;

@@ -10,7 +10,7 @@ use super::super::energy::segment::Segment;
 use super::super::energy::turns::{Map, Recent, Turns};
 use super::super::energy::{NotApplicable, Orbit};
 use super::stepper::PanelStepper;
-use super::{Done, Driven, Driving, Errors, Goal, Resolution, Short, work_until};
+use super::{Done, Driven, Driving, Errors, FEW_TURNS, Goal, Resolution, Short, work_until};
 use crate::numeric::angle::Angle;
 
 /// Degree of the interpolation over the energy.
@@ -21,13 +21,8 @@ const WIDEST: f64 = 0.5;
 const NARROWEST: f64 = 1e-7;
 /// The next cell is made as wide as leaves this part of the tail allowed.
 const SAFETY: f64 = 0.2;
-/// Turns between the marks that are kept.
-const BETWEEN_MARKS: f64 = 64.0;
 /// Most turns that are iterated, some seconds: beyond them the work limit is reached.
 const MOST_TURNS: f64 = 1e8;
-
-/// Turns that are run through one by one where the map ends, before another run takes over.
-const MOST_SINGLE_TURNS: f64 = 64.0;
 
 /// Goes on from the start of a turn until the goal, or as far as the angle can be the independent variable.
 pub(super) fn run<D: Driven>(
@@ -169,7 +164,7 @@ impl<D: Driven> Way<'_, D> {
                 }
                 return (mark, None);
             }
-            if mark.turns - known.turns >= BETWEEN_MARKS {
+            if mark.turns - known.turns >= FEW_TURNS {
                 self.marks.push(mark);
                 known = mark;
             }
@@ -231,7 +226,7 @@ impl<D: Driven> Way<'_, D> {
         self.march.gives_up = true;
         let most = match map_ended {
             None | Some(NotApplicable::WorkLimit) => 1.0,
-            Some(_) => MOST_SINGLE_TURNS,
+            Some(_) => FEW_TURNS,
         };
         let limited = map_ended.filter(|why| *why == NotApplicable::WorkLimit);
         if limited.is_some() {
