@@ -234,20 +234,25 @@ fn polar(rows: &[TurnRow]) -> Vec<Figure> {
     ]
 }
 
+/// Amplitudes (order, size) as stems.
+pub(super) fn stems(label: &str, ends: impl Iterator<Item = (f64, f64)>) -> Figure {
+    let stems = ends.flat_map(|(k, size)| [(k, 0.0), (k, size), (f64::NAN, size)]);
+    let axis = Axis::linear("order, times a turn");
+    Figure::new("", axis, Axis::linear(label)).line("", stems.collect())
+}
+
 fn orders(orders: &[Order]) -> Vec<Figure> {
-    let stems = |label: &str, value: fn(&Order) -> f64| {
-        let ends = orders.iter().map(|order| (order.order, value(order)));
-        let stems = ends
-            .clone()
-            .flat_map(|(k, size)| [(k, 0.0), (k, size), (f64::NAN, size)]);
-        Figure::new("", Axis::linear("order, times a turn"), Axis::linear(label))
-            .line("", stems.collect())
+    let of = |label: &str, value: fn(&Order) -> f64| {
+        stems(
+            label,
+            orders.iter().map(|order| (order.order, value(order))),
+        )
     };
     vec![
-        stems("shaking force, along x [N]", |order| order.shaking_x_n),
-        stems("shaking force, along y [N]", |order| order.shaking_y_n),
-        stems("shaking moment [N m]", |order| order.shaking_moment_nm),
-        stems("driving torque [N m]", |order| order.torque_nm),
+        of("shaking force, along x [N]", |order| order.shaking_x_n),
+        of("shaking force, along y [N]", |order| order.shaking_y_n),
+        of("shaking moment [N m]", |order| order.shaking_moment_nm),
+        of("driving torque [N m]", |order| order.torque_nm),
     ]
 }
 

@@ -7,6 +7,7 @@ use super::decimate::Thinned;
 use super::figure::{Axis, Figure};
 use super::page::{Origin, Page};
 use super::rows::{cells, header};
+use super::steady::speed_figure;
 use super::table::Table;
 use super::text::facts;
 use crate::error::Error;
@@ -70,7 +71,13 @@ impl PlotRows {
     /// # Errors
     /// [`Error::Write`].
     pub fn page(&self, summary: &Summary, scene: &Scene, origin: &Origin) -> Result<String, Error> {
+        let steady = summary
+            .steady_state
+            .as_ref()
+            .map(speed_figure)
+            .transpose()?;
         Page::new(origin, &facts(summary))
+            .figures(steady.into_iter().collect())
             .table(&self.table(scene))
             .mechanism(scene)
             .terms(summary)

@@ -1,7 +1,9 @@
 //! The periodic steady state in words.
 
+use super::diagrams::stems;
 use super::key_values::{Facts, fact, given, with_error};
-use crate::simulate::{Estimated, Flywheel, SpeedExtreme, SteadyState};
+use crate::error::Error;
+use crate::simulate::{Estimated, Flywheel, SpeedExtreme, SpeedOrder, SteadyState};
 
 fn shown(estimated: Estimated, unit: &str) -> String {
     let Estimated { value, error } = estimated;
@@ -20,6 +22,9 @@ pub(super) fn steady_state(facts: &mut Facts, steady: &SteadyState) {
     facts.add("  slowest", extreme(&steady.slowest));
     facts.add("  fastest", extreme(&steady.fastest));
     facts.add("  fluctuation", shown(steady.fluctuation, ""));
+    if let Some(orders) = speed_orders(&steady.speed_orders) {
+        facts.add("  speed orders", orders);
+    }
     let left = if steady.stable {
         format!(
             "{} of one is left after a {a_cycle}",
@@ -37,6 +42,31 @@ pub(super) fn steady_state(facts: &mut Facts, steady: &SteadyState) {
     for note in &steady.notes {
         facts.add("  note", note);
     }
+}
+
+/// The largest orders that are beyond their errors.
+fn speed_orders(orders: &[SpeedOrder]) -> Option<String> {
+    const SHOWN: usize = 3;
+    let amplitude = |order: &SpeedOrder| order.amplitude_rad_per_s.value;
+    let known = |order: &&SpeedOrder| amplitude(order) > order.amplitude_rad_per_s.error;
+    let mut largest: Vec<_> = orders.iter().filter(known).collect();
+    largest.sort_by(|one, other| amplitude(other).total_cmp(&amplitude(one)));
+    let words = largest.iter().take(SHOWN).map(|order| {
+        let amplitude = shown(order.amplitude_rad_per_s, "rad/s");
+        format!("{} a turn {amplitude}", order.order)
+    });
+    let words: Vec<String> = words.collect();
+    (!words.is_empty()).then(|| words.join("; "))
+}
+
+/// The orders of the speed as SVG.
+///
+/// # Errors
+/// [`Error::Write`], which would be a defect.
+pub(super) fn speed_figure(steady: &SteadyState) -> Result<String, Error> {
+    let orders = steady.speed_orders.iter();
+    let ends = orders.map(|order| (order.order, order.amplitude_rad_per_s.value));
+    stems("crank speed [rad/s]", ends).to_svg()
 }
 
 fn extreme(extreme: &SpeedExtreme) -> String {

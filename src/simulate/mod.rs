@@ -43,7 +43,8 @@ pub use run::{simulate, simulate_rows};
 pub use simulation::Simulation;
 pub use stalled::Torques;
 pub use steady::{
-    Estimated, Flywheel, LoadWork, SpeedExtreme, SteadyOptions, SteadyState, steady_state,
+    Estimated, Flywheel, LoadWork, SpeedExtreme, SpeedOrder, SteadyOptions, SteadyState,
+    steady_state,
 };
 pub use stop::{Stopped, Why};
 pub use warning::{NoRange, Warning};

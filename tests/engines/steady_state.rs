@@ -9,7 +9,7 @@ use slider_crank::scene::{
     Branch, Clearance, Crank, Gravity, Joint, Load, Period, Rod, Scene, Slider, Variables,
 };
 use slider_crank::simulate::{
-    Options, SteadyOptions, SteadyState, Summary, simulate, steady_state,
+    Estimated, Options, SteadyOptions, SteadyState, Summary, simulate, steady_state,
 };
 
 fn steady(scene: &Scene) -> SteadyState {
@@ -326,6 +326,37 @@ fn without_speed_in_the_loads_the_start_speed_is_the_steady_one() {
     let turn = turns(&scene, 1.0, Method::Dop853);
     assert!((turn.last.t_s - found.period_s.value).abs() < 1e-11);
     assert!((turn.omega_min - found.slowest.omega_rad_per_s.value).abs() < 1e-7);
+}
+
+/// I ω²/2 = I ω₀²/2 + A sin(2θ)/2: the second order of ω = √(ω₀² + A sin(2θ)/I), by the midpoint rule.
+#[test]
+fn orders_of_the_speed_are_its_fourier_coefficients() {
+    let (inertia, size, speed) = (0.02, 3.0, 30.0);
+    let scene = crank(inertia)
+        .torque(
+            Load::function(Variables::THETA, |now| 3.0 * (2.0 * now.theta).cos())
+                .with_period(Period::TURN),
+        )
+        .start(0.0, speed);
+    let found = steady(&scene).speed_orders;
+    let omega = |theta: f64| (speed * speed + size / inertia * (2.0 * theta).sin()).sqrt();
+    let amplitude = |order: f64| {
+        let parts = (0..1000).map(|k| (f64::from(k) + 0.5) / 1000.0 * TAU);
+        let sums = parts.fold([0.0, 0.0], |[even, odd], theta| {
+            let (sin, cos) = (order * theta).sin_cos();
+            [even + omega(theta) * cos, odd + omega(theta) * sin]
+        });
+        2.0 * sums[0].hypot(sums[1]) / 1000.0
+    };
+    assert_eq!(found.len(), 12);
+    for one in found {
+        let Estimated { value, error } = one.amplitude_rad_per_s;
+        let off = (value - amplitude(one.order)).abs();
+        assert!(
+            off <= error + 1e-13 * speed && error < 1e-11 * speed,
+            "{one:?} is off by {off}"
+        );
+    }
 }
 
 #[test]

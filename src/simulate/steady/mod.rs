@@ -2,6 +2,7 @@
 
 mod flywheel;
 mod loads;
+mod orders;
 mod periodic_orbit;
 mod refusal;
 mod result;
@@ -11,6 +12,7 @@ mod timed;
 use super::error_estimate::MARGIN;
 use crate::error::Error;
 use crate::scene::Scene;
+pub use orders::SpeedOrder;
 use periodic_orbit::{Found, Seeker};
 use refusal::Refusal;
 pub use result::{Estimated, Flywheel, LoadWork, SpeedExtreme, SteadyState};
@@ -137,6 +139,7 @@ fn describe(scene: &Scene, found: &Found, check: &Found) -> SteadyState {
         stable: multiplier.value + multiplier.error < 1.0,
         multiplier,
         approached_from_start: None,
+        speed_orders: orders::orders(found, check, relative),
         power_in_w,
         power_out_w,
         loads,

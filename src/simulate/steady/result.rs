@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::orders::SpeedOrder;
 use crate::scene::{Extent, Scene};
 
 /// A value with an estimate of its error, in the same unit.
@@ -49,6 +50,8 @@ pub struct SteadyState {
     pub stable: bool,
     /// Whether it is the motion that the scene's own start speed approaches; none for a start at rest.
     pub approached_from_start: Option<bool>,
+    /// Orders of the speed over the crank angle, up to the twelfth.
+    pub speed_orders: Vec<SpeedOrder>,
     /// Mean power that loads put in, W: those whose work over a cycle is positive.
     pub power_in_w: Estimated,
     /// Mean power that loads take out, W, positive.
