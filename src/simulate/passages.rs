@@ -161,7 +161,7 @@ impl Part for Stretch<'_> {
     }
 
     fn time_of(&mut self, turned: f64, [from, to]: [f64; 2]) -> Option<f64> {
-        if self.orbit.turns_back() {
+        if !self.orbit.rotates() {
             return root::bracketed(|t| self.turned(t) - turned, from, to);
         }
         let before = self.orbit.start().minus(self.task.start());

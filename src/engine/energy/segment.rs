@@ -113,21 +113,17 @@ impl Segment {
             let turns = angle.turns - panel.turns;
             Angle { turns, ..angle }.radians()
         };
-        let mut inside = self.panels.iter().zip(&self.begins).filter(|(panel, _)| {
+        // Panels follow each other in one direction.
+        let is_begun = |panel: &Panel| {
             let piece = &panel.piece;
-            (piece.from.min(piece.to)..=piece.from.max(piece.to)).contains(&local(panel))
-        });
-        if let Some((panel, begin)) = inside.next() {
-            return Some(begin + panel.time_of(local(panel)));
-        }
-        let (first, last) = (self.panels.first()?, self.panels.last()?);
-        let is_near = |panel: &Panel, end: f64| (local(panel) - end).abs() <= SAME_ANGLE;
-        let at_end = || is_near(last, last.piece.to).then_some(self.duration.0);
-        if is_near(first, first.piece.from) {
-            Some(0.0)
-        } else {
-            at_end()
-        }
+            (local(panel) - piece.from) * (piece.to - piece.from) >= 0.0
+        };
+        let index = self.panels.partition_point(is_begun).saturating_sub(1);
+        let panel = self.panels.get(index)?;
+        let (piece, at) = (&panel.piece, local(panel));
+        let on_it = at.clamp(piece.from.min(piece.to), piece.from.max(piece.to));
+        let is_near = (at - on_it).abs() <= SAME_ANGLE;
+        is_near.then(|| self.begins[index] + panel.time_of(on_it))
     }
 
     /// Smallest and largest |speed| between two times.
