@@ -54,8 +54,8 @@ fn time(result: &Inverse) -> Axis {
 fn quantity(result: &Inverse) -> (&'static str, &'static str, f64) {
     match result.summary.data.column {
         "x" => ("slider position x", "mm", 1e3),
-        "gamma" => ("crank-pin angle gamma", "deg", 1f64.to_degrees()),
-        _ => ("crank angle theta", "deg", 1f64.to_degrees()),
+        "gamma" => ("crank-pin angle γ", "°", 1f64.to_degrees()),
+        _ => ("crank angle θ", "°", 1f64.to_degrees()),
     }
 }
 
@@ -81,7 +81,10 @@ fn motion(result: &Inverse) -> Figure {
     Figure::new(
         format!("{name}: samples and {} fit", result.summary.fit.kind),
         time(result),
-        Axis::linear(format!("{name} [{unit}]")),
+        match unit {
+            "°" => Axis::degrees(format!("{name} [{unit}]")),
+            _ => Axis::linear(format!("{name} [{unit}]")),
+        },
     )
     .points(
         one_in(few, "samples"),
