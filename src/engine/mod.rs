@@ -10,6 +10,7 @@ pub mod runge_kutta;
 pub mod sight;
 pub mod step;
 pub mod time;
+pub mod work_forecast;
 
 use std::cell::Cell;
 

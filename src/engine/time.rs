@@ -7,6 +7,7 @@ use super::runge_kutta;
 use super::runge_kutta::{Call, Ended};
 use super::sight::hides;
 use super::step::{Node, Step};
+use super::work_forecast::{Ends, WorkForecast};
 use super::{Counted, Motion};
 use crate::numeric::angle::Angle;
 
@@ -36,6 +37,17 @@ pub struct Settings {
     pub work_unit: f64,
 }
 
+impl Settings {
+    /// Where a run ends.
+    pub fn ends(&self) -> Ends {
+        Ends {
+            t: self.t_end,
+            way: self.way,
+            evaluations: self.max_evaluations,
+        }
+    }
+}
+
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Finish {
@@ -45,6 +57,10 @@ pub enum Finish {
     Stopped,
     /// The work limit is reached.
     WorkLimit,
+    /// At the pace of the last steps it would be reached long before the end.
+    WorkLimitAhead,
+    /// At the speed of the last turns it would be.
+    TooManyTurns,
     /// The step size became too small for the time to move on: a singularity.
     StepTooSmall,
     /// There is no acceleration at the start.
@@ -80,9 +96,28 @@ pub fn run(
     settings: &Settings,
     sink: &mut dyn FnMut(&Step) -> bool,
 ) -> (Finish, Step, u64) {
-    match settings.method {
-        Method::Picard => collocation::run(motion, start, settings, sink),
-        Method::Library(method) => in_calls(motion, start, settings, method, sink),
+    let mut forecast = WorkForecast::new(
+        start.t,
+        motion.evaluations(),
+        settings.ends(),
+        motion.depends_on_time(),
+    );
+    let mut hopeless = None;
+    let watched = &mut |step: &Step| {
+        if sink(step) {
+            return true;
+        }
+        let travel = step.end.theta - step.start.theta;
+        hopeless = forecast.is_hopeless(motion.evaluations(), step.end.t, travel);
+        hopeless.is_some()
+    };
+    let (finish, last, steps) = match settings.method {
+        Method::Picard => collocation::run(motion, start, settings, watched),
+        Method::Library(method) => in_calls(motion, start, settings, method, watched),
+    };
+    match (finish, hopeless) {
+        (Finish::Stopped, Some(why)) => (why, last, steps),
+        _ => (finish, last, steps),
     }
 }
 

@@ -26,7 +26,7 @@ impl Default for Options {
             reactions: false,
             driving_torque: false,
             estimate: true,
-            max_evaluations: 200_000_000,
+            max_evaluations: 2_000_000_000,
             events_kept: 1000,
         }
     }

@@ -25,6 +25,10 @@ pub struct Stopped {
 pub enum Why {
     /// The work limit of evaluations is reached.
     WorkLimit,
+    /// The steps have become so short that it would be reached long before the end.
+    WorkLimitAhead,
+    /// The crank turns so often that it would be.
+    TooManyTurns,
     /// The crank needs for ever for so many turns.
     Turns(f64),
     /// A periodic swing of this period, s.
@@ -111,7 +115,15 @@ impl fmt::Display for Stopped {
         match &self.why {
             Why::WorkLimit => write!(
                 f,
-                "the work limit of evaluations is reached: {place}; raise --max-evaluations, shorten the run or loosen the tolerance; where a load jumps back and forth with the speed give dry friction as kind = \"dry\" or at the guide as [friction]"
+                "the work limit of evaluations is reached: {place}; raise --max-evaluations, shorten the run or loosen the tolerance"
+            ),
+            Why::WorkLimitAhead => write!(
+                f,
+                "the steps have become so short that the work limit of evaluations would be reached long before the end: {place}; the equation is too stiff for a method in time, or a load jumps back and forth with the speed: give dry friction as kind = \"dry\" or at the guide as [friction], and steep losses less steep, or raise --max-evaluations"
+            ),
+            Why::TooManyTurns => write!(
+                f,
+                "the crank turns so often that the work limit of evaluations would be reached long before the end: {place}; shorten the run or raise --max-evaluations"
             ),
             Why::Turns(turns) => write!(
                 f,
@@ -256,6 +268,7 @@ pub(super) fn not_applicable(unserved: NotApplicable) -> &'static str {
         NotApplicable::NotSmooth => "a load is not smooth",
         NotApplicable::TooSlow => "the crank comes too near to rest",
         NotApplicable::WorkLimit => "it takes more evaluations than the work limit allows",
+        NotApplicable::TooManyTurns => "it takes more turns than the work limit allows",
         NotApplicable::TooLong => {
             "its turns differ from each other, and they are too many to be kept"
         }

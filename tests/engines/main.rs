@@ -36,4 +36,5 @@ mod steady_state;
 mod switching_properties;
 mod time_engine;
 mod unstable;
+mod work_forecast;
 mod work_limit;

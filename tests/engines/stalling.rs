@@ -43,21 +43,20 @@ fn formula(text: &str) -> Load {
     Load::Expression(Expression::parse(text).expect("a formula"))
 }
 
-/// Formulas that turn round with the speed hold it at zero by chattering, as long as the work limit lets them.
+/// Formulas that turn round with the speed hold it at zero by chattering.
 #[test]
-fn motions_that_make_no_way_end_at_the_work_limit() {
-    let options = Options {
-        max_evaluations: 2_000_000,
-        ..Options::default()
-    };
+fn motions_that_make_no_way_are_given_up() {
     for (scene, t) in [
         (machine().force(formula("-5*sign(v)")), 0.04),
         (rubbing(0.2, 0.3).force(formula("3 - 20*step(v)")), 0.05),
     ] {
-        let summary = run_with(&scene, &options);
-        let why = summary.stopped.expect("a limit").to_string();
-        assert!(why.contains("work limit") && why.contains("t = "), "{why}");
-        assert!(summary.last.t_s >= t && summary.evaluations < 2_100_000);
+        let summary = run(&scene);
+        let why = summary.stopped.expect("given up").to_string();
+        assert!(
+            why.contains("long before the end") && why.contains("t = "),
+            "{why}"
+        );
+        assert!(summary.last.t_s >= t && summary.evaluations < 20_000_000);
         assert!(summary.energy_residual.abs() < 1e-6);
     }
 }

@@ -32,7 +32,8 @@ use std::f64::consts::TAU;
 use super::energy::piece::SAME_ANGLE;
 use super::energy::segment::{MOST_PANELS, Segment};
 use super::energy::{NotApplicable, Orbit};
-use super::time::Start;
+use super::time::{FAR, Start};
+use super::work_forecast::{Ends, WorkForecast};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
 use crate::numeric::enclosure::{Detail, Reach};
@@ -174,8 +175,16 @@ pub fn run<D: Driven>(
     march.gives_up = true;
     let reads_time = driven.is_driven() && driven.reads_time();
     let repeats = !reads_time && march.stations[0].table.switch.is_none();
+    let mut forecast = forecast(&march, goal, reads_time);
+    let way = f64::from(driven.cycle()) * TAU;
     let mut leg = Segment::open();
     loop {
+        let spent = march.spent();
+        let done = march.at_cycle() && leg.len() > 0;
+        if done && forecast.is_hopeless(spent, march.t.0, way).is_some() {
+            let why = NotApplicable::TooManyTurns;
+            return Ok(ended(march, leg, (start, speed), why));
+        }
         if repeats && march.at_cycle() && march.turns.abs() >= FEW_TURNS {
             return poincare_map::run(march, leg, start, speed, goal, resolution);
         }
@@ -212,6 +221,20 @@ pub fn run<D: Driven>(
             });
         }
     }
+}
+
+/// What tells whether a run whose turns are run through one by one will reach its goal.
+fn forecast<D: Driven>(march: &PanelStepper<'_, D>, goal: Goal, reads_time: bool) -> WorkForecast {
+    let (t, way) = match goal {
+        Goal::Time(until) => (until, f64::INFINITY),
+        Goal::Turned(way) => (FAR, way),
+    };
+    let ends = Ends {
+        t,
+        way,
+        evaluations: march.most_evaluations,
+    };
+    WorkForecast::new(0.0, march.spent(), ends, reads_time)
 }
 
 /// A run that ended before its goal, from an angle with a speed (rad/s).

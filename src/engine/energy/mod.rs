@@ -66,6 +66,8 @@ pub enum NotApplicable {
     NotFinite,
     /// The run takes more evaluations than are allowed.
     WorkLimit,
+    /// The crank turns so often that the limit would be reached long before the end.
+    TooManyTurns,
     /// More panels than are kept: a long run whose turns differ from each other.
     TooLong,
     /// A load jumps, or has a corner that nobody announced.

@@ -8,11 +8,12 @@ use super::stick_slip::{
     CLEAR, CRANK, DEAD_CENTRE, InPhase, LIMIT, NORMAL, Phase, Quantities, SPEED, Signs, TURNED,
     sliding,
 };
-use crate::engine::Counted;
 use crate::engine::event_functions;
 use crate::engine::event_functions::{Change, EventFunction};
 use crate::engine::step::{Node, Step};
 use crate::engine::time::{self, Finish, Settings, Start};
+use crate::engine::work_forecast::WorkForecast;
+use crate::engine::{Counted, Motion};
 use crate::scene::Friction;
 
 /// A run under way.
@@ -104,7 +105,11 @@ impl Run<'_, '_> {
 
     /// Pieces of sliding until the end.
     fn pieces(&mut self) -> Option<End> {
+        let in_time = self.in_phase(Phase::Sticking).depends_on_time();
+        let ends = self.follow.settings.ends();
+        let mut forecast = WorkForecast::new(self.now.t, 0, ends, in_time);
         loop {
+            let from = self.now.angle;
             let end = match self.slide() {
                 Cut::Ended(Finish::AtEnd) => Some(End::Done),
                 Cut::Ended(finish) => Some(self.singular(finish)),
@@ -130,6 +135,10 @@ impl Run<'_, '_> {
             let spent = self.piece.evaluations + self.quantities.evaluations.get();
             if spent >= self.follow.settings.max_evaluations {
                 return Some(End::Integrator(Finish::WorkLimit));
+            }
+            let travel = self.now.angle.minus(from);
+            if let Some(finish) = forecast.is_hopeless(spent, self.now.t, travel) {
+                return Some(End::Integrator(finish));
             }
         }
     }

@@ -107,7 +107,7 @@ impl Pass<'_, '_> {
 
     /// The engine that follows; none at the end.
     fn next(&mut self, engine: Engine, why: Why) -> Result<Option<Engine>, Error> {
-        use NotApplicable::{TooLong, TooSlow, WorkLimit};
+        use NotApplicable::{TooLong, TooManyTurns, TooSlow, WorkLimit};
         let why = match why {
             Why::Ended => return Ok(None),
             Why::Clear => return Ok(Some(Engine::Angle)),
@@ -124,8 +124,11 @@ impl Pass<'_, '_> {
         Ok(match (engine, why) {
             (Engine::Energy, TooLong | TooSlow) if plan.has(Engine::Angle) => Some(Engine::Angle),
             (Engine::Angle, TooLong) if self.has_begun() => Some(Engine::Angle),
-            (Engine::Angle, WorkLimit) if self.has_begun() => {
-                self.arrived.end = End::Integrator(Finish::WorkLimit);
+            (Engine::Angle, WorkLimit | TooManyTurns) if self.has_begun() => {
+                self.arrived.end = End::Integrator(match why {
+                    WorkLimit => Finish::WorkLimit,
+                    _ => Finish::TooManyTurns,
+                });
                 None
             }
             _ => Some(Engine::Time),

@@ -27,6 +27,8 @@ pub(super) fn reason(course: &Course<'_>, arrived: &Arrived) -> Option<Why> {
     };
     Some(match finish {
         Finish::WorkLimit => Why::WorkLimit,
+        Finish::WorkLimitAhead => Why::WorkLimitAhead,
+        Finish::TooManyTurns => Why::TooManyTurns,
         _ => match course.curve.get().filter(|_| arrived.on_curve) {
             Some(on) => singular_on_curve(task.equation(), &on.equation, arrived),
             None => singular(task.equation(), arrived),

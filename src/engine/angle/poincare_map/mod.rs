@@ -21,7 +21,7 @@ const WIDEST: f64 = 0.5;
 const NARROWEST: f64 = 1e-7;
 /// The next cell is made as wide as leaves this part of the tail allowed.
 const SAFETY: f64 = 0.2;
-/// Most turns that are iterated, some seconds: beyond them the work limit is reached.
+/// Most turns that are iterated, some seconds.
 const MOST_TURNS: f64 = 1e8;
 
 /// Goes on from the start of a turn until the goal, or as far as the angle can be the independent variable.
@@ -169,7 +169,7 @@ impl<D: Driven> Way<'_, D> {
                 known = mark;
             }
             if mark.turns - first > MOST_TURNS {
-                return (known, Some(NotApplicable::WorkLimit));
+                return (known, Some(NotApplicable::TooManyTurns));
             }
             self.rises = turn.gain > 0.0;
             self.lost = turn.gain.abs();
@@ -225,10 +225,11 @@ impl<D: Driven> Way<'_, D> {
         self.march.restart(mark.kinetic);
         self.march.gives_up = true;
         let most = match map_ended {
-            None | Some(NotApplicable::WorkLimit) => 1.0,
+            None | Some(NotApplicable::WorkLimit | NotApplicable::TooManyTurns) => 1.0,
             Some(_) => FEW_TURNS,
         };
-        let limited = map_ended.filter(|why| *why == NotApplicable::WorkLimit);
+        let limited = map_ended
+            .filter(|why| matches!(why, NotApplicable::WorkLimit | NotApplicable::TooManyTurns));
         if limited.is_some() {
             self.march.most_evaluations = u64::MAX;
         }
