@@ -27,6 +27,9 @@ pub enum Error {
         /// The system's reason.
         source: std::io::Error,
     },
+    /// Somebody asked to stop.
+    #[error("interrupted")]
+    Interrupted,
     /// The scene cannot be computed the way it is asked for.
     #[error("{what}\nhelp: {help}")]
     Refused {
@@ -63,7 +66,7 @@ impl Error {
     /// Exit status of the program: 2 for what the user must change, 1 for the rest.
     pub fn exit_status(&self) -> u8 {
         match self {
-            Error::Write { .. } => 1,
+            Error::Write { .. } | Error::Interrupted => 1,
             _ => 2,
         }
     }

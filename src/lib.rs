@@ -78,6 +78,8 @@ pub mod statics;
 pub mod sweep;
 pub mod trajectory;
 
+pub use numeric::stop::Stop;
+
 #[cfg(all(doctest, feature = "cli"))]
 #[doc = include_str!("../README.md")]
 struct Readme;

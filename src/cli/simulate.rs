@@ -106,6 +106,7 @@ impl Arguments {
             estimate: !self.no_estimate,
             max_evaluations: self.max_evaluations,
             events_kept: self.max_events,
+            stop: None,
         }
     }
 
@@ -113,6 +114,7 @@ impl Arguments {
         SteadyOptions {
             fluctuation: self.fluctuation,
             max_evaluations: self.max_evaluations,
+            stop: None,
         }
     }
 }

@@ -86,10 +86,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         steady: arguments.steady_state.then_some(SteadyOptions {
             fluctuation: arguments.fluctuation,
             max_evaluations: arguments.max_evaluations,
+            stop: None,
         }),
         method: arguments.method,
         estimate: !arguments.no_estimate,
         max_evaluations: arguments.max_evaluations,
+        stop: None,
     };
     let sweep = Sweep::new(draft, arguments.vary.clone(), options)?;
     let part = arguments.shard.unwrap_or([1, 1]);

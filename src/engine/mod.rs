@@ -11,11 +11,13 @@ pub mod sight;
 pub mod step;
 pub mod time;
 pub mod work_forecast;
+mod work_limit;
 
 use std::cell::Cell;
 
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{Detail, Reach};
+pub use work_limit::WorkLimit;
 
 /// An equation of motion θ̈ = f(t, θ, θ̇) and a power whose integral is wanted beside it.
 pub trait Motion {

@@ -8,7 +8,7 @@ use super::runge_kutta::{Call, Ended};
 use super::sight::hides;
 use super::step::{Node, Step};
 use super::work_forecast::{Ends, WorkForecast};
-use super::{Counted, Motion};
+use super::{Counted, Motion, WorkLimit};
 use crate::numeric::angle::Angle;
 
 /// The methods.
@@ -22,7 +22,7 @@ pub enum Method {
 
 /// How to integrate.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
+pub struct Settings<'a> {
     /// The method.
     pub method: Method,
     /// Local error target, relative and absolute.
@@ -31,19 +31,19 @@ pub struct Settings {
     pub t_end: f64,
     /// How far (rad) the crank has to turn, if the run ends with that; else infinite.
     pub way: f64,
-    /// Most evaluations; the run ends there with [`Finish::WorkLimit`].
-    pub max_evaluations: u64,
+    /// The run ends there with [`Finish::WorkLimit`].
+    pub limit: WorkLimit<'a>,
     /// Unit of work, J, in which its error is measured.
     pub work_unit: f64,
 }
 
-impl Settings {
+impl Settings<'_> {
     /// Where a run ends.
     pub fn ends(&self) -> Ends {
         Ends {
             t: self.t_end,
             way: self.way,
-            evaluations: self.max_evaluations,
+            evaluations: self.limit.evaluations,
         }
     }
 }
@@ -93,7 +93,7 @@ pub const FAR: f64 = 1e9;
 pub fn run(
     motion: &Counted<'_>,
     start: Start,
-    settings: &Settings,
+    settings: &Settings<'_>,
     sink: &mut dyn FnMut(&Step) -> bool,
 ) -> (Finish, Step, u64) {
     let mut forecast = WorkForecast::new(
@@ -124,7 +124,7 @@ pub fn run(
 fn in_calls(
     motion: &Counted<'_>,
     start: Start,
-    settings: &Settings,
+    settings: &Settings<'_>,
     method: runge_kutta::Method,
     sink: &mut dyn FnMut(&Step) -> bool,
 ) -> (Finish, Step, u64) {
@@ -145,14 +145,14 @@ fn in_calls(
     let mut hidden = f64::INFINITY;
     loop {
         let spent = motion.evaluations();
-        if spent >= settings.max_evaluations {
+        if settings.limit.is_reached(spent) {
             return (Finish::WorkLimit, last, steps);
         }
         if hidden <= node.t {
             hidden = f64::INFINITY;
         }
         let (mut in_call, mut ended_by_sink, mut rejected) = (0, false, None);
-        let left = (settings.max_evaluations - spent) / method.evaluations_in_a_step();
+        let left = settings.limit.after(spent).evaluations / method.evaluations_in_a_step();
         let ended = runge_kutta::integrate(Call {
             motion,
             method,
@@ -234,7 +234,7 @@ pub fn shortened(
     motion: &Counted<'_>,
     step: &Step,
     t_end: f64,
-    settings: &Settings,
+    settings: &Settings<'_>,
     sink: &mut dyn FnMut(&Step) -> bool,
 ) -> Step {
     let start = Start {
@@ -244,7 +244,7 @@ pub fn shortened(
     };
     let settings = Settings {
         t_end,
-        max_evaluations: u64::MAX,
+        limit: WorkLimit::NONE,
         ..*settings
     };
     let mut last = run(motion, start, &settings, sink).1;

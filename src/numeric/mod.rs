@@ -18,5 +18,6 @@ pub mod polynomial_fit;
 pub mod powers;
 pub mod real;
 pub mod root;
+pub mod stop;
 pub mod student;
 pub mod trigonometry;

@@ -1,9 +1,11 @@
 //! What is asked of a run.
 
+use crate::engine::WorkLimit;
+use crate::numeric::stop::Stop;
 use crate::plan::Method;
 
 /// What is asked of a run beside what the scene says.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// The method; [`Method::Auto`] leaves it to the plan.
     pub method: Method,
@@ -17,6 +19,8 @@ pub struct Options {
     pub max_evaluations: u64,
     /// Most events that are listed; all are counted.
     pub events_kept: usize,
+    /// A request to stop; the run ends where it is made with what it has.
+    pub stop: Option<Stop>,
 }
 
 impl Default for Options {
@@ -28,6 +32,16 @@ impl Default for Options {
             estimate: true,
             max_evaluations: 2_000_000_000,
             events_kept: 1000,
+            stop: None,
+        }
+    }
+}
+
+impl Options {
+    pub(super) fn limit(&self) -> WorkLimit<'_> {
+        WorkLimit {
+            evaluations: self.max_evaluations,
+            stop: self.stop.as_ref(),
         }
     }
 }

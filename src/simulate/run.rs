@@ -108,7 +108,7 @@ fn run_keeping(
             estimate: false,
             reactions: false,
             events_kept: 0,
-            ..*options
+            ..options.clone()
         };
         let seen = run_keeping(0, scene, &blind, &mut NoRows)?.summary;
         let end = seen.last.t_s;

@@ -3,6 +3,7 @@
 use super::options::Options;
 use super::row::RowMaker;
 use super::schedule::Schedule;
+use super::stop::Why;
 use crate::engine::runge_kutta;
 use crate::engine::time::{self, Settings, Start};
 use crate::mechanism::{Class, Equation, Limits};
@@ -50,8 +51,16 @@ impl RunSetup<'_> {
         }
     }
 
+    /// Why a run ends at its limit of work.
+    pub fn limited(&self) -> Why {
+        match &self.options.stop {
+            Some(stop) if stop.is_requested() => Why::Interrupted,
+            _ => Why::WorkLimit,
+        }
+    }
+
     /// How the run is integrated in time.
-    pub fn settings(&self) -> Settings {
+    pub fn settings(&self) -> Settings<'_> {
         let motion = &self.scene.motion;
         let inertia = self.equation().terms(motion.angle).inertia.m;
         let unit = 0.5 * inertia * motion.speed.powi(2).max(1.0);
@@ -67,7 +76,7 @@ impl RunSetup<'_> {
                 Extent::Revolutions(_) => time::FAR,
             },
             way: self.extent.angle().unwrap_or(f64::INFINITY),
-            max_evaluations: self.options.max_evaluations,
+            limit: self.options.limit(),
             work_unit: if unit > 0.0 { unit } else { 1.0 },
         }
     }

@@ -186,6 +186,7 @@ fn commutator(x: &Matrix3<f64>, y: &Matrix3<f64>) -> Matrix3<f64> {
 mod tests {
     use super::*;
     use crate::engine::Counted;
+    use crate::engine::WorkLimit;
     use crate::engine::time::{self, Method, Settings, Start};
     use crate::numeric::angle::Angle;
 
@@ -221,7 +222,7 @@ mod tests {
             tolerance: 1e-14,
             t_end,
             way: f64::INFINITY,
-            max_evaluations: u64::MAX,
+            limit: WorkLimit::NONE,
             work_unit: 1.0,
         };
         let mut steps = Vec::new();

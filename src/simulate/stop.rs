@@ -29,6 +29,8 @@ pub enum Why {
     WorkLimitAhead,
     /// The crank turns so often that it would be.
     TooManyTurns,
+    /// Somebody asked to stop.
+    Interrupted,
     /// The crank needs for ever for so many turns.
     Turns(f64),
     /// A periodic swing of this period, s.
@@ -125,6 +127,7 @@ impl fmt::Display for Stopped {
                 f,
                 "the crank turns so often that the work limit of evaluations would be reached long before the end: {place}; shorten the run or raise --max-evaluations"
             ),
+            Why::Interrupted => write!(f, "interrupted: {place}"),
             Why::Turns(turns) => write!(
                 f,
                 "the crank does not complete {turns} turns: {place}; give a duration instead"

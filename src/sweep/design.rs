@@ -98,6 +98,7 @@ impl Design {
             reactions: options.reactions,
             estimate: options.estimate,
             max_evaluations: options.max_evaluations,
+            stop: options.stop.clone(),
             // All that is wanted of the events is their number.
             events_kept: 0,
             ..Options::default()

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use crate::error::Error;
 use crate::numeric::parallel;
+use crate::numeric::stop::Stop;
 use crate::plan::Method;
 use crate::scene::{Draft, Scene, Varied};
 
@@ -15,7 +16,7 @@ use crate::simulate::{Options, SteadyOptions};
 pub use design::{Design, Outcome};
 
 /// What is asked of every design beside what the scene says.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SweepOptions {
     /// Whether the forward motion is computed, if the scene has a run; else one turn in closed form only.
     pub motion: bool,
@@ -29,6 +30,8 @@ pub struct SweepOptions {
     pub estimate: bool,
     /// Most evaluations of the equation in one design.
     pub max_evaluations: u64,
+    /// A request to stop; designs that are not complete by then are not handed on.
+    pub stop: Option<Stop>,
 }
 
 impl Default for SweepOptions {
@@ -41,6 +44,7 @@ impl Default for SweepOptions {
             method: one.method,
             estimate: one.estimate,
             max_evaluations: one.max_evaluations,
+            stop: None,
         }
     }
 }
@@ -110,7 +114,7 @@ impl Sweep {
         let mut sweep = Sweep {
             draft,
             varied,
-            options,
+            options: SweepOptions::default(),
             title: String::new(),
         };
         // What is wrong with the file shows here once, not in every design.
@@ -161,8 +165,8 @@ impl Sweep {
     }
 
     /// Whether the steady state is looked for, and with which flywheel.
-    pub fn steady(&self) -> Option<SteadyOptions> {
-        self.options.steady
+    pub fn steady(&self) -> Option<&SteadyOptions> {
+        self.options.steady.as_ref()
     }
 
     /// Title of the scene.
@@ -191,7 +195,11 @@ impl Sweep {
         let mut hasher = DefaultHasher::new();
         let version = env!("CARGO_PKG_VERSION");
         (version, self.draft.text()).hash(&mut hasher);
-        format!("{:?}", self.options).hash(&mut hasher);
+        let options = SweepOptions {
+            stop: None,
+            ..self.options.clone()
+        };
+        format!("{options:?}").hash(&mut hasher);
         for one in &self.varied {
             one.key().hash(&mut hasher);
             (0..one.len()).for_each(|i| one.text(i).hash(&mut hasher));
@@ -226,7 +234,7 @@ impl Sweep {
     /// Computes designs on all cores and hands them on in their order, some at a time.
     ///
     /// # Errors
-    /// Those of `take`.
+    /// Those of `take`; [`Error::Interrupted`].
     pub fn designs(
         &self,
         range: Range<usize>,
@@ -243,6 +251,9 @@ impl Sweep {
                 count = (2 * count).min(1 << 14);
             } else if begun.elapsed() > PAUSE {
                 count = (count / 2).max(16);
+            }
+            if self.options.stop.as_ref().is_some_and(Stop::is_requested) {
+                return Err(Error::Interrupted);
             }
             take(designs)?;
             start = end;

@@ -664,7 +664,7 @@ fn what_cannot_be_computed_is_refused_with_the_reason() {
     refused(&rubbing, &default, "massless link");
     let method = Options {
         method: Method::Time,
-        ..default
+        ..default.clone()
     };
     refused(&good, &method, "method time");
     let mut rocker = good.constant_speed(4.0, 10.0);

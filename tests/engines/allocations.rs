@@ -1,6 +1,7 @@
 //! Runs in time take no memory per step, row or evaluation: ten times the steps, the same allocations.
 
 use allocation_counter::measure;
+use slider_crank::engine::WorkLimit;
 use slider_crank::engine::time::{Method as Stepper, Settings, Start, run};
 use slider_crank::engine::{Counted, Motion};
 use slider_crank::error::Error;
@@ -42,7 +43,7 @@ fn steps_take_no_memory() {
             tolerance: 1e-10,
             t_end,
             way: f64::INFINITY,
-            max_evaluations: u64::MAX,
+            limit: WorkLimit::NONE,
             work_unit: 1.0,
         };
         let start = Start {

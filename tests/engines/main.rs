@@ -18,6 +18,7 @@ mod estimates;
 mod forward;
 mod handover;
 mod hard_cases;
+mod interrupted;
 mod limits_properties;
 mod many_turns;
 mod number_formats;

@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use crate::support::machines::machine;
 use proptest::prelude::*;
+use slider_crank::engine::WorkLimit;
 use slider_crank::engine::collocation::Tableau;
 use slider_crank::engine::events::{self, Crossing};
 use slider_crank::engine::step::Step;
@@ -169,13 +170,16 @@ impl<F: Fn(f64, f64, f64) -> f64> Motion for Made<F> {
     }
 }
 
-fn settings(tolerance: f64, t_end: f64) -> Settings {
+fn settings(tolerance: f64, t_end: f64) -> Settings<'static> {
     Settings {
         method: Stepper::Picard,
         tolerance,
         t_end,
         way: f64::INFINITY,
-        max_evaluations: 1_000_000,
+        limit: WorkLimit {
+            evaluations: 1_000_000,
+            stop: None,
+        },
         work_unit: 1.0,
     }
 }
@@ -493,7 +497,10 @@ fn a_run_ends_where_the_acceleration_does() {
 fn work_has_a_limit_and_time_does_not_run_backwards() {
     let motion = made(|t, theta, _| -1e4 * theta + t);
     let limited = Settings {
-        max_evaluations: 500,
+        limit: WorkLimit {
+            evaluations: 500,
+            stop: None,
+        },
         ..settings(1e-10, 100.0)
     };
     let (done, finish, evaluations) = steps(&motion, (0.0, 1.0, 0.0), &limited);

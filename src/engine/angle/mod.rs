@@ -29,6 +29,7 @@ mod turn;
 
 use std::f64::consts::TAU;
 
+use super::WorkLimit;
 use super::energy::piece::SAME_ANGLE;
 use super::energy::segment::{MOST_PANELS, Segment};
 use super::energy::{NotApplicable, Orbit};
@@ -142,13 +143,13 @@ pub struct Short {
 
 /// How fine the panels are.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Resolution {
+pub struct Resolution<'a> {
     /// Series end where their coefficients have decayed to this.
     pub tail: f64,
     /// Panels are cut unevenly once more from the start, which makes another discretization to compare with.
     pub other: bool,
-    /// Most evaluations of the loads and positions in tables.
-    pub most_evaluations: u64,
+    /// On evaluations of the loads and positions in tables.
+    pub limit: WorkLimit<'a>,
 }
 
 /// Turns that are run through one by one before the map of a cycle takes over, and where it ends; turns between those whose
@@ -163,7 +164,7 @@ pub fn run<D: Driven>(
     driven: &D,
     from: Start,
     goal: Goal,
-    resolution: Resolution,
+    resolution: Resolution<'_>,
 ) -> Result<Driving, NotApplicable> {
     let (start, speed) = (from.angle.reduced(), from.speed);
     let mut march = PanelStepper::new(driven, start, speed, resolution)?;
@@ -232,7 +233,7 @@ fn forecast<D: Driven>(march: &PanelStepper<'_, D>, goal: Goal, reads_time: bool
     let ends = Ends {
         t,
         way,
-        evaluations: march.most_evaluations,
+        evaluations: march.limit.evaluations,
     };
     WorkForecast::new(0.0, march.spent(), ends, reads_time)
 }

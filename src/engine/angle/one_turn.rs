@@ -44,7 +44,7 @@ impl<'a, D: Driven> Turns<'a, D> {
         driven: &'a D,
         angle: Angle,
         speed: f64,
-        resolution: Resolution,
+        resolution: Resolution<'a>,
     ) -> Result<Turns<'a, D>, NotApplicable> {
         let start = angle.reduced();
         let march = PanelStepper::new(driven, start, speed, resolution)?;

@@ -13,6 +13,7 @@ use super::sweep::{Start, Swept, sweep};
 use super::switch::{Side, begins_beyond, side};
 use super::turn::stations;
 use super::{Driven, Resolution};
+use crate::engine::WorkLimit;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
 use crate::numeric::enclosure::Interval;
@@ -53,7 +54,7 @@ pub(super) struct PanelStepper<'a, D: Driven> {
     /// Largest kinetic energy at the ends of panels so far, J.
     pub fastest: f64,
     start: Angle,
-    pub most_evaluations: u64,
+    pub limit: WorkLimit<'a>,
     /// Whether a panel was cut or its degree raised since this was last cleared.
     pub refined: bool,
     /// Whether the points of a panel did not show the loads since this was last cleared.
@@ -76,7 +77,7 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
         driven: &'a D,
         start: Angle,
         speed: f64,
-        resolution: Resolution,
+        resolution: Resolution<'a>,
     ) -> Result<PanelStepper<'a, D>, NotApplicable> {
         let fine = Fineness {
             tail: resolution.tail,
@@ -118,7 +119,7 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
             positions,
             fastest: kinetic,
             start,
-            most_evaluations: resolution.most_evaluations,
+            limit: resolution.limit,
             refined: false,
             hid: false,
             gives_up: false,
@@ -184,7 +185,7 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
     pub fn panel(&mut self) -> Result<Done, NotApplicable> {
         let mut turned_over = 0;
         loop {
-            if self.spent() > self.most_evaluations {
+            if self.limit.is_reached(self.spent()) {
                 return Err(NotApplicable::WorkLimit);
             }
             let start = Start {

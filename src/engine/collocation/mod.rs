@@ -33,7 +33,7 @@ const GREATEST_FACTOR: f64 = 4.0;
 pub fn run(
     motion: &Counted<'_>,
     start: Start,
-    settings: &Settings,
+    settings: &Settings<'_>,
     sink: &mut dyn FnMut(&Step) -> bool,
 ) -> (Finish, Step, u64) {
     let mut state = State::new(start);
@@ -61,7 +61,7 @@ pub fn run(
         if h <= 0.0 {
             return (Finish::StepTooSmall, last, steps);
         }
-        if motion.evaluations() >= settings.max_evaluations {
+        if settings.limit.is_reached(motion.evaluations()) {
             return (Finish::WorkLimit, last, steps);
         }
         let is_last = state.t + h >= until;

@@ -16,6 +16,7 @@ mod run;
 mod seen;
 mod step;
 
+use super::WorkLimit;
 use crate::numeric::enclosure::{Detail, Interval};
 
 pub use accepted_step::Stretch;
@@ -121,11 +122,11 @@ pub trait Contact<const N: usize> {
 
 /// How a run is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
+pub struct Settings<'a> {
     /// Local error target, relative to the sizes.
     pub tolerance: f64,
     /// s
     pub t_end: f64,
-    /// Most evaluations of the rates.
-    pub max_evaluations: u64,
+    /// On evaluations of the rates.
+    pub limit: WorkLimit<'a>,
 }

@@ -42,7 +42,7 @@ pub(super) type Follower<'a, const N: usize> = &'a mut dyn FnMut(&mut Stretch<'_
 
 pub(super) struct Runner<'a, M: Contact<N>, const N: usize> {
     pub model: &'a M,
-    pub settings: Settings,
+    pub settings: Settings<'a>,
     pub follower: Follower<'a, N>,
     pub y: [f64; N],
     pub phase: Phase,
@@ -71,7 +71,7 @@ pub fn run<M: Contact<N>, const N: usize>(
     model: &M,
     start: [f64; N],
     linked: bool,
-    settings: Settings,
+    settings: Settings<'_>,
     follower: &mut dyn FnMut(&mut Stretch<'_, N>) -> bool,
 ) -> Ended<N> {
     let (sizes, counted) = model.sizes();
@@ -236,7 +236,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     }
 
     pub fn check_work(&self) -> Halt {
-        if self.evaluations >= self.settings.max_evaluations {
+        if self.settings.limit.is_reached(self.evaluations) {
             return Err(Finish::WorkLimit);
         }
         Ok(())

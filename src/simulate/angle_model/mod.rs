@@ -7,6 +7,7 @@ use std::f64::consts::TAU;
 
 use super::guide_friction::{BESIDE, Grip, Sliding};
 use super::marks::{Marks, in_order};
+use crate::engine::WorkLimit;
 use crate::engine::angle::{Driven, Table};
 use crate::engine::energy::Profile;
 use crate::mechanism::{Equation, Limits};
@@ -36,7 +37,7 @@ pub(super) struct AngleModel<'a> {
     /// Work of the loads in one turn, J, and its error, if they are the same in each.
     work_of_turn: Option<(f64, f64)>,
     evaluations: Cell<u64>,
-    most_evaluations: u64,
+    limit: WorkLimit<'a>,
 }
 
 impl<'a> AngleModel<'a> {
@@ -67,13 +68,13 @@ impl<'a> AngleModel<'a> {
             repeats: loads.have_potential() && loads.constant_torque() == 0.0,
             work_of_turn: None,
             evaluations: Cell::new(0),
-            most_evaluations: u64::MAX,
+            limit: WorkLimit::NONE,
         }
     }
 
     /// A motion made of its energy ends after so many positions.
-    pub fn with_limit(mut self, most_evaluations: u64) -> AngleModel<'a> {
-        self.most_evaluations = most_evaluations;
+    pub fn with_limit(mut self, limit: WorkLimit<'a>) -> AngleModel<'a> {
+        self.limit = limit;
         self
     }
 
@@ -284,7 +285,7 @@ impl Profile for AngleModel<'_> {
     }
 
     fn is_spent(&self) -> bool {
-        self.evaluations() >= self.most_evaluations
+        self.limit.is_reached(self.evaluations())
     }
 
     fn repeats(&self) -> bool {

@@ -167,7 +167,7 @@ impl<'a, const N: usize> Run<'a, N> {
         let settings = Settings {
             tolerance,
             t_end,
-            max_evaluations: self.task.options.max_evaluations,
+            limit: self.task.options.limit(),
         };
         let start = model.numbers(&self.start, [0.0; 2]);
         contact::run(model, start, self.linked(), settings, follower)
@@ -194,7 +194,7 @@ impl<'a, const N: usize> Run<'a, N> {
             (Finish::AtEnd, Extent::Revolutions(turns)) if last.t >= FAR => Some(Why::Turns(turns)),
             (Finish::AtEnd | Finish::Stopped | Finish::Broken, _) => None,
             (Finish::StepTooSmall, _) if self.mechanism.jams(last) => Some(Why::JamLoose),
-            (Finish::WorkLimit, _) => Some(Why::WorkLimit),
+            (Finish::WorkLimit, _) => Some(self.task.limited()),
             (Finish::StepTooSmall, _) => Some(match self.without_value(last) {
                 Some(load) => Why::NoValueLoose(load.clone()),
                 None => Why::ContactTooStiff,

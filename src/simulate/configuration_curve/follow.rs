@@ -133,7 +133,7 @@ impl Run<'_, '_> {
                 return end.or(Some(End::Done));
             }
             let spent = self.piece.evaluations + self.quantities.evaluations.get();
-            if spent >= self.follow.settings.max_evaluations {
+            if self.follow.settings.limit.is_reached(spent) {
                 return Some(End::Integrator(Finish::WorkLimit));
             }
             let travel = self.now.angle.minus(from);
@@ -165,7 +165,7 @@ impl Run<'_, '_> {
         let looked_at = Counted::new(&in_phase);
         let spent = self.piece.evaluations + self.quantities.evaluations.get();
         let settings = Settings {
-            max_evaluations: self.follow.settings.max_evaluations.saturating_sub(spent),
+            limit: self.follow.settings.limit.after(spent),
             ..self.follow.settings
         };
         let mut cut = None;

@@ -20,7 +20,7 @@ pub(in crate::simulate) trait Observer {
 /// What is followed, and how far.
 pub(in crate::simulate) struct Follow<'a> {
     pub equation: &'a CurveEquation,
-    pub settings: Settings,
+    pub settings: Settings<'a>,
     /// Of the coordinate.
     pub start: Start,
     /// How far the crank may turn from `turned_from`, rad.

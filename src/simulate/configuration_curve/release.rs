@@ -1,5 +1,6 @@
 //! When loads that change in time tear a sticking slider loose.
 
+use crate::engine::WorkLimit;
 use crate::mechanism::AtRest;
 use crate::numeric::root;
 
@@ -27,14 +28,14 @@ pub(super) fn time(
     mu_static: f64,
     from: f64,
     to: f64,
-    allowed: u64,
+    allowed: WorkLimit<'_>,
 ) -> (Release, u64) {
     let mut count = 0;
     let band = |t: f64| rest.margin(t, mu_static);
     let longest = FIRST * (to - from);
     let shortest = SHORTEST * (to - from);
     let (mut t, mut length) = (from, longest);
-    while t < to && count < allowed {
+    while t < to && !allowed.is_reached(count) {
         let end = rest.next_corner(t).min(to).min(t + length);
         let times = PLACES.map(|part| {
             if part == 1.0 {

@@ -55,7 +55,7 @@ impl Run<'_, '_> {
         let changes = equation.loads().reads().has(Variable::T);
         let (release, looked) = if changes {
             let spent = self.piece.evaluations + self.quantities.evaluations.get();
-            let allowed = self.follow.settings.max_evaluations.saturating_sub(spent);
+            let allowed = self.follow.settings.limit.after(spent);
             release::time(&equation.at_rest(angle), mu_static, t, end, allowed)
         } else {
             (Release::Never, 0)

@@ -30,7 +30,7 @@ pub(super) trait Sink: Observer {
         &mut self,
         _motion: &Counted<'_>,
         _last: &Step,
-        _settings: &Settings,
+        _settings: &Settings<'_>,
     ) -> Option<Step> {
         None
     }

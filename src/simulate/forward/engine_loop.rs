@@ -8,10 +8,10 @@ use super::super::configuration_curve::{End, OnCurve};
 use super::super::run_setup::RunSetup;
 use super::arrived::{Arrived, Sink, Why};
 use super::stop_reason;
-use crate::engine::Counted;
 use crate::engine::angle::Resolution;
 use crate::engine::energy::NotApplicable;
 use crate::engine::time::{Finish, Settings};
+use crate::engine::{Counted, WorkLimit};
 use crate::error::Error;
 use crate::plan::{Engine, Method};
 use crate::scene::Extent;
@@ -26,11 +26,11 @@ pub(super) struct Course<'a> {
     /// Whether it is the pass that another one is compared with.
     pub is_second: bool,
     pub extent: Extent,
-    pub resolution: Resolution,
-    pub settings: Settings,
+    pub resolution: Resolution<'a>,
+    pub settings: Settings<'a>,
     /// How far (rad) the crank turns in one direction before the angle takes over again.
     pub wait: f64,
-    pub max_evaluations: u64,
+    pub limit: WorkLimit<'a>,
     /// The configuration curve, once a piece follows it.
     pub curve: OnceCell<OnCurve>,
 }
@@ -71,15 +71,15 @@ impl Course<'_> {
     }
 }
 
-impl Pass<'_, '_> {
+impl<'a> Pass<'a, '_> {
     fn spent(&self) -> u64 {
         let places = self.course.position.evaluations() - self.places;
         places + self.beside + self.motion.evaluations()
     }
 
-    /// Evaluations that are left of the work limit.
-    pub fn left(&self) -> u64 {
-        self.course.max_evaluations.saturating_sub(self.spent())
+    /// What is left of the work limit.
+    pub fn left(&self) -> WorkLimit<'a> {
+        self.course.limit.after(self.spent())
     }
 
     fn pieces(&mut self) -> Result<(), Error> {

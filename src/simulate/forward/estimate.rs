@@ -23,7 +23,7 @@ use super::over_angle::finer;
 use crate::engine::angle::Errors;
 use crate::engine::step::Step;
 use crate::engine::time::{Method, Settings, Start};
-use crate::engine::{Counted, Motion};
+use crate::engine::{Counted, Motion, WorkLimit};
 use crate::error::Error;
 use crate::mechanism::{CurveEquation, Equation};
 use crate::plan::Engine;
@@ -74,7 +74,7 @@ fn by_second_run(
         ..course.settings
     };
     let mut evaluations = 0;
-    let mut second = |settings: Settings| {
+    let mut second = |settings: Settings<'_>| {
         let share = arrived.evaluations.saturating_mul(FOR_ONE);
         let beside = BESIDE[usize::from(arrived.over_angle > 0)];
         let t_end = arrived.now.t;
@@ -88,7 +88,10 @@ fn by_second_run(
             resolution: finer(),
             settings: Settings { t_end, ..settings },
             wait: OTHER_WAIT,
-            max_evaluations: share.saturating_add(beside).min(course.max_evaluations),
+            limit: WorkLimit {
+                evaluations: share.saturating_add(beside).min(course.limit.evaluations),
+                ..course.limit
+            },
             ..course.clone()
         };
         let forward = Forward(course.task.equation());

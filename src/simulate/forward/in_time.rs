@@ -9,6 +9,7 @@ use super::arrived::Why;
 use super::clear::Clear;
 use super::engine_loop::{Course, Pass};
 use super::stop_reason;
+use crate::engine::WorkLimit;
 use crate::engine::step::Step;
 use crate::engine::time::{self, Finish, Settings, Start};
 use crate::error::Error;
@@ -67,7 +68,10 @@ impl Pass<'_, '_> {
     fn of_crank(&mut self, clear: &mut Clear<'_>) -> (Piece, bool) {
         let from = self.arrived.now;
         let settings = Settings {
-            max_evaluations: self.motion.evaluations() + self.left(),
+            limit: WorkLimit {
+                evaluations: self.motion.evaluations() + self.left().evaluations,
+                ..self.left()
+            },
             ..self.course.settings
         };
         self.sink.begin_in_time(from, None);
@@ -106,7 +110,7 @@ impl Pass<'_, '_> {
         let follow = Follow {
             equation: &on.equation,
             settings: Settings {
-                max_evaluations: self.left(),
+                limit: self.left(),
                 ..course.settings
             },
             // Only a crank that turns fully is handed over, and its angle is the coordinate.

@@ -54,7 +54,7 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
         resolution: over_angle::plain(task),
         settings: task.settings(),
         wait: WAIT,
-        max_evaluations: task.options.max_evaluations,
+        limit: task.options.limit(),
         curve: OnceCell::new(),
     };
     let forward = Forward(task.equation());
@@ -105,7 +105,7 @@ fn position<'a>(task: &'a RunSetup<'_>) -> AngleModel<'a> {
     let speed = task.scene.motion.speed;
     let mut position = AngleModel::new(task.equation(), &task.limits, task.start(), speed)
         .with_friction(task.maker.sliding.as_deref())
-        .with_limit(task.options.max_evaluations);
+        .with_limit(task.options.limit());
     if task.plan.engine == Engine::Time {
         return position;
     }

@@ -146,7 +146,7 @@ impl<'a> Notes<'a> {
         &mut self,
         motion: &Counted<'_>,
         step: &Step,
-        settings: &Settings,
+        settings: &Settings<'_>,
     ) -> Option<Step> {
         let until = |t_end: f64, sink: &mut dyn FnMut(&Step) -> bool| {
             time::shortened(motion, step, t_end, settings, sink)
@@ -289,7 +289,7 @@ impl Sink for Notes<'_> {
         &mut self,
         motion: &Counted<'_>,
         last: &Step,
-        settings: &Settings,
+        settings: &Settings<'_>,
     ) -> Option<Step> {
         let shortened = self.shortened(motion, last, settings);
         let end = shortened.as_ref().unwrap_or(last).end.t;

@@ -10,6 +10,7 @@ use super::super::run_setup::RunSetup;
 use super::super::stop;
 use super::arrived::{Driven, Why};
 use super::engine_loop::Pass;
+use crate::engine::WorkLimit;
 use crate::engine::angle::{self, Driving, Goal, Resolution};
 use crate::engine::energy::{NotApplicable, Orbit};
 use crate::engine::time::Start;
@@ -97,7 +98,7 @@ impl Pass<'_, '_> {
             }
         };
         let resolution = Resolution {
-            most_evaluations: self.left(),
+            limit: self.left(),
             ..course.resolution
         };
         angle::run(course.position, now, goal, resolution)
@@ -143,7 +144,7 @@ impl Pass<'_, '_> {
 }
 
 /// As fine as the tolerance asks for.
-pub(super) fn plain(task: &RunSetup<'_>) -> Resolution {
+pub(super) fn plain<'a>(task: &RunSetup<'a>) -> Resolution<'a> {
     let share = match &task.maker.sliding {
         Some(_) => SHARE_OVER_ANGLE * CUT,
         None => SHARE_OVER_ANGLE,
@@ -151,16 +152,16 @@ pub(super) fn plain(task: &RunSetup<'_>) -> Resolution {
     Resolution {
         tail: (share * task.scene.run.tolerance).max(LEAST_TAIL),
         other: false,
-        most_evaluations: task.options.max_evaluations,
+        limit: task.options.limit(),
     }
 }
 
 /// Finer, and cut at other angles: two runs on the same panels would have the same error.
-pub(super) fn finer() -> Resolution {
+pub(super) fn finer() -> Resolution<'static> {
     Resolution {
         tail: LEAST_TAIL,
         other: true,
-        most_evaluations: u64::MAX,
+        limit: WorkLimit::NONE,
     }
 }
 
@@ -193,7 +194,7 @@ fn until_the_end(
     let turns = match task.extent {
         Extent::Duration(duration) => {
             let orbit = orbit_until(duration)?;
-            return Ok(match cut_short(&orbit, duration) {
+            return Ok(match cut_short(task, &orbit, duration) {
                 Some((end, why)) => (orbit, end, Some(why)),
                 None => (orbit, duration, None),
             });
@@ -223,7 +224,7 @@ fn until_the_end(
                 let why = stop::Why::Period { turns, period };
                 return Ok((orbit, period, Some(why)));
             }
-            (None, None) => match cut_short(&orbit, until) {
+            (None, None) => match cut_short(task, &orbit, until) {
                 Some((end, why)) => return Ok((orbit, end, Some(why))),
                 None => until *= 2.0,
             },
@@ -233,9 +234,9 @@ fn until_the_end(
 }
 
 /// Where (s) the work limit ends a motion that is wanted until a time (s), and why, if it does.
-fn cut_short(orbit: &Orbit, until: f64) -> Option<(f64, stop::Why)> {
+fn cut_short(task: &RunSetup<'_>, orbit: &Orbit, until: f64) -> Option<(f64, stop::Why)> {
     let end = orbit.length();
-    (end < until).then_some((end, stop::Why::WorkLimit))
+    (end < until).then(|| (end, task.limited()))
 }
 
 /// When a motion that turns back is first so far (rad) from its start, either way.

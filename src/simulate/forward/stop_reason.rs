@@ -26,7 +26,7 @@ pub(super) fn reason(course: &Course<'_>, arrived: &Arrived) -> Option<Why> {
         _ => return None,
     };
     Some(match finish {
-        Finish::WorkLimit => Why::WorkLimit,
+        Finish::WorkLimit => task.limited(),
         Finish::WorkLimitAhead => Why::WorkLimitAhead,
         Finish::TooManyTurns => Why::TooManyTurns,
         _ => match course.curve.get().filter(|_| arrived.on_curve) {

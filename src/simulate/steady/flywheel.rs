@@ -4,6 +4,7 @@ use super::describe;
 use super::periodic_orbit::{Found, Seeker};
 use super::refusal::Refusal;
 use super::result::{Estimated, Flywheel};
+use crate::engine::WorkLimit;
 use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::numeric::root;
@@ -23,7 +24,7 @@ pub(super) fn size(
     found: &Found,
     present: &Estimated,
     wanted: f64,
-    limit: u64,
+    limit: WorkLimit<'_>,
 ) -> Result<Flywheel, Error> {
     if !(wanted > 0.0 && wanted < 2.0) {
         return Err(Refusal::NoCoefficient(wanted).into());

@@ -10,7 +10,9 @@ mod round;
 mod timed;
 
 use super::error_estimate::MARGIN;
+use crate::engine::WorkLimit;
 use crate::error::Error;
+use crate::numeric::stop::Stop;
 use crate::scene::Scene;
 pub use orders::SpeedOrder;
 use periodic_orbit::{Found, Seeker};
@@ -18,12 +20,14 @@ use refusal::Refusal;
 pub use result::{Estimated, Flywheel, LoadWork, SpeedExtreme, SteadyState};
 
 /// What is asked for.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SteadyOptions {
     /// Coefficient of fluctuation for which the flywheel is wanted.
     pub fluctuation: Option<f64>,
     /// Most evaluations of the loads in each search.
     pub max_evaluations: u64,
+    /// A request to stop; the search is refused then.
+    pub stop: Option<Stop>,
 }
 
 impl Default for SteadyOptions {
@@ -31,6 +35,16 @@ impl Default for SteadyOptions {
         SteadyOptions {
             fluctuation: None,
             max_evaluations: super::Options::default().max_evaluations,
+            stop: None,
+        }
+    }
+}
+
+impl SteadyOptions {
+    fn limit(&self) -> WorkLimit<'_> {
+        WorkLimit {
+            evaluations: self.max_evaluations,
+            stop: self.stop.as_ref(),
         }
     }
 }
@@ -43,7 +57,7 @@ impl Default for SteadyOptions {
 ///
 /// # Errors
 /// [`Error::Scene`] for impossible values, [`Error::Refused`] with the reason where there is no periodic motion
-/// or no flywheel, or where the crank angle cannot be the independent variable.
+/// or no flywheel, or where the crank angle cannot be the independent variable; [`Error::Interrupted`].
 ///
 /// ```
 /// use slider_crank::scene::{Crank, Load, Scene};
@@ -57,9 +71,18 @@ impl Default for SteadyOptions {
 /// assert!((steady.omega_mean_rad_per_s.value - 30.0).abs() < 1e-11);
 /// ```
 pub fn steady_state(scene: &Scene, options: &SteadyOptions) -> Result<SteadyState, Error> {
+    let found = search(scene, options);
+    match &options.stop {
+        // Cycles that were cut off look like those of a crank that stops.
+        Some(stop) if stop.is_requested() => Err(Error::Interrupted),
+        _ => found,
+    }
+}
+
+fn search(scene: &Scene, options: &SteadyOptions) -> Result<SteadyState, Error> {
     refusal::refuse_what_has_none(scene)?;
     let rests = scene.motion.speed == 0.0;
-    let limit = options.max_evaluations;
+    let limit = options.limit();
     let found = first(scene, rests, limit)?;
     let check = Seeker::new(scene, found.speed, limit).again()?;
     let starts = (!rests).then_some(found.approached);
@@ -91,7 +114,7 @@ pub fn steady_state(scene: &Scene, options: &SteadyOptions) -> Result<SteadyStat
 }
 
 /// The steady state in the sense of the start speed; both senses are tried for a start at rest.
-fn first(scene: &Scene, rests: bool, limit: u64) -> Result<Found, Error> {
+fn first(scene: &Scene, rests: bool, limit: WorkLimit<'_>) -> Result<Found, Error> {
     if !rests {
         return Seeker::new(scene, scene.motion.speed, limit).find();
     }

@@ -9,6 +9,7 @@ use super::Estimated;
 use super::refusal::{Over, Refusal, not_turned, over};
 use super::round::{Motion, Round, Rounds};
 use super::timed::Timed;
+use crate::engine::WorkLimit;
 use crate::engine::angle::{self, FixedPoint, Resolution};
 use crate::error::Error;
 use crate::mechanism::{Equation, Limits};
@@ -77,7 +78,7 @@ impl Found {
 }
 
 /// What looks for the periodic motion of a scene.
-pub(super) struct Seeker {
+pub(super) struct Seeker<'a> {
     scene: Scene,
     equation: Equation,
     /// Friction at the guide.
@@ -87,12 +88,12 @@ pub(super) struct Seeker {
     start: Angle,
     /// rad/s
     speed: f64,
-    max_evaluations: u64,
+    limit: WorkLimit<'a>,
 }
 
-impl Seeker {
+impl<'a> Seeker<'a> {
     /// Looks from a speed on, rad/s.
-    pub fn new(scene: &Scene, speed: f64, max_evaluations: u64) -> Seeker {
+    pub fn new(scene: &Scene, speed: f64, limit: WorkLimit<'a>) -> Seeker<'a> {
         let equation = Equation::new(scene);
         Seeker {
             sliding: Sliding::new(scene, &equation),
@@ -102,7 +103,7 @@ impl Seeker {
             cycle: cycle_over_angle(scene).unwrap_or(1),
             start: Angle::from(scene.motion.angle).reduced(),
             speed,
-            max_evaluations,
+            limit,
         }
     }
 
@@ -123,8 +124,7 @@ impl Seeker {
             return Err(Refusal::Unbounded.into());
         }
         if over(&self.scene) == Over::Time {
-            let (turns, most) = (self.cycle, self.max_evaluations);
-            let mut timed = Timed::new(&self.scene, self.speed, turns, other, most);
+            let mut timed = Timed::new(&self.scene, self.speed, self.cycle, other, self.limit);
             let found = self.solve(&mut timed, step);
             return match (found, timed.refused) {
                 (Err(_), Some(why)) => Err(why),
@@ -138,7 +138,7 @@ impl Seeker {
             // What a turn leaves out adds up over all turns that are remembered.
             tail: LEAST_TAIL,
             other,
-            most_evaluations: self.max_evaluations,
+            limit: self.limit,
         };
         let turns = angle::Turns::new(&position, self.start, self.speed, resolution);
         self.solve(&mut turns.map_err(not_turned)?, step)

@@ -2,6 +2,7 @@
 
 use super::super::{NoRows, Options, Simulation, simulate, simulate_rows};
 use super::round::{Motion, Round, Rounds};
+use crate::engine::WorkLimit;
 use crate::engine::angle::CycleMap;
 use crate::engine::energy::NotApplicable;
 use crate::error::Error;
@@ -30,7 +31,7 @@ pub(super) struct Timed {
 
 impl Timed {
     /// Cycles of so many turns, in the direction of `speed` (rad/s); `other`: for the computation to compare with.
-    pub fn new(scene: &Scene, speed: f64, turns: u32, other: bool, max_evaluations: u64) -> Timed {
+    pub fn new(scene: &Scene, speed: f64, turns: u32, other: bool, limit: WorkLimit<'_>) -> Timed {
         let mut scene = scene.clone();
         scene.motion.speed = speed;
         scene.run.extent = Some(Extent::Revolutions(turns.into()));
@@ -44,7 +45,8 @@ impl Timed {
             options: Options {
                 method: Method::Time,
                 estimate: false,
-                max_evaluations,
+                max_evaluations: limit.evaluations,
+                stop: limit.stop.cloned(),
                 events_kept: 0,
                 ..Options::default()
             },
@@ -65,7 +67,7 @@ impl Timed {
         self.scene.motion.speed = speed.copysign(self.scene.motion.speed);
         let options = Options {
             estimate: keep,
-            ..self.options
+            ..self.options.clone()
         };
         let run = match keep {
             true => simulate(&self.scene, &options),

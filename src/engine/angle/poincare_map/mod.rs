@@ -11,6 +11,7 @@ use super::super::energy::turns::{Map, Recent, Turns};
 use super::super::energy::{NotApplicable, Orbit};
 use super::stepper::PanelStepper;
 use super::{Done, Driven, Driving, Errors, FEW_TURNS, Goal, Resolution, Short, work_until};
+use crate::engine::WorkLimit;
 use crate::numeric::angle::Angle;
 
 /// Degree of the interpolation over the energy.
@@ -31,7 +32,7 @@ pub(super) fn run<D: Driven>(
     start: Angle,
     speed: f64,
     goal: Goal,
-    resolution: Resolution,
+    resolution: Resolution<'_>,
 ) -> Result<Driving, NotApplicable> {
     let mark = Mark {
         turns: march.turns.abs(),
@@ -171,6 +172,9 @@ impl<D: Driven> Way<'_, D> {
             if mark.turns - first > MOST_TURNS {
                 return (known, Some(NotApplicable::TooManyTurns));
             }
+            if self.march.limit.is_reached(0) {
+                return (known, Some(NotApplicable::WorkLimit));
+            }
             self.rises = turn.gain > 0.0;
             self.lost = turn.gain.abs();
             before = mark;
@@ -231,7 +235,7 @@ impl<D: Driven> Way<'_, D> {
         let limited = map_ended
             .filter(|why| matches!(why, NotApplicable::WorkLimit | NotApplicable::TooManyTurns));
         if limited.is_some() {
-            self.march.most_evaluations = u64::MAX;
+            self.march.limit = WorkLimit::NONE;
         }
         loop {
             let done = match self.march.panel() {
