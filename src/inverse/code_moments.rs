@@ -6,7 +6,7 @@
 use super::estimate::Estimate;
 use super::interval::{Cavity, Site};
 use super::likelihood::Linear;
-use super::linearised::Prior;
+use super::prior::Prior;
 use super::problem::Problem;
 use super::quantised::{Codes, Interval};
 use super::smoother::{AT_REST, Smoothed, change};
@@ -183,7 +183,7 @@ impl Problem<'_> {
     ) -> (Smoothed, Vec<(Prior, f64)>) {
         let first = self.sites();
         let mut found = Vec::new();
-        for candidate in self.tried(&kinematic, false) {
+        for candidate in self.tried(&kinematic, &[]) {
             (self.record.values, self.record.weights) = first.clone();
             let smoothed = self.iterated(&candidate, &kinematic, self.all());
             if !smoothed.settled {

@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use super::linearised::{Prior, State, Unknown};
+use super::linearised::State;
+use super::prior::{Prior, Unknown};
 use super::problem::Problem;
 use super::record::Path;
 use super::smoother::Smoothed;

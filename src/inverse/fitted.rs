@@ -1,9 +1,9 @@
 //! The estimated motion at each sample, by polynomial or smoother.
 
 use super::branch_tracking::CrankAngles;
-use super::linearised::Prior;
 use super::motion_estimate::MotionEstimate;
 use super::polynomial::Polynomial;
+use super::prior::Prior;
 use super::problem::Problem;
 use super::record::Record;
 use super::residual_tests::Whiteness;
@@ -34,6 +34,8 @@ pub(super) struct Fitted {
     pub settled: bool,
     /// The row that is farthest off, of those that hardly count because they are.
     pub farthest_outlier: Option<usize>,
+    /// Whether the smoother knows what repeats from cycle to cycle.
+    pub repeats: bool,
     /// Step of an encoder, or of rounding, rad, which is wider than the noise.
     pub coded: Option<f64>,
     /// θ, ω, θ̈ with each of the errors that all samples share.
@@ -171,6 +173,7 @@ impl Fitted {
         fitted.patterned =
             whiteness.is_violated() && sigma > record.floor && record.codes.is_none();
         fitted.settled = smoothed.settled;
+        fitted.repeats = prior.cycle > 0;
         fitted.summary = FitSummary {
             kind: "smoother",
             reason: "its prior is the likeliest".to_owned(),
@@ -254,6 +257,7 @@ impl Fitted {
             summary,
             patterned: false,
             settled: true,
+            repeats: false,
             farthest_outlier: None,
             coded: None,
             moved: Vec::new(),

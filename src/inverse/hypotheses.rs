@@ -3,7 +3,8 @@
 
 use std::f64::consts::TAU;
 
-use super::kalman::{Gaussian, Sample, Step, diagonal};
+use super::kalman::{Gaussian, Sample, Step};
+use super::matrix::diagonal;
 use super::measurement_model::Sensor;
 
 /// Noise of the samples and agility of the crank.
@@ -190,13 +191,14 @@ fn extend(
     for turn in -reach..=reach {
         let theta = sight.theta + (nearest + f64::from(turn)) * TAU;
         let mut found = *predicted;
-        let (error, spread) = found.state.update(&Sample {
+        let seen = found.state.update(&Sample {
             value: theta,
             row: [1.0, 0.0, 0.0],
             variance: sight.variance,
         });
         // Outliers count as such, by the tails of Student's distribution with four degrees of freedom.
-        let off = error * error / spread;
+        let spread = seen.variance;
+        let off = seen.error * seen.error / spread;
         let tails = if off < 4.0 {
             0.5 * off
         } else {

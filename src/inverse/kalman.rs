@@ -6,22 +6,10 @@
 // Sums over rows and columns, as the textbook writes them.
 #![allow(clippy::needless_range_loop)]
 
+use super::matrix::{Matrix, Vector, congruent, dot, product, shares, sum, times};
+use super::periodic::Regressed;
+use super::regression::Regression;
 use super::state_space::Deviations;
-
-/// N numbers.
-pub(super) type Vector<const N: usize> = [f64; N];
-
-/// N rows of N numbers.
-pub(super) type Matrix<const N: usize> = [[f64; N]; N];
-
-/// A matrix with these numbers on its diagonal.
-pub(super) fn diagonal<const N: usize>(numbers: Vector<N>) -> Matrix<N> {
-    let mut matrix = [[0.0; N]; N];
-    for (k, number) in numbers.into_iter().enumerate() {
-        matrix[k][k] = number;
-    }
-    matrix
-}
 
 /// One step of the model, from a node to the next.
 #[derive(Clone, Copy, Debug)]
@@ -54,6 +42,44 @@ pub(super) struct Gaussian<const N: usize> {
     pub covariance: Matrix<N>,
 }
 
+/// Prediction error of a sample.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Innovation<const N: usize> {
+    pub error: f64,
+    /// In units of σ².
+    pub variance: f64,
+    /// K
+    pub gain: Vector<N>,
+}
+
+/// What runs along with the filter and the smoother.
+pub(super) trait Companion<const N: usize> {
+    /// A step to the next node has been predicted.
+    #[inline(always)]
+    fn stepped(&mut self, _node: usize, _step: &Step<N>) {}
+
+    /// The distribution of a node before its sample is known.
+    #[inline(always)]
+    fn predicted(&mut self, _node: usize, _distribution: &Gaussian<N>) {}
+
+    /// A sample has been taken in.
+    #[inline(always)]
+    fn updated(&mut self, _node: usize, _sample: &Sample<N>, _found: &Innovation<N>) {}
+
+    /// The smoother is back at a node.
+    #[inline(always)]
+    fn returned(&mut self, _node: usize, _way: &Return<N>) {}
+}
+
+/// How the smoother comes from a node to the one before: x(k) = Φ⁻¹ (x(k+1) − c − QW (x(k+1) − x̂)).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Return<const N: usize> {
+    /// Φ⁻¹
+    pub inverse: Matrix<N>,
+    /// QW
+    pub share: Matrix<N>,
+}
+
 /// What the prediction errors v of the samples, with variances S, tell of a model.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Evidence {
@@ -75,57 +101,120 @@ impl<const N: usize> Gaussian<N> {
         }
     }
 
-    /// Takes a sample in; its prediction error and the variance of that.
+    /// Takes a sample in.
     #[inline(always)]
-    pub fn update(&mut self, sample: &Sample<N>) -> (f64, f64) {
+    pub fn update(&mut self, sample: &Sample<N>) -> Innovation<N> {
         let shared = times(&self.covariance, &sample.row);
         let variance = dot(&shared, &sample.row) + sample.variance;
         let error = sample.value - dot(&sample.row, &self.mean);
         let per = 1.0 / variance;
+        let gain = shared.map(|value| value * per);
         for i in 0..N {
-            let gain = shared[i] * per;
-            self.mean[i] += gain * error;
+            self.mean[i] += gain[i] * error;
             for j in 0..N {
-                self.covariance[i][j] -= gain * shared[j];
+                self.covariance[i][j] -= gain[i] * shared[j];
             }
         }
-        (error, variance)
+        Innovation {
+            error,
+            variance,
+            gain,
+        }
+    }
+}
+
+impl std::iter::Sum for Evidence {
+    fn sum<I: Iterator<Item = Evidence>>(parts: I) -> Evidence {
+        parts.fold(Evidence::default(), |sum, part| Evidence {
+            squares: sum.squares + part.squares,
+            log_variances: sum.log_variances + part.log_variances,
+            samples: sum.samples + part.samples,
+        })
+    }
+}
+
+impl<const N: usize> Companion<N> for () {}
+
+impl<const N: usize, A: Companion<N>, B: Companion<N>> Companion<N> for (A, B) {
+    #[inline(always)]
+    fn stepped(&mut self, node: usize, step: &Step<N>) {
+        self.0.stepped(node, step);
+        self.1.stepped(node, step);
+    }
+
+    #[inline(always)]
+    fn updated(&mut self, node: usize, sample: &Sample<N>, found: &Innovation<N>) {
+        self.0.updated(node, sample, found);
+        self.1.updated(node, sample, found);
+    }
+}
+
+impl<const N: usize> Companion<N> for Evidence {
+    #[inline(always)]
+    fn updated(&mut self, _: usize, _: &Sample<N>, found: &Innovation<N>) {
+        self.squares += found.error * found.error / found.variance;
+        self.log_variances += found.variance.ln();
+        self.samples += 1;
     }
 }
 
 /// The prediction error decomposition of the likelihood.
 pub(super) fn evidence<const N: usize>(model: &Deviations<'_>) -> Evidence {
     let mut evidence = Evidence::default();
-    run::<N>(
-        model,
-        |_, _| (),
-        |_, error, variance| {
-            evidence.squares += error * error / variance;
-            evidence.log_variances += variance.ln();
-            evidence.samples += 1;
-        },
-    );
+    run::<N>(model, &mut evidence);
     evidence
 }
 
-/// Runs the filter; `before` sees each node's distribution before its sample, `after` prediction errors and their variances.
+/// The prediction error decomposition of the likelihood without the periodic part, and what the samples tell of that.
+pub(super) fn regressed<const N: usize>(model: &Deviations<'_>, to: &mut Regression) -> Evidence {
+    let mut both = (Evidence::default(), Regressed::new(model, to));
+    run::<N>(model, &mut both);
+    both.0
+}
+
+/// Runs the filter.
+#[inline(always)]
 pub(super) fn run<const N: usize>(
     model: &Deviations<'_>,
-    mut before: impl FnMut(usize, &Gaussian<N>),
-    mut after: impl FnMut(usize, f64, f64),
+    companion: &mut impl Companion<N>,
 ) -> Gaussian<N> {
     let mut now = model.start();
     for node in 0..model.observed.len() {
         if node > 0 {
-            now = now.predicted(&model.step(node - 1));
+            let step = model.step(node - 1);
+            now = now.predicted(&step);
+            companion.stepped(node - 1, &step);
         }
-        before(node, &now);
+        companion.predicted(node, &now);
         if let Some(sample) = model.sample(node) {
-            let (error, variance) = now.update(&sample);
-            after(node, error, variance);
+            let found = now.update(&sample);
+            companion.updated(node, &sample, &found);
         }
     }
     now
+}
+
+/// What the filter leaves to the smoother, and a companion of both.
+struct Forward<'a, C, const N: usize> {
+    path: Vec<Gaussian<N>>,
+    innovations: Vec<Option<f64>>,
+    companion: &'a mut C,
+}
+
+impl<C: Companion<N>, const N: usize> Companion<N> for Forward<'_, C, N> {
+    fn stepped(&mut self, node: usize, step: &Step<N>) {
+        self.companion.stepped(node, step);
+    }
+
+    fn predicted(&mut self, node: usize, distribution: &Gaussian<N>) {
+        self.path.push(*distribution);
+        self.companion.predicted(node, distribution);
+    }
+
+    fn updated(&mut self, node: usize, sample: &Sample<N>, found: &Innovation<N>) {
+        self.innovations[node] = Some(found.error / found.variance.sqrt());
+        self.companion.updated(node, sample, found);
+    }
 }
 
 /// The distribution of the state at each node, given all samples, and the prediction errors over their standard
@@ -136,19 +225,29 @@ pub(super) fn run<const N: usize>(
 /// numbers where the start is diffuse.
 pub(super) fn smooth<const N: usize>(
     model: &Deviations<'_>,
+    companion: &mut impl Companion<N>,
 ) -> (Vec<Gaussian<N>>, Vec<Option<f64>>) {
     let nodes = model.observed.len();
-    let mut path = Vec::with_capacity(nodes);
-    let mut innovations = vec![None; nodes];
-    let last = run(
-        model,
-        |_, predicted| path.push(*predicted),
-        |node, error, variance| innovations[node] = Some(error / variance.sqrt()),
-    );
-    let mut now = last;
+    let mut forward = Forward {
+        path: Vec::with_capacity(nodes),
+        innovations: vec![None; nodes],
+        companion,
+    };
+    let mut now = run(model, &mut forward);
+    let Forward {
+        mut path,
+        innovations,
+        companion,
+    } = forward;
     for node in (0..nodes - 1).rev() {
         let predicted = std::mem::replace(&mut path[node + 1], now);
-        now = earlier(&model.step(node), &model.inverse(node), &predicted, &now);
+        let step = model.step(node);
+        let way = Return {
+            inverse: model.inverse(node),
+            share: shares(&predicted.covariance, &step.noise),
+        };
+        now = earlier(&step, &way, &predicted, &now);
+        companion.returned(node, &way);
     }
     path[0] = now;
     (path, innovations)
@@ -158,115 +257,20 @@ pub(super) fn smooth<const N: usize>(
 #[inline(always)]
 fn earlier<const N: usize>(
     step: &Step<N>,
-    inverse: &Matrix<N>,
+    way: &Return<N>,
     predicted: &Gaussian<N>,
     later: &Gaussian<N>,
 ) -> Gaussian<N> {
-    // Q W and I - Q W
-    let share = shares(&predicted.covariance, &step.noise);
-    let mut kept = share.map(|row| row.map(|part| -part));
+    // I - Q W
+    let mut kept = way.share.map(|row| row.map(|part| -part));
     (0..N).for_each(|k| kept[k][k] += 1.0);
     let found = sum(later.mean, predicted.mean.map(|value| -value));
-    let noise = sum(step.offset, times(&share, &found));
+    let noise = sum(step.offset, times(&way.share, &found));
     // Q - Q W Q = (I - Q W) Q
     let left = product(&kept, &step.noise);
     let before = congruent(&kept, &later.covariance, &left);
     Gaussian {
-        mean: times(inverse, &sum(later.mean, noise.map(|value| -value))),
-        covariance: congruent(inverse, &before, &[[0.0; N]; N]),
+        mean: times(&way.inverse, &sum(later.mean, noise.map(|value| -value))),
+        covariance: congruent(&way.inverse, &before, &[[0.0; N]; N]),
     }
-}
-
-/// A P Aᵀ + Q, symmetric.
-#[inline(always)]
-fn congruent<const N: usize>(a: &Matrix<N>, p: &Matrix<N>, q: &Matrix<N>) -> Matrix<N> {
-    let half = product(a, p);
-    let mut whole = *q;
-    for i in 0..N {
-        for j in 0..=i {
-            whole[i][j] += dot(&half[i], &a[j]);
-            whole[j][i] = whole[i][j];
-        }
-    }
-    whole
-}
-
-/// A B
-#[inline(always)]
-fn product<const N: usize>(a: &Matrix<N>, b: &Matrix<N>) -> Matrix<N> {
-    let mut whole = [[0.0; N]; N];
-    for i in 0..N {
-        for k in 0..N {
-            for j in 0..N {
-                whole[i][j] += a[i][k] * b[k][j];
-            }
-        }
-    }
-    whole
-}
-
-/// A x
-#[inline(always)]
-fn times<const N: usize>(a: &Matrix<N>, x: &Vector<N>) -> Vector<N> {
-    std::array::from_fn(|i| dot(&a[i], x))
-}
-
-#[inline(always)]
-fn dot<const N: usize>(a: &Vector<N>, b: &Vector<N>) -> f64 {
-    let mut sum = 0.0;
-    for k in 0..N {
-        sum += a[k] * b[k];
-    }
-    sum
-}
-
-#[inline(always)]
-fn sum<const N: usize>(a: Vector<N>, b: Vector<N>) -> Vector<N> {
-    std::array::from_fn(|k| a[k] + b[k])
-}
-
-/// Q P⁻¹ for a covariance P and a symmetric Q, by the factors of Cholesky of P, scaled to a unit diagonal to which its rounding
-/// is added.
-#[inline(always)]
-fn shares<const N: usize>(p: &Matrix<N>, q: &Matrix<N>) -> Matrix<N> {
-    let scale: Vector<N> = std::array::from_fn(|k| 1.0 / p[k][k].sqrt());
-    // L below the diagonal, and 1/L on it.
-    let mut factor = [[0.0; N]; N];
-    for j in 0..N {
-        let mut pivot = 1.0 + f64::EPSILON;
-        for k in 0..j {
-            pivot -= factor[j][k] * factor[j][k];
-        }
-        let pivot = if pivot <= 0.0 { f64::EPSILON } else { pivot };
-        let per = 1.0 / pivot.sqrt();
-        factor[j][j] = per;
-        for i in j + 1..N {
-            let mut left = scale[i] * scale[j] * p[i][j];
-            for k in 0..j {
-                left -= factor[i][k] * factor[j][k];
-            }
-            factor[i][j] = left * per;
-        }
-    }
-    let solved = |row: &Vector<N>| {
-        let mut x: Vector<N> = std::array::from_fn(|k| row[k] * scale[k]);
-        for i in 0..N {
-            for k in 0..i {
-                x[i] -= factor[i][k] * x[k];
-            }
-            x[i] *= factor[i][i];
-        }
-        for i in (0..N).rev() {
-            for k in i + 1..N {
-                x[i] -= factor[k][i] * x[k];
-            }
-            x[i] *= factor[i][i];
-        }
-        std::array::from_fn(|k| x[k] * scale[k])
-    };
-    let mut whole = [[0.0; N]; N];
-    for i in 0..N {
-        whole[i] = solved(&q[i]);
-    }
-    whole
 }

@@ -2,8 +2,10 @@
 //! intensity of its noise; the variance of a sample is profiled out.
 
 use super::kalman::{self, Evidence};
-use super::linearised::{Linearised, Prior, State};
+use super::linearised::{Linearised, State};
 use super::maximum::{better, climb};
+use super::prior::Prior;
+use super::regression::{Posterior, Regression};
 use super::scales::{Noise, Scales};
 use super::state_space::{Autoregression, Deviations, Observed};
 
@@ -63,12 +65,52 @@ impl Linear<'_> {
                 _ => kalman::evidence::<6>(&model),
             }
         };
-        let parts = self.stretches.iter().map(of);
-        parts.fold(Evidence::default(), |sum, part| Evidence {
-            squares: sum.squares + part.squares,
-            log_variances: sum.log_variances + part.log_variances,
-            samples: sum.samples + part.samples,
-        })
+        self.stretches.iter().map(of).sum()
+    }
+
+    /// The evidence without the part that repeats, and what the samples tell of that.
+    fn regressed(&self, noise: &Noise) -> (Evidence, Regression) {
+        let mut to = Regression::new();
+        let of = |stretch: &Stretch| {
+            let model = self.deviations(stretch, noise);
+            match model.dimension() {
+                3 => kalman::regressed::<3>(&model, &mut to),
+                4 => kalman::regressed::<4>(&model, &mut to),
+                _ => kalman::regressed::<5>(&model, &mut to),
+            }
+        };
+        (self.stretches.iter().map(of).sum(), to)
+    }
+
+    /// The part that repeats, given the samples.
+    pub fn posterior(&self, noise: &Noise) -> Option<Posterior> {
+        let spectrum = noise.spectrum?;
+        self.regressed(noise).1.solved(spectrum)
+    }
+
+    /// The evidence with the part that repeats, of the spectrum that the noise has or else of the likeliest.
+    fn repeated(&self, noise: &mut Noise) -> Evidence {
+        let (mut evidence, regression) = self.regressed(noise);
+        let starts = self.prior.states() * self.stretches.len();
+        let free = (evidence.samples.saturating_sub(starts)).max(1) as f64;
+        let score = |found: &Posterior| {
+            let squares = evidence.squares - found.fall;
+            let least = self.scales.known.unwrap_or(self.scales.floor).powi(2);
+            let variance = match self.scales.known {
+                Some(_) => least,
+                None => (squares / free).max(least),
+            };
+            -0.5 * (free * variance.ln() + squares / variance + found.log_determinant)
+        };
+        noise.spectrum = noise.spectrum.or_else(|| regression.likeliest(score));
+        if let Some(found) = noise
+            .spectrum
+            .and_then(|spectrum| regression.solved(spectrum))
+        {
+            evidence.squares -= found.fall;
+            evidence.log_variances += found.log_determinant;
+        }
+        evidence
     }
 
     /// Likelihood and σ for a corner frequency and a correlation.
@@ -81,7 +123,10 @@ impl Linear<'_> {
 
     /// Noise with its likelihood and its σ.
     fn evaluated(&self, mut noise: Noise) -> Noise {
-        let evidence = self.evidence(&noise);
+        let evidence = match self.prior.cycle {
+            0 => self.evidence(&noise),
+            _ => self.repeated(&mut noise),
+        };
         let dimension = self.prior.states();
         let starts = (dimension * self.stretches.len()) as f64;
         let free = evidence.samples as f64 - starts;
@@ -185,17 +230,13 @@ impl Linear<'_> {
     }
 
     /// The largest likelihood over the corner frequency, the correlation of the noise and its white part.
-    pub fn correlated(&self, from: &Noise) -> Noise {
+    pub fn correlated(&self, from: &Noise, guesses: &[Autoregression]) -> Noise {
         let mut best = Noise {
             likelihood: f64::NEG_INFINITY,
             ..*from
         };
-        let guesses = [0.2, 1.0, 5.0].map(|steps| Autoregression {
-            decay: 1.0 / (steps * self.scales.spacing),
-            white: WHITE,
-        });
         for guess in guesses {
-            let found = self.at(from.corner, Some(guess));
+            let found = self.at(from.corner, Some(*guess));
             if found.likelihood > best.likelihood {
                 best = found;
             }
@@ -234,9 +275,6 @@ const ALLOWED: f64 = 2.0;
 
 /// Most evaluations in the search for that noise.
 const LEVELS: usize = 12;
-
-/// White part of the variance of correlated noise.
-const WHITE: f64 = 0.02;
 
 /// Most rounds of the search over one parameter after the other.
 const ROUNDS: usize = 8;

@@ -3,6 +3,7 @@
 //! State: θ (rad), ω (rad/s), u and its derivatives below the order. θ̈ = (Q − V' − ½ M' ω² + a u)/M with the arm a = 1 for a torque (N m)
 //! and x' for a force (N); without mechanics θ̈ = u.
 
+use super::prior::{Prior, Unknown};
 use crate::mechanism::Equation;
 
 /// Largest order of a prior.
@@ -10,49 +11,6 @@ pub(super) const ORDERS: usize = 3;
 
 /// θ, ω, u, and its derivatives or g.
 pub(super) type State = [f64; 2 + ORDERS];
-
-/// What is unknown and varies as an integrated Wiener process.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Unknown {
-    /// θ̈ itself: no mechanics.
-    Acceleration,
-    /// A torque on the crank beside the loads of the scene.
-    Torque,
-    /// A force on the slider beside the loads of the scene.
-    Force,
-}
-
-/// A prior of the motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Prior {
-    pub unknown: Unknown,
-    /// How often the white noise is integrated to u: 1 (Wiener process) or more.
-    pub order: usize,
-    /// Whether g ω with an unknown constant g is a part of u beside that: g is the last state.
-    pub follows_speed: bool,
-}
-
-impl Prior {
-    /// Number of states.
-    pub fn states(self) -> usize {
-        2 + self.order + usize::from(self.follows_speed)
-    }
-
-    /// What varies at random, in words.
-    pub fn name(self) -> &'static str {
-        match (self.unknown, self.order, self.follows_speed) {
-            (Unknown::Acceleration, 3, _) => "angle with white crackle, without mechanics",
-            (Unknown::Acceleration, ..) => "angle with white snap, without mechanics",
-            (.., true) => "torque that follows the speed, and a Wiener process",
-            (Unknown::Torque, 1, _) => "torque as a Wiener process",
-            (Unknown::Torque, 2, _) => "torque as an integrated Wiener process",
-            (Unknown::Torque, ..) => "torque as a twice integrated Wiener process",
-            (Unknown::Force, 1, _) => "force as a Wiener process",
-            (Unknown::Force, 2, _) => "force as an integrated Wiener process",
-            (Unknown::Force, ..) => "force as a twice integrated Wiener process",
-        }
-    }
-}
 
 /// θ̈ and its derivatives at a state.
 #[derive(Clone, Copy, Debug, Default)]
@@ -153,8 +111,8 @@ impl Motion<'_> {
         state
     }
 
-    /// θ̈ in the middle of a step whose ends are known, with u as the prior predicts it from the first.
-    fn in_the_middle(&self, t: [f64; 2], ends: [&State; 2], rates: [&Rates; 2]) -> f64 {
+    /// θ and θ̈ in the middle of a step whose ends are known, with u as the prior predicts it from the first.
+    fn in_the_middle(&self, t: [f64; 2], ends: [&State; 2], rates: [&Rates; 2]) -> [f64; 2] {
         let h = t[1] - t[0];
         let [a, b] = ends;
         let theta = 0.5 * (a[0] + b[0])
@@ -162,7 +120,8 @@ impl Motion<'_> {
             + h * h * (rates[0].alpha + rates[1].alpha) / 64.0;
         let omega = 0.5 * (a[1] + b[1]) + h * (rates[0].alpha - rates[1].alpha) / 8.0;
         let unknown = self.later(0.5 * h, self.tilt(h, ends), a)[2];
-        self.acceleration(0.5 * (t[0] + t[1]), theta, omega, unknown)[0]
+        let [alpha, _] = self.acceleration(0.5 * (t[0] + t[1]), theta, omega, unknown);
+        [theta, alpha]
     }
 
     /// One step of the linear model of the deviations from a nominal path.
@@ -179,12 +138,14 @@ impl Motion<'_> {
             }
         }
         let mut defect = self.later(h, tilt, a);
+        let mut angles = [a[0], 0.5 * (a[0] + b[0]), b[0]];
         let after = if self.prior.unknown == Unknown::Acceleration {
             [0, 1].map(|row| a.iter().zip(&top[row]).map(|(a, top)| a * top).sum::<f64>())
         } else {
             // Simpson's rule for ω and θ; the noise of u is not part of the prediction.
             let first = rates[0].alpha;
-            let middle = self.in_the_middle(t, ends, rates);
+            let middle;
+            [angles[1], middle] = self.in_the_middle(t, ends, rates);
             let last = rates[1].alpha - rates[1].by_unknown * (b[2] - defect[2]);
             [
                 a[0] + h * a[1] + h * h * (first + 2.0 * middle) / 6.0,
@@ -201,6 +162,7 @@ impl Motion<'_> {
             defect,
             lever,
             tilt,
+            angles,
         }
     }
 }
@@ -239,6 +201,8 @@ pub(super) struct Linearised {
     pub lever: f64,
     /// What g adds to u, per time.
     pub tilt: f64,
+    /// Crank angles at the begin, in the middle and at the end, rad.
+    pub angles: [f64; 3],
 }
 
 #[cfg(test)]

@@ -1,49 +1,114 @@
-//! The priors among which the likelihood chooses.
+//! What is unknown and how it may vary: the priors among which the likelihood chooses.
 
-use super::linearised::{Prior, Unknown};
 use super::scales::{Noise, Scales};
 
+/// What is unknown and varies as an integrated Wiener process.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Unknown {
+    /// θ̈ itself: no mechanics.
+    Acceleration,
+    /// A torque on the crank beside the loads of the scene.
+    Torque,
+    /// A force on the slider beside the loads of the scene.
+    Force,
+}
+
+/// A prior of the motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Prior {
+    pub unknown: Unknown,
+    /// How often the white noise is integrated to u: 1 (Wiener process) or more.
+    pub order: usize,
+    /// Whether g ω with an unknown constant g is a part of u beside that: g is the last state.
+    pub follows_speed: bool,
+    /// Turns of the cycle in which a part of u repeats; 0 without such a part.
+    pub cycle: u8,
+}
+
+impl Prior {
+    /// u as an integrated Wiener process, and nothing beside.
+    pub const fn new(unknown: Unknown, order: usize) -> Prior {
+        Prior {
+            unknown,
+            order,
+            follows_speed: false,
+            cycle: 0,
+        }
+    }
+
+    /// Number of states.
+    pub fn states(self) -> usize {
+        2 + self.order + usize::from(self.follows_speed)
+    }
+
+    /// What varies at random, in words.
+    pub fn name(self) -> &'static str {
+        match (self.unknown, self.order, self.follows_speed) {
+            (.., 1, _) if self.cycle == 1 => "torque that repeats every turn, and a Wiener process",
+            _ if self.cycle == 1 => {
+                "torque that repeats every turn, and an integrated Wiener process"
+            }
+            (.., 1, _) if self.cycle > 1 => {
+                "torque that repeats every two turns, and a Wiener process"
+            }
+            _ if self.cycle > 1 => {
+                "torque that repeats every two turns, and an integrated Wiener process"
+            }
+            (Unknown::Acceleration, 3, _) => "angle with white crackle, without mechanics",
+            (Unknown::Acceleration, ..) => "angle with white snap, without mechanics",
+            (.., true) => "torque that follows the speed, and a Wiener process",
+            (Unknown::Torque, 1, _) => "torque as a Wiener process",
+            (Unknown::Torque, 2, _) => "torque as an integrated Wiener process",
+            (Unknown::Torque, ..) => "torque as a twice integrated Wiener process",
+            (Unknown::Force, 1, _) => "force as a Wiener process",
+            (Unknown::Force, 2, _) => "force as an integrated Wiener process",
+            (Unknown::Force, ..) => "force as a twice integrated Wiener process",
+        }
+    }
+}
+
 /// The prior without mechanics: a smoothing spline of degree seven in state-space form.
-pub(super) const KINEMATIC: Prior = Prior {
-    unknown: Unknown::Acceleration,
-    order: 2,
-    follows_speed: false,
-};
+pub(super) const KINEMATIC: Prior = Prior::new(Unknown::Acceleration, 2);
 
 /// The priors of an unknown by their order.
 const fn ladder(unknown: Unknown) -> [Prior; 3] {
-    let first = Prior {
-        unknown,
-        order: 1,
-        follows_speed: false,
-    };
     [
-        first,
-        Prior { order: 2, ..first },
-        Prior { order: 3, ..first },
+        Prior::new(unknown, 1),
+        Prior::new(unknown, 2),
+        Prior::new(unknown, 3),
     ]
 }
 
 /// A torque in proportion to the speed, and a Wiener process.
 const FOLLOWING: Prior = Prior {
-    unknown: Unknown::Torque,
-    order: 1,
     follows_speed: true,
+    ..Prior::new(Unknown::Torque, 1)
 };
 
+/// A torque that repeats after some turns, and a process of this order.
+const fn repeating(cycle: u8, order: usize) -> Prior {
+    Prior {
+        cycle,
+        ..Prior::new(Unknown::Torque, order)
+    }
+}
+
 /// All priors, in lists along which the order rises.
-pub(super) const LADDERS: [&[Prior]; 4] = [
+const LADDERS: [&[Prior]; 6] = [
+    &[repeating(1, 1), repeating(1, 2)],
+    &[repeating(2, 1), repeating(2, 2)],
     &ladder(Unknown::Force),
     &ladder(Unknown::Torque),
     &[FOLLOWING],
-    &[
-        KINEMATIC,
-        Prior {
-            order: 3,
-            ..KINEMATIC
-        },
-    ],
+    &[KINEMATIC, Prior::new(Unknown::Acceleration, 3)],
 ];
+
+/// The priors of a record of so many turns: what repeats is seen twice at least.
+pub(super) fn ladders(turns: f64) -> impl Iterator<Item = &'static [Prior]> {
+    LADDERS
+        .into_iter()
+        .filter(move |ladder| turns >= 2.0 * f64::from(ladder[0].cycle))
+}
 
 /// A prior with its noise, about a path.
 #[derive(Clone, Copy, Debug)]

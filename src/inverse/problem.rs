@@ -5,9 +5,11 @@ use std::ops::Range;
 use super::estimate::Estimate;
 use super::kalman;
 use super::likelihood::{Linear, Stretch};
-use super::linearised::{Motion, Prior, Rates};
-use super::quantised::Codes;
+use super::linearised::{Motion, Rates};
+use super::periodic::Sensitivities;
+use super::prior::Prior;
 use super::record::{Grid, Path, Record, hermite};
+use super::regression::Posterior;
 use super::scales::{Noise, Scales};
 use super::smoother::Smoothed;
 use super::state_space::Deviations;
@@ -73,6 +75,13 @@ impl<'a> Problem<'a> {
         (sum / f64::max(count, 1.0)).sqrt()
     }
 
+    /// Turns from one end of a path to the other.
+    pub fn turns(&self, path: &Smoothed) -> f64 {
+        let angle = |estimate: Option<&Estimate>| estimate.map_or(0.0, |e| e.state[0]);
+        let way = angle(path.estimates.last()) - angle(path.estimates.first());
+        way.abs() / std::f64::consts::TAU
+    }
+
     /// Way of the crank from sample to sample, rad, root mean square.
     pub fn way(&self) -> f64 {
         let record = &self.record;
@@ -135,32 +144,6 @@ impl<'a> Problem<'a> {
             .collect()
     }
 
-    /// Typical sizes along a path with a prior.
-    pub fn scales(&self, motion: &Motion<'_>, path: &Path, slope: f64, shape: [f64; 2]) -> Scales {
-        let times = &self.grid.times;
-        let duration = times[times.len() - 1] - times[0];
-        let samples = self.record.times.len() as f64;
-        let stride = path.states.len().div_ceil(1000);
-        let (mut lever, mut count) = (0.0, 0.0);
-        for (node, state) in path.nodes().step_by(stride) {
-            let rates = motion.rates(times[node], state);
-            if rates.by_unknown.is_finite() {
-                lever += rates.by_unknown * rates.by_unknown;
-                count += 1.0;
-            }
-        }
-        Scales {
-            spacing: duration / (samples - 1.0),
-            duration,
-            slope,
-            lever: (lever / count).sqrt(),
-            motion: shape,
-            speed: spread(path.states.iter().step_by(stride).map(|state| state[1])),
-            floor: self.record.floor,
-            known: self.record.codes.map(Codes::spread),
-        }
-    }
-
     /// The smoothed motion, in pieces side by side.
     pub fn smoothed(
         &self,
@@ -169,6 +152,16 @@ impl<'a> Problem<'a> {
         scales: Scales,
         noise: &Noise,
     ) -> Vec<Estimate> {
+        let posterior = (motion.prior.cycle > 0).then(|| {
+            let stretches = self.stretches(motion, path, noise.sigma);
+            let linear = Linear {
+                stretches: &stretches,
+                prior: motion.prior,
+                scales,
+            };
+            linear.posterior(noise)
+        });
+        let posterior = posterior.flatten();
         let nodes = self.grid.len();
         let times = &self.grid.times;
         let shared = FORGOTTEN / noise.corner;
@@ -185,7 +178,7 @@ impl<'a> Problem<'a> {
                 scales,
             };
             let model = linear.deviations(&stretch, noise);
-            let all = self.estimates(motion, path, from, &model, noise);
+            let all = self.estimates(motion, path, from, &model, noise, posterior.as_ref());
             found.copy_from_slice(&all[core.start - from..core.end - from]);
         };
         let mut found = vec![Estimate::default(); path.states.len()];
@@ -211,12 +204,13 @@ impl<'a> Problem<'a> {
         from: usize,
         model: &Deviations<'_>,
         noise: &Noise,
+        posterior: Option<&Posterior>,
     ) -> Vec<Estimate> {
         match model.dimension() {
-            3 => self.estimated::<3>(motion, path, from, model, noise),
-            4 => self.estimated::<4>(motion, path, from, model, noise),
-            5 => self.estimated::<5>(motion, path, from, model, noise),
-            _ => self.estimated::<6>(motion, path, from, model, noise),
+            3 => self.estimated::<3>(motion, path, from, model, noise, posterior),
+            4 => self.estimated::<4>(motion, path, from, model, noise, posterior),
+            5 => self.estimated::<5>(motion, path, from, model, noise, posterior),
+            _ => self.estimated::<6>(motion, path, from, model, noise, posterior),
         }
     }
 
@@ -227,8 +221,17 @@ impl<'a> Problem<'a> {
         from: usize,
         model: &Deviations<'_>,
         noise: &Noise,
+        posterior: Option<&Posterior>,
     ) -> Vec<Estimate> {
-        let (deviations, innovations) = kalman::smooth::<N>(model);
+        let (deviations, innovations) = match posterior {
+            None => kalman::smooth::<N>(model, &mut ()),
+            Some(posterior) => {
+                let mut sensitivities = Sensitivities::new(model, posterior);
+                let (mut path, mut innovations) = kalman::smooth::<N>(model, &mut sensitivities);
+                sensitivities.add(&mut path, &mut innovations);
+                (path, innovations)
+            }
+        };
         let piece = path.piece(&(from..from + deviations.len()));
         let variance = noise.sigma * noise.sigma;
         let dimension = model.prior.states();
@@ -258,18 +261,4 @@ impl<'a> Problem<'a> {
             .map(estimate)
             .collect()
     }
-}
-
-/// Standard deviation of numbers.
-fn spread(numbers: impl Iterator<Item = f64>) -> f64 {
-    let (mut count, mut mean, mut squares) = (0.0, 0.0, 0.0);
-    for number in numbers {
-        count += 1.0;
-        let off = number - mean;
-        mean += off / count;
-        squares += off * (number - mean);
-    }
-    (squares / f64::max(count, 1.0))
-        .sqrt()
-        .max(f64::MIN_POSITIVE)
 }

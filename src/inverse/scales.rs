@@ -1,6 +1,10 @@
 //! Typical sizes along a record, and the noise that is estimated in terms of them.
 
-use super::linearised::State;
+use super::linearised::{Motion, State};
+use super::problem::Problem;
+use super::quantised::Codes;
+use super::record::Path;
+use super::regression::Spectrum;
 use super::state_space::Autoregression;
 
 /// Typical sizes along a record.
@@ -33,6 +37,8 @@ pub(super) struct Noise {
     /// Corner frequency of a smoother of order one whose noise u has in it as well, rad/s; 0 without. Where u follows the
     /// speed, such noise is in g, over the spread of the speed.
     pub level: f64,
+    /// Variances of the harmonics of what repeats.
+    pub spectrum: Option<Spectrum>,
     /// First-order autoregression of the samples' noise.
     pub correlated: Option<Autoregression>,
     /// Standard deviation of a sample, rad or m.
@@ -47,6 +53,7 @@ impl Noise {
         Noise {
             corner,
             level: 0.0,
+            spectrum: None,
             correlated: None,
             sigma: 1.0,
             likelihood: f64::NEG_INFINITY,
@@ -78,4 +85,46 @@ impl Scales {
         let integrations = i32::try_from(2 * (order + 2)).unwrap_or(10);
         corner.powi(integrations) * self.spacing / (self.lever * self.slope).powi(2)
     }
+}
+
+impl Problem<'_> {
+    /// Typical sizes along a path with a prior.
+    pub fn scales(&self, motion: &Motion<'_>, path: &Path, slope: f64, shape: [f64; 2]) -> Scales {
+        let times = &self.grid.times;
+        let duration = times[times.len() - 1] - times[0];
+        let samples = self.record.times.len() as f64;
+        let stride = path.states.len().div_ceil(1000);
+        let (mut lever, mut count) = (0.0, 0.0);
+        for (node, state) in path.nodes().step_by(stride) {
+            let rates = motion.rates(times[node], state);
+            if rates.by_unknown.is_finite() {
+                lever += rates.by_unknown * rates.by_unknown;
+                count += 1.0;
+            }
+        }
+        Scales {
+            spacing: duration / (samples - 1.0),
+            duration,
+            slope,
+            lever: (lever / count).sqrt(),
+            motion: shape,
+            speed: spread(path.states.iter().step_by(stride).map(|state| state[1])),
+            floor: self.record.floor,
+            known: self.record.codes.map(Codes::spread),
+        }
+    }
+}
+
+/// Standard deviation of numbers.
+fn spread(numbers: impl Iterator<Item = f64>) -> f64 {
+    let (mut count, mut mean, mut squares) = (0.0, 0.0, 0.0);
+    for number in numbers {
+        count += 1.0;
+        let off = number - mean;
+        mean += off / count;
+        squares += off * (number - mean);
+    }
+    (squares / f64::max(count, 1.0))
+        .sqrt()
+        .max(f64::MIN_POSITIVE)
 }

@@ -5,12 +5,13 @@ use std::ops::Range;
 
 use super::estimate::Estimate;
 use super::likelihood::Linear;
-use super::linearised::Prior;
-use super::prior::{Candidate, KINEMATIC, LADDERS, likelihood, listed};
+use super::prior::Prior;
+use super::prior::{Candidate, KINEMATIC, ladders, likelihood, listed};
 use super::problem::Problem;
 use super::record::Path;
 use super::residual_tests::Whiteness;
 use super::scales::{Noise, Scales};
+use super::state_space::Autoregression;
 use crate::numeric::parallel;
 
 /// A smoothed motion with its prior and noise.
@@ -70,7 +71,7 @@ impl Problem<'_> {
     }
 
     /// A prior about a smoothed path.
-    fn candidate(&self, prior: Prior, from: &Smoothed, correlated: bool) -> Candidate {
+    fn candidate(&self, prior: Prior, from: &Smoothed, correlated: &[Autoregression]) -> Candidate {
         let motion = self.motion(prior);
         let path = self.path_of(prior, from, self.sampled());
         let scales = self.scales(&motion, &path, from.scales.slope, from.scales.motion);
@@ -81,8 +82,8 @@ impl Problem<'_> {
             scales,
         };
         let mut noise = linear.maximised(from.noise.corner, None);
-        if correlated {
-            let found = linear.correlated(&noise);
+        if !correlated.is_empty() {
+            let found = linear.correlated(&noise, correlated);
             // Noise that leaves the path rougher than white noise does is motion.
             let rougher = found.corner > noise.corner;
             noise = if rougher { noise } else { found };
@@ -97,7 +98,7 @@ impl Problem<'_> {
     /// The smoothed motion with the likeliest prior, and all that were tried with the ln of their likelihoods, the likeliest
     /// first. Noise of the samples is correlated where the prediction errors say so, and the likelihood agrees.
     pub fn likeliest(&self, kinematic: Smoothed) -> (Smoothed, Vec<(Prior, f64)>) {
-        let white = self.tried(&kinematic, false);
+        let white = self.tried(&kinematic, &[]);
         let Some(mut found) = self.first_settled(&white, &kinematic) else {
             return (kinematic, listed(&white));
         };
@@ -105,13 +106,17 @@ impl Problem<'_> {
         let innovations = found.estimates.iter().map(|e| e.innovation);
         let is_noise = found.noise.sigma > 1.5 * self.record.floor && self.record.codes.is_none();
         if is_noise && Whiteness::of(innovations).is_violated() {
-            let correlated = self.tried(&kinematic, true);
             // Two parameters more (Schwarz 1978).
-            let cost = (self.record.times.len() as f64).ln();
-            if likelihood(&correlated) > likelihood(&white) + cost
-                && let Some(other) = self.first_settled(&correlated, &kinematic)
+            let least = likelihood(&white) + (self.record.times.len() as f64).ln();
+            let guesses = Autoregression::guesses(found.scales.spacing);
+            let first = self.candidate(found.prior, &kinematic, &guesses).noise;
+            if let Some(guess) = first.correlated
+                && first.likelihood > least
             {
-                (found, tried) = (other, listed(&correlated));
+                let correlated = self.tried(&kinematic, &[guess]);
+                if let Some(other) = self.first_settled(&correlated, &kinematic) {
+                    (found, tried) = (other, listed(&correlated));
+                }
             }
         }
         let path = self.path_of(found.prior, &kinematic, self.all());
@@ -120,20 +125,27 @@ impl Problem<'_> {
 
     /// ln of the marginal likelihood of the samples by the likeliest prior about a smoothed motion.
     pub fn evidence(&self, kinematic: &Smoothed) -> f64 {
-        likelihood(&self.tried(kinematic, false))
+        likelihood(&self.tried(kinematic, &[]))
     }
 
     /// Priors about a path, the likeliest first. The order of each unknown rises as long as its likelihood does.
-    pub fn tried(&self, kinematic: &Smoothed, correlated: bool) -> Vec<Candidate> {
-        let tried = parallel::map(LADDERS.iter(), |ladder| {
+    pub fn tried(&self, kinematic: &Smoothed, correlated: &[Autoregression]) -> Vec<Candidate> {
+        let size = self.record.sensor.size();
+        let is_computed = |noise: &Noise| noise.sigma < COMPUTED * size;
+        // What repeats is noise that comes down: of what was computed there is none.
+        let turns = match is_computed(&kinematic.noise) {
+            true => 0.0,
+            false => self.turns(kinematic),
+        };
+        let tried = parallel::map(ladders(turns), |ladder| {
             let mut tried: Vec<Candidate> = Vec::new();
-            for prior in *ladder {
+            for prior in ladder {
                 let next = self.candidate(*prior, kinematic, correlated);
                 let before = tried
                     .last()
                     .map_or(f64::NEG_INFINITY, |c| c.noise.likelihood);
                 let rises = next.noise.likelihood > before;
-                let is_computed = next.noise.sigma < COMPUTED * self.record.sensor.size();
+                let is_computed = is_computed(&next.noise);
                 tried.push(next);
                 if !rises || is_computed && prior.order == 2 {
                     break;

@@ -2,8 +2,10 @@
 
 #![allow(clippy::needless_range_loop)]
 
-use super::kalman::{Gaussian, Matrix, Sample, Step, diagonal};
-use super::linearised::{Linearised, Prior, State};
+use super::kalman::{Gaussian, Sample, Step};
+use super::linearised::{Linearised, State};
+use super::matrix::{Matrix, diagonal};
+use super::prior::Prior;
 
 /// Mean deviation of the samples of a node from the nominal path.
 #[derive(Clone, Copy, Debug, Default)]
@@ -23,6 +25,19 @@ pub(super) struct Autoregression {
     pub decay: f64,
     /// White part of the variance of a sample.
     pub white: f64,
+}
+
+/// White part of the variance of correlated noise.
+const WHITE: f64 = 0.02;
+
+impl Autoregression {
+    /// First guesses for samples so far apart, s.
+    pub fn guesses(spacing: f64) -> [Autoregression; 3] {
+        [0.2, 1.0, 5.0].map(|steps| Autoregression {
+            decay: 1.0 / (steps * spacing),
+            white: WHITE,
+        })
+    }
 }
 
 /// The linear model of the deviations from a nominal path; N is 2 + order, and one more with correlated noise.
@@ -215,7 +230,8 @@ fn add<const N: usize, const R: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::inverse::linearised::{Unknown, exponential};
+    use crate::inverse::linearised::exponential;
+    use crate::inverse::prior::Unknown;
 
     #[test]
     fn the_inverse_transition_undoes_the_transition() {
@@ -229,11 +245,7 @@ mod tests {
         let model = Deviations {
             steps: &[step],
             observed: &[],
-            prior: Prior {
-                unknown: Unknown::Torque,
-                order: 2,
-                follows_speed: false,
-            },
+            prior: Prior::new(Unknown::Torque, 2),
             noise: 1.0,
             level: 0.5,
             drift: 0.0,

@@ -128,7 +128,9 @@ pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> 
             "the noise of the samples is correlated over about {time:.1e} s: what varies like that is taken for noise, not for motion"
         ));
     }
-    warnings.extend(slow(fitted, measurement));
+    if !fitted.repeats {
+        warnings.extend(slow(fitted, measurement));
+    }
     if summary.coefficients.iter().any(Option::is_none) {
         warnings.push("coefficients in plain time are left out where cancellation leaves no digits: let the time begin near 0".to_owned());
     }

@@ -418,3 +418,44 @@ fn a_known_torque_leaves_the_force_of_the_rest() {
         assert!(covered > 0.85, "{}: {covered}", motion.name);
     }
 }
+
+/// A pressure that repeats every turn under a slow loss.
+const ENGINE: Motion = Motion {
+    name: "engine",
+    start: [1.0, 80.0],
+    end: 1.0,
+    rows: 2000,
+    torque: |_, theta, omega| {
+        let off = (theta - 0.3 + 0.5 * TAU).rem_euclid(TAU) - 0.5 * TAU;
+        -2000.0 * (-12.5 * off * off).exp() * position(theta)[1] - 0.025 * omega
+    },
+};
+
+/// Turns that repeat help each other: over the same rows a record of thirteen turns tells the force better than one of less than
+/// two does. The band covers.
+#[test]
+fn turns_that_repeat_help_each_other() {
+    let mut random = Random(0x1c0d_2b99_1204_77aa);
+    let truth = ENGINE.run();
+    let turned = |theta: &&f64| **theta < truth.theta[0] + 1.9 * TAU;
+    let rows = truth.theta.iter().take_while(turned).count();
+    for noise in [1e-4, 1e-3] {
+        let record = measure(&truth, Sensor::Angle(noise), &mut random);
+        let part = Record {
+            t: record.t[..rows].to_vec(),
+            values: record.values[..rows].to_vec(),
+            rows: record.rows[..rows].to_vec(),
+            sound: record.sound[..rows].to_vec(),
+            measured: record.measured,
+        };
+        let whole = found(&ENGINE, &record, 1.0);
+        let [_, covered] = judge(&truth, &record, &whole);
+        let alone = found(&ENGINE, &part, 1.0);
+        let [error, of_part] = [&whole, &alone].map(|found| judge(&truth, &part, found)[0]);
+        assert!(covered > 0.9, "{noise}: covered {covered}");
+        assert!(
+            error < 0.7 * of_part,
+            "{noise}: {error} N, alone {of_part} N"
+        );
+    }
+}

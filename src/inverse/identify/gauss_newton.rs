@@ -221,7 +221,8 @@ impl<'a> Search<'a> {
     /// Moves the path to the smoothed one; the root mean square of its way in standard errors, and the prediction errors in
     /// their standard deviations.
     fn smooth(&mut self, model: &Stretch, noise: &Noise) -> (f64, Vec<f64>) {
-        let (deviations, innovations) = kalman::smooth::<3>(&self.trials.deviations(model, noise));
+        let (deviations, innovations) =
+            kalman::smooth::<3>(&self.trials.deviations(model, noise), &mut ());
         let mut sum = 0.0;
         for (state, deviation) in self.path.states.iter_mut().zip(&deviations) {
             for (value, change) in state.iter_mut().zip(&deviation.mean) {

@@ -2,11 +2,11 @@
 
 use std::borrow::Cow;
 
-use super::super::kalman;
+use super::super::kalman::{self, Companion, Innovation, Sample};
 use super::super::likelihood::{Linear, Stretch};
-use super::super::linearised::{Prior, Unknown};
 use super::super::maximum::climb;
 use super::super::measurement_model::{Scale, Sensor};
+use super::super::prior::{Prior, Unknown};
 use super::super::problem::Problem;
 use super::super::record::{Path, Record};
 use super::super::scales::{Noise, Scales};
@@ -17,11 +17,7 @@ use crate::mechanism::Equation;
 use crate::scene::Scene;
 
 /// What the scene misses: a torque as a Wiener process.
-pub(super) const MISSING: Prior = Prior {
-    unknown: Unknown::Torque,
-    order: 1,
-    follows_speed: false,
-};
+pub(super) const MISSING: Prior = Prior::new(Unknown::Torque, 1);
 
 /// The scene with its free values, and the record.
 pub(super) struct Trials<'a> {
@@ -43,6 +39,13 @@ impl Innovations {
     pub fn squares(&self) -> f64 {
         let pairs = self.errors.iter().zip(&self.variances);
         pairs.map(|(e, s)| e * e / s).sum()
+    }
+}
+
+impl Companion<3> for Innovations {
+    fn updated(&mut self, _: usize, _: &Sample<3>, found: &Innovation<3>) {
+        self.errors.push(found.error);
+        self.variances.push(found.variance);
     }
 }
 
@@ -94,14 +97,7 @@ impl Trials<'_> {
     /// Prediction errors of a model.
     pub fn innovations(&self, model: &Stretch, noise: &Noise) -> Innovations {
         let mut found = Innovations::default();
-        kalman::run::<3>(
-            &self.deviations(model, noise),
-            |_, _| (),
-            |_, error, variance| {
-                found.errors.push(error);
-                found.variances.push(variance);
-            },
-        );
+        kalman::run::<3>(&self.deviations(model, noise), &mut found);
         found
     }
 
