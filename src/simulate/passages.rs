@@ -44,49 +44,44 @@ impl Stretch<'_> {
         all
     }
 
-    /// The passage of a dead centre (rad) at a time of the motion (s), so far (rad) from an angle.
-    fn passage(&self, t: f64, from: Angle, way: f64, dead_centre: f64) -> Event {
-        let turns = ((from.rest + way - dead_centre) / TAU).round();
-        let at = Angle::new(from.turns + turns, dead_centre);
-        Event {
-            kind: "dead-centre",
-            t_s: t,
-            theta_rad: at.radians(),
-            omega_rad_per_s: self.orbit.state(t).1,
-        }
+    /// Dead centres of a motion that does not turn back until a time (s): the first ones, at most `kept`.
+    fn one_way(&self, until: f64, kept: usize) -> Vec<Passage> {
+        let (orbit, start) = (self.orbit, self.orbit.start());
+        let (first, way) = (self.ahead(start, orbit.direction()), self.way(until));
+        let turns = (0u32..).map(|turn| f64::from(turn) * TAU);
+        let marks =
+            turns.flat_map(|before| first.iter().map(move |(ahead, dc)| (before + ahead, *dc)));
+        let passages = marks.take_while(|(ahead, _)| *ahead <= way).take(kept);
+        let passages = passages.map(|(ahead, dead_centre)| {
+            let t = orbit.time_of_turn(ahead).unwrap_or(until).min(until);
+            let way = orbit.direction() * ahead;
+            Passage::new(t, start, way, dead_centre, orbit.state(t).1)
+        });
+        passages.collect()
     }
 
-    /// Dead centres of a motion that does not turn back, in its own time: each is passed once in a turn.
-    fn one_way(&self, kept: usize) -> (Vec<Event>, u64) {
-        let (orbit, start) = (self.orbit, self.orbit.start());
-        let direction = orbit.direction();
-        let all = orbit.state(self.end).0.minus(start).abs() + Stretch::near(start.rest.abs());
-        let way = all * (1.0 + 4.0 * f64::EPSILON);
-        let first = self.ahead(start, direction);
+    /// How far a motion that does not turn back has come at a time (s), rad.
+    fn way(&self, t: f64) -> f64 {
+        let start = self.orbit.start();
+        let way = self.orbit.state(t).0.minus(start).abs() + Stretch::near(start.rest.abs());
+        way * (1.0 + 4.0 * f64::EPSILON)
+    }
+
+    /// How many dead centres it passes: each once in a turn.
+    fn one_way_count(&self) -> u64 {
+        let way = self.way(self.end);
+        let first = self.ahead(self.orbit.start(), self.orbit.direction());
         let count = |(ahead, _): &(f64, f64)| ((way - ahead) / TAU + 1.0).floor().max(0.0) as u64;
-        let total = first.iter().map(count).sum();
-        let turns = (0u32..).flat_map(|turn| {
-            let before = f64::from(turn) * TAU;
-            first.iter().map(move |(ahead, dc)| (before + ahead, *dc))
-        });
-        let events =
-            turns
-                .take_while(|(ahead, _)| *ahead <= way)
-                .take(kept)
-                .map(|(ahead, dead_centre)| {
-                    let t = orbit.time_of_turn(ahead).unwrap_or(self.end);
-                    self.passage(t.min(self.end), start, direction * ahead, dead_centre)
-                });
-        (events.collect(), total)
+        first.iter().map(count).sum()
     }
 
     /// Dead centres and turning points of a motion to and fro until a time (s), in its own time.
-    fn to_and_fro(&self, until: f64) -> Vec<Event> {
+    fn to_and_fro(&self, until: f64) -> Vec<Passage> {
         let orbit = self.orbit;
         let turnings = orbit.turning_times(until);
         let mut cuts = turnings.clone();
         cuts.push(until);
-        let (mut events, mut from) = (Vec::new(), 0.0);
+        let (mut found, mut from) = (Vec::new(), 0.0);
         for (i, to) in cuts.into_iter().enumerate() {
             let turns_back = i < turnings.len();
             let [begin, end] = [from, to].map(|t| orbit.state(t).0);
@@ -98,55 +93,88 @@ impl Stretch<'_> {
                 while ahead <= last {
                     let beyond = |t: f64| orbit.state(t).0.minus(begin).abs() - ahead;
                     let t = root::bracketed(beyond, from, to).unwrap_or(to);
-                    events.push(self.passage(t, begin, direction * ahead, dead_centre));
+                    let speed = orbit.state(t).1;
+                    found.push(Passage::new(
+                        t,
+                        begin,
+                        direction * ahead,
+                        dead_centre,
+                        speed,
+                    ));
                     ahead += TAU;
                 }
             }
-            if turns_back {
-                events.push(Event {
-                    kind: "turning-point",
-                    t_s: to,
-                    theta_rad: end.radians(),
-                    omega_rad_per_s: 0.0,
-                });
-            }
+            found.extend(turns_back.then_some(Passage {
+                kind: "turning-point",
+                t: to,
+                angle: end,
+                speed: 0.0,
+            }));
             from = to;
         }
-        events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
-        events
+        found.sort_by(|a, b| a.t.total_cmp(&b.t));
+        found
     }
 
     /// Dead centres and turning points in the order of time: the first ones, at most `kept`, and how many there are.
     pub fn events(&self, kept: usize) -> (Vec<Event>, u64) {
-        let (mut events, total) = match (self.orbit.turns_back(), self.orbit.period()) {
-            (false, _) => self.one_way(kept),
-            (true, Some((period, _))) if period < self.end => {
-                let once = self.to_and_fro(period);
-                let again = |event: &Event| ((self.end - event.t_s) / period + 1.0 + 1e-9).floor();
-                let total = once.iter().map(again).sum::<f64>();
-                let rounds = (0u32..).flat_map(|round| {
-                    let before = f64::from(round) * period;
-                    once.iter().map(move |event| Event {
-                        t_s: before + event.t_s,
-                        ..*event
-                    })
-                });
-                let kept = if once.is_empty() { 0 } else { kept };
-                let over = self.end * (1.0 + 1e-14);
-                let first = rounds.take_while(|event| event.t_s <= over).take(kept);
-                (first.collect(), total as u64)
-            }
-            (true, _) => {
-                let mut events = self.to_and_fro(self.end);
-                let total = events.len() as u64;
-                events.truncate(kept);
-                (events, total)
-            }
+        let (orbit, turns_back) = (self.orbit, self.orbit.turns_back());
+        let repeats = orbit.period().filter(|(period, _)| *period < self.end);
+        let (period, low) = repeats.unwrap_or((self.end, 0.0));
+        let once = if turns_back {
+            self.to_and_fro(period)
+        } else {
+            self.one_way(period, kept)
         };
-        for event in &mut events {
-            event.t_s += self.begin;
+        let over = self.end * (1.0 + 1e-14);
+        let rounds = |passage: &Passage| match repeats {
+            Some(_) => ((over - passage.t) / period + 1.0).floor() as u64,
+            None => 1,
+        };
+        let total = if turns_back {
+            once.iter().map(rounds).sum()
+        } else {
+            self.one_way_count()
+        };
+        let turns = if turns_back { 0.0 } else { orbit.direction() };
+        let most = total.min(kept as u64) * u64::from(!once.is_empty());
+        let again = (0u64..).map(|round| round as f64).flat_map(|round| {
+            once.iter().map(move |passage| Event {
+                kind: passage.kind,
+                t_s: self.begin + (round.mul_add(period, passage.t) + round * low).min(self.end),
+                theta_rad: Angle {
+                    turns: passage.angle.turns + round * turns,
+                    ..passage.angle
+                }
+                .radians(),
+                omega_rad_per_s: passage.speed,
+            })
+        });
+        (again.take(most as usize).collect(), total)
+    }
+}
+
+/// A dead centre or turning point in the time of a motion.
+struct Passage {
+    kind: &'static str,
+    /// s
+    t: f64,
+    angle: Angle,
+    /// rad/s
+    speed: f64,
+}
+
+impl Passage {
+    /// A dead centre (rad) so far (rad, with sign) from an angle.
+    fn new(t: f64, from: Angle, way: f64, dead_centre: f64, speed: f64) -> Passage {
+        let turns = ((from.rest + way - dead_centre) / TAU).round();
+        let angle = Angle::new(from.turns + turns, dead_centre);
+        Passage {
+            kind: "dead-centre",
+            t,
+            angle,
+            speed,
         }
-        (events, total)
     }
 }
 
