@@ -33,8 +33,8 @@ const SHAPES: [&[(f64, f64)]; 5] = [
 /// Radius of a marker, pixels.
 const RADIUS: f64 = 3.2;
 
-/// Length of dashes and of the gaps between them, pixels: of the lines of a panel one after the other. A dashed series
-/// has the last.
+/// Length of dashes and of the gaps between them, pixels: of the lines of a panel one after the other, of its dashed
+/// series from the last on.
 const STROKES: [Option<(i32, i32)>; 4] = [None, Some((15, 4)), Some((3, 3)), Some((7, 4))];
 
 /// A place on the fine grid.
@@ -51,7 +51,8 @@ pub(super) fn colour(look: Look, index: usize) -> RGBColor {
 /// Dashes and gaps of the stroke of a series, pixels; none of a line that is drawn through.
 pub(super) fn dashes(of: &Numbered) -> Option<(i32, i32)> {
     match of.series.look {
-        Look::Dashed | Look::VerticalMark => STROKES[STROKES.len() - 1],
+        Look::Dashed => STROKES[STROKES.len() - 1 - of.line % (STROKES.len() - 1)],
+        Look::VerticalMark => STROKES[STROKES.len() - 1],
         Look::Line => STROKES[of.line % STROKES.len()],
         _ => None,
     }

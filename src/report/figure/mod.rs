@@ -36,7 +36,7 @@ struct Series {
 struct Numbered<'a> {
     /// Number of its colour and marker.
     colour: usize,
-    /// Number of its stroke, among the lines.
+    /// Number of its stroke, among series of this look.
     line: usize,
     series: &'a Series,
 }
@@ -171,7 +171,7 @@ impl Figure {
     /// The series with the numbers of their looks: one number for each label.
     fn numbered(&self) -> Vec<Numbered<'_>> {
         let mut labels: Vec<&str> = Vec::new();
-        let mut lines: Vec<usize> = Vec::new();
+        let mut drawn: Vec<(Look, usize)> = Vec::new();
         let mut numbered = Vec::new();
         for series in &self.series {
             let label = series.label.as_str();
@@ -181,13 +181,15 @@ impl Figure {
                 labels.push(label);
             }
             let colour = known.unwrap_or(labels.len().saturating_sub(1));
-            if series.look == Look::Line && !lines.contains(&colour) {
-                lines.push(colour);
+            let line = (series.look, colour);
+            if !drawn.contains(&line) {
+                drawn.push(line);
             }
-            let line = lines.iter().position(|line| *line == colour);
+            let alike = drawn.iter().filter(|(look, _)| *look == series.look);
+            let line = alike.take_while(|other| **other != line).count();
             numbered.push(Numbered {
                 colour,
-                line: line.unwrap_or(0),
+                line,
                 series,
             });
         }
