@@ -9,10 +9,10 @@ use clap::Args;
 use super::{Outcome, Streams, fill, origin, page, say};
 use crate::error::Error;
 use crate::plan::Method;
-use crate::report::{self, SweepWriter};
+use crate::report::{self, SweepAsked, SweepWriter};
 use crate::scene::{Draft, Varied};
 use crate::simulate::SteadyOptions;
-use crate::sweep::{Sweep, SweepOptions};
+use crate::sweep::{Figure, Goal, LatinHypercube, Sweep, SweepOptions};
 
 /// Arguments of `sweep`.
 #[derive(Debug, Args)]
@@ -21,15 +21,38 @@ pub(super) struct Arguments {
     scene: Option<PathBuf>,
     /// A scene key and its values: "geometry.offset=0mm:20mm:41" for 41 from 0 to 20 mm, with ":log" at the end
     /// evenly in the logarithm, or "rod.model=rigid,two-mass" one by one; given again, all combinations
-    #[arg(long, value_name = "KEY=VALUES", required = true)]
+    #[arg(long, value_name = "KEY=VALUES", required_unless_present_any = ["sample", "merge"])]
     vary: Vec<Varied>,
+    /// Draws this many designs at random in place of all combinations, as a Latin hypercube: from
+    /// "geometry.rod=150mm:160mm" evenly, from "geometry.rod=155.8 +- 0.1 mm" normally; without --vary, from all values of
+    /// the scene that are written like this
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..))]
+    sample: Option<u64>,
+    /// Seed of the sample
+    #[arg(long, value_name = "NUMBER", default_value_t = 1, requires = "sample")]
+    seed: u64,
+    /// Key figures to compute, and nothing else, like "stroke,guide_peak,indicated_work"
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    figures: Vec<Figure>,
     /// Writes one row of key figures per design as CSV to this file, `-` for standard output; a sweep that was
     /// cut off goes on from FILE.part
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    /// Looks for the designs with the least of this key figure; with several --least and --most for the Pareto front
+    #[arg(long, value_name = "FIGURE")]
+    least: Vec<Figure>,
+    /// Looks for the designs with the most of this key figure
+    #[arg(long, value_name = "FIGURE")]
+    most: Vec<Figure>,
+    /// Adds mean, standard deviation and percentiles of every key figure; samples have them without
+    #[arg(long)]
+    percentiles: bool,
     /// Computes part K of N only, like "2/8"; the files of all parts, one after the other, are the whole
     #[arg(long, value_name = "K/N", value_parser = shard)]
     shard: Option<[usize; 2]>,
+    /// Computes nothing: puts the files of all parts together, in any order, and sums them up
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["scene", "vary", "sample", "shard", "report"])]
+    merge: Vec<PathBuf>,
     /// Writes any key figure over any other as one HTML page to this file
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -46,7 +69,7 @@ pub(super) struct Arguments {
     #[arg(long)]
     steady_state: bool,
     /// Adds the flywheel for this coefficient of speed fluctuation in the steady state
-    #[arg(long, value_name = "NUMBER", requires = "steady_state")]
+    #[arg(long, value_name = "NUMBER")]
     fluctuation: Option<f64>,
     /// auto, closed-form, energy, angle, time, dop853 or dopri5
     #[arg(long, default_value = "auto")]
@@ -57,6 +80,35 @@ pub(super) struct Arguments {
     /// Work limit: most evaluations of the equation in one design
     #[arg(long, value_name = "COUNT", default_value_t = SweepOptions::default().max_evaluations)]
     max_evaluations: u64,
+}
+
+impl Arguments {
+    fn sample(&self) -> Option<LatinHypercube> {
+        let seed = self.seed;
+        self.sample.map(|count| LatinHypercube { count, seed })
+    }
+
+    fn goals(&self) -> Vec<Goal> {
+        let goal = |most| {
+            move |figure: &Figure| Goal {
+                figure: *figure,
+                most,
+            }
+        };
+        let least = self.least.iter().map(goal(false));
+        least.chain(self.most.iter().map(goal(true))).collect()
+    }
+
+    /// Computes what the named figures and goals take, or what the scene and the other options say.
+    fn figures(&self) -> Vec<Figure> {
+        let mut figures = self.figures.clone();
+        if !figures.is_empty() {
+            let named = |one: &Figure| self.figures.iter().any(|other| other == one);
+            let goals = self.goals().into_iter().map(|goal| goal.figure);
+            figures.extend(goals.filter(|figure| !named(figure)));
+        }
+        figures
+    }
 }
 
 fn shard(text: &str) -> Result<[usize; 2], String> {
@@ -71,6 +123,9 @@ fn shard(text: &str) -> Result<[usize; 2], String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+    if !arguments.merge.is_empty() {
+        return merge(arguments);
+    }
     let (read, out) = (arguments.scene.as_ref(), arguments.out.as_ref());
     let streams = Streams::new(&[read], out, &[arguments.report.as_ref()], arguments.json)?;
     let draft = match read {
@@ -81,22 +136,40 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         streams.spare_tables(&scene)?;
     }
     let options = SweepOptions {
+        figures: arguments.figures(),
+        sample: arguments.sample(),
+        diagrams: false,
         motion: !arguments.no_motion,
         reactions: arguments.reactions,
-        steady: arguments.steady_state.then_some(SteadyOptions {
-            fluctuation: arguments.fluctuation,
-            max_evaluations: arguments.max_evaluations,
-            stop: None,
-        }),
+        steady: (arguments.steady_state || arguments.fluctuation.is_some()).then_some(
+            SteadyOptions {
+                fluctuation: arguments.fluctuation,
+                max_evaluations: arguments.max_evaluations,
+                stop: None,
+            },
+        ),
         method: arguments.method,
         estimate: !arguments.no_estimate,
         max_evaluations: arguments.max_evaluations,
         stop: None,
     };
-    let sweep = Sweep::new(draft, arguments.vary.clone(), options)?;
+    let varied = match arguments.vary.as_slice() {
+        [] => draft.tolerances(),
+        varied => varied.to_vec(),
+    };
+    let sweep = Sweep::new(draft, varied, options)?;
     let part = arguments.shard.unwrap_or([1, 1]);
     let page = page(arguments.report.as_ref())?;
-    let mut writer = SweepWriter::new(out.map(PathBuf::as_path), &sweep, part, page.is_some())?;
+    let mut writer = SweepWriter::new(
+        out.map(PathBuf::as_path),
+        &sweep,
+        part,
+        &SweepAsked {
+            goals: arguments.goals(),
+            percentiles: arguments.percentiles,
+            page: page.is_some(),
+        },
+    )?;
     let progress = std::io::stderr().is_terminal();
     let begun = Instant::now();
     let mut said = begun;
@@ -121,4 +194,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         ),
         _ => Outcome::Done,
     })
+}
+
+fn merge(arguments: &Arguments) -> Result<Outcome, Error> {
+    let parts: Vec<Option<&PathBuf>> = arguments.merge.iter().map(Some).collect();
+    let out = arguments.out.as_ref();
+    let streams = Streams::new(&parts, out, &[], arguments.json)?;
+    let out = out.map(PathBuf::as_path);
+    let goals = arguments.goals();
+    let summary = report::merge(&arguments.merge, out, &goals, arguments.percentiles)?;
+    streams.show(&summary, || report::sweep_text(&summary))?;
+    Ok(Outcome::Done)
 }

@@ -10,6 +10,8 @@ pub mod exact;
 pub mod gauss;
 pub mod golden;
 pub mod interpolate;
+#[cfg(feature = "cli")]
+pub mod latin_hypercube;
 pub mod line_fit;
 pub mod median;
 pub mod orthogonal;

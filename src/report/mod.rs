@@ -51,7 +51,8 @@ pub use rows::{Preview, RowWriter};
 pub use sketch::{Pose, Sketch, animation};
 pub use statics::{statics, statics_figure, statics_page, statics_rows};
 pub use sweep::{
-    SweepExtreme, SweepRange, SweepSummary, SweepWriter, VariedKey, sweep_page, sweep_text,
+    FrontDesign, Spread, SweepAsked, SweepExtreme, SweepRange, SweepSummary, SweepWriter,
+    VariedKey, merge, sweep_page, sweep_text,
 };
 pub use table::Table;
 pub use text::summary;

@@ -15,6 +15,8 @@ mod csv;
 mod expression;
 #[cfg(feature = "cli")]
 mod keys;
+#[cfg(feature = "cli")]
+pub(crate) use keys::nearest;
 mod load;
 mod measurement;
 mod motion;
@@ -66,7 +68,7 @@ pub use table::{LoadTable, load_table};
 pub use uncertain::UncertainValue;
 pub use variable::{Instant, Variable, Variables};
 #[cfg(feature = "cli")]
-pub use vary::{Assigned, Draft, NumberKey, Varied};
+pub use vary::{Assigned, Draft, NumberKey, Varied, VariedValue};
 
 /// A complete scene.
 #[derive(Clone, Debug)]

@@ -4,9 +4,12 @@ use serde::Serialize;
 
 use super::SweepOptions;
 use crate::error::Error;
-use crate::kinematics::{Kinematics, kinematics};
-use crate::scene::Scene;
+use crate::kinematics::{Diagrams, Kinematics, forces, kinematics};
+use crate::scene::{Scene, VariedValue};
 use crate::simulate::{NoRows, Options, SteadyState, Summary, simulate_rows, steady_state};
+
+/// Part of the first order that the counterweight of the diagrams balances: the usual half.
+const BALANCED: f64 = 0.5;
 
 /// How far a design could be computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -39,14 +42,16 @@ impl Outcome {
 pub struct Design {
     /// Place in the sweep, from 0.
     pub index: usize,
-    /// Which of its values each varied key has, from 0.
-    pub values: Vec<usize>,
+    /// The value of each varied key.
+    pub values: Vec<VariedValue>,
     /// How far it could be computed.
     pub outcome: Outcome,
     /// Why no further, and what else the reader should know.
     pub notes: Vec<String>,
     /// One turn in closed form; none for an impossible design.
     pub kinematics: Option<Kinematics>,
+    /// The diagrams of a cycle, if they were asked for and there are any.
+    pub diagrams: Option<Diagrams>,
     /// The forward motion, if it was asked for and could be computed; its list of events is empty.
     pub motion: Option<Summary>,
     /// The periodic steady state, if it was asked for and there is one.
@@ -56,7 +61,7 @@ pub struct Design {
 impl Design {
     pub(super) fn new(
         index: usize,
-        values: Vec<usize>,
+        values: Vec<VariedValue>,
         scene: Result<Scene, Error>,
         options: &SweepOptions,
     ) -> Design {
@@ -66,6 +71,7 @@ impl Design {
             outcome: Outcome::Done,
             notes: Vec::new(),
             kinematics: None,
+            diagrams: None,
             motion: None,
             steady: None,
         };
@@ -83,6 +89,12 @@ impl Design {
                 self.kinematics = Some(turn);
             }
             Err(error) => return self.fail(Outcome::Impossible, &error),
+        }
+        if options.diagrams {
+            match forces(scene) {
+                Ok(analysis) => self.diagrams = analysis.diagrams(scene, BALANCED),
+                Err(error) => self.fail(Outcome::Refused, &error),
+            }
         }
         if let Some(asked) = &options.steady {
             match steady_state(scene, asked) {

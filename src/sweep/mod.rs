@@ -1,51 +1,57 @@
 //! Key figures of many designs: one scene with some of its values varied.
 
 mod design;
+mod figure;
+mod options;
+mod pareto;
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use crate::error::Error;
+pub use crate::numeric::latin_hypercube::LatinHypercube;
 use crate::numeric::parallel;
 use crate::numeric::stop::Stop;
-use crate::plan::Method;
-use crate::scene::{Draft, Scene, Varied};
+use crate::scene::{Draft, Scene, Varied, VariedValue};
 
-use crate::simulate::{Options, SteadyOptions};
 pub use design::{Design, Outcome};
+pub use figure::{Cell, Figure, Source};
+pub use options::SweepOptions;
+pub use pareto::{Goal, Member, ParetoFront};
 
-/// What is asked of every design beside what the scene says.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SweepOptions {
-    /// Whether the forward motion is computed, if the scene has a run; else one turn in closed form only.
-    pub motion: bool,
-    /// Whether the largest joint forces of the motion are looked for.
-    pub reactions: bool,
-    /// Whether the periodic steady state is looked for, and with which flywheel.
-    pub steady: Option<SteadyOptions>,
-    /// The method of the forward motion.
-    pub method: Method,
-    /// Whether its global error is estimated, by a second run.
-    pub estimate: bool,
-    /// Most evaluations of the equation in one design.
-    pub max_evaluations: u64,
-    /// A request to stop; designs that are not complete by then are not handed on.
-    pub stop: Option<Stop>,
-}
+const EXAMPLE: &str = "say which key takes which values, like --vary geometry.offset=0mm:20mm:41";
 
-impl Default for SweepOptions {
-    fn default() -> SweepOptions {
-        let one = Options::default();
-        SweepOptions {
-            motion: true,
-            reactions: false,
-            steady: None,
-            method: one.method,
-            estimate: one.estimate,
-            max_evaluations: one.max_evaluations,
-            stop: None,
+/// Whether the keys are varied once each, and make a number of designs that can be counted.
+fn check_count(varied: &[Varied], sample: Option<LatinHypercube>) -> Result<(), Error> {
+    let refused = |what, help: &str| Err(Error::refused(what, help));
+    for (i, one) in varied.iter().enumerate() {
+        if varied[..i].iter().any(|other| other.key() == one.key()) {
+            return refused(
+                format!("`{}` is varied twice", one.key()),
+                "give all its values at once, like geometry.rod=100mm,120mm,125mm",
+            );
         }
+        if one.is_distribution() && sample.is_none() {
+            return refused(
+                format!("`{} = {one}` is a distribution", one.key()),
+                "say how many designs are drawn from it, like --sample 1000; or how many values there are, like 0mm:20mm:41",
+            );
+        }
+    }
+    let designs = match sample {
+        Some(sample) => usize::try_from(sample.count).ok(),
+        None => varied
+            .iter()
+            .try_fold(1usize, |product, one| product.checked_mul(one.len())),
+    };
+    match designs {
+        _ if varied.is_empty() => refused("no key is varied".to_owned(), EXAMPLE),
+        Some(designs) if designs <= Sweep::MOST => Ok(()),
+        _ => refused(
+            format!("the sweep has more than {} designs", Sweep::MOST),
+            EXAMPLE,
+        ),
     }
 }
 
@@ -59,7 +65,7 @@ impl Default for SweepOptions {
 /// let rods: Varied = "geometry.rod=100mm:160mm:4".parse().unwrap();
 /// let sweep = Sweep::new(Draft::duarte(), vec![rods], SweepOptions::default())?;
 /// let design = sweep.design(2);
-/// assert_eq!(design.values, [2]);
+/// assert_eq!(design.values[0].text, "140 mm");
 /// assert_eq!(design.kinematics.unwrap().stroke_m, 0.094);
 /// assert!(design.motion.unwrap().last.omega_rad_per_s > 90.0);
 /// assert_eq!(sweep.part(2, 3)?, 1..2);
@@ -78,43 +84,19 @@ impl Sweep {
     /// Most designs of a sweep.
     pub const MOST: usize = 1_000_000_000;
 
-    /// Every combination of these values.
+    /// Every combination of these values, or a sample of them.
     ///
     /// # Errors
     /// [`Error::Refused`] if nothing is varied, a key twice, or there are more than [`Sweep::MOST`] designs;
-    /// or if forces are asked for without a motion;
+    /// if a distribution is not sampled; or if forces are asked for without a motion;
     /// [`Error::Scene`] if neither the scene as it is written nor the first design can be read, or if a load that
     /// is to be varied is not there.
-    pub fn new(
-        draft: Draft,
-        varied: Vec<Varied>,
-        mut options: SweepOptions,
-    ) -> Result<Sweep, Error> {
-        for (i, one) in varied.iter().enumerate() {
-            if varied[..i].iter().any(|other| other.key() == one.key()) {
-                return Err(Error::refused(
-                    format!("`{}` is varied twice", one.key()),
-                    "give all its values at once, like geometry.rod=100mm,120mm,125mm",
-                ));
-            }
-        }
-        let designs = varied
-            .iter()
-            .try_fold(1usize, |product, one| product.checked_mul(one.len()))
-            .filter(|product| *product <= Sweep::MOST);
-        if varied.is_empty() || designs.is_none() {
-            return Err(Error::refused(
-                match designs {
-                    Some(_) => "no key is varied".to_owned(),
-                    None => format!("the sweep has more than {} designs", Sweep::MOST),
-                },
-                "say which key takes which values, like --vary geometry.offset=0mm:20mm:41",
-            ));
-        }
+    pub fn new(draft: Draft, varied: Vec<Varied>, options: SweepOptions) -> Result<Sweep, Error> {
+        check_count(&varied, options.sample)?;
         let mut sweep = Sweep {
             draft,
             varied,
-            options: SweepOptions::default(),
+            options,
             title: String::new(),
         };
         // What is wrong with the file shows here once, not in every design.
@@ -126,19 +108,9 @@ impl Sweep {
             .draft
             .scene()
             .or_else(|_| sweep.scene(&sweep.values(0)))?;
-        let runs = ["run.duration", "run.revolutions"];
-        options.motion &= scene.run.extent.is_some()
-            || sweep
-                .varied
-                .iter()
-                .any(|one| runs.contains(&one.key().as_str()));
-        if options.reactions && !options.motion {
-            return Err(Error::refused(
-                "the largest joint forces are those of a motion, and none is computed",
-                "give the scene a [run], and do without --no-motion",
-            ));
-        }
-        sweep.options = options;
+        let runs = |one: &Varied| ["run.duration", "run.revolutions"].contains(&one.key().as_str());
+        let has_run = scene.run.extent.is_some() || sweep.varied.iter().any(runs);
+        sweep.options.settle(has_run)?;
         sweep.title = scene.title.unwrap_or_default();
         Ok(sweep)
     }
@@ -146,7 +118,10 @@ impl Sweep {
     /// Number of designs, at least one.
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
-        self.varied.iter().map(Varied::len).product()
+        match self.options.sample {
+            Some(sample) => sample.count as usize,
+            None => self.varied.iter().map(Varied::len).product(),
+        }
     }
 
     /// The keys that are varied.
@@ -154,19 +129,14 @@ impl Sweep {
         &self.varied
     }
 
-    /// Whether the forward motion is computed.
-    pub fn has_motion(&self) -> bool {
-        self.options.motion
+    /// The key figures of each design.
+    pub fn figures(&self) -> &[Figure] {
+        &self.options.figures
     }
 
-    /// Whether the largest joint forces are looked for.
-    pub fn has_reactions(&self) -> bool {
-        self.options.reactions
-    }
-
-    /// Whether the steady state is looked for, and with which flywheel.
-    pub fn steady(&self) -> Option<&SteadyOptions> {
-        self.options.steady.as_ref()
+    /// Whether the designs are drawn at random, and how.
+    pub fn sample(&self) -> Option<LatinHypercube> {
+        self.options.sample
     }
 
     /// Title of the scene.
@@ -201,32 +171,40 @@ impl Sweep {
         };
         format!("{options:?}").hash(&mut hasher);
         for one in &self.varied {
-            one.key().hash(&mut hasher);
-            (0..one.len()).for_each(|i| one.text(i).hash(&mut hasher));
+            (one.key(), one.to_string()).hash(&mut hasher);
         }
         hasher.finish()
     }
 
-    /// Which value each varied key has in a design.
-    fn values(&self, design: usize) -> Vec<usize> {
+    /// The value that each varied key has in a design.
+    fn values(&self, design: usize) -> Vec<VariedValue> {
+        if let Some(sample) = self.options.sample {
+            let keys = (0..).zip(&self.varied);
+            let value = |(key, one): (u64, &Varied)| one.quantile(sample.at(key, design as u64));
+            return keys.map(value).collect();
+        }
         let mut rest = design;
-        let mut values: Vec<usize> = Vec::with_capacity(self.varied.len());
+        let mut values: Vec<VariedValue> = Vec::with_capacity(self.varied.len());
         for one in self.varied.iter().rev() {
-            values.push(rest % one.len());
+            values.push(one.value(rest % one.len()));
             rest /= one.len();
         }
         values.reverse();
         values
     }
 
-    fn scene(&self, values: &[usize]) -> Result<Scene, Error> {
-        let values = self.varied.iter().zip(values.iter().copied());
-        Ok(self.draft.with(values)?)
+    fn scene(&self, values: &[VariedValue]) -> Result<Scene, Error> {
+        let texts = values.iter().map(|value| value.text.as_str());
+        Ok(self.draft.with(self.varied.iter().zip(texts))?)
     }
 
     /// Computes one design, counted from 0 and below [`Sweep::len`].
     pub fn design(&self, index: usize) -> Design {
-        let values = self.values(index);
+        self.design_of(index, self.values(index))
+    }
+
+    /// Computes the design of these values, under an index.
+    pub fn design_of(&self, index: usize, values: Vec<VariedValue>) -> Design {
         let scene = self.scene(&values);
         Design::new(index, values, scene, &self.options)
     }

@@ -18,6 +18,7 @@ mod precision;
 mod program;
 mod readme;
 mod reproduce;
+mod samples;
 mod simulate;
 mod statics;
 mod steady;

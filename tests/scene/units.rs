@@ -23,6 +23,8 @@ fn schema_lets(text: &str, quantity: Quantity) -> bool {
         Quantity::Pressure => "force/items/properties/ambient",
         Quantity::Density => "crank/properties/density",
         Quantity::Velocity => "clearance/properties/friction_threshold",
+        // No key of a scene takes these.
+        Quantity::Energy | Quantity::Power => return parse(text, quantity).is_ok(),
         Quantity::Number => return text.parse::<f64>().is_ok(),
     };
     let schema = schema();

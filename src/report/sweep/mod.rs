@@ -2,8 +2,10 @@
 
 mod columns;
 mod file_lock;
+mod merge;
 mod ranges;
 mod resumable_file;
+mod tally;
 
 use std::ops::Range;
 use std::path::Path;
@@ -13,10 +15,13 @@ use super::decimate::Thinned;
 use super::output::{Output, is_standard_output, is_stream};
 use super::table::Table;
 use crate::error::Error;
-use crate::sweep::{Design, Sweep};
-use ranges::Tally;
-pub use ranges::{SweepExtreme, SweepRange, SweepSummary, VariedKey, sweep_page, sweep_text};
+use crate::sweep::{Design, Goal, Sweep};
+pub use merge::merge;
+pub use ranges::{
+    FrontDesign, Spread, SweepExtreme, SweepRange, SweepSummary, VariedKey, sweep_page, sweep_text,
+};
 use resumable_file::Growing;
+use tally::Tally;
 
 /// Rows of `sweep`, in the order of the designs.
 ///
@@ -36,6 +41,17 @@ pub struct SweepWriter<'a> {
     shown: Option<Thinned<Vec<String>>>,
 }
 
+/// What is summed up beside the ranges.
+#[derive(Clone, Debug, Default)]
+pub struct SweepAsked {
+    /// The designs of their Pareto front are named.
+    pub goals: Vec<Goal>,
+    /// Whether figures have percentiles; those of a sample do without being asked.
+    pub percentiles: bool,
+    /// Whether rows are kept for a page.
+    pub page: bool,
+}
+
 /// Most rows on a page.
 const MOST: usize = 50_000;
 
@@ -48,21 +64,27 @@ enum Target {
 
 impl<'a> SweepWriter<'a> {
     /// Opens the target of part `part` of `parts`, counted from 1: none, `-` for standard output, or a file;
-    /// takes up what an earlier sweep left. Rows are kept for a page if there is to be one.
+    /// takes up what an earlier sweep left.
     ///
     /// # Errors
-    /// [`Error::Write`]; [`Error::Refused`] if what was left is of another sweep, or one is writing it.
+    /// [`Error::Write`]; [`Error::Refused`] if a goal is no figure of the sweep, if what was left is of another
+    /// sweep, or one is writing it.
     pub fn new(
         path: Option<&Path>,
         sweep: &'a Sweep,
         [part, parts]: [usize; 2],
-        has_page: bool,
+        asked: &SweepAsked,
     ) -> Result<SweepWriter<'a>, Error> {
-        let mut shown = has_page.then(|| Thinned::new(MOST));
-        let header = line(&columns::header(sweep))?;
+        let mut shown = asked.page.then(|| Thinned::new(MOST));
+        let header = columns::header(sweep);
+        let mut tally = Tally::new(
+            &header,
+            asked.percentiles || sweep.sample().is_some(),
+            &asked.goals,
+        )?;
+        let header = line(&header)?;
         let header = if part == 1 { header.as_str() } else { "" };
         let range = sweep.part(part, parts)?;
-        let mut tally = Tally::new(sweep);
         let mut kept = 0;
         let target = match path {
             None => Target::Nothing,

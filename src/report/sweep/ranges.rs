@@ -2,19 +2,16 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::ops::Range;
 
 use serde::Serialize;
 
 use super::super::key_values::{Facts, fact, six};
 use super::super::page::{Origin, Page, Scatter};
 use super::super::table::Table;
-use super::columns::{before_figures, header};
 use crate::error::Error;
-use crate::sweep::Sweep;
 
 /// What a sweep found.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct SweepSummary {
     /// Title of the scene.
     pub scene: String,
@@ -30,6 +27,9 @@ pub struct SweepSummary {
     pub varied: Vec<VariedKey>,
     /// Range of every key figure.
     pub figures: Vec<SweepRange>,
+    /// Designs that no other is better than in one of the goals without being worse in another; none without goals.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub pareto_front: Vec<FrontDesign>,
     /// Wall time of the designs, s.
     pub wall_s: f64,
 }
@@ -39,9 +39,11 @@ pub struct SweepSummary {
 pub struct VariedKey {
     /// As in scene files.
     pub key: String,
-    /// Number of values.
+    /// Its values as they were asked for.
+    pub values: String,
+    /// Number of listed values; 1 of a distribution.
     pub count: usize,
-    /// First value, as in scene files.
+    /// First value, as in scene files; the median of a distribution.
     pub first: String,
     /// Last value.
     pub last: String,
@@ -56,6 +58,55 @@ pub struct SweepRange {
     pub min: SweepExtreme,
     /// Largest value.
     pub max: SweepExtreme,
+    /// How it is distributed, of a sample.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spread: Option<Spread>,
+}
+
+/// Distribution of a key figure over a sample.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Spread {
+    /// Arithmetic mean.
+    pub mean: f64,
+    /// Standard deviation of the sample.
+    pub standard_deviation: f64,
+    /// 2.5 % of the designs are below, between two of them in proportion (Hyndman and Fan, type 7).
+    pub p2_5: f64,
+    /// Median.
+    pub p50: f64,
+    /// 97.5 % are below.
+    pub p97_5: f64,
+}
+
+impl Spread {
+    /// Of at least one value.
+    pub(super) fn of(mut values: Vec<f64>) -> Spread {
+        values.sort_unstable_by(f64::total_cmp);
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+        let quantile = |p: f64| {
+            let at = p * (count - 1.0);
+            let (below, above) = (values[at.floor() as usize], values[at.ceil() as usize]);
+            below + (at - at.floor()) * (above - below)
+        };
+        Spread {
+            mean,
+            standard_deviation: (squares / (count - 1.0).max(1.0)).sqrt(),
+            p2_5: quantile(0.025),
+            p50: quantile(0.5),
+            p97_5: quantile(0.975),
+        }
+    }
+}
+
+/// A design on the Pareto front.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FrontDesign {
+    /// From 1.
+    pub design: usize,
+    /// Column and value of each goal.
+    pub figures: BTreeMap<String, f64>,
 }
 
 /// A value of a key figure and the first design that has it.
@@ -65,81 +116,6 @@ pub struct SweepExtreme {
     pub value: f64,
     /// From 1.
     pub design: usize,
-}
-
-/// Rows counted, and the extremes of their columns.
-#[derive(Debug)]
-pub(super) struct Tally {
-    columns: Vec<String>,
-    before: usize,
-    status: BTreeMap<String, usize>,
-    extremes: Vec<Option<[SweepExtreme; 2]>>,
-}
-
-impl Tally {
-    pub fn new(sweep: &Sweep) -> Tally {
-        let columns = header(sweep);
-        Tally {
-            before: before_figures(sweep),
-            status: BTreeMap::new(),
-            extremes: vec![None; columns.len()],
-            columns,
-        }
-    }
-
-    /// Takes the cells of a row.
-    pub fn take(&mut self, cells: &[String]) {
-        let design = cells.first().and_then(|cell| cell.parse().ok());
-        let status = cells.get(self.before - 1);
-        let (Some(design), Some(status)) = (design, status) else {
-            return;
-        };
-        *self.status.entry(status.clone()).or_default() += 1;
-        let figures = cells.iter().zip(&mut self.extremes).skip(self.before);
-        for (cell, extremes) in figures {
-            let Ok(value) = cell.parse::<f64>() else {
-                continue;
-            };
-            let here = SweepExtreme { value, design };
-            match extremes {
-                None => *extremes = Some([here.clone(), here]),
-                Some([min, _]) if value < min.value => *min = here,
-                Some([_, max]) if value > max.value => *max = here,
-                Some(_) => {}
-            }
-        }
-    }
-
-    pub fn summary(
-        self,
-        sweep: &Sweep,
-        range: &Range<usize>,
-        taken_up: usize,
-        wall_s: f64,
-    ) -> SweepSummary {
-        let figures = self.columns.into_iter().zip(self.extremes);
-        let varied = sweep.varied().iter().map(|one| VariedKey {
-            key: one.key(),
-            count: one.len(),
-            first: one.text(0).to_owned(),
-            last: one.text(one.len() - 1).to_owned(),
-        });
-        SweepSummary {
-            scene: sweep.title().to_owned(),
-            designs: sweep.len(),
-            part: [range.start + 1, range.end],
-            status: self.status,
-            taken_up,
-            varied: varied.collect(),
-            figures: figures
-                .filter_map(|(column, extremes)| {
-                    let [min, max] = extremes?;
-                    Some(SweepRange { column, min, max })
-                })
-                .collect(),
-            wall_s,
-        }
-    }
 }
 
 impl SweepSummary {
@@ -155,7 +131,10 @@ impl SweepSummary {
 /// [`Error::Write`].
 pub fn sweep_page(summary: &SweepSummary, table: &Table, origin: &Origin) -> Result<String, Error> {
     let mut facts = facts(summary);
-    for SweepRange { column, min, max } in &summary.figures {
+    for SweepRange {
+        column, min, max, ..
+    } in &summary.figures
+    {
         let (low, high) = (six(min.value), six(max.value));
         fact!(
             facts,
@@ -181,14 +160,18 @@ pub fn sweep_page(summary: &SweepSummary, table: &Table, origin: &Origin) -> Res
 
 fn facts(summary: &SweepSummary) -> Facts {
     let mut facts = Facts::of(&summary.scene);
-    for one in &summary.varied {
-        let VariedKey {
-            key,
-            count,
-            first,
-            last,
-        } = one;
-        fact!(facts, "varied", "{key}: {first} to {last}, {count} values");
+    for VariedKey {
+        key,
+        values,
+        count,
+        first,
+        last,
+    } in &summary.varied
+    {
+        match count {
+            1 => fact!(facts, "varied", "{key}: {values}"),
+            _ => fact!(facts, "varied", "{key}: {first} to {last}, {count} values"),
+        }
     }
     let [from, to] = summary.part;
     let part = match to - (from - 1) {
@@ -215,7 +198,10 @@ pub fn sweep_text(summary: &SweepSummary) -> String {
         "\n{:<26} {:>12} {:>10} {:>12} {:>10}",
         "", "least", "in design", "largest", "in design"
     );
-    for SweepRange { column, min, max } in &summary.figures {
+    for SweepRange {
+        column, min, max, ..
+    } in &summary.figures
+    {
         let _ = writeln!(
             text,
             "{column:<26} {:>12} {:>10} {:>12} {:>10}",
@@ -225,5 +211,59 @@ pub fn sweep_text(summary: &SweepSummary) -> String {
             max.design
         );
     }
+    spreads(summary, &mut text);
+    front(summary, &mut text);
     text
+}
+
+fn spreads(summary: &SweepSummary, text: &mut String) {
+    let mut begun = false;
+    for SweepRange { column, spread, .. } in &summary.figures {
+        let Some(spread) = spread else { continue };
+        if !std::mem::replace(&mut begun, true) {
+            let _ = writeln!(
+                text,
+                "\n{:<26} {:>12} {:>12} {:>12} {:>12} {:>12}",
+                "", "mean", "deviation", "2.5 %", "median", "97.5 %"
+            );
+        }
+        let Spread {
+            mean,
+            standard_deviation,
+            p2_5,
+            p50,
+            p97_5,
+        } = *spread;
+        let _ = write!(text, "{column:<26}");
+        for value in [mean, standard_deviation, p2_5, p50, p97_5] {
+            let _ = write!(text, " {:>12}", six(value));
+        }
+        text.push('\n');
+    }
+}
+
+fn front(summary: &SweepSummary, text: &mut String) {
+    /// Designs that fit a screen.
+    const SHOWN: usize = 20;
+    let front = &summary.pareto_front;
+    let Some(first) = front.first() else { return };
+    let title = match first.figures.len() {
+        1 => "best design",
+        _ => "Pareto front",
+    };
+    let _ = write!(text, "\n{title:<15}");
+    for column in first.figures.keys() {
+        let _ = write!(text, " {column:>26}");
+    }
+    text.push('\n');
+    for one in front.iter().take(SHOWN) {
+        let _ = write!(text, "  design {:<6}", one.design);
+        for value in one.figures.values() {
+            let _ = write!(text, " {:>26}", six(*value));
+        }
+        text.push('\n');
+    }
+    if front.len() > SHOWN {
+        let _ = writeln!(text, "  and {} more", front.len() - SHOWN);
+    }
 }

@@ -35,6 +35,10 @@ pub enum Quantity {
     Density,
     /// m/s
     Velocity,
+    /// J
+    Energy,
+    /// W
+    Power,
     /// no dimension
     Number,
 }
@@ -68,6 +72,8 @@ impl Quantity {
             Pressure: "a pressure", [-1, 1, -2, 0], "Pa", "\"10 bar\", \"101325 Pa\"";
             Density: "a density", [-3, 1, 0, 0], "kg/m^3", "\"7800 kg/m^3\", \"7.8 g/cm^3\"";
             Velocity: "a velocity", [1, 0, -1, 0], "m/s", "\"2 m/s\"";
+            Energy: "an energy", [2, 1, -2, 0], "J", "\"50 J\", \"2 kJ\"";
+            Power: "a power", [2, 1, -3, 0], "W", "\"500 W\", \"2 kW\"";
             Number: "a number", [0, 0, 0, 0], "", "0.1, 1e-10";
         }
     }
@@ -99,13 +105,13 @@ impl Quantity {
     }
 
     /// The SI unit as scene files have it; empty for numbers.
-    pub(in crate::scene) fn si(self) -> &'static str {
+    pub(crate) fn si(self) -> &'static str {
         self.facts().2
     }
 
     /// The SI unit as names of columns have it; empty for numbers.
     #[cfg(feature = "cli")]
-    pub(in crate::scene) fn column(self) -> String {
+    pub(crate) fn column(self) -> String {
         let words = self.si().to_lowercase().replace("n m", "nm");
         words
             .replace('/', "_per_")

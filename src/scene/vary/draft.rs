@@ -15,7 +15,7 @@ use crate::scene::{DUARTE, Problem, Problems, Scene, read, text};
 /// use slider_crank::scene::{Draft, Varied};
 /// let draft = Draft::duarte();
 /// let rod: Varied = "geometry.rod = 150mm:160mm:3".parse().unwrap();
-/// let scene = draft.with([(&rod, 1)]).unwrap();
+/// let scene = draft.with([(&rod, "155 mm")]).unwrap();
 /// assert_eq!(scene.geometry.rod, 0.155);
 /// ```
 #[derive(Clone, Debug)]
@@ -62,7 +62,8 @@ impl Draft {
     /// [`Problems`]: the scene has fewer tables of this name.
     pub fn takes(&self, varied: &Varied) -> Result<(), Problems> {
         let (mut document, _) = DeTable::parse_recoverable(&self.text);
-        let applied = varied.setting(0).apply(document.get_mut());
+        let text = varied.value(0).text;
+        let applied = varied.setting(&text).apply(document.get_mut());
         applied.map_err(|problem| Problems::in_file(&self.file, &self.text, vec![problem]))
     }
 
@@ -74,15 +75,16 @@ impl Draft {
         self.with([])
     }
 
-    /// The scene with values in place of its own, or beside them: of each varied key the one of this index.
+    /// The scene with the texts of values in place of its own, or beside them.
     ///
     /// # Errors
     /// [`Problems`]: all that is wrong with the scene that results.
     pub fn with<'a>(
         &self,
-        values: impl IntoIterator<Item = (&'a Varied, usize)>,
+        values: impl IntoIterator<Item = (&'a Varied, &'a str)>,
     ) -> Result<Scene, Problems> {
-        self.with_settings(values.into_iter().map(|(varied, i)| varied.setting(i)))
+        let values = values.into_iter();
+        self.with_settings(values.map(|(varied, text)| varied.setting(text)))
     }
 
     /// The scene with keys set.

@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 use toml::de::{DeTable, DeValue};
 
+use super::Varied;
 use super::draft::{Draft, Setting};
 use super::path::KeyPath;
 use crate::error::Error;
@@ -95,6 +96,29 @@ impl Draft {
     /// # Errors
     /// [`Error::Scene`]: the scene is impossible with the error in it, on either side.
     pub fn uncertain(&self) -> Result<Vec<UncertainValue>, Error> {
+        let list = self.uncertain_keys().into_iter();
+        let list = list.map(|(path, Uncertain { value, error })| {
+            let key = NumberKey(path);
+            let moved = |value| self.with_numbers(&[Assigned { key, value }]);
+            Ok(UncertainValue {
+                key: key.to_string(),
+                moved: moved(value + error).or_else(|_| moved(value - error))?,
+            })
+        });
+        list.collect()
+    }
+
+    /// The values of the file that have a standard error, as normal distributions.
+    pub fn tolerances(&self) -> Vec<Varied> {
+        let list = self.uncertain_keys().into_iter();
+        let list = list.filter_map(|(path, Uncertain { value, error })| {
+            let unit = NumberKey(path).unit();
+            format!("{path} = {value} +- {error} {unit}").parse().ok()
+        });
+        list.collect()
+    }
+
+    fn uncertain_keys(&self) -> Vec<(KeyPath, Uncertain)> {
         let (document, _) = DeTable::parse_recoverable(self.text());
         let document = document.get_ref();
         let paths = SECTIONS.iter().flat_map(|section| {
@@ -111,21 +135,8 @@ impl Draft {
             };
             (0..count).flat_map(keys)
         });
-        let mut list = Vec::new();
-        for path in paths {
-            let Some(Uncertain { value, error }) = quantity(document, &path) else {
-                continue;
-            };
-            let key = NumberKey(path);
-            let moved = |value| self.with_numbers(&[Assigned { key, value }]);
-            if error > 0.0 {
-                list.push(UncertainValue {
-                    key: key.to_string(),
-                    moved: moved(value + error).or_else(|_| moved(value - error))?,
-                });
-            }
-        }
-        Ok(list)
+        let found = paths.filter_map(|path| Some((path, quantity(document, &path)?)));
+        found.filter(|(_, found)| found.error > 0.0).collect()
     }
 
     /// The scene with numbers in place of its own.

@@ -5,6 +5,7 @@ mod free;
 mod path;
 mod values;
 
+use std::fmt;
 use std::str::FromStr;
 
 use super::unit::Quantity;
@@ -12,37 +13,55 @@ pub use draft::Draft;
 pub(super) use draft::Setting;
 pub use free::{Assigned, NumberKey};
 use path::KeyPath;
+use values::Values;
+pub use values::VariedValue;
 
 /// A key of a scene and the values it takes, read from texts like `geometry.offset=0mm:20mm:41`.
 ///
 /// After the key stand the first value, the last one and their number, evenly spread; with `:log` at the end
 /// they are spread evenly in their logarithm. Or the values stand one by one, with commas between them, which
-/// is the way for words and formulas. Keys are those of scene files; of several torques or forces the number
-/// tells which, as in `torque[2].value`.
+/// is the way for words and formulas. `geometry.rod=100mm:120mm` is spread evenly between two bounds at random,
+/// `geometry.rod=155.8 +- 0.1 mm` is normal with this standard deviation. Keys are those of scene files; of several
+/// torques or forces the number tells which, as in `torque[2].value`.
 ///
 /// ```
 /// use slider_crank::scene::Varied;
 /// let offset: Varied = "geometry.offset = 0mm:20mm:41".parse().unwrap();
 /// assert_eq!(offset.len(), 41);
-/// assert_eq!((offset.text(1), offset.number(1)), ("0.5 mm", Some(0.0005)));
+/// assert_eq!(offset.value(1).text, "0.5 mm");
+/// assert_eq!(offset.value(1).number, Some(0.0005));
 /// assert_eq!(offset.column(), "geometry_offset_m");
 /// let model: Varied = "rod.model = rigid, two-mass".parse().unwrap();
-/// assert_eq!((model.text(1), model.number(1)), ("two-mass", None));
+/// assert_eq!(model.value(1).text, "two-mass");
+/// let rod: Varied = "geometry.rod = 155.8 +- 0.1 mm".parse().unwrap();
+/// assert!((rod.quantile(0.975).number.unwrap() - 0.155996).abs() < 1e-9);
 /// assert!("geometry.ofset=0mm:20mm:41".parse::<Varied>().is_err());
 /// ```
 #[derive(Clone, Debug)]
 pub struct Varied {
     path: KeyPath,
-    values: Vec<values::Value>,
-    /// Whether all values are quantities.
-    numbers: bool,
+    text: String,
+    values: Values,
 }
 
 impl Varied {
-    /// Number of values, at least one.
+    /// Number of values that are listed; one of a distribution.
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
-        self.values.len()
+        match &self.values {
+            Values::Listed(list) => list.len(),
+            Values::Uniform(_) | Values::Normal(_) => 1,
+        }
+    }
+
+    /// Whether the values are random.
+    pub fn is_distribution(&self) -> bool {
+        !matches!(self.values, Values::Listed(_))
+    }
+
+    /// Whether all values are quantities.
+    pub fn has_numbers(&self) -> bool {
+        self.values.are_numbers()
     }
 
     /// The key, as `geometry.offset`.
@@ -54,33 +73,41 @@ impl Varied {
     pub fn column(&self) -> String {
         let name = self.path.column();
         match self.path.quantity().map(Quantity::column) {
-            Some(unit) if self.numbers && !unit.is_empty() => format!("{name}_{unit}"),
+            Some(unit) if self.has_numbers() && !unit.is_empty() => format!("{name}_{unit}"),
             _ => name,
         }
     }
 
-    /// A value as a scene file has it.
+    /// A listed value; the median of a distribution.
     ///
     /// # Panics
     /// If there is no value of this index, as slices do.
-    pub fn text(&self, index: usize) -> &str {
-        &self.values[index].text
+    pub fn value(&self, index: usize) -> VariedValue {
+        match &self.values {
+            Values::Listed(list) => list[index].clone(),
+            Values::Uniform(_) | Values::Normal(_) => self.quantile(0.5),
+        }
     }
 
-    /// A value in SI units and radians; none for words, formulas and files.
-    ///
-    /// # Panics
-    /// If there is no value of this index, as slices do.
-    pub fn number(&self, index: usize) -> Option<f64> {
-        self.values[index].number.filter(|_| self.numbers)
+    /// The value below which a part `p` of a distribution lies, with 0 < p < 1; listed values are equally likely.
+    pub fn quantile(&self, p: f64) -> VariedValue {
+        let unit = self.path.quantity().map_or("", Quantity::si);
+        self.values.quantile(p, unit)
     }
 
-    /// The key set to a value.
-    pub(super) fn setting(&self, index: usize) -> Setting<'_> {
+    /// The key set to the text of a value.
+    pub(super) fn setting<'a>(&self, text: &'a str) -> Setting<'a> {
         Setting {
             path: self.path,
-            text: self.text(index),
+            text,
         }
+    }
+}
+
+/// The values as they are written.
+impl fmt::Display for Varied {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
     }
 }
 
@@ -92,11 +119,10 @@ impl FromStr for Varied {
             format!("`{text}` has no values; write it like geometry.offset=0mm:20mm:41")
         })?;
         let path = KeyPath::parse(key.trim())?;
-        let values = values::read(path.key, values)?;
         Ok(Varied {
             path,
-            numbers: values.iter().all(|value| value.number.is_some()),
-            values,
+            values: values::read(path.key, values)?,
+            text: values.trim().to_owned(),
         })
     }
 }

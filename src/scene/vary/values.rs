@@ -1,26 +1,42 @@
-//! The values that a key takes, one after the other.
+//! The values that a key takes, one after the other or at random.
 
+use statrs::distribution::{ContinuousCDF, Normal};
 use toml::de::DeValue;
 
 use crate::scene::keys::{Key, Kind};
 use crate::scene::read::value;
-use crate::scene::unit;
+use crate::scene::unit::{self, PLUS_MINUS};
 
 /// Most values of one key.
 const MOST: usize = 1_000_000;
 
-/// A value as a scene file has it and, if it is a quantity, in SI.
-#[derive(Clone, Debug)]
-pub(super) struct Value {
+/// A value that a key of a scene takes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VariedValue {
+    /// As a scene file has it.
     pub text: String,
+    /// In SI units and radians; none of words, formulas and files.
     pub number: Option<f64>,
 }
 
-/// Reads `0mm:20mm:41`, `1:100:5:log` or `150 mm, 155.83 mm`.
-pub(super) fn read(key: &Key, text: &str) -> Result<Vec<Value>, String> {
+/// Where the values of a key come from.
+#[derive(Clone, Debug)]
+pub(super) enum Values {
+    Listed(Vec<VariedValue>),
+    /// Evenly between two numbers, SI.
+    Uniform([f64; 2]),
+    /// With a mean and a standard deviation, SI.
+    Normal(Normal),
+}
+
+/// Reads `0mm:20mm:41`, `1:100:5:log` or `150 mm, 155.83 mm`; the distributions `0mm:20mm` or `155.8 +- 0.1 mm`.
+pub(super) fn read(key: &Key, text: &str) -> Result<Values, String> {
     let fields: Vec<&str> = text.split(':').map(str::trim).collect();
     let texts = match (fields.as_slice(), key.kind) {
-        (_, Kind::Text) | ([_], _) => listed(text),
+        (_, Kind::Text) => listed(text),
+        ([one], _) if PLUS_MINUS.iter().any(|sign| one.contains(sign)) => return normal(key, one),
+        ([_], _) => listed(text),
+        ([from, to], _) => return uniform(key, from, to),
         ([from, to, count], _) => spread(from, to, count, false)?,
         ([from, to, count, "log"], _) => spread(from, to, count, true)?,
         _ => {
@@ -29,10 +45,58 @@ pub(super) fn read(key: &Key, text: &str) -> Result<Vec<Value>, String> {
             ));
         }
     };
-    texts.into_iter().map(|text| value(key, text)).collect()
+    let values: Result<_, String> = texts.into_iter().map(|text| value(key, text)).collect();
+    Ok(Values::Listed(values?))
 }
 
-fn value(key: &Key, text: String) -> Result<Value, String> {
+fn uniform(key: &Key, low: &str, high: &str) -> Result<Values, String> {
+    let number = |text: &str| {
+        value(key, text.to_owned())?
+            .number
+            .ok_or_else(|| format!("`{text}` is no number"))
+    };
+    let (from, to) = (number(low)?, number(high)?);
+    match from < to {
+        true => Ok(Values::Uniform([from, to])),
+        false => Err(format!("`{low}` is not less than `{high}`")),
+    }
+}
+
+fn normal(key: &Key, text: &str) -> Result<Values, String> {
+    let found = value::read(key, &DeValue::String(text.into()));
+    let found = found
+        .map_err(|(what, help)| format!("{what}; {help}"))?
+        .number(key.kind);
+    let normal = found.and_then(|found| Normal::new(found.value, found.error).ok());
+    normal
+        .map(Values::Normal)
+        .ok_or_else(|| format!("`{text}` is no number with a standard deviation above 0"))
+}
+
+impl Values {
+    /// Whether all are quantities.
+    pub fn are_numbers(&self) -> bool {
+        match self {
+            Values::Listed(list) => list.iter().all(|value| value.number.is_some()),
+            Values::Uniform(_) | Values::Normal(_) => true,
+        }
+    }
+
+    /// The value below which a part `p` of them lies, in a unit.
+    pub fn quantile(&self, p: f64, unit: &str) -> VariedValue {
+        let number = match self {
+            Values::Listed(list) => return list[(p * list.len() as f64) as usize].clone(),
+            Values::Uniform([low, high]) => low + p * (high - low),
+            Values::Normal(normal) => normal.inverse_cdf(p),
+        };
+        VariedValue {
+            text: format!("{number} {unit}").trim_end().to_owned(),
+            number: Some(number),
+        }
+    }
+}
+
+fn value(key: &Key, text: String) -> Result<VariedValue, String> {
     let found = value::read(key, &DeValue::String(text.as_str().into()));
     let number = found
         .map_err(|(what, help)| format!("{what}; {help}"))?
@@ -41,7 +105,7 @@ fn value(key: &Key, text: String) -> Result<Value, String> {
         return Err(format!("a value of `{}` is empty", key.name));
     }
     let number = number.map(|number| number.value);
-    Ok(Value { text, number })
+    Ok(VariedValue { text, number })
 }
 
 /// The values between commas; those in brackets, as of `max(1, omega)`, do not count.
