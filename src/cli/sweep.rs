@@ -167,7 +167,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         &SweepAsked {
             goals: arguments.goals(),
             percentiles: arguments.percentiles,
-            page: page.is_some(),
+            kept: page.is_some().then_some(report::MOST_ON_PAGE),
         },
     )?;
     let progress = std::io::stderr().is_terminal();

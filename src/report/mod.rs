@@ -37,9 +37,11 @@ pub use diagrams::Diagram;
 pub use explain::explanation;
 pub use figure::{Axis, Figure, ScaleKind, Shape, Sheet};
 pub use identify::{identification, identification_csv};
-pub use inverse::{inverse, inverse_figure, inverse_page, inverse_rows, residuals};
+pub use inverse::{
+    inverse, inverse_figure, inverse_page, inverse_rows, inverse_table, residual_table, residuals,
+};
 pub use motion::PlotRows;
-pub use one_turn::{sized, turn, turn_figure, turn_page, turn_rows};
+pub use one_turn::{sized, turn, turn_figure, turn_page, turn_rows, turn_table};
 pub use output::{Output, is_standard_output};
 pub use page::{Origin, Page};
 pub use picture::{ENDINGS, Picture};
@@ -47,14 +49,14 @@ pub use precision::{precision, precision_csv, precision_figure, precision_notes,
 pub use reproduce::{
     ReproductionSummary, drawing_csv, drawing_svg, file_name, reproduction, reproduction_csv,
 };
-pub use rows::{Preview, RowWriter};
+pub use rows::{Preview, RowColumns, RowWriter};
 pub use sketch::{Pose, Sketch, animation};
-pub use statics::{statics, statics_figure, statics_page, statics_rows};
+pub use statics::{statics, statics_figure, statics_page, statics_rows, statics_table};
 pub use sweep::{
-    FrontDesign, Spread, SweepAsked, SweepExtreme, SweepRange, SweepSummary, SweepWriter,
-    VariedKey, merge, sweep_page, sweep_text,
+    FrontDesign, MOST_ON_PAGE, Spread, SweepAsked, SweepExtreme, SweepRange, SweepSummary,
+    SweepWriter, VariedKey, merge, sweep_page, sweep_text,
 };
-pub use table::Table;
+pub use table::{Cells, Table};
 pub use text::summary;
 
 use crate::error::Error;

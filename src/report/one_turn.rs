@@ -45,7 +45,7 @@ pub fn turn_page(
         diagrams.extend(diagram.svg(result, scene, None)?);
     }
     Page::new(origin, &facts(result))
-        .table(&table(result, every))
+        .table(&turn_table(result, every))
         .mechanism(scene)
         .figures(diagrams)
         .html()
@@ -206,7 +206,7 @@ fn offset(with: &OffsetExtremes, unit: &str) -> String {
 }
 
 /// The rows by columns, so many radians apart, with the motion of the changed lengths beside that of the scene.
-fn table(result: &OneTurn, every: f64) -> Table {
+pub fn turn_table(result: &OneTurn, every: f64) -> Table {
     let mut names = columns(result);
     let moves = result.kinematics.speed_rad_per_s.is_some();
     if result.changed.is_some() {
@@ -263,5 +263,5 @@ pub fn turn_figure(result: &OneTurn, view: &View) -> Result<String, Error> {
         },
         ..Shown::default()
     };
-    view.svg(&table(result, SPACING), shown)
+    view.svg(&turn_table(result, SPACING), shown)
 }

@@ -3,6 +3,7 @@
 use super::Output;
 use super::csv::line;
 use super::decimate::Thinned;
+use super::table::Table;
 use crate::error::Error;
 use crate::simulate::Reactions;
 use crate::simulate::{Row, RowSink};
@@ -89,6 +90,27 @@ impl RowSink for RowWriter {
         let mut text = Vec::with_capacity(256);
         line(cells(row), &mut text);
         self.output.write(&text)
+    }
+}
+
+/// All rows of `simulate` by columns.
+#[derive(Debug, Default)]
+pub struct RowColumns {
+    table: Option<Table>,
+}
+
+impl RowColumns {
+    /// The rows; none if there was no row.
+    pub fn into_table(self) -> Option<Table> {
+        self.table
+    }
+}
+
+impl RowSink for RowColumns {
+    fn row(&mut self, row: &Row) -> Result<(), Error> {
+        let table = self.table.get_or_insert_with(|| Table::new(&header(row)));
+        table.push(cells(row));
+        Ok(())
     }
 }
 

@@ -71,7 +71,7 @@ pub fn statics_page(
     origin: &Origin,
 ) -> Result<String, Error> {
     Page::new(origin, &facts(result))
-        .table(&table(result, every))
+        .table(&statics_table(result, every))
         .mechanism(scene)
         .with_poles()
         .html()
@@ -157,11 +157,11 @@ pub fn statics_figure(result: &StaticAnalysis, view: &View) -> Result<String, Er
         has_poles: true,
         ..Shown::default()
     };
-    view.svg(&table(result, SPACING), shown)
+    view.svg(&statics_table(result, SPACING), shown)
 }
 
-/// The rows by columns, so many radians apart.
-fn table(result: &StaticAnalysis, every: f64) -> Table {
+/// The rows with their details by columns, so many radians apart.
+pub fn statics_table(result: &StaticAnalysis, every: f64) -> Table {
     let mut table = Table::new(&header(result, true));
     for row in result.rows(every) {
         table.push(cells(&row, true));

@@ -20,10 +20,12 @@ struct Column {
     cells: Cells,
 }
 
-#[derive(Debug)]
-enum Cells {
+/// What stands in a column.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cells {
     /// In SI, or in a unit as people wrote it; not a number where there is none.
     Numbers(Vec<f64>, Option<String>),
+    /// What is no number.
     Words(Vec<String>),
 }
 
@@ -47,6 +49,12 @@ impl Table {
                 values.push(value);
             }
         }
+    }
+
+    /// The columns with their names.
+    pub fn into_columns(self) -> impl Iterator<Item = (String, Cells)> {
+        let columns = self.columns.into_iter();
+        columns.map(|column| (column.name, column.cells))
     }
 
     /// Rows of the cells of a CSV file: numbers where all cells of a column are, in one unit.

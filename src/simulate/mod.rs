@@ -39,7 +39,7 @@ pub use joint_force_maxima::{Peak, Peaks};
 pub use options::Options;
 pub use result::{Cost, ErrorEstimate, Event, Final, Piece, Summary, TorqueRange};
 pub use row::{LooseRow, NoRows, Row, RowSink};
-pub use run::{simulate, simulate_rows};
+pub use run::{simulate, simulate_rows, simulate_with_rows};
 pub use simulation::Simulation;
 pub use stalled::Torques;
 pub use steady::{

@@ -45,6 +45,18 @@ pub fn simulate_rows(
     run(scene, options, rows, 0)
 }
 
+/// Simulates a scene, hands its rows to `rows` and keeps its dense trajectory.
+///
+/// # Errors
+/// As [`simulate_rows`].
+pub fn simulate_with_rows(
+    scene: &Scene,
+    options: &Options,
+    rows: &mut dyn RowSink,
+) -> Result<Simulation, Error> {
+    run(scene, options, rows, usize::MAX)
+}
+
 fn run(
     scene: &Scene,
     options: &Options,

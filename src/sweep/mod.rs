@@ -14,6 +14,7 @@ pub use crate::numeric::latin_hypercube::LatinHypercube;
 use crate::numeric::parallel;
 use crate::numeric::stop::Stop;
 use crate::scene::{Draft, Scene, Varied, VariedValue};
+use crate::simulate::SteadyOptions;
 
 pub use design::{Design, Outcome};
 pub use figure::{Cell, Figure, Source};
@@ -165,8 +166,13 @@ impl Sweep {
         let mut hasher = DefaultHasher::new();
         let version = env!("CARGO_PKG_VERSION");
         (version, self.draft.text()).hash(&mut hasher);
+        let steady = self.options.steady.clone();
         let options = SweepOptions {
             stop: None,
+            steady: steady.map(|steady| SteadyOptions {
+                stop: None,
+                ..steady
+            }),
             ..self.options.clone()
         };
         format!("{options:?}").hash(&mut hasher);

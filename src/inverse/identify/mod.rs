@@ -7,9 +7,13 @@
 
 mod gauss_newton;
 mod information;
+#[cfg(feature = "cli")]
+mod of_draft;
 mod trial;
 
 pub use information::IdentifiedValue;
+#[cfg(feature = "cli")]
+pub use of_draft::{FreeKey, identify_keys};
 
 use self::gauss_newton::{Found, Search};
 use super::branch_choice::crank_angles;

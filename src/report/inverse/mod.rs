@@ -4,5 +4,7 @@ mod plot;
 mod rows;
 mod text;
 
-pub use rows::{inverse_figure, inverse_page, inverse_rows, residuals};
+pub use rows::{
+    inverse_figure, inverse_page, inverse_rows, inverse_table, residual_table, residuals,
+};
 pub use text::inverse;

@@ -3,7 +3,7 @@
 use super::plot;
 use super::text::facts;
 use crate::error::Error;
-use crate::inverse::{AsPrinted, Inverse, InverseRow};
+use crate::inverse::{AsPrinted, Inverse, InverseRow, Residual};
 use crate::report::Output;
 use crate::report::csv::{line, write_all};
 use crate::report::curves::{Shown, View};
@@ -22,23 +22,40 @@ pub fn inverse_rows(
     printed: Option<&AsPrinted>,
     output: Output,
 ) -> Result<(), Error> {
-    let with_reactions = result.with_reactions();
-    let mut columns = vec![COLUMNS];
-    columns.extend(with_reactions.then_some(REACTIONS));
-    columns.extend(printed.map(|_| PRINTED));
-    write_all(output, &columns.join(","), &result.rows, |row, text| {
-        let mut values = values(row).to_vec();
-        if with_reactions {
-            match result.reactions(row) {
-                Some(forces) => values.extend(reactions(&forces)),
-                None => values.extend([f64::NAN; 10]),
-            }
-        }
-        if let Some(printed) = printed {
-            values.extend(printed.forces(row).unwrap_or([f64::NAN; 2]));
-        }
-        line(values, text);
+    let header = header(result, printed);
+    write_all(output, &header, &result.rows, |row, text| {
+        line(cells(result, printed, row), text);
     })
+}
+
+/// The rows by columns.
+pub fn inverse_table(result: &Inverse, printed: Option<&AsPrinted>) -> Table {
+    let mut table = Table::new(&header(result, printed));
+    for row in &result.rows {
+        table.push(cells(result, printed, row));
+    }
+    table
+}
+
+fn header(result: &Inverse, printed: Option<&AsPrinted>) -> String {
+    let mut columns = vec![COLUMNS];
+    columns.extend(result.with_reactions().then_some(REACTIONS));
+    columns.extend(printed.map(|_| PRINTED));
+    columns.join(",")
+}
+
+fn cells(result: &Inverse, printed: Option<&AsPrinted>, row: &InverseRow) -> Vec<f64> {
+    let mut values = values(row).to_vec();
+    if result.with_reactions() {
+        match result.reactions(row) {
+            Some(forces) => values.extend(reactions(&forces)),
+            None => values.extend([f64::NAN; 10]),
+        }
+    }
+    if let Some(printed) = printed {
+        values.extend(printed.forces(row).unwrap_or([f64::NAN; 2]));
+    }
+    values
 }
 
 /// Most rows on a page.
@@ -82,7 +99,7 @@ pub fn inverse_figure(
     view.svg(&table(result), shown)
 }
 
-/// Rows by columns, with what was measured.
+/// Rows of a page by columns, with what was measured.
 fn table(result: &Inverse) -> Table {
     let data = &result.summary.data;
     let (name, unit) = (data.column, data.unit);
@@ -105,13 +122,33 @@ fn table(result: &Inverse) -> Table {
 
 /// Writes what was measured, what the fit gives, and the difference.
 pub fn residuals(result: &Inverse, output: Output) -> Result<(), Error> {
+    let header = residual_header(result);
+    write_all(output, &header, &result.residuals, |row, text| {
+        line(residual_cells(row), text);
+    })
+}
+
+/// What was measured, what the fit gives, and the difference, by columns.
+pub fn residual_table(result: &Inverse) -> Table {
+    let mut table = Table::new(&residual_header(result));
+    let rows = result.residuals.iter().map(residual_cells);
+    rows.for_each(|row| table.push(row));
+    table
+}
+
+fn residual_header(result: &Inverse) -> String {
     let data = &result.summary.data;
     let (name, unit) = (data.column, data.unit);
-    let header = format!("t_s,{name}_{unit},fitted_{name}_{unit},residual_{unit}");
-    write_all(output, &header, &result.residuals, |row, text| {
-        let fitted = row.measured - row.residual;
-        line([row.t, row.measured, fitted, row.residual], text);
-    })
+    format!("t_s,{name}_{unit},fitted_{name}_{unit},residual_{unit}")
+}
+
+fn residual_cells(row: &Residual) -> [f64; 4] {
+    [
+        row.t,
+        row.measured,
+        row.measured - row.residual,
+        row.residual,
+    ]
 }
 
 fn values(row: &InverseRow) -> [f64; 9] {

@@ -37,7 +37,7 @@ pub struct SweepWriter<'a> {
     tally: Tally,
     /// Rows that were there already.
     kept: usize,
-    /// Rows for a page.
+    /// Rows that are kept.
     shown: Option<Thinned<Vec<String>>>,
 }
 
@@ -48,12 +48,12 @@ pub struct SweepAsked {
     pub goals: Vec<Goal>,
     /// Whether figures have percentiles; those of a sample do without being asked.
     pub percentiles: bool,
-    /// Whether rows are kept for a page.
-    pub page: bool,
+    /// Most rows that are kept by columns, if any are to be: for a page, or for code.
+    pub kept: Option<usize>,
 }
 
 /// Most rows on a page.
-const MOST: usize = 50_000;
+pub const MOST_ON_PAGE: usize = 50_000;
 
 #[derive(Debug)]
 enum Target {
@@ -75,7 +75,7 @@ impl<'a> SweepWriter<'a> {
         [part, parts]: [usize; 2],
         asked: &SweepAsked,
     ) -> Result<SweepWriter<'a>, Error> {
-        let mut shown = asked.page.then(|| Thinned::new(MOST));
+        let mut shown = asked.kept.map(Thinned::new);
         let header = columns::header(sweep);
         let mut tally = Tally::new(
             &header,
@@ -151,7 +151,7 @@ impl<'a> SweepWriter<'a> {
         }
     }
 
-    /// The rows for a page.
+    /// The rows that were kept.
     pub fn table(&self) -> Option<Table> {
         let shown = self.shown.as_ref()?;
         let mut table = Table::of_cells(&columns::header(self.sweep), shown.kept());

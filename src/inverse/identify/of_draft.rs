@@ -1,0 +1,100 @@
+//! Values of a scene file from a measured motion.
+
+use std::str::FromStr;
+
+use super::{FreeValue, Identification, identify};
+use crate::error::Error;
+use crate::numeric::stop::Stop;
+use crate::scene::{Assigned, Draft, Measured, Measurement, NumberKey, Scene};
+
+/// What is free.
+#[derive(Clone, Copy, Debug)]
+pub enum FreeKey {
+    /// A key of the scene.
+    Key(NumberKey),
+    /// What the sensor shows where it should show 0.
+    SensorZero,
+}
+
+const SENSOR_ZERO: &str = "sensor.zero";
+
+impl FromStr for FreeKey {
+    type Err = <NumberKey as FromStr>::Err;
+
+    fn from_str(text: &str) -> Result<FreeKey, Self::Err> {
+        match text.trim() {
+            SENSOR_ZERO => Ok(FreeKey::SensorZero),
+            key => key.parse().map(FreeKey::Key),
+        }
+    }
+}
+
+impl FreeKey {
+    fn value(self, draft: &Draft, crank: f64, measured: Measured) -> Result<FreeValue, Error> {
+        Ok(match self {
+            FreeKey::Key(key) => {
+                let start = draft.number(&key)?;
+                let scale = match (start, key.unit()) {
+                    (_, "m") => crank.max(start.abs()),
+                    (0.0, _) => 1.0,
+                    _ => start.abs(),
+                };
+                FreeValue {
+                    key: key.to_string(),
+                    unit: key.unit().to_owned(),
+                    start,
+                    scale,
+                    is_sensor_zero: false,
+                }
+            }
+            FreeKey::SensorZero => {
+                let is_length = measured == Measured::X;
+                FreeValue {
+                    key: SENSOR_ZERO.to_owned(),
+                    unit: if is_length { "m" } else { "rad" }.to_owned(),
+                    start: 0.0,
+                    scale: if is_length { crank } else { 1.0 },
+                    is_sensor_zero: true,
+                }
+            }
+        })
+    }
+}
+
+/// Free keys of a scene file from a measured motion; `complete` makes of the file's scene what is modelled.
+///
+/// # Errors
+/// Those of [`identify`]; [`Error::Scene`] for keys that the scene has not; [`Error::Interrupted`].
+pub fn identify_keys(
+    draft: &Draft,
+    complete: &(dyn Fn(Scene) -> Scene + Sync),
+    keys: &[FreeKey],
+    measurement: &Measurement,
+    stop: Option<&Stop>,
+) -> Result<Identification, Error> {
+    let crank = draft.scene()?.geometry.crank;
+    let free = keys.iter();
+    let free = free.map(|key| key.value(draft, crank, measurement.measured()));
+    let free = free.collect::<Result<Vec<_>, Error>>()?;
+    let is_stopped = || stop.is_some_and(Stop::is_requested);
+    let scene_at = |values: &[f64]| {
+        if is_stopped() {
+            return Err(Error::Interrupted);
+        }
+        let numbers = keys.iter().zip(values);
+        let numbers = numbers.filter_map(|(key, value)| match key {
+            FreeKey::Key(key) => Some(Assigned {
+                key: *key,
+                value: *value,
+            }),
+            FreeKey::SensorZero => None,
+        });
+        draft
+            .with_numbers(&numbers.collect::<Vec<_>>())
+            .map(complete)
+    };
+    match identify(&scene_at, &free, measurement) {
+        _ if is_stopped() => Err(Error::Interrupted),
+        found => found.map_err(|error| error.with_notes(measurement.notes())),
+    }
+}
