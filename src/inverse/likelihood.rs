@@ -5,7 +5,7 @@ use super::kalman::{self, Evidence};
 use super::linearised::{Linearised, State};
 use super::maximum::{better, climb};
 use super::prior::Prior;
-use super::regression::{Posterior, Regression};
+use super::regression::{Each, Posterior, Regression};
 use super::scales::{Noise, Scales};
 use super::state_space::{Autoregression, Deviations, Observed};
 
@@ -22,6 +22,8 @@ pub(super) struct Linear<'a> {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Stretch {
     pub steps: Vec<Linearised>,
+    /// What the harmonics of what repeats add in each step.
+    pub increments: Vec<[Each; 2]>,
     pub observed: Vec<Observed>,
 }
 
@@ -45,6 +47,7 @@ impl Linear<'_> {
         };
         Deviations {
             steps: &stretch.steps,
+            increments: &stretch.increments,
             observed: &stretch.observed,
             prior: self.prior,
             noise: self.scales.density(noise.corner, self.prior.order),
@@ -79,7 +82,9 @@ impl Linear<'_> {
                 _ => kalman::regressed::<5>(&model, &mut to),
             }
         };
-        (self.stretches.iter().map(of).sum(), to)
+        let evidence = self.stretches.iter().map(of).sum();
+        to.multiply();
+        (evidence, to)
     }
 
     /// The part that repeats, given the samples.
@@ -113,16 +118,8 @@ impl Linear<'_> {
         evidence
     }
 
-    /// Likelihood and σ for a corner frequency and a correlation.
-    fn at(&self, corner: f64, correlated: Option<Autoregression>) -> Noise {
-        self.evaluated(Noise {
-            correlated,
-            ..Noise::white(corner)
-        })
-    }
-
     /// Noise with its likelihood and its σ.
-    fn evaluated(&self, mut noise: Noise) -> Noise {
+    pub fn evaluated(&self, mut noise: Noise) -> Noise {
         let evidence = match self.prior.cycle {
             0 => self.evidence(&noise),
             _ => self.repeated(&mut noise),
@@ -160,18 +157,34 @@ impl Linear<'_> {
 
     /// The largest likelihood over the corner frequency, from a first guess.
     pub fn maximised(&self, guess: f64, correlated: Option<Autoregression>) -> Noise {
-        self.over(guess, |corner| self.at(corner, correlated))
+        self.renewed(Noise {
+            correlated,
+            ..Noise::white(guess)
+        })
     }
 
-    /// The largest likelihood over a corner frequency, from a first guess.
-    fn over(&self, guess: f64, at: impl Fn(f64) -> Noise) -> Noise {
-        let lowest = (0.1 / self.scales.duration).ln();
-        let highest = (30.0 / self.scales.spacing).ln();
-        climb(
-            |log| at(log.exp()),
-            guess.ln().clamp(lowest, highest),
-            [lowest, highest],
-        )
+    /// The likeliest corner frequency beside what else a noise has, from the one that it has.
+    pub fn renewed(&self, noise: Noise) -> Noise {
+        self.improved(self.evaluated(noise))
+    }
+
+    /// The likeliest corner frequency beside what else a noise has, whose likelihood is known.
+    pub fn improved(&self, first: Noise) -> Noise {
+        let by_corner = |corner| self.evaluated(Noise { corner, ..first });
+        let best = self.over(first.corner, first, by_corner);
+        match best.spectrum {
+            None => best,
+            _ => self.evaluated(Noise {
+                spectrum: None,
+                ..best
+            }),
+        }
+    }
+
+    /// The largest likelihood over a frequency, from a first guess with its noise.
+    fn over(&self, guess: f64, first: Noise, at: impl Fn(f64) -> Noise) -> Noise {
+        let range = [0.1 / self.scales.duration, 30.0 / self.scales.spacing].map(f64::ln);
+        climb(|log| at(log.exp()), guess.ln(), first, range)
     }
 
     /// The largest likelihood over corner frequencies all over the range.
@@ -180,51 +193,47 @@ impl Linear<'_> {
         let highest = (3.0 / self.scales.spacing).ln();
         let count = (highest - lowest).ceil().max(1.0);
         let best = (0..=count as usize)
-            .map(|k| self.at((lowest + (highest - lowest) * k as f64 / count).exp(), None))
+            .map(|k| (lowest + (highest - lowest) * k as f64 / count).exp())
+            .map(|corner| self.evaluated(Noise::white(corner)))
             .max_by(|a, b| a.likelihood.total_cmp(&b.likelihood));
-        let guess = best.map_or(1.0 / self.scales.spacing, |best| best.corner);
-        self.maximised(guess, None)
+        best.map_or_else(
+            || self.maximised(highest.exp(), None),
+            |best| self.improved(best),
+        )
     }
 
     /// Noise of u itself beside that of its rate, as strong as the samples allow: the likelihood ratio to the likeliest is
     /// that of one standard error. A prior that is too smooth has a band that does not hold what is less smooth.
     pub fn with_level(&self, noise: &Noise) -> Noise {
-        let at = |level: f64| self.evaluated(Noise { level, ..*noise });
         let mut best = noise.likelihood;
-        let mut low = *noise;
-        let mut high = None;
+        let mut found = *noise;
         let mut level = noise.corner;
         for _ in 0..LEVELS {
-            let found = at(level);
-            best = best.max(found.likelihood);
-            if found.likelihood > best - ALLOWED {
-                low = found;
-            } else {
-                high = Some(level);
+            let next = self.evaluated(Noise { level, ..*noise });
+            best = best.max(next.likelihood);
+            let fall = best - next.likelihood;
+            if fall <= ALLOWED && level > found.level {
+                found = next;
             }
-            level = match (high, low.level > 0.0) {
-                (None, _) => 2.0 * level,
-                (Some(high), false) => 0.5 * high,
-                (Some(high), true) if high < 1.2 * low.level => break,
-                (Some(high), true) => (high * low.level).sqrt(),
-            };
+            if (0.5 * ALLOWED..=ALLOWED).contains(&fall) {
+                break;
+            }
+            // The fall grows like the density of the noise, by the sixth power.
+            level *= (0.75 * ALLOWED / fall.max(1e-3))
+                .powf(1.0 / 6.0)
+                .clamp(0.3, 2.0);
         }
-        low
-    }
-
-    /// The likeliest corner frequency beside what else a noise has.
-    pub fn renewed(&self, noise: Noise) -> Noise {
-        let by_corner = |corner| self.evaluated(Noise { corner, ..noise });
-        self.over(noise.corner, by_corner)
+        found
     }
 
     /// The likeliest noise of g beside that of u: a loss that is not in proportion to the speed.
     pub fn with_drift(&self, mut noise: Noise) -> Noise {
         for _ in 0..2 {
-            let guess = noise.level.max(noise.corner);
-            let by_level = self.over(guess, |level| self.evaluated(Noise { level, ..noise }));
-            noise = better(noise, by_level);
-            noise = better(noise, self.renewed(noise));
+            let level = noise.level.max(noise.corner);
+            let first = self.evaluated(Noise { level, ..noise });
+            let by_level = |level| self.evaluated(Noise { level, ..noise });
+            noise = better(noise, self.over(level, first, by_level));
+            noise = better(noise, self.improved(noise));
         }
         noise
     }
@@ -236,7 +245,11 @@ impl Linear<'_> {
             ..*from
         };
         for guess in guesses {
-            let found = self.at(from.corner, Some(*guess));
+            let correlated = Some(*guess);
+            let found = self.evaluated(Noise {
+                correlated,
+                ..*from
+            });
             if found.likelihood > best.likelihood {
                 best = found;
             }
@@ -244,24 +257,20 @@ impl Linear<'_> {
         for _ in 0..ROUNDS {
             let before = best.likelihood;
             let Some(now) = best.correlated else { break };
-            let corner = best.corner;
             let decay = now.decay.ln();
             let range = [
                 (0.01 / self.scales.duration).ln(),
                 (5.0 / self.scales.spacing).ln(),
             ];
             let by_decay = |log: f64| {
-                self.at(
-                    corner,
-                    Some(Autoregression {
-                        decay: log.exp(),
-                        ..now
-                    }),
-                )
+                let decay = log.exp();
+                self.evaluated(Noise {
+                    correlated: Some(Autoregression { decay, ..now }),
+                    ..best
+                })
             };
-            best = better(best, climb(by_decay, decay, range));
-            let Some(now) = best.correlated else { break };
-            best = better(best, self.maximised(best.corner, Some(now)));
+            best = better(best, climb(by_decay, decay, best, range));
+            best = better(best, self.improved(best));
             if best.likelihood - before < 0.1 {
                 break;
             }

@@ -111,8 +111,8 @@ impl Motion<'_> {
         state
     }
 
-    /// θ and θ̈ in the middle of a step whose ends are known, with u as the prior predicts it from the first.
-    fn in_the_middle(&self, t: [f64; 2], ends: [&State; 2], rates: [&Rates; 2]) -> [f64; 2] {
+    /// θ̈ in the middle of a step whose ends are known, with u as the prior predicts it from the first.
+    fn in_the_middle(&self, t: [f64; 2], ends: [&State; 2], rates: [&Rates; 2]) -> f64 {
         let h = t[1] - t[0];
         let [a, b] = ends;
         let theta = 0.5 * (a[0] + b[0])
@@ -120,8 +120,7 @@ impl Motion<'_> {
             + h * h * (rates[0].alpha + rates[1].alpha) / 64.0;
         let omega = 0.5 * (a[1] + b[1]) + h * (rates[0].alpha - rates[1].alpha) / 8.0;
         let unknown = self.later(0.5 * h, self.tilt(h, ends), a)[2];
-        let [alpha, _] = self.acceleration(0.5 * (t[0] + t[1]), theta, omega, unknown);
-        [theta, alpha]
+        self.acceleration(0.5 * (t[0] + t[1]), theta, omega, unknown)[0]
     }
 
     /// One step of the linear model of the deviations from a nominal path.
@@ -138,14 +137,12 @@ impl Motion<'_> {
             }
         }
         let mut defect = self.later(h, tilt, a);
-        let mut angles = [a[0], 0.5 * (a[0] + b[0]), b[0]];
         let after = if self.prior.unknown == Unknown::Acceleration {
             [0, 1].map(|row| a.iter().zip(&top[row]).map(|(a, top)| a * top).sum::<f64>())
         } else {
             // Simpson's rule for ω and θ; the noise of u is not part of the prediction.
             let first = rates[0].alpha;
-            let middle;
-            [angles[1], middle] = self.in_the_middle(t, ends, rates);
+            let middle = self.in_the_middle(t, ends, rates);
             let last = rates[1].alpha - rates[1].by_unknown * (b[2] - defect[2]);
             [
                 a[0] + h * a[1] + h * h * (first + 2.0 * middle) / 6.0,
@@ -162,7 +159,6 @@ impl Motion<'_> {
             defect,
             lever,
             tilt,
-            angles,
         }
     }
 }
@@ -201,8 +197,6 @@ pub(super) struct Linearised {
     pub lever: f64,
     /// What g adds to u, per time.
     pub tilt: f64,
-    /// Crank angles at the begin, in the middle and at the end, rad.
-    pub angles: [f64; 3],
 }
 
 #[cfg(test)]

@@ -7,10 +7,15 @@ pub(super) fn better(a: Noise, b: Noise) -> Noise {
     if b.likelihood > a.likelihood { b } else { a }
 }
 
-/// Largest value near a guess: uphill in growing steps, then two parabolas through the three best points.
-pub(super) fn climb(at: impl Fn(f64) -> Noise, guess: f64, [lowest, highest]: [f64; 2]) -> Noise {
+/// Largest value near a guess: uphill in growing steps, then parabolas through the three best points.
+pub(super) fn climb(
+    at: impl Fn(f64) -> Noise,
+    guess: f64,
+    first: Noise,
+    [lowest, highest]: [f64; 2],
+) -> Noise {
     const FIRST: f64 = 0.5;
-    let mut points = vec![(guess, at(guess))];
+    let mut points = vec![(guess, first)];
     for direction in [1.0, -1.0] {
         let mut step = FIRST;
         let mut here = guess;
@@ -44,15 +49,15 @@ pub(super) fn climb(at: impl Fn(f64) -> Noise, guess: f64, [lowest, highest]: [f
         }
         let [a, b, c] = [best - 1, best, best + 1].map(|k| (points[k].0, points[k].1.likelihood));
         let top = vertex(a, b, c);
-        if c.0 - a.0 < 0.1 || (top - b.0).abs() < 0.01 || !top.is_finite() {
+        if !top.place.is_finite() || top.rise < ENOUGH {
             break;
         }
-        points.push((top, at(top)));
+        points.push((top.place, at(top.place)));
     }
     let best = points
         .into_iter()
         .max_by(|a, b| a.1.likelihood.total_cmp(&b.1.likelihood));
-    best.map_or_else(|| at(guess), |(_, noise)| noise)
+    best.map_or(first, |(_, noise)| noise)
 }
 
 fn value(points: &[(f64, Noise)], place: f64) -> f64 {
@@ -60,19 +65,31 @@ fn value(points: &[(f64, Noise)], place: f64) -> f64 {
     found.map_or(f64::NEG_INFINITY, |(_, noise)| noise.likelihood)
 }
 
+/// Rise of ln of a likelihood that is not worth another evaluation.
+const ENOUGH: f64 = 0.05;
+
+/// A place and how much higher it is expected to be than what is known.
+struct Top {
+    place: f64,
+    rise: f64,
+}
+
 /// Where the parabola through three points has its top, kept inside.
-fn vertex(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> f64 {
+fn vertex(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> Top {
     let (left, right) = ((b.1 - a.1) / (b.0 - a.0), (c.1 - b.1) / (c.0 - b.0));
     let curvature = (right - left) / (c.0 - a.0);
     if !curvature.is_finite() || curvature >= 0.0 {
         // No parabola: the middle of the wider side.
-        return if c.0 - b.0 > b.0 - a.0 {
-            0.5 * (b.0 + c.0)
-        } else {
-            0.5 * (a.0 + b.0)
+        let place = match c.0 - b.0 > b.0 - a.0 {
+            true => 0.5 * (b.0 + c.0),
+            false => 0.5 * (a.0 + b.0),
         };
+        let rise = f64::INFINITY;
+        return Top { place, rise };
     }
     let top = 0.5 * (a.0 + b.0) - 0.5 * left / curvature;
-    let margin = 0.1;
-    top.clamp(a.0 + margin * (b.0 - a.0), c.0 - margin * (c.0 - b.0))
+    Top {
+        place: top.clamp(a.0 + 0.1 * (b.0 - a.0), c.0 - 0.1 * (c.0 - b.0)),
+        rise: -curvature * (top - b.0).powi(2),
+    }
 }

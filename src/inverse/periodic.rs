@@ -11,7 +11,8 @@
 
 use super::kalman::{Companion, Gaussian, Innovation, Return, Sample, Step};
 use super::linearised::Linearised;
-use super::regression::{COUNT, Each, Posterior, Regression};
+use super::matrix::{Matrix, dot};
+use super::regression::{COUNT, Each, Posterior, ROWS, Regression};
 use super::state_space::Deviations;
 
 /// cos kθ and sin kθ of the cycle angle.
@@ -26,24 +27,28 @@ fn harmonics(angle: f64) -> Each {
     list
 }
 
-/// What the coefficients add to θ, ω and u in a step: Simpson's rule for θ̈.
-fn responses(step: &Linearised, turns: u8) -> [Each; 3] {
-    let [begin, middle, end] = step.angles.map(|angle| harmonics(angle / f64::from(turns)));
-    let (h, lever) = (step.h, step.lever);
-    let mut found = [[0.0; COUNT]; 3];
-    for j in 0..COUNT {
-        let (half, whole) = (middle[j] - begin[j], end[j] - begin[j]);
-        found[0][j] = h * h * lever * half / 3.0;
-        found[1][j] = h * lever * (4.0 * half + whole) / 6.0;
-        found[2][j] = whole;
-    }
-    found
+/// Harmonics in the middle and at the end of each step less those at its begin, along a path with these crank angles at begins,
+/// middles and ends, rad.
+pub(super) fn increments(angles: impl Iterator<Item = [f64; 3]>, turns: u8) -> Vec<[Each; 2]> {
+    let mut known = None;
+    let of = |[begin, middle, end]: [f64; 3]| {
+        let at = |angle: f64| harmonics(angle / f64::from(turns));
+        let begin = known.unwrap_or_else(|| at(begin));
+        let next = at(end);
+        known = Some(next);
+        let mut found = [at(middle), next];
+        for list in &mut found {
+            (0..COUNT).for_each(|j| list[j] -= begin[j]);
+        }
+        found
+    };
+    angles.map(of).collect()
 }
 
 /// Derivatives of the state by the coefficients, along the filter.
 struct Columns<'a, const N: usize> {
     steps: &'a [Linearised],
-    turns: u8,
+    increments: &'a [[Each; 2]],
     of: [Each; N],
 }
 
@@ -51,37 +56,60 @@ impl<'a, const N: usize> Columns<'a, N> {
     fn new(model: &Deviations<'a>) -> Self {
         Columns {
             steps: model.steps,
-            turns: model.prior.cycle,
+            increments: model.increments,
             of: [[0.0; COUNT]; N],
         }
     }
 
+    /// Adds `sign` times what the coefficients add to the state in a step: Simpson's rule for θ̈.
+    fn respond(&self, node: usize, sign: f64, rows: &mut [Each; N]) {
+        let Linearised { h, lever, .. } = self.steps[node];
+        let [half, whole] = &self.increments[node];
+        add(&mut rows[0], sign * h * h * lever / 3.0, half);
+        add(&mut rows[1], sign * h * lever * (2.0 / 3.0), half);
+        add(&mut rows[1], sign * h * lever / 6.0, whole);
+        add(&mut rows[2], sign, whole);
+    }
+
     fn step(&mut self, node: usize, step: &Step<N>) {
-        let before = self.of;
-        let responses = responses(&self.steps[node], self.turns);
-        for i in 0..N {
-            let mut row = *responses.get(i).unwrap_or(&[0.0; COUNT]);
-            for k in 0..N {
-                let factor = step.transition[i][k];
-                if factor != 0.0 {
-                    (0..COUNT).for_each(|j| row[j] += factor * before[k][j]);
-                }
-            }
-            self.of[i] = row;
-        }
+        let mut after = transformed(&step.transition, &self.of);
+        self.respond(node, 1.0, &mut after);
+        self.of = after;
     }
 
     /// Takes a sample in; E.
     fn update(&mut self, sample: &Sample<N>, found: &Innovation<N>) -> Each {
         let mut errors = [0.0; COUNT];
         for k in 0..N {
-            (0..COUNT).for_each(|j| errors[j] -= sample.row[k] * self.of[k][j]);
+            add(&mut errors, -sample.row[k], &self.of[k]);
         }
         for k in 0..N {
-            (0..COUNT).for_each(|j| self.of[k][j] += found.gain[k] * errors[j]);
+            add(&mut self.of[k], found.gain[k], &errors);
         }
         errors
     }
+}
+
+/// Adds a multiple of a row.
+#[inline(always)]
+fn add(to: &mut Each, factor: f64, row: &Each) {
+    if factor != 0.0 {
+        for j in 0..COUNT {
+            to[j] += factor * row[j];
+        }
+    }
+}
+
+/// A matrix times rows.
+#[inline(always)]
+fn transformed<const N: usize>(matrix: &Matrix<N>, rows: &[Each; N]) -> [Each; N] {
+    let mut found = [[0.0; COUNT]; N];
+    for i in 0..N {
+        for k in 0..N {
+            add(&mut found[i], matrix[i][k], &rows[k]);
+        }
+    }
+    found
 }
 
 /// Filter and normal equations.
@@ -106,12 +134,8 @@ impl<const N: usize> Companion<N> for Regressed<'_, N> {
 
     fn updated(&mut self, _: usize, sample: &Sample<N>, found: &Innovation<N>) {
         let errors = self.columns.update(sample, found);
-        for i in 0..COUNT {
-            let weighted = errors[i] / found.variance;
-            self.to.score[i] -= weighted * found.error;
-            let row = &mut self.to.information[i];
-            (0..=i).for_each(|j| row[j] += weighted * errors[j]);
-        }
+        self.to
+            .take(&errors, found.error, 1.0 / found.variance.sqrt());
     }
 }
 
@@ -119,7 +143,6 @@ impl<const N: usize> Companion<N> for Regressed<'_, N> {
 pub(super) struct Sensitivities<'a, const N: usize> {
     columns: Columns<'a, N>,
     posterior: &'a Posterior,
-    factor: Vec<Each>,
     list: Vec<[Each; N]>,
     shifts: Vec<f64>,
 }
@@ -129,7 +152,6 @@ impl<'a, const N: usize> Sensitivities<'a, N> {
         Sensitivities {
             columns: Columns::new(model),
             posterior,
-            factor: posterior.factor(),
             list: Vec::with_capacity(model.observed.len()),
             shifts: vec![0.0; model.observed.len()],
         }
@@ -141,29 +163,19 @@ impl<'a, const N: usize> Sensitivities<'a, N> {
         for (shift, innovation) in self.shifts.iter().zip(innovations) {
             *innovation = innovation.map(|value| value + shift);
         }
-        for (columns, state) in self.list.iter().zip(path) {
-            let spread = columns.map(|row| self.spread(&row));
-            for i in 0..N {
-                state.mean[i] += dot(&columns[i], &self.posterior.coefficients);
-                for k in 0..N {
-                    state.covariance[i][k] += dot(&spread[i], &spread[k]);
+        for (columns, states) in self.list.chunks(ROWS).zip(path.chunks_mut(ROWS)) {
+            let spread = self.posterior.spread(columns.as_flattened());
+            for (k, state) in states.iter_mut().enumerate() {
+                let spread = spread.columns(N * k, N);
+                for i in 0..N {
+                    state.mean[i] += dot(&columns[k][i], &self.posterior.coefficients);
+                    for j in 0..N {
+                        state.covariance[i][j] += spread.column(i).dot(&spread.column(j));
+                    }
                 }
             }
         }
     }
-
-    /// A row times the factor of the covariance.
-    fn spread(&self, row: &Each) -> Each {
-        let mut found = [0.0; COUNT];
-        for (value, factor) in row.iter().zip(&self.factor) {
-            (0..COUNT).for_each(|j| found[j] += value * factor[j]);
-        }
-        found
-    }
-}
-
-fn dot(a: &Each, b: &Each) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 impl<const N: usize> Companion<N> for Sensitivities<'_, N> {
@@ -181,25 +193,19 @@ impl<const N: usize> Companion<N> for Sensitivities<'_, N> {
     }
 
     fn returned(&mut self, node: usize, way: &Return<N>) {
-        let later = self.columns.of;
-        let predicted = std::mem::replace(&mut self.list[node + 1], later);
-        let responses = responses(&self.columns.steps[node], self.columns.turns);
-        let mut before = later;
-        for i in 0..N {
-            for k in 0..N {
-                let share = way.share[i][k];
-                (0..COUNT).for_each(|j| before[i][j] -= share * (later[k][j] - predicted[k][j]));
-            }
-            if let Some(response) = responses.get(i) {
-                (0..COUNT).for_each(|j| before[i][j] -= response[j]);
+        let mut before = self.columns.of;
+        let mut off = std::mem::replace(&mut self.list[node + 1], before);
+        for k in 0..N {
+            for j in 0..COUNT {
+                off[k][j] -= before[k][j];
             }
         }
-        self.columns.of = [[0.0; COUNT]; N];
         for i in 0..N {
             for k in 0..N {
-                let factor = way.inverse[i][k];
-                (0..COUNT).for_each(|j| self.columns.of[i][j] += factor * before[k][j]);
+                add(&mut before[i], way.share[i][k], &off[k]);
             }
         }
+        self.columns.respond(node, -1.0, &mut before);
+        self.columns.of = transformed(&way.inverse, &before);
     }
 }

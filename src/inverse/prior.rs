@@ -70,6 +70,9 @@ impl Prior {
 /// The prior without mechanics: a smoothing spline of degree seven in state-space form.
 pub(super) const KINEMATIC: Prior = Prior::new(Unknown::Acceleration, 2);
 
+/// A torque as a Wiener process.
+pub(super) const TORQUE: Prior = Prior::new(Unknown::Torque, 1);
+
 /// The priors of an unknown by their order.
 const fn ladder(unknown: Unknown) -> [Prior; 3] {
     [
@@ -82,33 +85,16 @@ const fn ladder(unknown: Unknown) -> [Prior; 3] {
 /// A torque in proportion to the speed, and a Wiener process.
 const FOLLOWING: Prior = Prior {
     follows_speed: true,
-    ..Prior::new(Unknown::Torque, 1)
+    ..TORQUE
 };
 
-/// A torque that repeats after some turns, and a process of this order.
-const fn repeating(cycle: u8, order: usize) -> Prior {
-    Prior {
-        cycle,
-        ..Prior::new(Unknown::Torque, order)
-    }
-}
-
-/// All priors, in lists along which the order rises.
-const LADDERS: [&[Prior]; 6] = [
-    &[repeating(1, 1), repeating(1, 2)],
-    &[repeating(2, 1), repeating(2, 2)],
+/// All priors without a part that repeats, in lists along which the order rises.
+pub(super) const LADDERS: [&[Prior]; 4] = [
     &ladder(Unknown::Force),
     &ladder(Unknown::Torque),
     &[FOLLOWING],
     &[KINEMATIC, Prior::new(Unknown::Acceleration, 3)],
 ];
-
-/// The priors of a record of so many turns: what repeats is seen twice at least.
-pub(super) fn ladders(turns: f64) -> impl Iterator<Item = &'static [Prior]> {
-    LADDERS
-        .into_iter()
-        .filter(move |ladder| turns >= 2.0 * f64::from(ladder[0].cycle))
-}
 
 /// A prior with its noise, about a path.
 #[derive(Clone, Copy, Debug)]

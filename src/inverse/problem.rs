@@ -6,7 +6,7 @@ use super::estimate::Estimate;
 use super::kalman;
 use super::likelihood::{Linear, Stretch};
 use super::linearised::{Motion, Rates};
-use super::periodic::Sensitivities;
+use super::periodic::{Sensitivities, increments};
 use super::prior::Prior;
 use super::record::{Grid, Path, Record, hermite};
 use super::regression::Posterior;
@@ -103,12 +103,22 @@ impl<'a> Problem<'a> {
         let states = piece.states;
         let pairs = times.iter().zip(states);
         let rates: Vec<Rates> = pairs.map(|(t, state)| motion.rates(*t, state)).collect();
+        let ends = |k: usize| [&states[k], &states[k + 1]];
+        let angles = (0..states.len() - 1).map(|k| {
+            let ([a, b], h) = (ends(k), times[k + 1] - times[k]);
+            [a[0], 0.5 * (a[0] + b[0]) + 0.125 * h * (a[1] - b[1]), b[0]]
+        });
+        let increments = match motion.prior.cycle {
+            0 => Vec::new(),
+            turns => increments(angles, turns),
+        };
         let steps = (0..states.len() - 1).map(|k| {
-            let ends = [&states[k], &states[k + 1]];
+            let ends = ends(k);
             motion.linearised([times[k], times[k + 1]], ends, [&rates[k], &rates[k + 1]])
         });
         Stretch {
             steps: steps.collect(),
+            increments,
             observed: range
                 .map(|k| self.record.observed(&self.grid, &piece, k, sigma))
                 .collect(),

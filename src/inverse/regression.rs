@@ -3,13 +3,16 @@
 // Sums over rows and columns, as the textbook writes them.
 #![allow(clippy::needless_range_loop)]
 
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use nalgebra::{Cholesky, DMatrix, DVector};
 
 /// Harmonics of a cycle: with 24 a pressure peak of 25° at half its height is met to 1e-4.
 const HARMONICS: usize = 24;
 
 /// Number of coefficients.
 pub(super) const COUNT: usize = 2 * HARMONICS;
+
+/// Rows that are multiplied by a matrix at once.
+pub(super) const ROWS: usize = 128;
 
 /// A number for each coefficient.
 pub(super) type Each = [f64; COUNT];
@@ -33,26 +36,49 @@ impl Spectrum {
     }
 }
 
-/// Normal equations of the coefficients: Σ EᵀE/S, of which the lower triangle is kept, and −Σ Eᵀe/S.
+/// Normal equations of the coefficients: Σ EᵀE/S and −Σ Eᵀe/S.
 #[derive(Clone, Debug)]
 pub(super) struct Regression {
-    pub information: Vec<Each>,
-    pub score: Each,
+    information: DMatrix<f64>,
+    score: Each,
+    /// Rows E/√S that wait for their multiplication.
+    rows: Vec<Each>,
 }
 
 impl Regression {
     pub fn new() -> Regression {
         Regression {
-            information: vec![[0.0; COUNT]; COUNT],
+            information: DMatrix::zeros(COUNT, COUNT),
             score: [0.0; COUNT],
+            rows: Vec::with_capacity(ROWS),
         }
+    }
+
+    /// Takes a row E with its error e in, and 1/√S.
+    pub fn take(&mut self, row: &Each, error: f64, per: f64) {
+        let mut scaled = *row;
+        for j in 0..COUNT {
+            scaled[j] *= per;
+            self.score[j] -= scaled[j] * error * per;
+        }
+        self.rows.push(scaled);
+        if self.rows.len() == ROWS {
+            self.multiply();
+        }
+    }
+
+    /// Multiplies the rows that wait.
+    pub fn multiply(&mut self) {
+        let rows = DMatrix::from_column_slice(COUNT, self.rows.len(), self.rows.as_flattened());
+        self.information.gemm(1.0, &rows, &rows.transpose(), 1.0);
+        self.rows.clear();
     }
 
     /// The likeliest of spectra, of which `likelihood` sees the fall of the squares and the rise of ln |S|.
     pub fn likeliest(&self, likelihood: impl Fn(&Posterior) -> f64) -> Option<Spectrum> {
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
         let told = (0..COUNT)
-            .map(|j| self.information[j][j])
+            .map(|j| self.information[(j, j)])
             .fold(0.0, f64::max);
         let at = |log: f64, order: i32| {
             let spectrum = Spectrum {
@@ -92,20 +118,19 @@ impl Regression {
     pub fn solved(&self, spectrum: Spectrum) -> Option<Posterior> {
         let deviations = spectrum.deviations();
         let scaled = DMatrix::from_fn(COUNT, COUNT, |i, j| {
-            let (low, high) = (i.min(j), i.max(j));
             let unit = if i == j { 1.0 } else { 0.0 };
-            unit + deviations[i] * self.information[high][low] * deviations[j]
+            unit + deviations[i] * self.information[(i, j)] * deviations[j]
         });
         let cholesky = Cholesky::new(scaled)?;
         let right = DVector::from_fn(COUNT, |j, _| deviations[j] * self.score[j]);
         let solved = cholesky.solve(&right);
-        let diagonal = cholesky.l_dirty().diagonal();
+        let lower = cholesky.l();
         Some(Posterior {
             fall: right.dot(&solved),
-            log_determinant: 2.0 * diagonal.iter().map(|d| d.ln()).sum::<f64>(),
+            log_determinant: 2.0 * lower.diagonal().iter().map(|d| d.ln()).sum::<f64>(),
             coefficients: std::array::from_fn(|j| deviations[j] * solved[j]),
             deviations,
-            cholesky,
+            lower,
         })
     }
 }
@@ -119,19 +144,21 @@ pub(super) struct Posterior {
     pub log_determinant: f64,
     pub coefficients: Each,
     deviations: Each,
-    cholesky: Cholesky<f64, Dyn>,
+    /// Lower factor of Cholesky.
+    lower: DMatrix<f64>,
 }
 
 impl Posterior {
-    /// A factor L of the covariance L Lᵀ, row by row.
-    pub fn factor(&self) -> Vec<Each> {
-        let mut inverse = DMatrix::identity(COUNT, COUNT);
-        let solved = self
-            .cholesky
-            .l_dirty()
-            .tr_solve_lower_triangular_mut(&mut inverse);
-        debug_assert!(solved);
-        let row = |i: usize| std::array::from_fn(|j| self.deviations[i] * inverse[(i, j)]);
-        (0..COUNT).map(row).collect()
+    /// Rows times a factor L of the covariance L Lᵀ, as columns.
+    pub fn spread(&self, rows: &[Each]) -> DMatrix<f64> {
+        let mut columns = DMatrix::from_column_slice(COUNT, rows.len(), rows.as_flattened());
+        for (j, mut row) in columns.row_iter_mut().enumerate() {
+            row *= self.deviations[j];
+        }
+        let unit = DMatrix::identity(COUNT, COUNT);
+        match self.lower.solve_lower_triangular(&unit) {
+            Some(inverse) => inverse * columns,
+            None => columns,
+        }
     }
 }

@@ -128,7 +128,7 @@ impl Trials<'_> {
         let best = guesses
             .map(|log| (log, self.at(model, log.exp())))
             .max_by(|a, b| a.1.likelihood.total_cmp(&b.1.likelihood));
-        let guess = best.map_or(low, |(log, _)| log);
-        climb(|log| self.at(model, log.exp()), guess, [low, high])
+        let (guess, first) = best.unwrap_or_else(|| (low, self.at(model, low.exp())));
+        climb(|log| self.at(model, log.exp()), guess, first, [low, high])
     }
 }
