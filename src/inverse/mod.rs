@@ -32,6 +32,7 @@ mod as_printed;
 mod bands;
 mod branch_choice;
 mod branch_tracking;
+mod candidates;
 mod code_moments;
 mod estimate;
 mod first_path;
