@@ -140,6 +140,7 @@ pub fn inverse<'py>(
         )
     })?;
     let size = degree.map_or(FitSize::Auto, FitSize::Fixed);
+    let default = InverseOptions::default();
     let options = InverseOptions {
         fit: match (fit, size) {
             // A degree asks for a polynomial.
@@ -149,10 +150,15 @@ pub fn inverse<'py>(
         size,
         reactions,
         beside_forces,
+        ..default
     };
     let (asked, samples) = (scene.get(), &measurement.get().samples);
     let (found, rows, residuals, summary) = call::run(py, |call| {
         let uncertain = asked.draft.uncertain()?;
+        let options = InverseOptions {
+            stop: Some(call.stop.clone()),
+            ..options
+        };
         let found = inverse_of_uncertain(&asked.scene(call), &uncertain, samples, &options)
             .map_err(|error| error.with_notes(samples.notes()))?;
         let rows = report::inverse_table(&found, None);

@@ -142,6 +142,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         size: arguments.degree,
         reactions: arguments.reactions,
         beside_forces: arguments.beside_forces,
+        stop: None,
     };
     let printed = arguments
         .as_printed

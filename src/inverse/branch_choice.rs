@@ -161,7 +161,7 @@ impl<'a> Reading<'a> {
         let mut record = record(measurement, &angles);
         record.keep(window.clone());
         let theta = &angles.theta[window.clone()];
-        let problem = problem(record, theta, equation);
+        let problem = problem(record, theta, equation, None);
         let first = first_path::coarse(&problem, theta);
         let kinematic = problem.kinematic(first, angles.sigma.max(problem.record.floor));
         // Schwarz (1978): zero and gain are found from the samples.

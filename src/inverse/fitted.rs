@@ -14,6 +14,7 @@ use super::summary::{CandidateSummary, FitSummary, SensorSummary};
 use super::{FitKind, FitSize, InverseOptions};
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
+use crate::numeric::stop::Stop;
 use crate::scene::{Measured, Measurement};
 
 /// The estimated motion.
@@ -87,7 +88,13 @@ impl Fitted {
         {
             return Ok(exact);
         }
-        let smoothed = Fitted::smoothed(measurement, angles, equation, sources);
+        let smoothed = Fitted::smoothed(
+            measurement,
+            angles,
+            equation,
+            sources,
+            options.stop.as_ref(),
+        );
         Ok(match simple {
             Some(polynomial)
                 if smoothed.summary.outliers == 0
@@ -113,8 +120,9 @@ impl Fitted {
         angles: &CrankAngles<'_>,
         equation: &Equation,
         sources: &[Source],
+        stop: Option<&Stop>,
     ) -> Fitted {
-        let (mut problem, kinematic) = kinematic(measurement, angles, equation);
+        let (mut problem, kinematic) = kinematic(measurement, angles, equation, stop);
         let (smoothed, candidates) = match problem.record.codes {
             Some(codes) => problem.likeliest_of_codes(codes, kinematic),
             None => problem.likeliest(kinematic),

@@ -92,6 +92,7 @@ use self::row::Rows;
 use self::shared_errors::SharedErrors;
 use crate::error::Error;
 use crate::mechanism::{Equation, Reactions, Reactor};
+use crate::numeric::stop::Stop;
 use crate::numeric::student;
 use crate::scene::{Measured, Measurement, Scene, UncertainValue};
 
@@ -111,7 +112,8 @@ pub struct Inverse {
 /// Slider force and crank torque from a measured motion.
 ///
 /// # Errors
-/// [`Error::Scene`] for impossible values of scene or data, [`Error::Refused`] for what cannot be computed.
+/// [`Error::Scene`] for impossible values of scene or data, [`Error::Refused`] for what cannot be computed,
+/// [`Error::Interrupted`].
 ///
 /// ```
 /// use slider_crank::scene::{Measured, Measurement, Scene, Slider};
@@ -149,6 +151,20 @@ pub fn inverse_of_uncertain(
     measurement: &Measurement,
     options: &InverseOptions,
 ) -> Result<Inverse, Error> {
+    let found = recovered(scene, uncertain, measurement, options);
+    match &options.stop {
+        // What was cut off looks like samples that do not serve.
+        Some(stop) if stop.is_requested() => Err(Error::Interrupted),
+        _ => found,
+    }
+}
+
+fn recovered(
+    scene: &Scene,
+    uncertain: &[UncertainValue],
+    measurement: &Measurement,
+    options: &InverseOptions,
+) -> Result<Inverse, Error> {
     let scene = &measurement.known_in(scene);
     let plan = refusals::plan(scene)?;
     let reactor = options.reactions.then(|| Reactor::new(scene)).transpose()?;
@@ -171,6 +187,9 @@ pub fn inverse_of_uncertain(
     let sources = shared_errors::sources(scene, uncertain, measurement, zero)?;
     let fitted = Fitted::new(measurement, &angles, &equation, options, &sources)
         .map_err(|what| Error::refused(what, "give more samples, or another --fit or --degree"))?;
+    if options.stop.as_ref().is_some_and(Stop::is_requested) {
+        return Err(Error::Interrupted);
+    }
     let backwards = Backwards {
         equation: &equation,
         beside_forces: options.beside_forces,

@@ -1,5 +1,7 @@
 //! What is asked of an inverse computation.
 
+use crate::numeric::stop::Stop;
+
 /// How the motion is estimated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FitKind {
@@ -35,7 +37,7 @@ pub enum FitSize {
 }
 
 /// What is asked of an inverse computation.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct InverseOptions {
     /// How the motion is estimated.
     pub fit: FitKind,
@@ -46,6 +48,8 @@ pub struct InverseOptions {
     /// Whether the slider force is what acts beside the forces of the scene; if not it is the whole force on the
     /// slider.
     pub beside_forces: bool,
+    /// A request to stop.
+    pub stop: Option<Stop>,
 }
 
 impl Default for InverseOptions {
@@ -55,6 +59,7 @@ impl Default for InverseOptions {
             size: FitSize::Auto,
             reactions: false,
             beside_forces: false,
+            stop: None,
         }
     }
 }

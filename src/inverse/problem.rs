@@ -15,6 +15,7 @@ use super::smoother::Smoothed;
 use super::state_space::Deviations;
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
+use crate::numeric::stop::Stop;
 
 /// Nodes that one thread smooths at a time, at least, beside those at both ends that are shared with its neighbours.
 const PIECE: usize = 8192;
@@ -28,6 +29,8 @@ pub(super) struct Problem<'a> {
     pub record: Record<'a>,
     pub grid: Grid,
     pub equation: &'a Equation,
+    /// A request to stop: what is smoothed then is of no use.
+    pub stop: Option<&'a Stop>,
 }
 
 impl<'a> Problem<'a> {
@@ -54,6 +57,10 @@ impl<'a> Problem<'a> {
             covariance: std::array::from_fn(between),
             innovation: f64::NAN,
         }
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.stop.is_some_and(Stop::is_requested)
     }
 
     pub fn motion(&self, prior: Prior) -> Motion<'a> {
@@ -147,6 +154,9 @@ impl<'a> Problem<'a> {
 
     /// Stretches of the linear model for the estimate of hyper-parameters.
     pub fn stretches(&self, motion: &Motion<'_>, path: &Path, sigma: f64) -> Vec<Stretch> {
+        if self.is_stopped() {
+            return Vec::new();
+        }
         let ranges = self.sampled();
         ranges
             .into_iter()
@@ -178,6 +188,9 @@ impl<'a> Problem<'a> {
         let density = nodes as f64 / scales.duration;
         let length = PIECE.max((4.0 * shared * density).min(nodes as f64) as usize);
         let job = |(core, known, found): (Range<usize>, Range<usize>, &mut [Estimate])| {
+            if self.is_stopped() {
+                return;
+            }
             let from = times.partition_point(|t| *t < times[core.start] - shared);
             let to = times.partition_point(|t| *t <= times[core.end - 1] + shared);
             let (from, to) = (from.max(known.start), to.min(known.end));

@@ -10,6 +10,7 @@ use super::sensors_beside::SensorBeside;
 use super::smoother::Smoothed;
 use super::{first_path, outliers};
 use crate::mechanism::Equation;
+use crate::numeric::stop::Stop;
 use crate::scene::{Beside, BesideColumn, Measured, Measurement};
 
 /// Units of rounding of computed values.
@@ -65,6 +66,7 @@ pub(super) fn problem<'a>(
     record: Record<'a>,
     theta: &[f64],
     equation: &'a Equation,
+    stop: Option<&'a Stop>,
 ) -> Problem<'a> {
     let grid =
         Grid::of_blocks(&record.times, theta).unwrap_or_else(|| Grid::new(&record.times, theta));
@@ -72,6 +74,7 @@ pub(super) fn problem<'a>(
         record,
         grid,
         equation,
+        stop,
     }
 }
 
@@ -80,6 +83,7 @@ pub(super) fn kinematic<'a>(
     measurement: &'a Measurement,
     angles: &CrankAngles<'a>,
     equation: &'a Equation,
+    stop: Option<&'a Stop>,
 ) -> (Problem<'a>, Smoothed) {
     let samples = || record(measurement, angles);
     let codes = match angles.sensor.measured {
@@ -89,13 +93,13 @@ pub(super) fn kinematic<'a>(
         _ => None,
     };
     let Some(codes) = codes else {
-        let (mut problem, kinematic) = without_outliers(samples(), angles, equation, 0.0);
+        let (mut problem, kinematic) = without_outliers(samples(), angles, equation, 0.0, stop);
         let kinematic = problem.by_all_sensors(kinematic);
         return (problem, kinematic);
     };
     let coded = samples().coded(codes);
     let is_whole = coded.times.len() == measurement.len();
-    let (mut problem, kinematic) = without_outliers(coded, angles, equation, codes.step);
+    let (mut problem, kinematic) = without_outliers(coded, angles, equation, codes.step, stop);
     if kinematic.noise.sigma < codes.step {
         let first = problem.record.clone();
         let record = &mut problem.record;
@@ -117,7 +121,7 @@ pub(super) fn kinematic<'a>(
             problem.record.intervals.clear();
             (problem, kinematic)
         }
-        false => without_outliers(samples(), angles, equation, codes.step),
+        false => without_outliers(samples(), angles, equation, codes.step, stop),
     }
 }
 
@@ -127,12 +131,13 @@ fn without_outliers<'a>(
     angles: &CrankAngles<'_>,
     equation: &'a Equation,
     step: f64,
+    stop: Option<&'a Stop>,
 ) -> (Problem<'a>, Smoothed) {
     let theta = match record.is_linear() {
         true => record.values.clone(),
         false => angles.theta.clone(),
     };
-    let mut problem = problem(record, &theta, equation);
+    let mut problem = problem(record, &theta, equation, stop);
     let first = first_path(&problem, angles);
     let sigma = angles.sigma.max(problem.record.floor);
     let mut kinematic = problem.kinematic(first, sigma);

@@ -119,6 +119,7 @@ impl Source {
             record: self.record(record),
             grid: problem.grid.clone(),
             equation: &self.equation,
+            stop: problem.stop,
         };
         let mut path = smoothed.path(!record.is_linear());
         path.states

@@ -2,6 +2,7 @@
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
+use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::report::quantity::Quantity;
@@ -64,7 +65,7 @@ impl Table {
             cells: Cells::of(rows.iter().map(|row| row.get(i).map_or("", String::as_str))),
         };
         Table {
-            columns: header.iter().enumerate().map(column).collect(),
+            columns: header.par_iter().enumerate().map(column).collect(),
             stride: 1,
         }
     }

@@ -6,6 +6,7 @@ mod support;
 mod encoder;
 mod hard_data;
 mod identify;
+mod interrupted;
 mod inverse;
 mod inverse_friction;
 mod inverse_fuzz;

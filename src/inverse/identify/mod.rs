@@ -91,7 +91,7 @@ pub fn identify(
         scale: Scale::TRUE,
     };
     let angles = crank_angles(&sensor, measurement, &equation, &scene.motion)?;
-    let (mut problem, smooth) = kinematic(measurement, &angles, &equation);
+    let (mut problem, smooth) = kinematic(measurement, &angles, &equation, None);
     if problem.grid.block == 0.0 {
         let along = match problem.record.is_linear() {
             true => &problem.record.values,

@@ -77,6 +77,7 @@ impl Trials<'_> {
             },
             grid: self.problem.grid.clone(),
             equation: &equation,
+            stop: None,
         };
         let motion = problem.motion(MISSING);
         Ok(problem.stretch(&motion, path, 0..problem.grid.len(), sigma))

@@ -10,6 +10,8 @@ mod tally;
 use std::ops::Range;
 use std::path::Path;
 
+use rayon::prelude::*;
+
 use super::csv::{failed, quoted};
 use super::decimate::Thinned;
 use super::output::{Output, is_standard_output, is_stream};
@@ -135,10 +137,15 @@ impl<'a> SweepWriter<'a> {
 
     /// Writes rows; those of a file are safe when this returns.
     pub fn take(&mut self, designs: &[Design]) -> Result<(), Error> {
-        let mut text = String::new();
-        for design in designs {
+        let written = !matches!(self.target, Target::Nothing);
+        let made = designs.par_iter().map(|design| {
             let cells = columns::cells(self.sweep, design);
-            text.push_str(&line(&cells)?);
+            let line = written.then(|| line(&cells)).transpose()?;
+            Ok((cells, line.unwrap_or_default()))
+        });
+        let mut text = String::new();
+        for (cells, line) in made.collect::<Result<Vec<_>, Error>>()? {
+            text.push_str(&line);
             self.tally.take(&cells);
             if let Some(shown) = &mut self.shown {
                 shown.take(cells);
