@@ -27,6 +27,11 @@ class Simulation(Rows):
     ``a_m_per_s2``, ``phi_rad``; the joint forces, the driving torque and the loose joint where there are any.
     """
 
+    _source: _native.Run
+
+    def __init__(self, columns: dict[str, Any], summary: str, native: _native.Run) -> None:
+        super().__init__(columns, summary, native)
+
     @property
     def stopped(self) -> str | None:
         """Why the run ended before its time, if it did."""
@@ -35,22 +40,24 @@ class Simulation(Rows):
     @property
     def events(self) -> list[dict[str, Any]]:
         """Dead centres, turning points, impacts and the like: kind, time (s), angle (rad), speed (rad/s)."""
-        return self.summary["events"]
+        events: list[dict[str, Any]] = self.summary["events"]
+        return events
 
     @property
     def error_estimate(self) -> dict[str, float] | None:
         """Estimate of the global error of the last state, rad and rad/s."""
-        return self.summary["error_estimate"]
+        estimate: dict[str, float] | None = self.summary["error_estimate"]
+        return estimate
 
     def at(self, t: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """Crank angle (rad, unwrapped) and speed (rad/s) at times (s), from the dense motion; nan outside the run."""
         times = np.asarray(t, dtype=float)
-        theta, omega = self._native.at(times.ravel())
+        theta, omega = self._source.at(times.ravel())
         return theta.reshape(times.shape), omega.reshape(times.shape)
 
     def rows_at(self, t: ArrayLike) -> dict[str, np.ndarray]:
         """All columns at times (s) inside the run, from the dense motion."""
-        return self._native.rows_at(np.atleast_1d(np.asarray(t, dtype=float)).ravel())
+        return self._source.rows_at(np.atleast_1d(np.asarray(t, dtype=float)).ravel())
 
 
 def simulate(
@@ -102,4 +109,5 @@ def steady_state(
         fluctuation: coefficient of speed fluctuation for which the flywheel is wanted; its inertia (kg m²) is added.
         max_evaluations: work limit of each search.
     """
-    return json.loads(_native.steady_state(scene._native, fluctuation, max_evaluations))
+    found: dict[str, Any] = json.loads(_native.steady_state(scene._native, fluctuation, max_evaluations))
+    return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -68,6 +69,8 @@ class Equation:
         return np.stack([omega, self.alpha(t, theta, omega)])
 
     @staticmethod
-    def _at(function, t: ArrayLike, theta: ArrayLike, omega: ArrayLike) -> np.ndarray:
+    def _at(
+        function: Callable[..., np.ndarray], t: ArrayLike, theta: ArrayLike, omega: ArrayLike
+    ) -> np.ndarray:
         states = np.broadcast_arrays(*(np.asarray(one, dtype=float) for one in (t, theta, omega)))
         return function(*(state.ravel() for state in states)).reshape(states[0].shape)

@@ -123,7 +123,8 @@ class Recovered(Rows):
     @property
     def band_factor(self) -> float:
         """Half of a 95 % band over the standard error."""
-        return self.summary["band_factor"]
+        factor: float = self.summary["band_factor"]
+        return factor
 
     def band(self, name: str = "slider_force") -> tuple[np.ndarray, np.ndarray]:
         """Lower and upper end of the 95 % band of ``"slider_force"`` (N) or ``"crank_torque"`` (N m)."""
@@ -169,7 +170,10 @@ def identify(
         free: keys, like ``["torque[1].coefficient", "crank.inertia", "sensor.zero"]``; their values in the scene are those
             from which the search sets out.
     """
-    return json.loads(_native.identify(scene._native, _record(measurement)._native, list(free)))
+    found: dict[str, Any] = json.loads(
+        _native.identify(scene._native, _record(measurement)._native, list(free))
+    )
+    return found
 
 
 def _record(measurement: Measurement | str | os.PathLike[str]) -> Measurement:

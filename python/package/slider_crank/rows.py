@@ -30,7 +30,7 @@ class Rows(Mapping[str, np.ndarray]):
     def __init__(self, columns: dict[str, Any], summary: str, native: _HasPage) -> None:
         words = {name: np.array(values) for name, values in columns.items() if isinstance(values, list)}
         self._columns: dict[str, np.ndarray] = {**columns, **words}
-        self._native = native
+        self._source = native
         self.summary = json.loads(summary)
 
     def __getitem__(self, name: str) -> np.ndarray:
@@ -52,7 +52,7 @@ class Rows(Mapping[str, np.ndarray]):
 
     def page(self) -> str:
         """The report page as HTML that opens offline: mechanism in motion, linked curves, key figures, scene."""
-        return self._native.page()
+        return self._source.page()
 
     def _repr_html_(self) -> str:
         page = html.escape(self.page(), quote=True)
