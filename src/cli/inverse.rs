@@ -44,6 +44,10 @@ pub(super) struct Arguments {
     /// Writes samples, fit and residuals as CSV to this file
     #[arg(long, value_name = "FILE")]
     residuals: Option<PathBuf>,
+    /// Writes the mean of the cycles as CSV to this file: force and torque for each degree of the crank angle, with their
+    /// standard errors and their scatter from cycle to cycle
+    #[arg(long, value_name = "FILE")]
+    mean_cycle: Option<PathBuf>,
     /// Writes mechanism, samples, curves with their bands and key figures as one HTML page to this file
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -114,6 +118,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         arguments.out.as_ref(),
         &[
             arguments.residuals.as_ref(),
+            arguments.mean_cycle.as_ref(),
             arguments.plot.path(),
             arguments.report.as_ref(),
         ],
@@ -150,6 +155,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         .transpose()?;
     let out = create(arguments.out.as_ref())?;
     let residuals = create(arguments.residuals.as_ref())?;
+    let mean = create(arguments.mean_cycle.as_ref())?;
     let plot = arguments.plot.open()?;
     let page = page(arguments.report.as_ref())?;
     // What is odd in the data may be why it is refused.
@@ -166,6 +172,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     }
     if let Some(output) = residuals {
         report::residuals(&result, output)?;
+    }
+    if let Some(output) = mean {
+        report::mean_cycle(&result, output)?;
     }
     fill(page, || {
         let origin = origin(arguments.scene.as_ref());

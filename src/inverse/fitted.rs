@@ -35,8 +35,8 @@ pub(super) struct Fitted {
     pub settled: bool,
     /// The row that is farthest off, of those that hardly count because they are.
     pub farthest_outlier: Option<usize>,
-    /// Whether the smoother knows what repeats from cycle to cycle.
-    pub repeats: bool,
+    /// Turns of the cycle after which a part of the torque repeats, if the smoother knows one; else 0.
+    pub cycle: u8,
     /// Step of an encoder, or of rounding, rad, which is wider than the noise.
     pub coded: Option<f64>,
     /// θ, ω, θ̈ with each of the errors that all samples share.
@@ -181,7 +181,7 @@ impl Fitted {
         fitted.patterned =
             whiteness.is_violated() && sigma > record.floor && record.codes.is_none();
         fitted.settled = smoothed.settled;
-        fitted.repeats = prior.cycle > 0;
+        fitted.cycle = prior.cycle;
         fitted.summary = FitSummary {
             kind: "smoother",
             reason: "its prior is the likeliest".to_owned(),
@@ -265,7 +265,7 @@ impl Fitted {
             summary,
             patterned: false,
             settled: true,
-            repeats: false,
+            cycle: 0,
             farthest_outlier: None,
             coded: None,
             moved: Vec::new(),

@@ -49,6 +49,7 @@ mod limit;
 mod linearised;
 mod matrix;
 mod maximum;
+mod mean_cycle;
 mod measurement_model;
 mod mirror_image;
 mod motion_estimate;
@@ -76,6 +77,7 @@ mod warnings;
 
 pub use as_printed::AsPrinted;
 pub use bands::{BandRule, DeadCentreBand};
+pub use mean_cycle::{CycleMean, MeanRow};
 pub use options::{FitKind, FitSize, InverseOptions};
 pub use row::{InverseRow, Residual};
 pub use shared_errors::BudgetShare;
@@ -107,6 +109,8 @@ pub struct Inverse {
     pub residuals: Vec<Residual>,
     equation: Equation,
     reactor: Option<Reactor>,
+    shared: SharedErrors,
+    cycle: u8,
 }
 
 /// Slider force and crank torque from a measured motion.
@@ -230,6 +234,8 @@ fn recovered(
         residuals,
         reactor,
         equation,
+        shared,
+        cycle: fitted.cycle,
     })
 }
 

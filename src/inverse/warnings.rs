@@ -128,7 +128,7 @@ pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> 
             "the noise of the samples is correlated over about {time:.1e} s: what varies like that is taken for noise, not for motion"
         ));
     }
-    if !fitted.repeats {
+    if fitted.cycle == 0 {
         warnings.extend(slow(fitted, measurement));
     }
     if summary.coefficients.iter().any(Option::is_none) {

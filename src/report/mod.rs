@@ -38,7 +38,8 @@ pub use explain::explanation;
 pub use figure::{Axis, Figure, ScaleKind, Shape, Sheet};
 pub use identify::{identification, identification_csv};
 pub use inverse::{
-    inverse, inverse_figure, inverse_page, inverse_rows, inverse_table, residual_table, residuals,
+    inverse, inverse_figure, inverse_page, inverse_rows, inverse_table, mean_cycle, residual_table,
+    residuals,
 };
 pub use motion::PlotRows;
 pub use one_turn::{sized, turn, turn_figure, turn_page, turn_rows, turn_table};

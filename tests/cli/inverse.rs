@@ -711,10 +711,15 @@ fn rows_with_joint_forces_residuals_and_figure() {
         "rows.csv",
         "--residuals",
         "residuals.csv",
+        "--mean-cycle",
+        "mean.csv",
         "--plot",
         "figure.svg",
     ];
     folder.run(&arguments).done();
+    assert!(folder.read("mean.csv").starts_with(
+        "theta_rad,cycles,slider_force_n,slider_force_se_n,slider_force_scatter_n,crank_torque_nm,crank_torque_se_nm,crank_torque_scatter_nm\n"
+    ));
     let forces = Rows::read(&folder.read("rows.csv"));
     // The wrist pin carries the slider's inertia less the force on it; nothing else moves along x.
     let (pin, force) = (

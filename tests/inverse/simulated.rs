@@ -459,3 +459,56 @@ fn turns_that_repeat_help_each_other() {
         );
     }
 }
+
+/// The mean cycle of an engine is that of the force that acted: its band covers the mean of the true forces at nine of ten
+/// degrees, and the scatter from cycle to cycle of a torque of which every turn has its own part is that part's.
+#[test]
+fn the_mean_cycle_covers_the_mean_of_the_cycles() {
+    let mut random = Random(0x99aa_1c0d_2b77_1204);
+    let varied = Motion {
+        torque: |t, theta, omega| {
+            let turn = (theta / TAU).floor();
+            // Turns differ by ±20 %, in no order.
+            let size = 1.0 + 0.2 * (37.0 * turn).sin();
+            size * (ENGINE.torque)(t, theta, 0.0) - 0.025 * omega
+        },
+        ..ENGINE
+    };
+    for motion in [&ENGINE, &varied] {
+        let truth = motion.run();
+        let record = measure(&truth, Sensor::Angle(1e-4), &mut random);
+        let found = found(motion, &record, 1.0);
+        let (mut covered, mut count) = (0, 0);
+        for row in found.mean_cycle() {
+            let arm = position(row.theta)[1];
+            let Some(mean) = row.slider_force.filter(|_| arm.abs() > 0.3 * CRANK) else {
+                continue;
+            };
+            let passed: Vec<f64> = (0..truth.theta.len() - 1)
+                .filter_map(|k| {
+                    let at = |k: usize| (truth.theta[k] - row.theta) / TAU;
+                    let turn = at(k + 1).floor();
+                    let part = (turn - at(k)) / (at(k + 1) - at(k));
+                    let torque = |k: usize| truth.torque[k];
+                    (turn > at(k).floor())
+                        .then(|| (torque(k) + part * (torque(k + 1) - torque(k))) / arm)
+                })
+                .collect();
+            assert!(mean.cycles.abs_diff(passed.len()) <= 1);
+            let of_true = passed.iter().sum::<f64>() / passed.len() as f64;
+            let half = found.summary.band_factor * mean.standard_error;
+            covered += usize::from((mean.value - of_true).abs() <= half);
+            count += 1;
+            let squares: f64 = passed.iter().map(|force| (force - of_true).powi(2)).sum();
+            let scatter = (squares / (passed.len() - 1) as f64).sqrt();
+            if scatter > 200.0 {
+                let told = mean.scatter.expect("many cycles");
+                assert!((told / scatter - 1.0).abs() < 0.3, "{told} for {scatter}");
+            }
+        }
+        assert!(
+            count > 200 && 10 * covered >= 9 * count,
+            "{covered} of {count}"
+        );
+    }
+}

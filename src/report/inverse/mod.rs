@@ -5,6 +5,7 @@ mod rows;
 mod text;
 
 pub use rows::{
-    inverse_figure, inverse_page, inverse_rows, inverse_table, residual_table, residuals,
+    inverse_figure, inverse_page, inverse_rows, inverse_table, mean_cycle, residual_table,
+    residuals,
 };
 pub use text::inverse;

@@ -3,7 +3,7 @@
 use super::plot;
 use super::text::facts;
 use crate::error::Error;
-use crate::inverse::{AsPrinted, Inverse, InverseRow, Residual};
+use crate::inverse::{AsPrinted, CycleMean, Inverse, InverseRow, Residual};
 use crate::report::Output;
 use crate::report::csv::{line, write_all};
 use crate::report::curves::{Shown, View};
@@ -125,6 +125,25 @@ pub fn residuals(result: &Inverse, output: Output) -> Result<(), Error> {
     let header = residual_header(result);
     write_all(output, &header, &result.residuals, |row, text| {
         line(residual_cells(row), text);
+    })
+}
+
+const MEANS: &str = "theta_rad,cycles,slider_force_n,slider_force_se_n,slider_force_scatter_n,crank_torque_nm,crank_torque_se_nm,crank_torque_scatter_nm";
+
+/// Writes the mean of the cycles.
+///
+/// # Errors
+/// [`Error::Write`].
+pub fn mean_cycle(result: &Inverse, output: Output) -> Result<(), Error> {
+    write_all(output, MEANS, &result.mean_cycle(), |row, text| {
+        let cells = |mean: Option<CycleMean>| {
+            let cells = |m: CycleMean| [m.value, m.standard_error, m.scatter.unwrap_or(f64::NAN)];
+            mean.map_or([f64::NAN; 3], cells)
+        };
+        let cycles = row.crank_torque.map_or(0.0, |mean| mean.cycles as f64);
+        let values = [row.theta, cycles].into_iter();
+        let values = values.chain(cells(row.slider_force));
+        line(values.chain(cells(row.crank_torque)), text);
     })
 }
 

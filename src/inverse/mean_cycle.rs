@@ -1,0 +1,139 @@
+//! Mean of the cycles: force and torque over the crank angle, with their standard errors and their scatter from cycle to cycle.
+
+use std::f64::consts::TAU;
+
+use super::Inverse;
+use super::row::InverseRow;
+
+/// Angles in a turn at which cycles are compared.
+const IN_A_TURN: usize = 360;
+
+/// Force and torque at one angle of the cycle.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MeanRow {
+    /// Crank angle within the cycle, rad.
+    pub theta: f64,
+    /// Force on the slider, N; none where no cycle determines it.
+    pub slider_force: Option<CycleMean>,
+    /// Torque on the crank that does the same, N m.
+    pub crank_torque: Option<CycleMean>,
+}
+
+/// A mean over cycles, N or N m.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CycleMean {
+    /// Number of cycles that determine it.
+    pub cycles: usize,
+    /// Mean.
+    pub value: f64,
+    /// Standard error of the mean.
+    pub standard_error: f64,
+    /// Standard deviation from cycle to cycle; none of a single one.
+    pub scatter: Option<f64>,
+}
+
+/// A value of one cycle with its standard error, and the part of that which all cycles share.
+#[derive(Clone, Copy)]
+struct Passage {
+    value: f64,
+    error: f64,
+    shared: f64,
+}
+
+/// Sums over the passages of an angle; the mean and the squares about it by Welford's recurrence.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    cycles: usize,
+    mean: f64,
+    about: f64,
+    errors: f64,
+    shared: f64,
+}
+
+impl Sums {
+    fn take(&mut self, passage: Passage) {
+        self.cycles += 1;
+        let off = passage.value - self.mean;
+        self.mean += off / self.cycles as f64;
+        self.about += off * (passage.value - self.mean);
+        self.errors += passage.error.powi(2) - passage.shared.powi(2);
+        self.shared += passage.shared.powi(2);
+    }
+
+    /// What cycles do not share falls with their number: the larger one of what their scatter and what their own errors say.
+    fn mean(&self) -> Option<CycleMean> {
+        let count = self.cycles as f64;
+        let variance = (self.cycles > 1).then(|| self.about / (count - 1.0));
+        let own = (self.errors / count).max(variance.unwrap_or(0.0));
+        (self.cycles > 0).then(|| CycleMean {
+            cycles: self.cycles,
+            value: self.mean,
+            standard_error: (own / count + self.shared / count).sqrt(),
+            scatter: variance.map(f64::sqrt),
+        })
+    }
+}
+
+impl Inverse {
+    /// Mean of the cycles, one row for each degree of the crank angle that was passed. A cycle is a turn, or two turns where the
+    /// torque repeats after two. Errors of values of the scene are shared by all cycles; where the smoother knows what repeats,
+    /// each cycle rests on all, and all of their errors are.
+    pub fn mean_cycle(&self) -> Vec<MeanRow> {
+        let turns = usize::from(self.cycle.max(1));
+        let count = IN_A_TURN * turns;
+        let step = TAU / IN_A_TURN as f64;
+        let mut sums = vec![[Sums::default(); 2]; count];
+        for (k, pair) in self.rows.windows(2).enumerate() {
+            let [from, to] = [pair[0].theta / step, pair[1].theta / step];
+            // The begin counts, the end is the next one's begin.
+            let passed = match from < to {
+                true => from.ceil()..to.ceil(),
+                false => to.floor() + 1.0..from.floor() + 1.0,
+            };
+            for angle in passed.start as i64..passed.end as i64 {
+                let part = (angle as f64 - from) / (to - from);
+                let of = &mut sums[angle.rem_euclid(count as i64) as usize];
+                for (which, sums) in of.iter_mut().enumerate() {
+                    let passage = self.passage(k, part, which);
+                    passage.into_iter().for_each(|passage| sums.take(passage));
+                }
+            }
+        }
+        let row = |(k, [force, torque]): (usize, &[Sums; 2])| MeanRow {
+            theta: k as f64 * step,
+            slider_force: force.mean(),
+            crank_torque: torque.mean(),
+        };
+        let rows = sums.iter().enumerate().map(row);
+        rows.filter(|row| row.crank_torque.is_some()).collect()
+    }
+
+    /// Force or torque at a part of the way from a row to the next.
+    fn passage(&self, row: usize, part: f64, which: usize) -> Option<Passage> {
+        let of = |row: usize| {
+            let InverseRow {
+                slider_force,
+                slider_force_se,
+                crank_torque,
+                crank_torque_se,
+                ..
+            } = self.rows[row];
+            let (value, error) = match which {
+                0 => (slider_force?, slider_force_se?),
+                _ => (crank_torque?, crank_torque_se?),
+            };
+            let shared = match self.cycle {
+                0 => self.shared.of_row(row)[which],
+                _ => error,
+            };
+            Some([value, error, shared])
+        };
+        let (a, b) = (of(row)?, of(row + 1)?);
+        let [value, error, shared] = std::array::from_fn(|k| a[k] + part * (b[k] - a[k]));
+        Some(Passage {
+            value,
+            error,
+            shared,
+        })
+    }
+}
