@@ -1,10 +1,13 @@
 //! Rows of a result by their columns, as pictures and pages read them.
 
+use std::borrow::Cow;
+
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::csv::shortest;
 use crate::report::quantity::Quantity;
 
 /// Rows of a result by their columns.
@@ -19,6 +22,40 @@ pub struct Table {
 struct Column {
     name: String,
     cells: Cells,
+}
+
+/// A cell of a row.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Cell {
+    Number(f64),
+    Text(String),
+}
+
+impl Cell {
+    /// No value.
+    pub const EMPTY: Cell = Cell::Text(String::new());
+
+    /// From a CSV file.
+    pub fn read(text: &str) -> Cell {
+        let number = text.parse();
+        number.map_or_else(|_| Cell::Text(text.to_owned()), Cell::Number)
+    }
+
+    /// The number, if there is a finite one.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Cell::Number(number) => Some(*number).filter(|number| number.is_finite()),
+            Cell::Text(_) => None,
+        }
+    }
+
+    /// In a CSV file.
+    pub fn text(&self) -> Cow<'_, str> {
+        match self {
+            Cell::Number(number) => shortest(*number).into(),
+            Cell::Text(text) => text.into(),
+        }
+    }
 }
 
 /// What stands in a column.
@@ -65,6 +102,19 @@ impl Table {
             cells: Cells::of(rows.iter().map(|row| row.get(i).map_or("", String::as_str))),
         };
         Table {
+            columns: header.iter().enumerate().map(column).collect(),
+            stride: 1,
+        }
+    }
+
+    /// Rows of cells: numbers where all cells of a column are.
+    pub(super) fn of_rows(header: &[String], rows: &[Vec<Cell>]) -> Table {
+        static NONE: Cell = Cell::EMPTY;
+        let column = |(i, name): (usize, &String)| Column {
+            name: name.clone(),
+            cells: Cells::of_column(rows.iter().map(|row| row.get(i).unwrap_or(&NONE))),
+        };
+        Table {
             columns: header.par_iter().enumerate().map(column).collect(),
             stride: 1,
         }
@@ -91,6 +141,16 @@ impl Table {
 }
 
 impl Cells {
+    fn of_column<'a>(cells: impl Iterator<Item = &'a Cell> + Clone) -> Cells {
+        let known = |cell: &Cell| matches!(cell, Cell::Number(_)) || *cell == Cell::EMPTY;
+        if cells.clone().all(known) {
+            let numbers = cells.map(|cell| cell.number().unwrap_or(f64::NAN));
+            return Cells::Numbers(numbers.collect(), None);
+        }
+        let texts: Vec<Cow<'_, str>> = cells.map(Cell::text).collect();
+        Cells::of(texts.iter().map(AsRef::as_ref))
+    }
+
     fn of<'a>(cells: impl Iterator<Item = &'a str> + Clone) -> Cells {
         let mut units = cells
             .clone()

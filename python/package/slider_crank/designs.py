@@ -6,6 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from numbers import Real
 from typing import Any
 
+import numpy as np
+
 from . import _native
 from .rows import Rows
 from .scene import Scene
@@ -73,8 +75,9 @@ def sweep(
     }
     columns, summary, native = _native.sweep(scene._native, asked)
     # Where all are empty, nothing tells words from numbers.
-    empty = {name: [""] * len(columns["design"]) for name in ("engine", "notes") if name in columns}
-    columns.update({name: words for name, words in empty.items() if not isinstance(columns[name], list)})
+    for name in ("engine", "notes"):
+        if isinstance(columns.get(name), np.ndarray):
+            columns[name] = np.full(len(columns[name]), "")
     return Designs(columns, summary, native)
 
 

@@ -28,8 +28,11 @@ class Rows(Mapping[str, np.ndarray]):
     summary: dict[str, Any]
 
     def __init__(self, columns: dict[str, Any], summary: str, native: _HasPage) -> None:
-        words = {name: np.array(values) for name, values in columns.items() if isinstance(values, list)}
-        self._columns: dict[str, np.ndarray] = {**columns, **words}
+        self._columns: dict[str, np.ndarray] = {
+            # A list of words, and the place of each row's in it.
+            name: np.array(values[0])[values[1]] if isinstance(values, tuple) else values
+            for name, values in columns.items()
+        }
         self._source = native
         self.summary = json.loads(summary)
 

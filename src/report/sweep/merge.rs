@@ -5,9 +5,9 @@ use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 use super::super::output::Output;
-use super::cells;
 use super::ranges::SweepSummary;
 use super::tally::Tally;
+use super::{cells, texts};
 use crate::error::Error;
 use crate::sweep::Goal;
 
@@ -37,7 +37,7 @@ pub fn merge(
         .filter_map(Result::transpose)
         .collect::<Result<_, _>>()?;
     parts.sort_by_key(|part| part.first.1);
-    let mut tally = Tally::new(&cells(&header)?, percentiles, goals)?;
+    let mut tally = Tally::new(&texts(&header)?, percentiles, goals)?;
     let mut out = out.map(Output::create).transpose()?;
     let mut put = |line: &str| match &mut out {
         Some(out) => out.write(format!("{line}\n").as_bytes()),

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use super::csv::{failed, quoted};
 use super::decimate::Thinned;
 use super::output::{Output, is_standard_output, is_stream};
-use super::table::Table;
+use super::table::{Cell, Table};
 use crate::error::Error;
 use crate::sweep::{Design, Goal, Sweep};
 pub use merge::merge;
@@ -40,7 +40,7 @@ pub struct SweepWriter<'a> {
     /// Rows that were there already.
     kept: usize,
     /// Rows that are kept.
-    shown: Option<Thinned<Vec<String>>>,
+    shown: Option<Thinned<Vec<Cell>>>,
 }
 
 /// What is summed up beside the ranges.
@@ -84,7 +84,7 @@ impl<'a> SweepWriter<'a> {
             asked.percentiles || sweep.sample().is_some(),
             &asked.goals,
         )?;
-        let header = line(&header)?;
+        let header = quoted([], [header])?;
         let header = if part == 1 { header.as_str() } else { "" };
         let range = sweep.part(part, parts)?;
         let mut kept = 0;
@@ -161,7 +161,7 @@ impl<'a> SweepWriter<'a> {
     /// The rows that were kept.
     pub fn table(&self) -> Option<Table> {
         let shown = self.shown.as_ref()?;
-        let mut table = Table::of_cells(&columns::header(self.sweep), shown.kept());
+        let mut table = Table::of_rows(&columns::header(self.sweep), shown.kept());
         table.stride = shown.stride();
         Some(table)
     }
@@ -184,12 +184,17 @@ fn row(sweep: &Sweep, design: &Design) -> Result<String, Error> {
 }
 
 /// Cells as one line of CSV.
-fn line(cells: &[String]) -> Result<String, Error> {
-    quoted([], [cells.to_vec()])
+fn line(cells: &[Cell]) -> Result<String, Error> {
+    quoted([], [cells.iter().map(|cell| cell.text().into_owned())])
 }
 
 /// One line of CSV as cells.
-fn cells(line: &str) -> Result<Vec<String>, Error> {
+fn cells(line: &str) -> Result<Vec<Cell>, Error> {
+    Ok(texts(line)?.iter().map(|text| Cell::read(text)).collect())
+}
+
+/// One line of CSV as the texts of its cells.
+fn texts(line: &str) -> Result<Vec<String>, Error> {
     let mut reader = ::csv::ReaderBuilder::new();
     let mut reader = reader.has_headers(false).from_reader(line.as_bytes());
     let record = reader.records().next().transpose().map_err(failed)?;

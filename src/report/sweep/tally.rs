@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use super::super::table::Cell;
 use super::ranges::{FrontDesign, Spread, SweepExtreme, SweepRange, SweepSummary, VariedKey};
 use crate::error::Error;
 use crate::sweep::{Goal, Member, ParetoFront, Sweep};
@@ -66,24 +67,25 @@ impl Tally {
     }
 
     /// Takes the cells of a row.
-    pub fn take(&mut self, cells: &[String]) {
-        let design = cells.first().and_then(|cell| cell.parse().ok());
-        let status = cells.get(self.before - 1);
+    pub fn take(&mut self, cells: &[Cell]) {
+        let design = cells.first().and_then(Cell::number);
+        let status = cells.get(self.before - 1).map(Cell::text);
         let (Some(design), Some(status)) = (design, status) else {
             return;
         };
+        let design = design as usize;
         self.rows += 1;
-        *self.status.entry(status.clone()).or_default() += 1;
+        match self.status.get_mut(status.as_ref()) {
+            Some(count) => *count += 1,
+            None => drop(self.status.insert(status.clone().into_owned(), 1)),
+        }
         let figures = cells.iter().zip(&mut self.columns).skip(self.before);
         for (cell, column) in figures {
-            if let Ok(value) = cell.parse() {
+            if let Some(value) = cell.number() {
                 column.take(design, value);
             }
         }
-        let goals = self
-            .goals
-            .iter()
-            .map(|place| cells.get(*place)?.parse().ok());
+        let goals = self.goals.iter().map(|place| cells.get(*place)?.number());
         if let Some(figures) = goals.collect::<Option<Vec<f64>>>()
             && status == "done"
             && !figures.is_empty()
