@@ -10,6 +10,7 @@ use crate::error::Error;
 use crate::inverse::{self, AsPrinted, FitKind, FitSize, InverseOptions};
 use crate::report;
 use crate::scene::{Draft, Measurement, Reading};
+use crate::simulate::Stop;
 
 /// Arguments of `inverse`.
 #[derive(Debug, Args)]
@@ -112,7 +113,7 @@ fn measurement(arguments: &Arguments) -> Result<Measurement, Error> {
     }
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> {
     let streams = Streams::new(
         &[arguments.scene.as_ref(), arguments.data.as_ref()],
         arguments.out.as_ref(),
@@ -147,7 +148,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         size: arguments.degree,
         reactions: arguments.reactions,
         beside_forces: arguments.beside_forces,
-        stop: None,
+        stop: Some(stop.clone()),
     };
     let printed = arguments
         .as_printed

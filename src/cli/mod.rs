@@ -3,7 +3,9 @@
 mod animate;
 mod check;
 mod compare;
+mod completions;
 mod explain;
+mod help;
 mod identify;
 mod inverse;
 mod kinematics;
@@ -16,12 +18,13 @@ mod simulate;
 mod statics;
 mod streams;
 mod sweep;
+mod watch;
 
 use std::io::IsTerminal;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{FromArgMatches, Parser, Subcommand};
 
 use crate::error::Error;
 use crate::report::Origin;
@@ -68,6 +71,8 @@ enum Command {
     Check(check::Arguments),
     /// JSON Schema of scene files
     Schema(schema::Arguments),
+    /// What shells complete, and the man page
+    Completions(completions::Arguments),
 }
 
 /// Whether the computation was completed.
@@ -79,22 +84,30 @@ enum Outcome {
 
 /// Runs the program with the arguments of the process.
 pub fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let matches = help::command().get_matches();
+    let arguments = Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    let takes_requests = matches!(
+        arguments.command,
+        Command::Simulate(_) | Command::Sweep(_) | Command::Inverse(_)
+    );
+    let stop = &watch::start(takes_requests);
     let result = match arguments.command {
-        Command::Simulate(arguments) => simulate::run(&arguments),
-        Command::Inverse(arguments) => inverse::run(&arguments),
+        Command::Simulate(arguments) => simulate::run(&arguments, stop),
+        Command::Inverse(arguments) => inverse::run(&arguments, stop),
         Command::Identify(arguments) => identify::run(&arguments),
         Command::Kinematics(arguments) => kinematics::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Animate(arguments) => animate::run(&arguments),
         Command::Precision(arguments) => precision::run(&arguments),
         Command::Statics(arguments) => statics::run(&arguments),
-        Command::Sweep(arguments) => sweep::run(&arguments),
+        Command::Sweep(arguments) => sweep::run(&arguments, stop),
         Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
+        Command::Completions(arguments) => completions::run(&arguments),
     };
+    watch::clear();
     match result {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::Incomplete(message)) => {

@@ -1,6 +1,7 @@
 //! `simulate`: forward motion.
 
 use std::path::PathBuf;
+use std::time::{Duration, Instant};
 
 use clap::Args;
 
@@ -9,6 +10,7 @@ use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{self, PlotRows, Preview, RowWriter};
 use crate::scene::Scene;
+use crate::simulate::Stop;
 use crate::simulate::{Options, Row, RowSink, SteadyOptions};
 
 /// Arguments of `simulate`.
@@ -61,8 +63,17 @@ pub(super) struct Arguments {
     plot: PlotOfRows,
 }
 
+/// Time in which an engine that is asked to stop ends by itself, with its summary; rows of motions that were computed
+/// before may go on for longer.
+const GRACE: Duration = Duration::from_millis(500);
+
 /// Rows to a file, to a preview, or both.
-struct Rows {
+struct Rows<'a> {
+    stop: &'a Stop,
+    /// When the request to stop was seen.
+    seen: Option<Instant>,
+    /// Time of the last row, s.
+    t: f64,
     writer: Option<RowWriter>,
     preview: Option<Preview>,
     plot: Option<PlotRows>,
@@ -70,12 +81,28 @@ struct Rows {
     loose: bool,
 }
 
-impl RowSink for Rows {
+impl Rows<'_> {
+    /// # Errors
+    /// [`Error::Interrupted`].
+    fn check_stop(&mut self) -> Result<(), Error> {
+        if !self.stop.is_requested() {
+            return Ok(());
+        }
+        match self.seen.get_or_insert_with(Instant::now).elapsed() > GRACE {
+            true => Err(Error::Interrupted),
+            false => Ok(()),
+        }
+    }
+}
+
+impl RowSink for Rows<'_> {
     fn wants_rows(&self) -> bool {
         self.writer.is_some() || self.preview.is_some() || self.plot.is_some()
     }
 
     fn row(&mut self, row: &Row) -> Result<(), Error> {
+        self.check_stop()?;
+        self.t = row.t;
         if let Some(preview) = &mut self.preview {
             preview.take(row);
         }
@@ -98,7 +125,7 @@ impl RowSink for Rows {
 }
 
 impl Arguments {
-    fn options(&self) -> Options {
+    fn options(&self, stop: &Stop) -> Options {
         Options {
             method: self.method,
             reactions: self.reactions,
@@ -106,20 +133,20 @@ impl Arguments {
             estimate: !self.no_estimate,
             max_evaluations: self.max_evaluations,
             events_kept: self.max_events,
-            stop: None,
+            stop: Some(stop.clone()),
         }
     }
 
-    fn steady_options(&self) -> SteadyOptions {
+    fn steady_options(&self, stop: &Stop) -> SteadyOptions {
         SteadyOptions {
             fluctuation: self.fluctuation,
             max_evaluations: self.max_evaluations,
-            stop: None,
+            stop: Some(stop.clone()),
         }
     }
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> {
     let streams = Streams::new(
         &[arguments.scene.as_ref()],
         arguments.out.as_ref(),
@@ -135,7 +162,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     }
     let steady = arguments
         .steady_state
-        .then(|| crate::simulate::steady_state(&scene, &arguments.steady_options()))
+        .then(|| crate::simulate::steady_state(&scene, &arguments.steady_options(stop)))
         .transpose()?;
     if let Some(steady) = &steady {
         scene = steady.start(&scene);
@@ -144,15 +171,28 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let figure = arguments.plot.open()?;
     let page = page(arguments.report.as_ref())?;
     let mut rows = Rows {
+        stop,
+        seen: None,
+        t: f64::NAN,
         plot: (figure.is_some() || page.is_some()).then(|| PlotRows::new(arguments.plot.view())),
         writer: output.map(RowWriter::new),
         preview: streams.text_on_stdout().then(Preview::default),
         loose: scene.clearance.is_some(),
     };
-    let result = crate::simulate::simulate_rows(&scene, &arguments.options(), &mut rows)?;
-    if let Some(writer) = rows.writer {
+    let result = crate::simulate::simulate_rows(&scene, &arguments.options(stop), &mut rows);
+    let keeps = matches!(&result, Ok(_) | Err(Error::Interrupted));
+    if let Some(writer) = rows.writer.filter(|_| keeps) {
         writer.finish()?;
     }
+    let result = match result {
+        Err(Error::Interrupted) if rows.t.is_finite() => {
+            return Ok(Outcome::Incomplete(format!(
+                "interrupted: the rows end at t = {} s, and there is no summary",
+                rows.t
+            )));
+        }
+        result => result?,
+    };
     let mut summary = result.summary;
     summary.steady_state = steady;
     let preview = rows.preview.map_or(Vec::new(), |preview| preview.rows());

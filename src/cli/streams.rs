@@ -1,10 +1,11 @@
 //! What a command reads and where its results go.
 
-use std::io::Write;
+use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
+use super::watch;
 use crate::error::Error;
 use crate::report::{self, Output, Picture};
 use crate::scene::{Scene, printable};
@@ -28,6 +29,9 @@ impl Streams {
         json: bool,
     ) -> Result<Streams, Error> {
         let rows_on_stdout = is_standard(rows);
+        if rows_on_stdout && std::io::stdout().is_terminal() {
+            watch::clear();
+        }
         if files.iter().any(|file| is_standard(*file)) {
             return Err(Error::refused(
                 "a figure, a page or residuals would go to standard output, where the summary is",
@@ -164,11 +168,13 @@ pub(super) fn say(message: &str) {
 
 /// Prints a text with colours, whose parts are printable.
 pub(super) fn say_styled(message: &str) {
+    watch::clear();
     let _ = writeln!(std::io::stderr(), "{message}");
 }
 
 /// Writes a text to standard output.
 pub(super) fn print(text: &str) -> Result<(), Error> {
+    watch::clear();
     Output::standard().text(&printable(text))
 }
 

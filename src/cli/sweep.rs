@@ -1,17 +1,17 @@
 //! `sweep`: key figures of many designs.
 
-use std::io::IsTerminal;
 use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
 
-use super::{Outcome, Streams, fill, origin, page, say};
+use super::{Outcome, Streams, fill, origin, page, watch};
 use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{self, SweepAsked, SweepWriter};
 use crate::scene::{Draft, Varied};
 use crate::simulate::SteadyOptions;
+use crate::simulate::Stop;
 use crate::sweep::{Figure, Goal, LatinHypercube, Sweep, SweepOptions};
 
 /// Arguments of `sweep`.
@@ -122,7 +122,7 @@ fn shard(text: &str) -> Result<[usize; 2], String> {
     }
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> {
     if !arguments.merge.is_empty() {
         return merge(arguments);
     }
@@ -145,13 +145,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
             SteadyOptions {
                 fluctuation: arguments.fluctuation,
                 max_evaluations: arguments.max_evaluations,
-                stop: None,
+                stop: Some(stop.of_one()),
             },
         ),
         method: arguments.method,
         estimate: !arguments.no_estimate,
         max_evaluations: arguments.max_evaluations,
-        stop: None,
+        stop: Some(stop.clone()),
     };
     let varied = match arguments.vary.as_slice() {
         [] => draft.tolerances(),
@@ -170,18 +170,23 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
             kept: page.is_some().then_some(report::MOST_ON_PAGE),
         },
     )?;
-    let progress = std::io::stderr().is_terminal();
     let begun = Instant::now();
-    let mut said = begun;
-    sweep.designs(writer.missing(), |designs| {
-        writer.take(&designs)?;
-        if progress && said.elapsed().as_secs() >= 2 {
-            said = Instant::now();
-            let last = designs.last().map_or(0, |design| design.index + 1);
-            say(&format!("design {last} of {}", sweep.len()));
-        }
-        Ok(())
-    })?;
+    let (missing, count) = (writer.missing(), sweep.len());
+    let mut next = missing.start;
+    watch::of_designs(count);
+    let computed = sweep.designs(missing, |designs| {
+        next += designs.len();
+        stop.reach(next as f64 / count as f64);
+        writer.take(&designs)
+    });
+    if let (Err(Error::Interrupted), Some(file)) = (&computed, out) {
+        return Ok(Outcome::Incomplete(format!(
+            "interrupted before design {}: the same command goes on from `{}.part`",
+            next + 1,
+            file.display()
+        )));
+    }
+    computed?;
     let table = writer.table();
     let summary = writer.finish(begun.elapsed().as_secs_f64())?;
     if let Some(table) = table {

@@ -39,11 +39,11 @@ pub struct Settings<'a> {
 
 impl Settings<'_> {
     /// Where a run ends.
-    pub fn ends(&self) -> Ends {
+    pub fn ends(&self) -> Ends<'_> {
         Ends {
             t: self.t_end,
             way: self.way,
-            evaluations: self.limit.evaluations,
+            limit: self.limit,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Forecast: will a run reach its work limit long before its end? Extrapolates its progress per evaluation.
 
+use super::WorkLimit;
 use super::time::{FAR, Finish};
 
 /// Evaluations over which a pace is taken.
@@ -11,21 +12,21 @@ const CRAWL: f64 = 1e-5;
 
 /// Where a run ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ends {
+pub struct Ends<'a> {
     /// Last time, s.
     pub t: f64,
     /// How far (rad) the crank turns, or infinite.
     pub way: f64,
     /// The work limit.
-    pub evaluations: u64,
+    pub limit: WorkLimit<'a>,
 }
 
 /// How fast a run proceeds.
 #[derive(Clone, Copy, Debug)]
-pub struct WorkForecast {
+pub struct WorkForecast<'a> {
     t: f64,
     evaluations: u64,
-    ends: Ends,
+    ends: Ends<'a>,
     /// Whether loads depend on the time: then no speed is known to last.
     in_time: bool,
     /// Way in the window, with sign and without, and since the start, rad.
@@ -37,9 +38,9 @@ pub struct WorkForecast {
     slow: bool,
 }
 
-impl WorkForecast {
+impl<'a> WorkForecast<'a> {
     /// Of a run that begins at this time (s), with so many evaluations before it; `in_time`: loads depend on the time.
-    pub fn new(t: f64, evaluations: u64, ends: Ends, in_time: bool) -> WorkForecast {
+    pub fn new(t: f64, evaluations: u64, ends: Ends<'a>, in_time: bool) -> WorkForecast<'a> {
         WorkForecast {
             t,
             evaluations,
@@ -58,12 +59,15 @@ impl WorkForecast {
     pub fn is_hopeless(&mut self, evaluations: u64, t: f64, travel: f64) -> Option<Finish> {
         self.travel += travel.abs();
         self.net += travel;
+        let ends = self.ends;
+        if let Some(stop) = ends.limit.stop {
+            stop.reach((t / ends.t).max((self.turned + self.net).abs() / ends.way));
+        }
         let spent = (evaluations - self.evaluations) as f64;
         if spent < WINDOW as f64 {
             return None;
         }
         self.turned += self.net;
-        let ends = self.ends;
         let seconds = t - self.t;
         let turns = self.net.abs() == self.travel;
         let windows = if ends.t < FAR {
@@ -73,7 +77,7 @@ impl WorkForecast {
         } else {
             0.0
         };
-        let left = ends.evaluations.saturating_sub(evaluations) as f64;
+        let left = ends.limit.evaluations.saturating_sub(evaluations) as f64;
         let crawls = ends.t < FAR && self.travel < CRAWL * spent;
         // A crank that loses less than this part of its speed in a window does not come to rest before the limit.
         let speed = self.travel / seconds;

@@ -33,6 +33,7 @@ mod stop;
 mod warning;
 
 pub use crate::mechanism::Reactions;
+pub use crate::numeric::stop::Stop;
 pub use clearance::{Beyond, ClearanceSummary, ContactStatistics, Horizon, LooseFinal};
 pub use energies::Energies;
 pub use joint_force_maxima::{Peak, Peaks};

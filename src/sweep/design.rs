@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::SweepOptions;
 use crate::error::Error;
 use crate::kinematics::{Diagrams, Kinematics, forces, kinematics};
+use crate::numeric::stop::Stop;
 use crate::scene::{Scene, VariedValue};
 use crate::simulate::{NoRows, Options, SteadyState, Summary, simulate_rows, steady_state};
 
@@ -110,7 +111,7 @@ impl Design {
             reactions: options.reactions,
             estimate: options.estimate,
             max_evaluations: options.max_evaluations,
-            stop: options.stop.clone(),
+            stop: options.stop.as_ref().map(Stop::of_one),
             // All that is wanted of the events is their number.
             events_kept: 0,
             ..Options::default()

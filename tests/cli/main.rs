@@ -7,6 +7,7 @@ mod commands;
 mod figure;
 mod files;
 mod identify;
+mod interrupt;
 mod inverse;
 mod inverse_text;
 mod kinematics;

@@ -75,23 +75,42 @@ fn every_command_line_works() {
         let Some(arguments) = line.strip_prefix("cargo run --release -- ") else {
             panic!("not a command of this package: {line}");
         };
-        let mut arguments = words(arguments);
-        shown.insert(arguments[0].clone());
-        let mut files = Vec::new();
-        for i in 1..arguments.len() {
-            let names_a_file = ["--out", "--plot", "--report"].contains(&arguments[i - 1].as_str());
-            if names_a_file && arguments[i] != "-" {
-                let path = folder.path().join(&arguments[i]);
-                arguments[i] = path.to_str().expect("a plain path").to_owned();
-                files.push(path);
-            }
-        }
-        assert!(!run(&arguments).is_empty(), "{line}");
-        let written = |file: &PathBuf| fs::metadata(file).is_ok_and(|about| about.len() > 100);
-        assert!(files.iter().all(written), "{line}");
+        shown.insert(check_works(arguments, folder.path()));
     }
     assert_eq!(shown, commands(), "every command is shown");
     assert!(command_lines().contains(&"cargo test".to_owned()));
+}
+
+/// Runs a command line, with its files in a folder; its command.
+fn check_works(line: &str, folder: &Path) -> String {
+    let mut arguments = words(line);
+    let mut files = Vec::new();
+    for i in 1..arguments.len() {
+        let names_a_file = ["--out", "--plot", "--report"].contains(&arguments[i - 1].as_str());
+        if names_a_file && arguments[i] != "-" {
+            let path = folder.join(&arguments[i]);
+            arguments[i] = path.to_str().expect("a plain path").to_owned();
+            files.push(path);
+        }
+    }
+    assert!(!run(&arguments).is_empty(), "{line}");
+    let written = |file: &PathBuf| fs::metadata(file).is_ok_and(|about| about.len() > 100);
+    assert!(files.iter().all(written), "{line}");
+    arguments.swap_remove(0)
+}
+
+#[test]
+fn every_example_of_the_help_works() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut shown = BTreeSet::new();
+    for command in commands() {
+        let help = run(&[command, "--help".to_owned()]);
+        let examples = help.lines().skip_while(|line| *line != "Examples:").skip(1);
+        for line in examples.filter_map(|line| line.trim().strip_prefix("slider-crank ")) {
+            shown.insert(check_works(line, folder.path()));
+        }
+    }
+    assert!(shown.len() > 10, "{shown:?}");
 }
 
 /// The commands that the program lists.

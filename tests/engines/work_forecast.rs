@@ -1,5 +1,6 @@
 //! Runs that cannot reach their end are given up, and no others.
 
+use slider_crank::engine::WorkLimit;
 use slider_crank::engine::time::FAR;
 use slider_crank::engine::work_forecast::{Ends, WorkForecast};
 
@@ -7,7 +8,7 @@ const LIMIT: u64 = 100_000_000;
 
 /// Feeds a run that takes 100 evaluations a turn and has turned by `way(t)` (rad); whether it is given up before
 /// its end or the limit.
-fn given_up(ends: Ends, in_time: bool, way: impl Fn(f64) -> f64) -> bool {
+fn given_up(ends: Ends<'_>, in_time: bool, way: impl Fn(f64) -> f64) -> bool {
     let mut pace = WorkForecast::new(0.0, 0, ends, in_time);
     let (mut t, mut before, mut evaluations) = (0.0, 0.0, 0);
     while t < ends.t && before < ends.way && evaluations < LIMIT {
@@ -22,11 +23,14 @@ fn given_up(ends: Ends, in_time: bool, way: impl Fn(f64) -> f64) -> bool {
     false
 }
 
-fn ends(t: f64, way: f64) -> Ends {
+fn ends(t: f64, way: f64) -> Ends<'static> {
     Ends {
         t,
         way,
-        evaluations: LIMIT,
+        limit: WorkLimit {
+            evaluations: LIMIT,
+            stop: None,
+        },
     }
 }
 

@@ -225,7 +225,11 @@ pub fn run<D: Driven>(
 }
 
 /// What tells whether a run whose turns are run through one by one will reach its goal.
-fn forecast<D: Driven>(march: &PanelStepper<'_, D>, goal: Goal, reads_time: bool) -> WorkForecast {
+fn forecast<'a, D: Driven>(
+    march: &PanelStepper<'a, D>,
+    goal: Goal,
+    reads_time: bool,
+) -> WorkForecast<'a> {
     let (t, way) = match goal {
         Goal::Time(until) => (until, f64::INFINITY),
         Goal::Turned(way) => (FAR, way),
@@ -233,7 +237,7 @@ fn forecast<D: Driven>(march: &PanelStepper<'_, D>, goal: Goal, reads_time: bool
     let ends = Ends {
         t,
         way,
-        evaluations: march.limit.evaluations,
+        limit: march.limit,
     };
     WorkForecast::new(0.0, march.spent(), ends, reads_time)
 }

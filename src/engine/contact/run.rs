@@ -236,6 +236,9 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     }
 
     pub fn check_work(&self) -> Halt {
+        if let Some(stop) = self.settings.limit.stop {
+            stop.reach(self.y[0] / self.settings.t_end);
+        }
         if self.settings.limit.is_reached(self.evaluations) {
             return Err(Finish::WorkLimit);
         }

@@ -1,0 +1,138 @@
+//! Help texts: options in groups, and an example of each command.
+
+use clap::{Command, CommandFactory};
+
+/// Groups of options, by their long names.
+const GROUPS: [(&str, &[&str]); 4] = [
+    (
+        "Results",
+        &[
+            "out",
+            "report",
+            "json",
+            "residuals",
+            "plot",
+            "diagram",
+            "size",
+            "show",
+            "over",
+        ],
+    ),
+    (
+        "Computation",
+        &[
+            "method",
+            "tolerance",
+            "tolerances",
+            "no-estimate",
+            "max-evaluations",
+            "max-events",
+            "no-motion",
+            "repeats",
+            "most-time",
+            "shard",
+            "merge",
+        ],
+    ),
+    (
+        "Figures",
+        &[
+            "reactions",
+            "torque",
+            "steady-state",
+            "fluctuation",
+            "figures",
+            "least",
+            "most",
+            "percentiles",
+            "forces",
+            "balance",
+            "sensitivity",
+            "details",
+        ],
+    ),
+    (
+        "Reading the record",
+        &[
+            "column",
+            "columns",
+            "time",
+            "motion",
+            "known",
+            "counts-per-turn",
+            "x-zero",
+            "skip",
+            "decimal",
+        ],
+    ),
+];
+
+/// Commands with arguments that show what they are for.
+const EXAMPLES: [(&str, &[&str]); 12] = [
+    (
+        "simulate",
+        &[
+            "data/spring-press.toml --report press.html",
+            "data/duarte-engine.toml --reactions --out rows.csv",
+        ],
+    ),
+    (
+        "inverse",
+        &["data/duarte-engine.toml data/duarte-motion.csv --out forces.csv"],
+    ),
+    (
+        "identify",
+        &[
+            "data/run-down.toml data/run-down.csv --free \"torque[1].coefficient,torque[2].value,crank.inertia,geometry.offset,sensor.zero\"",
+        ],
+    ),
+    (
+        "kinematics",
+        &["data/gupta.toml --every \"1 deg\" --out turn.csv --plot turn.svg"],
+    ),
+    (
+        "compare",
+        &["data/gupta-clearance-30rpm.toml data/gupta-clearance-300rpm.toml"],
+    ),
+    ("animate", &["data/gupta.toml --out motion.gif"]),
+    ("precision", &["data/brake.toml --tolerances 1e-6,1e-9"]),
+    (
+        "statics",
+        &["data/ng.toml --every \"10 deg\" --out statics.csv"],
+    ),
+    (
+        "sweep",
+        &[
+            "data/gupta.toml --vary geometry.offset=0mm:120mm:25 --out designs.csv",
+            "data/gupta.toml --vary \"geometry.rod=310 +- 0.1 mm\" --sample 1000 --figures stroke,time_ratio",
+        ],
+    ),
+    ("reproduce", &["ng"]),
+    ("explain", &["data/duarte-cycle.toml --at \"30 deg\""]),
+    ("check", &["data/ng.toml"]),
+];
+
+/// The arguments of the program, with their help.
+pub(super) fn command() -> Command {
+    let command = super::Arguments::command();
+    command.mut_subcommands(|one| {
+        let examples = EXAMPLES.iter().find(|(name, _)| *name == one.get_name());
+        let one = one.mut_args(|argument| {
+            let long = argument.get_long().unwrap_or_default();
+            let group = GROUPS.iter().find(|(_, names)| names.contains(&long));
+            match group {
+                Some((heading, _)) => argument.help_heading(*heading),
+                None => argument,
+            }
+        });
+        match examples {
+            Some((name, lines)) => {
+                let lines = lines
+                    .iter()
+                    .map(|line| format!("\n  slider-crank {name} {line}"));
+                one.after_help(format!("Examples:{}", lines.collect::<String>()))
+            }
+            None => one,
+        }
+    })
+}

@@ -1,0 +1,116 @@
+//! Ctrl-C and SIGTERM: what was computed is kept, and nothing is half-written.
+#![cfg(unix)]
+
+use std::io::Read;
+use std::process::{Child, Command};
+use std::time::Duration;
+
+use super::program::{Folder, free};
+
+/// Signals a process that has run for some time, and waits for its end: exit status and standard error.
+#[track_caller]
+fn interrupted(mut child: Child, after: Duration, signal: &str) -> (Option<i32>, String) {
+    std::thread::sleep(after);
+    let process = child.id().to_string();
+    let sent = Command::new("kill").args([signal, &process]).status();
+    assert!(sent.expect("kill").success());
+    let status = child.wait().expect("an end");
+    let mut said = String::new();
+    let stderr = child.stderr.as_mut().expect("standard error");
+    stderr.read_to_string(&mut said).expect("a text");
+    (status.code(), said)
+}
+
+/// Rows of numbers, in the order of time, all of them complete.
+#[track_caller]
+fn check_rows(text: &str) -> usize {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let rows = reader.records().map(|row| row.expect("complete rows"));
+    let times: Vec<f64> = rows.map(|row| row[0].parse().expect("a time")).collect();
+    assert!(text.ends_with('\n') && times.windows(2).all(|t| t[0] < t[1]));
+    times.len()
+}
+
+/// A run that takes far longer than the test.
+fn endless(method: &'static str) -> (Folder, [&'static str; 7]) {
+    let run = "duration = \"1e6 s\"\noutput_every = \"0.5 s\"";
+    let folder = Folder::with(&free(run).replace("[run]", "[[torque]]\nkind = \"viscous\"\ncoefficient = \"1e-9 N m s\"\n[[torque]]\nkind = \"expression\"\nvalue = \"1e-6*sin(t)\"\n[run]"));
+    (
+        folder,
+        [
+            "simulate",
+            "scene.toml",
+            "--out",
+            "rows.csv",
+            "--no-estimate",
+            "--method",
+            method,
+        ],
+    )
+}
+
+#[test]
+fn a_run_keeps_its_rows() {
+    for (k, method) in ["time", "auto", "dop853", "time", "auto"]
+        .into_iter()
+        .enumerate()
+    {
+        let (folder, arguments) = endless(method);
+        let child = folder.start(&arguments);
+        let after = Duration::from_millis(300 + 170 * k as u64);
+        let (code, said) = interrupted(child, after, ["-INT", "-TERM"][k % 2]);
+        assert_eq!(code, Some(1), "{method}: {said}");
+        assert!(
+            said.contains("interrupted") && said.contains("t = "),
+            "{said}"
+        );
+        assert_eq!(folder.names(), ["rows.csv", "scene.toml"]);
+        assert!(check_rows(&folder.read("rows.csv")) > 1);
+    }
+}
+
+#[test]
+fn a_sweep_goes_on_where_it_was_interrupted() {
+    let folder = Folder::with(&free("duration = \"400 s\""));
+    let vary = [
+        "sweep",
+        "scene.toml",
+        "--vary",
+        "motion.speed=5rad/s:50rad/s:64",
+    ];
+    let arguments = [
+        &vary[..],
+        &["--method", "time", "--no-estimate", "--out", "rows.csv"],
+    ]
+    .concat();
+    let (code, said) = interrupted(
+        folder.start(&arguments),
+        Duration::from_millis(1500),
+        "-INT",
+    );
+    assert_eq!(code, Some(1), "{said}");
+    assert!(said.contains("goes on from `rows.csv.part`"), "{said}");
+    folder.run(&arguments).done();
+    let whole = folder.read("rows.csv");
+    let again = [&arguments[..arguments.len() - 1], &["again.csv"]].concat();
+    folder.run(&again).done();
+    assert_eq!(whole, folder.read("again.csv"));
+}
+
+/// Commands that keep nothing leave nothing.
+#[test]
+fn a_command_without_rows_to_keep_leaves_no_file() {
+    let (folder, _) = endless("time");
+    let arguments = [
+        "precision",
+        "scene.toml",
+        "--out",
+        "table.csv",
+        "--tolerances",
+        "1e-12",
+    ];
+    let (code, said) = interrupted(folder.start(&arguments), Duration::from_millis(700), "-INT");
+    assert_eq!(code, Some(1), "{said}");
+    assert!(said.contains("interrupted"), "{said}");
+    assert_eq!(folder.names(), ["scene.toml"]);
+}
