@@ -54,3 +54,21 @@ def test_a_sweep_says_what_it_cannot():
         sc.sweep(sc.Scene.duarte().with_torque(lambda t: t), {"geometry.rod": "150mm:160mm:3"})
     with pytest.raises(sc.Refused, match="`rodd` is not a key of geometry"):
         sc.sweep(sc.Scene.duarte(), {"geometry.rodd": "150mm:160mm:3"})
+
+
+def test_samples_and_fronts_are_those_of_the_program(program, data):
+    options = ["--vary", "geometry.rod=150mm:160mm", "--sample", 20, "--seed", 3]
+    goals = ["--figures", "stroke", "--least", "transmission_min", "--most", "time_ratio"]
+    cells, summary = program("sweep", data / "gupta.toml", *options, *goals)
+    found = sc.sweep(
+        sc.Scene.load(data / "gupta.toml"),
+        {"geometry.rod": "150mm:160mm"},
+        sample=20,
+        seed=3,
+        figures=["stroke"],
+        least="transmission_min",
+        most="time_ratio",
+    )
+    same(found, {name: texts for name, texts in cells.items() if found[name].dtype.kind == "f"})
+    del found.summary["wall_s"], summary["wall_s"]
+    assert found.summary == summary
