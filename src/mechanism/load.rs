@@ -217,17 +217,15 @@ impl Loads {
         [self.rotary_damping, self.linear_damping]
     }
 
-    /// Torque and force of the loads of speed and time that are no damping, at slider position x (m) and x'
-    /// (m/rad).
-    pub fn of_state(
-        &self,
-        t: f64,
-        theta: impl Into<Angle>,
-        omega: f64,
-        place: [f64; 2],
-    ) -> LoadValue {
-        let mixed = self.mixed_at(t, theta.into(), omega, place);
-        self.of_time(t).plus(mixed)
+    /// Torque and force of the loads of speed and time that are no damping, at some instants.
+    pub fn of_states<const N: usize>(&self, now: &[Instant; N]) -> [LoadValue; N] {
+        let mut sums = self.timed.values(now);
+        if !self.mixed.is_empty() {
+            for (sum, mixed) in sums.iter_mut().zip(&self.mixed.values(now)) {
+                *sum = sum.plus(*mixed);
+            }
+        }
+        sums
     }
 
     fn mixed_at(&self, t: f64, theta: Angle, omega: f64, [x, dx]: [f64; 2]) -> LoadValue {

@@ -50,7 +50,33 @@ impl NonlinearLoads {
     }
 
     pub fn value(&self, now: &Instant) -> LoadValue {
-        self.sum(|load, on_slider| single(load, on_slider, now))
+        self.values(&[*now])[0]
+    }
+
+    /// Values at some instants: formulas are read once for all of them.
+    pub fn values<const N: usize>(&self, now: &[Instant; N]) -> [LoadValue; N] {
+        let mut sums = [LoadValue::default(); N];
+        let mut values = [0.0; N];
+        for (loads, on_slider) in [(&self.torques, false), (&self.forces, true)] {
+            for load in loads {
+                if let Load::Expression(expression) = load {
+                    values = expression.values(now);
+                } else {
+                    for (value, now) in values.iter_mut().zip(now) {
+                        *value = single(load, on_slider, now);
+                    }
+                }
+                for (sum, value) in sums.iter_mut().zip(&values) {
+                    let sum = if on_slider {
+                        &mut sum.force
+                    } else {
+                        &mut sum.torque
+                    };
+                    *sum += value;
+                }
+            }
+        }
+        sums
     }
 
     fn sum(&self, value: impl Fn(&Load, bool) -> f64) -> LoadValue {

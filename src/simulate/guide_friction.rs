@@ -49,6 +49,7 @@ impl Grip {
 impl Sliding {
     /// The guide of a scene; none without friction.
     pub fn new(scene: &Scene, equation: &Equation) -> Option<Sliding> {
+        scene.friction?;
         let constrained = CurveEquation::new(scene, Curve::on_crank(equation.linkage()));
         let friction = constrained.friction()?;
         Some(Sliding {

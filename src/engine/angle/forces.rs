@@ -3,9 +3,11 @@
 use super::Driven;
 use super::panel::Station;
 use super::sweep::Start;
-use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 use crate::numeric::enclosure::Interval;
+
+/// Points at which loads are evaluated together.
+const LANES: usize = 4;
 
 /// Forces at the points of a panel, N m.
 #[derive(Clone)]
@@ -60,8 +62,12 @@ impl Forces {
                 self.fill_slopes(station, &mut slopes)?;
                 self.times = station.rule.integrals(&slopes);
             }
-            for (j, x) in station.rule.points().iter().enumerate() {
-                self.spent[j] += self.drive(driven, station, start, j, *x, self.speeds[j]);
+            let whole = count - count % LANES;
+            for j in (0..whole).step_by(LANES) {
+                self.drive::<D, LANES>(driven, station, start, j);
+            }
+            for j in whole..count {
+                self.drive::<D, 1>(driven, station, start, j);
             }
         }
         let (force, spent) = (&station.table.force[..count], &self.spent[..count]);
@@ -106,18 +112,23 @@ impl Forces {
         }
     }
 
-    fn drive<D: Driven>(
-        &self,
+    /// Adds the other loads at some points.
+    fn drive<D: Driven, const N: usize>(
+        &mut self,
         driven: &D,
         station: &Station<D::Place>,
         start: Start,
-        j: usize,
-        x: f64,
-        speed: f64,
-    ) -> f64 {
-        let angle = Angle::new(start.turns, station.piece.angle(x));
-        let place = &station.table.places[j];
-        driven.drive(place, start.t + self.times[j], angle, speed)
+        first: usize,
+    ) {
+        let state = |j| station.state(start.turns, j, start.t + self.times[j], self.speeds[j]);
+        let mut at = [state(first); N];
+        for (i, at) in at.iter_mut().enumerate().skip(1) {
+            *at = state(first + i);
+        }
+        let forces = driven.drive(&at);
+        for (spent, force) in self.spent[first..].iter_mut().zip(forces) {
+            *spent += force;
+        }
     }
 
     /// Derivatives of the forces with respect to the kinetic energy at the points, 1/rad.
@@ -131,18 +142,21 @@ impl Forces {
         let step = f64::EPSILON.cbrt();
         let table = &station.table;
         let mut rates = [0.0; MAX_DEGREE + 1];
-        for (j, x) in station.rule.points().iter().enumerate() {
+        let count = station.rule.degree() + 1;
+        for (j, rate_of) in rates.iter_mut().enumerate().take(count) {
             let speed = self.speeds[j];
             let mut rate = -table.damping[j];
             if driven.is_driven() {
-                let at = |speed: f64| self.drive(driven, station, start, j, *x, speed);
-                let (less, more) = (speed * (1.0 - step), speed * (1.0 + step));
-                rate += (at(more) - at(less)) / (more - less);
+                let t = start.t + self.times[j];
+                let speeds = [speed * (1.0 - step), speed * (1.0 + step)];
+                let at = speeds.map(|speed| station.state(start.turns, j, t, speed));
+                let [less, more] = driven.drive(&at);
+                rate += (more - less) / (speeds[1] - speeds[0]);
             }
             if let Some(switch) = &table.switch {
                 rate += 2.0 * switch.force[j] * speed;
             }
-            rates[j] = rate / (table.inertia[j] * speed);
+            *rate_of = rate / (table.inertia[j] * speed);
         }
         rates
     }

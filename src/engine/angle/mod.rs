@@ -44,6 +44,17 @@ pub use one_turn::{Cycle, Turns};
 use stepper::{Done, PanelStepper};
 pub use table::{Switch, Table};
 
+/// A state of the crank at a position of a table.
+#[derive(Clone, Copy)]
+pub struct State<'a, P> {
+    pub place: &'a P,
+    /// s
+    pub t: f64,
+    pub angle: Angle,
+    /// rad/s
+    pub speed: f64,
+}
+
 /// What the engine needs of a mechanism.
 pub trait Driven {
     /// What the loads need to know of a position.
@@ -71,8 +82,8 @@ pub trait Driven {
     /// Whether these depend on time.
     fn reads_time(&self) -> bool;
 
-    /// Their generalized force, N m, at time t (s), angle and speed (rad/s).
-    fn drive(&self, place: &Self::Place, t: f64, angle: Angle, speed: f64) -> f64;
+    /// Their generalized force, N m, in some states.
+    fn drive<const N: usize>(&self, at: &[State<'_, Self::Place>; N]) -> [f64; N];
 
     /// Whether they may do something between the points of a panel that the decay of their series does not tell.
     fn has_detail(&self) -> bool;
@@ -81,7 +92,7 @@ pub trait Driven {
     fn detail(&self, reach: &Reach, ellipse: f64) -> Detail;
 
     /// Their part of the switch.
-    fn drive_switch(&self, place: &Self::Place, t: f64, angle: Angle, speed: f64) -> f64;
+    fn drive_switch(&self, at: &State<'_, Self::Place>) -> f64;
 
     /// Angles of a cycle from zero on, in rising order, at which panels end.
     fn corners(&self) -> &[f64];

@@ -4,7 +4,8 @@ use super::super::energy::NotApplicable;
 use super::super::energy::piece::{Piece, Turning};
 use super::predictor::Predictor;
 use super::sweep::SLOW_FACTOR;
-use super::{Driven, Table};
+use super::{Driven, State, Table};
+use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Values, largest};
 
 /// A panel with what depends on the position alone: the same in each cycle.
@@ -238,6 +239,17 @@ impl<P: Copy> Station<P> {
         let part =
             |ends: [f64; 2]| Station::new(driven, self.turns, ends, self.side, fine, FIRST_DEGREE);
         Ok(Some([part([from, middle])?, part([middle, to])?]))
+    }
+
+    /// The state at one of its points, at a time (s) and speed (rad/s).
+    #[inline]
+    pub fn state(&self, turns: f64, j: usize, t: f64, speed: f64) -> State<'_, P> {
+        State {
+            place: &self.table.places[j],
+            t,
+            angle: Angle::new(turns, self.piece.angle(self.rule.points()[j])),
+            speed,
+        }
     }
 
     /// Half its length with sign, rad.

@@ -1,9 +1,8 @@
 //! Whether the points of a panel show the loads on it.
 
-use super::Driven;
-use super::Table;
 use super::panel::{Fineness, Station};
 use super::sweep::{Start, Swept};
+use super::{Driven, State, Table};
 use crate::engine::events::ROUNDED;
 use crate::engine::sight::{Look, Way, hidden};
 use crate::numeric::angle::Angle;
@@ -133,9 +132,12 @@ impl<D: Driven> Way for OnPanel<'_, D> {
         let Some(place) = table.places.first() else {
             return 0.0;
         };
-        let driven = self
-            .driven
-            .drive(place, self.time(at), self.angle(at), speed);
+        let [driven] = self.driven.drive(&[State {
+            place,
+            t: self.time(at),
+            angle: self.angle(at),
+            speed,
+        }]);
         let squared = table.switch.map_or(0.0, |switch| switch.force[0]) * speed * speed;
         let force = table.push[0] - table.damping[0] * speed + squared + driven;
         force - self.spent.value(x)

@@ -3,7 +3,6 @@
 use super::panel::{SHORTEST, Station};
 use super::sweep::{Start, Swept};
 use super::{Driven, Switch};
-use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values};
 use crate::numeric::dip::may_dip;
 use crate::numeric::exact::SUM_ROUNDING;
@@ -72,8 +71,7 @@ fn parts<D: Driven>(
     [t, speed]: [f64; 2],
 ) -> [f64; 4] {
     let driven = if driven.is_driven() {
-        let angle = Angle::new(start.turns, station.piece.angle(station.rule.points()[j]));
-        driven.drive_switch(&station.table.places[j], t, angle, speed)
+        driven.drive_switch(&station.state(start.turns, j, t, speed))
     } else {
         0.0
     };

@@ -197,7 +197,16 @@ impl Expression {
 
     /// Value at an instant, in SI; not finite outside the domain of its functions.
     pub fn value(&self, now: &Instant) -> f64 {
-        self.evaluate(|variable| now.get(variable))
+        self.values(&[*now])[0]
+    }
+
+    /// Values at some instants, each as by itself, in SI.
+    pub fn values<const N: usize>(&self, now: &[Instant; N]) -> [f64; N] {
+        self.evaluate(|variable| {
+            let mut values = [0.0; N];
+            (0..N).for_each(|i| values[i] = now[i].get(variable));
+            values
+        })
     }
 
     /// The stack machine, over numbers, enclosures of them, or what is known of a part.
@@ -230,9 +239,7 @@ impl Expression {
 trait Operand: Copy {
     /// A number of the formula.
     fn constant(value: f64) -> Self;
-
     fn negated(self) -> Self;
-
     /// Value of a function of one argument, by its place in the list.
     fn called(self, function: usize) -> Self;
 
@@ -240,30 +247,41 @@ trait Operand: Copy {
     fn with(self, op: Op, other: Self) -> Self;
 }
 
-impl Operand for f64 {
-    fn constant(value: f64) -> f64 {
-        value
+/// Numbers at some instants.
+impl<const N: usize> Operand for [f64; N] {
+    fn constant(value: f64) -> [f64; N] {
+        [value; N]
     }
 
-    fn negated(self) -> f64 {
-        -self
+    fn negated(self) -> [f64; N] {
+        each(self, self, |a, _| -a)
     }
 
-    fn called(self, function: usize) -> f64 {
-        FUNCTIONS_1[function].1(self)
+    fn called(self, function: usize) -> [f64; N] {
+        let function = FUNCTIONS_1[function].1;
+        each(self, self, |a, _| function(a))
     }
 
-    fn with(self, op: Op, other: f64) -> f64 {
+    fn with(self, op: Op, other: [f64; N]) -> [f64; N] {
         match op {
-            Op::Add => self + other,
-            Op::Subtract => self - other,
-            Op::Multiply => self * other,
-            Op::Divide => self / other,
-            Op::Power => power(self, other),
-            Op::Call2(f) => FUNCTIONS_2[f].1(self, other),
-            _ => f64::NAN,
+            Op::Add => each(self, other, |a, b| a + b),
+            Op::Subtract => each(self, other, |a, b| a - b),
+            Op::Multiply => each(self, other, |a, b| a * b),
+            Op::Divide => each(self, other, |a, b| a / b),
+            Op::Power => each(self, other, power),
+            Op::Call2(f) => each(self, other, FUNCTIONS_2[f].1),
+            _ => [f64::NAN; N],
         }
     }
+}
+
+/// An operation on each of some numbers.
+#[inline(always)]
+fn each<const N: usize>(mut a: [f64; N], b: [f64; N], of: impl Fn(f64, f64) -> f64) -> [f64; N] {
+    for i in 0..N {
+        a[i] = of(a[i], b[i]);
+    }
+    a
 }
 
 fn power(base: f64, exponent: f64) -> f64 {

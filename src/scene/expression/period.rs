@@ -132,7 +132,7 @@ impl Operand for Part {
         };
         let values = self.value.zip(other.value);
         Part {
-            value: values.map(|(a, b)| a.with(op, b)),
+            value: values.map(|(a, b)| [a].with(op, [b])[0]),
             ..part
         }
     }

@@ -1,5 +1,6 @@
 //! The mechanism as the energy engine sees it: inertia, potential and force over the crank angle.
 
+mod spot;
 mod work;
 
 use std::cell::Cell;
@@ -8,13 +9,14 @@ use std::f64::consts::TAU;
 use super::guide_friction::{BESIDE, Grip, Sliding};
 use super::marks::{Marks, in_order};
 use crate::engine::WorkLimit;
-use crate::engine::angle::{Driven, Table};
+use crate::engine::angle::{Driven, State, Table};
 use crate::engine::energy::Profile;
 use crate::mechanism::{Equation, Limits};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
 use crate::numeric::enclosure::{Detail, Reach};
 use crate::scene::Variable;
+pub(super) use spot::Spot;
 
 /// Inertia, potential and force of an equation whose loads depend on the position alone.
 pub(super) struct AngleModel<'a> {
@@ -126,15 +128,6 @@ impl<'a> AngleModel<'a> {
     }
 }
 
-/// A position as the loads see it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Spot {
-    /// x (m) and x' (m/rad).
-    at: [f64; 2],
-    /// Zero without friction.
-    pub grip: Grip,
-}
-
 impl Driven for AngleModel<'_> {
     type Place = Spot;
 
@@ -199,9 +192,15 @@ impl Driven for AngleModel<'_> {
         self.equation.loads().reads().has(Variable::T)
     }
 
-    fn drive(&self, place: &Spot, t: f64, angle: Angle, speed: f64) -> f64 {
-        let load = self.equation.loads().of_state(t, angle, speed, place.at);
-        load.over(place.at[1]) + place.grip.rubbed(load)
+    fn drive<const N: usize>(&self, at: &[State<'_, Spot>; N]) -> [f64; N] {
+        let now = Spot::instants(at);
+        let mut forces = [0.0; N];
+        let loads = self.equation.loads().of_states(&now);
+        for ((force, load), at) in forces.iter_mut().zip(&loads).zip(at) {
+            let Spot { at: [_, dx], grip } = *at.place;
+            *force = load.over(dx) + grip.rubbed(*load);
+        }
+        forces
     }
 
     fn has_detail(&self) -> bool {
@@ -216,9 +215,9 @@ impl Driven for AngleModel<'_> {
         loads.detail_of_state(&seen, arms, ellipse)
     }
 
-    fn drive_switch(&self, place: &Spot, t: f64, angle: Angle, speed: f64) -> f64 {
-        let load = self.equation.loads().of_state(t, angle, speed, place.at);
-        place.grip.pressed(load)
+    fn drive_switch(&self, at: &State<'_, Spot>) -> f64 {
+        let [load] = self.equation.loads().of_states(&Spot::instants(&[*at]));
+        at.place.grip.pressed(load)
     }
 
     fn corners(&self) -> &[f64] {
