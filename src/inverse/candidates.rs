@@ -94,7 +94,8 @@ impl Problem<'_> {
     }
 
     /// Priors with a part that repeats, where that makes the samples likelier than its two parameters cost (Schwarz 1978) beside
-    /// the torque as it is without.
+    /// the torque as it is without. Not of records so long that stretches stand for them: the columns of each node would take fifty
+    /// times the time.
     fn repeating(
         &self,
         turns: f64,
@@ -103,7 +104,7 @@ impl Problem<'_> {
         correlated: &[Autoregression],
     ) -> Vec<Candidate> {
         let torque = tried.iter().find(|one| one.prior == TORQUE);
-        let Some(Candidate { noise, .. }) = torque else {
+        let Some(Candidate { noise, .. }) = torque.filter(|_| self.sampled() == self.all()) else {
             return Vec::new();
         };
         let least = noise.likelihood + (self.record.times.len() as f64).ln();

@@ -512,3 +512,20 @@ fn the_mean_cycle_covers_the_mean_of_the_cycles() {
         );
     }
 }
+
+/// A record of a hundred turns whose noise is known by stretches of it has a force at every row, and its band covers.
+#[test]
+fn long_records_of_what_repeats_have_a_force() {
+    let mut random = Random(0x2b77_1204_99aa_1c0d);
+    let motion = Motion {
+        end: 8.0,
+        rows: 20_000,
+        ..ENGINE
+    };
+    let truth = motion.run();
+    let record = measure(&truth, Sensor::Angle(1e-3), &mut random);
+    let found = found(&motion, &record, 1.0);
+    let [_, covered] = judge(&truth, &record, &found);
+    assert!(covered > 0.9, "covered {covered}");
+    assert_eq!(found.rows.len(), truth.t.len());
+}
