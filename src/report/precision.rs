@@ -74,7 +74,8 @@ pub fn precision_page(scenes: &[Precision], origin: &Origin) -> Result<String, E
         .table(&table)
         .scatter(Scatter {
             x: "wall_s".to_owned(),
-            y: "error_theta_rad",
+            y: "error_theta_rad".to_owned(),
+            colour: String::new(),
             log: true,
             lines: true,
             kind: "method",

@@ -75,10 +75,12 @@ struct Data<'a> {
 }
 
 /// What is shown at first of rows that are no motion.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub(super) struct Scatter {
     pub x: String,
-    pub y: &'static str,
+    pub y: String,
+    /// Column of the colour, or empty.
+    pub colour: String,
     /// Whether both axes are logarithmic.
     pub log: bool,
     /// Whether rows of a kind are joined.

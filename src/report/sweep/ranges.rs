@@ -144,16 +144,26 @@ pub fn sweep_page(summary: &SweepSummary, table: &Table, origin: &Origin) -> Res
             max.design
         );
     }
-    let varied = table.names().nth(1).map(str::to_owned);
+    let keys = summary.varied.len();
+    let column = |place: usize| table.names().nth(place).unwrap_or_default().to_owned();
+    let figures = (keys + 2..).map(column);
+    let first = figures
+        .take_while(|name| !name.is_empty())
+        .find(|name| table.numbers(name).is_some())
+        .unwrap_or_default();
+    // Two keys span a map.
+    let (y, colour) = match keys {
+        2 => (column(2), first),
+        _ => (first, String::new()),
+    };
     Page::new(origin, &facts)
         .table(table)
         .scatter(Scatter {
-            x: varied.unwrap_or_default(),
-            y: "stroke_m",
-            log: false,
-            lines: false,
+            x: column(1),
+            y,
+            colour,
             kind: "status",
-            within: "",
+            ..Scatter::default()
         })
         .html()
 }
