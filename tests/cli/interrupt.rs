@@ -3,14 +3,13 @@
 
 use std::io::Read;
 use std::process::{Child, Command};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::program::{Folder, free};
 
-/// Signals a process that has run for some time, and waits for its end: exit status and standard error.
+/// Signals a process, and waits for its end: exit status and standard error.
 #[track_caller]
-fn interrupted(mut child: Child, after: Duration, signal: &str) -> (Option<i32>, String) {
-    std::thread::sleep(after);
+fn interrupted(mut child: Child, signal: &str) -> (Option<i32>, String) {
     let process = child.id().to_string();
     let sent = Command::new("kill").args([signal, &process]).status();
     assert!(sent.expect("kill").success());
@@ -19,6 +18,18 @@ fn interrupted(mut child: Child, after: Duration, signal: &str) -> (Option<i32>,
     let stderr = child.stderr.as_mut().expect("standard error");
     stderr.read_to_string(&mut said).expect("a text");
     (status.code(), said)
+}
+
+/// Waits until a file has lines.
+#[track_caller]
+fn wait_for(folder: &Folder, name: &str, lines: usize) {
+    let begun = Instant::now();
+    while !folder.names().iter().any(|file| file == name)
+        || folder.read(name).lines().count() < lines
+    {
+        assert!(begun.elapsed() < Duration::from_secs(60), "no `{name}`");
+        std::thread::sleep(Duration::from_millis(2));
+    }
 }
 
 /// Rows of numbers, in the order of time, all of them complete.
@@ -57,8 +68,8 @@ fn a_run_keeps_its_rows() {
     {
         let (folder, arguments) = endless(method);
         let child = folder.start(&arguments);
-        let after = Duration::from_millis(300 + 170 * k as u64);
-        let (code, said) = interrupted(child, after, ["-INT", "-TERM"][k % 2]);
+        std::thread::sleep(Duration::from_millis(300 + 170 * k as u64));
+        let (code, said) = interrupted(child, ["-INT", "-TERM"][k % 2]);
         assert_eq!(code, Some(1), "{method}: {said}");
         assert!(
             said.contains("interrupted") && said.contains("t = "),
@@ -76,18 +87,16 @@ fn a_sweep_goes_on_where_it_was_interrupted() {
         "sweep",
         "scene.toml",
         "--vary",
-        "motion.speed=5rad/s:50rad/s:64",
+        "motion.speed=5rad/s:50rad/s:200",
     ];
     let arguments = [
         &vary[..],
         &["--method", "time", "--no-estimate", "--out", "rows.csv"],
     ]
     .concat();
-    let (code, said) = interrupted(
-        folder.start(&arguments),
-        Duration::from_millis(1500),
-        "-INT",
-    );
+    let child = folder.start(&arguments);
+    wait_for(&folder, "rows.csv.part", 3);
+    let (code, said) = interrupted(child, "-INT");
     assert_eq!(code, Some(1), "{said}");
     assert!(said.contains("goes on from `rows.csv.part`"), "{said}");
     folder.run(&arguments).done();
@@ -109,7 +118,9 @@ fn a_command_without_rows_to_keep_leaves_no_file() {
         "--tolerances",
         "1e-12",
     ];
-    let (code, said) = interrupted(folder.start(&arguments), Duration::from_millis(700), "-INT");
+    let child = folder.start(&arguments);
+    std::thread::sleep(Duration::from_millis(700));
+    let (code, said) = interrupted(child, "-INT");
     assert_eq!(code, Some(1), "{said}");
     assert!(said.contains("interrupted"), "{said}");
     assert_eq!(folder.names(), ["scene.toml"]);
