@@ -34,7 +34,7 @@ pub use values::VariedValue;
 /// let model: Varied = "rod.model = rigid, two-mass".parse().unwrap();
 /// assert_eq!(model.value(1).text, "two-mass");
 /// let rod: Varied = "geometry.rod = 155.8 +- 0.1 mm".parse().unwrap();
-/// assert!((rod.quantile(0.975).number.unwrap() - 0.1559959964).abs() < 1e-12);
+/// assert!((rod.quantile(0.975).number.unwrap() - 0.155995996398454).abs() < 1e-12);
 /// assert!("geometry.ofset=0mm:20mm:41".parse::<Varied>().is_err());
 /// ```
 #[derive(Clone, Debug)]
