@@ -4,7 +4,7 @@ use super::step::Step;
 use super::{Motion, PIECES};
 use crate::numeric::angle::Angle;
 use crate::numeric::exact::SUM_ROUNDING;
-use crate::numeric::{dip, golden, root};
+use crate::numeric::{dip, maximum, root};
 
 /// A step is looked at in pieces of this travel, rad, but at least in [`PIECES`]. Between them parabolas tell where a
 /// quantity may leave its sign and come back.
@@ -98,7 +98,7 @@ fn with_dips<const N: usize>(
     let largest = all.iter().fold(0.0f64, |m, (_, value)| m.max(value.abs()));
     for three in looks.windows(3).filter(|three| may_dip(three, index)) {
         let sign = three[1].values[index].signum();
-        let (t, beyond) = golden::largest(|t| -sign * value(t), three[0].t, three[2].t);
+        let (t, beyond) = maximum::largest(|t| -sign * value(t), three[0].t, three[2].t);
         if beyond > SUM_ROUNDING * largest {
             all.push((t, -sign * beyond));
         }

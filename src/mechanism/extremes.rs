@@ -1,6 +1,6 @@
 //! Extreme slider velocity and acceleration at constant crank speed, located to rounding.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::{Class, Linkage, Pose};
 use crate::numeric::root;
@@ -33,11 +33,8 @@ impl Extremes {
         if Class::of(linkage) != Class::RotatingCrank {
             return None;
         }
-        let grid = grid(linkage);
-        let poses: Vec<_> = grid
-            .iter()
-            .map(|theta| (*theta, linkage.pose(*theta)))
-            .collect();
+        let grid = linkage.turn_grid(STEP).into_iter();
+        let poses: Vec<_> = grid.map(|theta| (theta, linkage.pose(theta))).collect();
         let (velocity_min, velocity_max) = pair(linkage, &poses, |p| p.dx, |_, p| p.d2x)?;
         let (acceleration_min, acceleration_max) = pair(
             linkage,
@@ -77,29 +74,33 @@ fn pair(
 }
 
 impl Linkage {
-    /// Crank angles of one turn, rad: every degree, and ever finer towards ±90°, where a rod that is
-    /// hardly long enough makes narrow peaks of width sqrt((l − |e| − r)/r).
-    pub fn turn_grid(&self) -> Vec<f64> {
-        grid(self)
+    /// Crank angles of one turn, rad, at most `step` apart and close enough to show all that the geometry makes: x and φ
+    /// are analytic in θ but for branch points at ±90° ± i arcosh((l ∓ e)/r), where the rod would stand normal to the
+    /// guide, and vary on the scale of the distance from them.
+    pub fn turn_grid(&self, step: f64) -> Vec<f64> {
+        let heights = [self.below[0], self.above[0], self.below[0]];
+        let widths = heights.map(|height| 2.0 * (0.5 * height / self.r).max(LEAST).sqrt().asinh());
+        let distance = |theta: f64| {
+            let squared = |k: usize| {
+                let along = theta - FRAC_PI_2 * (2.0 * k as f64 - 1.0);
+                along * along + widths[k] * widths[k]
+            };
+            squared(0).min(squared(1)).min(squared(2)).sqrt()
+        };
+        let end = SEAM + TAU;
+        let next = |theta: &f64| {
+            let next = theta + step.min(PART * distance(*theta));
+            (*theta < end).then_some(next.min(end))
+        };
+        std::iter::successors(Some(SEAM), next).collect()
     }
 }
 
+/// Largest step between the extremes of x' and of x'', rad.
+const STEP: f64 = 0.0625;
 /// Where the turn is cut, rad: an angle at which nothing is extreme for a reason of symmetry.
 const SEAM: f64 = -1.7;
-
-fn grid(linkage: &Linkage) -> Vec<f64> {
-    let mut angles: Vec<f64> = (0..=360)
-        .map(|i| SEAM + PI * f64::from(i) / 180.0)
-        .collect();
-    let narrow = (linkage.margin() / linkage.r).max(1e-16).sqrt();
-    let mut distance = PI / 180.0;
-    while distance > 1e-3 * narrow.min(1.0) {
-        for centre in [-FRAC_PI_2, FRAC_PI_2] {
-            angles.extend([centre - distance, centre + distance]);
-        }
-        distance *= 0.7;
-    }
-    angles.sort_by(f64::total_cmp);
-    angles.dedup();
-    angles
-}
+/// Step as a part of the distance from the nearest branch point.
+const PART: f64 = 0.125;
+/// Least part of the crank length by which the rod is taken to miss the normal: that of rounding.
+const LEAST: f64 = f64::EPSILON;

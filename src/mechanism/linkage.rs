@@ -19,9 +19,9 @@ pub struct Linkage {
     pub s: f64,
     /// l − e − r, l − e and l − e + r, each rounded once: the height of A below the one that the rod can reach
     /// at θ = 90°, 0 and −90°.
-    above: [f64; 3],
+    pub(super) above: [f64; 3],
     /// l + e − r, l + e and l + e + r: the same downwards, at θ = −90°, 0 and 90°.
-    below: [f64; 3],
+    pub(super) below: [f64; 3],
 }
 
 /// a − r, a and a + r for a = l − e, each rounded once.

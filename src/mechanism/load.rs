@@ -88,7 +88,12 @@ impl Loads {
 
     /// Whether all work of the loads follows from a potential.
     pub fn have_potential(&self) -> bool {
-        self.rotary_damping == 0.0 && self.linear_damping == 0.0 && self.called().next().is_none()
+        self.rotary_damping == 0.0 && self.linear_damping == 0.0 && self.are_linear()
+    }
+
+    /// Whether all loads are linear in position and speed.
+    pub fn are_linear(&self) -> bool {
+        self.called().next().is_none()
     }
 
     fn class(&mut self, load: &Load, on_slider: bool) -> &mut NonlinearLoads {

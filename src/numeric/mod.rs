@@ -8,11 +8,11 @@ pub mod double_double;
 pub mod enclosure;
 pub mod exact;
 pub mod gauss;
-pub mod golden;
 pub mod interpolate;
 #[cfg(feature = "cli")]
 pub mod latin_hypercube;
 pub mod line_fit;
+pub mod maximum;
 pub mod median;
 pub mod orthogonal;
 pub mod parallel;

@@ -24,6 +24,17 @@ pub(super) fn shortest(value: f64) -> String {
     String::from_utf8(text).unwrap_or_default()
 }
 
+/// Appends a text, in quotes where a cell needs them.
+pub(super) fn word(value: &str, text: &mut Vec<u8>) {
+    if value.contains([',', '"', '\n', '\r']) {
+        text.push(b'"');
+        text.extend(value.replace('"', "\"\"").as_bytes());
+        text.push(b'"');
+    } else {
+        text.extend(value.as_bytes());
+    }
+}
+
 /// Appends a line of numbers.
 pub(super) fn line(values: impl IntoIterator<Item = f64>, text: &mut Vec<u8>) {
     for (i, value) in values.into_iter().enumerate() {

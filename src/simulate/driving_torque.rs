@@ -9,7 +9,7 @@ use super::warning::NoRange;
 use crate::engine::time::Start;
 use crate::mechanism::Equation;
 use crate::numeric::angle::Angle;
-use crate::numeric::{gauss, golden};
+use crate::numeric::{gauss, maximum};
 use crate::scene::{Instant, Variable};
 
 /// A run at constant speed.
@@ -25,6 +25,8 @@ pub(super) struct Drive<'a> {
 
 /// Turns of a run whose loads do not repeat that are looked at.
 const MOST_TURNS: f64 = 100.0;
+/// Largest step between the extremes of a torque that geometry and mass alone make, rad.
+const SMOOTH: f64 = 0.0625;
 
 impl Drive<'_> {
     fn torque(&self, t: f64) -> f64 {
@@ -79,29 +81,55 @@ impl Drive<'_> {
         let turn = TAU / self.speed.abs();
         let reads = self.equation.loads().reads();
         let repeats = !reads.has(Variable::T) && !reads.has(Variable::Theta);
-        let span = if repeats {
-            turn.min(self.end)
-        } else {
-            self.end
-        };
+        let whole = repeats && self.end >= turn;
+        let span = if whole { turn } else { self.end };
         if span > MOST_TURNS * turn {
             return Err(NoRange::TooManyTurns(MOST_TURNS));
         }
-        let times = self.times(span);
+        let times = if whole {
+            self.times_of_turn()
+        } else {
+            self.times(span)
+        };
         let torques: Vec<f64> = times.iter().map(|t| self.torque(*t)).collect();
         if let Some(i) = torques.iter().position(|torque| !torque.is_finite()) {
             return Err(self.not_finite(times[i]));
         }
+        // A turn has no ends.
+        let ends = usize::from(whole);
+        let looked_at = ends..times.len() - ends;
+        let largest = |sign: f64| {
+            let value = |i: &usize| sign * torques[*i];
+            let best = looked_at
+                .clone()
+                .max_by(|a, b| value(a).total_cmp(&value(b)));
+            self.largest_beside(best.unwrap_or(0), &times, sign)
+        };
         Ok(TorqueRange {
-            min_nm: -self.largest(&times, &torques, -1.0),
-            max_nm: self.largest(&times, &torques, 1.0),
-            mean_nm: self.mean(span).ok_or(NoRange::Mean)?,
+            min_nm: -largest(-1.0),
+            max_nm: largest(1.0),
+            mean_nm: self.mean(span, whole).ok_or(NoRange::Mean)?,
         })
     }
 
-    /// Times of the angles of a fine grid of each turn, with the ends.
+    /// Crank angles of a turn, close enough to show what the loads make.
+    fn grid(&self) -> Vec<f64> {
+        let smooth = self.equation.loads().are_linear() && self.maker.guide.is_none();
+        let step = if smooth { SMOOTH } else { 1f64.to_radians() };
+        self.equation.linkage().turn_grid(step)
+    }
+
+    /// Times of the angles of one turn, wherever the run begins, and of one more, so that each has two neighbours.
+    fn times_of_turn(&self) -> Vec<f64> {
+        let mut angles = self.grid();
+        angles.push(angles[1] + TAU);
+        let time = |angle: &f64| (angle - self.start.rest) / self.speed;
+        angles.iter().map(time).collect()
+    }
+
+    /// Times of the angles of each turn, with the ends.
     fn times(&self, span: f64) -> Vec<f64> {
-        let grid = self.equation.linkage().turn_grid();
+        let grid = self.grid();
         let turns = (span * self.speed.abs() / TAU).ceil() as i64;
         let whole = |turn: i64| turn as f64 * TAU * self.speed.signum();
         let angles =
@@ -115,21 +143,21 @@ impl Drive<'_> {
         times
     }
 
-    /// Largest sign·torque: at the times, then between the neighbours of the largest, by golden section.
-    fn largest(&self, times: &[f64], torques: &[f64], sign: f64) -> f64 {
-        let value = |index: &usize| sign * torques[*index];
-        let best = (0..times.len()).max_by(|a, b| value(a).total_cmp(&value(b)));
-        let best = best.unwrap_or(0);
+    /// Largest sign·torque between the neighbours of a time.
+    fn largest_beside(&self, best: usize, times: &[f64], sign: f64) -> f64 {
         let (from, to) = (
             times[best.saturating_sub(1)],
             times[(best + 1).min(times.len() - 1)],
         );
-        let (_, between) = golden::largest(|t| sign * self.torque(t), from, to);
-        between.max(sign * torques[best])
+        let (_, between) = maximum::largest(|t| sign * self.torque(t), from, to);
+        between.max(sign * self.torque(times[best]))
     }
 
-    /// Mean over time.
-    fn mean(&self, span: f64) -> Option<f64> {
+    /// Mean over time. Over whole turns inertia and gravity do no work.
+    fn mean(&self, span: f64, whole: bool) -> Option<f64> {
+        if whole && self.equation.loads().are_none() && self.maker.guide.is_none() {
+            return Some(0.0);
+        }
         if span == 0.0 {
             return Some(self.torque(0.0));
         }
@@ -161,6 +189,9 @@ impl Drive<'_> {
 
 /// ∫ f over a range of crank angles, cut at ±90°, where a rod that is hardly long enough makes narrow peaks.
 fn quarters(from: f64, to: f64, f: &dyn Fn(f64) -> f64, tolerance: f64) -> Option<f64> {
+    if from == to {
+        return Some(0.0);
+    }
     let (low, high) = (from.min(to), from.max(to));
     let mut cuts = vec![low];
     let mut cut = ((low - FRAC_PI_2) / PI).floor() * PI + FRAC_PI_2;

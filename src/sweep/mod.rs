@@ -200,8 +200,7 @@ impl Sweep {
     }
 
     fn scene(&self, values: &[VariedValue]) -> Result<Scene, Error> {
-        let texts = values.iter().map(|value| value.text.as_str());
-        Ok(self.draft.with(self.varied.iter().zip(texts))?)
+        Ok(self.draft.with_values(&self.varied, values)?)
     }
 
     /// Computes one design, counted from 0 and below [`Sweep::len`].

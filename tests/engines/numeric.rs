@@ -83,12 +83,37 @@ mod root {
     }
 }
 
-mod golden {
+mod maximum {
+    use slider_crank::numeric::maximum::largest;
+
     #[test]
     fn the_top_of_a_parabola_is_found() {
-        let (t, value) =
-            slider_crank::numeric::golden::largest(|t| 2.0 - (t - 0.3).powi(2), -1.0, 4.0);
-        assert!((t - 0.3).abs() < 1e-7 && (value - 2.0).abs() < 1e-15);
+        for (a, b) in [(-1.0, 4.0), (4.0, -1.0), (0.3, 4.0), (-1.0, 0.3)] {
+            let mut calls = 0;
+            let parabola = |t: f64| {
+                calls += 1;
+                2.0 - (t - 0.3).powi(2)
+            };
+            let (t, value) = largest(parabola, a, b);
+            assert!((t - 0.3).abs() < 1e-7 && (value - 2.0).abs() < 1e-15);
+            // Golden sections alone take 45.
+            assert!(calls < 45, "{calls}");
+        }
+    }
+
+    #[test]
+    fn a_peak_between_slopes_is_found() {
+        for at in [0.0, 0.123, 0.5, 0.9999, 1.0] {
+            let (t, value) = largest(|t| -(t - at).abs(), 0.0, 1.0);
+            assert!((t - at).abs() < 1e-8 && value > -1e-8, "{at}: {t}");
+        }
+    }
+
+    #[test]
+    fn what_has_no_value_ends() {
+        let (t, _) = largest(|_| f64::NAN, 0.0, 1.0);
+        assert!((0.0..=1.0).contains(&t));
+        assert_eq!(largest(|_| 3.0, 2.0, 2.0), (2.0, 3.0));
     }
 }
 

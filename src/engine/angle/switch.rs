@@ -6,7 +6,7 @@ use super::{Driven, Switch};
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values};
 use crate::numeric::dip::may_dip;
 use crate::numeric::exact::SUM_ROUNDING;
-use crate::numeric::golden;
+use crate::numeric::maximum;
 use crate::numeric::root;
 
 /// What the switch does on a panel.
@@ -157,7 +157,7 @@ fn first_below<P: Copy>(station: &Station<P>, values: &Values, noise: f64) -> Op
         {
             let series = series();
             let value = |x: f64| series.value(x);
-            let (least, depth) = golden::largest(|x| -value(x), points[j - 1], points[j + 1]);
+            let (least, depth) = maximum::largest(|x| -value(x), points[j - 1], points[j + 1]);
             if depth > noise && values[j - 1] > 0.0 {
                 return root::bracketed(value, points[j - 1], least);
             }

@@ -12,7 +12,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use super::csv::{failed, quoted};
+use super::csv::{failed, number, quoted, word};
 use super::decimate::Thinned;
 use super::output::{Output, is_standard_output, is_stream};
 use super::table::{Cell, Table};
@@ -114,8 +114,11 @@ impl<'a> SweepWriter<'a> {
                     Ok(())
                 })?;
                 // The tables that a scene names may have changed though its own file has not.
-                if kept > 0 && row(sweep, &sweep.design(range.start + kept - 1))? != last {
-                    return Err(file.of_another());
+                if kept > 0 {
+                    let design = sweep.design(range.start + kept - 1);
+                    if line(&columns::cells(sweep, &design)) != last.as_bytes() {
+                        return Err(file.of_another());
+                    }
                 }
                 Target::File(file)
             }
@@ -140,12 +143,12 @@ impl<'a> SweepWriter<'a> {
         let written = !matches!(self.target, Target::Nothing);
         let made = designs.par_iter().map(|design| {
             let cells = columns::cells(self.sweep, design);
-            let line = written.then(|| line(&cells)).transpose()?;
-            Ok((cells, line.unwrap_or_default()))
+            let line = if written { line(&cells) } else { Vec::new() };
+            (cells, line)
         });
-        let mut text = String::new();
-        for (cells, line) in made.collect::<Result<Vec<_>, Error>>()? {
-            text.push_str(&line);
+        let mut text = Vec::new();
+        for (cells, line) in made.collect::<Vec<_>>() {
+            text.extend(line);
             self.tally.take(&cells);
             if let Some(shown) = &mut self.shown {
                 shown.take(cells);
@@ -153,8 +156,8 @@ impl<'a> SweepWriter<'a> {
         }
         match &mut self.target {
             Target::Nothing => Ok(()),
-            Target::Stream(output) => output.write(text.as_bytes()),
-            Target::File(file) => file.append(text.as_bytes()),
+            Target::Stream(output) => output.write(&text),
+            Target::File(file) => file.append(&text),
         }
     }
 
@@ -179,13 +182,20 @@ impl<'a> SweepWriter<'a> {
     }
 }
 
-fn row(sweep: &Sweep, design: &Design) -> Result<String, Error> {
-    line(&columns::cells(sweep, design))
-}
-
 /// Cells as one line of CSV.
-fn line(cells: &[Cell]) -> Result<String, Error> {
-    quoted([], [cells.iter().map(|cell| cell.text().into_owned())])
+fn line(cells: &[Cell]) -> Vec<u8> {
+    let mut text = Vec::new();
+    for (i, cell) in cells.iter().enumerate() {
+        if i > 0 {
+            text.push(b',');
+        }
+        match cell {
+            Cell::Number(value) => number(*value, &mut text),
+            Cell::Text(value) => word(value, &mut text),
+        }
+    }
+    text.push(b'\n');
+    text
 }
 
 /// One line of CSV as cells.

@@ -18,9 +18,7 @@ struct Solid {
 
 fn solid(reader: &mut Reader, values: &Values) -> Solid {
     let stated = values.number("mass");
-    let boxed = BOX
-        .iter()
-        .any(|key| values.has(key) || reader.doubtful(&values.field(key)));
+    let boxed = BOX.iter().any(|key| reader.met(values, key));
     let mut solid = Solid {
         mass: stated,
         box_inertia: None,

@@ -49,7 +49,9 @@ pub(super) fn scene(
             "force" => &mut scene.forces,
             _ => continue,
         };
-        let load = loads::load(reader, values, scene.geometry.branch, folder);
+        let branch = scene.geometry.branch;
+        let known = values.load.clone();
+        let load = known.or_else(|| loads::load(reader, values, branch, folder));
         // A load that could not be read keeps its place: problems of the others count the loads.
         list.push(load.unwrap_or(Load::Constant(0.0)));
     }

@@ -1,6 +1,7 @@
 //! Scene files: TOML to [`Scene`], with the place of everything that is wrong.
 
 mod reader;
+mod template;
 pub(super) mod value;
 mod values;
 
@@ -14,6 +15,7 @@ use super::places::Places;
 use super::vary::Setting;
 use super::{Problem, Problems, Scene, assemble, validate};
 pub(super) use reader::Reader;
+pub(super) use template::Template;
 pub(super) use values::Values;
 
 /// Reads the text of a scene file, with these values in place of its own; tables it names are looked for

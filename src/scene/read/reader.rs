@@ -57,7 +57,7 @@ impl<'a> Reader<'a> {
         what: impl Into<String>,
         help: impl Into<String>,
     ) {
-        if !values.has(key) && !self.doubtful(&values.field(key)) {
+        if !self.met(values, key) {
             self.problem(&values.field(key), what, help);
         }
     }
@@ -65,6 +65,12 @@ impl<'a> Reader<'a> {
     /// Whether there is a problem with this key already; it may be there but unreadable.
     pub fn doubtful(&self, field: &str) -> bool {
         self.problems.iter().any(|problem| problem.field == field)
+    }
+
+    /// Whether a key is there, even if unreadable.
+    pub fn met(&self, values: &Values, key: &str) -> bool {
+        // Most scenes have no problem, and thousands are read in a sweep.
+        values.has(key) || !self.problems.is_empty() && self.doubtful(&values.field(key))
     }
 
     /// The problems, each with the place of its key or of the table it belongs to, and all places.

@@ -6,14 +6,16 @@ use toml::de::DeTable;
 
 use super::Reader;
 use super::value::{self, Value};
-use crate::scene::Every;
-use crate::scene::keys::{self, Section};
+use crate::scene::keys::{self, Key, Section};
+use crate::scene::{Every, Load};
 
 /// The values of one table that could be read, by key.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(in crate::scene) struct Values {
     /// The section the table belongs to.
     pub section: &'static Section,
+    /// The load of the table, where it is known already.
+    pub load: Option<Load>,
     path: String,
     entries: BTreeMap<&'static str, Value>,
 }
@@ -28,6 +30,7 @@ impl Values {
     ) -> Values {
         let mut values = Values {
             section,
+            load: None,
             path,
             entries: BTreeMap::new(),
         };
@@ -57,6 +60,12 @@ impl Values {
             }
         }
         values
+    }
+
+    /// Puts a value in place of the one of a key, or beside the others.
+    pub fn set(&mut self, key: &'static Key, value: Value) {
+        self.entries.insert(key.name, value);
+        self.load = None;
     }
 
     pub fn number(&self, key: &str) -> Option<f64> {

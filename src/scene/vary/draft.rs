@@ -1,13 +1,15 @@
 //! The text of a scene file, from which scenes with other values are made.
 
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::{KeyPath, Varied};
+use super::{KeyPath, Varied, VariedValue};
 use crate::error::Error;
-use crate::scene::{DUARTE, Problem, Problems, Scene, read, text};
+use crate::scene::read::{self, Template};
+use crate::scene::{DUARTE, Problem, Problems, Scene, text};
 
 /// A scene file whose values may be replaced before it is read.
 ///
@@ -22,6 +24,7 @@ use crate::scene::{DUARTE, Problem, Problems, Scene, read, text};
 pub struct Draft {
     pub(super) file: PathBuf,
     text: String,
+    template: OnceLock<Option<Template>>,
 }
 
 impl Draft {
@@ -31,6 +34,7 @@ impl Draft {
         Draft {
             file: file.to_owned(),
             text: text.into(),
+            template: OnceLock::new(),
         }
     }
 
@@ -81,18 +85,38 @@ impl Draft {
     /// [`Problems`]: all that is wrong with the scene that results.
     pub fn with<'a>(
         &self,
-        values: impl IntoIterator<Item = (&'a Varied, &'a str)>,
+        values: impl IntoIterator<Item = (&'a Varied, &'a str), IntoIter: Clone>,
     ) -> Result<Scene, Problems> {
         let values = values.into_iter();
         self.with_settings(values.map(|(varied, text)| varied.setting(text)))
     }
 
+    /// The scene with values in place of its own, or beside them.
+    ///
+    /// # Errors
+    /// [`Problems`]: all that is wrong with the scene that results.
+    pub fn with_values(
+        &self,
+        varied: &[Varied],
+        values: &[VariedValue],
+    ) -> Result<Scene, Problems> {
+        let pairs = varied.iter().zip(values);
+        self.with_settings(pairs.map(|(varied, value)| Setting {
+            number: value.number,
+            ..varied.setting(&value.text)
+        }))
+    }
+
     /// The scene with keys set.
     pub(super) fn with_settings<'a>(
         &'a self,
-        settings: impl Iterator<Item = Setting<'a>>,
+        settings: impl Iterator<Item = Setting<'a>> + Clone,
     ) -> Result<Scene, Problems> {
-        read::scene(&self.file, &self.text, settings)
+        let template = self
+            .template
+            .get_or_init(|| Template::new(&self.file, &self.text));
+        let scene = template.as_ref().and_then(|one| one.with(settings.clone()));
+        scene.map_or_else(|| read::scene(&self.file, &self.text, settings), Ok)
     }
 }
 
@@ -101,6 +125,8 @@ impl Draft {
 pub(in crate::scene) struct Setting<'a> {
     pub path: KeyPath,
     pub text: &'a str,
+    /// The quantity that the text says, SI, where it is known.
+    pub number: Option<f64>,
 }
 
 impl<'a> Setting<'a> {

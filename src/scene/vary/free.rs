@@ -149,6 +149,7 @@ impl Draft {
         let settings = numbers.iter().zip(&texts).map(|(one, text)| Setting {
             path: one.key.0,
             text: text.trim_end(),
+            number: Some(one.value),
         });
         Ok(self.with_settings(settings)?)
     }

@@ -42,6 +42,8 @@ pub struct Varied {
     path: KeyPath,
     text: String,
     values: Values,
+    /// Whether all values are quantities.
+    has_numbers: bool,
 }
 
 impl Varied {
@@ -61,7 +63,7 @@ impl Varied {
 
     /// Whether all values are quantities.
     pub fn has_numbers(&self) -> bool {
-        self.values.are_numbers()
+        self.has_numbers
     }
 
     /// The key, as `geometry.offset`.
@@ -100,6 +102,7 @@ impl Varied {
         Setting {
             path: self.path,
             text,
+            number: None,
         }
     }
 }
@@ -119,10 +122,13 @@ impl FromStr for Varied {
             format!("`{text}` has no values; write it like geometry.offset=0mm:20mm:41")
         })?;
         let path = KeyPath::parse(key.trim())?;
+        let text = values.trim().to_owned();
+        let values = values::read(path.key, values)?;
         Ok(Varied {
             path,
-            values: values::read(path.key, values)?,
-            text: values.trim().to_owned(),
+            text,
+            has_numbers: values.are_numbers(),
+            values,
         })
     }
 }

@@ -4,7 +4,7 @@ use super::super::joint_force_maxima::{FORCES, Peak, sizes};
 use super::follow::Follow;
 use super::motion::touch;
 use crate::engine::contact::{Phase, Stretch};
-use crate::numeric::golden;
+use crate::numeric::maximum;
 
 /// A step is looked at in so many pieces.
 const PIECES: usize = 4;
@@ -52,7 +52,7 @@ impl<const N: usize> Follow<'_, N> {
                 places[(best + 1).min(PIECES)],
             );
             let size = |t: f64| self.sizes(&stretch.at(t), phase)[k];
-            let (t, value) = golden::largest(size, from, to);
+            let (t, value) = maximum::largest(size, from, to);
             if value > top.0 {
                 top = (value, t);
             }

@@ -4,7 +4,7 @@ use super::follow::Follow;
 use super::motion::touch;
 use super::record::{Tally, quintic};
 use crate::engine::contact::{Phase, Sample, Stretch};
-use crate::numeric::golden;
+use crate::numeric::maximum;
 
 /// A step with a large force is looked at in so many places.
 const PLACES: u32 = 32;
@@ -50,7 +50,7 @@ impl<const N: usize> Follow<'_, N> {
                 let higher = |a: &u32, b: &u32| value(place(*a)).total_cmp(&value(place(*b)));
                 let best = (0..=PLACES).max_by(higher).unwrap_or(0);
                 let (from, to) = (place(best.saturating_sub(1)), place((best + 1).min(PLACES)));
-                golden::largest(value, from, to)
+                maximum::largest(value, from, to)
             };
             let (u, force) = top(&|u| at(u).0);
             // The quintic finds the place; the force there is that of the motion.

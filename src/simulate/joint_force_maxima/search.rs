@@ -7,7 +7,7 @@ use super::super::row::Row;
 use super::scan::{Place, Scan, Track};
 use super::{Peak, Peaks, of_row};
 use crate::mechanism::Linkage;
-use crate::numeric::golden;
+use crate::numeric::maximum;
 use crate::scene::Scene;
 
 /// Most rows of a search, and most steps that are kept for it.
@@ -77,7 +77,7 @@ fn refined(coarse: &Track, step: f64, end: f64, row: &dyn Fn(f64) -> Option<Row>
         let highest = coarse.highest[k];
         let top = |place: &Place| {
             let (from, to) = ((place.t - step).max(0.0), (place.t + step).min(end));
-            golden::largest(|t| size(k, t), from, to)
+            maximum::largest(|t| size(k, t), from, to)
         };
         let mut best = (largest.t, largest.value);
         for place in [Some(largest), (highest.t != largest.t).then_some(highest)] {

@@ -217,7 +217,7 @@ impl<'a> Seeker<'a> {
     /// The largest sign·|speed|: of the angles of a fine grid, then where the acceleration vanishes beside it.
     fn extreme(&self, found: &Found, sign: f64) -> Extreme {
         let (sense, whole) = (found.speed.signum(), found.way());
-        let grid = self.equation.linkage().turn_grid();
+        let grid = self.equation.linkage().turn_grid(1f64.to_radians());
         let since = |theta: &f64| (sense * (theta - self.start.rest)).rem_euclid(TAU);
         let again = |turn: u32| {
             let before = f64::from(turn) * TAU;

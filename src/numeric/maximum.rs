@@ -1,0 +1,56 @@
+//! The largest value of a function of one variable.
+
+/// (3 − √5)/2, the smaller part of the golden section.
+const GOLDEN_PART: f64 = 0.381_966_011_250_105_1;
+/// Width that is left of the interval, as a part of it: about where a smooth top differs by rounding alone.
+const WIDTH: f64 = 1.0 / (1u32 << 30) as f64;
+
+/// Where between a and b a function with one top is largest, and its value there: by parabolas through three
+/// points, and by the golden section where they do not serve (Brent, Algorithms for Minimization without
+/// Derivatives, 1973, ch. 5).
+pub fn largest(mut f: impl FnMut(f64) -> f64, a: f64, b: f64) -> (f64, f64) {
+    let (mut a, mut b) = (a.min(b), a.max(b));
+    let least_step = WIDTH * (b - a);
+    let first = a + GOLDEN_PART * (b - a);
+    // The best three points, the best one first.
+    let mut best = [(first, f(first)); 3];
+    let (mut step, mut last_step) = (0.0_f64, 0.0_f64);
+    // Three times as many as golden sections alone take.
+    for _ in 0..120 {
+        let middle = 0.5 * (a + b);
+        let [(x, at_x), (w, at_w), (v, at_v)] = best;
+        if (x - middle).abs() + 0.5 * (b - a) <= 2.0 * least_step {
+            break;
+        }
+        let rise = (x - w) * (at_v - at_x);
+        let fall = (x - v) * (at_w - at_x);
+        let slope = 2.0 * (fall - rise);
+        let parabola = ((x - v) * fall - (x - w) * rise) / -slope;
+        let serves = parabola.abs() < 0.5 * last_step.abs() && x + parabola > a && x + parabola < b;
+        (last_step, step) = if serves {
+            let near_end = (x + parabola - a).min(b - x - parabola) < 2.0 * least_step;
+            let inwards = least_step.copysign(middle - x);
+            (step, if near_end { inwards } else { parabola })
+        } else {
+            let rest = if x < middle { b - x } else { a - x };
+            (rest, GOLDEN_PART * rest)
+        };
+        if step.abs() < least_step {
+            step = least_step.copysign(step);
+        }
+        let u = x + step;
+        let at_u = f(u);
+        if at_u >= at_x {
+            *(if u < x { &mut b } else { &mut a }) = x;
+            best = [(u, at_u), (x, at_x), (w, at_w)];
+        } else {
+            *(if u < x { &mut a } else { &mut b }) = u;
+            if at_u >= at_w || w == x {
+                best = [(x, at_x), (u, at_u), (w, at_w)];
+            } else if at_u >= at_v || v == x || v == w {
+                best[2] = (u, at_u);
+            }
+        }
+    }
+    best[0]
+}
