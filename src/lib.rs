@@ -45,7 +45,7 @@
 //! - [`kinematics::kinematics`], [`kinematics::forces`] and [`statics::statics`] look at one turn of the crank.
 //! - [`inverse::inverse`] takes measured samples, from arrays ([`scene::Measurement::new`]) or from a file
 //!   ([`scene::Measurement::load`]).
-//! - [`sweep::Sweep`] computes many designs; [`explain::explain`] shows the equation, its terms and the plan.
+//! - [`sweep::Sweep`] computes many designs, [`optimise::optimise`] looks for the best one; [`explain::explain`] shows the equation, its terms and the plan.
 //!
 //! Without the default feature `cli` the library has neither the program nor scene files, sweeps and reports; scenes are
 //! then written in Rust.
@@ -64,6 +64,8 @@ pub mod kinematics;
 pub mod mechanism;
 #[doc(hidden)]
 pub mod numeric;
+#[cfg(feature = "cli")]
+pub mod optimise;
 pub mod plan;
 pub mod precision;
 #[cfg(feature = "cli")]

@@ -50,6 +50,7 @@ const MAY_NAME: &[(&str, &[&str])] = &[
             "error",
         ],
     ),
+    ("optimise", &["scene", "sweep", "numeric", "error"]),
     (
         "precision",
         &["scene", "mechanism", "plan", "simulate", "numeric", "error"],
@@ -78,6 +79,7 @@ const MAY_NAME: &[(&str, &[&str])] = &[
             "kinematics",
             "statics",
             "explain",
+            "optimise",
             "sweep",
             "precision",
             "reproduce",
@@ -92,6 +94,7 @@ const MAY_NAME: &[(&str, &[&str])] = &[
             "kinematics",
             "statics",
             "explain",
+            "optimise",
             "sweep",
             "precision",
             "reproduce",

@@ -8,6 +8,7 @@ const GROUPS: [(&str, &[&str]); 4] = [
         "Results",
         &[
             "out",
+            "best",
             "report",
             "json",
             "residuals",
@@ -44,6 +45,7 @@ const GROUPS: [(&str, &[&str]); 4] = [
             "figures",
             "least",
             "most",
+            "subject",
             "percentiles",
             "forces",
             "balance",
@@ -68,7 +70,7 @@ const GROUPS: [(&str, &[&str]); 4] = [
 ];
 
 /// Commands with arguments that show what they are for.
-const EXAMPLES: [(&str, &[&str]); 12] = [
+const EXAMPLES: [(&str, &[&str]); 14] = [
     (
         "simulate",
         &[
@@ -106,6 +108,16 @@ const EXAMPLES: [(&str, &[&str]); 12] = [
             "data/gupta.toml --vary geometry.offset=0mm:120mm:25 --out designs.csv",
             "data/gupta.toml --vary \"geometry.rod=310 +- 0.1 mm\" --sample 1000 --figures stroke,time_ratio",
         ],
+    ),
+    (
+        "optimise",
+        &[
+            "data/gupta.toml --vary geometry.offset=0mm:120mm --vary geometry.rod=300mm:600mm --most time_ratio --subject \"transmission_min >= 40 deg\"",
+        ],
+    ),
+    (
+        "synthesis",
+        &["--stroke \"90 mm\" --time-ratio 1.2 --out press.toml"],
     ),
     ("reproduce", &["ng"]),
     ("explain", &["data/duarte-cycle.toml --at \"30 deg\""]),

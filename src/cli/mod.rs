@@ -9,6 +9,7 @@ mod help;
 mod identify;
 mod inverse;
 mod kinematics;
+mod optimise;
 mod picture;
 mod precision;
 mod reading;
@@ -18,6 +19,7 @@ mod simulate;
 mod statics;
 mod streams;
 mod sweep;
+mod synthesis;
 mod watch;
 
 use std::io::IsTerminal;
@@ -63,6 +65,10 @@ enum Command {
     Statics(statics::Arguments),
     /// Key figures of many designs: any scene keys varied
     Sweep(sweep::Arguments),
+    /// The best design between bounds, subject to limits of key figures
+    Optimise(optimise::Arguments),
+    /// Crank, rod and offset for a wanted stroke and time ratio
+    Synthesis(synthesis::Arguments),
     /// Every number and figure of the four papers beside ours, with the verdict
     Reproduce(reproduce::Arguments),
     /// The equation, what is modelled and why, and what will compute it
@@ -88,7 +94,7 @@ pub fn main() -> ExitCode {
     let arguments = Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     let takes_requests = matches!(
         arguments.command,
-        Command::Simulate(_) | Command::Sweep(_) | Command::Inverse(_)
+        Command::Simulate(_) | Command::Sweep(_) | Command::Inverse(_) | Command::Optimise(_)
     );
     let stop = &watch::start(takes_requests);
     let result = match arguments.command {
@@ -101,6 +107,8 @@ pub fn main() -> ExitCode {
         Command::Precision(arguments) => precision::run(&arguments),
         Command::Statics(arguments) => statics::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments, stop),
+        Command::Optimise(arguments) => optimise::run(&arguments, stop),
+        Command::Synthesis(arguments) => synthesis::run(&arguments),
         Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),

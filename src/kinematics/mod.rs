@@ -5,6 +5,7 @@ mod diagrams;
 mod forces;
 mod offsets;
 mod one_turn;
+mod synthesis;
 mod turning_moment;
 
 pub use crate::mechanism::{Length, size_from_stroke};
@@ -13,4 +14,5 @@ pub use diagrams::{Balance, Diagrams, Indicated, Order};
 pub use forces::{ForceAnalysis, ForceRow, StrokeTorque, forces};
 pub use offsets::{OffsetExtremes, offset_extremes};
 pub use one_turn::{LengthSlope, LoopCheck, OneTurn, TurnOptions, TurnRow, one_turn};
+pub use synthesis::{Choice, Synthesis, synthesis};
 pub use turning_moment::{Area, TurningMoment};

@@ -16,6 +16,7 @@ mod joint;
 mod key_values;
 mod motion;
 mod one_turn;
+mod optimise;
 mod output;
 mod page;
 mod picture;
@@ -27,6 +28,7 @@ mod sketch;
 mod statics;
 mod steady;
 mod sweep;
+mod synthesis;
 mod table;
 mod text;
 
@@ -43,6 +45,7 @@ pub use inverse::{
 };
 pub use motion::PlotRows;
 pub use one_turn::{sized, turn, turn_figure, turn_page, turn_rows, turn_table};
+pub use optimise::{optimum, starts_csv};
 pub use output::{Output, is_standard_output};
 pub use page::{Origin, Page};
 pub use picture::{ENDINGS, Picture};
@@ -57,6 +60,7 @@ pub use sweep::{
     FrontDesign, MOST_ON_PAGE, Spread, SweepAsked, SweepExtreme, SweepRange, SweepSummary,
     SweepWriter, VariedKey, merge, sweep_page, sweep_text,
 };
+pub use synthesis::{synthesis, synthesis_scene};
 pub use table::{Cells, Table};
 pub use text::summary;
 

@@ -145,6 +145,13 @@ impl Sweep {
         &self.title
     }
 
+    /// The same designs, their motions with estimates of their errors.
+    pub fn with_estimates(&self) -> Sweep {
+        let mut sweep = self.clone();
+        sweep.options.estimate = true;
+        sweep
+    }
+
     /// The designs of part `part` of `parts`, counted from 1: parts of nearly the same size that follow each
     /// other.
     ///

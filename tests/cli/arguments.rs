@@ -18,7 +18,7 @@ fn commands(folder: &Folder) -> Vec<String> {
 fn the_commands_of_this_version_are_listed() {
     let mut found = commands(&Folder::new());
     found.sort();
-    let all = "animate check compare completions explain identify inverse kinematics precision reproduce schema simulate statics sweep";
+    let all = "animate check compare completions explain identify inverse kinematics optimise precision reproduce schema simulate statics sweep synthesis";
     assert_eq!(found.join(" "), all);
 }
 

@@ -106,6 +106,30 @@ fn a_sweep_goes_on_where_it_was_interrupted() {
     assert_eq!(whole, folder.read("again.csv"));
 }
 
+/// The best design so far is said, and that it is not proved.
+#[test]
+fn a_search_says_the_best_design_so_far() {
+    let folder = Folder::with(&free("duration = \"1000 s\""));
+    let vary = "motion.speed=5rad/s:50rad/s";
+    let arguments = ["optimise", "scene.toml", "--method", "time", "--vary", vary];
+    let goal = ["--least", "theta", "--out", "rows.csv", "--json"];
+    let mut child = folder.start(&[&arguments[..], &goal].concat());
+    std::thread::sleep(Duration::from_secs(2));
+    let mut stdout = child.stdout.take().expect("standard output");
+    let (code, said) = interrupted(child, "-INT");
+    let mut shown = String::new();
+    stdout.read_to_string(&mut shown).expect("a text");
+    assert_eq!(code, Some(1), "{said}");
+    assert!(said.contains("interrupted"), "{said}");
+    // Before there is any design nothing is said.
+    if folder.names().contains(&"rows.csv".to_owned()) {
+        let found: serde_json::Value = serde_json::from_str(&shown).expect("JSON");
+        assert_eq!(found["interrupted"], true);
+        assert_eq!(found["proof"]["is_complete"], false);
+        assert!(found["values"][0]["value"].as_f64().expect("a speed") >= 5.0);
+    }
+}
+
 /// Commands that keep nothing leave nothing.
 #[test]
 fn a_command_without_rows_to_keep_leaves_no_file() {

@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
+use toml_edit::{DocumentMut, Item, TomlError, Value};
 
 use super::{KeyPath, Varied, VariedValue};
 use crate::error::Error;
@@ -69,6 +70,42 @@ impl Draft {
         let text = varied.value(0).text;
         let applied = varied.setting(&text).apply(document.get_mut());
         applied.map_err(|problem| Problems::in_file(&self.file, &self.text, vec![problem]))
+    }
+
+    /// The text with values in place of its own, or beside them; all else stays as it is written.
+    ///
+    /// # Errors
+    /// [`Problems`]: the text is no TOML, or has fewer tables of a name than a key says.
+    pub fn text_with<'a>(
+        &self,
+        values: impl IntoIterator<Item = (&'a Varied, &'a str)>,
+    ) -> Result<String, Problems> {
+        let mut document: DocumentMut = self.text.parse().map_err(|error: TomlError| {
+            let help = "correct what `check` says of the scene";
+            let problem = Problem::new("", error.message(), help);
+            Problems::in_file(&self.file, &self.text, vec![problem])
+        })?;
+        for (varied, text) in values {
+            self.takes(varied)?;
+            let KeyPath {
+                section,
+                index,
+                key,
+            } = varied.path;
+            let table = &mut document[section.name];
+            let table = match section.repeated {
+                true => &mut table[index],
+                false => table,
+            };
+            let decor = table.get(key.name).and_then(Item::as_value);
+            let decor = decor.map(|old| old.decor().clone());
+            let mut value = Value::from(text);
+            if let Some(decor) = decor {
+                *value.decor_mut() = decor;
+            }
+            table[key.name] = Item::Value(value);
+        }
+        Ok(document.to_string())
     }
 
     /// The scene as it is written.

@@ -61,6 +61,19 @@ impl Varied {
         !matches!(self.values, Values::Listed(_))
     }
 
+    /// The bounds of an even distribution, in SI units and radians.
+    pub fn bounds(&self) -> Option<[f64; 2]> {
+        match self.values {
+            Values::Uniform(bounds) => Some(bounds),
+            Values::Listed(_) | Values::Normal(_) => None,
+        }
+    }
+
+    /// The SI unit of the values as scene files have it; empty for numbers and words.
+    pub fn unit(&self) -> &'static str {
+        self.path.quantity().map_or("", Quantity::si)
+    }
+
     /// Whether all values are quantities.
     pub fn has_numbers(&self) -> bool {
         self.has_numbers
@@ -93,8 +106,7 @@ impl Varied {
 
     /// The value below which a part `p` of a distribution lies, with 0 < p < 1; listed values are equally likely.
     pub fn quantile(&self, p: f64) -> VariedValue {
-        let unit = self.path.quantity().map_or("", Quantity::si);
-        self.values.quantile(p, unit)
+        self.values.quantile(p, self.unit())
     }
 
     /// The key set to the text of a value.

@@ -1,0 +1,122 @@
+//! `optimise`: the best design between bounds, subject to limits.
+
+use std::path::PathBuf;
+
+use clap::{ArgGroup, Args};
+
+use super::{Outcome, Streams, create, fill};
+use crate::error::Error;
+use crate::optimise::{Asked, Subject, optimise};
+use crate::plan::Method;
+use crate::report;
+use crate::scene::{Draft, Varied};
+use crate::simulate::{SteadyOptions, Stop};
+use crate::sweep::{Figure, Goal, SweepOptions};
+
+/// Arguments of `optimise`.
+#[derive(Debug, Args)]
+#[command(group(ArgGroup::new("goal").required(true).args(["least", "most"])))]
+pub(super) struct Arguments {
+    /// Scene file, `-` for standard input; without it the built-in Duarte engine
+    scene: Option<PathBuf>,
+    /// A scene key and its bounds, like "geometry.rod=100mm:200mm"; given again, several keys
+    #[arg(long, value_name = "KEY=LOW:HIGH", required = true)]
+    vary: Vec<Varied>,
+    /// Looks for the design with the least of this key figure
+    #[arg(long, value_name = "FIGURE")]
+    least: Option<Figure>,
+    /// Looks for the design with the most of this key figure
+    #[arg(long, value_name = "FIGURE")]
+    most: Option<Figure>,
+    /// A limit that the design has to keep, like "transmission_min >= 40 deg"; given again, all of them
+    #[arg(long, value_name = "FIGURE >= VALUE")]
+    subject: Vec<Subject>,
+    /// Seed of the samples
+    #[arg(long, value_name = "NUMBER", default_value_t = 1)]
+    seed: u64,
+    /// Writes the scene with the best values to this file, which belongs beside the scene if that names tables
+    #[arg(long, value_name = "FILE")]
+    best: Option<PathBuf>,
+    /// Writes a row for each local search as CSV to this file, `-` for standard output
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Prints the result as one JSON object
+    #[arg(long)]
+    json: bool,
+    /// Coefficient of speed fluctuation of the flywheel, for its figure
+    #[arg(long, value_name = "NUMBER")]
+    fluctuation: Option<f64>,
+    /// auto, closed-form, energy, angle, time, dop853 or dopri5
+    #[arg(long, default_value = "auto")]
+    method: Method,
+    /// Work limit: most evaluations of the equation in one design
+    #[arg(long, value_name = "COUNT", default_value_t = SweepOptions::default().max_evaluations)]
+    max_evaluations: u64,
+}
+
+impl Arguments {
+    fn goal(&self) -> Option<Goal> {
+        let goal = |most| move |figure| Goal { figure, most };
+        let least = self.least.map(goal(false));
+        least.or(self.most.map(goal(true)))
+    }
+
+    fn options(&self, stop: &Stop) -> SweepOptions {
+        let steady = SteadyOptions {
+            fluctuation: self.fluctuation,
+            max_evaluations: self.max_evaluations,
+            stop: Some(stop.of_one()),
+        };
+        SweepOptions {
+            steady: Some(steady),
+            method: self.method,
+            max_evaluations: self.max_evaluations,
+            stop: Some(stop.clone()),
+            ..SweepOptions::default()
+        }
+    }
+}
+
+pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> {
+    let (read, out, best) = (&arguments.scene, &arguments.out, &arguments.best);
+    let streams = Streams::new(
+        &[read.as_ref()],
+        out.as_ref(),
+        &[best.as_ref()],
+        arguments.json,
+    )?;
+    let draft = match read {
+        Some(file) => Draft::load(file)?,
+        None => Draft::duarte(),
+    };
+    if let Ok(scene) = draft.scene() {
+        streams.spare_tables(&scene)?;
+    }
+    let goal = arguments
+        .goal()
+        .ok_or_else(|| Error::refused("there is no goal", "say which, like --least guide_peak"))?;
+    let asked = Asked {
+        goal,
+        subjects: arguments.subject.clone(),
+        seed: arguments.seed,
+    };
+    let (out, best) = (create(out.as_ref())?, create(best.as_ref())?);
+    let varied = arguments.vary.clone();
+    let found = optimise(draft.clone(), varied, &asked, arguments.options(stop))?;
+    fill(out, || report::starts_csv(&found))?;
+    fill(best, || {
+        let values = arguments.vary.iter().zip(&found.values);
+        let values = values.map(|(varied, value)| (varied, value.text.as_str()));
+        Ok(draft.text_with(values)?)
+    })?;
+    streams.show(&found, || report::optimum(&found))?;
+    Ok(if found.interrupted {
+        Outcome::Incomplete("interrupted: this is the best design so far".to_owned())
+    } else if !found.meets_subjects {
+        Outcome::Incomplete(
+            "no design was found that keeps all limits: this one misses them least".to_owned(),
+        )
+    } else {
+        Outcome::Done
+    })
+}

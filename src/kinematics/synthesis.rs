@@ -1,0 +1,161 @@
+//! Lengths for a wanted stroke and time ratio.
+
+use std::f64::consts::PI;
+
+use serde::Serialize;
+
+use super::{Kinematics, kinematics};
+use crate::error::Error;
+use crate::scene::Scene;
+
+/// What decides between the mechanisms of one stroke and time ratio. Lengths in m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Choice {
+    /// The largest least transmission angle.
+    BestTransmission,
+    /// This crank.
+    Crank(f64),
+    /// This rod.
+    Rod(f64),
+    /// An offset of this size.
+    Offset(f64),
+    /// Rod over crank.
+    RodRatio(f64),
+}
+
+/// A mechanism of the branch `right` with a wanted stroke and time ratio.
+#[derive(Clone, Debug, Serialize)]
+pub struct Synthesis {
+    /// m
+    pub crank_m: f64,
+    /// m
+    pub rod_m: f64,
+    /// m, negative for time ratios below 1
+    pub offset_m: f64,
+    /// One turn of it.
+    pub turn: Kinematics,
+}
+
+/// Crank, rod and offset for a stroke (m, positive) and a time ratio, which is between 1/3 and 3 where the crank turns fully.
+///
+/// At the dead centres the slider pin is l + r and l - r from O, under an angle of a = pi (K - 1)/(K + 1) for the time ratio
+/// K. With the stroke H the law of cosines is an ellipse, l = (H/2) sin u / sin(a/2) and r = (H/2) cos u / cos(a/2), and
+/// the area of the triangle gives e = (l^2 - r^2) sin(a)/H. The crank turns fully where a/2 < u < pi/2 - a/2. The
+/// transmission angle, cos mu = (r + e)/l, is best where cos u = (sqrt(4 + S^2) - S)/2 with S = sin(a/2), the root of
+/// (c - S)(c^2 + S c - 1) = 0 within. (For the graphical way see VDI 2126.)
+///
+/// # Errors
+/// [`Error::Refused`] if there is no such mechanism, with the range in which there are some.
+///
+/// ```
+/// use slider_crank::kinematics::{Choice, synthesis};
+/// let press = synthesis(0.1, 1.25, Choice::BestTransmission)?;
+/// assert!((press.turn.stroke_m - 0.1).abs() < 1e-15);
+/// assert!((press.turn.time_ratio.unwrap() - 1.25).abs() < 1e-14);
+/// assert!(synthesis(0.1, 3.5, Choice::BestTransmission).is_err());
+/// # Ok::<(), slider_crank::error::Error>(())
+/// ```
+pub fn synthesis(stroke: f64, time_ratio: f64, choice: Choice) -> Result<Synthesis, Error> {
+    let is_slower = time_ratio >= 1.0;
+    let ratio = if is_slower {
+        time_ratio
+    } else {
+        1.0 / time_ratio
+    };
+    if !(stroke > 0.0 && stroke.is_finite() && ratio < 3.0 && time_ratio > 0.0) {
+        return Err(Error::refused(
+            format!(
+                "no slider-crank whose crank turns fully has a stroke of {stroke} m and a time ratio of {time_ratio}"
+            ),
+            "give a positive stroke, and a time ratio between 1/3 and 3",
+        ));
+    }
+    let [crank, rod, offset] = lengths(0.5 * stroke, ratio, choice)?;
+    let offset = if is_slower { offset } else { -offset };
+    let scene = Scene::new(crank, rod).offset(offset);
+    Ok(Synthesis {
+        crank_m: crank,
+        rod_m: rod,
+        offset_m: offset,
+        turn: kinematics(&scene)?,
+    })
+}
+
+/// Crank, rod and offset for half a stroke and a time ratio from 1 on.
+fn lengths(half: f64, ratio: f64, choice: Choice) -> Result<[f64; 3], Error> {
+    if ratio == 1.0 {
+        return in_line(half, choice);
+    }
+    let (sin, cos) = (0.5 * PI * (ratio - 1.0) / (ratio + 1.0)).sin_cos();
+    let tan = sin / cos;
+    let check = |name, value: f64, low: f64, high: f64| match low < value && value < high {
+        true => Ok(()),
+        false => Err(out_of_range(name, value, low, high)),
+    };
+    // Sine and cosine of u.
+    let other = |one: f64| ((1.0 - one) * (1.0 + one)).sqrt();
+    let [s, c] = match choice {
+        Choice::BestTransmission => {
+            let c = 2.0 / ((4.0 + sin * sin).sqrt() + sin);
+            [(sin * c).sqrt(), c]
+        }
+        Choice::Rod(rod) => {
+            check("rod", rod, half, half / tan)?;
+            let s = rod * sin / half;
+            [s, other(s)]
+        }
+        Choice::Crank(crank) => {
+            check("crank", crank, half * tan, half)?;
+            let c = crank * cos / half;
+            [other(c), c]
+        }
+        Choice::Offset(offset) => {
+            check("offset", offset, 0.0, half * (1.0 / tan - tan))?;
+            let s = (sin * sin + offset * sin * cos / half).sqrt();
+            [s, other(s)]
+        }
+        Choice::RodRatio(ratio) => {
+            check("rod ratio", ratio, 1.0, 1.0 / (tan * tan))?;
+            let hypotenuse = (ratio * sin).hypot(cos);
+            [ratio * sin / hypotenuse, cos / hypotenuse]
+        }
+    };
+    let (crank, rod) = (half * c / cos, half * s / sin);
+    let offset = half * (s - sin) * (s + sin) / (sin * cos);
+    Ok(match choice {
+        // As it was given, to the last digit.
+        Choice::Crank(crank) => [crank, rod, offset],
+        Choice::Rod(rod) => [crank, rod, offset],
+        Choice::Offset(offset) => [crank, rod, offset],
+        Choice::BestTransmission | Choice::RodRatio(_) => [crank, rod, offset],
+    })
+}
+
+/// The crank of a slider-crank without offset is half the stroke; any longer rod will do.
+fn in_line(half: f64, choice: Choice) -> Result<[f64; 3], Error> {
+    let rod = match choice {
+        Choice::Rod(rod) => rod,
+        Choice::RodRatio(ratio) => half * ratio,
+        _ => {
+            return Err(Error::refused(
+                format!(
+                    "with a time ratio of 1 the crank is {half} m and the offset 0, whatever the rod"
+                ),
+                "say which rod, like --rod-ratio 3.5",
+            ));
+        }
+    };
+    match half < rod && rod.is_finite() {
+        true => Ok([half, rod, 0.0]),
+        false => Err(out_of_range("rod", rod, half, f64::INFINITY)),
+    }
+}
+
+fn out_of_range(name: &str, value: f64, low: f64, high: f64) -> Error {
+    Error::refused(
+        format!(
+            "no slider-crank of this stroke and time ratio whose crank turns fully has the {name} {value}"
+        ),
+        format!("give one above {low} and below {high}"),
+    )
+}

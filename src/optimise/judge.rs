@@ -1,0 +1,215 @@
+//! How good a design is.
+
+use std::cmp::Ordering;
+use std::sync::atomic::{AtomicU64, Ordering as Memory};
+
+use super::{AGREEMENT, Asked, GAIN};
+use crate::numeric::stop::Stop;
+use crate::scene::VariedValue;
+use crate::sweep::{Goal, Outcome, Source, Sweep};
+
+/// Judges designs, which are points of the unit box: 0 is the low bound of a key, 1 the high one.
+pub(super) struct Judge<'a> {
+    pub sweep: &'a Sweep,
+    pub asked: &'a Asked,
+    stop: &'a Stop,
+    computed: AtomicU64,
+    scale: Scale,
+}
+
+/// What figures of the sample range over, by which they are made comparable: the middle half, which outliers do not stretch.
+#[derive(Clone, Debug, Default)]
+struct Scale {
+    goal: f64,
+    subjects: Vec<f64>,
+}
+
+/// A design with its verdict.
+#[derive(Clone, Debug)]
+pub(super) struct Judged {
+    /// In the unit box.
+    pub at: Vec<f64>,
+    /// The goal, less is better; none if the design could not be computed or has no such figure.
+    pub aim: Option<f64>,
+    /// How far it is on the right side of each limit, in the unit of the figure; empty like `aim`.
+    pub margins: Vec<f64>,
+    /// The largest violation of a limit, scaled; infinite for a design without figures.
+    pub violation: f64,
+}
+
+impl Judged {
+    /// The figure that is to be least or most.
+    pub fn value(&self, goal: Goal) -> Option<f64> {
+        self.aim.map(|aim| if goal.most { -aim } else { aim })
+    }
+
+    /// Deb's rules: better ones first.
+    pub fn order(&self, other: &Judged) -> Ordering {
+        let aim = |one: &Judged| one.aim.unwrap_or(f64::INFINITY);
+        let violation = self.violation.total_cmp(&other.violation);
+        violation.then(aim(self).total_cmp(&aim(other)))
+    }
+}
+
+impl<'a> Judge<'a> {
+    pub fn new(sweep: &'a Sweep, asked: &'a Asked, stop: &'a Stop) -> Judge<'a> {
+        let scale = Scale {
+            goal: 1.0,
+            subjects: vec![1.0; asked.subjects.len()],
+        };
+        Judge {
+            sweep,
+            asked,
+            stop,
+            computed: AtomicU64::new(0),
+            scale,
+        }
+    }
+
+    /// Number of designs computed so far.
+    pub fn computed(&self) -> u64 {
+        self.computed.load(Memory::Relaxed)
+    }
+
+    pub fn is_stopped(&self) -> bool {
+        self.stop.is_requested()
+    }
+
+    /// Says how far the search is, from 0 to 1.
+    pub fn reach(&self, part: f64) {
+        self.stop.reach(part);
+    }
+
+    pub fn values(&self, at: &[f64]) -> Vec<VariedValue> {
+        let varied = self.sweep.varied().iter().zip(at);
+        varied.map(|(one, at)| one.quantile(*at)).collect()
+    }
+
+    /// Computes a design, unless somebody asked to stop.
+    pub fn judge(&self, at: Vec<f64>) -> Judged {
+        if self.is_stopped() {
+            return self.verdict(at, None, Vec::new());
+        }
+        self.computed.fetch_add(1, Memory::Relaxed);
+        let design = self.sweep.design_of(0, self.values(&at));
+        let Asked { goal, subjects, .. } = self.asked;
+        let margins = subjects.iter().map(|subject| {
+            let value = subject.figure.number(&design)?;
+            Some(subject.margin(value)).filter(|margin| margin.is_finite())
+        });
+        let aim = goal.figure.number(&design);
+        let aim = aim.filter(|aim| aim.is_finite() && design.outcome == Outcome::Done);
+        let aim = aim.map(|aim| if goal.most { -aim } else { aim });
+        match margins.collect::<Option<Vec<f64>>>() {
+            Some(margins) => self.verdict(at, aim, margins),
+            None => self.verdict(at, None, Vec::new()),
+        }
+    }
+
+    fn verdict(&self, at: Vec<f64>, aim: Option<f64>, margins: Vec<f64>) -> Judged {
+        let missed = margins.iter().zip(&self.scale.subjects);
+        let missed = missed.map(|(margin, scale)| -margin / scale);
+        let violation = match aim {
+            Some(_) => missed.fold(0.0, f64::max),
+            None => f64::INFINITY,
+        };
+        Judged {
+            at,
+            aim,
+            margins,
+            violation,
+        }
+    }
+
+    /// Takes the scales from a sample, and judges it again by them.
+    pub fn calibrate(&mut self, sample: Vec<Judged>) -> Vec<Judged> {
+        let of = |value: &dyn Fn(&Judged) -> f64| {
+            let computed = sample.iter().filter(|one| one.aim.is_some());
+            middle_half(computed.map(value).collect())
+        };
+        self.scale = Scale {
+            goal: of(&|one| one.aim.unwrap_or_default()),
+            subjects: (0..self.asked.subjects.len())
+                .map(|i| of(&|one| one.margins[i]))
+                .collect(),
+        };
+        let again = sample
+            .into_iter()
+            .map(|one| self.verdict(one.at, one.aim, one.margins));
+        again.collect()
+    }
+
+    /// Scaled goal; `worst` for a design that has none.
+    pub fn aim(&self, one: &Judged, worst: f64) -> f64 {
+        one.aim.map_or(worst, |aim| aim / self.scale.goal)
+    }
+
+    /// Scaled distance from a limit, positive on the right side; that of the worst for a design that has none.
+    pub fn margin(&self, one: &Judged, subject: usize) -> f64 {
+        let margin = one.margins.get(subject).copied();
+        margin.map_or(-1.0, |margin| margin / self.scale.subjects[subject])
+    }
+
+    /// Whether a figure lies on a limit, as closely as searches agree.
+    pub fn is_active(&self, subject: usize, value: f64) -> bool {
+        let margin = self.asked.subjects[subject].margin(value);
+        margin.abs() <= AGREEMENT * self.scale.subjects[subject]
+    }
+
+    /// Whether two designs are equally good.
+    pub fn agree(&self, one: &Judged, other: &Judged) -> bool {
+        let aims = one.aim.zip(other.aim);
+        let near = aims.is_some_and(|(a, b)| (a - b).abs() <= AGREEMENT * self.scale.goal);
+        near && (one.violation - other.violation).abs() <= AGREEMENT
+    }
+
+    /// The difference of the goal below which designs are not told apart: the error of the motion, relative to its fastest
+    /// speed, as that of the goal; at least [`GAIN`] of the spread.
+    pub fn resolution(&self, one: &Judged) -> f64 {
+        let aim = one.aim.map_or(0.0, f64::abs);
+        let least = GAIN * self.scale.goal;
+        if self.asked.goal.figure.source() <= Source::Diagrams || self.is_stopped() {
+            return least;
+        }
+        let vouched = self.sweep.with_estimates();
+        let design = vouched.design_of(0, self.values(&one.at));
+        let motion = design.motion.as_ref().and_then(|run| {
+            let fastest = run.omega_max.abs().max(run.omega_min.abs());
+            Some(run.error_estimate?.omega_rad_per_s / fastest)
+        });
+        let steady = design.steady.as_ref();
+        let steady = steady.map(|cycle| cycle.fluctuation.error / cycle.fluctuation.value);
+        let errors = motion.into_iter().chain(steady);
+        let errors = errors
+            .map(|error| error * aim)
+            .filter(|error| error.is_finite());
+        errors.fold(least, f64::max)
+    }
+
+    /// Whether one is better than another by more than the resolution.
+    pub fn improves(&self, one: &Judged, other: &Judged, resolution: f64) -> bool {
+        if one.order(other) != Ordering::Less {
+            return false;
+        }
+        match (one.aim, other.aim) {
+            (Some(a), Some(b)) if one.violation == other.violation => b - a > resolution,
+            _ => other.violation - one.violation > GAIN,
+        }
+    }
+}
+
+/// The distance of the quartiles; that of the ends or 1 where they are equal.
+fn middle_half(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let Some(last) = values.len().checked_sub(1) else {
+        return 1.0;
+    };
+    let spreads = [
+        values[last - last / 4] - values[last / 4],
+        values[last] - values[0],
+    ];
+    let found = spreads
+        .into_iter()
+        .find(|spread| *spread > 0.0 && spread.is_finite());
+    found.unwrap_or(1.0)
+}

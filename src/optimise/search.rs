@@ -1,0 +1,151 @@
+//! The search: exploration, local searches, sweeps round the best.
+
+use std::f64::consts::PI;
+
+use statrs::function::gamma::gamma;
+
+use super::Proof;
+use super::judge::{Judge, Judged};
+use super::local::{Searched, search};
+use crate::error::Error;
+use crate::numeric::parallel;
+use crate::sweep::LatinHypercube;
+
+/// Designs of the exploration, and of each sweep round the best, for each key.
+pub(super) const EXPLORED: u64 = 64;
+
+/// Most local searches.
+const STARTS: usize = 16;
+
+/// First steps of a local search from the exploration, in parts of the ranges.
+const FIRST_STEP: f64 = 0.1;
+
+/// Half widths of the sweeps round the best, in parts of the ranges.
+const HALF_WIDTHS: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
+
+/// Most times that the search goes on from a better design.
+const IMPROVEMENTS: u32 = 30;
+
+/// What was found.
+pub(super) struct Found {
+    pub best: Judged,
+    pub starts: Vec<Searched>,
+    pub proof: Proof,
+    /// Of the goal.
+    pub resolution: f64,
+}
+
+/// # Errors
+/// [`Error::Refused`] if no design has the figures; [`Error::Interrupted`] before there is any.
+pub(super) fn run(judge: &mut Judge, seed: u64) -> Result<Found, Error> {
+    let sample = explore(judge)?;
+    judge.reach(0.2);
+    let mut sorted = judge.calibrate(sample);
+    sorted.sort_by(Judged::order);
+    let computed = sorted.iter().filter(|one| one.aim.is_some());
+    let worst = computed
+        .map(|one| judge.aim(one, 0.0))
+        .fold(f64::NEG_INFINITY, f64::max);
+    let judge = &*judge;
+    let starts = parallel::map(starts(&sorted).into_iter(), |from| {
+        search(judge, from, FIRST_STEP, worst)
+    });
+    judge.reach(0.7);
+    let ends = starts.iter().map(|start| start.end.clone());
+    let best = ends.chain([sorted.swap_remove(0)]).min_by(Judged::order);
+    let mut best = best.ok_or(Error::Interrupted)?;
+    let proof = prove(judge, seed, &mut best, worst);
+    let resolution = judge.resolution(&best);
+    Ok(Found {
+        best,
+        starts,
+        proof,
+        resolution,
+    })
+}
+
+fn explore(judge: &Judge) -> Result<Vec<Judged>, Error> {
+    let keys = judge.sweep.varied().len() as u64;
+    let sample = judge.sweep.sample().ok_or(Error::Interrupted)?;
+    let at = |index| (0..keys).map(|key| sample.at(key, index)).collect();
+    let found = parallel::map(0..sample.count, |index| judge.judge(at(index)));
+    if found.iter().any(|one| one.aim.is_some()) {
+        return Ok(found);
+    }
+    if judge.is_stopped() {
+        return Err(Error::Interrupted);
+    }
+    let first = judge.sweep.design_of(0, judge.values(&found[0].at));
+    let note = first.notes.into_iter().next();
+    let why = note.unwrap_or_else(|| "it has no such figure".to_owned());
+    Err(Error::refused(
+        format!(
+            "none of {} designs between the bounds has all the figures; of the first one: {why}",
+            found.len()
+        ),
+        "let the bounds hold mechanisms that can be computed",
+    ))
+}
+
+/// Those of a sample, sorted, that have no better one within the critical distance of multi-level single linkage.
+fn starts(sorted: &[Judged]) -> Vec<Judged> {
+    let Some(keys) = sorted.first().map(|one| one.at.len() as f64) else {
+        return Vec::new();
+    };
+    // Sigma of 4: with it the number of searches stays finite, however large the sample (Rinnooy Kan and Timmer, theorem 8).
+    let count = sorted.len() as f64;
+    let volume = gamma(1.0 + 0.5 * keys) * 4.0 * count.ln() / count;
+    let critical = volume.powf(1.0 / keys) / PI.sqrt();
+    let near = |one: &Judged, other: &Judged| {
+        let squares = one.at.iter().zip(&other.at).map(|(a, b)| (a - b).powi(2));
+        squares.sum::<f64>() < critical * critical
+    };
+    let is_start = |i: &usize| {
+        let one = &sorted[*i];
+        one.aim.is_some() && !sorted[..*i].iter().any(|better| near(one, better))
+    };
+    let found = (0..sorted.len()).filter(is_start).take(STARTS);
+    found.map(|i| sorted[i].clone()).collect()
+}
+
+/// Sweeps round the best design, the wide ones first; from a better one the search goes on.
+fn prove(judge: &Judge, seed: u64, best: &mut Judged, worst: f64) -> Proof {
+    let keys = best.at.len() as u64;
+    let mut proof = Proof {
+        half_widths: HALF_WIDTHS.to_vec(),
+        designs_each: EXPLORED * keys,
+        ..Proof::default()
+    };
+    'rounds: while proof.improvements < IMPROVEMENTS {
+        let resolution = judge.resolution(best);
+        for (round, width) in (1u64..).zip(HALF_WIDTHS) {
+            let sample = LatinHypercube {
+                count: proof.designs_each,
+                // Another sample in every round.
+                seed: seed ^ (u64::from(proof.improvements) << 32 | round << 16),
+            };
+            let at = |index| {
+                let middles = (0..).zip(&best.at);
+                let at = middles.map(|(key, middle): (u64, &f64)| {
+                    let part = 2.0 * sample.at(key, index) - 1.0;
+                    (middle + part * width).clamp(0.0, 1.0)
+                });
+                at.collect()
+            };
+            let found = parallel::map(0..sample.count, |index| judge.judge(at(index)));
+            if judge.is_stopped() {
+                return proof;
+            }
+            let better = found.into_iter().min_by(Judged::order);
+            if let Some(better) = better.filter(|one| judge.improves(one, best, resolution)) {
+                *best = search(judge, better, width, worst).end;
+                proof.improvements += 1;
+                judge.reach(0.7 + 0.3 * f64::from(proof.improvements) / f64::from(IMPROVEMENTS));
+                continue 'rounds;
+            }
+        }
+        proof.is_complete = true;
+        break;
+    }
+    proof
+}

@@ -1,0 +1,121 @@
+//! The best design as text, its searches as CSV.
+
+use super::csv::{quoted, shortest};
+use super::key_values::{Facts, fact, rounded, six};
+use super::quantity::Quantity;
+use crate::error::Error;
+use crate::optimise::{AGREEMENT, Optimum, OptimumValue, Proof, SubjectMet};
+
+/// The best design, its limits, and how sure it is.
+pub fn optimum(found: &Optimum) -> String {
+    let mut facts = Facts::of(&found.scene);
+    let value = shown(&found.figure, found.value);
+    fact!(facts, found.sense, "{value}");
+    for one in &found.values {
+        facts.add(&one.key, varied(one));
+    }
+    for one in &found.subjects {
+        facts.add("subject", subject(one));
+    }
+    let agreeing = found.starts.iter().filter(|start| start.agrees).count();
+    fact!(
+        facts,
+        "local searches",
+        "{agreeing} of {} end there, to {AGREEMENT:.0e} of the figure's spread",
+        found.starts.len()
+    );
+    facts.add("proof", proof(found));
+    fact!(facts, "cost", "{} designs", found.designs);
+    facts.warnings(&found.notes);
+    facts.lines(22)
+}
+
+/// A figure with its name, in the unit for people.
+fn shown(column: &str, value: Option<f64>) -> String {
+    let of = Quantity::of(column);
+    match value {
+        Some(value) => {
+            let text = format!("{} {} {}", of.label, six(value * of.factor), of.unit);
+            text.trim_end().to_owned()
+        }
+        None => format!("{}: none", of.label),
+    }
+}
+
+fn varied(one: &OptimumValue) -> String {
+    /// The files have all digits.
+    const DIGITS: usize = 9;
+    let [low, high] = one.bounds.map(six);
+    let value = format!("{} {}", rounded(one.value, DIGITS), one.unit);
+    let value = value.trim_end();
+    match one.at_bound {
+        Some(bound) => format!("{value}, the {bound} bound ({low} to {high})"),
+        None => format!("{value} ({low} to {high})"),
+    }
+}
+
+fn subject(one: &SubjectMet) -> String {
+    let of = Quantity::of(&one.figure);
+    let limit = format!("{} {} {}", one.sense, six(one.limit * of.factor), of.unit);
+    let how = match (one.is_met, one.is_active) {
+        (false, _) => ", missed",
+        (true, true) => ", reached",
+        (true, false) => "",
+    };
+    format!(
+        "{} {}{how}",
+        shown(&one.figure, one.value),
+        limit.trim_end()
+    )
+}
+
+fn proof(found: &Optimum) -> String {
+    let Proof {
+        is_complete,
+        half_widths,
+        designs_each,
+        improvements,
+    } = &found.proof;
+    if found.interrupted {
+        return "none: the search was interrupted".to_owned();
+    }
+    let widths = half_widths.iter().map(|width| six(width * 100.0));
+    let widths = widths.collect::<Vec<_>>().join(", ");
+    let sweeps = format!("of {designs_each} designs each within {widths} % of the ranges");
+    let resolution = Quantity::of(&found.figure);
+    let resolution = format!(
+        "{:.1e} {}",
+        found.resolution * resolution.factor,
+        resolution.unit
+    );
+    match is_complete {
+        true => format!("{sweeps} none is better by {}", resolution.trim_end()),
+        false => format!("none: {sweeps} some are still better after {improvements} improvements"),
+    }
+}
+
+/// A row for each local search.
+pub fn starts_csv(found: &Optimum) -> Result<String, Error> {
+    let of = |ending: &'static str| {
+        let columns = found.values.iter().map(|one| one.column.as_str());
+        columns.map(move |column| format!("{ending}{column}"))
+    };
+    let header = ["search".to_owned()]
+        .into_iter()
+        .chain(of("start_"))
+        .chain(of(""))
+        .chain([&found.figure, "meets_subjects", "agrees", "designs"].map(str::to_owned));
+    let rows = (1..).zip(&found.starts).map(|(number, start)| {
+        let values = start.from.iter().chain(&start.to);
+        let figure = start.value.map_or(String::new(), shortest);
+        let [meets, agrees] = [start.meets_subjects, start.agrees].map(u8::from);
+        [number.to_string()]
+            .into_iter()
+            .chain(values.map(|value| shortest(*value)))
+            .chain([figure, meets.to_string(), agrees.to_string()])
+            .chain([start.designs.to_string()])
+    });
+    let rows: Vec<Vec<String>> = rows.map(Iterator::collect).collect();
+    let header: Vec<String> = header.collect();
+    quoted([], std::iter::once(header).chain(rows))
+}
