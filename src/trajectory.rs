@@ -109,6 +109,22 @@ impl Trajectory {
         }
     }
 
+    /// Start (at t = 0) and speed (rad/s) of a constant one.
+    pub(crate) fn as_uniform(&self) -> Option<(Angle, f64)> {
+        match self.motion {
+            Motion::Uniform { angle, speed } => Some((angle, speed)),
+            _ => None,
+        }
+    }
+
+    /// The motion over the crank angle that makes all of it, if one does.
+    pub(crate) fn as_orbit(&self) -> Option<&Orbit> {
+        match &self.motion {
+            Motion::Orbit(orbit) if self.view.is_none() && self.begin == 0.0 => Some(orbit),
+            _ => None,
+        }
+    }
+
     /// The coordinate that was integrated, an angle as turns and rest, and its rate (rad/s) at time `t` (s): the crank
     /// angle, or the coordinate of the configuration curve.
     pub(crate) fn coordinate(&self, t: f64) -> Option<(Angle, f64)> {

@@ -3,18 +3,39 @@
 /// (3 − √5)/2, the smaller part of the golden section.
 const GOLDEN_PART: f64 = 0.381_966_011_250_105_1;
 /// Width that is left of the interval, as a part of it: about where a smooth top differs by rounding alone.
-const WIDTH: f64 = 1.0 / (1u32 << 30) as f64;
+const WIDTH: f64 = 1.0 / (1u32 << 26) as f64;
 
 /// Where between a and b a function with one top is largest, and its value there: by parabolas through three
 /// points, and by the golden section where they do not serve (Brent, Algorithms for Minimization without
 /// Derivatives, 1973, ch. 5).
 pub fn largest(mut f: impl FnMut(f64) -> f64, a: f64, b: f64) -> (f64, f64) {
-    let (mut a, mut b) = (a.min(b), a.max(b));
-    let least_step = WIDTH * (b - a);
+    let (a, b) = (a.min(b), a.max(b));
     let first = a + GOLDEN_PART * (b - a);
-    // The best three points, the best one first.
-    let mut best = [(first, f(first)); 3];
-    let (mut step, mut last_step) = (0.0_f64, 0.0_f64);
+    let first = (first, f(first));
+    brent(f, [a, b], [first; 3], 0.0)
+}
+
+/// The same where the function is known at a, b and at a place between them at which it is no smaller.
+pub fn between(f: impl FnMut(f64) -> f64, known: [(f64, f64); 3]) -> (f64, f64) {
+    let [low, middle, high] = known;
+    let (next, last) = if low.1 > high.1 {
+        (low, high)
+    } else {
+        (high, low)
+    };
+    let width = high.0 - low.0;
+    brent(f, [low.0, high.0], [middle, next, last], width)
+}
+
+/// From the best three points, the best one first, and the size of the step before last.
+fn brent(
+    mut f: impl FnMut(f64) -> f64,
+    [mut a, mut b]: [f64; 2],
+    mut best: [(f64, f64); 3],
+    mut last_step: f64,
+) -> (f64, f64) {
+    let least_step = WIDTH * (b - a);
+    let mut step = last_step;
     // Three times as many as golden sections alone take.
     for _ in 0..120 {
         let middle = 0.5 * (a + b);

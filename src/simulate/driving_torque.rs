@@ -78,19 +78,8 @@ impl Drive<'_> {
             let known = torque.is_finite().then_some(range);
             return known.ok_or_else(|| self.not_finite(0.0));
         }
-        let turn = TAU / self.speed.abs();
-        let reads = self.equation.loads().reads();
-        let repeats = !reads.has(Variable::T) && !reads.has(Variable::Theta);
-        let whole = repeats && self.end >= turn;
-        let span = if whole { turn } else { self.end };
-        if span > MOST_TURNS * turn {
-            return Err(NoRange::TooManyTurns(MOST_TURNS));
-        }
-        let times = if whole {
-            self.times_of_turn()
-        } else {
-            self.times(span)
-        };
+        let (times, whole) = self.places()?;
+        let span = if whole { self.turn() } else { self.end };
         let torques: Vec<f64> = times.iter().map(|t| self.torque(*t)).collect();
         if let Some(i) = torques.iter().position(|torque| !torque.is_finite()) {
             return Err(self.not_finite(times[i]));
@@ -112,6 +101,29 @@ impl Drive<'_> {
         })
     }
 
+    /// Time of a turn, s.
+    fn turn(&self) -> f64 {
+        TAU / self.speed.abs()
+    }
+
+    /// Times close enough to show all that geometry and loads make: of one turn, with one before it and one after it, if every turn
+    /// is the same and the run is longer; else of the run. And whether it is a whole turn.
+    pub fn places(&self) -> Result<(Vec<f64>, bool), NoRange> {
+        let turn = self.turn();
+        let reads = self.equation.loads().reads();
+        let repeats = !reads.has(Variable::T) && !reads.has(Variable::Theta);
+        let whole = repeats && self.end >= turn;
+        if !whole && self.end > MOST_TURNS * turn {
+            return Err(NoRange::TooManyTurns(MOST_TURNS));
+        }
+        let times = if whole {
+            self.times_of_turn()
+        } else {
+            self.times(self.end)
+        };
+        Ok((times, whole))
+    }
+
     /// Crank angles of a turn, close enough to show what the loads make.
     fn grid(&self) -> Vec<f64> {
         let smooth = self.equation.loads().are_linear() && self.maker.guide.is_none();
@@ -124,7 +136,9 @@ impl Drive<'_> {
         let mut angles = self.grid();
         angles.push(angles[1] + TAU);
         let time = |angle: &f64| (angle - self.start.rest) / self.speed;
-        angles.iter().map(time).collect()
+        let mut times: Vec<f64> = angles.iter().map(time).collect();
+        times.sort_by(f64::total_cmp);
+        times
     }
 
     /// Times of the angles of each turn, with the ends.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::guide_friction::Sliding;
 use crate::error::Error;
-use crate::mechanism::{CurveEquation, Equation, Reactions, Reactor};
+use crate::mechanism::{CurveEquation, Equation, Pose, Reactions, Reactor};
 use crate::numeric::angle::Angle;
 
 /// One output row, SI and radians.
@@ -127,18 +127,47 @@ impl RowMaker {
         }
     }
 
+    /// The joint forces of a free motion, or with `alpha` of a prescribed one, if they are asked for.
+    pub fn reactions(
+        &self,
+        t: f64,
+        angle: Angle,
+        omega: f64,
+        alpha: Option<f64>,
+    ) -> Option<Reactions> {
+        let pose = self.equation.linkage().pose(angle.rest);
+        let (alpha, friction) = self.acceleration(t, angle, omega, alpha);
+        self.forces(t, angle, &pose, [omega, alpha], friction)
+    }
+
+    /// θ̈, rad/s², and the friction on the slider, N.
+    fn acceleration(&self, t: f64, angle: Angle, omega: f64, alpha: Option<f64>) -> (f64, f64) {
+        match alpha {
+            Some(alpha) => (alpha, self.friction(t, angle, omega, alpha)),
+            None => self.forward(t, angle, omega),
+        }
+    }
+
+    fn forces(
+        &self,
+        t: f64,
+        angle: Angle,
+        pose: &Pose,
+        [omega, alpha]: [f64; 2],
+        friction: f64,
+    ) -> Option<Reactions> {
+        self.reactor.as_ref().map(|reactor| {
+            let mut load = self.equation.loads().value(t, angle, omega, pose);
+            load.force += friction;
+            reactor.reactions(pose, omega, alpha, &load)
+        })
+    }
+
     /// The row of a free motion, or with `alpha` of a prescribed one.
     pub fn row(&self, t: f64, angle: Angle, omega: f64, alpha: Option<f64>) -> Row {
         let pose = self.equation.linkage().pose(angle.rest);
-        let (alpha, friction) = match alpha {
-            Some(alpha) => (alpha, self.friction(t, angle, omega, alpha)),
-            None => self.forward(t, angle, omega),
-        };
-        let reactions = self.reactor.as_ref().map(|reactor| {
-            let mut load = self.equation.loads().value(t, angle, omega, &pose);
-            load.force += friction;
-            reactor.reactions(&pose, omega, alpha, &load)
-        });
+        let (alpha, friction) = self.acceleration(t, angle, omega, alpha);
+        let reactions = self.forces(t, angle, &pose, [omega, alpha], friction);
         let driving_torque = self.driving_torque.then(|| {
             let torque = self.equation.driving_torque(t, angle, omega, alpha);
             torque - friction * pose.dx

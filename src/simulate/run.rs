@@ -14,7 +14,6 @@ use crate::error::Error;
 use crate::mechanism::{Curve, CurveEquation, Equation, Limits, Reactor};
 use crate::plan::{self, Engine, Plan};
 use crate::scene::{Extent, MotionKind, Scene};
-use crate::trajectory::Trajectory;
 
 /// Simulates a scene and keeps its dense trajectory.
 ///
@@ -71,8 +70,7 @@ fn run(
     let mut run = run_keeping(kept, scene, options, rows)?;
     let summary = &run.summary;
     if options.reactions && summary.stopped.is_none() && summary.clearance.is_none() {
-        let period = run.trajectory.as_ref().and_then(Trajectory::period);
-        let peaks = joint_force_maxima::search(scene, summary, period, &|t| run.row(t));
+        let peaks = joint_force_maxima::search(scene, &run);
         if peaks.is_none() {
             run.summary.warnings.push(Warning::NoForceMaxima);
         }

@@ -18,6 +18,7 @@ mod one_turn;
 mod orbit;
 pub(in crate::engine) mod panel;
 pub(in crate::engine) mod piece;
+mod places;
 pub(in crate::engine) mod segment;
 mod time_sensitivity;
 mod turn_closure;

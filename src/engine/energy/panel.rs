@@ -249,6 +249,11 @@ impl Panel {
         x
     }
 
+    /// Time after the start, s.
+    pub(super) fn time(&self, x: f64) -> f64 {
+        self.slope.integral().value(x)
+    }
+
     /// Crank speed, rad/s.
     pub(super) fn speed(&self, x: f64) -> f64 {
         self.piece.stretch(x) / self.slope.value(x)
@@ -262,7 +267,7 @@ impl Panel {
     /// Time of an angle, and the speed there.
     pub(super) fn at(&self, theta: f64) -> (f64, f64) {
         let x = self.piece.variable(theta);
-        (self.slope.integral().value(x), self.speed(x))
+        (self.time(x), self.speed(x))
     }
 }
 

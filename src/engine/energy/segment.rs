@@ -94,7 +94,7 @@ impl Segment {
 
     /// Angle (turns of the panel, rest) and speed a time after the start of the leg.
     pub fn state(&self, after: f64) -> (Angle, f64) {
-        let index = self.begins.partition_point(|begin| *begin <= after).max(1) - 1;
+        let index = self.index_at(after);
         let panel = &self.panels[index];
         let (rest, speed) = panel.state(after - self.begins[index]);
         let turns = panel.turns;
@@ -149,8 +149,18 @@ impl Segment {
 
     /// The panel in which a time lies, and the time since its begin.
     pub fn panel_at(&self, after: f64) -> Option<(&Panel, f64)> {
-        let index = self.begins.partition_point(|begin| *begin <= after).max(1) - 1;
+        let index = self.index_at(after);
         Some((self.panels.get(index)?, after - self.begins[index]))
+    }
+
+    /// A panel and the time at which it begins.
+    pub fn panel(&self, index: usize) -> Option<(&Panel, f64)> {
+        Some((self.panels.get(index)?, self.begins[index]))
+    }
+
+    /// Number of the panel in which a time lies.
+    pub fn index_at(&self, after: f64) -> usize {
+        self.begins.partition_point(|begin| *begin <= after).max(1) - 1
     }
 
     /// Largest kinetic energy at the ends of panels, J.

@@ -1,14 +1,14 @@
 //! Largest joint forces of a run.
 //!
-//! The dense motion is looked at in rows between which the crank turns by a degree at most, then by golden section
-//! beside the largest of them.
+//! The dense motion is looked at in rows that are close enough to show what geometry, loads and motion make, then by
+//! Brent's method beside those at which a force may be largest.
 
-mod scan;
+mod rows;
 mod search;
+mod way;
 
 use serde::Serialize;
 
-use super::row::Row;
 use crate::mechanism::Reactions;
 pub(super) use search::{MOST_ROWS, search};
 
@@ -70,7 +70,7 @@ impl Peaks {
 
 /// Sizes of the forces, N, in the order of [`Peaks`].
 pub(super) fn sizes(forces: &Reactions) -> [f64; FORCES] {
-    let size = |[x, y]: [f64; 2]| x.hypot(y);
+    let size = |[x, y]: [f64; 2]| (x * x + y * y).sqrt();
     [
         size(forces.crank_bearing),
         size(forces.crank_pin),
@@ -78,8 +78,4 @@ pub(super) fn sizes(forces: &Reactions) -> [f64; FORCES] {
         forces.guide.abs(),
         size(forces.shaking),
     ]
-}
-
-fn of_row(row: &Row) -> [f64; FORCES] {
-    row.reactions.as_ref().map_or([f64::NAN; FORCES], sizes)
 }

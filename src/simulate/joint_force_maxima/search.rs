@@ -1,98 +1,87 @@
 //! The search for the largest forces of a finished run along its dense motion.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
-
-use super::super::result::Summary;
-use super::super::row::Row;
-use super::scan::{Place, Scan, Track};
-use super::{Peak, Peaks, of_row};
-use crate::mechanism::Linkage;
+use super::super::simulation::Simulation;
+use super::rows::{Rows, Top};
+use super::way::Way;
+use super::{FORCES, Peak, Peaks};
 use crate::numeric::maximum;
 use crate::scene::Scene;
 
 /// Most rows of a search, and most steps that are kept for it.
 pub(in crate::simulate) const MOST_ROWS: usize = 400_000;
-/// Least rows of a search.
-const LEAST_ROWS: f64 = 720.0;
-/// Part of the distance of two rows within which golden section leaves the place of a maximum.
+/// Rows are close enough where half of them differ by this part in the largest values.
+const PART: f64 = 0.02;
+/// Most tops of a force that are looked at closely.
+const MOST_TOPS: usize = 8;
+/// Part of the distance of two rows within which the place of a maximum is known.
 const LEFT: f64 = 1e-9;
 
-/// The largest forces of a finished run, whose rows are known at any time (s) and repeat after a `period` (s), if they do;
-/// none where the run is too long to be looked through, or a force has no value.
-pub(in crate::simulate) fn search(
-    scene: &Scene,
-    summary: &Summary,
-    period: Option<f64>,
-    row: &dyn Fn(f64) -> Option<Row>,
-) -> Option<Peaks> {
-    let end = period.map_or(summary.last.t_s, |period| period.min(summary.last.t_s));
-    let mut step = first_step(scene, summary);
-    let coarse = loop {
-        let rows = (end / step).ceil();
-        if rows > MOST_ROWS as f64 {
+/// The largest forces of a finished run; none where it is too long to be looked through, or a force has no value.
+pub(in crate::simulate) fn search(scene: &Scene, run: &Simulation) -> Option<Peaks> {
+    let mut way = Way::of(scene, run, MOST_ROWS)?;
+    loop {
+        let sizes = way.places.iter().map(|at| (way.sizes)(*at));
+        let sizes = sizes.collect::<Option<Vec<_>>>()?;
+        if !sizes.as_flattened().iter().all(|size| size.is_finite()) {
             return None;
         }
-        let mut scan = Scan::default();
-        for index in 0..=rows as u64 {
-            scan.take(&row((index as f64 * step).min(end))?);
-        }
-        if !scan.all.finite {
-            return None;
-        }
-        if scan.is_resolved() {
-            break scan.all;
-        }
-        step *= 0.5;
-    };
-    Some(refined(&coarse, step, end, row))
-}
-
-/// Time between the rows at first, s: the crank turns by a degree at most, and by less where the run has narrow peaks.
-fn first_step(scene: &Scene, summary: &Summary) -> f64 {
-    let fastest = summary.omega_min.abs().max(summary.omega_max.abs());
-    let way = fastest * summary.last.t_s;
-    let narrow = narrowest(&Linkage::new(&scene.geometry), scene.motion.angle, way);
-    let angle = (PI / 180.0).min(0.1 * narrow);
-    summary.last.t_s / (way / angle).max(LEAST_ROWS)
-}
-
-/// Least width in the crank angle, rad, of the peaks on a way (rad) from an angle. Rods that are hardly long enough make
-/// some of the width sqrt((l − |e ± r|)/r) where the crank stands normal to the guide; away from there nothing is narrower
-/// than the distance from it.
-fn narrowest(linkage: &Linkage, angle: f64, way: f64) -> f64 {
-    let Linkage { r, l, e, .. } = *linkage;
-    let width = |side: f64| {
-        let apart = (angle - side * FRAC_PI_2).rem_euclid(TAU);
-        let distance = apart.min(TAU - apart) - way;
-        ((l - (e + side * r).abs()) / r).abs().sqrt().max(distance)
-    };
-    width(1.0).min(width(-1.0))
-}
-
-/// Each force at its top between the rows beside its largest row, and beside the row whose parabola is highest.
-fn refined(coarse: &Track, step: f64, end: f64, row: &dyn Fn(f64) -> Option<Row>) -> Peaks {
-    let size = |k: usize, t: f64| row(t).map_or(f64::NEG_INFINITY, |row| of_row(&row)[k]);
-    Peaks::new(std::array::from_fn(|k| {
-        let largest = coarse.largest[k];
-        let highest = coarse.highest[k];
-        let top = |place: &Place| {
-            let (from, to) = ((place.t - step).max(0.0), (place.t + step).min(end));
-            maximum::largest(|t| size(k, t), from, to)
+        let rows = Rows {
+            places: &way.places,
+            sizes: &sizes,
         };
-        let mut best = (largest.t, largest.value);
-        for place in [Some(largest), (highest.t != largest.t).then_some(highest)] {
-            let found = place.as_ref().map_or(best, top);
-            if found.1 > best.1 {
-                best = found;
+        let is_resolved = |k| {
+            let [all, half] = [1, 2].map(|stride| rows.highest(k, stride));
+            (all - half).abs() <= PART * all
+        };
+        if (0..FORCES).all(is_resolved) {
+            return Some(Peaks::new(std::array::from_fn(|k| {
+                // A force is no larger than the parabola's top by more than that is above its row.
+                let surely = rows.tops(k, 1).map(|top| top.row()).fold(0.0, f64::max);
+                let may = |top: &Top| 2.0 * top.value - top.row() >= surely;
+                let mut tops: Vec<_> = rows.tops(k, 1).filter(may).collect();
+                tops.sort_by(|a, b| b.value.total_cmp(&a.value));
+                tops.truncate(MOST_TOPS);
+                peak(&way, run, k, &tops)
+            })));
+        }
+        if 2 * way.places.len() > MOST_ROWS {
+            return None;
+        }
+        way.places = halved(&way.places);
+    }
+}
+
+/// Places with one more between each two.
+fn halved(places: &[f64]) -> Vec<f64> {
+    let between = places.windows(2);
+    let between = between.flat_map(|pair| [pair[0], 0.5 * (pair[0] + pair[1])]);
+    between.chain(places.last().copied()).collect()
+}
+
+/// A force where it is largest beside some tops.
+fn peak(way: &Way, run: &Simulation, k: usize, tops: &[Top]) -> Peak {
+    let size = |at: f64| (way.sizes)(at).map_or(f64::NEG_INFINITY, |sizes| sizes[k]);
+    let mut best = ((0.0, f64::NEG_INFINITY), 0.0);
+    for top in tops {
+        let [(from, _), here, (to, _)] = top.beside;
+        let between = match from < here.0 && here.0 < to {
+            true => maximum::between(size, top.beside),
+            false => maximum::largest(size, from, to),
+        };
+        for found in [here, between] {
+            if found.1 > best.0.1 {
+                best = (found, to - from);
             }
         }
-        let (t, value) = best;
-        let beside = [-LEFT, LEFT].map(|left| size(k, (t + left * step).clamp(0.0, end)));
-        Peak {
-            value_n: value,
-            t_s: t,
-            theta_rad: row(t).map_or(largest.theta, |row| row.theta),
-            added_n: (beside[0].max(beside[1]) - value).max(0.0),
-        }
-    }))
+    }
+    let ((at, value), width) = best;
+    let (first, last) = (way.places[0], way.places[way.places.len() - 1]);
+    let beside = [-LEFT, LEFT].map(|left| size((at + left * width).clamp(first, last)));
+    let t = (way.time)(at).clamp(0.0, run.summary.last.t_s);
+    Peak {
+        value_n: value,
+        t_s: t,
+        theta_rad: run.at(t).map_or(0.0, |(theta, _)| theta),
+        added_n: (beside[0].max(beside[1]) - value).max(0.0),
+    }
 }

@@ -1,0 +1,65 @@
+//! A motion over the crank angle as a list of places: states without a search for their times.
+
+use std::f64::consts::PI;
+
+use super::Orbit;
+use super::panel::Panel;
+use crate::numeric::angle::Angle;
+
+impl Orbit {
+    /// Places at which the motion is resolved until a time, s: each is the number of a panel and how far its variable has
+    /// come: those of the points of the series. A turn that repeats has one more before it and after it. None if not all
+    /// states lie on one leg.
+    pub fn places(&self, until: f64) -> Option<Vec<f64>> {
+        let leg = &self.forward;
+        let covers = until <= leg.duration.0 || self.rotates() || self.turns_back();
+        if !covers || self.backward.is_some() || self.later.is_some() {
+            return None;
+        }
+        let whole = self.rotates() && until >= leg.duration.0;
+        let last = match leg.panel_at(until) {
+            Some((panel, after)) if !whole && after < panel.duration.0 => {
+                leg.index_at(until) as f64 + 0.5 * (1.0 + panel.position(after))
+            }
+            _ => leg.len() as f64,
+        };
+        let of_panel = |index: usize| {
+            let count = leg.panel(index).map_or(0, |(panel, _)| panel.rule.degree());
+            let x = move |j: usize| -(PI * j as f64 / count as f64).cos();
+            (0..count).map(move |j| index as f64 + 0.5 * (1.0 + x(j)))
+        };
+        let inside = (0..leg.len()).flat_map(of_panel);
+        let mut places: Vec<f64> = inside.take_while(|at| *at < last).chain([last]).collect();
+        if let (true, &[_, second, .., before, last]) = (whole, &places[..]) {
+            places.insert(0, before - last);
+            places.push(second + last);
+        }
+        Some(places)
+    }
+
+    /// Angle and speed (rad/s) at a place.
+    pub fn state_at_place(&self, at: f64) -> Option<(Angle, f64)> {
+        let (panel, x, _) = self.at_place(at)?;
+        let angle = Angle::new(self.start.turns + panel.turns, panel.piece.angle(x));
+        Some((angle, panel.speed(x)))
+    }
+
+    /// Time of a place, s.
+    pub fn time_of_place(&self, at: f64) -> Option<f64> {
+        let (panel, x, begin) = self.at_place(at)?;
+        Some(begin + panel.time(x))
+    }
+
+    /// The panel of a place, the variable there, and the time at which the panel begins.
+    fn at_place(&self, at: f64) -> Option<(&Panel, f64, f64)> {
+        let count = self.forward.len();
+        let at = match self.rotates() {
+            true => at.rem_euclid(count as f64),
+            false => at,
+        };
+        let index = (at as usize).min(count.saturating_sub(1));
+        let (panel, begin) = self.forward.panel(index)?;
+        let x = (2.0 * (at - index as f64) - 1.0).clamp(-1.0, 1.0);
+        Some((panel, x, begin))
+    }
+}
