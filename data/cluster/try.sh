@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Tries the recipes on this machine, as root: a job array whose first part is stopped and goes on, GNU parallel, and that both give
-# the designs of one sweep to the byte.
+# the designs of one sweep to the byte. Exit status 77: there is no Slurm to be had.
 #
 #   data/cluster/try.sh target/release/slider-crank
 set -euo pipefail
@@ -10,7 +10,7 @@ export SLIDER_CRANK="$(realpath "${1:?the program}")"
 folder="$(mktemp -d)"
 chmod 755 "$folder" # munge asks for it
 trap '"$here/local-slurm.sh" stop "$folder/slurm"; sleep 1; rm -rf "$folder"' EXIT
-"$here/local-slurm.sh" start "$folder/slurm"
+"$here/local-slurm.sh" start "$folder/slurm" || exit 77
 export SLURM_CONF="$folder/slurm/slurm.conf"
 cd "$folder"
 

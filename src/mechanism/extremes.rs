@@ -88,8 +88,14 @@ impl Linkage {
             squared(0).min(squared(1)).min(squared(2)).sqrt()
         };
         let end = SEAM + TAU;
+        // A long rod keeps them all far off.
+        let is_far = PART * widths[0].min(widths[1]) >= step;
         let next = |theta: &f64| {
-            let next = theta + step.min(PART * distance(*theta));
+            let step = match is_far {
+                true => step,
+                false => step.min(PART * distance(*theta)),
+            };
+            let next = theta + step;
             (*theta < end).then_some(next.min(end))
         };
         std::iter::successors(Some(SEAM), next).collect()

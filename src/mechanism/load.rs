@@ -192,6 +192,9 @@ impl Loads {
 
     /// Torque and force of the loads that depend on time (s) alone.
     pub fn of_time(&self, t: f64) -> LoadValue {
+        if self.timed.is_empty() {
+            return LoadValue::default();
+        }
         let now = Instant {
             t,
             ..Instant::default()

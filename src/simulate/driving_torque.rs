@@ -88,11 +88,13 @@ impl Drive<'_> {
         let ends = usize::from(whole);
         let looked_at = ends..times.len() - ends;
         let largest = |sign: f64| {
-            let value = |i: &usize| sign * torques[*i];
-            let best = looked_at
-                .clone()
-                .max_by(|a, b| value(a).total_cmp(&value(b)));
-            self.largest_beside(best.unwrap_or(0), &times, sign)
+            let mut best = ends;
+            for i in looked_at.clone() {
+                if sign * torques[i] > sign * torques[best] {
+                    best = i;
+                }
+            }
+            self.largest_beside(best, &times, &torques, sign)
         };
         Ok(TorqueRange {
             min_nm: -largest(-1.0),
@@ -157,14 +159,16 @@ impl Drive<'_> {
         times
     }
 
-    /// Largest sign·torque between the neighbours of a time.
-    fn largest_beside(&self, best: usize, times: &[f64], sign: f64) -> f64 {
-        let (from, to) = (
-            times[best.saturating_sub(1)],
-            times[(best + 1).min(times.len() - 1)],
-        );
-        let (_, between) = maximum::largest(|t| sign * self.torque(t), from, to);
-        between.max(sign * self.torque(times[best]))
+    /// Largest sign·torque between the neighbours of a time at which it is the largest of all.
+    fn largest_beside(&self, best: usize, times: &[f64], torques: &[f64], sign: f64) -> f64 {
+        let torque = |t: f64| sign * self.torque(t);
+        let known = |i: usize| (times[i], sign * torques[i]);
+        let (before, after) = (best.saturating_sub(1), (best + 1).min(times.len() - 1));
+        let (_, between) = match before < best && best < after {
+            true => maximum::between(torque, [before, best, after].map(known)),
+            false => maximum::largest(torque, times[before], times[after]),
+        };
+        between.max(known(best).1)
     }
 
     /// Mean over time. Over whole turns inertia and gravity do no work.

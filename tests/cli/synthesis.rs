@@ -55,8 +55,10 @@ fn every_choice_has_the_wanted_stroke_and_time_ratio() {
             let lengths = lengths(&found);
             let [stroke, time_ratio] = turn(lengths);
             let want: f64 = ratio.parse().expect("a number");
+            // Long rods leave their rounding in the difference that the stroke is.
+            let error = 1e-15_f64.max(lengths[1] * f64::EPSILON);
             assert!(
-                (stroke - 0.09).abs() < 1e-15,
+                (stroke - 0.09).abs() < error,
                 "{ratio} {choice:?}: {stroke}"
             );
             assert!(
