@@ -3,7 +3,7 @@
 /// (3 − √5)/2, the smaller part of the golden section.
 const GOLDEN_PART: f64 = 0.381_966_011_250_105_1;
 /// Width that is left of the interval, as a part of it: about where a smooth top differs by rounding alone.
-const WIDTH: f64 = 1.0 / (1u32 << 26) as f64;
+const WIDTH: f64 = 1.0 / (1u32 << 30) as f64;
 
 /// Where between a and b a function with one top is largest, and its value there: by parabolas through three
 /// points, and by the golden section where they do not serve (Brent, Algorithms for Minimization without
