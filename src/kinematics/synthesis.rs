@@ -122,13 +122,15 @@ fn lengths(half: f64, ratio: f64, choice: Choice) -> Result<[f64; 3], Error> {
     };
     let (crank, rod) = (half * c / cos, half * s / sin);
     let offset = half * (s - sin) * (s + sin) / (sin * cos);
-    Ok(match choice {
-        // As it was given, to the last digit.
-        Choice::Crank(crank) => [crank, rod, offset],
-        Choice::Rod(rod) => [crank, rod, offset],
-        Choice::Offset(offset) => [crank, rod, offset],
-        Choice::BestTransmission | Choice::RodRatio(_) => [crank, rod, offset],
-    })
+    let mut lengths = [crank, rod, offset];
+    // What was given stays so to the last digit.
+    match choice {
+        Choice::Crank(crank) => lengths[0] = crank,
+        Choice::Rod(rod) => lengths[1] = rod,
+        Choice::Offset(offset) => lengths[2] = offset,
+        Choice::BestTransmission | Choice::RodRatio(_) => {}
+    }
+    Ok(lengths)
 }
 
 /// The crank of a slider-crank without offset is half the stroke; any longer rod will do.

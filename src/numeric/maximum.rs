@@ -15,7 +15,7 @@ pub fn largest(mut f: impl FnMut(f64) -> f64, a: f64, b: f64) -> (f64, f64) {
     brent(f, [a, b], [first; 3], 0.0)
 }
 
-/// The same where the function is known at a, b and at a place between them at which it is no smaller.
+/// As [`largest`], of a function that is known at three places in order and no smaller at the middle one.
 pub fn between(f: impl FnMut(f64) -> f64, known: [(f64, f64); 3]) -> (f64, f64) {
     let [low, middle, high] = known;
     let (next, last) = if low.1 > high.1 {

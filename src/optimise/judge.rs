@@ -1,6 +1,7 @@
 //! How good a design is.
 
 use std::cmp::Ordering;
+use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicU64, Ordering as Memory};
 
 use super::{AGREEMENT, Asked, GAIN};
@@ -144,7 +145,7 @@ impl<'a> Judge<'a> {
         one.aim.map_or(worst, |aim| aim / self.scale.goal)
     }
 
-    /// Scaled distance from a limit, positive on the right side; that of the worst for a design that has none.
+    /// Scaled distance from a limit, positive on the right side; a whole spread on the wrong one for a design without figures.
     pub fn margin(&self, one: &Judged, subject: usize) -> f64 {
         let margin = one.margins.get(subject).copied();
         margin.map_or(-1.0, |margin| margin / self.scale.subjects[subject])
@@ -164,7 +165,7 @@ impl<'a> Judge<'a> {
     }
 
     /// The difference of the goal below which designs are not told apart: the error of the motion, relative to its fastest
-    /// speed, as that of the goal; at least [`GAIN`] of the spread.
+    /// speed and its way, as that of the goal; at least [`GAIN`] of the spread.
     pub fn resolution(&self, one: &Judged) -> f64 {
         let aim = one.aim.map_or(0.0, f64::abs);
         let least = GAIN * self.scale.goal;
@@ -174,8 +175,10 @@ impl<'a> Judge<'a> {
         let vouched = self.sweep.with_estimates();
         let design = vouched.design_of(0, self.values(&one.at));
         let motion = design.motion.as_ref().and_then(|run| {
+            let error = run.error_estimate?;
             let fastest = run.omega_max.abs().max(run.omega_min.abs());
-            Some(run.error_estimate?.omega_rad_per_s / fastest)
+            let way = run.revolutions.abs() * TAU;
+            Some((error.omega_rad_per_s / fastest).max(error.theta_rad / way))
         });
         let steady = design.steady.as_ref();
         let steady = steady.map(|cycle| cycle.fluctuation.error / cycle.fluctuation.value);

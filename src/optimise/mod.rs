@@ -207,7 +207,9 @@ fn bounds(varied: &[Varied]) -> Result<Vec<[f64; 2]>, Error> {
 fn report(judge: &Judge, bounds: &[[f64; 2]], found: search::Found) -> Optimum {
     let (asked, varied) = (judge.asked, judge.sweep.varied());
     let best = &found.best;
-    let design = judge.sweep.design_of(0, judge.values(&best.at));
+    // With what there is to say of the errors of its motion.
+    let vouched = judge.sweep.with_estimates();
+    let design = vouched.design_of(0, judge.values(&best.at));
     let number = |one: &Varied, at: f64| one.quantile(at).number.unwrap_or(f64::NAN);
     let numbers = |at: &[f64]| {
         let pairs = varied.iter().zip(at);

@@ -31,10 +31,12 @@ pub(super) struct Found {
     pub best: Judged,
     pub starts: Vec<Searched>,
     pub proof: Proof,
-    /// Of the goal.
+    /// Difference of the goal below which designs are not told apart.
     pub resolution: f64,
 }
 
+/// Explores the box, searches from the best of its designs, and sweeps round the end.
+///
 /// # Errors
 /// [`Error::Refused`] if no design has the figures; [`Error::Interrupted`] before there is any.
 pub(super) fn run(judge: &mut Judge, seed: u64) -> Result<Found, Error> {
@@ -87,7 +89,7 @@ fn explore(judge: &Judge) -> Result<Vec<Judged>, Error> {
     ))
 }
 
-/// Those of a sample, sorted, that have no better one within the critical distance of multi-level single linkage.
+/// The designs of a sorted sample that have no better one within the critical distance of multi-level single linkage.
 fn starts(sorted: &[Judged]) -> Vec<Judged> {
     let Some(keys) = sorted.first().map(|one| one.at.len() as f64) else {
         return Vec::new();

@@ -121,6 +121,11 @@ fn no_row_is_above_the_peaks() {
         ("energy", free.clone(), Method::Auto),
         ("angle", free.clone().torque(turning.clone()), Method::Angle),
         ("time", free.clone().torque(beating.clone()), Method::Time),
+        (
+            "angle, loads of time",
+            free.clone().torque(beating.clone()).force(beating.clone()),
+            Method::Angle,
+        ),
         ("dop853", free.clone().torque(beating), Method::Dop853),
         ("rocker", rocking, Method::Auto),
     ] {

@@ -7,7 +7,7 @@ use super::super::result::Summary;
 use super::super::simulation::Simulation;
 use super::{FORCES, sizes};
 use crate::mechanism::Linkage;
-use crate::scene::Scene;
+use crate::scene::{Scene, Variable};
 
 /// Least rows over time.
 const LEAST_ROWS: f64 = 720.0;
@@ -56,10 +56,12 @@ fn over_orbit(run: &Simulation) -> Option<Way<'_>> {
     let orbit = run.trajectory.as_ref()?.as_orbit()?;
     let end = run.summary.last.t_s;
     let maker = run.dense.maker.as_ref()?;
+    // The time of a place takes longer than all else.
+    let timed = maker.equation.loads().reads().has(Variable::T);
     let reactions = move |at: f64| {
         let (angle, speed) = orbit.state_at_place(at)?;
-        // No load of such a motion reads the time.
-        maker.reactions(0.0, angle, speed, None)
+        let t = if timed { orbit.time_of_place(at)? } else { 0.0 };
+        maker.reactions(t, angle, speed, None)
     };
     Some(Way {
         places: orbit.places(end)?,
