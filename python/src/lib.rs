@@ -3,6 +3,7 @@
 
 mod call;
 mod columns;
+mod design;
 mod dynamics;
 mod equation;
 mod errors;
@@ -15,6 +16,8 @@ mod turn;
 /// What the package calls.
 #[pyo3::pymodule]
 mod _native {
+    #[pymodule_export]
+    use crate::design::{optimise, synthesis};
     #[pymodule_export]
     use crate::dynamics::{Run, simulate, steady_state};
     #[pymodule_export]

@@ -1,7 +1,5 @@
 //! Key figures of many designs.
 
-use std::fmt::Display;
-use std::str::FromStr;
 use std::time::Instant;
 
 use pyo3::prelude::*;
@@ -14,7 +12,8 @@ use slider_crank::sweep::{Figure, Goal, LatinHypercube, Sweep, SweepOptions};
 
 use crate::call::{self, Call};
 use crate::columns::arrays;
-use crate::errors::{Refused, raised, refused};
+use crate::design::parsed;
+use crate::errors::{raised, refused};
 use crate::scene::{Scene, method_of};
 
 /// A finished sweep.
@@ -44,13 +43,6 @@ pub struct Asked {
     estimate: bool,
     method: String,
     max_evaluations: Option<u64>,
-}
-
-/// Each text as what it says.
-fn parsed<T: FromStr<Err: Display>>(texts: &[String]) -> PyResult<Vec<T>> {
-    let each = texts.iter().map(|text| text.parse());
-    each.collect::<Result<_, _>>()
-        .map_err(|error: T::Err| Refused::new_err(error.to_string()))
 }
 
 impl Asked {

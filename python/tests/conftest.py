@@ -18,6 +18,14 @@ def _found():
     return next((place for place in places if place.exists()), None)
 
 
+def binary():
+    """The program."""
+    found = _found()
+    if found is None:
+        pytest.skip("the program is not built: cargo build --release")
+    return found
+
+
 @pytest.fixture
 def data():
     """Example scenes and records."""
@@ -27,13 +35,11 @@ def data():
 @pytest.fixture
 def program(tmp_path):
     """Runs the program: its rows by columns, and its summary."""
-    binary = _found()
-    if binary is None:
-        pytest.skip("the program is not built: cargo build --release")
+    found = binary()
 
     def run(*arguments):
         rows = tmp_path / "rows.csv"
-        command = [binary, *map(str, arguments), "--out", rows, "--json"]
+        command = [found, *map(str, arguments), "--out", rows, "--json"]
         done = subprocess.run(command, capture_output=True, text=True)
         assert done.returncode in (0, 1), done.stderr
         with rows.open(newline="") as file:

@@ -115,7 +115,7 @@ fn lengths(half: f64, ratio: f64, choice: Choice) -> Result<[f64; 3], Error> {
             [s, other(s)]
         }
         Choice::RodRatio(ratio) => {
-            check("rod ratio", ratio, 1.0, 1.0 / (tan * tan))?;
+            check(RATIO, ratio, 1.0, 1.0 / (tan * tan))?;
             let hypotenuse = (ratio * sin).hypot(cos);
             [ratio * sin / hypotenuse, cos / hypotenuse]
         }
@@ -153,11 +153,15 @@ fn in_line(half: f64, choice: Choice) -> Result<[f64; 3], Error> {
     }
 }
 
+/// The name of the only choice that is no length.
+const RATIO: &str = "rod ratio";
+
 fn out_of_range(name: &str, value: f64, low: f64, high: f64) -> Error {
+    let unit = if name == RATIO { "" } else { " m" };
     Error::refused(
         format!(
-            "no slider-crank of this stroke and time ratio whose crank turns fully has the {name} {value}"
+            "no slider-crank of this stroke and time ratio whose crank turns fully has the {name} {value}{unit}"
         ),
-        format!("give one above {low} and below {high}"),
+        format!("give one above {low}{unit} and below {high}{unit}"),
     )
 }

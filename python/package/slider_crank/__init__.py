@@ -20,6 +20,7 @@ Errors are :class:`Error`, a ``ValueError``, with value, place and cure: :class:
 """
 
 from ._native import Error, Refused, SceneError
+from .design import Design, optimise, synthesis
 from .designs import Designs, sweep
 from .dynamics import IncompleteWarning, Simulation, simulate, steady_state
 from .equation import Equation, Terms
@@ -29,6 +30,7 @@ from .scene import Load, Scene
 from .turn import kinematics, statics
 
 __all__ = [
+    "Design",
     "Designs",
     "Equation",
     "Error",
@@ -45,8 +47,10 @@ __all__ = [
     "identify",
     "inverse",
     "kinematics",
+    "optimise",
     "simulate",
     "statics",
     "steady_state",
     "sweep",
+    "synthesis",
 ]

@@ -59,9 +59,9 @@ def sweep(
     """
     asked = {
         "vary": [f"{key}={_values(values)}" for key, values in (vary or {}).items()],
-        "figures": _names(figures),
-        "least": _names(least),
-        "most": _names(most),
+        "figures": names(figures),
+        "least": names(least),
+        "most": names(most),
         "sample": sample,
         "seed": seed,
         "percentiles": percentiles,
@@ -81,7 +81,8 @@ def sweep(
     return Designs(columns, summary, native)
 
 
-def _names(given: Sequence[str] | str) -> list[str]:
+def names(given: Sequence[str] | str) -> list[str]:
+    """One name or several as a list."""
     return [given] if isinstance(given, str) else list(given)
 
 

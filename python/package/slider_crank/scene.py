@@ -131,6 +131,11 @@ class Scene:
         """What the scene is, in a line."""
         return self._native.title
 
+    @property
+    def folder(self) -> Path:
+        """Where the tables that the scene names are looked for."""
+        return self._file.parent
+
     def replace(self, values: Mapping[str, Any]) -> Scene:
         """The scene with other values, by the keys of sweeps: ``{"geometry.rod": "155 mm", "torque[2].value": "5 N m"}``."""
         tables = tomllib.loads(self.text)
