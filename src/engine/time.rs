@@ -35,6 +35,8 @@ pub struct Settings<'a> {
     pub limit: WorkLimit<'a>,
     /// Unit of work, J, in which its error is measured.
     pub work_unit: f64,
+    /// First steps of a run from the same start, from which this one sets out.
+    pub guide: &'a [Step],
 }
 
 impl Settings<'_> {

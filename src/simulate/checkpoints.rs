@@ -8,6 +8,9 @@ use crate::numeric::angle::Angle;
 /// Most states that are kept; then every other one goes.
 const MOST: usize = 128;
 
+/// First steps that are kept whole: 1 MB.
+const STEPS_KEPT: usize = 4096;
+
 /// Ends of steps spread over a run.
 #[derive(Clone, Debug)]
 pub(super) struct Checkpoints {
@@ -15,6 +18,7 @@ pub(super) struct Checkpoints {
     /// One of so many steps is kept.
     stride: u64,
     steps: u64,
+    first: Vec<Step>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -29,14 +33,18 @@ impl Default for Checkpoints {
             kept: Vec::with_capacity(MOST),
             stride: 1,
             steps: 0,
+            first: Vec::new(),
         }
     }
 }
 
 impl Checkpoints {
-    /// Takes the end of a step.
+    /// Takes the end of a step, and the whole step if it is one of the first.
     pub fn pass(&mut self, step: &Step) {
         self.steps += 1;
+        if self.first.len() < STEPS_KEPT {
+            self.first.push(*step);
+        }
         if !self.steps.is_multiple_of(self.stride) {
             return;
         }
@@ -54,6 +62,11 @@ impl Checkpoints {
                 node: step.end,
             });
         }
+    }
+
+    /// The first steps.
+    pub fn first(&self) -> &[Step] {
+        &self.first
     }
 
     /// For a second run.

@@ -78,6 +78,7 @@ impl RunSetup<'_> {
             way: self.extent.angle().unwrap_or(f64::INFINITY),
             limit: self.options.limit(),
             work_unit: if unit > 0.0 { unit } else { 1.0 },
+            guide: &[],
         }
     }
 }

@@ -11,8 +11,8 @@ use std::f64::consts::PI;
 
 use nalgebra::Matrix3;
 
-use crate::engine::Motion;
 use crate::engine::step::Step;
+use crate::engine::{Batch, Motion};
 
 /// Nodes and weights of Gauss's rule with three points on [0, 1] (Abramowitz and Stegun, 25.4.30).
 const NODES: usize = 3;
@@ -22,12 +22,12 @@ const RULE: [(f64, f64); NODES] = [
     (0.887_298_334_620_741_7, 5.0 / 18.0),
 ];
 
-/// Changes from which slopes of the acceleration are taken: of the angle, rad, of the speed, in parts of itself,
-/// and of the time, in parts of the step. The angle changes by no more than in the step, next to a limit the slope may be
-/// steep on a way that short, but enough to stand out from rounding.
-const CHANGE: f64 = 1e-4;
+/// Changes from which slopes of the acceleration are taken, about the square root of a rounding: of the angle, rad, of the
+/// speed, in parts of itself, and of the time, in parts of the step. The angle changes by no more than in the step, next to a limit
+/// the slope may be steep on a way that short, but enough to stand out from rounding.
+const CHANGE: f64 = 1e-7;
 const LEAST_CHANGE: f64 = 1e-9;
-const LATER: f64 = 1e-2;
+const LATER: f64 = 1e-5;
 
 /// On a way this short, rad, the motion a little later is no guide: angle and speed are rounded.
 const SHORTEST: f64 = 1e-11;
@@ -57,26 +57,37 @@ impl Slopes {
     pub fn of(motion: &dyn Motion, step: &Step) -> Slopes {
         let (start, end, h) = (&step.start, &step.end, step.length());
         let aside = (end.theta - start.theta).abs().clamp(LEAST_CHANGE, CHANGE);
-        let at = |t: f64, theta: f64, speed: f64| motion.acceleration(t, step.angle(theta), speed);
-        let mut slopes = Slopes {
-            by_angle: [0.0; NODES],
-            by_speed: [0.0; NODES],
-            by_time: [0.0; NODES],
+        let timed = motion.depends_on_time();
+        let later = LATER * h;
+        let mut faster = [0.0; NODES];
+        // The state at each node, and with another angle, speed and time.
+        let mut beside = Batch {
+            turns: step.turns,
+            ..Batch::default()
         };
         for (i, (part, _)) in RULE.into_iter().enumerate() {
             let t = start.t + part * h;
             let (theta, speed) = step.at(t);
-            let faster = CHANGE * speed.abs().max(start.omega.abs()).max(1.0);
-            let slope = |change: f64, changed: &dyn Fn(f64) -> f64| {
-                (changed(0.5 * change) - changed(-0.5 * change)) / change
-            };
-            slopes.by_angle[i] = slope(aside, &|more| at(t, theta + more, speed));
-            slopes.by_speed[i] = slope(faster, &|more| at(t, theta, speed + more));
-            if motion.depends_on_time() {
-                slopes.by_time[i] = slope(LATER * h, &|more| at(t + more, theta, speed));
+            faster[i] = CHANGE * speed.abs().max(start.omega.abs()).max(1.0);
+            for j in 0..4 {
+                let at = 4 * i + j;
+                (beside.t[at], beside.theta[at], beside.omega[at]) = (t, theta, speed);
+            }
+            beside.theta[4 * i + 1] += aside;
+            beside.omega[4 * i + 2] += faster[i];
+            beside.t[4 * i + 3] += later;
+            if timed {
+                beside.of_time[4 * i..4 * i + 3].fill(motion.of_time(t));
+                beside.of_time[4 * i + 3] = motion.of_time(t + later);
             }
         }
-        slopes
+        motion.fill(&mut beside);
+        let gain = |i: usize, j: usize| beside.alpha[4 * i + j] - beside.alpha[4 * i];
+        Slopes {
+            by_angle: from_fn(|i| gain(i, 1) / aside),
+            by_speed: from_fn(|i| gain(i, 2) / faster[i]),
+            by_time: from_fn(|i| gain(i, 3) / later),
+        }
     }
 
     /// Mean slope by the angle, 1/s².
@@ -224,6 +235,7 @@ mod tests {
             way: f64::INFINITY,
             limit: WorkLimit::NONE,
             work_unit: 1.0,
+            guide: &[],
         };
         let mut steps = Vec::new();
         time::run(&Counted::new(motion), start, &settings, &mut |step| {

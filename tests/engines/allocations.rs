@@ -45,6 +45,7 @@ fn steps_take_no_memory() {
             way: f64::INFINITY,
             limit: WorkLimit::NONE,
             work_unit: 1.0,
+            guide: &[],
         };
         let start = Start {
             t: 0.0,

@@ -181,6 +181,7 @@ fn settings(tolerance: f64, t_end: f64) -> Settings<'static> {
             stop: None,
         },
         work_unit: 1.0,
+        guide: &[],
     }
 }
 

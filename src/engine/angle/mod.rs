@@ -13,6 +13,7 @@
 mod errors;
 mod fixed_point;
 mod forces;
+mod guide;
 mod newton;
 mod one_turn;
 mod panel;
@@ -40,6 +41,7 @@ use crate::numeric::chebyshev::Values;
 use crate::numeric::enclosure::{Detail, Reach};
 pub use errors::Errors;
 pub use fixed_point::{CycleMap, FixedPoint, NoCycle, fixed_point};
+pub use guide::Guide;
 pub use one_turn::{Cycle, Turns};
 use stepper::{Done, PanelStepper};
 pub use table::{Switch, Table};
@@ -153,12 +155,14 @@ pub struct Short {
 }
 
 /// How fine the panels are.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Resolution<'a> {
     /// Series end where their coefficients have decayed to this.
     pub tail: f64,
     /// Panels are cut unevenly once more from the start, which makes another discretization to compare with.
     pub other: bool,
+    /// The run that is compared, if it is known.
+    pub guide: Option<Guide<'a>>,
     /// On evaluations of the loads and positions in tables.
     pub limit: WorkLimit<'a>,
 }

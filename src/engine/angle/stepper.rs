@@ -4,8 +4,8 @@ use super::super::energy::NotApplicable;
 use super::super::energy::error_bound::off_by_place;
 use super::super::energy::panel::Panel;
 use super::super::energy::piece::Piece;
-use super::super::energy::segment::Segment;
 use super::errors::{Errors, uncertain};
+use super::guide::Guide;
 use super::panel::{Fineness, Station};
 use super::refine::cut;
 use super::seen::hides;
@@ -30,7 +30,9 @@ pub(super) struct PanelStepper<'a, D: Driven> {
     pub(super) parts: Vec<Station<D::Place>>,
     pub(super) next: usize,
     /// The motion on the last panel.
-    swept: Swept,
+    pub(super) swept: Swept,
+    /// The run that it sets out from.
+    pub(super) guide: Option<Guide<'a>>,
     /// When the run begins, s.
     pub begin: f64,
     /// Time since then, s; rounded value and rest.
@@ -38,7 +40,7 @@ pub(super) struct PanelStepper<'a, D: Driven> {
     /// J
     pub kinetic: f64,
     /// What its rounding left out, J.
-    kinetic_low: f64,
+    pub(super) kinetic_low: f64,
     /// What rounding does to it.
     pub errors: Errors,
     /// Whole turns since the start, with sign.
@@ -107,6 +109,7 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
             parts: Vec::new(),
             next: 0,
             swept: Swept::new(),
+            guide: resolution.guide,
             begin: 0.0,
             t: (0.0, 0.0),
             kinetic,
@@ -124,22 +127,6 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
             hid: false,
             gives_up: false,
         })
-    }
-
-    /// Starts the panels anew, at the start of a cycle with another kinetic energy, J.
-    pub fn restart(&mut self, kinetic: f64) {
-        self.parts.clear();
-        self.next = 0;
-        self.t = (0.0, 0.0);
-        self.kinetic = kinetic;
-        self.kinetic_low = 0.0;
-        self.errors = Errors::at(kinetic, 0.0);
-        self.fastest = kinetic;
-        self.turns = 0.0;
-        self.gain = 0.0;
-        self.work = 0.0;
-        self.refined = false;
-        self.hid = false;
     }
 
     /// Evaluations of the loads and positions that were tabulated.
@@ -164,23 +151,6 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
         self.next == 0 && self.parts.is_empty()
     }
 
-    /// The panels of the cycle that begins with a kinetic energy, J; `visit` sees the run after each of them, and may end it.
-    pub fn cycle(
-        &mut self,
-        kinetic: f64,
-        mut visit: impl FnMut(&Self) -> Result<(), NotApplicable>,
-    ) -> Result<Segment, NotApplicable> {
-        self.restart(kinetic);
-        let mut leg = Segment::open();
-        loop {
-            leg.push(self.panel()?.panel);
-            visit(self)?;
-            if self.at_cycle() {
-                return Ok(leg);
-            }
-        }
-    }
-
     /// The next panel.
     pub fn panel(&mut self) -> Result<Done, NotApplicable> {
         let mut turned_over = 0;
@@ -201,8 +171,13 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
             if turned_over == 0 && station.is_new() && begins_beyond(self.driven, station, start) {
                 station.turn_over(self.driven)?;
             }
+            let tails = self.guess(start);
+            let station = self
+                .parts
+                .last_mut()
+                .unwrap_or(&mut self.stations[self.next]);
             let swept = &mut self.swept;
-            if let Err(why) = sweep(self.driven, station, start, self.fine.tail, swept) {
+            if let Err(why) = sweep(self.driven, station, start, tails, swept) {
                 self.evaluations += self.swept.evaluations;
                 self.refine(why)?;
                 continue;

@@ -64,7 +64,7 @@ const MOST_SWEEPS: u32 = 40;
 /// Sweeps that gain less than this factor give way to Newton's method; taken for the factor before it is known.
 pub(super) const SLOW_FACTOR: f64 = 0.3;
 /// Sweeps end where what they leave is this part of the tail: it adds up over the turns.
-const SETTLED: f64 = 1e-3;
+pub(super) const SETTLED: f64 = 1e-3;
 /// Least factor that a sweep is taken to leave.
 const LEAST_FACTOR: f64 = 1e-3;
 /// The last terms of a series of speeds by what it leaves out, where it decays slowly.
@@ -79,12 +79,21 @@ pub(super) enum Unsolved {
     Stops,
 }
 
-/// Solves a panel to a part `tail`.
+/// How well a panel is solved, as parts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tails {
+    /// To which its series have decayed.
+    pub series: f64,
+    /// Of which sweeps may leave a small share.
+    pub sweeps: f64,
+}
+
+/// Solves a panel from a guess of the kinetic energy at its points, which is in `swept`.
 pub(super) fn sweep<D: Driven>(
     driven: &D,
     station: &mut Station<D::Place>,
     start: Start,
-    tail: f64,
+    tails: Tails,
     swept: &mut Swept,
 ) -> Result<(), Unsolved> {
     // Evaluations of other loads than those of the table take more than the sweeps that they spare.
@@ -95,8 +104,6 @@ pub(super) fn sweep<D: Driven>(
         // They are evaluated once more, which is another sweep for the energy that is gained.
         10.0 * SETTLED
     };
-    let reads_time = is_driven && driven.reads_time();
-    station.guess(start.kinetic, reads_time, &mut swept.kinetic);
     swept.evaluations = 0;
     let mut newton = false;
     let mut before = f64::INFINITY;
@@ -123,17 +130,17 @@ pub(super) fn sweep<D: Driven>(
         };
         let at_rounding = largest < SUM_ROUNDING && largest >= SLOW_FACTOR * before;
         if newton {
-            if largest * factor.min(SLOW_FACTOR) <= tail || at_rounding {
+            if largest * factor.min(SLOW_FACTOR) <= tails.series || at_rounding {
                 swept.evaluate(driven, station, start)?;
-                return swept.finish(station, start, tail);
+                return swept.finish(station, start, tails.series);
             }
-        } else if largest * factor.max(LEAST_FACTOR) <= settled * tail || at_rounding {
+        } else if largest * factor.max(LEAST_FACTOR) <= settled * tails.sweeps || at_rounding {
             if is_driven {
                 swept.forces.take_speeds(station, start, &swept.kinetic);
             } else {
                 swept.evaluate(driven, station, start)?;
             }
-            swept.finish(station, start, tail)?;
+            swept.finish(station, start, tails.series)?;
             // The last point is the same, rounded once more; under steep loads the gain would be worse.
             swept.end = start.kinetic + swept.gain;
             return Ok(());

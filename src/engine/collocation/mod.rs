@@ -7,6 +7,7 @@
 
 mod attempt;
 mod error;
+mod guess;
 mod newton;
 mod series;
 mod state;
@@ -43,7 +44,7 @@ pub fn run(
     if !alpha.is_finite() {
         return (Finish::NoStart, last, 0);
     }
-    let mut collocation = Collocation::new(motion, settings.tolerance, alpha);
+    let mut collocation = Collocation::new(motion, settings, alpha);
     let mut wanted = first_length(&node, settings.way);
     let (mut steps, mut at_corner) = (0, false);
     let mut hidden = f64::INFINITY;

@@ -2,6 +2,7 @@
 
 use super::super::sight::{Hidden, Look, OnStep, hidden};
 use super::super::step::{Step, TERMS};
+use super::super::time::Settings;
 use super::super::{Batch, Counted, Motion, NODES};
 use super::attempt::{Accepted, Failed, Try};
 use super::newton::Newton;
@@ -23,15 +24,17 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// The method, with what one step leaves to the next.
 pub struct Collocation<'a> {
     pub(super) motion: &'a Counted<'a>,
-    tableau: &'static Tableau,
+    pub(super) tableau: &'static Tableau,
     pub(super) tolerance: f64,
+    /// First steps of a run from the same start.
+    pub(super) guide: &'a [Step],
     has_detail: bool,
     has_power: bool,
     pub(super) batch: Batch,
     /// Length and Legendre coefficients of the acceleration of the last step.
-    last: Option<(f64, [f64; NODES])>,
+    pub(super) last: Option<(f64, [f64; NODES])>,
     /// Acceleration at the start of the next step.
-    alpha: f64,
+    pub(super) alpha: f64,
     /// Whether sweeps did not gain on the last step.
     steep: bool,
     /// What the rounding of times does to the acceleration, where that was asked for last, rad/s².
@@ -39,11 +42,12 @@ pub struct Collocation<'a> {
 }
 
 impl<'a> Collocation<'a> {
-    pub fn new(motion: &'a Counted<'a>, tolerance: f64, alpha: f64) -> Collocation<'a> {
+    pub fn new(motion: &'a Counted<'a>, settings: &Settings<'a>, alpha: f64) -> Collocation<'a> {
         Collocation {
             motion,
             tableau: Tableau::get(),
-            tolerance,
+            tolerance: settings.tolerance,
+            guide: settings.guide,
             has_detail: motion.has_detail(),
             has_power: motion.has_power(),
             batch: Batch::default(),
@@ -186,29 +190,8 @@ impl<'a> Collocation<'a> {
         settled
     }
 
-    /// Times, and the first guess.
-    fn prepare(&mut self, state: &State, h: f64) {
-        let batch = &mut self.batch;
-        batch.turns = state.turns;
-        let timed = self.motion.depends_on_time();
-        for (i, c) in self.tableau.nodes.iter().enumerate() {
-            batch.t[i] = state.t + c * h;
-            if timed {
-                batch.of_time[i] = self.motion.of_time(batch.t[i]);
-            }
-        }
-        batch.alpha = match &self.last {
-            None => [self.alpha; NODES],
-            Some((length, coefficients)) => {
-                let ratio = 2.0 * h / length;
-                legendre(coefficients, self.tableau.nodes.map(|c| 1.0 + ratio * c))
-            }
-        };
-        self.update(state, h);
-    }
-
     /// Angles and speeds of the accelerations; the largest change in units of the error that is allowed.
-    fn update(&mut self, state: &State, h: f64) -> f64 {
+    pub(super) fn update(&mut self, state: &State, h: f64) -> f64 {
         let (batch, tableau) = (&mut self.batch, self.tableau);
         let (mut speed, mut angle) = ([0.0; NODES], [0.0; NODES]);
         for j in 0..NODES {

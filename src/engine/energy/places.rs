@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use super::Orbit;
 use super::panel::Panel;
 use crate::numeric::angle::Angle;
+use crate::numeric::chebyshev::Values;
 
 impl Orbit {
     /// Places at which the motion is resolved until a time, s: each is the number of a panel and how far its variable has
@@ -61,5 +62,15 @@ impl Orbit {
         let (panel, begin) = self.forward.panel(index)?;
         let x = (2.0 * (at - index as f64) - 1.0).clamp(-1.0, 1.0);
         Some((panel, x, begin))
+    }
+}
+
+impl Panel {
+    /// |dt/dθ| (s/rad) at angles (rad) of a panel that turns nowhere.
+    pub fn slowness(&self, angles: &Values) -> Values {
+        let share = 2.0 / self.piece.span();
+        let x = angles.map(|angle| (angle - self.piece.from) * share - 1.0);
+        let by_length = share.abs();
+        self.slope.values(&x).map(|slope| slope * by_length)
     }
 }

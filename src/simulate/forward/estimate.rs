@@ -20,7 +20,7 @@ use super::arrived::{Arrived, Driven, Sink};
 use super::engine_loop::Course;
 use super::errors_over_angle::{PLACE, ROUNDING, by_energy, late_by, row_error, worst_row};
 use super::over_angle::finer;
-use crate::engine::angle::Errors;
+use crate::engine::angle::{Errors, Guide};
 use crate::engine::step::Step;
 use crate::engine::time::{Method, Settings, Start};
 use crate::engine::{Counted, Motion, WorkLimit};
@@ -67,12 +67,15 @@ fn by_second_run(
     let collocation = Settings {
         method: Method::Picard,
         tolerance: much_tighter(tolerance),
+        guide: record.checkpoints.first(),
         ..course.settings
     };
     let again = Settings {
         tolerance: tighter(tolerance),
         ..course.settings
     };
+    let guide = arrived.driven.as_ref().filter(|_| arrived.is_one_piece());
+    let guide = guide.map(|driven| Guide::new(&driven.driving.orbit, course.resolution.tail));
     let mut evaluations = 0;
     let mut second = |settings: Settings<'_>| {
         let share = arrived.evaluations.saturating_mul(FOR_ONE);
@@ -85,7 +88,7 @@ fn by_second_run(
             },
             is_second: true,
             extent: Extent::Duration(t_end),
-            resolution: finer(),
+            resolution: finer(guide),
             settings: Settings { t_end, ..settings },
             wait: OTHER_WAIT,
             limit: WorkLimit {

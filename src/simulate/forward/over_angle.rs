@@ -11,7 +11,7 @@ use super::super::stop;
 use super::arrived::{Driven, Why};
 use super::engine_loop::Pass;
 use crate::engine::WorkLimit;
-use crate::engine::angle::{self, Driving, Goal, Resolution};
+use crate::engine::angle::{self, Driving, Goal, Guide, Resolution};
 use crate::engine::energy::{NotApplicable, Orbit};
 use crate::engine::time::Start;
 use crate::error::Error;
@@ -152,15 +152,17 @@ pub(super) fn plain<'a>(task: &RunSetup<'a>) -> Resolution<'a> {
     Resolution {
         tail: (share * task.scene.run.tolerance).max(LEAST_TAIL),
         other: false,
+        guide: None,
         limit: task.options.limit(),
     }
 }
 
 /// Finer, and cut at other angles: two runs on the same panels would have the same error.
-pub(super) fn finer() -> Resolution<'static> {
+pub(super) fn finer(guide: Option<Guide<'_>>) -> Resolution<'_> {
     Resolution {
         tail: LEAST_TAIL,
         other: true,
+        guide,
         limit: WorkLimit::NONE,
     }
 }

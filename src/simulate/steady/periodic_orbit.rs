@@ -138,6 +138,7 @@ impl<'a> Seeker<'a> {
             // What a turn leaves out adds up over all turns that are remembered.
             tail: LEAST_TAIL,
             other,
+            guide: None,
             limit: self.limit,
         };
         let turns = angle::Turns::new(&position, self.start, self.speed, resolution);

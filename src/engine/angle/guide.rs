@@ -1,0 +1,120 @@
+//! A run that is known already, from which a finer one sets out: what sweeps change is its defect.
+
+use super::super::energy::piece::SAME_ANGLE;
+use super::super::energy::segment::Segment;
+use super::super::energy::{Orbit, panel::Panel};
+use super::Driven;
+use super::panel::Station;
+use super::stepper::PanelStepper;
+use super::sweep::{SETTLED, Start, Tails};
+use crate::numeric::angle::Angle;
+use crate::numeric::chebyshev::{MAX_DEGREE, Values};
+
+/// A run over the same angles.
+#[derive(Clone, Copy, Debug)]
+pub struct Guide<'a> {
+    leg: &'a Segment,
+    /// Part to which its series have decayed.
+    pub(super) tail: f64,
+    /// The panel of the last place.
+    index: usize,
+}
+
+impl<'a> Guide<'a> {
+    /// A motion that was run through once, with series that have decayed to a part `tail`.
+    pub fn new(orbit: &'a Orbit, tail: f64) -> Guide<'a> {
+        Guide {
+            leg: orbit.last_leg(),
+            tail,
+            index: 0,
+        }
+    }
+
+    /// Its kinetic energy (J) at the points of a panel that is run through in so many whole turns since the start, moved to a
+    /// kinetic energy at the start of the panel. None beyond its end, and where there is none.
+    pub(super) fn kinetic<P: Copy>(
+        &mut self,
+        station: &Station<P>,
+        turns: f64,
+        start: f64,
+    ) -> Option<Values> {
+        let count = station.rule.degree() + 1;
+        let angles = station.rule.values(|x| station.piece.angle(x));
+        let mut kinetic = [0.0; MAX_DEGREE + 1];
+        let mut done = 0;
+        while done < count {
+            let panel = self.panel(turns, angles[done])?;
+            let local = angles.map(|angle| Self::local(panel, turns, angle));
+            let slopes = panel.slowness(&local);
+            let on_it = |angle: &&f64| Self::is_on(panel, **angle);
+            let until = done + local[done..count].iter().take_while(on_it).count();
+            for j in done..until {
+                let speed = 1.0 / slopes[j];
+                kinetic[j] = 0.5 * station.table.inertia[j] * speed * speed;
+            }
+            done = until;
+        }
+        let moved = start - kinetic[0];
+        kinetic[..count].iter_mut().for_each(|one| *one += moved);
+        // Between its points a series is no guide where the inertia nearly vanishes.
+        let is_energy = |one: &f64| *one > 0.0 && one.is_finite();
+        kinetic[..count].iter().all(is_energy).then_some(kinetic)
+    }
+
+    fn local(panel: &Panel, turns: f64, angle: f64) -> f64 {
+        Angle::new(turns - panel.turns, angle).radians()
+    }
+
+    fn is_on(panel: &Panel, angle: f64) -> bool {
+        Self::before(panel, angle) <= SAME_ANGLE && Self::beyond(panel, angle) <= SAME_ANGLE
+    }
+
+    /// How far an angle is before the start of a panel, and beyond its end, rad.
+    fn before(panel: &Panel, angle: f64) -> f64 {
+        (panel.piece.from - angle) * panel.piece.span().signum()
+    }
+
+    fn beyond(panel: &Panel, angle: f64) -> f64 {
+        (angle - panel.piece.to) * panel.piece.span().signum()
+    }
+
+    /// The panel in which an angle lies.
+    fn panel(&mut self, turns: f64, angle: f64) -> Option<&'a Panel> {
+        let leg = self.leg;
+        loop {
+            let (panel, _) = leg.panel(self.index)?;
+            let local = Self::local(panel, turns, angle);
+            if Self::beyond(panel, local) > SAME_ANGLE {
+                self.index += 1;
+            } else if Self::before(panel, local) > SAME_ANGLE {
+                self.index = self.index.checked_sub(1)?;
+            } else {
+                return Some(panel);
+            }
+        }
+    }
+}
+
+impl<D: Driven> PanelStepper<'_, D> {
+    /// Takes a guess of the kinetic energy at the points of the next panel: that of the guide, whose error the sweeps are to
+    /// show, or that of the last turns. A panel beyond a change of the switch is solved as if there was none, which the guide
+    /// does not know.
+    pub(super) fn guess(&mut self, start: Start) -> Tails {
+        let station = self.parts.last().unwrap_or(&self.stations[self.next]);
+        let smooth = station.table.switch.is_none();
+        let guide = self.guide.as_mut().filter(|_| smooth);
+        let known = guide.and_then(|guide| {
+            self.swept.kinetic = guide.kinetic(station, self.turns, start.kinetic)?;
+            Some(SETTLED * guide.tail)
+        });
+        if known.is_none() {
+            let reads_time = self.driven.is_driven() && self.driven.reads_time();
+            station.guess(start.kinetic, reads_time, &mut self.swept.kinetic);
+        }
+        let series = self.fine.tail;
+        Tails {
+            series,
+            sweeps: known.unwrap_or(series),
+        }
+    }
+}
