@@ -6,7 +6,7 @@ use crate::engine::step::{Node, Step};
 use crate::numeric::angle::Angle;
 
 /// Most states that are kept; then every other one goes.
-const MOST: usize = 128;
+const STATES_KEPT: usize = 128;
 
 /// First steps that are kept whole: 1 MB.
 const STEPS_KEPT: usize = 4096;
@@ -30,7 +30,7 @@ struct Checkpoint {
 impl Default for Checkpoints {
     fn default() -> Checkpoints {
         Checkpoints {
-            kept: Vec::with_capacity(MOST),
+            kept: Vec::with_capacity(STATES_KEPT),
             stride: 1,
             steps: 0,
             first: Vec::new(),
@@ -48,7 +48,7 @@ impl Checkpoints {
         if !self.steps.is_multiple_of(self.stride) {
             return;
         }
-        if self.kept.len() == MOST {
+        if self.kept.len() == STATES_KEPT {
             let mut odd = false;
             self.kept.retain(|_| {
                 odd = !odd;

@@ -84,7 +84,7 @@ pub(super) const MARGIN: f64 = 1.5;
 /// Standard deviation of one rounding, in units of the last place.
 pub(super) const ONE_ROUNDING: f64 = 0.3;
 /// Next to a balance several steps round in the same way, which adds up to this many times as much.
-const ALIKE: f64 = 2.0;
+const CORRELATED_ROUNDING: f64 = 2.0;
 /// Rounding of a step's mean acceleration, in units: of a few in each evaluation, averaged over the step.
 const EVALUATION: f64 = 1.0;
 /// An acceleration that is smaller than what this angle (rad) changes in it may be a difference of larger ones. Half or twice
@@ -143,7 +143,9 @@ impl Rounding {
         if size < BALANCED * slopes.by_angle().abs() {
             let angle = step.angle(end.theta);
             let inertia = equation.terms(end.theta).inertia.m;
-            size = size.max(ALIKE * equation.size_of_terms(end.t, angle, end.omega) / inertia);
+            size = size.max(
+                CORRELATED_ROUNDING * equation.size_of_terms(end.t, angle, end.omega) / inertia,
+            );
         }
         let shaken = place.hypot(EVALUATION * size);
         let carried = self.spread.carried(&transition);

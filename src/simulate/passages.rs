@@ -22,12 +22,12 @@ pub(super) struct Stretch<'a> {
 }
 
 /// What is as near to a dead centre as this is at it, rad; far from zero angles are rounded more than that.
-const NEAR: f64 = 1e-12;
+const AT_DEAD_CENTRE: f64 = 1e-12;
 
 impl Stretch<'_> {
     /// What of a way (rad) is rounding.
     fn near(way: f64) -> f64 {
-        NEAR.max(8.0 * f64::EPSILON * way)
+        AT_DEAD_CENTRE.max(8.0 * f64::EPSILON * way)
     }
 
     /// How far (rad) each dead centre is ahead of an angle in a direction: in (0, 2π], for the angle itself is not passed.

@@ -30,7 +30,7 @@ const LEAST_CHANGE: f64 = 1e-9;
 const LATER: f64 = 1e-5;
 
 /// On a way this short, rad, the motion a little later is no guide: angle and speed are rounded.
-const SHORTEST: f64 = 1e-11;
+const SHORTEST_WAY: f64 = 1e-11;
 
 /// Nothing is known of a step of which an exponent is larger.
 const STEEPEST: f64 = 1e12;
@@ -104,7 +104,7 @@ impl Slopes {
         // What the time changes in the forces moves the motion a little later in another way.
         let then = [step.end.omega - pushed[0], step.end.alpha - pushed[1]];
         let size = |[angle, speed]: [f64; 2]| angle.hypot(h * speed);
-        if travel < SHORTEST || size(pushed) > PUSHED * size(along) {
+        if travel < SHORTEST_WAY || size(pushed) > PUSHED * size(along) {
             return plain;
         }
         let found = self.with_motion(&plain, along, then, h);

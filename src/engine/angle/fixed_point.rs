@@ -9,7 +9,7 @@ use crate::numeric::root;
 /// How far from the first energy it is looked for: ln of the ratio.
 const FARTHEST: f64 = 60.0;
 /// The longest step in the logarithm of the energy.
-const LONGEST: f64 = 0.4;
+const LONGEST_LOG_STEP: f64 = 0.4;
 /// Halvings between an energy at which the crank stops in its turn and one that loses.
 const HALVINGS: usize = 40;
 
@@ -180,7 +180,7 @@ fn below(
             Some(looked) => high = looked,
             None => return near_stop(map, kinetic, high),
         }
-        step = (2.0 * step).min(LONGEST);
+        step = (2.0 * step).min(LONGEST_LOG_STEP);
     }
     Ok(None)
 }
@@ -212,7 +212,7 @@ fn above(
             }
         }
         kinetic *= step.exp();
-        step = (2.0 * step).min(LONGEST);
+        step = (2.0 * step).min(LONGEST_LOG_STEP);
         looked = look(map, kinetic)?;
     }
     Err(match (gains, turned) {

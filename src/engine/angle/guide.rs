@@ -30,7 +30,7 @@ impl<'a> Guide<'a> {
         }
     }
 
-    /// Its kinetic energy (J) at the points of a panel that is run through in so many whole turns since the start, moved to a
+    /// Kinetic energy (J) of the guide at the points of a panel that is run through in so many whole turns since the start, moved to a
     /// kinetic energy at the start of the panel. None beyond its end, and where there is none.
     pub(super) fn kinetic<P: Copy>(
         &mut self,

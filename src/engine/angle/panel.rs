@@ -55,7 +55,7 @@ pub(super) struct Fineness {
 
 /// The shortest panel, rad; a corner or a change of the switch as near to an end of a panel is at the end. The forces are
 /// continuous at a change: it is felt by the square of this.
-pub(super) const SHORTEST: f64 = 1e-9;
+pub(super) const SHORTEST_PANEL: f64 = 1e-9;
 /// What the forces leave out adds up over the turns: it is to be less by this.
 const ADDED_UP: f64 = 0.1;
 /// Degree of the series that are tried first.
@@ -232,7 +232,7 @@ impl<P: Copy> Station<P> {
         fine: Fineness,
     ) -> Result<Option<[Station<P>; 2]>, NotApplicable> {
         let Piece { from, to, .. } = self.piece;
-        if (to - from).abs() < SHORTEST * from.abs().max(1.0) {
+        if (to - from).abs() < SHORTEST_PANEL * from.abs().max(1.0) {
             return Ok(None);
         }
         let middle = from + share * (to - from);

@@ -3,7 +3,7 @@
 use crate::numeric::chebyshev::Values;
 
 /// Profiles that are kept.
-const KEPT: usize = 5;
+const PROFILES_KEPT: usize = 5;
 /// The sum of the shares of the profiles, as magnitudes: more would carry their errors on, not them.
 const MOST_SHARES: f64 = 40.0;
 
@@ -18,7 +18,7 @@ pub(super) struct Predictor {
 impl Predictor {
     pub fn new() -> Predictor {
         Predictor {
-            profiles: Vec::with_capacity(KEPT),
+            profiles: Vec::with_capacity(PROFILES_KEPT),
             latest: 0,
         }
     }
@@ -29,11 +29,11 @@ impl Predictor {
 
     /// Keeps the kinetic energy (J) at the points.
     pub fn remember(&mut self, kinetic: &Values) {
-        if self.profiles.len() < KEPT {
+        if self.profiles.len() < PROFILES_KEPT {
             self.latest = self.profiles.len();
             self.profiles.push(*kinetic);
         } else {
-            self.latest = (self.latest + 1) % KEPT;
+            self.latest = (self.latest + 1) % PROFILES_KEPT;
             self.profiles[self.latest] = *kinetic;
         }
     }
@@ -73,14 +73,14 @@ impl Predictor {
     /// Shares of the last profiles in that which starts with a kinetic energy (Lagrange); none if they are too large.
     /// Under viscous losses alone the energies are of second degree in the speed at the start: its powers are used,
     /// unless there are too few profiles for its square.
-    fn shares(&self, start: f64, count: usize) -> Option<[f64; KEPT]> {
+    fn shares(&self, start: f64, count: usize) -> Option<[f64; PROFILES_KEPT]> {
         let variable = |kinetic: f64| if count > 2 { kinetic.sqrt() } else { kinetic };
         let here = variable(start);
-        let mut at = [0.0; KEPT];
+        let mut at = [0.0; PROFILES_KEPT];
         for (age, at) in at.iter_mut().enumerate().take(count) {
             *at = variable(self.profile(age)[0]);
         }
-        let mut shares = [0.0; KEPT];
+        let mut shares = [0.0; PROFILES_KEPT];
         let mut size = 0.0;
         for i in 0..count {
             let (mut above, mut below) = (1.0, 1.0);

@@ -1,6 +1,6 @@
 //! Where the switch changes its sign on a panel, and with it the form of the forces.
 
-use super::panel::{SHORTEST, Station};
+use super::panel::{SHORTEST_PANEL, Station};
 use super::sweep::{Start, Swept};
 use super::{Driven, Switch};
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values};
@@ -36,9 +36,9 @@ pub(super) fn side<D: Driven>(
     };
     let length = 2.0 * station.half().abs();
     let share = 0.5 * (x + 1.0);
-    if share * length < SHORTEST {
+    if share * length < SHORTEST_PANEL {
         Side::Other
-    } else if (1.0 - share) * length < SHORTEST {
+    } else if (1.0 - share) * length < SHORTEST_PANEL {
         Side::Stays
     } else {
         Side::Leaves(share)
@@ -58,7 +58,7 @@ pub(super) fn begins_beyond<D: Driven>(
     let speed = start.direction * (start.kinetic * station.mobility[0]).sqrt();
     let parts = parts(driven, switch, station, start, 0, [start.t, speed]);
     let largest = parts.iter().fold(0.0f64, |m, part| m.max(part.abs()));
-    station.side * parts.iter().sum::<f64>() < -SHORTEST * largest
+    station.side * parts.iter().sum::<f64>() < -SHORTEST_PANEL * largest
 }
 
 /// What the switch is the sum of, at a point where the time (s) and the speed (rad/s) are these.
@@ -133,7 +133,8 @@ fn values<D: Driven>(
 /// The first place at which values fall below zero, by more than `noise`; −1 if they begin there.
 fn first_below<P: Copy>(station: &Station<P>, values: &Values, noise: f64) -> Option<f64> {
     let points = station.rule.points();
-    if values[0] < -noise.max(SHORTEST * values.iter().fold(0.0f64, |m, value| m.max(value.abs())))
+    if values[0]
+        < -noise.max(SHORTEST_PANEL * values.iter().fold(0.0f64, |m, value| m.max(value.abs())))
     {
         return Some(-1.0);
     }

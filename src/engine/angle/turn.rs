@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 
 use super::Driven;
 use super::errors::Errors;
-use super::panel::{FIRST_DEGREE, Fineness, SHORTEST, Station};
+use super::panel::{FIRST_DEGREE, Fineness, SHORTEST_PANEL, Station};
 use super::stepper::PanelStepper;
 use crate::engine::energy::NotApplicable;
-use crate::engine::energy::piece::LONGEST;
+use crate::engine::energy::piece::HALF_TURN;
 use crate::engine::energy::segment::Segment;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule};
@@ -47,14 +47,14 @@ fn between<D: Driven>(
         let mut ends: Vec<f64> = corners
             .iter()
             .map(|corner| (direction * (corner - phase)).rem_euclid(cycle * TAU) - before * TAU)
-            .filter(|ahead| *ahead > SHORTEST && *ahead < TAU - SHORTEST)
+            .filter(|ahead| *ahead > SHORTEST_PANEL && *ahead < TAU - SHORTEST_PANEL)
             .collect();
         ends.sort_by(f64::total_cmp);
         ends.push(TAU);
         let turns = start.turns + direction * before;
         let mut from = 0.0;
         for to in ends {
-            let parts = ((to - from) / LONGEST).ceil();
+            let parts = ((to - from) / HALF_TURN).ceil();
             let begin = from;
             for part in 1..=parts as u32 {
                 let share = f64::from(part) / parts;

@@ -19,7 +19,7 @@ pub enum Failed {
     TooLong(f64),
     /// Something is hidden between its nodes: it has to end at this part of it.
     Hides(f64),
-    /// It is too long and seems to meet a corner at a part of it; the one after the corner is to have this part of its length.
+    /// The step is too long and seems to meet a corner at a part `at` of it; the one after the corner is to have `factor` times its length.
     Meets { at: f64, factor: f64 },
 }
 

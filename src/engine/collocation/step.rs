@@ -19,7 +19,7 @@ const LEFT_BY_SWEEPS: f64 = 1e-2;
 /// A step that is too long is not made shorter for a corner behind this part of it.
 const WELL_INSIDE: f64 = 0.9;
 /// Rounding of a state, in parts of itself.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
+const STATE_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// The method, with what one step leaves to the next.
 pub struct Collocation<'a> {
@@ -118,7 +118,7 @@ impl<'a> Collocation<'a> {
                 break;
             }
             // Smaller changes are rounding.
-            if change <= ROUNDING / self.tolerance {
+            if change <= STATE_ROUNDING / self.tolerance {
                 break;
             }
             if sweeps > 2 && rate > 0.3 {

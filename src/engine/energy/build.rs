@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::panel::{Panel, Tried, Uncertain};
-use super::piece::{LONGEST, Piece, SAME_ANGLE, Turning, missing, next_end};
+use super::piece::{HALF_TURN, Piece, SAME_ANGLE, Turning, missing, next_end};
 use super::segment::{After, MOST_PANELS, Segment};
 use super::turn_closure::Return;
 use super::{NotApplicable, Profile};
@@ -22,7 +22,7 @@ pub(in crate::engine) struct Begin {
 }
 
 /// Panels no longer than this are taken as they are, rad: a corner that nobody announced.
-const SHORTEST: f64 = 1e-13;
+const CORNER_PANEL: f64 = 1e-13;
 /// Below this part of the largest kinetic energy its sum over the panels has lost digits.
 const NEAR_REST: f64 = 1e-3;
 
@@ -99,7 +99,7 @@ impl Segment {
             kinetic: begin.kinetic,
             largest: begin.kinetic,
             off: begin.off,
-            length: LONGEST,
+            length: HALF_TURN,
             ahead: None,
             turns: 0.0,
         };
@@ -129,13 +129,13 @@ impl Builder<'_> {
         let piece = self.piece();
         let uncertain = self.uncertain(piece.turning);
         let at = piece.from;
-        let short = piece.span().abs() <= SHORTEST * at.abs().max(1.0);
+        let short = piece.span().abs() <= CORNER_PANEL * at.abs().max(1.0);
         let accepted = if short { f64::INFINITY } else { tolerance };
         match Panel::attempt(self.profile, piece, self.kinetic, accepted, uncertain)? {
             Tried::Done(panel, off) => match self.better(&panel, uncertain) {
                 Better::None => self.take(*panel, off),
                 Better::Turning(ahead) => self.ahead = Some(ahead),
-                Better::Shorter if self.length <= SHORTEST * at.abs().max(1.0) => {
+                Better::Shorter if self.length <= CORNER_PANEL * at.abs().max(1.0) => {
                     return Err(NotApplicable::NotFinite);
                 }
                 Better::Shorter => {

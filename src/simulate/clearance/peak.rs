@@ -9,7 +9,7 @@ use crate::numeric::maximum;
 /// A step is looked at in so many pieces.
 const PIECES: usize = 4;
 /// A force this near to the largest so far may be larger between the places that are looked at.
-const NEAR: f64 = 0.9;
+const NEAR_LARGEST: f64 = 0.9;
 
 impl<const N: usize> Follow<'_, N> {
     /// Sizes of the joint forces in a state of a step, N.
@@ -44,7 +44,7 @@ impl<const N: usize> Follow<'_, N> {
             let best = (0..=PIECES).max_by(|i, j| found[*i][k].total_cmp(&found[*j][k]));
             let best = best.unwrap_or(0);
             let mut top = (found[best][k], places[best]);
-            if top.0 <= NEAR * peak.value_n {
+            if top.0 <= NEAR_LARGEST * peak.value_n {
                 continue;
             }
             let (from, to) = (

@@ -69,7 +69,7 @@ impl ContactStatistics {
 }
 
 /// Most samples kept; beyond them every second one goes.
-const MOST: usize = 1024;
+const SAMPLES_KEPT: usize = 1024;
 
 /// Samples and tallies of a run.
 #[derive(Clone, Debug)]
@@ -85,8 +85,8 @@ impl Record {
     pub fn new(width: f64) -> Record {
         Record {
             width,
-            samples: Vec::with_capacity(MOST + 1),
-            tallies: Vec::with_capacity(MOST + 1),
+            samples: Vec::with_capacity(SAMPLES_KEPT + 1),
+            tallies: Vec::with_capacity(SAMPLES_KEPT + 1),
         }
     }
 
@@ -98,7 +98,7 @@ impl Record {
     /// The journal's place at the time that is due.
     pub fn sample(&mut self, journal: [f64; 2]) {
         self.samples.push(journal);
-        if self.samples.len() > MOST {
+        if self.samples.len() > SAMPLES_KEPT {
             let mut index = 0;
             self.samples.retain(|_| {
                 index += 1;
@@ -119,7 +119,7 @@ impl Record {
         let index = (t / self.width) as usize;
         if index >= self.tallies.len() {
             self.tallies
-                .resize(index.min(2 * MOST) + 1, Tally::default());
+                .resize(index.min(2 * SAMPLES_KEPT) + 1, Tally::default());
         }
         let last = self.tallies.len() - 1;
         self.tallies[index.min(last)].add(tally);

@@ -24,7 +24,7 @@ use crate::mechanism::{Class, Curve, CurveEquation, Equation};
 use crate::numeric::angle::Angle;
 
 /// Crank lengths from a change point within which the last digits of the lengths decide.
-const NEAR: f64 = 1e-6;
+const NEAR_CHANGE_POINT: f64 = 1e-6;
 
 /// The equation on the configuration curve, and the start of the run on it.
 #[derive(Clone)]
@@ -44,7 +44,7 @@ pub(super) fn warning(task: &RunSetup<'_>) -> Option<Warning> {
     let near = task.equation().linkage().nearness_to_change_point();
     match task.limits.class {
         Class::ChangePoint => Some(Warning::ChangePoint),
-        _ => (near < NEAR).then_some(Warning::NearChangePoint(near)),
+        _ => (near < NEAR_CHANGE_POINT).then_some(Warning::NearChangePoint(near)),
     }
 }
 

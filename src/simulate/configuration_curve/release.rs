@@ -7,8 +7,8 @@ use crate::numeric::root;
 /// Where inside an interval the band is looked at: unevenly, so that no period of a load hides between.
 const PLACES: [f64; 5] = [0.0, 0.29, 0.53, 0.83, 1.0];
 /// The first interval, as part of the time that is left, and the shortest.
-const FIRST: f64 = 1.0 / 317.0;
-const SHORTEST: f64 = 1e-9;
+const FIRST_INTERVAL: f64 = 1.0 / 317.0;
+const SHORTEST_INTERVAL: f64 = 1e-9;
 
 /// What a search found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,8 +32,8 @@ pub(super) fn time(
 ) -> (Release, u64) {
     let mut count = 0;
     let band = |t: f64| rest.margin(t, mu_static);
-    let longest = FIRST * (to - from);
-    let shortest = SHORTEST * (to - from);
+    let longest = FIRST_INTERVAL * (to - from);
+    let shortest = SHORTEST_INTERVAL * (to - from);
     let (mut t, mut length) = (from, longest);
     while t < to && !allowed.is_reached(count) {
         let end = rest.next_corner(t).min(to).min(t + length);

@@ -10,7 +10,7 @@ use crate::engine::time::Start;
 use crate::numeric::angle::Angle;
 
 /// Relative error of times by rounding, of the angle engine;
-pub(super) const ROUNDING: f64 = 2.5 * f64::EPSILON;
+pub(super) const TIME_ROUNDING: f64 = 2.5 * f64::EPSILON;
 /// of the energy engine, by rounding of the positions and of the kinetic energy at the start,
 const ROUNDING_BY_ENERGY: f64 = f64::EPSILON;
 /// and where the crank comes to rest, next to which the time hangs on the force: a difference, which is rounded more.
@@ -32,7 +32,7 @@ pub(super) fn worst_row(
 }
 
 /// How far an angle in its turn is rounded at most, rad.
-pub(super) const PLACE: f64 = 2.0 * f64::EPSILON;
+pub(super) const PLACE_ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 /// Error of a state if its time may be off by `late` (s): it moves the state along the motion. The angle in its
 /// turn is right to `place` (rad), and rounded once more with its turns. The speed comes from series of 33
@@ -79,7 +79,9 @@ fn rounded(task: &RunSetup<'_>, (orbit, t): (&Orbit, f64), state: (Angle, f64)) 
         ROUNDING_BY_ENERGY
     };
     let late = orbit.time_error(t) + rounding * t;
-    let place = orbit.rounding(t).map_or(PLACE, |place| place.min(PLACE));
+    let place = orbit
+        .rounding(t)
+        .map_or(PLACE_ROUNDING, |place| place.min(PLACE_ROUNDING));
     let mut error = late_by(task, state, t, late, place);
     error.theta_rad = error.theta_rad.hypot(orbit.misplaced(t));
     let (angle, omega) = state;

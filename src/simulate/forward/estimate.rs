@@ -18,7 +18,9 @@ use super::super::roundoff_propagation::Spread;
 use super::super::state_transition::StateTransition;
 use super::arrived::{Arrived, Driven, Sink};
 use super::engine_loop::Course;
-use super::errors_over_angle::{PLACE, ROUNDING, by_energy, late_by, row_error, worst_row};
+use super::errors_over_angle::{
+    PLACE_ROUNDING, TIME_ROUNDING, by_energy, late_by, row_error, worst_row,
+};
 use super::over_angle::finer;
 use crate::engine::angle::{Errors, Guide};
 use crate::engine::step::Step;
@@ -142,7 +144,13 @@ fn distance(
             theta_rad: f64::EPSILON * angle.radians().abs(),
             omega_rad_per_s: f64::EPSILON * speed.abs(),
         },
-        _ => late_by(course.task, (angle, speed), t, ROUNDING * t, PLACE),
+        _ => late_by(
+            course.task,
+            (angle, speed),
+            t,
+            TIME_ROUNDING * t,
+            PLACE_ROUNDING,
+        ),
     };
     ErrorEstimate {
         theta_rad: MARGIN * angle.minus(best.now.angle).abs() + floor.theta_rad + angle_noise,

@@ -50,7 +50,7 @@ pub(super) struct Notes<'a> {
 /// What ends a run inside a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum EndsBy {
-    /// Its turns are complete.
+    /// The turns that were asked for are complete.
     Turns,
     /// The crank swings to and fro and came no further for long.
     Swing,

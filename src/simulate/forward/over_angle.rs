@@ -22,7 +22,7 @@ use crate::scene::Extent;
 /// Series end where their coefficients have decayed to this part of the tolerance: of the angle engine, times what a series is
 /// worse inside a panel, where friction may cut it;
 const SHARE_OVER_ANGLE: f64 = 1e-2;
-const CUT: f64 = 0.03;
+const CUT_BY_FRICTION: f64 = 0.03;
 /// of the energy engine, and at this at the latest, for all digits but the last ones.
 const SHARE_OF_ENERGY: f64 = 0.1;
 const MOST_TAIL: f64 = 1e-13;
@@ -146,7 +146,7 @@ impl Pass<'_, '_> {
 /// As fine as the tolerance asks for.
 pub(super) fn plain<'a>(task: &RunSetup<'a>) -> Resolution<'a> {
     let share = match &task.maker.sliding {
-        Some(_) => SHARE_OVER_ANGLE * CUT,
+        Some(_) => SHARE_OVER_ANGLE * CUT_BY_FRICTION,
         None => SHARE_OVER_ANGLE,
     };
     Resolution {

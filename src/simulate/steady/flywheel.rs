@@ -13,7 +13,7 @@ use crate::scene::{Crank, Scene};
 /// Steps into which the inertia that could be taken away is divided.
 const STEPS: u32 = 16;
 /// Largest inertia that is tried, in units of that of the mechanism.
-const MOST: f64 = 1e12;
+const LARGEST_INERTIA: f64 = 1e12;
 /// Halvings towards an inertia with which the crank stops.
 const HALVINGS: u32 = 40;
 
@@ -82,7 +82,7 @@ type Excess<'a> = dyn Fn(f64) -> Result<f64, Error> + 'a;
 fn heavier(scene: &Scene, excess: &Excess<'_>) -> Result<(f64, f64), Error> {
     let own = Equation::new(scene).terms(scene.motion.angle).inertia.m;
     let (mut low, mut high) = (0.0, 0.1 * own);
-    while high < MOST * own {
+    while high < LARGEST_INERTIA * own {
         if excess(high)? <= 0.0 {
             return Ok((low, high));
         }

@@ -134,7 +134,7 @@ fn describe(scene: &Scene, found: &Found, check: &Found) -> SteadyState {
         error: MARGIN * (value(found) - value(check)).abs() + floor,
     };
     // What is left open of an energy moves the speed by half as much, relative to them.
-    let relative = 0.5 * found.uncertain + periodic_orbit::ROUNDING;
+    let relative = 0.5 * found.uncertain + periodic_orbit::SPEED_ROUNDING;
     let fluctuation = of(&|f| f.fluctuation(), relative * (2.0 + found.fluctuation()));
     let speed = |value: &dyn Fn(&Found) -> f64| of(value, relative * value(found).abs());
     let varies = found.fluctuation() > 4.0 * fluctuation.error;

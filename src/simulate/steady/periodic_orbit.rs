@@ -19,11 +19,11 @@ use crate::plan::cycle_over_angle;
 use crate::scene::{Scene, Variable};
 
 /// Relative error of speeds and times by rounding.
-pub(super) const ROUNDING: f64 = 8.0 * f64::EPSILON;
+pub(super) const SPEED_ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// A turn that gains no more than this part of its largest energy gains nothing.
-const NOTHING: f64 = 1e-12;
+const NO_GAIN: f64 = 1e-12;
 /// First step of the search in the logarithm of the energy; of a search beside a motion that is known.
-const STEP: f64 = 0.05;
+const FIRST_LOG_STEP: f64 = 0.05;
 const STEP_BESIDE: f64 = 1e-10;
 
 /// An extreme of the speed.
@@ -108,7 +108,7 @@ impl<'a> Seeker<'a> {
     }
 
     pub fn find(&self) -> Result<Found, Error> {
-        self.search(STEP, false)
+        self.search(FIRST_LOG_STEP, false)
     }
 
     /// A second computation, cut at other angles, because equal panels would err alike.
@@ -154,7 +154,7 @@ impl<'a> Seeker<'a> {
     fn solve(&self, rounds: &mut dyn Rounds, step: f64) -> Result<Found, Error> {
         if self.any_speed() {
             let round = rounds.round(rounds.first()).map_err(not_turned)?;
-            if round.gain.abs() > NOTHING.max(rounds.noise()) * round.largest {
+            if round.gain.abs() > NO_GAIN.max(rounds.noise()) * round.largest {
                 return Err(match round.gain > 0.0 {
                     true => Refusal::AlwaysGains(round.gain).into(),
                     false => Refusal::AlwaysLoses(-round.gain).into(),
