@@ -127,9 +127,18 @@ impl Plan {
     /// serve the scene, with the reason.
     pub fn new(scene: &Scene, method: Method) -> Result<Plan, Error> {
         scene.check()?;
+        let modelled = not_modelled(&scene.reduced(), &Linkage::new(&scene.geometry));
+        scene.refused(modelled)?;
+        Plan::of_modelled(scene, method)
+    }
+
+    /// Plans a scene that [`refuse`] has let pass.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] for a method that cannot serve the scene, with the reason.
+    pub(crate) fn of_modelled(scene: &Scene, method: Method) -> Result<Plan, Error> {
         let reduced = scene.reduced();
         let linkage = Linkage::new(&scene.geometry);
-        scene.refused(not_modelled(&reduced, &linkage))?;
         let loads = Loads::new(&reduced);
         let choice = choose(method, &loads, &reduced)?;
         let (kept, left_out) = terms(scene, &reduced);

@@ -30,7 +30,7 @@ struct Checkpoint {
 impl Default for Checkpoints {
     fn default() -> Checkpoints {
         Checkpoints {
-            kept: Vec::with_capacity(STATES_KEPT),
+            kept: Vec::new(),
             stride: 1,
             steps: 0,
             first: Vec::new(),

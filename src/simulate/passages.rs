@@ -53,9 +53,10 @@ impl Stretch<'_> {
             turns.flat_map(|before| first.iter().map(move |(ahead, dc)| (before + ahead, *dc)));
         let passages = marks.take_while(|(ahead, _)| *ahead <= way).take(kept);
         let passages = passages.map(|(ahead, dead_centre)| {
-            let t = orbit.time_of_turn(ahead).unwrap_or(until).min(until);
+            let known = orbit.passage(ahead).filter(|(t, _)| *t <= until);
+            let (t, speed) = known.unwrap_or_else(|| (until, orbit.state(until).1));
             let way = orbit.direction() * ahead;
-            Passage::new(t, start, way, dead_centre, orbit.state(t).1)
+            Passage::new(t, start, way, dead_centre, speed)
         });
         passages.collect()
     }

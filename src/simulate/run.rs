@@ -87,7 +87,7 @@ fn run_keeping(
     rows: &mut dyn RowSink,
 ) -> Result<Simulation, Error> {
     plan::refuse(scene)?;
-    let plan = Plan::new(scene, options.method)?;
+    let plan = Plan::of_modelled(scene, options.method)?;
     let extent = match scene.run.extent {
         None | Some(Extent::Revolutions(0.0)) => Extent::Duration(0.0),
         Some(extent) => extent,

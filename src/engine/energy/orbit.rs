@@ -234,8 +234,13 @@ impl Orbit {
         mirrored(back, 2.0 * back.duration.0 - since)
     }
 
-    /// When the crank has turned by `radians` from the start.
+    /// When the crank has turned by `radians` from the start, s.
     pub fn time_of_turn(&self, radians: f64) -> Option<f64> {
+        self.passage(radians).map(|(t, _)| t)
+    }
+
+    /// When the crank has turned by `radians` from the start (s), and its speed there (rad/s).
+    pub fn passage(&self, radians: f64) -> Option<(f64, f64)> {
         let turns = (radians / TAU).floor();
         let angle = |turns: f64| {
             Angle::new(
@@ -244,14 +249,16 @@ impl Orbit {
             )
         };
         if self.rotates() {
-            let after = self.forward.time_of(angle(0.0))?;
+            let (after, speed) = self.forward.at(angle(0.0))?;
             let (period, low) = self.forward.duration;
-            return Some((turns.mul_add(period, after) + turns * low).max(0.0));
+            let t = turns.mul_add(period, after) + turns * low;
+            return Some((t.max(0.0), speed));
         }
-        let early = self.forward.time_of(angle(turns)).map(|t| t.max(0.0));
+        let early = self.forward.at(angle(turns));
+        let early = early.map(|(t, speed)| (t.max(0.0), speed));
         early.or_else(|| {
             let later = self.later.as_ref()?;
-            later.time_of_turn(radians, self.start.rest, self.direction)
+            later.passage(radians, self.start.rest, self.direction)
         })
     }
 

@@ -259,11 +259,6 @@ impl Panel {
         self.piece.stretch(x) / self.slope.value(x)
     }
 
-    /// Time after the start, s, at which an angle (rad) of the panel is reached.
-    pub fn time_of(&self, theta: f64) -> f64 {
-        self.at(theta).0
-    }
-
     /// Time of an angle, and the speed there.
     pub(super) fn at(&self, theta: f64) -> (f64, f64) {
         let x = self.piece.variable(theta);

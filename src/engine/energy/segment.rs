@@ -43,8 +43,8 @@ impl Segment {
     /// A leg without panels, that ends where the last one will.
     pub fn open() -> Segment {
         Segment {
-            panels: Vec::with_capacity(64),
-            begins: Vec::with_capacity(64),
+            panels: Vec::with_capacity(8),
+            begins: Vec::with_capacity(8),
             duration: (0.0, 0.0),
             after: After::Ends,
             error: 0.0,
@@ -107,8 +107,9 @@ impl Segment {
         Some(Angle::new(turns + panel.turns, panel.piece.to))
     }
 
-    /// Time, s, at which an angle is reached; none if it is not on the leg. What is off its ends by rounding is at them.
-    pub fn time_of(&self, angle: Angle) -> Option<f64> {
+    /// Time (s) at which an angle is reached, and the speed there (rad/s); none if it is not on the leg. What is off its ends by
+    /// rounding is at them.
+    pub fn at(&self, angle: Angle) -> Option<(f64, f64)> {
         let local = |panel: &Panel| {
             let turns = angle.turns - panel.turns;
             Angle { turns, ..angle }.radians()
@@ -123,7 +124,8 @@ impl Segment {
         let (piece, at) = (&panel.piece, local(panel));
         let on_it = at.clamp(piece.from.min(piece.to), piece.from.max(piece.to));
         let is_near = (at - on_it).abs() <= SAME_ANGLE;
-        is_near.then(|| self.begins[index] + panel.time_of(on_it))
+        let (after, speed) = panel.at(on_it);
+        is_near.then(|| (self.begins[index] + after, speed))
     }
 
     /// Smallest and largest |speed| between two times.

@@ -145,14 +145,14 @@ impl Turns {
         (angle, speed)
     }
 
-    /// When the crank has turned by `radians`, from the start angle `rest` (rad).
-    pub fn time_of_turn(&self, radians: f64, rest: f64, direction: f64) -> Option<f64> {
+    /// When the crank has turned by `radians` from the start angle `rest` (rad), s, and its speed there (rad/s).
+    pub fn passage(&self, radians: f64, rest: f64, direction: f64) -> Option<(f64, f64)> {
         let whole = (radians / TAU).floor();
         let mark = self.find(Goal::Turns(whole));
         let ahead = radians - mark.turns * TAU;
         let angle = Angle::from(rest + direction * ahead);
-        let after = self.on_leg(&mark, |leg| leg.time_of(angle))?;
-        Some(mark.t.0 + (mark.t.1 + after))
+        let (after, speed) = self.on_leg(&mark, |leg| leg.at(angle))?;
+        Some((mark.t.0 + (mark.t.1 + after), speed))
     }
 
     /// Smallest and largest |speed| until a time.

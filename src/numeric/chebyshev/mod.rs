@@ -31,6 +31,17 @@ pub fn largest(values: &[f64]) -> f64 {
     most.into_iter().fold(of_rest, larger)
 }
 
+/// 1/(2k), to integrate Tₖ₋₁ − Tₖ₊₁.
+const HALF_RECIPROCALS: Values = {
+    let mut all = [0.0; MAX_DEGREE + 1];
+    let mut k = 1;
+    while k <= MAX_DEGREE {
+        all[k] = 0.5 / k as f64;
+        k += 1;
+    }
+    all
+};
+
 /// A series Σ cₖ Tₖ(x).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Series {
@@ -85,17 +96,17 @@ impl Series {
 
     /// Integral from −1; the term beyond the degree is left out, for it is as small as the tail.
     pub fn integral(&self) -> Series {
-        let c = |k: usize| self.terms().get(k).copied().unwrap_or(0.0);
+        let c = &self.coefficients;
         let mut result = [0.0; MAX_DEGREE + 1];
-        let mut at_start = 0.0;
-        let mut sign = -1.0;
-        for (k, term) in result.iter_mut().enumerate().take(self.degree + 1).skip(1) {
-            let before = if k == 1 { 2.0 * c(0) } else { c(k - 1) };
-            *term = (before - c(k + 1)) / (2.0 * k as f64);
-            at_start += sign * *term;
-            sign = -sign;
+        for k in 2..MAX_DEGREE {
+            result[k] = (c[k - 1] - c[k + 1]) * HALF_RECIPROCALS[k];
         }
-        result[0] = -at_start;
+        result[1] = c[0] - 0.5 * c[2];
+        result[MAX_DEGREE] = c[MAX_DEGREE - 1] * HALF_RECIPROCALS[MAX_DEGREE];
+        result[self.degree + 1..].fill(0.0);
+        let (pairs, last) = result.as_chunks::<2>();
+        let odd_less_even: f64 = pairs.iter().map(|[even, odd]| odd - even).sum();
+        result[0] = odd_less_even - last.iter().sum::<f64>();
         Series::new(self.degree, result)
     }
 

@@ -4,6 +4,7 @@ use super::super::error_estimate::MARGIN;
 use super::super::outcome::{Balance, Estimate};
 use super::super::result::ErrorEstimate;
 use super::super::run_setup::RunSetup;
+use super::arrived::Arrived;
 use crate::engine::angle::Driving;
 use crate::engine::energy::Orbit;
 use crate::engine::time::Start;
@@ -56,13 +57,13 @@ pub(super) fn late_by(
 pub(super) fn by_energy(
     task: &RunSetup<'_>,
     driving: &Driving,
-    work: f64,
+    arrived: &Arrived,
     wants_rows: bool,
 ) -> Estimate {
     let (orbit, end) = (&driving.orbit, driving.end);
-    let last = orbit.state(end);
+    let last = (arrived.now.angle, arrived.now.speed);
     let mut error = rounded(task, (orbit, end), last);
-    error.omega_rad_per_s += left_out(task, (orbit, end), last, work);
+    error.omega_rad_per_s += left_out(task, (orbit, end), last, arrived.work);
     Estimate {
         error,
         on_the_way: wants_rows.then(|| worst_row(end, error, |t| row_by_energy(task, orbit, t))),

@@ -52,7 +52,7 @@ pub(super) fn estimate(
         Some(Driven {
             driving, engine, ..
         }) if *engine == Engine::Energy => {
-            Some(by_energy(course.task, driving, arrived.work, wants_rows))
+            Some(by_energy(course.task, driving, arrived, wants_rows))
         }
         _ => by_second_run(course, arrived, record, wants_rows),
     }

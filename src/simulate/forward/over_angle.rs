@@ -37,13 +37,7 @@ impl Pass<'_, '_> {
         if let Some(why) = solved.stopped {
             self.arrived.end = End::Named(why.into());
         }
-        let (angle, speed) = solved.driving.orbit.state(solved.driving.end);
-        let to = Start {
-            t: solved.driving.end,
-            angle,
-            speed,
-        };
-        self.drove(Engine::Energy, reason, solved.driving, to)?;
+        self.drove(Engine::Energy, reason, solved.driving, solved.last)?;
         Ok(Why::Ended)
     }
 
@@ -170,6 +164,7 @@ pub(super) fn finer(guide: Option<Guide<'_>>) -> Resolution<'_> {
 /// A whole run, and why it ends before its goal, if it does.
 struct Solved {
     driving: Driving,
+    last: Start,
     stopped: Option<stop::Why>,
 }
 
@@ -180,9 +175,17 @@ fn solve(task: &RunSetup<'_>, position: &AngleModel<'_>) -> Result<Solved, NotAp
     let (orbit, end, stopped) = until_the_end(task, |until| {
         Orbit::new(position, task.start(), speed, until, tail)
     })?;
-    let work = position.work(task.start(), orbit.state(end).0);
-    let driving = Driving::whole(orbit, end, work);
-    Ok(Solved { driving, stopped })
+    let (angle, speed) = orbit.state(end);
+    let work = position.work(task.start(), angle);
+    Ok(Solved {
+        driving: Driving::whole(orbit, end, work),
+        last: Start {
+            t: end,
+            angle,
+            speed,
+        },
+        stopped,
+    })
 }
 
 /// A motion, its last time, and why it does not complete its turns, if it does not.

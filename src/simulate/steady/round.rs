@@ -37,7 +37,7 @@ impl Motion {
     /// Speed (rad/s) where the crank has turned by this since the start, rad.
     pub fn omega(&self, turned: f64) -> f64 {
         let speed = match self {
-            Motion::Orbit(orbit) => orbit.time_of_turn(turned).map(|t| orbit.state(t).1),
+            Motion::Orbit(orbit) => orbit.passage(turned).map(|(_, speed)| speed),
             Motion::Timed { trajectory, start } => {
                 let state = |t: f64| trajectory.state(t);
                 let ahead = |t: f64| {
