@@ -61,7 +61,7 @@ pub struct Balance {
     pub part: f64,
     /// Mass times distance from the crank's axis, kg m.
     pub counterweight_kg_m: f64,
-    /// Its angle from the crank, rad in [0, 2π).
+    /// Angle of the counterweight from the crank, rad in [0, 2π).
     pub angle_rad: f64,
     /// What turns with the crank without the counterweight, N.
     pub forward_n: f64,

@@ -29,7 +29,7 @@ pub struct OffsetExtremes {
 /// Extremes of a scene with each of some offsets (m).
 ///
 /// # Errors
-/// Those of [`kinematics`] and [`forces`].
+/// The errors of [`kinematics`] and [`forces`].
 pub fn offset_extremes(scene: &Scene, offsets: &[f64]) -> Result<Vec<OffsetExtremes>, Error> {
     let of = |offset: &f64| {
         let scene = scene.clone().offset(*offset);

@@ -109,7 +109,7 @@ pub struct LengthSlope {
 /// Kinematics of a scene and what `options` ask for beside it.
 ///
 /// # Errors
-/// Those of [`kinematics`] and [`forces`], and those of the changed lengths.
+/// The errors of [`kinematics`] and [`forces`], and those of the changed lengths.
 pub fn one_turn(scene: &Scene, options: &TurnOptions) -> Result<OneTurn, Error> {
     let mut kinematics = kinematics(scene)?;
     let linkage = Linkage::new(&scene.geometry);

@@ -33,7 +33,7 @@ impl Extremes {
         if Class::of(linkage) != Class::RotatingCrank {
             return None;
         }
-        let grid = linkage.turn_grid(STEP).into_iter();
+        let grid = linkage.turn_grid(LARGEST_STEP).into_iter();
         let poses: Vec<_> = grid.map(|theta| (theta, linkage.pose(theta))).collect();
         let (velocity_min, velocity_max) = pair(linkage, &poses, |p| p.dx, |_, p| p.d2x)?;
         let (acceleration_min, acceleration_max) = pair(
@@ -79,7 +79,8 @@ impl Linkage {
     /// guide, and vary on the scale of the distance from them.
     pub fn turn_grid(&self, step: f64) -> Vec<f64> {
         let heights = [self.below[0], self.above[0], self.below[0]];
-        let widths = heights.map(|height| 2.0 * (0.5 * height / self.r).max(LEAST).sqrt().asinh());
+        let widths =
+            heights.map(|height| 2.0 * (0.5 * height / self.r).max(LEAST_MISS).sqrt().asinh());
         let distance = |theta: f64| {
             let squared = |k: usize| {
                 let along = theta - FRAC_PI_2 * (2.0 * k as f64 - 1.0);
@@ -89,11 +90,11 @@ impl Linkage {
         };
         let end = SEAM + TAU;
         // A long rod keeps them all far off.
-        let is_far = PART * widths[0].min(widths[1]) >= step;
+        let is_far = STEP_BY_DISTANCE * widths[0].min(widths[1]) >= step;
         let next = |theta: &f64| {
             let step = match is_far {
                 true => step,
-                false => step.min(PART * distance(*theta)),
+                false => step.min(STEP_BY_DISTANCE * distance(*theta)),
             };
             let next = theta + step;
             (*theta < end).then_some(next.min(end))
@@ -103,10 +104,10 @@ impl Linkage {
 }
 
 /// Largest step between the extremes of x' and of x'', rad.
-const STEP: f64 = 0.0625;
+const LARGEST_STEP: f64 = 0.0625;
 /// Where the turn is cut, rad: an angle at which nothing is extreme for a reason of symmetry.
 const SEAM: f64 = -1.7;
 /// Step as a part of the distance from the nearest branch point.
-const PART: f64 = 0.125;
+const STEP_BY_DISTANCE: f64 = 0.125;
 /// Least part of the crank length by which the rod is taken to miss the normal: that of rounding.
-const LEAST: f64 = f64::EPSILON;
+const LEAST_MISS: f64 = f64::EPSILON;

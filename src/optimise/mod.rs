@@ -157,7 +157,7 @@ pub const GAIN: f64 = 1e-9;
 /// ```
 ///
 /// # Errors
-/// Those of [`Sweep::new`]; [`Error::Refused`] if a key is not varied between two bounds, or no design has the figures.
+/// The errors of [`Sweep::new`]; [`Error::Refused`] if a key is not varied between two bounds, or no design has the figures.
 pub fn optimise(
     draft: Draft,
     varied: Vec<Varied>,

@@ -13,7 +13,7 @@ const STAGES: usize = 16;
 pub(super) const ITERATIONS: usize = 25;
 
 /// A step this much shorter than the run is none.
-const SHORTEST: f64 = 1e-14;
+const SHORTEST_STEP: f64 = 1e-14;
 
 /// How near to an angle at which the acceleration is not smooth a step must end, rad: what the rest of a kink
 /// does goes with its square.
@@ -141,7 +141,7 @@ pub(super) fn integrate(
         let left = (DoubleDouble::from(stop) - place.t).value();
         let last = h >= left * (1.0 - 1e-9);
         let mut step = if last { left } else { h };
-        if step < SHORTEST * length && !last || run.evaluations > resolution.evaluations {
+        if step < SHORTEST_STEP * length && !last || run.evaluations > resolution.evaluations {
             return None;
         }
         let Some(mut found) = run.step(place, step) else {

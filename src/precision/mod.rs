@@ -45,7 +45,7 @@ impl Default for PrecisionOptions {
 pub struct PrecisionRow {
     /// The method, as `--method` names it; `contact` for scenes with a loose joint.
     pub method: String,
-    /// Its tolerance.
+    /// Tolerance of the method.
     pub tolerance: f64,
     /// Error of the crank angle at the end, rad; an upper bound if [`Self::error_is_bound`].
     pub error_theta_rad: Option<f64>,

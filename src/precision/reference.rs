@@ -31,7 +31,7 @@ pub struct Reference {
 const MARGIN: f64 = 4.0;
 
 /// Relative rounding of the last operations in double-double arithmetic.
-const ROUNDING: f64 = 256.0 * DoubleDouble::ROUNDING;
+const RESULT_ROUNDING: f64 = 256.0 * DoubleDouble::ROUNDING;
 
 /// Ends of the series of the two runs, and where iterations end. Coarser ones follow for motions near a limit,
 /// where digits are lost; loads in floats have their rounding in the series.
@@ -58,7 +58,7 @@ pub fn extended(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference
             what: "angle + speed t in double-double arithmetic".to_owned(),
             theta,
             omega: start.omega,
-            theta_error: theta.value().abs() * ROUNDING,
+            theta_error: theta.value().abs() * RESULT_ROUNDING,
             omega_error: 0.0,
             ends_at: None,
             slider: None,
@@ -109,7 +109,7 @@ pub fn extended(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference
 
 /// How far two runs are apart, and what rounding adds.
 pub fn distance(a: DoubleDouble, b: DoubleDouble) -> f64 {
-    MARGIN * (a - b).value().abs() + b.value().abs() * ROUNDING
+    MARGIN * (a - b).value().abs() + b.value().abs() * RESULT_ROUNDING
 }
 
 fn loads(exact: bool) -> &'static str {

@@ -34,7 +34,7 @@ impl Diagram {
         Diagram::Balance,
     ];
 
-    /// Its name on the command line.
+    /// Name of the diagram on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Diagram::TurningMoment => "turning-moment",

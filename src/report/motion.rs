@@ -22,7 +22,7 @@ pub struct PlotRows {
 }
 
 /// Most rows that are kept.
-const MOST: usize = 100_000;
+const ROWS_KEPT: usize = 100_000;
 
 impl PlotRows {
     /// No rows yet; what is to be seen of them.
@@ -30,7 +30,7 @@ impl PlotRows {
         let force = |row: &Row| row.clearance.map_or(0.0, |joint| joint.force);
         PlotRows {
             view,
-            rows: Thinned::weighted(MOST, force),
+            rows: Thinned::weighted(ROWS_KEPT, force),
         }
     }
 

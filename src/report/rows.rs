@@ -122,12 +122,12 @@ pub struct Preview {
 }
 
 /// Twice the least number of rows in a preview.
-const MOST: usize = 24;
+const PREVIEW_ROWS: usize = 24;
 
 impl Default for Preview {
     fn default() -> Preview {
         Preview {
-            few: Thinned::new(MOST),
+            few: Thinned::new(PREVIEW_ROWS),
             last: None,
         }
     }

@@ -13,7 +13,7 @@ use crate::scene::{Expression, Instant};
 pub(super) type Quantities = Box<dyn Fn(&str, f64) -> Option<f64>>;
 
 /// Step of numerical derivatives, rad: truncation and rounding are then about 1e-12 of the value.
-const STEP: f64 = 1e-3;
+const DERIVATIVE_STEP: f64 = 1e-3;
 
 /// The files of a paper.
 #[derive(Clone, Copy)]
@@ -82,7 +82,7 @@ impl Book {
         let slope = |name: &str| {
             let of = symbol(name.strip_prefix("slope_")?)?;
             let at = |theta| of.value(&now(0.0, theta));
-            Some(difference::slope(at, theta, STEP))
+            Some(difference::slope(at, theta, DERIVATIVE_STEP))
         };
         let number = |name: &str| slope(name).or_else(|| (self.quantities)(name, theta));
         let named = |name: &str| symbol(name).or_else(|| number(name).map(Expression::constant));

@@ -27,7 +27,7 @@ pub struct Plot {
 /// One curve or set of points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// Its name in the legend.
+    /// Name of the curve in the legend.
     pub label: String,
     /// How it is drawn.
     pub style: Style,

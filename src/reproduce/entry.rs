@@ -7,9 +7,9 @@ use serde::{Serialize, Serializer};
 pub enum Verdict {
     /// The mechanics gives what is printed.
     Reproduces,
-    /// It does under the condition named.
+    /// The printed value reproduces under the condition named.
     OnlyIf,
-    /// It does not, and no condition is known under which it would.
+    /// The printed value does not reproduce, and no condition is known under which it would.
     Cannot,
 }
 

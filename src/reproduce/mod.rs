@@ -35,7 +35,7 @@ impl Paper {
     /// All of them.
     pub const ALL: [Paper; 4] = [Paper::ObasekiAlfred, Paper::Gupta, Paper::Ng, Paper::Duarte];
 
-    /// Its name in arguments and file names.
+    /// Name of the paper in arguments and file names.
     pub fn name(self) -> &'static str {
         match self {
             Paper::ObasekiAlfred => "obaseki-alfred",

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt;
 
 /// A cycle is not longer than this, turns: it is tabulated as a whole. It is a multiple of all numbers up to six.
-const LONGEST: u32 = 120;
+const LONGEST_CYCLE: u32 = 120;
 
 /// A number is taken for a fraction if a chance number of as many digits would be as near to a fraction of so small a
 /// denominator less often than this.
@@ -45,7 +45,7 @@ impl Period {
             turns: turns / common,
             parts: parts / common,
         };
-        (period.turns <= LONGEST).then_some(period)
+        (period.turns <= LONGEST_CYCLE).then_some(period)
     }
 
     /// The least whole number of turns that holds it without a rest.
@@ -72,7 +72,7 @@ impl Period {
         if whole < 1.0 || 2.0 * off * fractions > CHANCE {
             return Err(WhyNot::Incommensurable);
         }
-        match whole <= f64::from(LONGEST) && parts <= f64::from(u32::MAX) {
+        match whole <= f64::from(LONGEST_CYCLE) && parts <= f64::from(u32::MAX) {
             true => Ok(Period {
                 turns: whole as u32,
                 parts: parts as u32,
@@ -96,7 +96,7 @@ impl Period {
     fn with(self, other: Period) -> Result<Period, WhyNot> {
         let [a, b] = [self.turns, other.turns].map(u64::from);
         let turns = a / gcd(a, b) * b;
-        if turns > LONGEST.into() {
+        if turns > LONGEST_CYCLE.into() {
             return Err(WhyNot::TooLong(turns as f64));
         }
         Ok(Period {

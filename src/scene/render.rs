@@ -53,15 +53,15 @@ impl Problems {
 }
 
 /// Longest message, in characters: one that is longer quotes a value as long as a file.
-const LONGEST: usize = 300;
+const LONGEST_MESSAGE: usize = 300;
 
 /// A message without the middle of what it quotes, if that is very long.
 fn shortened(text: &str) -> Cow<'_, str> {
     let count = text.chars().count();
-    if count <= LONGEST {
+    if count <= LONGEST_MESSAGE {
         return Cow::Borrowed(text);
     }
-    let half = LONGEST / 2;
+    let half = LONGEST_MESSAGE / 2;
     let start: String = text.chars().take(half).collect();
     let end: String = text.chars().skip(count - half).collect();
     Cow::Owned(format!("{start} ... {end}"))

@@ -59,7 +59,7 @@ pub enum Source {
     Peaks,
     /// The periodic steady state.
     Steady,
-    /// Its flywheel.
+    /// The flywheel of the steady state.
     Flywheel,
 }
 

@@ -145,7 +145,7 @@ impl Sweep {
         &self.title
     }
 
-    /// The same designs, their motions with estimates of their errors.
+    /// This sweep over the same designs, their motions with estimates of their errors.
     pub fn with_estimates(&self) -> Sweep {
         let mut sweep = self.clone();
         sweep.options.estimate = true;
@@ -224,7 +224,7 @@ impl Sweep {
     /// Computes designs on all cores and hands them on in their order, some at a time.
     ///
     /// # Errors
-    /// Those of `take`; [`Error::Interrupted`].
+    /// The errors of `take`; [`Error::Interrupted`].
     pub fn designs(
         &self,
         range: Range<usize>,

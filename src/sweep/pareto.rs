@@ -16,7 +16,7 @@ pub struct Goal {
 pub struct Member {
     /// From 1.
     pub design: usize,
-    /// Its figures, in the order of the goals.
+    /// Figures of the design, in the order of the goals.
     pub figures: Vec<f64>,
 }
 

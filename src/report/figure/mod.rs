@@ -72,7 +72,7 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// Its horizontal axis.
+    /// Horizontal axis of the figure.
     pub(super) fn x_axis(&mut self) -> &mut Axis {
         &mut self.x
     }

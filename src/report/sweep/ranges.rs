@@ -39,7 +39,7 @@ pub struct SweepSummary {
 pub struct VariedKey {
     /// As in scene files.
     pub key: String,
-    /// Its values as they were asked for.
+    /// Values of the key as they were asked for.
     pub values: String,
     /// Number of listed values; 1 of a distribution.
     pub count: usize,

@@ -20,7 +20,7 @@ const MASS_KEYS: [&str; 8] = [
 /// Largest value, SI: an energy, the product of five values, has one in double precision, too.
 const LARGEST: f64 = 1e50;
 /// Least value that has to be positive, SI: such a product does not vanish.
-const LEAST: f64 = 1.0 / LARGEST;
+const LEAST_POSITIVE: f64 = 1.0 / LARGEST;
 
 /// The problems found so far.
 pub(super) struct Check<'a>(pub &'a mut Vec<Problem>);
@@ -54,7 +54,7 @@ impl Check<'_> {
         if value <= 0.0 {
             self.0
                 .push(Problem::not_positive(&field.to_string(), value, unit));
-        } else if value < LEAST {
+        } else if value < LEAST_POSITIVE {
             let what = format!("{value:e} is too small to be computed with");
             self.add(field, what, "give a value above 1e-50 in SI units");
         }

@@ -8,7 +8,7 @@ use crate::scene::{Geometry, Motion};
 pub(super) const LENGTHS: [&str; 3] = ["geometry.crank", "geometry.rod", "geometry.offset"];
 
 /// The limits themselves are reached, also when rounding puts them outside by this part of the lengths.
-const ROUNDING: f64 = 1e-12;
+const LIMIT_ROUNDING: f64 = 1e-12;
 
 /// Larger angles, rad, are rounded by more than a hundredth of a degree.
 const LARGEST: f64 = 1e12;
@@ -31,7 +31,7 @@ pub(super) fn reached(list: &mut Check, geometry: &Geometry, motion: &Motion) {
         crank, rod, offset, ..
     } = *geometry;
     let distance = (offset + crank * motion.angle.sin()).abs();
-    let outside = distance > rod + ROUNDING * (crank + rod);
+    let outside = distance > rod + LIMIT_ROUNDING * (crank + rod);
     if !outside || *motion == Motion::default() {
         return;
     }

@@ -8,7 +8,7 @@ use crate::scene::read::value;
 use crate::scene::unit::{self, PLUS_MINUS};
 
 /// Most values of one key.
-const MOST: usize = 1_000_000;
+const MOST_VALUES: usize = 1_000_000;
 
 /// A value that a key of a scene takes.
 #[derive(Clone, Debug, PartialEq)]
@@ -121,10 +121,10 @@ fn listed(text: &str) -> Vec<String> {
 /// Values from the first to the last, in the unit in which these are written.
 fn spread(from: &str, to: &str, count: &str, logarithmic: bool) -> Result<Vec<String>, String> {
     let count = match count.parse() {
-        Ok(count @ 1..=MOST) => count,
+        Ok(count @ 1..=MOST_VALUES) => count,
         _ => {
             return Err(format!(
-                "`{count}` is not a number of values from 1 to {MOST}"
+                "`{count}` is not a number of values from 1 to {MOST_VALUES}"
             ));
         }
     };

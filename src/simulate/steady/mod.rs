@@ -50,7 +50,7 @@ impl SteadyOptions {
 }
 
 /// Finds the periodic motion that the scene's start approaches, or the next faster one if the crank would stop.
-/// It turns as the start speed does; a start at rest leaves the sense of rotation open.
+/// The motion turns as the start speed does; a start at rest leaves the sense of rotation open.
 ///
 /// Where no load depends on the speed and a turn gains no energy, every speed is periodic: then the start speed is
 /// the steady one.
