@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::{Class, Linkage, Pose};
 use crate::numeric::root;
+use crate::numeric::trigonometry::sin_cos;
 
 /// An extreme value and where it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,8 +34,7 @@ impl Extremes {
         if Class::of(linkage) != Class::RotatingCrank {
             return None;
         }
-        let grid = linkage.turn_grid(LARGEST_STEP).into_iter();
-        let poses: Vec<_> = grid.map(|theta| (theta, linkage.pose(theta))).collect();
+        let poses = poses(linkage, &linkage.turn_grid(LARGEST_STEP));
         let (velocity_min, velocity_max) = pair(linkage, &poses, |p| p.dx, |_, p| p.d2x)?;
         let (acceleration_min, acceleration_max) = pair(
             linkage,
@@ -49,6 +49,17 @@ impl Extremes {
             acceleration_min,
         })
     }
+}
+
+/// Poses at crank angles, rad: sines and cosines of some angles at a time.
+fn poses(linkage: &Linkage, grid: &[f64]) -> Vec<(f64, Pose)> {
+    let (some, rest) = grid.as_chunks::<8>();
+    let at_once = some.iter().flat_map(|angles| {
+        let (sin, cos) = sin_cos(angles);
+        std::array::from_fn::<_, 8, _>(|i| (angles[i], linkage.pose_at(sin[i], cos[i])))
+    });
+    let one_by_one = rest.iter().map(|theta| (*theta, linkage.pose(*theta)));
+    at_once.chain(one_by_one).collect()
 }
 
 /// Smallest and largest `value` over a turn, from the roots of its derivative between these poses.
