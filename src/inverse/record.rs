@@ -235,25 +235,6 @@ impl Record<'_> {
         }
     }
 
-    /// Takes the middles of intervals for samples, each as good as its width: what passages from step to step tell, whatever the
-    /// motion between them is.
-    pub fn take_middles(&mut self, codes: Codes) {
-        self.codes = None;
-        for (i, interval) in std::mem::take(&mut self.intervals).iter().enumerate() {
-            let counts = interval.middle.is_finite();
-            self.values[i] = if counts {
-                interval.middle
-            } else {
-                self.values[i]
-            };
-            self.weights[i] = if counts {
-                (codes.step / interval.width).powi(2)
-            } else {
-                0.0
-            };
-        }
-    }
-
     /// Samples that hardly count because they are far off.
     pub fn outliers(&self) -> impl Iterator<Item = usize> {
         let far = (0..self.weights.len()).filter(|i| match self.intervals.get(*i) {

@@ -15,6 +15,8 @@ pub(super) struct Misfit {
     /// Standard deviation of the residuals over that of the noise.
     ratio: f64,
     runs: Runs,
+    /// Whether the samples are likelier with a torque beside the equation.
+    pub misses_torque: bool,
     /// The other key with which the largest likelihood is expected, and those as good, with the ratio that is expected.
     helpers: Vec<(String, f64)>,
 }
@@ -71,6 +73,7 @@ impl Misfit {
         Ok(Some(Misfit {
             ratio,
             runs: Runs::of(&errors),
+            misses_torque: !is_likely,
             helpers,
         }))
     }

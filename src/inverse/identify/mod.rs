@@ -184,12 +184,14 @@ fn warnings_of(found: &Found, free: &[FreeValue], measurement: &Measurement) -> 
         list.push("the prediction errors are not white noise: the standard errors hold for white noise, and may be too small".to_owned());
     }
     if let Some(misfit) = &found.misfit {
-        list.push(format!(
-            "{}; a torque beside it of {:.3e} N m in root mean square stands for what is missing, and the errors of the values hold if that varies at random; {}",
-            misfit.words(),
-            found.missing,
-            misfit.help()
-        ));
+        let errors = match misfit.misses_torque {
+            true => format!(
+                "a torque beside it of {:.3e} N m in root mean square stands for what is missing, and the errors of the values hold if that varies at random",
+                found.missing
+            ),
+            false => "the errors of the values do not hold".to_owned(),
+        };
+        list.push(format!("{}; {errors}; {}", misfit.words(), misfit.help()));
     }
     let zero = free.iter().any(|one| one.is_sensor_zero);
     if zero && measurement.measured() == Measured::Gamma {
