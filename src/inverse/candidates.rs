@@ -1,9 +1,13 @@
 //! Priors about a smoothed path with the noise that makes the samples likeliest.
 
-use super::likelihood::Linear;
+use std::ops::Range;
+
+use super::likelihood::{Linear, Stretch};
+use super::periodic::increments;
 use super::prior::{Candidate, LADDERS, Prior, TORQUE};
-use super::problem::Problem;
-use super::scales::Noise;
+use super::problem::{Problem, angles};
+use super::record::Path;
+use super::scales::{Noise, Scales};
 use super::smoother::Smoothed;
 use super::state_space::Autoregression;
 use crate::numeric::parallel;
@@ -12,22 +16,41 @@ use crate::numeric::parallel;
 /// which a prior of order three would take for force.
 const COMPUTED: f64 = 1.5e-8;
 
+/// The linear model about a smoothed path: one for all orders of an unknown, whose derivatives are 0 along that path.
+pub(super) struct About {
+    prior: Prior,
+    path: Path,
+    stretches: Vec<Stretch>,
+    scales: Scales,
+    corner: f64,
+}
+
 impl Problem<'_> {
-    /// A prior about a smoothed path with its likeliest noise, from a first one; none where `least` says that it is not worth that.
+    /// The linear model of a prior about a smoothed path.
+    pub fn about(&self, prior: Prior, from: &Smoothed) -> About {
+        let motion = self.motion(prior);
+        let path = self.path_of(prior, from, self.sampled());
+        About {
+            prior,
+            scales: self.scales(&motion, &path, from.scales.slope, from.scales.motion),
+            stretches: self.stretches(&motion, &path, from.noise.sigma),
+            corner: from.noise.corner,
+            path,
+        }
+    }
+
+    /// A prior with its likeliest noise, from a first one; none where `least` says that it is not worth that.
     fn candidate_from(
         &self,
         prior: Prior,
-        from: &Smoothed,
+        about: &About,
         first: Noise,
         least: f64,
         correlated: &[Autoregression],
     ) -> Option<Candidate> {
-        let motion = self.motion(prior);
-        let path = self.path_of(prior, from, self.sampled());
-        let scales = self.scales(&motion, &path, from.scales.slope, from.scales.motion);
-        let stretches = self.stretches(&motion, &path, from.noise.sigma);
+        let scales = about.scales;
         let linear = Linear {
-            stretches: &stretches,
+            stretches: &about.stretches,
             prior,
             scales,
         };
@@ -53,11 +76,11 @@ impl Problem<'_> {
     pub fn candidate(
         &self,
         prior: Prior,
-        from: &Smoothed,
+        about: &About,
         correlated: &[Autoregression],
     ) -> Candidate {
-        let first = Noise::white(from.noise.corner);
-        let found = self.candidate_from(prior, from, first, f64::NEG_INFINITY, correlated);
+        let first = Noise::white(about.corner);
+        let found = self.candidate_from(prior, about, first, f64::NEG_INFINITY, correlated);
         found.unwrap_or_else(|| unreachable!("any likelihood will do"))
     }
 
@@ -72,8 +95,9 @@ impl Problem<'_> {
         };
         let tried = parallel::map(LADDERS.iter(), |ladder| {
             let mut tried: Vec<Candidate> = Vec::new();
+            let about = self.about(ladder[0], kinematic);
             for prior in *ladder {
-                let next = self.candidate(*prior, kinematic, correlated);
+                let next = self.candidate(*prior, &about, correlated);
                 let before = tried
                     .last()
                     .map_or(f64::NEG_INFINITY, |c| c.noise.likelihood);
@@ -84,10 +108,11 @@ impl Problem<'_> {
                     break;
                 }
             }
-            tried
+            (tried, about)
         });
+        let (tried, abouts): (Vec<_>, Vec<_>) = tried.into_iter().unzip();
         let mut tried: Vec<_> = tried.into_iter().flatten().collect();
-        let repeating = self.repeating(turns, &tried, kinematic, correlated);
+        let repeating = self.repeating(turns, &tried, &abouts, correlated);
         tried.extend(repeating);
         tried.sort_by(|a, b| b.noise.likelihood.total_cmp(&a.noise.likelihood));
         tried
@@ -100,19 +125,26 @@ impl Problem<'_> {
         &self,
         turns: f64,
         tried: &[Candidate],
-        kinematic: &Smoothed,
+        abouts: &[About],
         correlated: &[Autoregression],
     ) -> Vec<Candidate> {
         let torque = tried.iter().find(|one| one.prior == TORQUE);
-        let Some(Candidate { noise, .. }) = torque.filter(|_| self.sampled() == self.all()) else {
+        let torque = torque.filter(|_| self.sampled() == self.all());
+        let about = abouts.iter().find(|about| about.prior == TORQUE);
+        let (Some(Candidate { noise, .. }), Some(about)) = (torque, about) else {
             return Vec::new();
         };
         let least = noise.likelihood + (self.record.times.len() as f64).ln();
         let of_cycle = |cycle: u8| {
             let prior = Prior { cycle, ..TORQUE };
-            let first = self.candidate_from(prior, kinematic, *noise, least, correlated)?;
+            let about = &About {
+                stretches: self.repeated(about, cycle),
+                path: about.path.clone(),
+                ..*about
+            };
+            let first = self.candidate_from(prior, about, *noise, least, correlated)?;
             let prior = Prior { order: 2, ..prior };
-            let next = self.candidate_from(prior, kinematic, first.noise, least, correlated);
+            let next = self.candidate_from(prior, about, first.noise, least, correlated);
             Some(std::iter::once(first).chain(next))
         };
         let cycles = [1, 2]
@@ -120,5 +152,20 @@ impl Problem<'_> {
             .filter(|cycle| turns >= 2.0 * f64::from(*cycle));
         let found = parallel::map(cycles, of_cycle);
         found.into_iter().flatten().flatten().collect()
+    }
+
+    /// The stretches of a linear model, with what repeats in each step.
+    fn repeated(&self, about: &About, cycle: u8) -> Vec<Stretch> {
+        let pairs = self.sampled().into_iter().zip(&about.stretches);
+        let with = |(range, stretch): (Range<usize>, &Stretch)| {
+            let states = about.path.piece(&range).states;
+            let steps = stretch.steps.clone();
+            Stretch {
+                increments: increments(angles(states, &steps), cycle),
+                observed: stretch.observed.clone(),
+                steps,
+            }
+        };
+        pairs.map(with).collect()
     }
 }

@@ -4,7 +4,7 @@
 //! and x' for a force (N); without mechanics θ̈ = u.
 
 use super::prior::{Prior, Unknown};
-use crate::mechanism::Equation;
+use crate::mechanism::{Equation, Terms};
 
 /// Largest order of a prior.
 pub(super) const ORDERS: usize = 3;
@@ -43,7 +43,11 @@ impl Motion<'_> {
         if self.prior.unknown == Unknown::Acceleration {
             return [unknown, 1.0];
         }
-        let terms = self.equation.terms(theta);
+        self.at(&self.equation.terms(theta), t, theta, omega, unknown)
+    }
+
+    /// θ̈ and ∂θ̈/∂u by the terms of the equation at θ.
+    fn at(&self, terms: &Terms, t: f64, theta: f64, omega: f64, unknown: f64) -> [f64; 2] {
         let load = self
             .equation
             .loads()
@@ -68,7 +72,8 @@ impl Motion<'_> {
                 ..Rates::default()
             };
         }
-        let [alpha, by_unknown] = self.acceleration(t, theta, omega, unknown);
+        let terms = self.equation.terms(theta);
+        let [alpha, by_unknown] = self.at(&terms, t, theta, omega, unknown);
         let [mut turned, _] = self.acceleration(t, theta + STEP, omega, unknown);
         let mut step = STEP;
         if !turned.is_finite() {
@@ -77,7 +82,7 @@ impl Motion<'_> {
             [turned, _] = self.acceleration(t, theta + step, omega, unknown);
         }
         let faster = STEP * omega.abs().max(1e-3);
-        let [quick, _] = self.acceleration(t, theta, omega + faster, unknown);
+        let [quick, _] = self.at(&terms, t, theta, omega + faster, unknown);
         Rates {
             alpha,
             by_theta: (turned - alpha) / step,

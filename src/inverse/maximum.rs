@@ -66,7 +66,7 @@ fn value(points: &[(f64, Noise)], place: f64) -> f64 {
 }
 
 /// Rise of ln of a likelihood that is not worth another evaluation.
-const ENOUGH: f64 = 0.05;
+pub(super) const ENOUGH: f64 = 0.05;
 
 /// A place and how much higher it is expected to be than what is known.
 struct Top {

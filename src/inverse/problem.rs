@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::estimate::Estimate;
 use super::kalman;
 use super::likelihood::{Linear, Stretch};
-use super::linearised::{Motion, Rates};
+use super::linearised::{Linearised, Motion, Rates, State};
 use super::periodic::{Sensitivities, increments};
 use super::prior::Prior;
 use super::record::{Grid, Path, Record, hermite};
@@ -110,21 +110,17 @@ impl<'a> Problem<'a> {
         let states = piece.states;
         let pairs = times.iter().zip(states);
         let rates: Vec<Rates> = pairs.map(|(t, state)| motion.rates(*t, state)).collect();
-        let ends = |k: usize| [&states[k], &states[k + 1]];
-        let angles = (0..states.len() - 1).map(|k| {
-            let ([a, b], h) = (ends(k), times[k + 1] - times[k]);
-            [a[0], 0.5 * (a[0] + b[0]) + 0.125 * h * (a[1] - b[1]), b[0]]
-        });
-        let increments = match motion.prior.cycle {
-            0 => Vec::new(),
-            turns => increments(angles, turns),
-        };
         let steps = (0..states.len() - 1).map(|k| {
-            let ends = ends(k);
+            let ends = [&states[k], &states[k + 1]];
             motion.linearised([times[k], times[k + 1]], ends, [&rates[k], &rates[k + 1]])
         });
+        let steps: Vec<Linearised> = steps.collect();
+        let increments = match motion.prior.cycle {
+            0 => Vec::new(),
+            turns => increments(angles(states, &steps), turns),
+        };
         Stretch {
-            steps: steps.collect(),
+            steps,
             increments,
             observed: range
                 .map(|k| self.record.observed(&self.grid, &piece, k, sigma))
@@ -284,4 +280,17 @@ impl<'a> Problem<'a> {
             .map(estimate)
             .collect()
     }
+}
+
+/// Crank angles at begin, middle and end of each step, rad.
+pub(super) fn angles(states: &[State], steps: &[Linearised]) -> impl Iterator<Item = [f64; 3]> {
+    let pairs = states.windows(2).zip(steps);
+    pairs.map(|(ends, step)| {
+        let (a, b) = (&ends[0], &ends[1]);
+        [
+            a[0],
+            0.5 * (a[0] + b[0]) + 0.125 * step.h * (a[1] - b[1]),
+            b[0],
+        ]
+    })
 }

@@ -40,7 +40,7 @@ impl Whiteness {
         let part = 2.0 / (9.0 * lags as f64);
         Whiteness {
             lag_one: correlation(1),
-            runs: runs(&list),
+            runs: Runs::of(&list).deviation(),
             ljung_box: ((statistic / lags as f64).cbrt() - (1.0 - part)) / part.sqrt(),
         }
     }
@@ -51,20 +51,36 @@ impl Whiteness {
     }
 }
 
-fn runs(list: &[f64]) -> f64 {
-    let positive = list.iter().filter(|r| **r > 0.0).count() as f64;
-    let negative = list.len() as f64 - positive;
-    let all = positive + negative;
-    let expected = 1.0 + 2.0 * positive * negative / all;
-    let variance = (expected - 1.0) * (expected - 2.0) / (all - 1.0);
-    let found = 1 + list
-        .windows(2)
-        .filter(|w| (w[0] > 0.0) != (w[1] > 0.0))
-        .count();
-    if variance > 0.0 {
-        (found as f64 - expected) / variance.sqrt()
-    } else {
-        0.0
+/// Runs of one sign (Wald and Wolfowitz).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Runs {
+    pub found: f64,
+    /// Number that noise has.
+    pub expected: f64,
+    /// Variance of the number that noise has.
+    variance: f64,
+}
+
+impl Runs {
+    /// Runs of residuals.
+    pub fn of(list: &[f64]) -> Runs {
+        let positive = list.iter().filter(|r| **r > 0.0).count() as f64;
+        let all = list.len() as f64;
+        let expected = 1.0 + 2.0 * positive * (all - positive) / all;
+        let pairs = list.windows(2);
+        Runs {
+            found: 1.0 + pairs.filter(|w| (w[0] > 0.0) != (w[1] > 0.0)).count() as f64,
+            expected,
+            variance: (expected - 1.0) * (expected - 2.0) / (all - 1.0),
+        }
+    }
+
+    /// Standard deviations from what noise has.
+    fn deviation(&self) -> f64 {
+        match self.variance > 0.0 {
+            true => (self.found - self.expected) / self.variance.sqrt(),
+            false => 0.0,
+        }
     }
 }
 

@@ -79,7 +79,8 @@ impl Problem<'_> {
             // Two parameters more (Schwarz 1978).
             let least = likelihood(&white) + (self.record.times.len() as f64).ln();
             let guesses = Autoregression::guesses(found.scales.spacing);
-            let first = self.candidate(found.prior, &kinematic, &guesses).noise;
+            let about = self.about(found.prior, &kinematic);
+            let first = self.candidate(found.prior, &about, &guesses).noise;
             if let Some(guess) = first.correlated
                 && first.likelihood > least
             {
@@ -140,7 +141,7 @@ impl Problem<'_> {
         };
         for iteration in 0..ITERATIONS {
             // A path that has moved tells another noise, once.
-            if iteration <= 1 {
+            if iteration == 1 || iteration == 0 && prior.follows_speed {
                 let stretches = self.stretches(&motion, &path, noise.sigma);
                 let linear = Linear {
                     stretches: &stretches,

@@ -7,7 +7,9 @@ use super::super::record::Path;
 use super::super::scales::Noise;
 use super::super::smoother::Smoothed;
 use super::FreeValue;
-use super::information::{IdentifiedValue, Information};
+use super::information::Information;
+use super::misfit::Misfit;
+use super::optimum::{Found, Optimum};
 use super::trial::{Innovations, MISSING, Trials};
 use crate::error::Error;
 use crate::numeric::parallel;
@@ -18,6 +20,9 @@ const ITERATIONS: usize = 60;
 
 /// Way of a step over the scale of a value, where the record tells little of it.
 const WIDTH: f64 = 0.3;
+
+/// Factor by which that way grows with each step that is taken whole (Marquardt).
+const WIDENED: f64 = 3.0;
 
 /// Most halvings of a step.
 const HALVINGS: usize = 20;
@@ -33,26 +38,12 @@ const STEP: f64 = 0.1;
 const FIRST: f64 = 1e-4;
 
 /// ln of the likelihood ratio from which on a missing torque is significant.
-const SIGNIFICANT: f64 = 2.0;
+pub(super) const SIGNIFICANT: f64 = 2.0;
 
 /// The search for the largest likelihood.
 pub(super) struct Search<'a> {
     trials: Trials<'a>,
     path: Path,
-}
-
-/// What the search has found.
-#[derive(Debug)]
-pub(super) struct Found {
-    values: Vec<f64>,
-    information: Information,
-    pub samples: usize,
-    pub sigma: f64,
-    pub missing: f64,
-    pub misses_torque: bool,
-    pub innovations: Vec<f64>,
-    pub iterations: usize,
-    pub settled: bool,
 }
 
 /// Derivatives of the prediction errors, and the step to their minimum.
@@ -68,7 +59,8 @@ impl<'a> Search<'a> {
     /// From a motion that was smoothed without mechanics.
     pub fn new(
         scene_at: &'a (dyn Fn(&[f64]) -> Result<Scene, Error> + Sync),
-        free: &'a [FreeValue],
+        all: &'a [FreeValue],
+        count: usize,
         problem: &'a Problem<'a>,
         smooth: &Smoothed,
     ) -> Search<'a> {
@@ -79,33 +71,86 @@ impl<'a> Search<'a> {
         let scales = problem.scales(&motion, &path, smooth.scales.slope, smooth.scales.motion);
         let trials = Trials {
             scene_at,
-            free,
+            all,
+            count,
             problem,
             scales,
+            noise: match smooth.scales.known {
+                Some(_) => f64::INFINITY,
+                None => smooth.noise.sigma,
+            },
         };
         Search { trials, path }
     }
 
-    /// Iterates until values and path come to rest.
+    /// The largest likelihood: of the equation alone first, for beside a torque that follows every misfit of a first guess no
+    /// value is told, and from there with a torque beside it.
     pub fn run(mut self) -> Result<Found, Error> {
+        let start: Vec<f64> = self.trials.free().iter().map(|one| one.start).collect();
+        let first = self.path.clone();
+        let alone = self.climbed(start.clone(), false).ok();
+        let from = match alone.as_ref().filter(|found| found.settled) {
+            Some(found) => found.values.clone(),
+            None => {
+                self.path = first;
+                start
+            }
+        };
+        let best = self.climbed(from, true);
         let trials = &self.trials;
-        let mut values: Vec<f64> = trials.free.iter().map(|one| one.start).collect();
-        let mut steps: Vec<f64> = trials.free.iter().map(first_step).collect();
-        let mut sigma = trials.scales.floor;
+        let settled = alone.as_ref().filter(|found| found.settled);
+        let at = settled.or(best.as_ref().ok()).or(alone.as_ref());
+        let misfit = at.map(|at| Misfit::of(trials, at)).transpose()?.flatten();
+        let best = match (best, &misfit) {
+            (Err(_), Some(misfit)) => return Err(misfit.refused()),
+            (best, _) => best?,
+        };
+        let squares: f64 = best.path.states.iter().map(|s| s[2] * s[2]).sum();
+        let told = best
+            .information
+            .is_told(&best.values, best.noise.sigma, trials.free());
+        if let (Err(_), Some(misfit)) = (&told, &misfit) {
+            return Err(misfit.refused());
+        }
+        told?;
+        Ok(Found {
+            missing: (squares / best.path.states.len() as f64).sqrt(),
+            best,
+            misfit,
+        })
+    }
+
+    /// Iterates until values and path come to rest, with a torque beside the equation or without.
+    fn climbed(&mut self, mut values: Vec<f64>, with_torque: bool) -> Result<Optimum, Error> {
+        let mut steps: Vec<f64> = self.trials.free().iter().map(first_step).collect();
+        let mut sigma = self.trials.scales.floor;
+        let mut last = None;
+        let mut width = WIDTH;
         let mut iterations = 0;
         loop {
             iterations += 1;
             let trials = &self.trials;
             let model = trials.model(&values, &self.path, sigma)?;
-            let noise = trials.likeliest(&model);
+            let noise = match (with_torque, last) {
+                (false, _) => trials.at(&model, trials.lowest()),
+                (true, None) => trials.likeliest(&model),
+                (true, Some(corner)) => trials.likelier(&model, corner),
+            };
+            last = Some(noise.corner);
             sigma = noise.sigma;
             let base = trials.innovations(&model, &noise);
-            let step = self.step(&values, &steps, &base, &noise)?;
+            let step = self.step(&values, &steps, &base, &noise, width)?;
             for (k, h) in steps.iter_mut().enumerate() {
-                let size = values[k].abs().max(trials.free[k].scale);
+                let size = values[k].abs().max(trials.free()[k].scale);
                 *h = (STEP * sigma * step.information.error_alone(k)).min(1e-2 * size);
             }
-            let taken = self.taken(&values, &step, &base, &noise)?;
+            let (taken, part) = match self.taken(&values, &step, &base, &noise) {
+                Ok(taken) => taken,
+                // The equation alone is told by what it leaves there.
+                Err(_) if !with_torque => (values.clone(), 0.0),
+                Err(error) => return Err(error),
+            };
+            width *= if part == 1.0 { WIDENED } else { 1.0 };
             let moved = (0..values.len())
                 .map(|k| (taken[k] - values[k]).abs() / (sigma * step.information.error(k)))
                 .fold(0.0, f64::max);
@@ -116,24 +161,17 @@ impl<'a> Search<'a> {
             let model = self.trials.model(&values, &self.path, sigma)?;
             let (turned, innovations) = self.smooth(&model, &noise);
             let settled = full.max(moved).max(turned) < AT_REST;
-            if !(settled || iterations == ITERATIONS) {
-                continue;
+            if settled || part == 0.0 && !with_torque || iterations == ITERATIONS {
+                return Ok(Optimum {
+                    values,
+                    information: step.information,
+                    noise,
+                    path: self.path.clone(),
+                    innovations,
+                    iterations,
+                    settled,
+                });
             }
-            let trials = &self.trials;
-            step.information.is_told(&values, sigma, trials.free)?;
-            let without = trials.at(&model, trials.lowest());
-            let squares: f64 = self.path.states.iter().map(|s| s[2] * s[2]).sum();
-            return Ok(Found {
-                values,
-                samples: innovations.len(),
-                sigma,
-                missing: (squares / self.path.states.len() as f64).sqrt(),
-                misses_torque: noise.likelihood - without.likelihood > SIGNIFICANT,
-                innovations,
-                information: step.information,
-                iterations,
-                settled,
-            });
         }
     }
 
@@ -144,31 +182,13 @@ impl<'a> Search<'a> {
         steps: &[f64],
         base: &Innovations,
         noise: &Noise,
+        width: f64,
     ) -> Result<Step, Error> {
         let trials = &self.trials;
-        let beside = |k: usize, h: f64| {
-            let mut at = values.to_vec();
-            at[k] += h;
-            let model = trials.model(&at, &self.path, noise.sigma)?;
-            Ok::<_, Error>((trials.innovations(&model, noise).errors, h))
-        };
-        let column = |k: usize| {
-            let here = || (base.errors.clone(), 0.0);
-            let (after, before) = match (beside(k, steps[k]), beside(k, -steps[k])) {
-                (Ok(after), Ok(before)) => (after, before),
-                (Ok(after), Err(_)) => (after, here()),
-                (Err(_), Ok(before)) => (here(), before),
-                (Err(error), Err(_)) => return Err(error),
-            };
-            let wide = after.1 - before.1;
-            let pairs = after.0.iter().zip(&before.0).zip(&base.variances);
-            Ok(pairs
-                .map(|((a, b), s)| (a - b) / (wide * s.sqrt()))
-                .collect::<Vec<f64>>())
-        };
+        let column = |k: usize| trials.derivatives(values, k, steps[k], &self.path, base, noise);
         let columns = parallel::list(values.len(), column);
         let columns = columns.into_iter().collect::<Result<Vec<_>, Error>>()?;
-        let information = Information::new(&columns, trials.free)?;
+        let information = Information::new(&columns, values, trials.free())?;
         let gradient: Vec<f64> = columns
             .iter()
             .map(|column| {
@@ -176,7 +196,7 @@ impl<'a> Search<'a> {
                 -rest.map(|((e, s), j)| j * e / s.sqrt()).sum::<f64>()
             })
             .collect();
-        let widths: Vec<f64> = trials.free.iter().map(|one| WIDTH * one.scale).collect();
+        let widths: Vec<f64> = trials.free().iter().map(|one| width * one.scale).collect();
         Ok(Step {
             whole: information.solved(&gradient),
             change: information.damped(&gradient, noise.sigma, &widths),
@@ -184,38 +204,65 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// The values after a step, which is halved until the prediction errors are no larger than before.
+    /// The values after a step, which is halved until the prediction errors are no larger than before, and what part is left.
     fn taken(
         &self,
         values: &[f64],
         step: &Step,
         base: &Innovations,
         noise: &Noise,
-    ) -> Result<Vec<f64>, Error> {
-        let squares = base.squares();
+    ) -> Result<(Vec<f64>, f64), Error> {
+        let squares = base.squares(&base.errors);
         let mut refused = None;
         let mut part = 1.0;
         for _ in 0..HALVINGS {
             let pairs = values.iter().zip(&step.change);
             let at: Vec<f64> = pairs.map(|(value, change)| value + part * change).collect();
-            part *= 0.5;
             match self.trials.model(&at, &self.path, noise.sigma) {
                 Ok(model) => {
-                    let found = self.trials.innovations(&model, noise).squares();
+                    let found = base.squares(&self.trials.innovations(&model, noise).errors);
                     if found <= squares * (1.0 + 1e-9) {
-                        return Ok(at);
+                        return Ok((at, part));
                     }
                 }
                 Err(error) => refused = Some(error),
             }
+            part *= 0.5;
         }
         match refused {
-            None => Ok(values.to_vec()),
-            Some(error) => Err(Error::refused(
-                format!("the samples drive the free values beyond what a scene may have: {error}"),
-                "a value that is as good as 0 is left out of --free; check that the scene has all loads of the rig",
-            )),
+            None => Ok((values.to_vec(), 0.0)),
+            Some(error) => Err(self.beyond(values, step, noise.sigma, &error)),
         }
+    }
+
+    /// Why no step can be taken: values that a scene may not have are the likeliest.
+    fn beyond(&self, values: &[f64], step: &Step, sigma: f64, error: &Error) -> Error {
+        let mut words = Vec::new();
+        for (k, free) in self.trials.free().iter().enumerate() {
+            let mut at = values.to_vec();
+            at[k] += step.whole[k];
+            if (self.trials.scene_at)(&at).is_err() {
+                let se = sigma * step.information.error(k);
+                let (key, unit) = (&free.key, &free.unit);
+                words.push(format!(
+                    "`{key}` = {:.3e} {unit} with a standard error of {se:.1e}",
+                    at[k]
+                ));
+            }
+        }
+        let what = match words.is_empty() {
+            true => {
+                format!("the samples drive the free values beyond what a scene may have: {error}")
+            }
+            false => format!(
+                "the samples are likeliest for {}, which no scene may have",
+                words.join(" and ")
+            ),
+        };
+        Error::refused(
+            what,
+            "a value that is as good as 0 is left out of --free; check that the scene has all loads of the rig",
+        )
     }
 
     /// Moves the path to the smoothed one; the root mean square of its way in standard errors, and the prediction errors in
@@ -241,40 +288,11 @@ impl<'a> Search<'a> {
 }
 
 /// First step of differences.
-fn first_step(free: &FreeValue) -> f64 {
+pub(super) fn first_step(free: &FreeValue) -> f64 {
     FIRST
         * if free.start == 0.0 {
             free.scale
         } else {
             free.start.abs()
         }
-}
-
-impl Found {
-    /// The values with their errors.
-    pub fn values(&self, free: &[FreeValue], band_factor: f64) -> Vec<IdentifiedValue> {
-        let value = |(k, free): (usize, &FreeValue)| {
-            let standard_error = self.sigma * self.information.error(k);
-            IdentifiedValue {
-                key: free.key.clone(),
-                unit: free.unit.clone(),
-                start: free.start,
-                value: self.values[k],
-                standard_error,
-                half_band: band_factor * standard_error,
-            }
-        };
-        free.iter().enumerate().map(value).collect()
-    }
-
-    /// Correlation of each value with each.
-    pub fn correlations(&self) -> Vec<Vec<f64>> {
-        let all = 0..self.values.len();
-        let row = |i: usize| {
-            all.clone()
-                .map(|j| self.information.correlation(i, j))
-                .collect()
-        };
-        all.clone().map(row).collect()
-    }
 }

@@ -26,6 +26,9 @@ pub struct IdentifiedValue {
 /// smaller than their squares is theirs.
 const ROUNDING: f64 = 1e-11;
 
+/// Part to which changes of values of the weakest combination are one factor: that to which values count as in it.
+const ALIKE: f64 = 0.1;
+
 /// JᵀJ of standardised prediction errors, by its eigenvectors after scaling to a unit diagonal.
 #[derive(Clone, Debug)]
 pub(super) struct Information {
@@ -42,7 +45,11 @@ impl Information {
     ///
     /// # Errors
     /// [`Error::Refused`]: values that change nothing, or that the record cannot tell apart.
-    pub fn new(columns: &[Vec<f64>], free: &[FreeValue]) -> Result<Information, Error> {
+    pub fn new(
+        columns: &[Vec<f64>],
+        values: &[f64],
+        free: &[FreeValue],
+    ) -> Result<Information, Error> {
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let norms: Vec<f64> = columns.iter().map(|c| dot(c, c).sqrt()).collect();
         for (norm, one) in norms.iter().zip(free) {
@@ -79,7 +86,7 @@ impl Information {
             scaled,
         };
         if found.eigen.eigenvalues.min() < ROUNDING {
-            return Err(found.alike(free));
+            return Err(found.alike(values, free));
         }
         Ok(found)
     }
@@ -92,23 +99,47 @@ impl Information {
             .column(self.eigen.eigenvalues.imin());
         let most = vector.amax();
         let all = 0..self.norms.len();
-        all.filter(|k| vector[*k].abs() > 0.1 * most).collect()
+        all.filter(|k| vector[*k].abs() > ALIKE * most).collect()
+    }
+
+    /// Whether the values of the weakest combination all change by one factor: the equation is homogeneous in them.
+    fn is_scale(&self, values: &[f64]) -> bool {
+        let vector = self
+            .eigen
+            .eigenvectors
+            .column(self.eigen.eigenvalues.imin());
+        let parts = self.group().into_iter();
+        let parts: Vec<f64> = parts
+            .map(|k| vector[k] / (self.norms[k] * values[k]))
+            .collect();
+        let mean = parts.iter().sum::<f64>() / parts.len() as f64;
+        parts
+            .iter()
+            .all(|part| (part - mean).abs() < ALIKE * mean.abs())
     }
 
     /// Why the weakest combination is refused.
-    fn alike(&self, free: &[FreeValue]) -> Error {
+    fn alike(&self, values: &[f64], free: &[FreeValue]) -> Error {
         let names: Vec<String> = self
             .group()
             .into_iter()
             .map(|k| format!("`{}`", free[k].key))
             .collect();
-        Error::refused(
-            format!(
-                "the record cannot tell {} apart: it has the same motion for many of their values",
-                names.join(" and ")
+        let names = names.join(" and ");
+        match self.is_scale(values) {
+            true => Error::refused(
+                format!(
+                    "the record cannot tell {names} apart, but only their ratios: all of them multiplied by one number give the same motion, and no known mass, weight or load sets the scale"
+                ),
+                "state the value of one of them in the scene and leave it out of --free, or measure a motion under a known torque, force or weight",
             ),
-            "leave one of them out of --free and state its value in the scene; a known torque or mass sets the scale of the others",
-        )
+            false => Error::refused(
+                format!(
+                    "the record cannot tell {names} apart: it has the same motion for many of their values"
+                ),
+                "leave one of them out of --free and state its value in the scene; a known torque or mass sets the scale of the others",
+            ),
+        }
     }
 
     /// Refuses values that have errors larger than themselves because of each other.
@@ -120,7 +151,7 @@ impl Information {
             error > values[*k].abs() && alone < 0.1 * error
         };
         match group.len() > 1 && group.iter().all(unclear) {
-            true => Err(self.alike(free)),
+            true => Err(self.alike(values, free)),
             false => Ok(()),
         }
     }

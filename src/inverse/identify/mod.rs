@@ -7,15 +7,18 @@
 
 mod gauss_newton;
 mod information;
+mod misfit;
 #[cfg(feature = "cli")]
 mod of_draft;
+mod optimum;
 mod trial;
 
 pub use information::IdentifiedValue;
 #[cfg(feature = "cli")]
 pub use of_draft::{FreeKey, identify_keys};
 
-use self::gauss_newton::{Found, Search};
+use self::gauss_newton::Search;
+use self::optimum::Found;
 use super::branch_choice::crank_angles;
 use super::measurement_model::{Scale, Sensor};
 use super::record::Grid;
@@ -79,6 +82,18 @@ pub fn identify(
     free: &[FreeValue],
     measurement: &Measurement,
 ) -> Result<Identification, Error> {
+    identify_among(scene_at, free, free.len(), measurement)
+}
+
+/// Values of a scene of which the first `count` are free; score tests tell which others would help, where the equation does not
+/// describe the record.
+fn identify_among(
+    scene_at: &(dyn Fn(&[f64]) -> Result<Scene, Error> + Sync),
+    all: &[FreeValue],
+    count: usize,
+    measurement: &Measurement,
+) -> Result<Identification, Error> {
+    let free = &all[..count];
     check(free)?;
     let scene_at = &|values: &[f64]| Ok(measurement.known_in(&scene_at(values)?));
     let start: Vec<f64> = free.iter().map(|one| one.start).collect();
@@ -92,6 +107,9 @@ pub fn identify(
     };
     let angles = crank_angles(&sensor, measurement, &equation, &scene.motion)?;
     let (mut problem, smooth) = kinematic(measurement, &angles, &equation, None);
+    if let Some(codes) = problem.record.codes {
+        problem.record.take_middles(codes);
+    }
     if problem.grid.block == 0.0 {
         let along = match problem.record.is_linear() {
             true => &problem.record.values,
@@ -101,26 +119,27 @@ pub fn identify(
     }
     let first = first_path(&problem, &angles);
     let smooth = problem.kinematic(first, smooth.noise.sigma);
-    let search = Search::new(scene_at, free, &problem, &smooth);
+    let search = Search::new(scene_at, all, count, &problem, &smooth);
     let found = search.run()?;
     let mut warnings = measurement.notes().to_vec();
     warnings.extend(angles.warnings);
     let several = measurement.has_sensors_beside();
     warnings.extend(several.then(|| alone(measurement)));
     warnings.extend(warnings_of(&found, free, measurement));
-    let samples = found.samples;
+    let Found { best, missing, .. } = found;
+    let samples = best.innovations.len();
     let freedom = samples as f64 - 2.0 - free.len() as f64;
     let band_factor = student::half_band(freedom.max(1.0));
     Ok(Identification {
         scene: scene.title.unwrap_or_default(),
         samples,
         column: measurement.measured().name().to_owned(),
-        values: found.values(free, band_factor),
-        correlations: found.correlations(),
+        values: best.values(free, band_factor),
+        correlations: best.correlations(),
         band_factor,
-        sigma: found.sigma,
-        missing_torque_rms_nm: found.missing,
-        iterations: found.iterations,
+        sigma: best.noise.sigma,
+        missing_torque_rms_nm: missing,
+        iterations: best.iterations,
         warnings,
     })
 }
@@ -155,19 +174,24 @@ fn modelled(scene: &Scene) -> Result<(), Error> {
 
 fn warnings_of(found: &Found, free: &[FreeValue], measurement: &Measurement) -> Vec<String> {
     let mut list = Vec::new();
-    if !found.settled {
+    if !found.best.settled {
         list.push(
             "the iterations did not come to rest: the values are not to be trusted".to_owned(),
         );
     }
-    if Whiteness::of(found.innovations.iter().copied()).is_violated() {
+    if found.misfit.is_none() && Whiteness::of(found.best.innovations.iter().copied()).is_violated()
+    {
         list.push("the prediction errors are not white noise: the standard errors hold for white noise, and may be too small".to_owned());
     }
-    if found.misses_torque {
-        list.push(format!(
-            "the scene misses a torque, {:.3e} N m in root mean square: the errors of the values hold if it varies at random",
-            found.missing
-        ));
+    if let Some(misfit) = &found.misfit {
+        let errors = match misfit.misses_torque {
+            true => format!(
+                "a torque beside it of {:.3e} N m in root mean square stands for what is missing, and the errors of the values hold if that varies at random",
+                found.missing
+            ),
+            false => "the errors of the values do not hold".to_owned(),
+        };
+        list.push(format!("{}; {errors}; {}", misfit.words(), misfit.help()));
     }
     let zero = free.iter().any(|one| one.is_sensor_zero);
     if zero && measurement.measured() == Measured::Gamma {

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::super::kalman::{self, Companion, Innovation, Sample};
 use super::super::likelihood::{Linear, Stretch};
-use super::super::maximum::climb;
+use super::super::maximum::{ENOUGH, climb};
 use super::super::measurement_model::{Scale, Sensor};
 use super::super::prior::{Prior, Unknown};
 use super::super::problem::Problem;
@@ -22,9 +22,14 @@ pub(super) const MISSING: Prior = Prior::new(Unknown::Torque, 1);
 /// The scene with its free values, and the record.
 pub(super) struct Trials<'a> {
     pub scene_at: &'a (dyn Fn(&[f64]) -> Result<Scene, Error> + Sync),
-    pub free: &'a [FreeValue],
+    /// The free values, and after them those that might be.
+    pub all: &'a [FreeValue],
+    /// Number of the free ones.
+    pub count: usize,
     pub problem: &'a Problem<'a>,
     pub scales: Scales,
+    /// Standard deviation of a sample about the motion without mechanics; infinite of codes, which have a noise of their own.
+    pub noise: f64,
 }
 
 /// Prediction errors with their variances in units of σ².
@@ -35,10 +40,16 @@ pub(super) struct Innovations {
 }
 
 impl Innovations {
-    /// Sum of squares of the standardised errors.
-    pub fn squares(&self) -> f64 {
-        let pairs = self.errors.iter().zip(&self.variances);
+    /// Sum of squares of errors over these variances, which stay along a step: they are no part of its gradient.
+    pub fn squares(&self, errors: &[f64]) -> f64 {
+        let pairs = errors.iter().zip(&self.variances);
         pairs.map(|(e, s)| e * e / s).sum()
+    }
+
+    /// The errors over their standard deviations, in units of σ.
+    pub fn standardised(&self) -> Vec<f64> {
+        let pairs = self.errors.iter().zip(&self.variances);
+        pairs.map(|(e, s)| e / s.sqrt()).collect()
     }
 }
 
@@ -49,12 +60,17 @@ impl Companion<3> for Innovations {
     }
 }
 
-impl Trials<'_> {
+impl<'a> Trials<'a> {
+    /// The free values.
+    pub fn free(&self) -> &'a [FreeValue] {
+        &self.all[..self.count]
+    }
+
     /// The linear model about a path, for these values.
     pub fn model(&self, values: &[f64], path: &Path, sigma: f64) -> Result<Stretch, Error> {
         let scene = (self.scene_at)(values)?;
         let equation = Equation::new(&scene);
-        let of_sensor = self.free.iter().zip(values);
+        let of_sensor = self.all.iter().zip(values);
         let zero: f64 = of_sensor
             .filter(|(free, _)| free.is_sensor_zero)
             .map(|(_, value)| *value)
@@ -106,7 +122,7 @@ impl Trials<'_> {
     pub fn at(&self, model: &Stretch, corner: f64) -> Noise {
         let mut noise = Noise::white(corner);
         let evidence = kalman::evidence::<3>(&self.deviations(model, &noise));
-        let free = (evidence.samples as f64 - 2.0 - self.free.len() as f64).max(1.0);
+        let free = (evidence.samples as f64 - 2.0 - self.count as f64).max(1.0);
         noise.sigma = (evidence.squares / free).sqrt().max(self.scales.floor);
         let likelihood = -free * noise.sigma.ln()
             - 0.5 * (evidence.log_variances + evidence.squares / noise.sigma.powi(2));
@@ -131,5 +147,52 @@ impl Trials<'_> {
             .max_by(|a, b| a.1.likelihood.total_cmp(&b.1.likelihood));
         let (guess, first) = best.unwrap_or_else(|| (low, self.at(model, low.exp())));
         climb(|log| self.at(model, log.exp()), guess, first, [low, high])
+    }
+
+    /// A likelier corner frequency near this one, or this one where none is worth another iteration.
+    pub fn likelier(&self, model: &Stretch, corner: f64) -> Noise {
+        let (low, high) = (self.lowest().ln(), (30.0 / self.scales.spacing).ln());
+        let here = self.at(model, corner);
+        let found = climb(
+            |log| self.at(model, log.exp()),
+            corner.ln(),
+            here,
+            [low, high],
+        );
+        match found.likelihood - here.likelihood > ENOUGH {
+            true => found,
+            false => here,
+        }
+    }
+
+    /// Derivatives of the standardised prediction errors by one value: central differences about a fixed path, one-sided where
+    /// the value may not go further.
+    pub fn derivatives(
+        &self,
+        values: &[f64],
+        k: usize,
+        step: f64,
+        path: &Path,
+        base: &Innovations,
+        noise: &Noise,
+    ) -> Result<Vec<f64>, Error> {
+        let beside = |h: f64| {
+            let mut at = values.to_vec();
+            at[k] += h;
+            let model = self.model(&at, path, noise.sigma)?;
+            Ok::<_, Error>((self.innovations(&model, noise).errors, h))
+        };
+        let here = || (base.errors.clone(), 0.0);
+        let (after, before) = match (beside(step), beside(-step)) {
+            (Ok(after), Ok(before)) => (after, before),
+            (Ok(after), Err(_)) => (after, here()),
+            (Err(_), Ok(before)) => (here(), before),
+            (Err(error), Err(_)) => return Err(error),
+        };
+        let wide = after.1 - before.1;
+        let pairs = after.0.iter().zip(&before.0).zip(&base.variances);
+        Ok(pairs
+            .map(|((a, b), s)| (a - b) / (wide * s.sqrt()))
+            .collect())
     }
 }

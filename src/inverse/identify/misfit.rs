@@ -1,0 +1,139 @@
+//! What the equation leaves of a record that it does not describe, and score tests (Lagrange multiplier tests, Rao 1948) of the
+//! keys that are not free.
+
+use nalgebra::DVector;
+
+use super::gauss_newton::{SIGNIFICANT, first_step};
+use super::optimum::Optimum;
+use super::trial::Trials;
+use crate::error::Error;
+use crate::inverse::residual_tests::{Runs, Whiteness};
+
+/// What the equation with the free keys leaves without a torque beside it.
+#[derive(Clone, Debug)]
+pub(super) struct Misfit {
+    /// Standard deviation of the residuals over that of the noise.
+    ratio: f64,
+    runs: Runs,
+    /// Whether the samples are likelier with a torque beside the equation.
+    pub misses_torque: bool,
+    /// The other key with which the largest likelihood is expected, and those as good, with the ratio that is expected.
+    helpers: Vec<(String, f64)>,
+}
+
+/// Part of a derivative that rounding of differences may leave beside those of other keys.
+const ROUNDING: f64 = 1e-5;
+
+impl Misfit {
+    /// The misfit at an optimum; none where the samples are no likelier with a torque beside the equation, and its residuals are white noise.
+    ///
+    /// # Errors
+    /// [`Error::Interrupted`], and what a scene may not have.
+    pub fn of(trials: &Trials<'_>, at: &Optimum) -> Result<Option<Misfit>, Error> {
+        let model = trials.model(&at.values, &at.path, at.noise.sigma)?;
+        let noise = trials.at(&model, trials.lowest());
+        let with_torque = trials.likeliest(&model);
+        let is_white = |errors: &[f64]| !Whiteness::of(errors.iter().copied()).is_violated();
+        let base = trials.innovations(&model, &noise);
+        let errors = base.standardised();
+        let is_code = trials.noise.is_infinite();
+        let is_likely = with_torque.likelihood - noise.likelihood <= SIGNIFICANT;
+        if is_likely && (is_code || is_white(&errors)) {
+            return Ok(None);
+        }
+        let mut values = at.values.clone();
+        values.extend(trials.all[trials.count..].iter().map(|one| one.start));
+        let column = |k: usize| {
+            let step = first_step(&trials.all[k]);
+            let found = trials.derivatives(&values, k, step, &at.path, &base, &noise);
+            found.ok().map(DVector::from_vec)
+        };
+        let mut basis: Vec<DVector<f64>> = Vec::new();
+        for k in 0..trials.count {
+            basis.extend(column(k).and_then(|column| beside(&basis, column)));
+        }
+        let ratio = noise.sigma / with_torque.sigma.min(trials.noise);
+        let rest = beside(&basis, DVector::from_column_slice(&errors));
+        let score = |k: usize| {
+            let direction = beside(&basis, column(k)?)?;
+            let explained = direction.dot(rest.as_ref()?).powi(2);
+            let gain = -0.5 * errors.len() as f64 * (1.0 - explained).ln();
+            let left = (ratio * (1.0 - explained).sqrt()).max(1.0);
+            Some((trials.all[k].key.clone(), left, gain))
+        };
+        let mut helpers: Vec<_> = (trials.count..trials.all.len()).filter_map(score).collect();
+        helpers.sort_by(|a, b| b.2.total_cmp(&a.2));
+        // As good as the best, and better than none.
+        let least = helpers.first().map_or(0.0, |best| best.2 - SIGNIFICANT);
+        helpers.retain(|one| one.2 > SIGNIFICANT.max(least));
+        let helpers = helpers
+            .into_iter()
+            .map(|(key, left, _)| (key, left))
+            .collect();
+        Ok(Some(Misfit {
+            ratio,
+            runs: Runs::of(&errors),
+            misses_torque: !is_likely,
+            helpers,
+        }))
+    }
+
+    /// What is so, in words.
+    pub fn words(&self) -> String {
+        let Runs {
+            found, expected, ..
+        } = self.runs;
+        format!(
+            "the equation with these keys free does not describe the record: its residuals are {:.2} times the noise, in {found:.0} runs of one sign where noise has {expected:.0}",
+            self.ratio
+        )
+    }
+
+    /// What would help, in words.
+    pub fn help(&self) -> String {
+        let load =
+            "check that the scene has all loads of the rig, and that its other values are right";
+        if self.helpers.is_empty() {
+            return load.to_owned();
+        }
+        let named = self.helpers.iter();
+        let named = named.map(|(key, left)| format!("`{key}` ({left:.2} times)"));
+        format!(
+            "residuals nearer to the noise are expected with one more key free: {}; or {load}",
+            named.collect::<Vec<_>>().join(", ")
+        )
+    }
+
+    /// A refusal for this reason.
+    pub fn refused(&self) -> Error {
+        Error::refused(self.words(), self.help())
+    }
+}
+
+/// The unit vector along what is left of a vector beside an orthonormal basis; none where that is rounding.
+fn beside(basis: &[DVector<f64>], vector: DVector<f64>) -> Option<DVector<f64>> {
+    let size = vector.norm();
+    let mut rest = vector;
+    for _ in 0..2 {
+        for unit in basis {
+            let along = unit.dot(&rest);
+            rest.axpy(-along, unit, 1.0);
+        }
+    }
+    let left = rest.norm();
+    (left.is_finite() && left > ROUNDING * size).then(|| rest / left)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_beside_a_basis_is_at_right_angles_to_it() {
+        let x = DVector::from_vec(vec![1.0, 0.0, 0.0]);
+        let found = beside(&[x.clone()], DVector::from_vec(vec![5.0, 3.0, 4.0]));
+        let exact = DVector::from_vec(vec![0.0, 0.6, 0.8]);
+        assert!((found.expect("a direction") - exact).norm() < 1e-15);
+        assert!(beside(&[x.clone()], 2.0 * x).is_none());
+    }
+}

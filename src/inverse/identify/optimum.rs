@@ -1,0 +1,58 @@
+//! Where the likelihood is largest.
+
+use super::FreeValue;
+use super::information::{IdentifiedValue, Information};
+use super::misfit::Misfit;
+use crate::inverse::record::Path;
+use crate::inverse::scales::Noise;
+
+/// An optimum of the likelihood.
+#[derive(Debug)]
+pub(super) struct Optimum {
+    pub values: Vec<f64>,
+    pub information: Information,
+    pub noise: Noise,
+    pub path: Path,
+    pub innovations: Vec<f64>,
+    pub iterations: usize,
+    pub settled: bool,
+}
+
+/// What the search has found.
+#[derive(Debug)]
+pub(super) struct Found {
+    pub best: Optimum,
+    /// Root mean square of the missing torque, N m.
+    pub missing: f64,
+    /// What the equation leaves without a torque beside it, where such a torque is significant.
+    pub misfit: Option<Misfit>,
+}
+
+impl Optimum {
+    /// The values with their errors.
+    pub fn values(&self, free: &[FreeValue], band_factor: f64) -> Vec<IdentifiedValue> {
+        let value = |(k, free): (usize, &FreeValue)| {
+            let standard_error = self.noise.sigma * self.information.error(k);
+            IdentifiedValue {
+                key: free.key.clone(),
+                unit: free.unit.clone(),
+                start: free.start,
+                value: self.values[k],
+                standard_error,
+                half_band: band_factor * standard_error,
+            }
+        };
+        free.iter().enumerate().map(value).collect()
+    }
+
+    /// Correlation of each value with each.
+    pub fn correlations(&self) -> Vec<Vec<f64>> {
+        let all = 0..self.values.len();
+        let row = |i: usize| {
+            all.clone()
+                .map(|j| self.information.correlation(i, j))
+                .collect()
+        };
+        all.clone().map(row).collect()
+    }
+}
