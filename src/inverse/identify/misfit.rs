@@ -131,9 +131,12 @@ mod tests {
     #[test]
     fn what_is_left_beside_a_basis_is_at_right_angles_to_it() {
         let x = DVector::from_vec(vec![1.0, 0.0, 0.0]);
-        let found = beside(&[x.clone()], DVector::from_vec(vec![5.0, 3.0, 4.0]));
+        let found = beside(
+            std::slice::from_ref(&x),
+            DVector::from_vec(vec![5.0, 3.0, 4.0]),
+        );
         let exact = DVector::from_vec(vec![0.0, 0.6, 0.8]);
         assert!((found.expect("a direction") - exact).norm() < 1e-15);
-        assert!(beside(&[x.clone()], 2.0 * x).is_none());
+        assert!(beside(std::slice::from_ref(&x), 2.0 * &x).is_none());
     }
 }

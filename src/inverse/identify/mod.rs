@@ -120,7 +120,9 @@ fn identify_among(
     let first = first_path(&problem, &angles);
     let smooth = problem.kinematic(first, smooth.noise.sigma);
     let search = Search::new(scene_at, all, count, &problem, &smooth);
-    let found = search.run()?;
+    // A crank that was read backwards is a reason why the equation does not describe the record.
+    let found = search.run();
+    let found = found.map_err(|error| error.with_notes(&angles.warnings))?;
     let mut warnings = measurement.notes().to_vec();
     warnings.extend(angles.warnings);
     let several = measurement.has_sensors_beside();
