@@ -89,7 +89,7 @@ impl FreeKey {
 /// Free keys of a scene file from a measured motion; `complete` makes of the file's scene what is modelled.
 ///
 /// # Errors
-/// Those of [`identify`]; [`Error::Scene`] for keys that the scene has not; [`Error::Interrupted`].
+/// The errors of [`identify`](super::identify()); [`Error::Scene`] for keys that the scene has not; [`Error::Interrupted`].
 pub fn identify_keys(
     draft: &Draft,
     complete: &(dyn Fn(Scene) -> Scene + Sync),
