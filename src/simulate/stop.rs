@@ -130,11 +130,13 @@ impl fmt::Display for Stopped {
             Why::Interrupted => write!(f, "interrupted: {place}"),
             Why::Turns(turns) => write!(
                 f,
-                "the crank does not complete {turns} turns: {place}; give a duration instead"
+                "the crank does not complete {}: {place}; give a duration instead",
+                Turns(*turns)
             ),
             Why::Period { turns, period } => write!(
                 f,
-                "the crank swings to and fro and does not complete {turns} turns: shown is one period of {period} s; give a duration instead"
+                "the crank swings to and fro and does not complete {}: shown is one period of {period} s; give a duration instead",
+                Turns(*turns)
             ),
             Why::Caught {
                 turns,
@@ -142,7 +144,8 @@ impl fmt::Display for Stopped {
                 reach: [from, to],
             } => write!(
                 f,
-                "the crank swings to and fro and does not complete {turns} turns: in its last {since} turning points it came no further than between theta = {from} rad and {to} rad; stopped at t = {t} s; give a duration instead"
+                "the crank swings to and fro and does not complete {}: in its last {since} turning points it came no further than between theta = {from} rad and {to} rad; stopped at t = {t} s; give a duration instead",
+                Turns(*turns)
             ),
             Why::AtRest { turns, held_by } => {
                 f.write_str("the crank comes to rest")?;
@@ -151,7 +154,8 @@ impl fmt::Display for Stopped {
                 }
                 write!(
                     f,
-                    " and does not complete {turns} turns: {place}; give a duration instead"
+                    " and does not complete {}: {place}; give a duration instead",
+                    Turns(*turns)
                 )
             }
             Why::Stalled {
@@ -161,7 +165,7 @@ impl fmt::Display for Stopped {
             } => {
                 write!(f, "the crank stalled at theta = {theta} rad, {torques}")?;
                 if let Some(turns) = turns {
-                    write!(f, " and does not complete {turns} turns")?;
+                    write!(f, " and does not complete {}", Turns(*turns))?;
                 }
                 write!(
                     f,
@@ -275,5 +279,15 @@ pub(super) fn not_applicable(unserved: NotApplicable) -> &'static str {
         NotApplicable::TooLong => {
             "its turns differ from each other, and they are too many to be kept"
         }
+    }
+}
+
+/// A number of turns in words.
+struct Turns(f64);
+
+impl fmt::Display for Turns {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let unit = if self.0 == 1.0 { "turn" } else { "turns" };
+        write!(f, "{} {unit}", self.0)
     }
 }
