@@ -1,7 +1,7 @@
 //! The equation at many instants at once.
 
 use super::lagrange::forward;
-use super::{Equation, Inertia, LoadValue, Pose, Terms};
+use super::{Equation, Inertia, LoadValue, Normal, Pose, Terms};
 use crate::numeric::angle::Angle;
 use crate::numeric::trigonometry::sin_cos;
 
@@ -46,6 +46,15 @@ impl<const N: usize> Positions<N> {
             dv,
         }
     }
+
+    #[inline(always)]
+    fn take(&mut self, i: usize, Terms { pose, inertia, dv }: &Terms) {
+        self.x[i] = pose.x;
+        self.dx[i] = pose.dx;
+        self.m[i] = inertia.m;
+        self.half_dm[i] = inertia.half_dm;
+        self.dv[i] = *dv;
+    }
 }
 
 impl Equation {
@@ -87,6 +96,41 @@ impl Equation {
         }
     }
 
+    /// Positions at the first `count` angles (rad), with the normal force at the guide; what is beyond is zero.
+    pub fn first_guided<const N: usize>(
+        &self,
+        theta: &[f64; N],
+        count: usize,
+    ) -> (Positions<N>, [Normal; N]) {
+        const LANES: usize = 4;
+        let mut all = Positions::zero();
+        let mut normals = [Normal::default(); N];
+        let (terms, normal) = (self.terms_without_cases(), self.normal_without_cases());
+        let linkage = self.linkage();
+        let far = linkage.stays_far_from_limits();
+        for begin in (0..count).step_by(LANES) {
+            let some: [f64; LANES] = std::array::from_fn(|i| theta[(begin + i).min(N - 1)]);
+            let (sin, cos) = sin_cos(&some);
+            let of_guide: [(Terms, Normal); LANES] = if far {
+                std::array::from_fn(|i| {
+                    let at = terms(linkage.pose_far_from_limits(sin[i], cos[i]));
+                    (at, normal(&at))
+                })
+            } else {
+                std::array::from_fn(|i| {
+                    let at = terms(linkage.pose_at(sin[i], cos[i]));
+                    (at, normal(&at))
+                })
+            };
+            for (i, j) in (begin..count).take(LANES).enumerate() {
+                let (at, normal) = &of_guide[i];
+                all.take(j, at);
+                normals[j] = *normal;
+            }
+        }
+        (all, normals)
+    }
+
     /// Positions at the first `count` angles; what is beyond is zero.
     pub fn first_positions<const N: usize>(&self, theta: &[f64; N], count: usize) -> Positions<N> {
         const LANES: usize = 4;
@@ -110,12 +154,7 @@ impl Equation {
         let mut sides = Positions::zero();
         let terms = self.terms_without_cases();
         for i in 0..N {
-            let Terms { pose, inertia, dv } = terms(pose(i));
-            sides.x[i] = pose.x;
-            sides.dx[i] = pose.dx;
-            sides.m[i] = inertia.m;
-            sides.half_dm[i] = inertia.half_dm;
-            sides.dv[i] = dv;
+            sides.take(i, &terms(pose(i)));
         }
         sides
     }

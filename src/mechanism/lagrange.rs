@@ -43,22 +43,22 @@ pub struct Terms {
 #[derive(Clone, Debug)]
 pub struct Equation {
     linkage: Linkage,
-    crank_inertia: f64,
-    rod: Option<Body>,
-    slider_mass: f64,
-    weight: Option<Weight>,
+    pub(super) crank_inertia: f64,
+    pub(super) rod: Option<Body>,
+    pub(super) slider_mass: f64,
+    pub(super) weight: Option<Weight>,
     loads: Loads,
     heavy: Vec<Body>,
     gravity: [f64; 2],
 }
 
-/// V' = sine·sin θ + cosine·cos θ − rod weight · p' − slider weight·x'.
+/// V' = sine·sin θ + cosine·cos θ − rod weight · p' − slider weight · (x', 0).
 #[derive(Clone, Copy, Debug, Default)]
-struct Weight {
-    sine: f64,
-    cosine: f64,
-    rod: [f64; 2],
-    slider: f64,
+pub(super) struct Weight {
+    pub sine: f64,
+    pub cosine: f64,
+    pub rod: [f64; 2],
+    pub slider: [f64; 2],
 }
 
 impl Equation {
@@ -138,7 +138,7 @@ impl Equation {
         let dv = weight.map_or(0.0, |weight| {
             weight.sine * pose.sin + weight.cosine * pose.cos
                 - (weight.rod[0] * rod_path.dp[0] + weight.rod[1] * rod_path.dp[1])
-                - weight.slider * pose.dx
+                - weight.slider[0] * pose.dx
         });
         Terms { pose, inertia, dv }
     }
@@ -254,7 +254,10 @@ fn weight(heavy: &[Body], gravity: [f64; 2]) -> Option<Weight> {
                 weight.cosine += mass * (gx * left - gy * along);
             }
             Link::Rod => weight.rod = [mass * gx, mass * gy],
-            Link::Slider => weight.slider += mass * gx,
+            Link::Slider => {
+                weight.slider[0] += mass * gx;
+                weight.slider[1] += mass * gy;
+            }
         }
     }
     Some(weight)

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use super::angle_model::Spot;
 use crate::engine::angle::Table;
-use crate::mechanism::{Arms, Curve, CurveEquation, CurveTerms, Equation, LoadValue, Loads, Touch};
+use crate::mechanism::{Arms, Curve, CurveEquation, Equation, LoadValue, Loads, Normal, Touch};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::Interval;
 use crate::scene::Scene;
@@ -32,6 +32,16 @@ pub(super) struct Grip {
     force: f64,
     /// What friction drives the crank with for one newton of N without friction, N m/N.
     grip: f64,
+}
+
+/// The guide at the points of a panel.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Guide<'a> {
+    /// x', m/rad
+    pub dx: &'a [f64],
+    pub normals: &'a [Normal],
+    /// sgn(ω) sgn(N)
+    pub signs: f64,
 }
 
 impl Grip {
@@ -69,23 +79,19 @@ impl Sliding {
         self.jams.load(Relaxed)
     }
 
-    /// Adds friction to the table of a panel between two dead centres; `signs` is sgn(ω) sgn(N), `of_place` the
-    /// loads of the position alone.
+    /// Adds friction to the table of a panel between two dead centres; `of_place`: the loads of the position alone.
     pub fn tabulate(
         &self,
-        angles: &[f64],
-        signs: f64,
+        Guide { dx, normals, signs }: Guide<'_>,
         loads: &Loads,
         of_place: &[LoadValue],
         table: &mut Table<Spot>,
     ) {
-        let across = |theta: &f64| self.equation.across(*theta);
-        let at: Vec<CurveTerms> = angles.iter().map(across).collect();
         // At the ends of a panel x' is rounding.
-        let c = -self.mu * signs * at[at.len() / 2].place.dx.signum();
+        let c = -self.mu * signs * dx[dx.len() / 2].signum();
+        let [torque, force] = loads.dampings();
         let mut switch = table.switch.take().unwrap_or_default();
-        for (i, across) in at.iter().enumerate() {
-            let normal = across.normal();
+        for (i, normal) in normals.iter().enumerate() {
             let grip = normal.grip(c);
             self.jams.fetch_or(grip.is_none(), Relaxed);
             let grip = Grip {
@@ -93,8 +99,7 @@ impl Sliding {
                 force: normal.force,
                 grip: grip.unwrap_or(f64::NAN),
             };
-            let [torque, force] = loads.dampings();
-            let force = force * across.place.dx;
+            let force = force * dx[i];
             let damping = LoadValue { torque, force };
             switch.place[i] = normal.place + grip.pressed(of_place[i]);
             switch.rate[i] = -grip.pressed(damping);

@@ -5,7 +5,7 @@ use crate::support::random::{Case, any_class, case, cases, magnitude, rotating_c
 use crate::support::run::Run;
 use crate::support::{close, condition};
 use proptest::prelude::*;
-use slider_crank::mechanism::{Curve, CurveEquation, Free, FromRest, Linkage};
+use slider_crank::mechanism::{Curve, CurveEquation, Equation, Free, FromRest, Linkage};
 use slider_crank::numeric::angle::Angle;
 use slider_crank::scene::{Friction, Scene};
 
@@ -337,5 +337,37 @@ fn the_curve_closes_and_is_smooth() {
                 }
             }
         }
+    }
+}
+
+/// The normal force at many angles at once against that of the equation on the configuration curve, one by one.
+fn check_normals(case: &Case, tolerance: f64) {
+    let scene = &case.scene;
+    let equation = Equation::new(scene);
+    let one_by_one = CurveEquation::new(scene, Curve::on_crank(equation.linkage()));
+    let r = equation.linkage().r;
+    let mass = scene.slider.map_or(0.0, |slider| slider.mass)
+        + one_by_one.across(case.theta).m / r.powi(2);
+    let weight = mass * scene.gravity.map_or(0.0, |gravity| gravity.acceleration);
+    let angles: [f64; 7] = std::array::from_fn(|i| case.theta + 0.9 * i as f64);
+    let (_, normals) = equation.first_guided(&angles, angles.len());
+    for (theta, found) in angles.iter().zip(normals) {
+        let expected = one_by_one.across(*theta).normal();
+        let near = |what, found: f64, expected: f64, size: f64| {
+            close(what, found, expected, size + expected.abs(), tolerance);
+        };
+        near("place", found.place, expected.place, weight);
+        near("torque", found.torque, expected.torque, 1.0 / r);
+        near("force", found.force, expected.force, 1.0);
+        near("square", found.square, expected.square, mass * r);
+    }
+}
+
+proptest! {
+    #![proptest_config(cases(300))]
+
+    #[test]
+    fn normal_forces_side_by_side_are_those_one_by_one(case in case(rotating_crank(1e-3))) {
+        check_normals(&case, 1e-9);
     }
 }

@@ -131,6 +131,23 @@ impl Forces {
         }
     }
 
+    /// Derivatives of the forces of the table with respect to the kinetic energy at the points, 1/rad.
+    pub fn rates_of_table<P: Copy>(&self, station: &Station<P>) -> Values {
+        let count = station.rule.degree() + 1;
+        let (table, speeds) = (&station.table, &self.speeds[..count]);
+        let mut rates = [0.0; MAX_DEGREE + 1];
+        for j in 0..count {
+            rates[j] = -table.damping[j] / (table.inertia[j] * speeds[j]);
+        }
+        if let Some(switch) = &table.switch {
+            let forces = switch.force.iter().zip(&station.mobility);
+            for (rate, (force, mobility)) in rates.iter_mut().zip(forces).take(count) {
+                *rate += force * mobility;
+            }
+        }
+        rates
+    }
+
     /// Derivatives of the forces with respect to the kinetic energy at the points, 1/rad.
     pub fn rates<D: Driven>(
         &self,
@@ -138,25 +155,20 @@ impl Forces {
         station: &Station<D::Place>,
         start: Start,
     ) -> Values {
+        let mut rates = self.rates_of_table(station);
+        if !driven.is_driven() {
+            return rates;
+        }
         // The error of a central difference is least for this step.
         let step = f64::EPSILON.cbrt();
-        let table = &station.table;
-        let mut rates = [0.0; MAX_DEGREE + 1];
         let count = station.rule.degree() + 1;
-        for (j, rate_of) in rates.iter_mut().enumerate().take(count) {
-            let speed = self.speeds[j];
-            let mut rate = -table.damping[j];
-            if driven.is_driven() {
-                let t = start.t + self.times[j];
-                let speeds = [speed * (1.0 - step), speed * (1.0 + step)];
-                let at = speeds.map(|speed| station.state(start.turns, j, t, speed));
-                let [less, more] = driven.drive(&at);
-                rate += (more - less) / (speeds[1] - speeds[0]);
-            }
-            if let Some(switch) = &table.switch {
-                rate += 2.0 * switch.force[j] * speed;
-            }
-            *rate_of = rate / (table.inertia[j] * speed);
+        for (j, rate) in rates.iter_mut().enumerate().take(count) {
+            let (speed, t) = (self.speeds[j], start.t + self.times[j]);
+            let speeds = [speed * (1.0 - step), speed * (1.0 + step)];
+            let at = speeds.map(|speed| station.state(start.turns, j, t, speed));
+            let [less, more] = driven.drive(&at);
+            let slope = (more - less) / (speeds[1] - speeds[0]);
+            *rate += slope / (station.table.inertia[j] * speed);
         }
         rates
     }

@@ -27,6 +27,7 @@ mod sweep;
 mod switch;
 mod table;
 mod turn;
+mod undamped;
 
 use std::f64::consts::TAU;
 

@@ -21,3 +21,15 @@ pub(super) fn correction(
     let mut change = DVectorViewMut::from_slice(change, count);
     matrix.lu().solve_mut(&mut change).then_some(())
 }
+
+/// Shortens a change that would leave less than a tenth of the kinetic energy somewhere.
+pub(super) fn keep_positive(kinetic: &Values, change: &mut Values) {
+    let share = |k: f64, c: f64| if c < -0.9 * k { -0.9 * k / c } else { 1.0 };
+    let pairs = kinetic.iter().zip(change.iter());
+    let least = pairs.fold(1.0f64, |least, (k, c)| least.min(share(*k, *c)));
+    if least < 1.0 {
+        for c in change {
+            *c *= least;
+        }
+    }
+}

@@ -20,12 +20,16 @@ pub(super) struct Station<P> {
     pub side: f64,
     /// 2/M at the points, 1/(kg m²).
     pub mobility: Values,
-    /// Work of the forces of the position alone from the start to the points, J.
+    /// Work of the forces of the position alone from the start to the points, J; less by `growth` where there is a switch.
     pub work: Values,
+    /// Factor by which the force of the switch, which goes with the kinetic energy, makes it grow from the start to the points.
+    pub(super) growth: Option<Box<Values>>,
+    /// Whether there is damping.
+    pub damped: bool,
     /// The largest force that has a potential, N m: at balance the others are as large.
     pub largest_force: f64,
     /// Kinetic energy in the last turns.
-    past: Predictor,
+    pub(super) past: Predictor,
     /// What a sweep left of the error of the one before.
     pub factor: f64,
     /// Whether it was too long for a turn before.
@@ -116,6 +120,8 @@ impl<P: Copy> Station<P> {
             side,
             mobility: [0.0; MAX_DEGREE + 1],
             work: [0.0; MAX_DEGREE + 1],
+            growth: None,
+            damped: false,
             largest_force: 0.0,
             past: Predictor::new(),
             factor: SLOW_FACTOR,
@@ -178,11 +184,10 @@ impl<P: Copy> Station<P> {
         {
             *mobility = 2.0 / inertia;
         }
-        let half = self.half();
-        self.work = self.rule.integrals(&self.force_of_position());
-        for work in &mut self.work[..count] {
-            *work *= half;
-        }
+        self.damped = self.table.damping[..count]
+            .iter()
+            .any(|damping| *damping != 0.0);
+        self.fill_work();
         if known(&self.table.inertia) && known(&self.table.force) && known(&self.table.push) {
             Ok(())
         } else {
@@ -205,7 +210,7 @@ impl<P: Copy> Station<P> {
     }
 
     /// Force of the position alone at the points, N m.
-    fn force_of_position(&self) -> Values {
+    pub(super) fn force_of_position(&self) -> Values {
         let mut force = self.table.force;
         for (force, push) in force.iter_mut().zip(&self.table.push) {
             *force += push;
@@ -257,15 +262,9 @@ impl<P: Copy> Station<P> {
         0.5 * (self.piece.to - self.piece.from)
     }
 
-    /// Kinetic energy at the points, from that at the start (J): the profiles of the last turns carried on.
-    /// Where time matters, turns of the same energy are not the same.
-    pub fn guess(&self, start: f64, reads_time: bool, kinetic: &mut Values) {
-        let most = if reads_time { 2 } else { usize::MAX };
-        if self.past.carry_on(start, most, kinetic).is_none() {
-            // The same speed everywhere.
-            let inertia = &self.table.inertia;
-            *kinetic = inertia.map(|here| start * (here / inertia[0]));
-        }
+    /// Whether a force of the table depends on the speed.
+    pub fn varies_with_speed(&self) -> bool {
+        self.damped || self.growth.is_some()
     }
 
     /// Whether it was not solved yet.

@@ -2,7 +2,7 @@
 
 use super::Driven;
 use super::forces::Forces;
-use super::newton::correction;
+use super::newton::{correction, keep_positive};
 use super::panel::Station;
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values, largest};
 use crate::numeric::exact::SUM_ROUNDING;
@@ -105,16 +105,16 @@ pub(super) fn sweep<D: Driven>(
         10.0 * SETTLED
     };
     swept.evaluations = 0;
+    if !is_driven && !station.damped {
+        return swept.take_undamped(driven, station, start, tails);
+    }
     let mut newton = false;
+    let linear = station.varies_with_speed();
     let mut before = f64::INFINITY;
     for _ in 0..MOST_SWEEPS {
         swept.evaluate(driven, station, start)?;
-        let root = if newton || is_driven {
-            None
-        } else {
-            swept.change_by_root(station, start)
-        };
-        let mut change = root.unwrap_or_else(|| swept.change(station, start));
+        let mut change = swept.change(station, start);
+        newton = newton || linear && !swept.linearise(station, &mut change);
         if newton {
             let rates = swept.forces.rates(driven, station, start);
             correction(station.rule, station.half(), &rates, &mut change)
@@ -122,6 +122,10 @@ pub(super) fn sweep<D: Driven>(
             keep_positive(&swept.kinetic, &mut change);
         }
         let largest = add(&mut swept.kinetic, &mut change, station.rule.degree() + 1)?;
+        // The forces are known as well as the motion: more sweeps would not resolve them.
+        if swept.forces_are_left_out(station, start, tails.series, largest) {
+            return Err(Unsolved::TooLong);
+        }
         // What is left is smaller than the last change by the factor that was gained.
         let factor = if before.is_finite() {
             largest / before
@@ -171,18 +175,6 @@ fn add(kinetic: &mut Values, change: &mut Values, count: usize) -> Result<f64, U
     }
 }
 
-/// Shortens a change that would leave less than a tenth of the kinetic energy somewhere.
-fn keep_positive(kinetic: &Values, change: &mut Values) {
-    let share = |k: f64, c: f64| if c < -0.9 * k { -0.9 * k / c } else { 1.0 };
-    let pairs = kinetic.iter().zip(change.iter());
-    let least = pairs.fold(1.0f64, |least, (k, c)| least.min(share(*k, *c)));
-    if least < 1.0 {
-        for c in change {
-            *c *= least;
-        }
-    }
-}
-
 impl Swept {
     /// The integral of dt/2K over the panel, s/J, and the larger kinetic energy of its ends, J.
     pub fn early(&self, rule: &Rule) -> (f64, f64) {
@@ -203,6 +195,23 @@ impl Swept {
         known.ok_or(Unsolved::TooLong)
     }
 
+    /// The motion in closed form.
+    fn take_undamped<D: Driven>(
+        &mut self,
+        driven: &D,
+        station: &Station<D::Place>,
+        start: Start,
+        tails: Tails,
+    ) -> Result<(), Unsolved> {
+        self.kinetic = station.undamped(start.kinetic);
+        let points = &self.kinetic[..=station.rule.degree()];
+        if points.iter().any(|kinetic| *kinetic <= 0.0) {
+            return Err(Unsolved::Stops);
+        }
+        self.evaluate(driven, station, start)?;
+        self.finish(station, start, tails.series)
+    }
+
     /// What a sweep changes.
     fn change<P: Copy>(&self, station: &Station<P>, start: Start) -> Values {
         let half = station.half();
@@ -213,27 +222,25 @@ impl Swept {
         change
     }
 
-    /// Change of the kinetic energy by way of w, where w² is the kinetic energy less the work of the position: w' = L/2w, which hardly
-    /// depends on w if the other forces L are viscous. None where the work is not the smaller part: then it would
-    /// gain less.
-    fn change_by_root<P: Copy>(&self, station: &Station<P>, start: Start) -> Option<Values> {
-        let count = station.rule.degree() + 1;
-        let (kinetic, work) = (&self.kinetic[..count], &station.work[..count]);
-        let (spent, push) = (&self.forces.spent[..count], &station.table.push[..count]);
-        let mut slopes = [0.0; MAX_DEGREE + 1];
-        for j in 0..count {
-            slopes[j] = 0.5 * (spent[j] - push[j]) / (kinetic[j] - work[j]).sqrt();
+    /// Turns what a sweep would change into what makes the panel right to first order for the forces of the table (Newton's method
+    /// in function space, Kantorovich): δ = ρ + E ∫ r ρ/E with r = ∂F/∂K and the integrating factor E = exp ∫ r. False, and no
+    /// change, where E is too steep for its series: that of exp(c x) decays beyond degree c.
+    fn linearise<P: Copy>(&self, station: &Station<P>, change: &mut Values) -> bool {
+        let (count, half) = (station.rule.degree() + 1, station.half());
+        let mut rates = self.forces.rates_of_table(station);
+        let mut factor = station.rule.integrals(&rates);
+        if 0.5 * half.abs() * largest(&factor[..count]) > station.rule.degree() as f64 {
+            return false;
         }
-        let half = station.half();
-        let at_start = start.kinetic.sqrt();
-        let mut change = station.rule.integrals(&slopes);
-        let mut serves = true;
         for j in 0..count {
-            let root = at_start + half * change[j];
-            serves &= root > 0.0 && root * root > work[j];
-            change[j] = (root * root + work[j]) - kinetic[j];
+            factor[j] = (half * factor[j]).exp();
+            rates[j] *= change[j] / factor[j];
         }
-        serves.then_some(change)
+        let more = station.rule.integrals(&rates);
+        for j in 0..count {
+            change[j] += half * factor[j] * more[j];
+        }
+        true
     }
 
     /// Checks that the series are resolved, at the speeds of the last evaluation.
@@ -247,24 +254,39 @@ impl Swept {
         let known = self.forces.fill_slopes(station, &mut self.slopes);
         known.ok_or(Unsolved::TooLong)?;
         self.slope = rule.series(&self.slopes);
-        let noise = 8.0 * f64::EPSILON * (1.0 + station.piece.from.abs() / half.abs());
+        let noise = noise_of_angle(station);
         let wanted = (REMAINDER * tail).max(tail.min(SUM_ROUNDING));
         if self.slope.tail() > wanted.max(noise) {
             return Err(Unsolved::TooLong);
         }
-        let accepted = tail.max(noise);
-        let count = rule.degree() + 1;
-        let last = rule.last_terms(&self.forces.total);
-        let largest = largest(&self.forces.total[..count]);
-        let energy = half.abs() / start.kinetic;
-        // Large forces that balance each other leave their rounding.
-        let noise = SUM_ROUNDING * station.largest_force;
-        let unresolved = last * energy > tail + noise * energy;
-        if unresolved && last > accepted * largest && last / largest > tail + noise * energy {
+        if self.forces_are_left_out(station, start, tail, 0.0) {
             return Err(Unsolved::TooLong);
         }
         self.end = self.kinetic[rule.degree()];
         self.gain = half * rule.rounded_integral(&self.forces.total);
         Ok(())
     }
+
+    /// Whether the last terms of the forces are too large for their series to end there; they may be less by a part.
+    fn forces_are_left_out<P: Copy>(
+        &self,
+        station: &Station<P>,
+        start: Start,
+        tail: f64,
+        uncertain: f64,
+    ) -> bool {
+        let (rule, half) = (station.rule, station.half());
+        let last = (1.0 - uncertain) * rule.last_terms(&self.forces.total);
+        let largest = largest(&self.forces.total[..=rule.degree()]);
+        let energy = half.abs() / start.kinetic;
+        // Large forces that balance each other leave their rounding.
+        let allowed = tail + SUM_ROUNDING * station.largest_force * energy;
+        let of_angle = tail.max(noise_of_angle(station));
+        last * energy > allowed && last > of_angle * largest && last / largest > allowed
+    }
+}
+
+/// What the rounding of its angles does to the series on a panel, as part of them.
+fn noise_of_angle<P: Copy>(station: &Station<P>) -> f64 {
+    8.0 * f64::EPSILON * (1.0 + station.piece.from.abs() / station.half().abs())
 }

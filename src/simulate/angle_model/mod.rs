@@ -1,19 +1,19 @@
 //! The mechanism as the energy engine sees it: inertia, potential and force over the crank angle.
 
+mod profile;
 mod spot;
 mod work;
 
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
-use super::guide_friction::{BESIDE, Grip, Sliding};
+use super::guide_friction::{Grip, Guide, Sliding};
 use super::marks::{Marks, in_order};
 use crate::engine::WorkLimit;
 use crate::engine::angle::{Driven, State, Table};
-use crate::engine::energy::Profile;
-use crate::mechanism::{Equation, Limits};
+use crate::mechanism::{Equation, Limits, LoadValue};
 use crate::numeric::angle::Angle;
-use crate::numeric::chebyshev::Values;
+use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 use crate::numeric::enclosure::{Detail, Reach};
 use crate::scene::Variable;
 pub(super) use spot::Spot;
@@ -145,9 +145,17 @@ impl Driven for AngleModel<'_> {
         self.count(count);
         let loads = self.equation.loads();
         let driven = self.is_driven();
-        let at = self.equation.first_positions(angles, count);
+        let mut guide = None;
+        let at = match self.sliding {
+            None => self.equation.first_positions(angles, count),
+            Some(sliding) => {
+                let (at, normals) = self.equation.first_guided(angles, count);
+                guide = Some((sliding, normals));
+                at
+            }
+        };
         table.places.clear();
-        let mut of_place = Vec::new();
+        let mut of_place = [LoadValue::default(); MAX_DEGREE + 1];
         for (i, angle) in angles.iter().enumerate().take(count) {
             let (x, dx) = (at.x[i], at.dx[i]);
             table.inertia[i] = at.m[i];
@@ -164,19 +172,21 @@ impl Driven for AngleModel<'_> {
             table.force[i] = stored.over(dx) - at.dv[i];
             table.push[i] = placed.over(dx);
             table.damping[i] = loads.damping(dx);
-            if self.sliding.is_some() {
-                of_place.push(stored.plus(placed));
-            }
+            of_place[i] = stored.plus(placed);
             if driven {
                 let grip = Grip::default();
                 table.places.push(Spot { at: [x, dx], grip });
             }
         }
-        if let Some(sliding) = self.sliding {
-            let angles = &angles[..count];
+        if let Some((sliding, normals)) = guide {
             // Panels run in the direction of the motion.
             let direction = (angles[count - 1] - angles[0]).signum();
-            sliding.tabulate(angles, direction * side, loads, &of_place, table);
+            let guide = Guide {
+                dx: &at.dx[..count],
+                normals: &normals[..count],
+                signs: direction * side,
+            };
+            sliding.tabulate(guide, loads, &of_place, table);
         }
     }
 
@@ -230,68 +240,5 @@ impl Driven for AngleModel<'_> {
 
     fn corners_if_light(&self) -> &[f64] {
         &self.of_cycle
-    }
-}
-
-impl Profile for AngleModel<'_> {
-    fn inertia_and_force(&self, theta: f64) -> (f64, f64) {
-        self.count(1);
-        let terms = self.equation.terms(theta);
-        let angle = self.angle(theta);
-        let load = self.equation.loads().value(0.0, angle, 0.0, &terms.pose);
-        (terms.inertia.m, load.generalized(&terms.pose) - terms.dv)
-    }
-
-    fn tabulate(&self, angles: &Values, count: usize, inertia: &mut Values, force: &mut Values) {
-        self.count(count);
-        let loads = self.equation.loads();
-        let at = self.equation.positions(angles);
-        for (i, angle) in angles.iter().enumerate().take(count) {
-            let load = loads
-                .with_potential_at(at.x[i])
-                .plus(loads.of_place(self.angle(*angle), at.x[i]));
-            inertia[i] = at.m[i];
-            force[i] = load.over(at.dx[i]) - at.dv[i];
-        }
-    }
-
-    fn rounding(&self, theta: f64) -> f64 {
-        self.count(1);
-        let angle = self.angle(theta);
-        let mut size = self.equation.size_of_terms(0.0, angle, 0.0);
-        if !self.equation.loads().have_potential() {
-            // What a formula makes of the angle is rounded as the angle is.
-            let change = self.push(theta + BESIDE) - self.push(theta - BESIDE);
-            size += (0.5 * change / BESIDE * angle.radians()).abs();
-        }
-        0.5 * f64::EPSILON * size
-    }
-
-    fn corners(&self) -> &[f64] {
-        &self.corners
-    }
-
-    fn corner_between(&self, from: f64, to: f64) -> Option<f64> {
-        // The same corner again, off by rounding, is not a next one.
-        let apart = (to - from).signum() * 1e-12 * from.abs().max(1.0);
-        let turns = self.turns * TAU;
-        let loads = self.equation.loads();
-        let corner = loads.corner_out_of_step(from + apart + turns, to + turns);
-        let mark = self.mark(from + apart, to);
-        let first = |a: f64, b: f64| if (a < b) == (from < to) { a } else { b };
-        let corner = corner.map(|corner| corner - turns);
-        corner.into_iter().chain(mark).reduce(first)
-    }
-
-    fn is_spent(&self) -> bool {
-        self.limit.is_reached(self.evaluations())
-    }
-
-    fn repeats(&self) -> bool {
-        self.repeats
-    }
-
-    fn work_of_turn(&self) -> Option<(f64, f64)> {
-        self.work_of_turn
     }
 }

@@ -1,0 +1,57 @@
+//! The motion on a panel without damping and without driven loads: K' = b K + F is linear, with the integrating factor exp ∫ b.
+
+use super::panel::Station;
+use crate::numeric::chebyshev::{MAX_DEGREE, Values};
+
+impl<P: Copy> Station<P> {
+    /// The motion of the forces of the position alone, and of that of the switch: K = growth·(K₀ + work).
+    pub(super) fn fill_work(&mut self) {
+        let (half, count) = (self.half(), self.rule.degree() + 1);
+        let mut force = self.force_of_position();
+        if let Some(switch) = &self.table.switch {
+            let mut rates = [0.0; MAX_DEGREE + 1];
+            let forces = switch.force.iter().zip(&self.mobility);
+            for (rate, (force, mobility)) in rates.iter_mut().zip(forces).take(count) {
+                *rate = force * mobility;
+            }
+            let mut growth = self.growth.take().unwrap_or_else(|| Box::new(rates));
+            *growth = self.rule.integrals(&rates);
+            for (growth, force) in growth[..count].iter_mut().zip(&mut force) {
+                *growth = (half * *growth).exp();
+                *force /= *growth;
+            }
+            self.growth = Some(growth);
+        }
+        self.work = self.rule.integrals(&force);
+        for work in &mut self.work[..count] {
+            *work *= half;
+        }
+    }
+
+    /// Kinetic energy at the points that the forces of the position alone, and of the switch, make of that at the start, J.
+    pub fn undamped(&self, start: f64) -> Values {
+        let mut kinetic = self.work.map(|work| start + work);
+        if let Some(growth) = &self.growth {
+            for (kinetic, factor) in kinetic.iter_mut().zip(growth.iter()) {
+                *kinetic *= factor;
+            }
+        }
+        kinetic
+    }
+
+    /// Kinetic energy at the points, from that at the start (J): the profiles of the last turns carried on, or the motion of a
+    /// panel without damping. Where time matters, turns of the same energy are not the same.
+    pub fn guess(&self, start: f64, reads_time: bool, kinetic: &mut Values) {
+        let most = if reads_time { 2 } else { usize::MAX };
+        if self.past.carry_on(start, most, kinetic).is_some() {
+            return;
+        }
+        *kinetic = self.undamped(start);
+        let points = &kinetic[..=self.rule.degree()];
+        if self.damped || points.iter().any(|kinetic| *kinetic <= 0.0) {
+            // The same speed everywhere: damping tends to hold it.
+            let inertia = &self.table.inertia;
+            *kinetic = inertia.map(|here| start * (here / inertia[0]));
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! Inertia and forces of the position alone, for motions in closed form.
+
+use std::f64::consts::TAU;
+
+use super::super::guide_friction::BESIDE;
+use super::AngleModel;
+use crate::engine::energy::Profile;
+use crate::numeric::chebyshev::Values;
+
+impl Profile for AngleModel<'_> {
+    fn inertia_and_force(&self, theta: f64) -> (f64, f64) {
+        self.count(1);
+        let terms = self.equation.terms(theta);
+        let angle = self.angle(theta);
+        let load = self.equation.loads().value(0.0, angle, 0.0, &terms.pose);
+        (terms.inertia.m, load.generalized(&terms.pose) - terms.dv)
+    }
+
+    fn tabulate(&self, angles: &Values, count: usize, inertia: &mut Values, force: &mut Values) {
+        self.count(count);
+        let loads = self.equation.loads();
+        let at = self.equation.positions(angles);
+        for (i, angle) in angles.iter().enumerate().take(count) {
+            let load = loads
+                .with_potential_at(at.x[i])
+                .plus(loads.of_place(self.angle(*angle), at.x[i]));
+            inertia[i] = at.m[i];
+            force[i] = load.over(at.dx[i]) - at.dv[i];
+        }
+    }
+
+    fn rounding(&self, theta: f64) -> f64 {
+        self.count(1);
+        let angle = self.angle(theta);
+        let mut size = self.equation.size_of_terms(0.0, angle, 0.0);
+        if !self.equation.loads().have_potential() {
+            // What a formula makes of the angle is rounded as the angle is.
+            let change = self.push(theta + BESIDE) - self.push(theta - BESIDE);
+            size += (0.5 * change / BESIDE * angle.radians()).abs();
+        }
+        0.5 * f64::EPSILON * size
+    }
+
+    fn corners(&self) -> &[f64] {
+        &self.corners
+    }
+
+    fn corner_between(&self, from: f64, to: f64) -> Option<f64> {
+        // The same corner again, off by rounding, is not a next one.
+        let apart = (to - from).signum() * 1e-12 * from.abs().max(1.0);
+        let turns = self.turns * TAU;
+        let loads = self.equation.loads();
+        let corner = loads.corner_out_of_step(from + apart + turns, to + turns);
+        let mark = self.mark(from + apart, to);
+        let first = |a: f64, b: f64| if (a < b) == (from < to) { a } else { b };
+        let corner = corner.map(|corner| corner - turns);
+        corner.into_iter().chain(mark).reduce(first)
+    }
+
+    fn is_spent(&self) -> bool {
+        self.limit.is_reached(self.evaluations())
+    }
+
+    fn repeats(&self) -> bool {
+        self.repeats
+    }
+
+    fn work_of_turn(&self) -> Option<(f64, f64)> {
+        self.work_of_turn
+    }
+}
