@@ -263,6 +263,9 @@ fn what_is_stated_is_near_the_distance_from_a_tight_run_in_time() {
                 "{}",
                 summary.energy_residual
             );
+            // A second run that reaches its end at once.
+            let cost = summary.estimate_cost.unwrap().evaluations;
+            assert!(cost <= 20 * summary.evaluations, "{cost}");
             let stated = summary.error_estimate.unwrap();
             let pairs = [
                 (

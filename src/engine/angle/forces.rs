@@ -88,6 +88,11 @@ impl Forces {
         }
     }
 
+    /// rad/s, at the points.
+    pub fn speeds(&self) -> &Values {
+        &self.speeds
+    }
+
     /// Least and largest speed at the first points, rad/s.
     pub fn speed_range(&self, count: usize) -> Interval {
         let points = self.speeds[..count].iter().copied().map(Interval::point);

@@ -24,6 +24,7 @@ mod rest;
 mod seen;
 mod stepper;
 mod sweep;
+mod swept;
 mod switch;
 mod table;
 mod turn;
@@ -45,6 +46,7 @@ pub use fixed_point::{CycleMap, FixedPoint, NoCycle, fixed_point};
 pub use guide::Guide;
 pub use one_turn::{Cycle, Turns};
 use stepper::{Done, PanelStepper};
+use swept::Spent;
 pub use table::{Switch, Table};
 
 /// A state of the crank at a position of a table.
@@ -280,10 +282,9 @@ fn ended<D: Driven>(
 }
 
 /// Work from the begin of the last panel until a time in it.
-fn work_until(leg: &Segment, until: f64, spent: &Values) -> f64 {
+fn work_until(leg: &Segment, until: f64, spent: &Spent) -> f64 {
     let Some((panel, since)) = leg.panel_at(until) else {
         return 0.0;
     };
-    let work = panel.rule.series(spent).integral();
-    0.5 * panel.piece.span() * work.value(panel.position(since))
+    spent.work(panel.rule, panel.piece.span(), panel.position(since))
 }

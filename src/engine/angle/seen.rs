@@ -1,7 +1,8 @@
 //! Whether the points of a panel show the loads on it.
 
 use super::panel::{Fineness, Station};
-use super::sweep::{Start, Swept};
+use super::sweep::Start;
+use super::swept::Swept;
 use super::{Driven, State, Table};
 use crate::engine::events::ROUNDED;
 use crate::engine::sight::{Look, Way, hidden};
@@ -47,10 +48,10 @@ pub(super) fn hides<D: Driven>(
         start,
         swept,
         time: slope.integral(),
-        spent: rule.series(swept.spent()),
+        spent: rule.series(&swept.forces.spent),
         varies: [sum(|_| 1.0), sum(|k| k * k)],
     };
-    let forces = largest(&swept.spent()[..=degree]).max(station.largest_force);
+    let forces = largest(&swept.forces.spent[..=degree]).max(station.largest_force);
     let rounding = SUM_ROUNDING * forces;
     let look = Look {
         nodes: degree,

@@ -9,13 +9,13 @@ use super::guide::Guide;
 use super::panel::{Fineness, Station};
 use super::refine::cut;
 use super::seen::hides;
-use super::sweep::{Start, Swept, sweep};
+use super::sweep::{Start, sweep};
+use super::swept::{Spent, Swept};
 use super::switch::{Side, begins_beyond, side};
 use super::turn::stations;
 use super::{Driven, Resolution};
 use crate::engine::WorkLimit;
 use crate::numeric::angle::Angle;
-use crate::numeric::chebyshev::Values;
 use crate::numeric::enclosure::Interval;
 use crate::numeric::exact::two_sum;
 
@@ -68,8 +68,8 @@ pub(super) struct PanelStepper<'a, D: Driven> {
 /// A panel with the work that was done on it.
 pub(super) struct Done {
     pub panel: Panel,
-    /// Force without a potential at the points of the panel, N m.
-    pub spent: Values,
+    /// Force without a potential on it.
+    pub spent: Spent,
     /// Work of these forces on it, J.
     pub work: f64,
 }
@@ -225,7 +225,8 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
         let swept = &self.swept;
         let station = self.parts.last().unwrap_or(&self.stations[self.next]);
         let rule = station.rule;
-        let work = 0.5 * (piece.to - piece.from) * rule.rounded_integral(swept.spent());
+        let spent = swept.spent();
+        let work = spent.work(rule, piece.to - piece.from, 1.0);
         // Under steep loads the end is not the start and the gain.
         let summed = swept.end == self.kinetic + swept.gain;
         (self.kinetic, self.kinetic_low) = if summed {
@@ -263,10 +264,6 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
                 self.next = 0;
             }
         }
-        Done {
-            panel,
-            spent: *self.swept.spent(),
-            work,
-        }
+        Done { panel, spent, work }
     }
 }

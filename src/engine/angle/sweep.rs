@@ -1,10 +1,10 @@
 //! The collocation on one panel: K' = F(θ) + L(θ, ω, t), t' = 1/ω at the points of the panel.
 
 use super::Driven;
-use super::forces::Forces;
 use super::newton::{correction, keep_positive};
 use super::panel::Station;
-use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values, largest};
+use super::swept::Swept;
+use crate::numeric::chebyshev::{Values, largest};
 use crate::numeric::exact::SUM_ROUNDING;
 
 /// The state at the start of a panel.
@@ -18,45 +18,6 @@ pub(super) struct Start {
     pub turns: f64,
     /// Sign of the speed.
     pub direction: f64,
-}
-
-/// The motion on a panel.
-#[derive(Clone)]
-pub(super) struct Swept {
-    /// J, at the points.
-    pub kinetic: Values,
-    /// |dt/dx| at the points.
-    pub slopes: Values,
-    /// Series of the derivative.
-    pub slope: Series,
-    pub(super) forces: Forces,
-    /// Kinetic energy that is gained, J.
-    pub gain: f64,
-    /// Kinetic energy at the end, J.
-    pub end: f64,
-    /// Evaluations of the loads.
-    pub evaluations: u64,
-}
-
-impl Swept {
-    /// Room for the motion on a panel.
-    pub fn new() -> Swept {
-        let zero = [0.0; MAX_DEGREE + 1];
-        Swept {
-            kinetic: zero,
-            slopes: zero,
-            slope: Series::new(0, zero),
-            forces: Forces::new(),
-            gain: 0.0,
-            end: 0.0,
-            evaluations: 0,
-        }
-    }
-
-    /// Force without a potential at the points, N m.
-    pub fn spent(&self) -> &Values {
-        &self.forces.spent
-    }
 }
 
 /// Most sweeps over a panel.
@@ -105,6 +66,7 @@ pub(super) fn sweep<D: Driven>(
         10.0 * SETTLED
     };
     swept.evaluations = 0;
+    swept.share = 1.0;
     if !is_driven && !station.damped {
         return swept.take_undamped(driven, station, start, tails);
     }
@@ -126,9 +88,12 @@ pub(super) fn sweep<D: Driven>(
         if swept.forces_are_left_out(station, start, tails.series, largest) {
             return Err(Unsolved::TooLong);
         }
-        // What is left is smaller than the last change by the factor that was gained.
-        let factor = if before.is_finite() {
-            largest / before
+        // What is left is smaller than the last change by the factor that was gained; Newton's method squares it, as far as the
+        // forces go with the square root of the kinetic energy or with the energy itself.
+        let factor = if linear && !newton && !is_driven {
+            largest
+        } else if before.is_finite() {
+            (largest / before).max(LEAST_FACTOR)
         } else {
             station.factor
         };
@@ -138,7 +103,7 @@ pub(super) fn sweep<D: Driven>(
                 swept.evaluate(driven, station, start)?;
                 return swept.finish(station, start, tails.series);
             }
-        } else if largest * factor.max(LEAST_FACTOR) <= settled * tails.sweeps || at_rounding {
+        } else if largest * factor <= settled * tails.sweeps || at_rounding {
             if is_driven {
                 swept.forces.take_speeds(station, start, &swept.kinetic);
             } else {
@@ -149,8 +114,8 @@ pub(super) fn sweep<D: Driven>(
             swept.end = start.kinetic + swept.gain;
             return Ok(());
         } else if before.is_finite() {
-            station.factor = factor.max(LEAST_FACTOR);
-            newton = factor > SLOW_FACTOR;
+            station.factor = (largest / before).max(LEAST_FACTOR);
+            newton = station.factor > SLOW_FACTOR;
         }
         before = largest;
     }
@@ -176,13 +141,6 @@ fn add(kinetic: &mut Values, change: &mut Values, count: usize) -> Result<f64, U
 }
 
 impl Swept {
-    /// The integral of dt/2K over the panel, s/J, and the larger kinetic energy of its ends, J.
-    pub fn early(&self, rule: &Rule) -> (f64, f64) {
-        let early: Values = std::array::from_fn(|j| 0.5 * self.slopes[j] / self.kinetic[j]);
-        let most = self.kinetic[0].max(self.kinetic[rule.degree()]);
-        (rule.rounded_integral(&early), most)
-    }
-
     /// The forces at the kinetic energy.
     fn evaluate<D: Driven>(
         &mut self,

@@ -1,9 +1,10 @@
 //! Where the switch changes its sign on a panel, and with it the form of the forces.
 
 use super::panel::{SHORTEST_PANEL, Station};
-use super::sweep::{Start, Swept};
+use super::sweep::Start;
+use super::swept::Swept;
 use super::{Driven, Switch};
-use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values};
+use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values, largest};
 use crate::numeric::dip::may_dip;
 use crate::numeric::exact::SUM_ROUNDING;
 use crate::numeric::maximum;
@@ -56,31 +57,18 @@ pub(super) fn begins_beyond<D: Driven>(
         return false;
     };
     let speed = start.direction * (start.kinetic * station.mobility[0]).sqrt();
-    let parts = parts(driven, switch, station, start, 0, [start.t, speed]);
-    let largest = parts.iter().fold(0.0f64, |m, part| m.max(part.abs()));
-    station.side * parts.iter().sum::<f64>() < -SHORTEST_PANEL * largest
-}
-
-/// What the switch is the sum of, at a point where the time (s) and the speed (rad/s) are these.
-fn parts<D: Driven>(
-    driven: &D,
-    switch: &Switch,
-    station: &Station<D::Place>,
-    start: Start,
-    j: usize,
-    [t, speed]: [f64; 2],
-) -> [f64; 4] {
-    let driven = if driven.is_driven() {
-        driven.drive_switch(&station.state(start.turns, j, t, speed))
+    let others = if driven.is_driven() {
+        driven.drive_switch(&station.state(start.turns, 0, start.t, speed))
     } else {
         0.0
     };
-    [
-        switch.place[j],
-        switch.rate[j] * speed,
-        switch.square[j] * speed * speed,
-        driven,
-    ]
+    let parts = [
+        switch.place[0],
+        switch.rate[0] * speed,
+        switch.square[0] * speed * speed,
+        others,
+    ];
+    station.side * parts.iter().sum::<f64>() < -SHORTEST_PANEL * largest(&parts)
 }
 
 impl Swept {
@@ -88,13 +76,11 @@ impl Swept {
     pub fn end_at(&mut self, rule: &Rule, start: Start, share: f64) {
         let inside = rule.values(|x| share * (1.0 + x) - 1.0);
         self.slopes = self.slope.values(&inside).map(|slope| share * slope);
-        self.forces.spent = rule.series(self.spent()).values(&inside);
-        for values in [&mut self.slopes, &mut self.forces.spent] {
-            values[rule.degree() + 1..].fill(0.0);
-        }
+        self.slopes[rule.degree() + 1..].fill(0.0);
         self.slope = rule.series(&self.slopes);
         self.end = rule.series(&self.kinetic).value(2.0 * share - 1.0);
         self.gain = self.end - start.kinetic;
+        self.share = share;
     }
 }
 
@@ -106,36 +92,40 @@ fn values<D: Driven>(
     start: Start,
     swept: &Swept,
 ) -> (Values, f64) {
-    let length = start.direction * station.half().abs();
-    let times = if driven.is_driven() && driven.reads_time() {
-        station.rule.integrals(&swept.slopes)
-    } else {
-        [0.0; MAX_DEGREE + 1]
-    };
-    let mut largest: f64 = 0.0;
-    let mut values = [0.0; MAX_DEGREE + 1];
-    for j in 0..=station.rule.degree() {
-        let speed = length / swept.slopes[j];
-        let parts = parts(
-            driven,
-            switch,
-            station,
-            start,
-            j,
-            [start.t + times[j], speed],
-        );
-        values[j] = station.side * parts.iter().sum::<f64>();
-        largest = parts.iter().fold(largest, |m, part| m.max(part.abs()));
+    let count = station.rule.degree() + 1;
+    let speeds = swept.forces.speeds();
+    let mut parts = [[0.0; MAX_DEGREE + 1]; 4];
+    let [place, rate, square, others] = &mut parts;
+    for j in 0..count {
+        let speed = speeds[j];
+        place[j] = switch.place[j];
+        rate[j] = switch.rate[j] * speed;
+        square[j] = switch.square[j] * speed * speed;
     }
-    (values, SUM_ROUNDING * largest)
+    if driven.is_driven() {
+        let times = if driven.reads_time() {
+            station.rule.integrals(&swept.slopes)
+        } else {
+            [0.0; MAX_DEGREE + 1]
+        };
+        for j in 0..count {
+            let at = [start.t + times[j], speeds[j]];
+            others[j] = driven.drive_switch(&station.state(start.turns, j, at[0], at[1]));
+        }
+    }
+    let size = parts.each_ref().map(|part| largest(part));
+    let mut values = [0.0; MAX_DEGREE + 1];
+    let [place, rate, square, others] = &parts;
+    for j in 0..count {
+        values[j] = station.side * (place[j] + rate[j] + square[j] + others[j]);
+    }
+    (values, SUM_ROUNDING * largest(&size))
 }
 
 /// The first place at which values fall below zero, by more than `noise`; −1 if they begin there.
 fn first_below<P: Copy>(station: &Station<P>, values: &Values, noise: f64) -> Option<f64> {
     let points = station.rule.points();
-    if values[0]
-        < -noise.max(SHORTEST_PANEL * values.iter().fold(0.0f64, |m, value| m.max(value.abs())))
-    {
+    if values[0] < -noise.max(SHORTEST_PANEL * largest(values)) {
         return Some(-1.0);
     }
     let series = || station.rule.series(values);

@@ -30,8 +30,8 @@ impl Collocation<'_> {
     }
 }
 
-/// Accelerations (rad/s²) of a known run at times (s) in rising order; none beyond its end, and of steps that are not as exact inside
-/// as at their ends.
+/// Accelerations (rad/s²) of a known run at times (s) in rising order; none where it has no step, and of steps that are not as exact
+/// inside as at their ends.
 fn guided(guide: &[Step], t: &[f64; NODES]) -> Option<[f64; NODES]> {
     let past = guide.partition_point(|step| step.end.t < t[0]);
     let mut steps = guide[past..].iter();
@@ -41,7 +41,8 @@ fn guided(guide: &[Step], t: &[f64; NODES]) -> Option<[f64; NODES]> {
         while step.end.t < *t {
             step = steps.next()?;
         }
-        *alpha = step.has_polynomial().then(|| step.acceleration_at(*t))?;
+        let knows = step.start.t <= *t && step.has_polynomial();
+        *alpha = knows.then(|| step.acceleration_at(*t))?;
     }
     Some(alpha)
 }
