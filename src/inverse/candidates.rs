@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::likelihood::{Linear, Stretch};
-use super::periodic::increments;
+use super::periodic::Increments;
 use super::prior::{Candidate, LADDERS, Prior, TORQUE};
 use super::problem::{Problem, angles};
 use super::record::Path;
@@ -15,6 +15,9 @@ use crate::numeric::parallel;
 /// No instrument tells an angle to the root of the rounding of doubles, rad: a record so exact was computed, and errs smoothly,
 /// which a prior of order three would take for force.
 const COMPUTED: f64 = 1.5e-8;
+
+/// Harmonics of a cycle at first; they are doubled as long as that makes the samples likelier.
+const HARMONICS: usize = 24;
 
 /// The linear model about a smoothed path: one for all orders of an unknown, whose derivatives are 0 along that path.
 pub(super) struct About {
@@ -136,15 +139,43 @@ impl Problem<'_> {
         };
         let least = noise.likelihood + (self.record.times.len() as f64).ln();
         let of_cycle = |cycle: u8| {
-            let prior = Prior { cycle, ..TORQUE };
-            let about = &About {
-                stretches: self.repeated(about, cycle),
-                path: about.path.clone(),
-                ..*about
+            let of = |harmonics: usize, noise: Noise, least: f64| {
+                let prior = Prior {
+                    cycle,
+                    harmonics,
+                    ..TORQUE
+                };
+                let about = About {
+                    stretches: self.repeated(about, prior),
+                    path: about.path.clone(),
+                    ..*about
+                };
+                let found = self.candidate_from(prior, &about, noise, least, correlated)?;
+                Some((found, about))
             };
-            let first = self.candidate_from(prior, about, *noise, least, correlated)?;
-            let prior = Prior { order: 2, ..prior };
-            let next = self.candidate_from(prior, about, first.noise, least, correlated);
+            let mut best = of(HARMONICS, *noise, least)?;
+            loop {
+                let Candidate { prior, noise, .. } = best.0;
+                let twice = 2 * prior.harmonics;
+                // Two coefficients each, of which the samples tell no more than they are.
+                if 4 * twice > self.record.times.len() {
+                    break;
+                }
+                let first = Noise {
+                    spectrum: None,
+                    ..noise
+                };
+                match of(twice, first, noise.likelihood) {
+                    Some(next) if next.0.noise.likelihood > noise.likelihood => best = next,
+                    _ => break,
+                }
+            }
+            let (first, about) = best;
+            let prior = Prior {
+                order: 2,
+                ..first.prior
+            };
+            let next = self.candidate_from(prior, &about, first.noise, least, correlated);
             Some(std::iter::once(first).chain(next))
         };
         let cycles = [1, 2]
@@ -155,13 +186,13 @@ impl Problem<'_> {
     }
 
     /// The stretches of a linear model, with what repeats in each step.
-    fn repeated(&self, about: &About, cycle: u8) -> Vec<Stretch> {
+    fn repeated(&self, about: &About, prior: Prior) -> Vec<Stretch> {
         let pairs = self.sampled().into_iter().zip(&about.stretches);
         let with = |(range, stretch): (Range<usize>, &Stretch)| {
             let states = about.path.piece(&range).states;
             let steps = stretch.steps.clone();
             Stretch {
-                increments: increments(angles(states, &steps), cycle),
+                increments: Increments::new(angles(states, &steps), prior.cycle, prior.harmonics),
                 observed: stretch.observed.clone(),
                 steps,
             }

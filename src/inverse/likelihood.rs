@@ -4,8 +4,9 @@
 use super::kalman::{self, Evidence};
 use super::linearised::{Linearised, State};
 use super::maximum::{better, climb};
+use super::periodic::Increments;
 use super::prior::Prior;
-use super::regression::{Each, Posterior, Regression};
+use super::regression::{Posterior, Regression};
 use super::scales::{Noise, Scales};
 use super::state_space::{Autoregression, Deviations, Observed};
 
@@ -23,7 +24,7 @@ pub(super) struct Linear<'a> {
 pub(super) struct Stretch {
     pub steps: Vec<Linearised>,
     /// What the harmonics of what repeats add in each step.
-    pub increments: Vec<[Each; 2]>,
+    pub increments: Increments,
     pub observed: Vec<Observed>,
 }
 
@@ -73,7 +74,7 @@ impl Linear<'_> {
 
     /// The evidence without the part that repeats, and what the samples tell of that.
     fn regressed(&self, noise: &Noise) -> (Evidence, Regression) {
-        let mut to = Regression::new();
+        let mut to = Regression::new(2 * self.prior.harmonics);
         let of = |stretch: &Stretch| {
             let model = self.deviations(stretch, noise);
             match model.dimension() {
@@ -202,24 +203,35 @@ impl Linear<'_> {
         )
     }
 
-    /// Noise of u itself beside that of its rate, as strong as the samples allow: the likelihood ratio to the likeliest is
-    /// that of one standard error. A prior that is too smooth has a band that does not hold what is less smooth.
+    /// Noise of u itself beside that of its rate, as strong as the samples allow. A prior that is too smooth has a band that does
+    /// not hold what is less smooth.
     pub fn with_level(&self, noise: &Noise) -> Noise {
+        self.as_strong_as_allowed(noise, |level| Noise { level, ..*noise })
+    }
+
+    /// The Wiener process beside a part of u with a shape of its own, as strong as the samples allow: what that shape leaves out
+    /// may be smaller than they tell.
+    pub fn with_remainder(&self, noise: &Noise) -> Noise {
+        self.as_strong_as_allowed(noise, |corner| Noise { corner, ..*noise })
+    }
+
+    /// The strongest noise whose likelihood ratio to the likeliest is that of two standard errors.
+    fn as_strong_as_allowed(&self, noise: &Noise, with: impl Fn(f64) -> Noise) -> Noise {
         let mut best = noise.likelihood;
-        let mut found = *noise;
-        let mut level = noise.corner;
+        let (mut found, mut strongest) = (*noise, 0.0);
+        let mut frequency = noise.corner;
         for _ in 0..LEVELS {
-            let next = self.evaluated(Noise { level, ..*noise });
+            let next = self.evaluated(with(frequency));
             best = best.max(next.likelihood);
             let fall = best - next.likelihood;
-            if fall <= ALLOWED && level > found.level {
-                found = next;
+            if fall <= ALLOWED && frequency > strongest {
+                (found, strongest) = (next, frequency);
             }
             if (0.5 * ALLOWED..=ALLOWED).contains(&fall) {
                 break;
             }
             // The fall grows like the density of the noise, by the sixth power.
-            level *= (0.75 * ALLOWED / fall.max(1e-3))
+            frequency *= (0.75 * ALLOWED / fall.max(1e-3))
                 .powf(1.0 / 6.0)
                 .clamp(0.3, 2.0);
         }

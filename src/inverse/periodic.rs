@@ -6,110 +6,135 @@
 //! filter; de Jong, Ann. Statist. 19 (1991) 1073). A prediction error is then e + E β with the variance that it has without β, and
 //! what is left is a linear regression with the information Σ EᵀE/S.
 
-// Sums over rows and columns, as the textbook writes them.
-#![allow(clippy::needless_range_loop)]
+use std::iter;
 
 use super::kalman::{Companion, Gaussian, Innovation, Return, Sample, Step};
 use super::linearised::Linearised;
-use super::matrix::{Matrix, dot};
-use super::regression::{COUNT, Each, Posterior, ROWS, Regression};
+use super::matrix::Matrix;
+use super::regression::{Posterior, ROWS, Regression};
 use super::state_space::Deviations;
 
-/// cos kθ and sin kθ of the cycle angle.
-fn harmonics(angle: f64) -> Each {
-    let (sin, cos) = angle.sin_cos();
-    let mut list = [0.0; COUNT];
-    let (mut c, mut s) = (1.0, 0.0);
-    for pair in list.chunks_exact_mut(2) {
-        (c, s) = (c * cos - s * sin, s * cos + c * sin);
-        pair.copy_from_slice(&[c, s]);
-    }
-    list
+/// Harmonics in the middle and at the end of each step less those at its begin.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Increments {
+    /// Number of coefficients.
+    count: usize,
+    /// Middle and end of each step, one after the other.
+    values: Vec<f64>,
 }
 
-/// Harmonics in the middle and at the end of each step less those at its begin, along a path with these crank angles at begins,
-/// middles and ends, rad.
-pub(super) fn increments(angles: impl Iterator<Item = [f64; 3]>, turns: u8) -> Vec<[Each; 2]> {
-    let mut known = None;
-    let of = |[begin, middle, end]: [f64; 3]| {
-        let at = |angle: f64| harmonics(angle / f64::from(turns));
-        let begin = known.unwrap_or_else(|| at(begin));
-        let next = at(end);
-        known = Some(next);
-        let mut found = [at(middle), next];
-        for list in &mut found {
-            (0..COUNT).for_each(|j| list[j] -= begin[j]);
+impl Increments {
+    /// Along a path with these crank angles at begins, middles and ends, rad; `harmonics` of a cycle of so many turns.
+    pub fn new(angles: impl Iterator<Item = [f64; 3]>, turns: u8, harmonics: usize) -> Increments {
+        let at = |angle: f64| cosines_and_sines(angle / f64::from(turns), harmonics);
+        let mut values = Vec::new();
+        let mut known = None;
+        for [begin, middle, end] in angles {
+            let begin = known.unwrap_or_else(|| at(begin));
+            let end = at(end);
+            for list in [&at(middle), &end] {
+                values.extend(list.iter().zip(&begin).map(|(now, before)| now - before));
+            }
+            known = Some(end);
         }
-        found
-    };
-    angles.map(of).collect()
+        let count = 2 * harmonics;
+        Increments { count, values }
+    }
+
+    /// Middle and end of a step.
+    fn of(&self, step: usize) -> (&[f64], &[f64]) {
+        self.values[2 * step * self.count..][..2 * self.count].split_at(self.count)
+    }
+}
+
+/// cos kθ and sin kθ of the cycle angle.
+fn cosines_and_sines(angle: f64, harmonics: usize) -> Vec<f64> {
+    let (sin, cos) = angle.sin_cos();
+    let next = |(c, s): &(f64, f64)| Some((c * cos - s * sin, s * cos + c * sin));
+    let pairs = iter::successors(Some((cos, sin)), next).take(harmonics);
+    pairs.flat_map(|(c, s)| [c, s]).collect()
 }
 
 /// Derivatives of the state by the coefficients, along the filter.
 struct Columns<'a, const N: usize> {
     steps: &'a [Linearised],
-    increments: &'a [[Each; 2]],
-    of: [Each; N],
+    increments: &'a Increments,
+    /// Row after row.
+    of: Vec<f64>,
+    /// Room for the rows after a step, and for E.
+    room: Vec<f64>,
+    errors: Vec<f64>,
 }
 
 impl<'a, const N: usize> Columns<'a, N> {
     fn new(model: &Deviations<'a>) -> Self {
+        let count = model.increments.count;
         Columns {
             steps: model.steps,
             increments: model.increments,
-            of: [[0.0; COUNT]; N],
+            of: vec![0.0; N * count],
+            room: vec![0.0; N * count],
+            errors: vec![0.0; count],
         }
     }
 
     /// Adds `sign` times what the coefficients add to the state in a step: Simpson's rule for θ̈.
-    fn respond(&self, node: usize, sign: f64, rows: &mut [Each; N]) {
+    fn respond(&mut self, node: usize, sign: f64) {
         let Linearised { h, lever, .. } = self.steps[node];
-        let [half, whole] = &self.increments[node];
-        add(&mut rows[0], sign * h * h * lever / 3.0, half);
-        add(&mut rows[1], sign * h * lever * (2.0 / 3.0), half);
-        add(&mut rows[1], sign * h * lever / 6.0, whole);
-        add(&mut rows[2], sign, whole);
+        let (half, whole) = self.increments.of(node);
+        let mut rows = self.of.chunks_exact_mut(half.len());
+        let mut to = |list: &[(f64, &[f64])]| {
+            let Some(row) = rows.next() else { return };
+            list.iter()
+                .for_each(|(factor, from)| add(row, sign * factor, from));
+        };
+        to(&[(h * h * lever / 3.0, half)]);
+        to(&[(h * lever * (2.0 / 3.0), half), (h * lever / 6.0, whole)]);
+        to(&[(1.0, whole)]);
+    }
+
+    /// Multiplies the rows by a matrix.
+    fn transform(&mut self, matrix: &Matrix<N>) {
+        let count = self.errors.len();
+        self.room.fill(0.0);
+        for (to, factors) in self.room.chunks_exact_mut(count).zip(matrix) {
+            for (from, factor) in self.of.chunks_exact(count).zip(factors) {
+                add(to, *factor, from);
+            }
+        }
+        std::mem::swap(&mut self.of, &mut self.room);
     }
 
     fn step(&mut self, node: usize, step: &Step<N>) {
-        let mut after = transformed(&step.transition, &self.of);
-        self.respond(node, 1.0, &mut after);
-        self.of = after;
+        self.transform(&step.transition);
+        self.respond(node, 1.0);
     }
 
-    /// Takes a sample in; E.
-    fn update(&mut self, sample: &Sample<N>, found: &Innovation<N>) -> Each {
-        let mut errors = [0.0; COUNT];
-        for k in 0..N {
-            add(&mut errors, -sample.row[k], &self.of[k]);
+    /// Takes a sample in and leaves E in `errors`.
+    fn update(&mut self, sample: &Sample<N>, found: &Innovation<N>) {
+        let count = self.errors.len();
+        self.errors.fill(0.0);
+        for (row, share) in self.of.chunks_exact(count).zip(&sample.row) {
+            add(&mut self.errors, -share, row);
         }
-        for k in 0..N {
-            add(&mut self.of[k], found.gain[k], &errors);
+        for (row, gain) in self.of.chunks_exact_mut(count).zip(&found.gain) {
+            add(row, *gain, &self.errors);
         }
-        errors
     }
 }
 
 /// Adds a multiple of a row.
 #[inline(always)]
-fn add(to: &mut Each, factor: f64, row: &Each) {
+fn add(to: &mut [f64], factor: f64, row: &[f64]) {
     if factor != 0.0 {
-        for j in 0..COUNT {
-            to[j] += factor * row[j];
-        }
+        to.iter_mut()
+            .zip(row)
+            .for_each(|(to, value)| *to += factor * value);
     }
 }
 
-/// A matrix times rows.
-#[inline(always)]
-fn transformed<const N: usize>(matrix: &Matrix<N>, rows: &[Each; N]) -> [Each; N] {
-    let mut found = [[0.0; COUNT]; N];
-    for i in 0..N {
-        for k in 0..N {
-            add(&mut found[i], matrix[i][k], &rows[k]);
-        }
-    }
-    found
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Filter and normal equations.
@@ -133,9 +158,9 @@ impl<const N: usize> Companion<N> for Regressed<'_, N> {
     }
 
     fn updated(&mut self, _: usize, sample: &Sample<N>, found: &Innovation<N>) {
-        let errors = self.columns.update(sample, found);
-        self.to
-            .take(&errors, found.error, 1.0 / found.variance.sqrt());
+        self.columns.update(sample, found);
+        let per = 1.0 / found.variance.sqrt();
+        self.to.take(&self.columns.errors, found.error, per);
     }
 }
 
@@ -143,32 +168,37 @@ impl<const N: usize> Companion<N> for Regressed<'_, N> {
 pub(super) struct Sensitivities<'a, const N: usize> {
     columns: Columns<'a, N>,
     posterior: &'a Posterior,
-    list: Vec<[Each; N]>,
+    /// The rows of each node, one after the other.
+    list: Vec<f64>,
     shifts: Vec<f64>,
 }
 
 impl<'a, const N: usize> Sensitivities<'a, N> {
     pub fn new(model: &Deviations<'a>, posterior: &'a Posterior) -> Self {
+        let columns = Columns::new(model);
         Sensitivities {
-            columns: Columns::new(model),
+            list: Vec::with_capacity(model.observed.len() * columns.of.len()),
+            columns,
             posterior,
-            list: Vec::with_capacity(model.observed.len()),
             shifts: vec![0.0; model.observed.len()],
         }
     }
 
     /// Adds what the coefficients do to the smoothed states and prediction errors.
     pub fn add(&mut self, path: &mut [Gaussian<N>], innovations: &mut [Option<f64>]) {
-        self.list[0] = self.columns.of;
+        let count = self.columns.errors.len();
+        let size = N * count;
+        self.list[..size].copy_from_slice(&self.columns.of);
         for (shift, innovation) in self.shifts.iter().zip(innovations) {
             *innovation = innovation.map(|value| value + shift);
         }
-        for (columns, states) in self.list.chunks(ROWS).zip(path.chunks_mut(ROWS)) {
-            let spread = self.posterior.spread(columns.as_flattened());
+        for (columns, states) in self.list.chunks(ROWS * size).zip(path.chunks_mut(ROWS)) {
+            let spread = self.posterior.spread(columns);
+            let rows: Vec<&[f64]> = columns.chunks_exact(count).collect();
             for (k, state) in states.iter_mut().enumerate() {
                 let spread = spread.columns(N * k, N);
                 for i in 0..N {
-                    state.mean[i] += dot(&columns[k][i], &self.posterior.coefficients);
+                    state.mean[i] += dot(rows[N * k + i], &self.posterior.coefficients);
                     for j in 0..N {
                         state.covariance[i][j] += spread.column(i).dot(&spread.column(j));
                     }
@@ -184,28 +214,31 @@ impl<const N: usize> Companion<N> for Sensitivities<'_, N> {
     }
 
     fn predicted(&mut self, _: usize, _: &Gaussian<N>) {
-        self.list.push(self.columns.of);
+        self.list.extend(&self.columns.of);
     }
 
     fn updated(&mut self, node: usize, sample: &Sample<N>, found: &Innovation<N>) {
-        let errors = self.columns.update(sample, found);
-        self.shifts[node] = dot(&errors, &self.posterior.coefficients) / found.variance.sqrt();
+        self.columns.update(sample, found);
+        let shift = dot(&self.columns.errors, &self.posterior.coefficients);
+        self.shifts[node] = shift / found.variance.sqrt();
     }
 
     fn returned(&mut self, node: usize, way: &Return<N>) {
-        let mut before = self.columns.of;
-        let mut off = std::mem::replace(&mut self.list[node + 1], before);
-        for k in 0..N {
-            for j in 0..COUNT {
-                off[k][j] -= before[k][j];
+        let columns = &mut self.columns;
+        let (count, size) = (columns.errors.len(), columns.of.len());
+        let off = &mut self.list[(node + 1) * size..][..size];
+        // The smoothed rows of the next node take the place of those that were predicted.
+        columns.room.copy_from_slice(&columns.of);
+        columns.room.swap_with_slice(off);
+        for (off, before) in columns.room.iter_mut().zip(&columns.of) {
+            *off -= before;
+        }
+        for (to, shares) in columns.of.chunks_exact_mut(count).zip(&way.share) {
+            for (off, share) in columns.room.chunks_exact(count).zip(shares) {
+                add(to, *share, off);
             }
         }
-        for i in 0..N {
-            for k in 0..N {
-                add(&mut before[i], way.share[i][k], &off[k]);
-            }
-        }
-        self.columns.respond(node, -1.0, &mut before);
-        self.columns.of = transformed(&way.inverse, &before);
+        columns.respond(node, -1.0);
+        columns.transform(&way.inverse);
     }
 }

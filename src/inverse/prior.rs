@@ -23,6 +23,8 @@ pub(super) struct Prior {
     pub follows_speed: bool,
     /// Turns of the cycle in which a part of u repeats; 0 without such a part.
     pub cycle: u8,
+    /// Harmonics of that part in a cycle.
+    pub harmonics: usize,
 }
 
 impl Prior {
@@ -33,6 +35,7 @@ impl Prior {
             order,
             follows_speed: false,
             cycle: 0,
+            harmonics: 0,
         }
     }
 

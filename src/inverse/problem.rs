@@ -6,7 +6,7 @@ use super::estimate::Estimate;
 use super::kalman;
 use super::likelihood::{Linear, Stretch};
 use super::linearised::{Linearised, Motion, Rates, State};
-use super::periodic::{Sensitivities, increments};
+use super::periodic::{Increments, Sensitivities};
 use super::prior::Prior;
 use super::record::{Grid, Path, Record, hermite};
 use super::regression::Posterior;
@@ -116,8 +116,8 @@ impl<'a> Problem<'a> {
         });
         let steps: Vec<Linearised> = steps.collect();
         let increments = match motion.prior.cycle {
-            0 => Vec::new(),
-            turns => increments(angles(states, &steps), turns),
+            0 => Increments::default(),
+            turns => Increments::new(angles(states, &steps), turns, motion.prior.harmonics),
         };
         Stretch {
             steps,

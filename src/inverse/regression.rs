@@ -1,21 +1,9 @@
 //! Linear regression on the harmonics of what repeats: normal equations, the likeliest spectrum, the coefficients.
 
-// Sums over rows and columns, as the textbook writes them.
-#![allow(clippy::needless_range_loop)]
-
 use nalgebra::{Cholesky, DMatrix, DVector};
-
-/// Harmonics of a cycle: with 24 a pressure peak of 25° at half its height is met to 1e-4.
-const HARMONICS: usize = 24;
-
-/// Number of coefficients.
-pub(super) const COUNT: usize = 2 * HARMONICS;
 
 /// Rows that are multiplied by a matrix at once.
 pub(super) const ROWS: usize = 128;
-
-/// A number for each coefficient.
-pub(super) type Each = [f64; COUNT];
 
 /// Largest order of the periodic process.
 const ORDERS: i32 = 3;
@@ -31,8 +19,9 @@ pub(super) struct Spectrum {
 
 impl Spectrum {
     /// Standard deviation of each coefficient in units of σ.
-    fn deviations(self) -> Each {
-        std::array::from_fn(|j| self.size / (1.0 + (j / 2) as f64).powi(self.order))
+    fn deviations(self, count: usize) -> Vec<f64> {
+        let of = |j: usize| self.size / (1.0 + (j / 2) as f64).powi(self.order);
+        (0..count).map(of).collect()
     }
 }
 
@@ -40,36 +29,36 @@ impl Spectrum {
 #[derive(Clone, Debug)]
 pub(super) struct Regression {
     information: DMatrix<f64>,
-    score: Each,
-    /// Rows E/√S that wait for their multiplication.
-    rows: Vec<Each>,
+    score: Vec<f64>,
+    /// Rows E/√S that wait for their multiplication, one after the other.
+    rows: Vec<f64>,
 }
 
 impl Regression {
-    pub fn new() -> Regression {
+    /// The equations of `count` coefficients.
+    pub fn new(count: usize) -> Regression {
         Regression {
-            information: DMatrix::zeros(COUNT, COUNT),
-            score: [0.0; COUNT],
-            rows: Vec::with_capacity(ROWS),
+            information: DMatrix::zeros(count, count),
+            score: vec![0.0; count],
+            rows: Vec::with_capacity(ROWS * count),
         }
     }
 
     /// Takes a row E with its error e in, and 1/√S.
-    pub fn take(&mut self, row: &Each, error: f64, per: f64) {
-        let mut scaled = *row;
-        for j in 0..COUNT {
-            scaled[j] *= per;
-            self.score[j] -= scaled[j] * error * per;
+    pub fn take(&mut self, row: &[f64], error: f64, per: f64) {
+        for (value, score) in row.iter().zip(&mut self.score) {
+            *score -= value * per * error * per;
+            self.rows.push(value * per);
         }
-        self.rows.push(scaled);
-        if self.rows.len() == ROWS {
+        if self.rows.len() == ROWS * self.score.len() {
             self.multiply();
         }
     }
 
     /// Multiplies the rows that wait.
     pub fn multiply(&mut self) {
-        let rows = DMatrix::from_column_slice(COUNT, self.rows.len(), self.rows.as_flattened());
+        let count = self.score.len();
+        let rows = DMatrix::from_column_slice(count, self.rows.len() / count, &self.rows);
         self.information.gemm(1.0, &rows, &rows.transpose(), 1.0);
         self.rows.clear();
     }
@@ -77,9 +66,7 @@ impl Regression {
     /// The likeliest of spectra, of which `likelihood` sees the fall of the squares and the rise of ln |S|.
     pub fn likeliest(&self, likelihood: impl Fn(&Posterior) -> f64) -> Option<Spectrum> {
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
-        let told = (0..COUNT)
-            .map(|j| self.information[(j, j)])
-            .fold(0.0, f64::max);
+        let told = self.information.diagonal().max();
         let at = |log: f64, order: i32| {
             let spectrum = Spectrum {
                 size: log.exp() / told.sqrt(),
@@ -116,19 +103,20 @@ impl Regression {
 
     /// The coefficients given the samples.
     pub fn solved(&self, spectrum: Spectrum) -> Option<Posterior> {
-        let deviations = spectrum.deviations();
-        let scaled = DMatrix::from_fn(COUNT, COUNT, |i, j| {
+        let count = self.score.len();
+        let deviations = spectrum.deviations(count);
+        let scaled = DMatrix::from_fn(count, count, |i, j| {
             let unit = if i == j { 1.0 } else { 0.0 };
             unit + deviations[i] * self.information[(i, j)] * deviations[j]
         });
         let cholesky = Cholesky::new(scaled)?;
-        let right = DVector::from_fn(COUNT, |j, _| deviations[j] * self.score[j]);
+        let right = DVector::from_fn(count, |j, _| deviations[j] * self.score[j]);
         let solved = cholesky.solve(&right);
         let lower = cholesky.l();
         Some(Posterior {
             fall: right.dot(&solved),
             log_determinant: 2.0 * lower.diagonal().iter().map(|d| d.ln()).sum::<f64>(),
-            coefficients: std::array::from_fn(|j| deviations[j] * solved[j]),
+            coefficients: (0..count).map(|j| deviations[j] * solved[j]).collect(),
             deviations,
             lower,
         })
@@ -142,20 +130,21 @@ pub(super) struct Posterior {
     pub fall: f64,
     /// ln |I + D½ information D½|
     pub log_determinant: f64,
-    pub coefficients: Each,
-    deviations: Each,
+    pub coefficients: Vec<f64>,
+    deviations: Vec<f64>,
     /// Lower factor of Cholesky.
     lower: DMatrix<f64>,
 }
 
 impl Posterior {
     /// Rows times a factor L of the covariance L Lᵀ, as columns.
-    pub fn spread(&self, rows: &[Each]) -> DMatrix<f64> {
-        let mut columns = DMatrix::from_column_slice(COUNT, rows.len(), rows.as_flattened());
+    pub fn spread(&self, rows: &[f64]) -> DMatrix<f64> {
+        let count = self.coefficients.len();
+        let mut columns = DMatrix::from_column_slice(count, rows.len() / count, rows);
         for (j, mut row) in columns.row_iter_mut().enumerate() {
             row *= self.deviations[j];
         }
-        let unit = DMatrix::identity(COUNT, COUNT);
+        let unit = DMatrix::identity(count, count);
         match self.lower.solve_lower_triangular(&unit) {
             Some(inverse) => inverse * columns,
             None => columns,

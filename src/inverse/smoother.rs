@@ -154,6 +154,10 @@ impl Problem<'_> {
                 }
                 if prior.follows_speed {
                     noise = linear.with_drift(noise);
+                }
+                let has_shape = prior.follows_speed || prior.cycle > 0 && prior.order == 1;
+                if has_shape && iteration == 1 {
+                    noise = linear.with_remainder(&noise);
                 } else if prior.order >= 2 && iteration == 1 {
                     noise = linear.with_level(&noise);
                 }
@@ -162,7 +166,7 @@ impl Problem<'_> {
             let change = path.moved(&estimates);
             (result.noise, result.estimates) = (noise, estimates);
             // The noise of the second iteration has in it what makes the band hold.
-            if change < AT_REST && (iteration > 0 || prior.order == 1) {
+            if change < AT_REST && iteration > 0 {
                 result.settled = true;
                 break;
             }

@@ -5,8 +5,8 @@
 use super::kalman::{Gaussian, Sample, Step};
 use super::linearised::{Linearised, State};
 use super::matrix::{Matrix, diagonal};
+use super::periodic::Increments;
 use super::prior::Prior;
-use super::regression::Each;
 
 /// Mean deviation of the samples of a node from the nominal path.
 #[derive(Clone, Copy, Debug, Default)]
@@ -46,7 +46,7 @@ impl Autoregression {
 pub(super) struct Deviations<'a> {
     pub steps: &'a [Linearised],
     /// What the harmonics of what repeats add in each step.
-    pub increments: &'a [[Each; 2]],
+    pub increments: &'a Increments,
     pub observed: &'a [Observed],
     pub prior: Prior,
     /// Spectral density of the process noise over σ².
@@ -247,7 +247,7 @@ mod tests {
         };
         let model = Deviations {
             steps: &[step],
-            increments: &[],
+            increments: &Increments::default(),
             observed: &[],
             prior: Prior::new(Unknown::Torque, 2),
             noise: 1.0,
