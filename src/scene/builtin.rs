@@ -5,9 +5,6 @@ use std::path::Path;
 use super::{Draft, Problems, Scene};
 use crate::error::Error;
 
-/// The engine of Duarte et al. 2018, table 1, spinning freely; the scene of commands without one.
-pub const DUARTE: &str = include_str!("../../data/duarte-engine.toml");
-
 impl Scene {
     /// The built-in scene: the Diesel engine of Duarte et al. 2018, table 1, in free spin.
     ///

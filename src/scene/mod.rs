@@ -9,10 +9,15 @@ mod body;
 mod builder;
 #[cfg(feature = "cli")]
 mod builtin;
+mod check;
 mod clearance;
 mod corners;
 mod csv;
+#[cfg(feature = "cli")]
+mod draft;
 mod expression;
+#[cfg(feature = "cli")]
+mod key_path;
 #[cfg(feature = "cli")]
 mod keys;
 #[cfg(feature = "cli")]
@@ -39,18 +44,26 @@ mod uncertain;
 pub mod unit;
 mod validate;
 pub(crate) use validate::MOST_ROWS;
+#[cfg(feature = "cli")]
+mod value;
 mod variable;
 #[cfg(feature = "cli")]
-mod vary;
+mod varied;
 
 #[cfg(feature = "cli")]
-pub(crate) use builtin::DUARTE;
+pub(crate) use draft::DUARTE;
 
 use std::path::Path;
 
+use check::Check;
+
 pub use body::{Crank, InertiaAbout, Rod, RodModel, Slider};
 pub use clearance::{Clearance, ContactLaw, Joint};
+#[cfg(feature = "cli")]
+pub use draft::{Assigned, Draft};
 pub use expression::{Expression, ExpressionError};
+#[cfg(feature = "cli")]
+pub use key_path::NumberKey;
 pub use load::Load;
 pub use measurement::{Beside, BesideColumn, DUARTE_MOTION, Measured, Measurement, Reading};
 pub use motion::{Every, Extent, Motion, MotionKind, Run};
@@ -68,7 +81,7 @@ pub use table::{LoadTable, load_table};
 pub use uncertain::UncertainValue;
 pub use variable::{Instant, Variable, Variables};
 #[cfg(feature = "cli")]
-pub use vary::{Assigned, Draft, NumberKey, Varied, VariedValue};
+pub use varied::{Varied, VariedValue};
 
 /// A complete scene.
 #[derive(Clone, Debug)]
@@ -107,9 +120,12 @@ impl Scene {
     /// # Errors
     /// [`Problems`] with one entry for each impossible value.
     pub fn check(&self) -> Result<(), Problems> {
-        let mut problems = Vec::new();
-        validate::problems(self, &mut problems);
-        self.refused(problems)
+        let mut check = Check {
+            problems: Vec::new(),
+            places: &self.places,
+        };
+        validate::problems(self, &mut check);
+        self.refused(check.problems)
     }
 
     /// What is wrong, with the places of the file the scene comes from.

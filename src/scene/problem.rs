@@ -4,8 +4,6 @@ use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::number::with_unit;
-
 /// One thing that is wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
@@ -34,11 +32,6 @@ impl Problem {
     pub(super) fn at(self, span: impl Into<Option<Range<usize>>>) -> Problem {
         let span = span.into();
         Problem { span, ..self }
-    }
-
-    pub(super) fn not_positive(field: &str, value: f64, unit: &str) -> Problem {
-        let what = format!("{} is not positive", with_unit(value, unit));
-        Problem::new(field, what, "give a value above zero")
     }
 }
 
