@@ -3,25 +3,15 @@
 //! A scene comes from a file ([`Scene::load`]) or from code ([`Scene::new`] and the methods that add
 //! parts). Either way [`Scene::check`] says all that is wrong with it.
 
-#[cfg(feature = "cli")]
-mod assemble;
 mod body;
 mod builder;
-#[cfg(feature = "cli")]
-mod builtin;
 mod check;
 mod clearance;
 mod corners;
 mod csv;
-#[cfg(feature = "cli")]
-mod draft;
 mod expression;
 #[cfg(feature = "cli")]
-mod key_path;
-#[cfg(feature = "cli")]
-mod keys;
-#[cfg(feature = "cli")]
-pub(crate) use keys::nearest;
+mod file;
 mod load;
 mod measurement;
 mod motion;
@@ -29,29 +19,13 @@ mod number;
 mod parts;
 mod period;
 mod places;
-#[cfg(feature = "cli")]
-mod printable;
 mod problem;
-#[cfg(feature = "cli")]
-mod read;
-#[cfg(feature = "cli")]
-mod render;
-#[cfg(feature = "cli")]
-mod schema;
 mod table;
 mod text;
-mod uncertain;
 pub mod unit;
 mod validate;
 pub(crate) use validate::MOST_ROWS;
-#[cfg(feature = "cli")]
-mod value;
 mod variable;
-#[cfg(feature = "cli")]
-mod varied;
-
-#[cfg(feature = "cli")]
-pub(crate) use draft::DUARTE;
 
 use std::path::Path;
 
@@ -59,29 +33,22 @@ use check::Check;
 
 pub use body::{Crank, InertiaAbout, Rod, RodModel, Slider};
 pub use clearance::{Clearance, ContactLaw, Joint};
-#[cfg(feature = "cli")]
-pub use draft::{Assigned, Draft};
 pub use expression::{Expression, ExpressionError};
 #[cfg(feature = "cli")]
-pub use key_path::NumberKey;
+pub use file::{Assigned, Draft, NumberKey, Varied, VariedValue, printable, schema};
+#[cfg(feature = "cli")]
+pub(crate) use file::{DUARTE, nearest};
 pub use load::Load;
 pub use measurement::{Beside, BesideColumn, DUARTE_MOTION, Measured, Measurement, Reading};
 pub use motion::{Every, Extent, Motion, MotionKind, Run};
-pub use parts::{Branch, Friction, Geometry, Gravity};
+pub use parts::{Branch, Friction, Geometry, Gravity, UncertainValue};
 pub use period::{Period, Repeats, WhyNot};
 pub use places::Places;
-#[cfg(feature = "cli")]
-pub use printable::printable;
 pub use problem::{Problem, Problems};
-#[cfg(feature = "cli")]
-pub use schema::schema;
 pub use table::{Interpolation, Table, calibration_points};
 #[cfg(feature = "cli")]
 pub use table::{LoadTable, load_table};
-pub use uncertain::UncertainValue;
 pub use variable::{Instant, Variable, Variables};
-#[cfg(feature = "cli")]
-pub use varied::{Varied, VariedValue};
 
 /// A complete scene.
 #[derive(Clone, Debug)]

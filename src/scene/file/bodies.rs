@@ -1,8 +1,8 @@
 //! Mass properties, from their own keys or from density and box.
 
+use super::read::Values;
 use crate::scene::check::Check;
 use crate::scene::number::{apart, show};
-use crate::scene::read::Values;
 use crate::scene::{Crank, InertiaAbout, Rod, RodModel, Slider};
 
 const BOX: [&str; 4] = ["density", "length", "width", "depth"];

@@ -1,6 +1,6 @@
 //! Every table and key a scene file may have: read by the reader, printed by `schema`.
 
-use super::unit::Quantity::{self, *};
+use crate::scene::unit::Quantity::{self, *};
 use Kind::{Choice, Formula, Kinds, Of, Text, TimeOrAngle};
 
 /// What a key's value may be.

@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use super::keys::{self, Key, Kind, Section};
-use super::unit::Quantity;
+use crate::scene::unit::Quantity;
 
 /// The place of a value in a scene, as `geometry.offset` or `torque[2].value`.
 #[derive(Clone, Copy, Debug)]

@@ -6,13 +6,13 @@ use std::sync::{Arc, OnceLock};
 
 use toml::de::{DeTable, DeValue};
 
-use super::check::Check;
 use super::key_path::KeyPath;
 use super::keys::{self, Key, Kind, Section};
-use super::places::Spans;
-use super::unit::Uncertain;
 use super::value::{self, Value};
-use super::{Every, Load, Problem};
+use crate::scene::check::Check;
+use crate::scene::places::Spans;
+use crate::scene::unit::Uncertain;
+use crate::scene::{Every, Load, Problem};
 
 /// The values of one table that could be read, by key.
 #[derive(Clone, Debug)]
@@ -243,7 +243,7 @@ impl Contents {
 
 impl Check<'_> {
     /// A problem with a key that is needed, unless it is there or already has one.
-    pub fn missing(
+    pub(super) fn missing(
         &mut self,
         values: &Values,
         key: &str,
@@ -256,13 +256,20 @@ impl Check<'_> {
     }
 
     /// Whether a key is there, even if unreadable.
-    pub fn met(&self, values: &Values, key: &str) -> bool {
+    pub(super) fn met(&self, values: &Values, key: &str) -> bool {
         // Most scenes have no problem, and thousands are read in a sweep.
         values.has(key) || !self.problems.is_empty() && !self.sound([&values.field(key)])
     }
 
     /// A problem at byte `at` of a text value.
-    pub fn add_in_text(&mut self, field: &str, text: &str, at: usize, what: String, help: String) {
+    pub(super) fn add_in_text(
+        &mut self,
+        field: &str,
+        text: &str,
+        at: usize,
+        what: String,
+        help: String,
+    ) {
         let place = self.places.of(field);
         let span = place.and_then(|(source, span)| inside(source, span, text, at));
         let problem = Problem::new(field, what, help).at(span);

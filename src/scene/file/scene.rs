@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use super::{Draft, Problems, Scene};
+use super::Draft;
 use crate::error::Error;
+use crate::scene::{Problems, Scene};
 
 impl Scene {
     /// The built-in scene: the Diesel engine of Duarte et al. 2018, table 1, in free spin.

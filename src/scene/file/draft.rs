@@ -6,20 +6,18 @@ use std::sync::Arc;
 use toml::de::DeTable;
 use toml_edit::{DocumentMut, Item, TomlError, Value};
 
-use super::check::Check;
 use super::key_path::KeyPath;
 use super::keys::SECTIONS;
-use super::places::Source;
 use super::read::{Contents, Setting};
-use super::unit::Uncertain;
-use super::{
-    NumberKey, Places, Problem, Problems, Scene, UncertainValue, Varied, VariedValue, assemble,
-    text, validate,
-};
+use super::{NumberKey, Varied, VariedValue, assemble};
 use crate::error::Error;
+use crate::scene::check::Check;
+use crate::scene::places::Source;
+use crate::scene::unit::Uncertain;
+use crate::scene::{Places, Problem, Problems, Scene, UncertainValue, text, validate};
 
 /// The engine of Duarte et al. 2018, table 1, spinning freely; the scene of commands without one.
-pub const DUARTE: &str = include_str!("../../data/duarte-engine.toml");
+pub const DUARTE: &str = include_str!("../../../data/duarte-engine.toml");
 
 /// A scene file whose values may be replaced before it becomes a scene.
 ///

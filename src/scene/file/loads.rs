@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
-use super::{folder, keys_fit};
+use super::assemble::{folder, keys_fit};
+use super::read::Values;
 use crate::scene::check::Check;
 use crate::scene::number::with_unit;
-use crate::scene::read::Values;
 use crate::scene::unit::{self, Quantity};
 use crate::scene::{Every, Expression, Interpolation, Load, Table, Variable};
 

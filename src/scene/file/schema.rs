@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::keys::{Key, Kind, KindKeys, SECTIONS, Section};
-use super::unit::{self, Quantity};
+use crate::scene::unit::{self, Quantity};
 
 /// The schema, draft 2020-12.
 ///

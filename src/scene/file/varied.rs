@@ -7,8 +7,8 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::key_path::KeyPath;
 use super::keys::{Key, Kind};
-use super::unit::{self, PLUS_MINUS, Quantity, Uncertain};
 use super::value;
+use crate::scene::unit::{self, PLUS_MINUS, Quantity, Uncertain};
 
 /// Most values of one key.
 const MOST_VALUES: usize = 1_000_000;

@@ -1,14 +1,12 @@
 //! Values that have been read, put together to a scene: defaults, boxes, loads.
 
-mod bodies;
-mod loads;
-
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
-use super::check::Check;
 use super::read::{Contents, Values};
-use super::{
+use super::{bodies, loads};
+use crate::scene::check::Check;
+use crate::scene::{
     Branch, Clearance, ContactLaw, Extent, Friction, Gravity, Joint, Load, Motion, MotionKind,
     Places, Run, Scene,
 };
@@ -68,7 +66,7 @@ pub(super) fn scene(check: &mut Check, contents: Contents) -> Scene {
 }
 
 /// Where the tables that a scene names are looked for: beside it.
-fn folder(places: &Places) -> &Path {
+pub(super) fn folder(places: &Places) -> &Path {
     let file = places.0.as_ref().map(|source| source.file.as_path());
     file.and_then(Path::parent).unwrap_or(Path::new(""))
 }
@@ -143,7 +141,7 @@ fn motion(check: &mut Check, values: &Values) -> Motion {
 
 /// Whether all keys that the kind needs are there. Those that are not are reported, and those of other
 /// kinds.
-fn keys_fit(check: &mut Check, values: &Values, kind: &str) -> Option<()> {
+pub(super) fn keys_fit(check: &mut Check, values: &Values, kind: &str) -> Option<()> {
     let section = values.section;
     let kind = section.kinds().iter().find(|one| one.name == kind)?;
     for name in values.names().filter(|name| *name != "kind") {

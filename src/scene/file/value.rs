@@ -2,9 +2,9 @@
 
 use toml::de::DeValue;
 
-use super::Every;
 use super::keys::{self, Key, Kind};
-use super::unit::{self, Uncertain, UnitError};
+use crate::scene::Every;
+use crate::scene::unit::{self, Uncertain, UnitError};
 
 /// A value that has been read.
 #[derive(Clone, Debug)]
