@@ -98,19 +98,15 @@ impl fmt::Display for Problems {
 
     #[cfg(not(feature = "cli"))]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, problem) in self.list.iter().enumerate() {
-            let line_break = if index == 0 { "" } else { "\n" };
-            let Problem {
-                field, what, help, ..
-            } = problem;
-            write!(f, "{line_break}")?;
+        for problem in &self.list {
             if let Some(file) = &self.file {
                 write!(f, "{}:", file.display())?;
             }
             if let Some((line, column)) = self.place(problem) {
                 write!(f, "{line}:{column}: ")?;
             }
-            write!(f, "{field}: {what}\nhelp: {help}")?;
+            let (field, what, help) = (&problem.field, &problem.what, &problem.help);
+            writeln!(f, "{field}: {what}\nhelp: {help}")?;
         }
         Ok(())
     }
