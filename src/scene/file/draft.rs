@@ -8,7 +8,7 @@ use toml_edit::{DocumentMut, Item, TomlError, Value};
 
 use super::key_path::KeyPath;
 use super::keys::SECTIONS;
-use super::read::{Contents, Setting};
+use super::read::Contents;
 use super::{NumberKey, Varied, VariedValue, assemble};
 use crate::error::Error;
 use crate::scene::check::Check;
@@ -25,7 +25,8 @@ pub const DUARTE: &str = include_str!("../../../data/duarte-engine.toml");
 /// use slider_crank::scene::{Draft, Varied};
 /// let draft = Draft::duarte();
 /// let rod: Varied = "geometry.rod = 150mm:160mm:3".parse().unwrap();
-/// let scene = draft.with([(&rod, "155 mm")]).unwrap();
+/// let values = [rod.value(1)];
+/// let scene = draft.with_values(&[rod], &values).unwrap();
 /// assert_eq!(scene.geometry.rod, 0.155);
 /// ```
 #[derive(Clone, Debug)]
@@ -138,23 +139,7 @@ impl Draft {
     /// # Errors
     /// [`Problems`]: all that is wrong, with its places.
     pub fn scene(&self) -> Result<Scene, Problems> {
-        self.with([])
-    }
-
-    /// The scene with the texts of values in place of its own, or beside them.
-    ///
-    /// # Errors
-    /// [`Problems`]: all that is wrong with the scene that results.
-    pub fn with<'a>(
-        &self,
-        values: impl IntoIterator<Item = (&'a Varied, &'a str)>,
-    ) -> Result<Scene, Problems> {
-        let values = values.into_iter();
-        self.with_settings(values.map(|(varied, text)| Setting {
-            path: varied.path,
-            text,
-            number: None,
-        }))
+        self.with_values(&[], &[])
     }
 
     /// The scene with values in place of its own, or beside them.
@@ -166,12 +151,7 @@ impl Draft {
         varied: &[Varied],
         values: &[VariedValue],
     ) -> Result<Scene, Problems> {
-        let pairs = varied.iter().zip(values);
-        self.with_settings(pairs.map(|(varied, value)| Setting {
-            path: varied.path,
-            text: &value.text,
-            number: value.number,
-        }))
+        self.with(varied.iter().map(|one| one.path).zip(values))
     }
 
     /// The scene with numbers in place of its own.
@@ -179,19 +159,14 @@ impl Draft {
     /// # Errors
     /// [`Error::Scene`]: all that is wrong with the scene that results.
     pub fn with_numbers(&self, numbers: &[Assigned]) -> Result<Scene, Error> {
-        let text = |one: &Assigned| format!("{} {}", one.value, one.key.unit());
-        let texts: Vec<String> = numbers.iter().map(text).collect();
-        let settings = numbers.iter().zip(&texts).map(|(one, text)| Setting {
-            path: one.key.0,
-            text: text.trim_end(),
-            number: Some(one.value),
-        });
-        Ok(self.with_settings(settings)?)
+        let value = |one: &Assigned| VariedValue::of(one.value, one.key.unit());
+        let values: Vec<VariedValue> = numbers.iter().map(value).collect();
+        Ok(self.with(numbers.iter().map(|one| one.key.0).zip(&values))?)
     }
 
-    fn with_settings<'a>(
+    fn with<'a>(
         &self,
-        settings: impl Iterator<Item = Setting<'a>>,
+        values: impl Iterator<Item = (KeyPath, &'a VariedValue)>,
     ) -> Result<Scene, Problems> {
         let mut contents = self.contents.clone();
         let mut check = Check {
@@ -201,8 +176,8 @@ impl Draft {
         if !self.is_toml {
             return Err(self.places.problems(check.problems));
         }
-        for setting in settings {
-            contents.set(&mut check, setting);
+        for (path, value) in values {
+            contents.set(&mut check, path, value);
         }
         let mut scene = assemble::scene(&mut check, contents);
         validate::problems(&scene, &mut check);

@@ -6,6 +6,7 @@ use std::sync::{Arc, OnceLock};
 
 use toml::de::{DeTable, DeValue};
 
+use super::VariedValue;
 use super::key_path::KeyPath;
 use super::keys::{self, Key, Kind, Section};
 use super::value::{self, Value};
@@ -99,14 +100,6 @@ pub(super) struct Contents {
     pub title: Option<String>,
     pub tables: Vec<Arc<Values>>,
     pub problems: Vec<Problem>,
-}
-
-/// A value in place of the one in the file.
-pub(super) struct Setting<'a> {
-    pub path: KeyPath,
-    pub text: &'a str,
-    /// The quantity that the text says, SI, where it is known.
-    pub number: Option<f64>,
 }
 
 impl Contents {
@@ -219,17 +212,16 @@ impl Contents {
     }
 
     /// Puts a value in place of the one in the file.
-    pub fn set(&mut self, check: &mut Check, setting: Setting) {
-        let Setting { path, text, number } = setting;
+    pub fn set(&mut self, check: &mut Check, path: KeyPath, value: &VariedValue) {
         let values = match self.table(&path) {
             Ok(values) => values,
             Err(problem) => return check.problems.push(problem),
         };
         let field = values.field(path.key.name);
         check.problems.retain(|problem| problem.field != field);
-        let read = match (number, path.key.kind) {
+        let read = match (value.number, path.key.kind) {
             (Some(value), Kind::Of(_)) => Ok(Value::Number(Uncertain { value, error: 0.0 })),
-            _ => value::read_text(path.key, text),
+            _ => value::read_text(path.key, &value.text),
         };
         match read {
             Ok(value) => values.set(path.key, Some(value)),

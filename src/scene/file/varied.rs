@@ -126,8 +126,15 @@ impl Varied {
             Values::Uniform([low, high]) => low + p * (high - low),
             Values::Normal(normal) => normal.inverse_cdf(p),
         };
+        VariedValue::of(number, self.unit())
+    }
+}
+
+impl VariedValue {
+    /// A number in SI units and radians.
+    pub(super) fn of(number: f64, unit: &str) -> VariedValue {
         VariedValue {
-            text: format!("{number} {}", self.unit()).trim_end().to_owned(),
+            text: format!("{number} {unit}").trim_end().to_owned(),
             number: Some(number),
         }
     }
