@@ -10,7 +10,7 @@ use std::process::{Command, Output};
 use proptest::prelude::*;
 use slider_crank::error::Error;
 use slider_crank::plan;
-use slider_crank::scene::{Draft, Scene, Slider};
+use slider_crank::scene::{Draft, Scene, Slider, Varied};
 use slider_crank::simulate::{Options, simulate};
 
 use crate::support::random::cases;
@@ -216,5 +216,17 @@ fn values_are_shown_without_noise() {
         let problems = Scene::new(0.05, 0.15).offset(offset).check().unwrap_err();
         let what = &problems.list()[0].what;
         assert!(what.contains(shown) && what.contains("0.2 m"), "{what}");
+    }
+}
+
+/// A draft says what is wrong with a load as often as it is asked, also of scenes with other values.
+#[test]
+fn what_is_wrong_with_a_load_is_said_again() {
+    let text = "[geometry]\ncrank = \"50 mm\"\nrod = \"150 mm\"\n[[torque]]\nkind = \"dry\"\nvalue = \"1 N m\"\nof = \"theta\"\n";
+    let draft = Draft::new(Path::new("brake.toml"), text);
+    let rod: [Varied; 1] = ["geometry.rod = 160mm".parse().expect("a varied key")];
+    for _ in 0..2 {
+        assert!(draft.scene().is_err());
+        assert!(draft.with_values(&rod, &[rod[0].value(0)]).is_err());
     }
 }

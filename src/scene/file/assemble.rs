@@ -42,13 +42,13 @@ pub(super) fn scene(check: &mut Check, contents: Contents) -> Scene {
             "force" => &mut scene.forces,
             _ => continue,
         };
-        if values.load.get().is_none()
-            && let Some(load) = loads::load(check, values)
-        {
-            let _ = values.load.set(load);
-        }
+        let known = values.load.get().cloned();
+        let load = known.or_else(|| loads::load(check, values));
         // A load that could not be read keeps its place: problems of the others count the loads.
-        let mut load = values.load.get().cloned().unwrap_or(Load::Constant(0.0));
+        let mut load = load.unwrap_or(Load::Constant(0.0));
+        if check.problems.is_empty() {
+            values.load.get_or_init(|| load.clone());
+        }
         if let Load::Gas { towards_crank, .. } = &mut load {
             *towards_crank = -scene.geometry.branch.sign();
         }

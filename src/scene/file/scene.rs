@@ -1,4 +1,4 @@
-//! Scenes that come with the program.
+//! Scenes from files, and the one that comes with the program.
 
 use std::path::Path;
 
