@@ -51,9 +51,9 @@ impl Draft {
     pub fn new(file: &Path, text: impl Into<String>) -> Draft {
         let text = text.into();
         let (document, errors) = DeTable::parse_recoverable(&text);
-        let (mut contents, spans) = match errors.is_empty() {
+        let mut contents = match errors.is_empty() {
             true => Contents::of(document.get_ref()),
-            false => Default::default(),
+            false => Contents::default(),
         };
         contents.problems.extend(errors.iter().map(|error| {
             let what = format!("not TOML: {}", error.message());
@@ -61,7 +61,7 @@ impl Draft {
             Problem::new("syntax", what, help).at(error.span())
         }));
         let is_toml = errors.is_empty();
-        let file = file.to_owned();
+        let (file, spans) = (file.to_owned(), std::mem::take(&mut contents.spans));
         Draft {
             contents,
             is_toml,

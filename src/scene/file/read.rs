@@ -100,29 +100,30 @@ pub(super) struct Contents {
     pub title: Option<String>,
     pub tables: Vec<Arc<Values>>,
     pub problems: Vec<Problem>,
+    /// Where keys and tables stand.
+    pub spans: Spans,
 }
 
 impl Contents {
-    /// What is read from a document, and where it stands.
-    pub fn of(document: &DeTable<'_>) -> (Contents, Spans) {
-        let (mut found, mut spans) = (Contents::default(), Spans::new());
+    pub fn of(document: &DeTable<'_>) -> Contents {
+        let mut found = Contents::default();
         for (key, value) in document.iter() {
             let name = key.get_ref().as_ref();
-            spans.insert(name.to_owned(), key.span());
+            found.spans.insert(name.to_owned(), key.span());
             if name == "title" {
                 found.title = value.get_ref().as_str().map(str::to_owned);
                 if found.title.is_none() {
                     found.problem(name, "the title is not a text", "write title = \"...\"");
                 }
             } else if let Some(section) = keys::section(name) {
-                found.section(section, value.get_ref(), &mut spans);
+                found.section(section, value.get_ref());
             } else {
                 let known = keys::SECTIONS.iter().map(|s| s.name).chain(["title"]);
                 let help = keys::did_you_mean(name, "a scene", known);
                 found.problem(name, format!("`{name}` is not part of a scene"), help);
             }
         }
-        (found, spans)
+        found
     }
 
     fn problem(&mut self, field: &str, what: impl Into<String>, help: impl Into<String>) {
@@ -130,16 +131,16 @@ impl Contents {
     }
 
     /// The tables of one section: one, or each `[[name]]`.
-    fn section(&mut self, section: &'static Section, value: &DeValue<'_>, spans: &mut Spans) {
+    fn section(&mut self, section: &'static Section, value: &DeValue<'_>) {
         let name = section.name;
         match (value, section.repeated) {
-            (DeValue::Table(table), false) => self.read(section, name.to_owned(), table, spans),
+            (DeValue::Table(table), false) => self.read(section, name.to_owned(), table),
             (DeValue::Array(array), true) if array.iter().all(|item| item.get_ref().is_table()) => {
                 for (i, item) in array.iter().enumerate() {
                     let path = format!("{name}[{}]", i + 1);
-                    spans.insert(path.clone(), item.span());
+                    self.spans.insert(path.clone(), item.span());
                     if let DeValue::Table(table) = item.get_ref() {
-                        self.read(section, path, table, spans);
+                        self.read(section, path, table);
                     }
                 }
             }
@@ -154,19 +155,13 @@ impl Contents {
         }
     }
 
-    fn read(
-        &mut self,
-        section: &'static Section,
-        path: String,
-        table: &DeTable<'_>,
-        spans: &mut Spans,
-    ) {
+    fn read(&mut self, section: &'static Section, path: String, table: &DeTable<'_>) {
         let mut values = Values::new(section, path);
         for (name, value) in table.iter() {
             let field = values.field(name.get_ref());
             let key = section.key(name.get_ref());
             let span = key.map_or_else(|| name.span(), |_| value.span());
-            spans.insert(field.clone(), span);
+            self.spans.insert(field.clone(), span);
             let Some(key) = key else {
                 let name = name.get_ref();
                 let what = format!("`{name}` is not a key of {}", section.name);
