@@ -3,7 +3,7 @@
 use std::fmt::Display;
 
 use super::number::with_unit;
-use super::{Places, Problem};
+use super::{Places, Problem, Problems};
 
 /// Largest value, SI: an energy, the product of five values, has one in double precision, too.
 const LARGEST: f64 = 1e50;
@@ -20,6 +20,14 @@ impl Check<'_> {
     pub fn add(&mut self, field: impl Display, what: impl Into<String>, help: impl Into<String>) {
         let problem = Problem::new(&field.to_string(), what, help);
         self.problems.push(problem);
+    }
+
+    /// What was found, with its places.
+    pub fn result(self) -> Result<(), Problems> {
+        match self.problems {
+            list if list.is_empty() => Ok(()),
+            list => Err(self.places.problems(list)),
+        }
     }
 
     /// Whether none of these fields has a problem yet.

@@ -92,7 +92,7 @@ impl Scene {
             places: &self.places,
         };
         validate::problems(self, &mut check);
-        self.refused(check.problems)
+        check.result()
     }
 
     /// What is wrong, with the places of the file the scene comes from.
@@ -100,11 +100,8 @@ impl Scene {
     /// # Errors
     /// [`Problems`] if there is anything.
     pub fn refused(&self, problems: Vec<Problem>) -> Result<(), Problems> {
-        if problems.is_empty() {
-            Ok(())
-        } else {
-            Err(self.places.problems(problems))
-        }
+        let places = &self.places;
+        Check { problems, places }.result()
     }
 
     /// The files of the tables of its loads.

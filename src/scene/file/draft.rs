@@ -181,13 +181,9 @@ impl Draft {
         }
         let mut scene = assemble::scene(&mut check, contents);
         validate::problems(&scene, &mut check);
-        match check.problems {
-            list if list.is_empty() => {
-                scene.places = self.places.clone();
-                Ok(scene)
-            }
-            list => Err(self.places.problems(list)),
-        }
+        check.result()?;
+        scene.places = self.places.clone();
+        Ok(scene)
     }
 
     /// The number that a key has in the file, in SI units and radians.
