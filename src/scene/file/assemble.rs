@@ -74,16 +74,13 @@ pub(super) fn folder(places: &Places) -> &Path {
 /// Keys that every table of the section has.
 fn required(check: &mut Check, values: &Values) {
     let section = values.section;
-    for key in section
-        .keys
-        .iter()
-        .filter(|key| section.required.contains(&key.name))
-    {
-        if !check.met(values, key.name) {
-            let what = format!("`{}` is missing in {}", key.name, section.name);
-            let help = format!("add {}: {}", key.example(), key.meaning);
-            check.add(values.field(key.name), what, help);
-        }
+    let required = section.required.iter();
+    let missing = required.filter(|name| !check.met(values, name));
+    let missing: Vec<_> = missing.filter_map(|name| section.key(name)).collect();
+    for key in missing {
+        let what = format!("`{}` is missing in {}", key.name, section.name);
+        let help = format!("add {}: {}", key.example(), key.meaning);
+        check.add(values.field(key.name), what, help);
     }
 }
 

@@ -109,8 +109,11 @@ fn inertia(list: &mut Check, body: &str, about: &str, inertia: f64, least: f64) 
         "width",
         "depth",
     ];
+    if inertia >= least * (1.0 - 1e-9) {
+        return;
+    }
     let fields = KEYS.map(|key| format!("{body}.{key}"));
-    if inertia < least * (1.0 - 1e-9) && list.sound(fields.each_ref().map(String::as_str)) {
+    if list.sound(fields.each_ref().map(String::as_str)) {
         let (inertia, least) = apart(inertia, least);
         let what = format!(
             "{inertia} kg m2 about {about} is less than mass times distance of the centre of gravity squared, {least} kg m2"
