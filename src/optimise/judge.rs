@@ -13,16 +13,13 @@ use crate::sweep::{Goal, Outcome, Source, Sweep};
 pub(super) struct Judge<'a> {
     pub sweep: &'a Sweep,
     pub asked: &'a Asked,
-    stop: &'a Stop,
-    computed: AtomicU64,
-    scale: Scale,
-}
-
-/// What figures of the sample range over, by which they are made comparable: the middle half, which outliers do not stretch.
-#[derive(Clone, Debug, Default)]
-struct Scale {
-    goal: f64,
-    subjects: Vec<f64>,
+    pub stop: &'a Stop,
+    /// Number of designs so far.
+    pub computed: AtomicU64,
+    /// What the goal ranges over in the sample, by which it is made comparable: the middle half, which outliers do not stretch.
+    goal_scale: f64,
+    /// What each limited figure ranges over.
+    scales: Vec<f64>,
 }
 
 /// A design with its verdict.
@@ -54,31 +51,14 @@ impl Judged {
 
 impl<'a> Judge<'a> {
     pub fn new(sweep: &'a Sweep, asked: &'a Asked, stop: &'a Stop) -> Judge<'a> {
-        let scale = Scale {
-            goal: 1.0,
-            subjects: vec![1.0; asked.subjects.len()],
-        };
         Judge {
             sweep,
             asked,
             stop,
             computed: AtomicU64::new(0),
-            scale,
+            goal_scale: 1.0,
+            scales: vec![1.0; asked.subjects.len()],
         }
-    }
-
-    /// Number of designs computed so far.
-    pub fn computed(&self) -> u64 {
-        self.computed.load(Memory::Relaxed)
-    }
-
-    pub fn is_stopped(&self) -> bool {
-        self.stop.is_requested()
-    }
-
-    /// Says how far the search is, from 0 to 1.
-    pub fn reach(&self, part: f64) {
-        self.stop.reach(part);
     }
 
     pub fn values(&self, at: &[f64]) -> Vec<VariedValue> {
@@ -88,7 +68,7 @@ impl<'a> Judge<'a> {
 
     /// Computes a design, unless somebody asked to stop.
     pub fn judge(&self, at: Vec<f64>) -> Judged {
-        if self.is_stopped() {
+        if self.stop.is_requested() {
             return self.verdict(at, None, Vec::new());
         }
         self.computed.fetch_add(1, Memory::Relaxed);
@@ -108,7 +88,7 @@ impl<'a> Judge<'a> {
     }
 
     fn verdict(&self, at: Vec<f64>, aim: Option<f64>, margins: Vec<f64>) -> Judged {
-        let missed = margins.iter().zip(&self.scale.subjects);
+        let missed = margins.iter().zip(&self.scales);
         let missed = missed.map(|(margin, scale)| -margin / scale);
         let violation = match aim {
             Some(_) => missed.fold(0.0, f64::max),
@@ -128,12 +108,9 @@ impl<'a> Judge<'a> {
             let computed = sample.iter().filter(|one| one.aim.is_some());
             middle_half(computed.map(value).collect())
         };
-        self.scale = Scale {
-            goal: of(&|one| one.aim.unwrap_or_default()),
-            subjects: (0..self.asked.subjects.len())
-                .map(|i| of(&|one| one.margins[i]))
-                .collect(),
-        };
+        let subjects = 0..self.asked.subjects.len();
+        self.scales = subjects.map(|i| of(&|one| one.margins[i])).collect();
+        self.goal_scale = of(&|one| one.aim.unwrap_or_default());
         let again = sample
             .into_iter()
             .map(|one| self.verdict(one.at, one.aim, one.margins));
@@ -142,25 +119,25 @@ impl<'a> Judge<'a> {
 
     /// Scaled goal; `worst` for a design that has none.
     pub fn aim(&self, one: &Judged, worst: f64) -> f64 {
-        one.aim.map_or(worst, |aim| aim / self.scale.goal)
+        one.aim.map_or(worst, |aim| aim / self.goal_scale)
     }
 
     /// Scaled distance from a limit, positive on the right side; a whole spread on the wrong one for a design without figures.
     pub fn margin(&self, one: &Judged, subject: usize) -> f64 {
         let margin = one.margins.get(subject).copied();
-        margin.map_or(-1.0, |margin| margin / self.scale.subjects[subject])
+        margin.map_or(-1.0, |margin| margin / self.scales[subject])
     }
 
     /// Whether a figure lies on a limit, as closely as searches agree.
     pub fn is_active(&self, subject: usize, value: f64) -> bool {
         let margin = self.asked.subjects[subject].margin(value);
-        margin.abs() <= AGREEMENT * self.scale.subjects[subject]
+        margin.abs() <= AGREEMENT * self.scales[subject]
     }
 
     /// Whether two designs are equally good.
     pub fn agree(&self, one: &Judged, other: &Judged) -> bool {
         let aims = one.aim.zip(other.aim);
-        let near = aims.is_some_and(|(a, b)| (a - b).abs() <= AGREEMENT * self.scale.goal);
+        let near = aims.is_some_and(|(a, b)| (a - b).abs() <= AGREEMENT * self.goal_scale);
         near && (one.violation - other.violation).abs() <= AGREEMENT
     }
 
@@ -168,8 +145,8 @@ impl<'a> Judge<'a> {
     /// speed and its way, as that of the goal; at least [`GAIN`] of the spread.
     pub fn resolution(&self, one: &Judged) -> f64 {
         let aim = one.aim.map_or(0.0, f64::abs);
-        let least = GAIN * self.scale.goal;
-        if self.asked.goal.figure.source() <= Source::Diagrams || self.is_stopped() {
+        let least = GAIN * self.goal_scale;
+        if self.asked.goal.figure.source() <= Source::Diagrams || self.stop.is_requested() {
             return least;
         }
         let vouched = self.sweep.with_estimates();

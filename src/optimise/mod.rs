@@ -6,6 +6,8 @@ mod local;
 mod search;
 mod subject;
 
+use std::sync::atomic::Ordering;
+
 use serde::Serialize;
 
 use crate::error::Error;
@@ -191,13 +193,9 @@ pub fn optimise(
 fn bounds(varied: &[Varied]) -> Result<Vec<[f64; 2]>, Error> {
     let of = |one: &Varied| {
         one.bounds().ok_or_else(|| {
-            Error::refused(
-                format!("`{} = {one}` are no bounds", one.key()),
-                format!(
-                    "write the least and the largest value, like {}",
-                    "geometry.rod=100mm:200mm"
-                ),
-            )
+            let what = format!("`{} = {one}` are no bounds", one.key());
+            let help = "write the least and the largest value, like geometry.rod=100mm:200mm";
+            Error::refused(what, help)
         })
     };
     varied.iter().map(of).collect()
@@ -248,8 +246,8 @@ fn report(judge: &Judge, bounds: &[[f64; 2]], found: search::Found) -> Optimum {
         meets_subjects: best.violation == 0.0,
         starts: starts.collect(),
         proof: found.proof,
-        designs: judge.computed(),
-        interrupted: judge.is_stopped(),
+        designs: judge.computed.load(Ordering::Relaxed),
+        interrupted: judge.stop.is_requested(),
         notes: design.notes,
     }
 }

@@ -41,7 +41,7 @@ pub(super) struct Found {
 /// [`Error::Refused`] if no design has the figures; [`Error::Interrupted`] before there is any.
 pub(super) fn run(judge: &mut Judge, seed: u64) -> Result<Found, Error> {
     let sample = explore(judge)?;
-    judge.reach(0.2);
+    judge.stop.reach(0.2);
     let mut sorted = judge.calibrate(sample);
     sorted.sort_by(Judged::order);
     let computed = sorted.iter().filter(|one| one.aim.is_some());
@@ -52,7 +52,7 @@ pub(super) fn run(judge: &mut Judge, seed: u64) -> Result<Found, Error> {
     let starts = parallel::map(starts(&sorted).into_iter(), |from| {
         search(judge, from, FIRST_STEP, worst)
     });
-    judge.reach(0.7);
+    judge.stop.reach(0.7);
     let ends = starts.iter().map(|start| start.end.clone());
     let best = ends.chain([sorted.swap_remove(0)]).min_by(Judged::order);
     let mut best = best.ok_or(Error::Interrupted)?;
@@ -74,7 +74,7 @@ fn explore(judge: &Judge) -> Result<Vec<Judged>, Error> {
     if found.iter().any(|one| one.aim.is_some()) {
         return Ok(found);
     }
-    if judge.is_stopped() {
+    if judge.stop.is_requested() {
         return Err(Error::Interrupted);
     }
     let first = judge.sweep.design_of(0, judge.values(&found[0].at));
@@ -135,14 +135,16 @@ fn prove(judge: &Judge, seed: u64, best: &mut Judged, worst: f64) -> Proof {
                 at.collect()
             };
             let found = parallel::map(0..sample.count, |index| judge.judge(at(index)));
-            if judge.is_stopped() {
+            if judge.stop.is_requested() {
                 return proof;
             }
             let better = found.into_iter().min_by(Judged::order);
             if let Some(better) = better.filter(|one| judge.improves(one, best, resolution)) {
                 *best = search(judge, better, width, worst).end;
                 proof.improvements += 1;
-                judge.reach(0.7 + 0.3 * f64::from(proof.improvements) / f64::from(IMPROVEMENTS));
+                judge
+                    .stop
+                    .reach(0.7 + 0.3 * f64::from(proof.improvements) / f64::from(IMPROVEMENTS));
                 continue 'rounds;
             }
         }

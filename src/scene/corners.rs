@@ -5,47 +5,51 @@ use std::iter::successors;
 
 use super::{Load, Repeats, Table, Variable};
 
+/// Tables with more rows than this in a turn are not listed but looked up row by row.
+const MOST_ROWS: f64 = 1e5;
+
 impl Load {
     /// Crank angles, rad, at which the load is not smooth, as far as a table says so. Those of one that keeps step with
     /// the turns are the same in each of them, or in each second one and so on, and whole turns do not count.
     pub fn angle_corners(&self) -> Vec<f64> {
-        match self.angle_table() {
-            Some((table, Step::With(turns))) => {
+        let Some(table) = self.angle_table() else {
+            return Vec::new();
+        };
+        match (table.period(), turns_in_step(table)) {
+            (None, _) => table.rows().to_vec(),
+            (_, Some(turns)) => {
                 let first = table.rows()[0];
                 let mut rows = table.rows_between(first, first + turns * TAU);
                 rows.push(first);
                 rows
             }
-            Some((table, Step::None)) => table.rows().to_vec(),
-            Some((_, Step::Without)) | None => Vec::new(),
+            (_, None) => Vec::new(),
         }
     }
 
     /// Angles between two others, rad, at which a table over the crank angle is not smooth.
     pub fn corners_between(&self, low: f64, high: f64) -> Vec<f64> {
         let table = self.angle_table();
-        table.map_or_else(Vec::new, |(table, _)| table.rows_between(low, high))
+        table.map_or_else(Vec::new, |table| table.rows_between(low, high))
     }
 
     /// Corners between two angles, rad, of a table that does not keep step with the turns.
     pub fn corners_out_of_step(&self, low: f64, high: f64) -> Vec<f64> {
-        match self.angle_table() {
-            Some((table, Step::Without)) => table.rows_between(low, high),
-            _ => Vec::new(),
+        match self.is_out_of_step() {
+            true => self.corners_between(low, high),
+            false => Vec::new(),
         }
     }
 
     /// The first of them, rad, after `from` on the way to `to`, in either direction.
     pub fn corner_out_of_step(&self, from: f64, to: f64) -> Option<f64> {
-        match self.angle_table() {
-            Some((_, Step::Without)) => self.row_on_way(from, to),
-            _ => None,
-        }
+        let is_asked = self.is_out_of_step();
+        is_asked.then(|| self.row_on_way(from, to)).flatten()
     }
 
     /// The first row, rad, of a table over the crank angle after `from` on the way to `to`, in either direction.
     pub fn row_on_way(&self, from: f64, to: f64) -> Option<f64> {
-        let table = self.table().filter(|table| table.of() == Variable::Theta)?;
+        let table = self.angle_table()?;
         let way = (to - from).abs();
         // Within a period there is one.
         let far = table.period().map_or(way, |period| period.min(way));
@@ -56,12 +60,6 @@ impl Load {
         if from < to { rows.next() } else { rows.last() }
     }
 
-    /// A table over the crank angle, and how it keeps step with the turns.
-    fn angle_table(&self) -> Option<(&Table, Step)> {
-        let table = self.table()?;
-        (table.of() == Variable::Theta).then(|| (table, Step::of(table)))
-    }
-
     /// The next time after `t` (s) at which the load is not smooth in time; infinite if it is not known.
     pub fn next_corner(&self, t: f64) -> f64 {
         match self {
@@ -70,38 +68,24 @@ impl Load {
             _ => f64::INFINITY,
         }
     }
-}
 
-/// How a table over the crank angle keeps step with the turns.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Step {
-    /// The load does not repeat.
-    None,
-    /// The load repeats after so many turns.
-    With(f64),
-    /// The load repeats, but not after whole turns, or it has too many rows.
-    Without,
-}
-
-impl Step {
-    /// More rows than this in a turn are found one by one, not listed.
-    const MOST_ROWS: f64 = 1e5;
-
-    fn of(table: &Table) -> Step {
-        if table.period().is_none() {
-            return Step::None;
-        }
-        match table.repeats() {
-            Repeats::After(period) => {
-                let turns = f64::from(period.whole_turns());
-                let periods = turns * TAU / period.radians();
-                if table.rows().len() as f64 * periods <= Step::MOST_ROWS * turns {
-                    Step::With(turns)
-                } else {
-                    Step::Without
-                }
-            }
-            _ => Step::Without,
-        }
+    fn angle_table(&self) -> Option<&Table> {
+        self.table().filter(|table| table.of() == Variable::Theta)
     }
+
+    /// Whether a table over the crank angle repeats, but not in step with the turns.
+    fn is_out_of_step(&self) -> bool {
+        let out = |table: &Table| table.period().is_some() && turns_in_step(table).is_none();
+        self.angle_table().is_some_and(out)
+    }
+}
+
+/// Whole turns after which a table over the crank angle repeats, if it has few enough rows in a turn.
+fn turns_in_step(table: &Table) -> Option<f64> {
+    let Repeats::After(period) = table.repeats() else {
+        return None;
+    };
+    let turns = f64::from(period.whole_turns());
+    let periods = turns * TAU / period.radians();
+    (table.rows().len() as f64 * periods <= MOST_ROWS * turns).then_some(turns)
 }

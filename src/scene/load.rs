@@ -229,7 +229,7 @@ impl Load {
             Load::Viscous(coefficient) => *coefficient == 0.0,
             Load::Motor { stall, .. } => *stall == 0.0,
             Load::Spring { stiffness, .. } => *stiffness == 0.0,
-            Load::Table(table) => table.is_zero(),
+            Load::Table(table) => table.largest() == 0.0,
             Load::Gas { area, .. } => *area == 0.0,
             Load::Dry(magnitude) => magnitude.is_zero(),
             Load::Expression(_) => self.fixed() == Some(0.0),

@@ -3,20 +3,15 @@
 //! A scene comes from a file ([`Scene::load`]) or from code ([`Scene::new`] and the methods that add
 //! parts). Either way [`Scene::check`] says all that is wrong with it.
 
-#[cfg(feature = "cli")]
-mod assemble;
 mod body;
 mod builder;
-#[cfg(feature = "cli")]
-mod builtin;
+mod check;
 mod clearance;
 mod corners;
 mod csv;
 mod expression;
 #[cfg(feature = "cli")]
-mod keys;
-#[cfg(feature = "cli")]
-pub(crate) use keys::nearest;
+mod file;
 mod load;
 mod measurement;
 mod motion;
@@ -24,51 +19,36 @@ mod number;
 mod parts;
 mod period;
 mod places;
-#[cfg(feature = "cli")]
-mod printable;
 mod problem;
-#[cfg(feature = "cli")]
-mod read;
-#[cfg(feature = "cli")]
-mod render;
-#[cfg(feature = "cli")]
-mod schema;
 mod table;
 mod text;
-mod uncertain;
 pub mod unit;
 mod validate;
 pub(crate) use validate::MOST_ROWS;
 mod variable;
-#[cfg(feature = "cli")]
-mod vary;
-
-#[cfg(feature = "cli")]
-pub(crate) use builtin::DUARTE;
 
 use std::path::Path;
+
+use check::Check;
 
 pub use body::{Crank, InertiaAbout, Rod, RodModel, Slider};
 pub use clearance::{Clearance, ContactLaw, Joint};
 pub use expression::{Expression, ExpressionError};
+#[cfg(feature = "cli")]
+pub use file::{Assigned, Draft, NumberKey, Varied, VariedValue, printable, schema};
+#[cfg(feature = "cli")]
+pub(crate) use file::{DUARTE, nearest};
 pub use load::Load;
 pub use measurement::{Beside, BesideColumn, DUARTE_MOTION, Measured, Measurement, Reading};
 pub use motion::{Every, Extent, Motion, MotionKind, Run};
-pub use parts::{Branch, Friction, Geometry, Gravity};
+pub use parts::{Branch, Friction, Geometry, Gravity, UncertainValue};
 pub use period::{Period, Repeats, WhyNot};
 pub use places::Places;
-#[cfg(feature = "cli")]
-pub use printable::printable;
 pub use problem::{Problem, Problems};
-#[cfg(feature = "cli")]
-pub use schema::schema;
 pub use table::{Interpolation, Table, calibration_points};
 #[cfg(feature = "cli")]
 pub use table::{LoadTable, load_table};
-pub use uncertain::UncertainValue;
 pub use variable::{Instant, Variable, Variables};
-#[cfg(feature = "cli")]
-pub use vary::{Assigned, Draft, NumberKey, Varied, VariedValue};
 
 /// A complete scene.
 #[derive(Clone, Debug)]
@@ -107,9 +87,12 @@ impl Scene {
     /// # Errors
     /// [`Problems`] with one entry for each impossible value.
     pub fn check(&self) -> Result<(), Problems> {
-        let mut problems = Vec::new();
-        validate::problems(self, &mut problems);
-        self.refused(problems)
+        let mut check = Check {
+            problems: Vec::new(),
+            places: &self.places,
+        };
+        validate::problems(self, &mut check);
+        check.result()
     }
 
     /// What is wrong, with the places of the file the scene comes from.
@@ -117,11 +100,8 @@ impl Scene {
     /// # Errors
     /// [`Problems`] if there is anything.
     pub fn refused(&self, problems: Vec<Problem>) -> Result<(), Problems> {
-        if problems.is_empty() {
-            Ok(())
-        } else {
-            Err(self.places.problems(problems))
-        }
+        let places = &self.places;
+        Check { problems, places }.result()
     }
 
     /// The files of the tables of its loads.

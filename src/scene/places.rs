@@ -3,8 +3,6 @@
 use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Range;
-#[cfg(feature = "cli")]
-use std::path::Path;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -15,45 +13,35 @@ pub(super) type Spans = BTreeMap<String, Range<usize>>;
 
 /// The places of a scene's keys; none of a scene from code.
 #[derive(Clone, Default)]
-pub struct Places(Option<Arc<Source>>);
+pub struct Places(pub(super) Option<Arc<Source>>);
 
-struct Source {
-    file: PathBuf,
-    text: String,
-    spans: Spans,
+pub(super) struct Source {
+    pub file: PathBuf,
+    pub text: String,
+    pub spans: Spans,
 }
 
 impl Places {
+    /// The text of the file, and where the value of a key stands in it.
     #[cfg(feature = "cli")]
-    pub(super) fn in_file(file: &Path, text: &str, spans: Spans) -> Places {
-        Places(Some(Arc::new(Source {
-            file: file.to_owned(),
-            text: text.to_owned(),
-            spans,
-        })))
+    pub(super) fn of(&self, field: &str) -> Option<(&str, Range<usize>)> {
+        let source = self.0.as_ref()?;
+        Some((&source.text, source.spans.get(field)?.clone()))
     }
 
-    /// Problems of the scene, each with the place of its key.
+    /// Problems of the scene, each with the place of its key, or of the table the key belongs to.
     pub(super) fn problems(&self, mut list: Vec<Problem>) -> Problems {
         let Some(source) = &self.0 else {
             return Problems::in_code(list);
         };
-        locate(&mut list, &source.spans);
-        Problems::in_file(&source.file, &source.text, list)
-    }
-}
-
-/// Gives each problem without a place that of its key, or of the table the key belongs to.
-pub(super) fn locate(problems: &mut [Problem], spans: &Spans) {
-    for problem in problems {
-        let mut field = problem.field.as_str();
-        while problem.span.is_none() {
-            problem.span = spans.get(field).cloned();
-            match field.rsplit_once('.') {
-                Some((parent, _)) => field = parent,
-                None => break,
-            }
+        for problem in &mut list {
+            let mut fields = std::iter::successors(Some(problem.field.as_str()), |field| {
+                Some(field.rsplit_once('.')?.0)
+            });
+            let place = || fields.find_map(|field| source.spans.get(field).cloned());
+            problem.span = problem.span.take().or_else(place);
         }
+        Problems::in_file(&source.file, &source.text, list)
     }
 }
 

@@ -4,8 +4,6 @@ use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::number::with_unit;
-
 /// One thing that is wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
@@ -34,11 +32,6 @@ impl Problem {
     pub(super) fn at(self, span: impl Into<Option<Range<usize>>>) -> Problem {
         let span = span.into();
         Problem { span, ..self }
-    }
-
-    pub(super) fn not_positive(field: &str, value: f64, unit: &str) -> Problem {
-        let what = format!("{} is not positive", with_unit(value, unit));
-        Problem::new(field, what, "give a value above zero")
     }
 }
 
@@ -105,19 +98,15 @@ impl fmt::Display for Problems {
 
     #[cfg(not(feature = "cli"))]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, problem) in self.list.iter().enumerate() {
-            let line_break = if index == 0 { "" } else { "\n" };
-            let Problem {
-                field, what, help, ..
-            } = problem;
-            write!(f, "{line_break}")?;
+        for problem in &self.list {
             if let Some(file) = &self.file {
                 write!(f, "{}:", file.display())?;
             }
             if let Some((line, column)) = self.place(problem) {
                 write!(f, "{line}:{column}: ")?;
             }
-            write!(f, "{field}: {what}\nhelp: {help}")?;
+            let (field, what, help) = (&problem.field, &problem.what, &problem.help);
+            writeln!(f, "{field}: {what}\nhelp: {help}")?;
         }
         Ok(())
     }

@@ -37,19 +37,20 @@ pub(super) fn decoded(bytes: Vec<u8>) -> Result<String, String> {
     if let Some((_, kind)) = NO_TEXT.iter().find(|(start, _)| bytes.starts_with(start)) {
         return Err(format!("the file is {kind}"));
     }
-    let (bytes, at) = match String::from_utf8(bytes) {
-        Ok(text) => match text.find('\0') {
-            None => return Ok(with_line_feeds(text)),
-            Some(zero) => (text.into_bytes(), zero),
-        },
-        Err(error) => {
-            let (at, bytes) = (error.utf8_error().valid_up_to(), error.into_bytes());
-            let zero = bytes[..at].iter().position(|byte| *byte == 0);
-            (bytes, zero.unwrap_or(at))
-        }
+    let valid = std::str::from_utf8(&bytes).map_or_else(|e| e.valid_up_to(), str::len);
+    let zero = bytes[..valid].iter().position(|byte| *byte == 0);
+    let before = &bytes[..zero.unwrap_or(valid)];
+    let Some(byte) = bytes.get(before.len()) else {
+        let text = String::from_utf8(bytes).map_err(|error| error.to_string())?;
+        return Ok(with_line_feeds(text));
     };
-    let (line, column) = place(&bytes, at);
-    Err(match bytes[at] {
+    let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
+    let column = before
+        .rsplit(|byte| *byte == b'\n')
+        .next()
+        .map_or(0, <[u8]>::len)
+        + 1;
+    Err(match byte {
         0 => format!("line {line}: the file is not text, it has a zero byte"),
         byte => format!("line {line}, column {column}: the byte 0x{byte:02x} is not UTF-8 text"),
     })
@@ -89,14 +90,6 @@ pub(super) fn decoded_from_any(bytes: Vec<u8>) -> Result<(String, Option<&'stati
 
 /// The characters of bytes 0x80 to 0x9f; those that are not in use as replacement characters.
 const WINDOWS_1252: &str = "€\u{fffd}‚ƒ„…†‡ˆ‰Š‹Œ\u{fffd}Ž\u{fffd}\u{fffd}‘’“”•–—˜™š›œ\u{fffd}žŸ";
-
-/// Line and column, both from 1, of a byte.
-fn place(bytes: &[u8], at: usize) -> (usize, usize) {
-    let before = &bytes[..at];
-    let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
-    let start = before.iter().rposition(|byte| *byte == b'\n');
-    (line, at - start.map_or(0, |end| end + 1) + 1)
-}
 
 /// A text whose lines end with line feeds, as those of old systems with carriage returns alone do not.
 pub(super) fn with_line_feeds(text: String) -> String {

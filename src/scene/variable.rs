@@ -25,23 +25,12 @@ impl Variable {
 
     /// Name in expressions and scene files.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::T => "t",
-            Self::Theta => "theta",
-            Self::Omega => "omega",
-            Self::X => "x",
-            Self::V => "v",
-        }
+        ["t", "theta", "omega", "x", "v"][self as usize]
     }
 
     pub(super) fn quantity(self) -> Quantity {
-        match self {
-            Self::T => Quantity::Time,
-            Self::Theta => Quantity::Angle,
-            Self::Omega => Quantity::AngularSpeed,
-            Self::X => Quantity::Length,
-            Self::V => Quantity::Velocity,
-        }
+        use Quantity::{Angle, AngularSpeed, Length, Time, Velocity};
+        [Time, Angle, AngularSpeed, Length, Velocity][self as usize]
     }
 
     /// The variable with this name.
@@ -93,16 +82,12 @@ impl Variables {
 
 impl fmt::Display for Variables {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let names: Vec<_> = Variable::ALL
-            .into_iter()
-            .filter(|v| self.has(*v))
-            .map(Variable::name)
-            .collect();
-        f.write_str(&if names.is_empty() {
-            "nothing".to_owned()
-        } else {
-            names.join(", ")
-        })
+        let read = Variable::ALL.into_iter().filter(|v| self.has(*v));
+        let names: Vec<_> = read.map(Variable::name).collect();
+        match names.is_empty() {
+            true => f.write_str("nothing"),
+            false => f.write_str(&names.join(", ")),
+        }
     }
 }
 

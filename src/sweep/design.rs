@@ -116,19 +116,16 @@ impl Design {
             events_kept: 0,
             ..Options::default()
         };
-        match simulate_rows(scene, &run, &mut NoRows) {
-            Ok(run) => self.take(run.summary),
-            Err(error) => self.fail(Outcome::Refused, &error),
-        }
-    }
-
-    fn take(&mut self, summary: Summary) {
+        let summary = match simulate_rows(scene, &run, &mut NoRows) {
+            Ok(run) => run.summary,
+            Err(error) => return self.fail(Outcome::Refused, &error),
+        };
         if let Some(stopped) = &summary.stopped {
             self.outcome = Outcome::Stopped;
             self.notes.insert(0, stopped.to_string());
         }
-        self.notes
-            .extend(summary.warnings.iter().map(ToString::to_string));
+        let warnings = summary.warnings.iter().map(ToString::to_string);
+        self.notes.extend(warnings);
         self.motion = Some(summary);
     }
 
@@ -136,15 +133,14 @@ impl Design {
         self.outcome = outcome;
         let first = match error {
             Error::Scene(problems) => {
-                let what = problems.list().iter().map(|problem| problem.what.clone());
-                what.collect::<Vec<_>>().join("; ")
+                let list = problems.list().iter();
+                let what: Vec<&str> = list.map(|problem| problem.what.as_str()).collect();
+                what.join("; ")
             }
-            other => other
-                .to_string()
-                .lines()
-                .next()
-                .unwrap_or_default()
-                .to_owned(),
+            other => {
+                let text = other.to_string();
+                text.lines().next().unwrap_or_default().to_owned()
+            }
         };
         self.notes.insert(0, first);
     }

@@ -109,7 +109,7 @@ impl Sweep {
             .draft
             .scene()
             .or_else(|_| sweep.scene(&sweep.values(0)))?;
-        let runs = |one: &Varied| ["run.duration", "run.revolutions"].contains(&one.key().as_str());
+        let runs = |one: &Varied| ["run.duration", "run.revolutions"].contains(&&*one.key());
         let has_run = scene.run.extent.is_some() || sweep.varied.iter().any(runs);
         sweep.options.settle(has_run)?;
         sweep.title = scene.title.unwrap_or_default();

@@ -50,24 +50,25 @@ impl Default for SweepOptions {
 }
 
 impl SweepOptions {
-    /// Settles what is computed and which figures are shown, for scenes with or without a run.
+    /// Settles what is computed and which figures are shown, for scenes with or without a run. Figures that are named say
+    /// what is computed, and nothing else is.
     pub(super) fn settle(&mut self, has_run: bool) -> Result<(), Error> {
         let named = !self.figures.is_empty();
-        if named {
-            self.follow_figures();
-        }
-        let forces = self.reactions && !(self.motion && has_run);
-        let wheel = |figure: &Figure| figure.source() == Source::Flywheel;
-        let asked = self
-            .steady
-            .as_ref()
-            .is_some_and(|asked| asked.fluctuation.is_some());
-        if !asked && self.figures.iter().any(wheel) {
+        let takes = |source| self.figures.iter().any(|one| one.source() == source);
+        if takes(Source::Flywheel) && !self.has(Source::Flywheel) {
             return Err(Error::refused(
                 "the flywheel is one for a coefficient of speed fluctuation, and none is given",
                 "say which, like --fluctuation 0.02",
             ));
         }
+        if named {
+            self.reactions = takes(Source::Peaks);
+            self.motion = self.reactions || takes(Source::Motion);
+            self.diagrams = takes(Source::Diagrams);
+            let steady = takes(Source::Steady) || takes(Source::Flywheel);
+            self.steady = steady.then(|| self.steady.take().unwrap_or_default());
+        }
+        let forces = self.reactions && !(self.motion && has_run);
         if forces || named && self.motion && !has_run {
             let help = match has_run {
                 true => "do without --no-motion",
@@ -83,34 +84,24 @@ impl SweepOptions {
         self.motion &= has_run;
         if !named {
             let all = Figure::ALL.iter();
-            self.figures = all.filter(|figure| self.has(figure)).copied().collect();
+            let asked = all.filter(|figure| self.has(figure.source()));
+            self.figures = asked.copied().collect();
         }
         Ok(())
     }
 
-    /// Computes what the figures take and nothing else.
-    fn follow_figures(&mut self) {
-        let takes = |source| self.figures.iter().any(|one| one.source() == source);
-        let (peaks, wheel) = (takes(Source::Peaks), takes(Source::Flywheel));
-        let motion = peaks || takes(Source::Motion);
-        let steady = wheel || takes(Source::Steady);
-        self.diagrams = takes(Source::Diagrams);
-        (self.motion, self.reactions) = (motion, peaks);
-        self.steady = steady.then(|| self.steady.clone().unwrap_or_default());
-    }
-
-    /// Whether a figure is among those of what is asked for.
-    fn has(&self, figure: &Figure) -> bool {
-        match figure.source() {
+    /// Whether figures of this source are among those of what is asked for.
+    fn has(&self, source: Source) -> bool {
+        match source {
             Source::Turn => true,
             Source::Diagrams => self.diagrams,
             Source::Motion => self.motion,
             Source::Peaks => self.reactions,
             Source::Steady => self.steady.is_some(),
-            Source::Flywheel => self
-                .steady
-                .as_ref()
-                .is_some_and(|asked| asked.fluctuation.is_some()),
+            Source::Flywheel => {
+                let asked = self.steady.as_ref();
+                asked.is_some_and(|asked| asked.fluctuation.is_some())
+            }
         }
     }
 }

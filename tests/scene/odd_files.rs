@@ -183,10 +183,20 @@ fn words_of_headers() {
         ("Time (s),angle / rev", [1.0, TURN], Measured::Theta),
         ("t / ms,slider position / mm", [1e-3, 1e-3], Measured::X),
         ("t s,x mm", [1.0, 1e-3], Measured::X),
+        ("\u{feff}t[s],slider_position_mm", [1.0, 1e-3], Measured::X),
+        ("t/ms,theta/(deg)", [1e-3, PI / 180.0], Measured::Theta),
+        ("t_s,θ (degrees)", [1.0, PI / 180.0], Measured::Theta),
+        (
+            "\"time, ms\",theta deg",
+            [1e-3, PI / 180.0],
+            Measured::Theta,
+        ),
     ] {
         let text = format!("{header}\n{}", rows(",", sizes));
         let found = is_read(text.as_bytes(), &Reading::default(), measured);
-        let is_own_name = ["x mm"].iter().any(|name| header.ends_with(name));
+        let is_own_name = ["x mm", "theta/(deg)", "θ (degrees)", "theta deg"]
+            .iter()
+            .any(|name| header.ends_with(name));
         assert_eq!(
             found.notes().is_empty(),
             is_own_name,

@@ -10,7 +10,7 @@ use std::process::{Command, Output};
 use proptest::prelude::*;
 use slider_crank::error::Error;
 use slider_crank::plan;
-use slider_crank::scene::{Draft, Scene};
+use slider_crank::scene::{Draft, Scene, Slider, Varied};
 use slider_crank::simulate::{Options, simulate};
 
 use crate::support::random::cases;
@@ -194,4 +194,39 @@ fn a_mechanism_without_any_inertia_is_refused() {
         .expect("a scene");
     let error = refused(&scene).expect("no motion").to_string();
     assert!(error.contains("the mechanism has no inertia"), "{error}");
+}
+
+/// Values in messages have the digits that people type, without the noise of rounding.
+#[test]
+fn values_are_shown_without_noise() {
+    for (mass, shown) in [
+        (-1.9500000000000002, "-1.95 kg"),
+        (-5e-6, "-0.000005 kg"),
+        (-1e-15, "-1e-15 kg"),
+        (-100_000.0, "-100000 kg"),
+        (-1e40, "-1e40 kg"),
+        (-0.12345678, "-0.12345678 kg"),
+    ] {
+        let scene = Scene::new(0.05, 0.15).slider(Slider { mass });
+        let problems = scene.check().unwrap_err();
+        let what = format!("{shown} is negative");
+        assert_eq!(problems.list()[0].what, what);
+    }
+    for (offset, shown) in [(0.3, "0.3 m"), (0.2 + 1e-9, "0.200000001 m")] {
+        let problems = Scene::new(0.05, 0.15).offset(offset).check().unwrap_err();
+        let what = &problems.list()[0].what;
+        assert!(what.contains(shown) && what.contains("0.2 m"), "{what}");
+    }
+}
+
+/// A draft says what is wrong with a load as often as it is asked, also of scenes with other values.
+#[test]
+fn what_is_wrong_with_a_load_is_said_again() {
+    let text = "[geometry]\ncrank = \"50 mm\"\nrod = \"150 mm\"\n[[torque]]\nkind = \"dry\"\nvalue = \"1 N m\"\nof = \"theta\"\n";
+    let draft = Draft::new(Path::new("brake.toml"), text);
+    let rod: [Varied; 1] = ["geometry.rod = 160mm".parse().expect("a varied key")];
+    for _ in 0..2 {
+        assert!(draft.scene().is_err());
+        assert!(draft.with_values(&rod, &[rod[0].value(0)]).is_err());
+    }
 }

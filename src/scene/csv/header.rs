@@ -78,32 +78,3 @@ impl Header {
         })
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn headers_as_instruments_write_them() {
-        for (text, name, unit) in [
-            ("t [s]", "t", "s"),
-            ("t_s", "t", "s"),
-            ("Time (ms)", "time", "ms"),
-            ("omega_rad_per_s", "omega", "rad/s"),
-            ("pressure / bar", "pressure", "bar"),
-            ("p/bar", "p", "bar"),
-            ("omega/(rad/s)", "omega", "rad/s"),
-            ("\u{feff}theta[deg]", "theta", "deg"),
-            ("x", "x", ""),
-            ("crank_angle_deg", "crank angle", "deg"),
-            ("Crank angle (deg)", "crank angle", "deg"),
-            ("slider_position_mm", "slider position", "mm"),
-            ("time, ms", "time", "ms"),
-            ("theta deg", "theta", "deg"),
-            ("crank_angle", "crank angle", ""),
-            ("θ (degrees)", "theta", "degrees"),
-        ] {
-            assert_eq!(split(text), header(name, unit), "{text}");
-        }
-    }
-}

@@ -1,6 +1,7 @@
 //! From the text of an expression to its operations, by recursive descent.
 
-use super::{Expression, ExpressionError, FUNCTIONS_1, FUNCTIONS_2, Op, STACK, TOO_DEEP};
+use super::operand::{FUNCTIONS_1, FUNCTIONS_2, Op};
+use super::{Expression, ExpressionError, STACK, TOO_DEEP};
 use crate::scene::Variable;
 use crate::scene::number;
 
@@ -90,36 +91,35 @@ impl<'a> Parser<'a> {
     }
 
     fn sum(&mut self) -> Result<(), ExpressionError> {
-        self.product()?;
-        loop {
-            let op = if self.take('+') {
-                Op::Add
-            } else if self.take_minus() {
-                Op::Subtract
-            } else {
-                return Ok(());
-            };
-            self.product()?;
-            self.ops.push(op);
-        }
+        let signs = [
+            ('+', Op::Add),
+            ('-', Op::Subtract),
+            (number::MINUS, Op::Subtract),
+        ];
+        self.chain(&signs, Parser::product)
     }
 
     fn product(&mut self) -> Result<(), ExpressionError> {
-        self.signed()?;
+        self.chain(&[('*', Op::Multiply), ('/', Op::Divide)], Parser::signed)
+    }
+
+    /// Operands with operators of one precedence between them, from left to right.
+    fn chain(
+        &mut self,
+        operators: &[(char, Op)],
+        operand: fn(&mut Self) -> Result<(), ExpressionError>,
+    ) -> Result<(), ExpressionError> {
+        operand(self)?;
         loop {
             self.skip_space();
             if self.rest().starts_with("**") {
                 return Err(self.error("powers are written with ^"));
             }
-            let op = if self.take('*') {
-                Op::Multiply
-            } else if self.take('/') {
-                Op::Divide
-            } else {
+            let Some((_, op)) = operators.iter().find(|(sign, _)| self.take(*sign)) else {
                 return Ok(());
             };
-            self.signed()?;
-            self.ops.push(op);
+            operand(self)?;
+            self.ops.push(*op);
         }
     }
 
@@ -195,20 +195,21 @@ impl<'a> Parser<'a> {
             self.ops.push(Op::Variable(variable));
             return Ok(());
         }
-        if let Some(f) = FUNCTIONS_1.iter().position(|f| f.0 == name) {
-            self.open(name)?;
-            self.sum()?;
-            self.ops.push(Op::Call1(f));
-            return self.close();
-        }
-        if let Some(f) = FUNCTIONS_2.iter().position(|f| f.0 == name) {
-            self.open(name)?;
-            self.sum()?;
-            if !self.take(',') {
-                return Err(self.error(&format!("`{name}` takes two values, with a comma between")));
+        let one = FUNCTIONS_1.iter().position(|f| f.0 == name);
+        let two = FUNCTIONS_2.iter().position(|f| f.0 == name);
+        if let Some(call) = one.map(Op::Call1).or(two.map(Op::Call2)) {
+            if !self.take('(') {
+                return Err(self.error(&format!("`{name}` needs its argument in brackets")));
             }
             self.sum()?;
-            self.ops.push(Op::Call2(f));
+            if two.is_some() {
+                if !self.take(',') {
+                    let what = format!("`{name}` takes two values, with a comma between");
+                    return Err(self.error(&what));
+                }
+                self.sum()?;
+            }
+            self.ops.push(call);
             return self.close();
         }
         if let Some(symbol) = (self.symbols)(name) {
@@ -224,14 +225,6 @@ impl<'a> Parser<'a> {
             known.join(", ")
         );
         Err(error)
-    }
-
-    fn open(&mut self, name: &str) -> Result<(), ExpressionError> {
-        if self.take('(') {
-            Ok(())
-        } else {
-            Err(self.error(&format!("`{name}` needs its argument in brackets")))
-        }
     }
 }
 

@@ -5,7 +5,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::{Expression, FUNCTIONS_1, FUNCTIONS_2, Op, Operand};
+use super::Expression;
+use super::operand::{FUNCTIONS_1, FUNCTIONS_2, Op, Operand};
 use crate::scene::Variable;
 use crate::scene::period::{Period, Repeats, WhyNot};
 
@@ -24,17 +25,17 @@ struct Part {
 impl Expression {
     /// Whether it is the same again after some turns, t and omega being the same.
     pub fn repeats(&self) -> Repeats {
-        self.evaluate(Part::variable).repeating().rest
+        let part = self.evaluate(|variable| match variable {
+            Variable::Theta => Part::new(1.0, Repeats::Always),
+            Variable::X | Variable::V => Part::new(0.0, Repeats::After(Period::TURN)),
+            Variable::T | Variable::Omega => Part::new(0.0, Repeats::Always),
+        });
+        part.repeating().rest
     }
 }
 
 impl Part {
-    fn variable(variable: Variable) -> Part {
-        let (slope, rest) = match variable {
-            Variable::Theta => (1.0, Repeats::Always),
-            Variable::X | Variable::V => (0.0, Repeats::After(Period::TURN)),
-            Variable::T | Variable::Omega => (0.0, Repeats::Always),
-        };
+    fn new(slope: f64, rest: Repeats) -> Part {
         Part {
             slope,
             rest,
@@ -43,63 +44,46 @@ impl Part {
     }
 
     fn times(self, factor: f64) -> Part {
-        Part {
-            slope: self.slope * factor,
-            value: self.value.map(|value| value * factor),
-            ..self
-        }
-    }
-
-    /// What only repeats if the part does.
-    fn repeating(self) -> Part {
-        let outside = Repeats::Never(WhyNot::Outside);
-        Part {
-            slope: 0.0,
-            rest: if self.slope == 0.0 {
-                self.rest
-            } else {
-                outside
-            },
-            value: None,
-        }
-    }
-
-    /// What is the same whenever the part grows by `length`.
-    fn wave(self, length: f64) -> Part {
-        let own = if self.slope == 0.0 {
-            Repeats::Always
-        } else {
-            Period::near((length / self.slope).abs() / TAU, ROUNDED).into()
-        };
-        Part {
-            slope: 0.0,
-            rest: self.rest.with(own),
-            value: None,
-        }
+        Part::new(self.slope * factor, self.rest)
     }
 
     fn plus(self, other: Part) -> Part {
         let sum = self.slope + other.slope;
         let rounding = ROUNDED * self.slope.abs().max(other.slope.abs());
-        Part {
-            slope: if sum.abs() <= rounding { 0.0 } else { sum },
-            rest: self.rest.with(other.rest),
-            value: None,
+        let slope = if sum.abs() <= rounding { 0.0 } else { sum };
+        Part::new(slope, self.rest.with(other.rest))
+    }
+
+    /// What only repeats if the part does.
+    fn repeating(self) -> Part {
+        let moves = self.slope != 0.0;
+        let outside = Repeats::Never(WhyNot::Outside);
+        Part::new(0.0, if moves { outside } else { self.rest })
+    }
+
+    /// What is the same whenever the part grows by `length`.
+    fn wave(self, length: f64) -> Part {
+        if self.slope == 0.0 {
+            return self;
         }
+        let own = Period::near((length / self.slope).abs() / TAU, ROUNDED);
+        Part::new(0.0, self.rest.with(own.into()))
     }
 }
 
 impl Operand for Part {
     fn constant(value: f64) -> Part {
         Part {
-            slope: 0.0,
-            rest: Repeats::Always,
             value: Some(value),
+            ..Part::new(0.0, Repeats::Always)
         }
     }
 
     fn negated(self) -> Part {
-        self.times(-1.0)
+        Part {
+            value: self.value.map(|value| -value),
+            ..self.times(-1.0)
+        }
     }
 
     fn called(self, function: usize) -> Part {
@@ -108,10 +92,7 @@ impl Operand for Part {
             "sin" | "cos" => self.wave(TAU),
             "tan" => self.wave(PI),
             // It and the remainder make the part.
-            "floor" => Part {
-                slope: self.slope,
-                ..self.wave(1.0)
-            },
+            "floor" => Part::new(self.slope, self.wave(1.0).rest),
             _ => self.repeating(),
         };
         Part {

@@ -1,16 +1,89 @@
-//! Tables from CSV files.
+//! CSV files of two columns: tables of loads, calibrations of instruments.
 
 use std::path::Path;
 
-use super::pairs::Pairs;
-use super::rows::{Rows, columns_error};
-use super::{Interpolation, Table};
 #[cfg(feature = "cli")]
+use super::{
+    Interpolation, Table,
+    rows::{Rows, columns_error},
+};
 use crate::error::Error;
-use crate::scene::csv::{Column, header};
+#[cfg(feature = "cli")]
+use crate::scene::csv::Column;
+use crate::scene::csv::lines::{Dialect, OPEN_QUOTE, line_number};
+use crate::scene::csv::{cell, header};
+use crate::scene::number::counted;
+use crate::scene::text;
 use crate::scene::unit::Quantity;
-use crate::scene::{Problem, Variable, text};
+#[cfg(feature = "cli")]
+use crate::scene::{Problem, Variable};
 
+/// A text of two columns of numbers under a header, in the file of this name.
+struct Pairs<'a> {
+    name: &'a str,
+    text: &'a str,
+    dialect: Dialect,
+}
+
+impl<'a> Pairs<'a> {
+    fn new(name: &'a str, text: &'a str) -> Pairs<'a> {
+        let dialect = Dialect::of(text, 0);
+        Pairs {
+            name,
+            text,
+            dialect,
+        }
+    }
+
+    /// What is wrong with a row, after its place.
+    fn at(&self, row: &str, what: &str) -> String {
+        format!("{} line {}: {what}", self.name, line_number(self.text, row))
+    }
+
+    /// The two cells of the header.
+    fn header(&self, expected: &str) -> Result<[&'a str; 2], String> {
+        let row = self.dialect.rows(self.text).next().unwrap_or_default();
+        let what = match self.dialect.list(row)[..] {
+            _ if Dialect::open_quote(row).is_some() => OPEN_QUOTE.to_owned(),
+            [x, y] if [x, y].iter().all(|cell| cell.parse::<f64>().is_err()) => return Ok([x, y]),
+            [_, _] => {
+                format!("the first line must name the columns with their units, as `{expected}`")
+            }
+            [""] => "the file is empty".to_owned(),
+            ref cells => {
+                let columns = counted(cells.len(), "column");
+                format!("{columns} where 2 are expected, as `{expected}`")
+            }
+        };
+        Err(self.at(row, &what))
+    }
+
+    /// The rows below the header, each with its two numbers.
+    fn numbers(&self) -> Result<Vec<(&'a str, [f64; 2])>, String> {
+        let rows = self.dialect.rows(self.text).skip(1);
+        rows.map(|row| Ok((row, self.pair(row)?))).collect()
+    }
+
+    fn pair(&self, row: &str) -> Result<[f64; 2], String> {
+        if Dialect::open_quote(row).is_some() {
+            return Err(self.at(row, OPEN_QUOTE));
+        }
+        let cells = self.dialect.list(row);
+        let [x, y] = cells[..] else {
+            let what = format!("{} where 2 are expected", counted(cells.len(), "value"));
+            return Err(self.at(row, &what));
+        };
+        let number = |column: usize, text: &str| {
+            cell::parse(text, false).map_err(|wrong| {
+                let line = line_number(self.text, row);
+                format!("{} line {line} column {column}: {}", self.name, wrong.what)
+            })
+        };
+        Ok([number(1, x)?, number(2, y)?])
+    }
+}
+
+#[cfg(feature = "cli")]
 impl Table {
     /// Reads a CSV file with a header that names both columns and their units; problems name the key of the load that is to
     /// be changed.
@@ -35,15 +108,34 @@ impl Table {
         let [x, y] = [columns[0].factor, columns[1].factor];
         let rows = Rows {
             of,
-            points: list.iter().map(|pair| (pair.x * x, pair.y * y)).collect(),
+            points: list
+                .iter()
+                .map(|(_, pair)| (pair[0] * x, pair[1] * y))
+                .collect(),
             columns,
             whole: format!("{name}: "),
-            place: &|row| pairs.at(list[row].row, ""),
+            place: &|row| pairs.at(list[row].0, ""),
         };
         let curve = rows.curve(interpolation, period)?;
         let file = Some(file.to_owned());
         Ok(Table { of, curve, file })
     }
+}
+
+/// Units of the two columns.
+#[cfg(feature = "cli")]
+fn columns(pairs: &Pairs, of: Variable, value: Quantity) -> Result<[Column; 2], String> {
+    let of_name = of.name();
+    let cells = pairs.header(&format!("{of_name} [unit],value [unit]"))?;
+    let [first, second] = cells.map(header::split);
+    let columns = match first {
+        header::Header { name, .. } if name != of_name => Err(format!(
+            "the first column is `{name}` where `{of_name}` is expected"
+        )),
+        first => first.column(of.quantity()),
+    };
+    let columns = columns.and_then(|first| Ok([first, second.column(value)?]));
+    columns.map_err(|what| pairs.at(cells[0], &what))
 }
 
 /// A load as a table in a file of its own.
@@ -65,18 +157,15 @@ pub struct LoadTable {
 /// [`Error::Read`] if the file cannot be read, [`Error::Refused`] with what is wrong with the table.
 #[cfg(feature = "cli")]
 pub fn load_table(file: &Path) -> Result<Option<LoadTable>, Error> {
-    let name = file.display().to_string();
     let Ok(text) = text::decoded(text::bytes(file)?) else {
         return Ok(None);
     };
-    let Ok(cells) = Pairs::new(&name, &text).header("") else {
+    let Ok(cells) = Pairs::new("", &text).header("") else {
         return Ok(None);
     };
     let [first, second] = cells.map(header::split);
-    let loads = [Quantity::Torque, Quantity::Force, Quantity::Pressure];
-    let load = loads
-        .into_iter()
-        .find(|load| second.clone().column(*load).is_ok());
+    let mut loads = [Quantity::Torque, Quantity::Force, Quantity::Pressure].into_iter();
+    let load = loads.find(|load| second.clone().column(*load).is_ok());
     let (Some(of), Some(load)) = (Variable::named(&first.name), load) else {
         return Ok(None);
     };
@@ -89,20 +178,25 @@ pub fn load_table(file: &Path) -> Result<Option<LoadTable>, Error> {
     }))
 }
 
-/// Units of the two columns.
-fn columns(pairs: &Pairs, of: Variable, value: Quantity) -> Result<[Column; 2], String> {
-    let cells = pairs.header(&format!("{} [unit],value [unit]", of.name()))?;
-    let [first, second] = cells.map(header::split);
-    let wrong = |what: String| pairs.at(cells[0], &what);
-    if first.name != of.name() {
-        return Err(wrong(format!(
-            "the first column is `{}` where `{}` is expected",
-            first.name,
-            of.name()
-        )));
-    }
-    Ok([
-        first.column(of.quantity()).map_err(wrong)?,
-        second.column(value).map_err(wrong)?,
-    ])
+/// Reads a calibration: loads with a unit of force in the first column, N, readings of any kind in the
+/// second. The rows may stand in any order.
+///
+/// # Errors
+/// [`Error::Read`] if the file cannot be read, [`Error::Refused`] with line and column for what is no
+/// calibration.
+pub fn calibration_points(file: &Path) -> Result<Vec<(f64, f64)>, Error> {
+    let name = file.display().to_string();
+    let wrong = |what: String| {
+        let help = "the file has two columns, as `load [N],reading`, and a row for each load";
+        Error::refused(what, help)
+    };
+    let text = text::decoded(text::bytes(file)?);
+    let text = text.map_err(|what| wrong(format!("{name}: {what}")))?;
+    let pairs = Pairs::new(&name, &text);
+    let [load, _] = pairs.header("load [N],reading").map_err(wrong)?;
+    let unit = header::split(load).column(Quantity::Force);
+    let unit = unit.map_err(|what| wrong(pairs.at(load, &what)))?;
+    let points = pairs.numbers().map_err(wrong)?;
+    let point = |(_, [load, reading]): (&str, [f64; 2])| (load * unit.factor, reading);
+    Ok(points.into_iter().map(point).collect())
 }

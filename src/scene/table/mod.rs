@@ -1,9 +1,6 @@
 //! Loads given by measured or designed values: two columns, interpolated.
 
-mod calibration;
-#[cfg(feature = "cli")]
-pub(super) mod file;
-mod pairs;
+mod file;
 mod rows;
 
 use std::fmt;
@@ -14,7 +11,7 @@ use super::{Period, Repeats, Variable, WhyNot};
 use crate::numeric::enclosure::{Enclosed, Interval};
 use crate::numeric::interpolate::Curve;
 pub use crate::numeric::interpolate::Interpolation;
-pub use calibration::calibration_points;
+pub use file::calibration_points;
 #[cfg(feature = "cli")]
 pub use file::{LoadTable, load_table};
 use rows::Rows;
@@ -128,20 +125,14 @@ impl Table {
     /// The value farthest from zero, SI.
     pub(super) fn largest(&self) -> f64 {
         let values = self.curve.values().iter().copied();
-        values.fold(
-            0.0,
-            |most: f64, y| if y.abs() > most.abs() { y } else { most },
-        )
+        let farther = |most: f64, y: f64| if y.abs() > most.abs() { y } else { most };
+        values.fold(0.0, farther)
     }
 
     /// The least value, SI.
     pub(super) fn least(&self) -> f64 {
         let values = self.curve.values().iter().copied();
         values.fold(f64::INFINITY, f64::min)
-    }
-
-    pub(super) fn is_zero(&self) -> bool {
-        self.curve.values().iter().all(|y| *y == 0.0)
     }
 }
 

@@ -51,25 +51,21 @@ impl Rows<'_> {
 
     fn rise(&self) -> Result<(), Problem> {
         let points = &self.points;
+        let wrong =
+            |place: &str, what: String| Err(columns_error(self.of, format!("{place}{what}")));
         if points.len() < 2 {
             let rows = counted(points.len(), "row");
-            let what = format!("{}{rows} where at least 2 are needed", self.whole);
-            return Err(columns_error(self.of, what));
+            return wrong(&self.whole, format!("{rows} where at least 2 are needed"));
         }
         let finite = |(x, y): &(f64, f64)| x.is_finite() && y.is_finite();
         if let Some(row) = points.iter().position(|point| !finite(point)) {
-            let what = format!("{}a value is not finite", (self.place)(row));
-            return Err(columns_error(self.of, what));
+            return wrong(&(self.place)(row), "a value is not finite".to_owned());
         }
         if let Some(i) = points.windows(2).position(|w| w[1].0 <= w[0].0) {
-            let factor = self.columns[0].factor;
-            let what = format!(
-                "{}the first column must rise strictly, but {} does not follow {}",
-                (self.place)(i + 1),
-                show(points[i + 1].0 / factor),
-                show(points[i].0 / factor)
-            );
-            return Err(columns_error(self.of, what));
+            let [before, next] = [i, i + 1].map(|i| show(points[i].0 / self.columns[0].factor));
+            let what =
+                format!("the first column must rise strictly, but {next} does not follow {before}");
+            return wrong(&(self.place)(i + 1), what);
         }
         Ok(())
     }
@@ -79,54 +75,46 @@ impl Rows<'_> {
         let [argument, value] = &self.columns;
         let (first, last) = (self.points[0], self.points[self.points.len() - 1]);
         let span = last.0 - first.0;
+        let shown = argument.shown(period);
         let period_error = |what: String| {
             let help = "give the whole period after which the table repeats, or leave it out";
-            Problem::new("period", what, help)
+            Err(Problem::new("period", what, help))
         };
         if !matches!(self.of, Variable::Theta | Variable::T) {
-            let what = format!("a table over {} cannot repeat", self.of.name());
-            return Err(period_error(what));
+            return period_error(format!("a table over {} cannot repeat", self.of.name()));
         }
         if !(period > 0.0 && period.is_finite()) {
-            let what = format!("the period {} is not positive", argument.shown(period));
-            return Err(period_error(what));
+            return period_error(format!("the period {shown} is not positive"));
         }
         if span > period * (1.0 + SAME) {
-            return Err(period_error(format!(
-                "the period {} is shorter than the table, which spans {}",
-                argument.shown(period),
-                argument.shown(span)
-            )));
+            let span = argument.shown(span);
+            return period_error(format!(
+                "the period {shown} is shorter than the table, which spans {span}"
+            ));
         }
         if span < period * (1.0 - SAME) {
             return Ok(());
         }
         let largest = self.points.iter().fold(0.0f64, |m, p| m.max(p.1.abs()));
-        if (last.1 - first.1).abs() > SAME * largest {
+        let (what, help) = if (last.1 - first.1).abs() > SAME * largest {
             let (last, first) = apart(last.1 / value.factor, first.1 / value.factor);
-            let what = format!(
-                "{}it spans one period, so its last value must be its first one again, but they are {last} and {first}",
-                self.whole
-            );
-            return Err(Problem::new(
-                "file",
-                what,
+            (
+                format!(
+                    "it spans one period, so its last value must be its first one again, but they are {last} and {first}"
+                ),
                 "let the last row repeat the first value, or leave that row out",
-            ));
-        }
-        if self.points.len() < 3 {
-            let what = format!(
-                "{}a repeating table needs at least 2 rows within its period",
-                self.whole
-            );
-            return Err(Problem::new(
-                "file",
-                what,
+            )
+        } else if self.points.len() < 3 {
+            (
+                "a repeating table needs at least 2 rows within its period".to_owned(),
                 "add rows between the first and the last",
-            ));
-        }
-        self.points.pop();
-        Ok(())
+            )
+        } else {
+            self.points.pop();
+            return Ok(());
+        };
+        let what = format!("{}{what}", self.whole);
+        Err(Problem::new("file", what, help))
     }
 }
 

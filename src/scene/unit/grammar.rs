@@ -9,74 +9,58 @@ struct Product<'a> {
     total: Factor,
     /// Whether a sign of division has been met.
     divided: bool,
-    begun: bool,
     /// Power of this product in the one around it.
     power: i32,
-}
-
-impl<'a> Product<'a> {
-    fn new(text: &'a str, power: i32) -> Product<'a> {
-        Product {
-            text,
-            total: Factor::ONE,
-            divided: false,
-            begun: false,
-            power,
-        }
-    }
-
-    /// Reads what stands between two factors: the power of the next.
-    fn operator(&mut self, rest: &mut &str) -> Result<i32, String> {
-        let first = !std::mem::replace(&mut self.begun, true);
-        if let Some(after) = rest.strip_prefix('/') {
-            *rest = after.trim_start();
-            self.divided = true;
-            return Ok(-1);
-        }
-        if !first && self.divided {
-            return Err(format!(
-                "`{}` can be read in two ways: put what is divided by in brackets, as in `kg/(m s)`",
-                self.text
-            ));
-        }
-        let explicit = rest.strip_prefix(['*', '·', '⋅', '×', '.', '-']);
-        if let Some(after) = explicit.filter(|_| !first) {
-            *rest = after.trim_start();
-        }
-        Ok(1)
-    }
 }
 
 /// `unit := [1 /] factor { (space | · | * | . | - | /) factor }`, `factor := symbol [^]integer | ( unit )`. A hyphen
 /// before a digit is the sign of an exponent. Brackets may be nested at will: the open ones are a list.
 pub(super) fn unit_factor(text: &str) -> Result<Factor, String> {
+    let begin = |text, power| Product {
+        text,
+        total: Factor::ONE,
+        divided: false,
+        power,
+    };
     let mut rest = without_one(text.trim());
-    let mut product = Product::new(rest, 1);
+    let mut product = begin(rest, 1);
     let mut around = Vec::new();
     loop {
         rest = rest.trim_start();
         if rest.is_empty() || rest.starts_with(')') {
             let Some(outer) = around.pop() else { break };
             let inner = std::mem::replace(&mut product, outer);
-            rest = rest
-                .strip_prefix(')')
-                .ok_or_else(|| "a bracket of the unit is not closed".to_owned())?;
+            let after = rest.strip_prefix(')');
+            rest = after.ok_or_else(|| "a bracket of the unit is not closed".to_owned())?;
             product.total = product.total.times(inner.total, inner.power);
             continue;
         }
-        let power = product.operator(&mut rest)?;
+        let first = rest.len() == product.text.trim_start().len();
+        let mut power = 1;
+        if let Some(after) = rest.strip_prefix('/') {
+            (rest, power, product.divided) = (after.trim_start(), -1, true);
+        } else if !first && product.divided {
+            return Err(format!(
+                "`{}` can be read in two ways: put what is divided by in brackets, as in `kg/(m s)`",
+                product.text
+            ));
+        } else if !first && let Some(after) = rest.strip_prefix(['*', '·', '⋅', '×', '.', '-'])
+        {
+            rest = after.trim_start();
+        }
         if let Some(inner) = rest.strip_prefix('(') {
             rest = inner;
-            around.push(std::mem::replace(&mut product, Product::new(inner, power)));
+            around.push(std::mem::replace(&mut product, begin(inner, power)));
         } else {
             product.total = product.total.times(factor_of(&mut rest)?, power);
         }
     }
-    if rest.is_empty() {
-        Ok(product.total)
-    } else {
-        let unit = text.trim();
-        Err(format!("`{rest}` in the unit `{unit}` is not understood"))
+    match rest {
+        "" => Ok(product.total),
+        _ => Err(format!(
+            "`{rest}` in the unit `{}` is not understood",
+            text.trim()
+        )),
     }
 }
 

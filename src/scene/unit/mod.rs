@@ -46,22 +46,25 @@ impl fmt::Display for UnitError {
 /// assert!(parse("47 kg", Quantity::Length).is_err());
 /// ```
 pub fn parse(text: &str, quantity: Quantity) -> Result<f64, UnitError> {
-    let measured = measure(text).map_err(|what| match split(text) {
-        Ok((_, unit)) if !unit.is_empty() => wrong_unit(what, quantity),
-        _ => wrong(what, quantity),
+    let measured = measure(text).map_err(|what| {
+        let has_unit = split(text).is_ok_and(|(_, unit)| !unit.is_empty());
+        wrong(what, quantity, has_unit)
     })?;
     if let Some(value) = measured.of(quantity) {
         return Ok(value);
     }
     let unit = measured.unit;
+    // The unit with the pound as a force.
+    let force = unit.replace("lbs", "lb").replace("lb", "lbf");
+    let is_force = |factor: Factor| quantity.accepts(factor.dimension);
     let what = if unit.is_empty() {
         format!("`{text}` has no unit")
-    } else if let Some(force) = of_pounds_force(unit, quantity) {
+    } else if grammar::unit_factor(&force).is_ok_and(is_force) {
         format!("in `{unit}` the pound is a mass: write `{force}` for the force")
     } else {
         format!("`{unit}` is not the unit of {}", quantity.name())
     };
-    Err(wrong_unit(what, quantity))
+    Err(wrong(what, quantity, true))
 }
 
 /// A value with its standard error, SI and radians.
@@ -101,53 +104,38 @@ pub fn uncertain(text: &str, quantity: Quantity) -> Result<Uncertain, UnitError>
         error: with_unit(error, value)?,
         value: with_unit(value, error)?,
     };
-    match found.error < 0.0 {
-        true => Err(wrong(format!("the error `{error}` is negative"), quantity)),
-        false => Ok(found),
+    if found.error < 0.0 {
+        let what = format!("the error `{error}` is negative");
+        return Err(wrong(what, quantity, false));
     }
-}
-
-/// The unit with the pound as a force, if that makes it one of the quantity.
-fn of_pounds_force(unit: &str, quantity: Quantity) -> Option<String> {
-    let force = unit.replace("lbs", "lb").replace("lb", "lbf");
-    let factor = grammar::unit_factor(&force).ok()?;
-    quantity.accepts(factor.dimension).then_some(force)
+    Ok(found)
 }
 
 /// Reads `text` as a time (s) or an angle (rad); a bare 0 is a time.
 #[cfg(feature = "cli")]
 pub(super) fn time_or_angle(text: &str) -> Result<Every, UnitError> {
-    let wrong = |what: String| UnitError {
+    let measured = measure(text).and_then(|measured| {
+        let time = measured.of(Quantity::Time).map(Every::Time);
+        let angle = || measured.of(Quantity::Angle).map(Every::Angle);
+        time.or_else(angle).ok_or_else(|| match measured.unit {
+            "" => format!("`{text}` has no unit"),
+            _ => format!("`{text}` is neither a time nor an angle"),
+        })
+    });
+    measured.map_err(|what| UnitError {
         what,
         help: "write for example \"1 ms\" or \"1 deg\"".to_owned(),
-    };
-    let measured = measure(text).map_err(&wrong)?;
-    if let Some(time) = measured.of(Quantity::Time) {
-        Ok(Every::Time(time))
-    } else if let Some(angle) = measured.of(Quantity::Angle) {
-        Ok(Every::Angle(angle))
-    } else if measured.unit.is_empty() {
-        Err(wrong(format!("`{text}` has no unit")))
-    } else {
-        Err(wrong(format!("`{text}` is neither a time nor an angle")))
-    }
-}
-
-fn wrong(what: String, quantity: Quantity) -> UnitError {
-    UnitError {
-        what,
-        help: format!("write {} like {}", quantity.name(), quantity.examples()),
-    }
+    })
 }
 
 /// With the units there are, where one symbol is enough.
-fn wrong_unit(what: String, quantity: Quantity) -> UnitError {
-    let mut error = wrong(what, quantity);
-    let symbols = quantity.symbols();
-    if !symbols.is_empty() {
-        error.help += &format!("; units: {}", symbols.join(", "));
+fn wrong(what: String, quantity: Quantity, with_units: bool) -> UnitError {
+    let mut help = format!("write {} like {}", quantity.name(), quantity.examples());
+    let symbols: Vec<_> = symbol::symbols(quantity.dimension()).collect();
+    if with_units && !symbols.is_empty() {
+        help += &format!("; units: {}", symbols.join(", "));
     }
-    error
+    UnitError { what, help }
 }
 
 /// A number with a unit.

@@ -1,6 +1,6 @@
 //! What the values of a scene measure.
 
-use super::symbol::{self, Dimension};
+use super::symbol::Dimension;
 
 /// What a value of a scene file measures; fixes the units it may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,11 +83,6 @@ impl Quantity {
         self.facts().1
     }
 
-    /// Symbols of its units beside those made of several.
-    pub(super) fn symbols(self) -> Vec<&'static str> {
-        symbol::symbols(self.dimension()).collect()
-    }
-
     /// The quantity in words, with its article.
     pub fn name(self) -> &'static str {
         self.facts().0
@@ -112,11 +107,12 @@ impl Quantity {
     /// The SI unit as names of columns have it; empty for numbers.
     #[cfg(feature = "cli")]
     pub(crate) fn column(self) -> String {
-        let words = self.si().to_lowercase().replace("n m", "nm");
-        words
-            .replace('/', "_per_")
-            .replace('^', "")
-            .replace(' ', "_")
+        let words = self
+            .si()
+            .to_lowercase()
+            .replace("n m", "nm")
+            .replace('^', "");
+        words.replace('/', "_per_").replace(' ', "_")
     }
 
     /// Radians are a dimension only where leaving them out could be a mistake:

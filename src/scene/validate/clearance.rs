@@ -1,8 +1,8 @@
 //! Clearances that no joint can have.
 
-use super::super::number::{apart, show};
-use super::super::{Clearance, ContactLaw};
-use super::check::Check;
+use crate::scene::check::Check;
+use crate::scene::number::{apart, show};
+use crate::scene::{Clearance, ContactLaw};
 
 pub(super) fn clearance(list: &mut Check, clearance: &Clearance) {
     list.not_negative("clearance.radial", clearance.radial, "m");

@@ -1,7 +1,7 @@
 //! Loads that cannot be, or not where they act.
 
-use super::check::Check;
 use crate::scene::Load;
+use crate::scene::check::Check;
 use crate::scene::number::show;
 
 pub(super) fn load(list: &mut Check, field: &str, on_slider: bool, load: &Load) {

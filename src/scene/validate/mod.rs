@@ -1,19 +1,16 @@
 //! Values that no mechanism can have, wherever the scene comes from.
 
-mod check;
 mod clearance;
 mod loads;
-mod start;
 
 use std::f64::consts::TAU;
 
-use super::number::{apart, show};
+use super::check::Check;
+use super::number::{apart, computed, show};
 use super::{
-    Every, Extent, Friction, Geometry, InertiaAbout, Motion, MotionKind, Problem, Rod, RodModel,
-    Run, Scene,
+    Every, Extent, Friction, Geometry, InertiaAbout, Motion, MotionKind, Rod, RodModel, Run, Scene,
 };
 use crate::numeric::exact::sum3;
-use check::Check;
 
 /// Local error targets below this cannot be met in double precision.
 const LEAST_TOLERANCE: f64 = 1e-14;
@@ -21,21 +18,23 @@ const LEAST_TOLERANCE: f64 = 1e-14;
 /// More output rows than this, some hundred gigabytes, are a slip of the unit.
 pub(crate) const MOST_ROWS: f64 = 1e9;
 
+/// The limits of the crank angle are reached, also when rounding puts them outside by this part of the lengths.
+const LIMIT_ROUNDING: f64 = 1e-12;
+
+/// Larger angles, rad, are rounded by more than a hundredth of a degree.
+const LARGEST_ANGLE: f64 = 1e12;
+
+/// What decides whether the mechanism can be assembled.
+const LENGTHS: [&str; 3] = ["geometry.crank", "geometry.rod", "geometry.offset"];
+
 /// Adds one problem for each impossible value. Values that have a problem already are not compared with
 /// others: what follows from a problem is none of its own.
-pub(super) fn problems(scene: &Scene, known: &mut Vec<Problem>) {
-    let list = &mut Check(known);
+pub(super) fn problems(scene: &Scene, list: &mut Check) {
     geometry(list, &scene.geometry);
     if let Some(crank) = &scene.crank {
-        body(
-            list,
-            "crank",
-            crank.mass,
-            crank.inertia,
-            [crank.cg, crank.cg_lateral],
-        );
-        let squared = crank.cg * crank.cg + crank.cg_lateral * crank.cg_lateral;
-        list.inertia("crank", "O", crank.inertia, crank.mass * squared);
+        let cg = [crank.cg, crank.cg_lateral];
+        body(list, "crank", crank.mass, crank.inertia, cg);
+        inertia(list, "crank", "O", crank.inertia, crank.mass * square(cg));
     }
     if let Some(rod) = &scene.rod {
         self::rod(list, rod, scene.geometry.rod);
@@ -61,9 +60,7 @@ pub(super) fn problems(scene: &Scene, known: &mut Vec<Problem>) {
     if let Some(clearance) = &scene.clearance {
         clearance::clearance(list, clearance);
     }
-    start::angle(list, scene.motion.angle);
-    list.finite("motion.speed", scene.motion.speed);
-    start::reached(list, &scene.geometry, &scene.motion);
+    start(list, &scene.geometry, &scene.motion);
     run(list, &scene.run, &scene.motion);
 }
 
@@ -74,7 +71,7 @@ fn geometry(list: &mut Check, geometry: &Geometry) {
     let (r, l, e) = (geometry.crank, geometry.rod, geometry.offset);
     // Rounded once, after the difference: crank plus rod may be rounded up to the offset.
     let reach = sum3(r, l, -e.abs());
-    if reach < 0.0 && list.sound(start::LENGTHS) {
+    if reach < 0.0 && list.sound(LENGTHS) {
         let larger = if e.abs() > r + l {
             let (offset, most) = apart(e, r + l);
             format!("{offset} m is larger than crank plus rod, {most} m")
@@ -96,11 +93,48 @@ fn body(list: &mut Check, name: &str, mass: f64, inertia: f64, cg: [f64; 2]) {
     list.finite(format_args!("{name}.cg_lateral"), cg[1]);
 }
 
+fn square(cg: [f64; 2]) -> f64 {
+    cg[0] * cg[0] + cg[1] * cg[1]
+}
+
+/// The moment of inertia of a body about a point, against the `least` that its centre of gravity allows.
+fn inertia(list: &mut Check, body: &str, about: &str, inertia: f64, least: f64) {
+    const KEYS: [&str; 8] = [
+        "mass",
+        "cg",
+        "cg_lateral",
+        "inertia",
+        "density",
+        "length",
+        "width",
+        "depth",
+    ];
+    if inertia >= least * (1.0 - 1e-9) {
+        return;
+    }
+    let fields = KEYS.map(|key| format!("{body}.{key}"));
+    if list.sound(fields.each_ref().map(String::as_str)) {
+        let (inertia, least) = apart(inertia, least);
+        let what = format!(
+            "{inertia} kg m2 about {about} is less than mass times distance of the centre of gravity squared, {least} kg m2"
+        );
+        let help =
+            "no body has that: check inertia, mass and cg, and the point the inertia is about";
+        list.add(format_args!("{body}.inertia"), what, help);
+    }
+}
+
 fn rod(list: &mut Check, rod: &Rod, length: f64) {
-    body(list, "rod", rod.mass, rod.inertia, [rod.cg, rod.cg_lateral]);
+    let cg = [rod.cg, rod.cg_lateral];
+    body(list, "rod", rod.mass, rod.inertia, cg);
     if rod.inertia_about == InertiaAbout::CrankPin && rod.model == RodModel::Rigid {
-        let squared = rod.cg * rod.cg + rod.cg_lateral * rod.cg_lateral;
-        list.inertia("rod", "the crank pin", rod.inertia, rod.mass * squared);
+        inertia(
+            list,
+            "rod",
+            "the crank pin",
+            rod.inertia,
+            rod.mass * square(cg),
+        );
     }
     if rod.model != RodModel::TwoMass || rod.mass == 0.0 {
         return;
@@ -181,5 +215,61 @@ fn run(list: &mut Check, run: &Run, motion: &Motion) {
             format!("a tolerance of {} cannot be used", show(run.tolerance)),
             "give one from 1e-14 to 0.1; 1e-10 is the default",
         );
+    }
+}
+
+/// The crank angle at the start: its place in the turn is to be known, and the rod must reach the guide. A scene that
+/// says nothing of its motion has no start: its kinematics can be asked for all the same.
+fn start(list: &mut Check, geometry: &Geometry, motion: &Motion) {
+    let angle = motion.angle;
+    list.finite("motion.speed", motion.speed);
+    if list.finite("motion.angle", angle) && angle.abs() > LARGEST_ANGLE {
+        let what =
+            format!("{angle:e} rad is so many turns that rounding hides the place in the last one");
+        list.add("motion.angle", what, "give an angle below 1e12 rad");
+    }
+    let Geometry {
+        crank, rod, offset, ..
+    } = *geometry;
+    let distance = (offset + crank * angle.sin()).abs();
+    let outside = distance > rod + LIMIT_ROUNDING * (crank + rod);
+    if !outside
+        || *motion == Motion::default()
+        || !list.sound(LENGTHS)
+        || !list.sound(["motion.angle"])
+    {
+        return;
+    }
+    let ranges: Vec<String> = ranges(geometry)
+        .iter()
+        .map(|[from, to]| format!("from {} to {} deg", computed(*from), computed(*to)))
+        .collect();
+    list.add(
+        "motion.angle",
+        format!(
+            "the mechanism has no position at a crank angle of {} deg: the crank pin is {} m from the guide, the rod {} m long",
+            show(angle.to_degrees()),
+            computed(distance),
+            show(rod)
+        ),
+        format!("give an angle {}", ranges.join(" or ")),
+    );
+}
+
+/// The angles with |e + r sin θ| ≤ l, in degrees.
+fn ranges(geometry: &Geometry) -> Vec<[f64; 2]> {
+    let Geometry {
+        crank, rod, offset, ..
+    } = *geometry;
+    let angle = |sine: f64| sine.asin().to_degrees();
+    let (low, high) = ((-rod - offset) / crank, (rod - offset) / crank);
+    match (low > -1.0, high < 1.0) {
+        (true, true) => vec![
+            [angle(low), angle(high)],
+            [180.0 - angle(high), 180.0 - angle(low)],
+        ],
+        (true, false) => vec![[angle(low), 180.0 - angle(low)]],
+        (false, true) => vec![[180.0 - angle(high), 360.0 + angle(high)]],
+        (false, false) => Vec::new(),
     }
 }

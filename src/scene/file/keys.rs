@@ -1,10 +1,10 @@
 //! Every table and key a scene file may have: read by the reader, printed by `schema`.
 
-use super::unit::Quantity::{self, *};
-use Kind::{Choice, Formula, Of, Text, TimeOrAngle};
+use crate::scene::unit::Quantity::{self, *};
+use Kind::{Choice, Formula, Kinds, Of, Text, TimeOrAngle};
 
 /// What a key's value may be.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub enum Kind {
     /// A quantity with its unit.
     Of(Quantity),
@@ -12,6 +12,8 @@ pub enum Kind {
     TimeOrAngle,
     /// One of these words.
     Choice(&'static [&'static str]),
+    /// One of these kinds of load or motion.
+    Kinds(&'static [KindKeys]),
     /// A text: title, file name.
     Text,
     /// A quantity or, in loads of kind `expression`, a formula.
@@ -36,6 +38,7 @@ impl Key {
             Kind::Of(quantity) => quantity.examples().split(", ").next(),
             Kind::TimeOrAngle => Some("\"1 deg\""),
             Kind::Choice(words) => return format!("{} = \"{}\"", self.name, words[0]),
+            Kind::Kinds(kinds) => return format!("{} = \"{}\"", self.name, kinds[0].name),
             Kind::Text | Kind::Formula(_) => None,
         };
         format!("{} = {}", self.name, value.unwrap_or("\"...\""))
@@ -55,6 +58,21 @@ pub struct Section {
     pub required: &'static [&'static str],
     /// What it means, for the schema.
     pub meaning: &'static str,
+}
+
+impl Section {
+    /// The key with this name.
+    pub fn key(&self, name: &str) -> Option<&'static Key> {
+        self.keys.iter().find(|key| key.name == name)
+    }
+
+    /// The kinds of its tables, if there are several.
+    pub fn kinds(&self) -> &'static [KindKeys] {
+        match self.key("kind").map(|key| key.kind) {
+            Some(Kinds(kinds)) => kinds,
+            _ => &[],
+        }
+    }
 }
 
 /// Keys that a table of this kind takes beside `kind`; the first `required` must be there.
@@ -82,7 +100,7 @@ const TABLE_KEYS: &[&str] = &["file", "of", "period", "interpolation"];
 const DRY_KEYS: &[&str] = &["value", "file", "of", "period", "interpolation"];
 
 /// Kinds of `[[torque]]`.
-pub const TORQUES: &[KindKeys] = &[
+const TORQUES: &[KindKeys] = &[
     kind("constant", &["value"], 1),
     kind("viscous", &["coefficient"], 1),
     kind("motor", &["stall", "no_load_speed"], 2),
@@ -92,7 +110,7 @@ pub const TORQUES: &[KindKeys] = &[
 ];
 
 /// Kinds of `[[force]]`.
-pub const FORCES: &[KindKeys] = &[
+const FORCES: &[KindKeys] = &[
     kind("constant", &["value"], 1),
     kind("viscous", &["coefficient"], 1),
     kind("spring", &["stiffness", "rest"], 2),
@@ -107,7 +125,7 @@ pub const FORCES: &[KindKeys] = &[
 ];
 
 /// Kinds of `[motion]`.
-pub const MOTIONS: &[KindKeys] = &[
+const MOTIONS: &[KindKeys] = &[
     kind("free", &["angle", "speed"], 0),
     kind("constant-speed", &["speed", "angle"], 1),
 ];
@@ -186,7 +204,7 @@ pub const SECTIONS: &[Section] = sections! {
         direction: Of(Angle), "angle of the gravity vector from +x; default -90 deg, that is -y";
     }
     each torque("kind") "a torque on the crank, counter-clockwise positive; all add up" {
-        kind: Choice(&["constant", "viscous", "motor", "table", "dry", "expression"]), "kind of load";
+        kind: Kinds(TORQUES), "kind of load";
         value: Formula(Torque),
             "the torque; for kind dry its magnitude against motion, for kind expression a formula in SI of t, theta, omega, x, v";
         coefficient: Of(RotaryDamping), "viscous: torque = -coefficient*omega";
@@ -198,7 +216,7 @@ pub const SECTIONS: &[Section] = sections! {
         interpolation: Choice(INTERPOLATIONS), "table: default pchip";
     }
     each force("kind") "a force on the slider, along +x; all add up" {
-        kind: Choice(&["constant", "viscous", "spring", "table", "dry", "expression", "gas"]), "kind of load";
+        kind: Kinds(FORCES), "kind of load";
         value: Formula(Force),
             "the force; for kind dry its magnitude against motion, for kind expression a formula in SI of t, theta, omega, x, v";
         coefficient: Of(LinearDamping), "viscous: force = -coefficient*v";
@@ -233,7 +251,7 @@ pub const SECTIONS: &[Section] = sections! {
             "direction from the bearing's centre to the journal's at the start, from +x; default: as the ideal joint is loaded";
     }
     one motion() "initial or prescribed motion of the crank; absent: free, at rest at 0" {
-        kind: Choice(&["free", "constant-speed"]), "default free";
+        kind: Kinds(MOTIONS), "default free";
         angle: Of(Angle), "initial crank angle; default 0";
         speed: Of(AngularSpeed), "initial crank speed, default 0, or the constant one";
     }

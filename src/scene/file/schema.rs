@@ -2,8 +2,8 @@
 
 use serde_json::{Map, Value, json};
 
-use super::keys::{FORCES, Key, Kind, KindKeys, MOTIONS, SECTIONS, Section, TORQUES};
-use super::unit::{self, Quantity};
+use super::keys::{Key, Kind, KindKeys, SECTIONS, Section};
+use crate::scene::unit::{self, Quantity};
 
 /// The schema, draft 2020-12.
 ///
@@ -43,11 +43,8 @@ fn table(section: &Section) -> Value {
         "required": section.required,
         "additionalProperties": false,
     });
-    match section.name {
-        "torque" => one["allOf"] = kinds(section, TORQUES),
-        "force" => one["allOf"] = kinds(section, FORCES),
-        "motion" => one["allOf"] = kinds(section, MOTIONS),
-        _ => {}
+    if !section.kinds().is_empty() {
+        one["allOf"] = kinds(section);
     }
     if section.repeated {
         json!({"type": "array", "items": one})
@@ -57,7 +54,8 @@ fn table(section: &Section) -> Value {
 }
 
 /// Each kind with the keys it needs, and the units of what is a formula in another.
-fn kinds(section: &Section, kinds: &[KindKeys]) -> Value {
+fn kinds(section: &Section) -> Value {
+    let kinds = section.kinds();
     kinds
         .iter()
         .map(|kind| {
@@ -95,6 +93,9 @@ fn property(key: &Key) -> Value {
             json!({"type": ["string", "number"], "examples": examples(&[quantity])})
         }
         Kind::Choice(words) => json!({"enum": words}),
+        Kind::Kinds(kinds) => {
+            json!({"enum": kinds.iter().map(|kind| kind.name).collect::<Vec<_>>()})
+        }
         Kind::Text => json!({"type": "string"}),
     };
     value["description"] = json!(key.meaning);

@@ -1,12 +1,10 @@
-//! Scenes that come with the program.
+//! Scenes from files, and the one that comes with the program.
 
 use std::path::Path;
 
-use super::{Draft, Problems, Scene};
+use super::Draft;
 use crate::error::Error;
-
-/// The engine of Duarte et al. 2018, table 1, spinning freely; the scene of commands without one.
-pub const DUARTE: &str = include_str!("../../data/duarte-engine.toml");
+use crate::scene::{Problems, Scene};
 
 impl Scene {
     /// The built-in scene: the Diesel engine of Duarte et al. 2018, table 1, in free spin.

@@ -4,8 +4,8 @@ use std::borrow::Cow;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
-use super::number::counted;
-use super::{Problem, Problems, printable};
+use crate::scene::number::counted;
+use crate::scene::{Problem, Problems};
 
 /// Problems that are shown; of more, the number.
 const MOST_SHOWN: usize = 20;
@@ -65,4 +65,32 @@ fn shortened(text: &str) -> Cow<'_, str> {
     let start: String = text.chars().take(half).collect();
     let end: String = text.chars().skip(count - half).collect();
     Cow::Owned(format!("{start} ... {end}"))
+}
+
+/// The text with control characters, and those that turn the direction of writing, as their codes: what a title or a
+/// name says is shown, never obeyed. Line feeds and tabs stay.
+///
+/// ```
+/// use slider_crank::scene::printable;
+/// assert_eq!(printable("a\u{1b}[31mb\r\n\tc\u{202e}\u{9b}"), "a\\u{1b}[31mb\\r\n\tc\\u{202e}\\u{9b}");
+/// assert_eq!(printable("θ = 3°"), "θ = 3°");
+/// ```
+pub fn printable(text: &str) -> Cow<'_, str> {
+    if !text.contains(commands) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len());
+    for c in text.chars() {
+        if commands(c) {
+            shown.extend(c.escape_default());
+        } else {
+            shown.push(c);
+        }
+    }
+    Cow::Owned(shown)
+}
+
+fn commands(c: char) -> bool {
+    let turns = matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    turns || (c.is_control() && !matches!(c, '\n' | '\t'))
 }

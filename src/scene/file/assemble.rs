@@ -1,69 +1,87 @@
 //! Values that have been read, put together to a scene: defaults, boxes, loads.
 
-mod bodies;
-mod loads;
-
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
-use super::keys::{self, KindKeys};
-use super::read::{Reader, Values};
-use super::{
-    Branch, Clearance, ContactLaw, Extent, Friction, Gravity, Joint, Load, Motion, MotionKind, Run,
-    Scene,
+use super::read::{Contents, Values};
+use super::{bodies, loads};
+use crate::scene::check::Check;
+use crate::scene::{
+    Branch, Clearance, ContactLaw, Extent, Friction, Gravity, Joint, Load, Motion, MotionKind,
+    Places, Run, Scene,
 };
 
 /// The scene of these tables. What is missing or could not be read has a value that raises no further
 /// problem; a scene with problems is not handed out.
-pub(super) fn scene(
-    reader: &mut Reader,
-    title: Option<String>,
-    tables: &[Values],
-    folder: &Path,
-) -> Scene {
+pub(super) fn scene(check: &mut Check, contents: Contents) -> Scene {
+    let tables = &contents.tables;
+    tables.iter().for_each(|values| required(check, values));
     let find = |name: &str| tables.iter().find(|values| values.section.name == name);
-    if find("geometry").is_none() && !reader.doubtful("geometry") {
-        reader.problem(
-            "geometry",
-            "the scene has no [geometry]",
-            "add [geometry] with crank = \"47 mm\" and rod = \"155.83 mm\"",
-        );
+    let geometry = find("geometry");
+    if geometry.is_none() && check.sound(["geometry"]) {
+        let help = "add [geometry] with crank = \"47 mm\" and rod = \"155.83 mm\"";
+        check.add("geometry", "the scene has no [geometry]", help);
     }
     let length = |key: &str, default: f64| {
-        let values = find("geometry");
-        values.and_then(|g| g.number(key)).unwrap_or(default)
+        let length = geometry.and_then(|values| values.number(key));
+        length.unwrap_or(default)
     };
     let mut scene = Scene::new(length("crank", 1.0), length("rod", 2.0));
-    scene.title = title;
+    scene.title = contents.title;
     scene.geometry.offset = length("offset", 0.0);
-    if find("geometry").and_then(|g| g.text("branch")) == Some("left") {
+    if geometry.and_then(|values| values.text("branch")) == Some("left") {
         scene.geometry.branch = Branch::Left;
     }
-    scene.crank = find("crank").map(|values| bodies::crank(reader, values));
-    scene.rod = find("rod").map(|values| bodies::rod(reader, values, scene.geometry.rod));
-    scene.slider = find("slider").map(|values| bodies::slider(reader, values));
-    scene.gravity = find("gravity").and_then(gravity);
+    scene.crank = find("crank").map(|values| bodies::crank(check, values));
+    scene.rod = find("rod").map(|values| bodies::rod(check, values, scene.geometry.rod));
+    scene.slider = find("slider").map(|values| bodies::slider(check, values));
+    scene.gravity = find("gravity").and_then(|values| gravity(values));
     for values in tables {
         let list = match values.section.name {
             "torque" => &mut scene.torques,
             "force" => &mut scene.forces,
             _ => continue,
         };
-        let branch = scene.geometry.branch;
-        let known = values.load.clone();
-        let load = known.or_else(|| loads::load(reader, values, branch, folder));
+        let known = values.load.get().cloned();
+        let load = known.or_else(|| loads::load(check, values));
         // A load that could not be read keeps its place: problems of the others count the loads.
-        list.push(load.unwrap_or(Load::Constant(0.0)));
+        let mut load = load.unwrap_or(Load::Constant(0.0));
+        if check.problems.is_empty() {
+            values.load.get_or_init(|| load.clone());
+        }
+        if let Load::Gas { towards_crank, .. } = &mut load {
+            *towards_crank = -scene.geometry.branch.sign();
+        }
+        list.push(load);
     }
-    scene.friction = find("friction").and_then(friction);
-    scene.clearance = find("clearance").and_then(clearance);
+    scene.friction = find("friction").and_then(|values| friction(values));
+    scene.clearance = find("clearance").and_then(|values| clearance(values));
     if let Some(values) = find("motion") {
-        scene.motion = motion(reader, values);
+        scene.motion = motion(check, values);
     }
     if let Some(values) = find("run") {
-        scene.run = run(reader, values);
+        scene.run = run(check, values);
     }
     scene
+}
+
+/// Where the tables that a scene names are looked for: beside it.
+pub(super) fn folder(places: &Places) -> &Path {
+    let file = places.0.as_ref().map(|source| source.file.as_path());
+    file.and_then(Path::parent).unwrap_or(Path::new(""))
+}
+
+/// Keys that every table of the section has.
+fn required(check: &mut Check, values: &Values) {
+    let section = values.section;
+    let required = section.required.iter();
+    let missing = required.filter(|name| !check.met(values, name));
+    let missing: Vec<_> = missing.filter_map(|name| section.key(name)).collect();
+    for key in missing {
+        let what = format!("`{}` is missing in {}", key.name, section.name);
+        let help = format!("add {}: {}", key.example(), key.meaning);
+        check.add(values.field(key.name), what, help);
+    }
 }
 
 fn gravity(values: &Values) -> Option<Gravity> {
@@ -105,13 +123,11 @@ fn clearance(values: &Values) -> Option<Clearance> {
     })
 }
 
-fn motion(reader: &mut Reader, values: &Values) -> Motion {
-    let word = values.text("kind").unwrap_or("free");
-    if let Some(kind) = keys::MOTIONS.iter().find(|kind| kind.name == word) {
-        keys_fit(reader, values, kind);
-    }
+fn motion(check: &mut Check, values: &Values) -> Motion {
+    let kind = values.text("kind").unwrap_or("free");
+    keys_fit(check, values, kind);
     Motion {
-        kind: match word {
+        kind: match kind {
             "constant-speed" => MotionKind::ConstantSpeed,
             _ => MotionKind::Free,
         },
@@ -122,29 +138,34 @@ fn motion(reader: &mut Reader, values: &Values) -> Motion {
 
 /// Whether all keys that the kind needs are there. Those that are not are reported, and those of other
 /// kinds.
-fn keys_fit(reader: &mut Reader, values: &Values, kind: &KindKeys) -> Option<()> {
+pub(super) fn keys_fit(check: &mut Check, values: &Values, kind: &str) -> Option<()> {
+    let section = values.section;
+    let kind = section.kinds().iter().find(|one| one.name == kind)?;
     for name in values.names().filter(|name| *name != "kind") {
         if !kind.keys.contains(&name) {
             let what = format!("`{name}` does not belong to kind \"{}\"", kind.name);
             let help = format!("kind \"{}\" has {}", kind.name, kind.keys.join(", "));
-            reader.problem(&values.field(name), what, help);
+            check.add(values.field(name), what, help);
         }
     }
     let required = &kind.keys[..kind.required];
-    let known = values.section.keys.iter();
-    for key in known.filter(|key| required.contains(&key.name)) {
+    for key in section
+        .keys
+        .iter()
+        .filter(|key| required.contains(&key.name))
+    {
         let what = format!("`{}` is missing for kind \"{}\"", key.name, kind.name);
-        reader.missing(values, key.name, what, format!("add {}", key.example()));
+        check.missing(values, key.name, what, format!("add {}", key.example()));
     }
     required.iter().all(|name| values.has(name)).then_some(())
 }
 
-fn run(reader: &mut Reader, values: &Values) -> Run {
+fn run(check: &mut Check, values: &Values) -> Run {
     let duration = values.number("duration").map(Extent::Duration);
     let revolutions = values.number("revolutions").map(Extent::Revolutions);
     if duration.is_some() && revolutions.is_some() {
-        reader.problem(
-            &values.field("revolutions"),
+        check.add(
+            values.field("revolutions"),
             "the run has both `duration` and `revolutions`",
             "keep one of them",
         );

@@ -1,0 +1,153 @@
+//! Mass properties, from their own keys or from density and box.
+
+use super::read::Values;
+use crate::scene::check::Check;
+use crate::scene::number::{apart, show};
+use crate::scene::{Crank, InertiaAbout, Rod, RodModel, Slider};
+
+const BOX: [&str; 4] = ["density", "length", "width", "depth"];
+
+/// What mass and box say of a body.
+struct Solid {
+    /// kg
+    mass: Option<f64>,
+    /// Moment of inertia of the box about its centre, kg m².
+    box_inertia: Option<f64>,
+    /// Whether a part of the box is given, be it right or wrong.
+    boxed: bool,
+}
+
+fn solid(check: &mut Check, values: &Values) -> Solid {
+    let stated = values.number("mass");
+    let mut solid = Solid {
+        mass: stated,
+        box_inertia: None,
+        boxed: BOX.iter().any(|key| check.met(values, key)),
+    };
+    if !solid.boxed {
+        return solid;
+    }
+    for key in BOX {
+        let what = format!("`{key}` is missing for the mass from density and box");
+        let help = "give density, length, width and depth";
+        check.missing(values, key, what, help);
+        if let Some(value) = values.number(key).filter(|value| *value <= 0.0) {
+            let what = format!("`{key}` is {}, which is not positive", show(value));
+            check.add(values.field(key), what, "give the size of a real body");
+        }
+    }
+    let sizes = BOX.map(|key| values.number(key).filter(|value| *value > 0.0));
+    if let [Some(density), Some(length), Some(width), Some(depth)] = sizes {
+        let from_box = density * length * width * depth;
+        agree(check, values, "mass", from_box, "kg");
+        let mass = stated.unwrap_or(from_box);
+        solid.mass = Some(mass);
+        solid.box_inertia = Some(mass * (length * length + width * width) / 12.0);
+    }
+    solid
+}
+
+/// What is stated beside a box must be what the box gives, to one percent.
+fn agree(check: &mut Check, values: &Values, key: &str, from_box: f64, unit: &str) {
+    if let Some(stated) = values.number(key)
+        && (stated - from_box).abs() > 0.01 * from_box.abs()
+    {
+        let (stated, from_box) = apart(stated, from_box);
+        let what =
+            format!("`{key}` is {stated} {unit}, but density and box give {from_box} {unit}");
+        let help = format!("leave out `{key}`, or leave out density and box");
+        check.add(values.field(key), what, help);
+    }
+}
+
+impl Solid {
+    /// A body of which one of these keys is not zero has a mass.
+    fn needs_mass(&self, check: &mut Check, values: &Values, keys: &[&str], why: &str) {
+        let is_given = |key: &&str| values.number(key).is_some_and(|value| value != 0.0);
+        if self.mass.is_none() && !self.boxed && (keys.is_empty() || keys.iter().any(is_given)) {
+            let what = format!("`mass` is missing{why}");
+            let help = "add mass = \"0.5 kg\", or density, length, width and depth";
+            check.missing(values, "mass", what, help);
+        }
+    }
+
+    /// A body with mass needs a key that a box would give.
+    fn needs(&self, check: &mut Check, values: &Values, body: &str, key: &str, help: &str) {
+        let mass = self.mass.unwrap_or(0.0);
+        if mass != 0.0 && !self.boxed {
+            let what = format!("the {body} has a mass of {} kg but no `{key}`", show(mass));
+            check.missing(values, key, what, help);
+        }
+    }
+
+    /// The inertia that is stated, or the one of the box about a point that is `squared` (m²) from its centre.
+    fn inertia(&self, check: &mut Check, values: &Values, squared: f64) -> f64 {
+        let central = self.box_inertia;
+        let from_box = central.map(|central| central + self.mass.unwrap_or(0.0) * squared);
+        if let Some(from_box) = from_box {
+            agree(check, values, "inertia", from_box, "kg m2");
+        }
+        values.number("inertia").or(from_box).unwrap_or(0.0)
+    }
+}
+
+pub(super) fn slider(check: &mut Check, values: &Values) -> Slider {
+    let body = solid(check, values);
+    body.needs_mass(check, values, &[], "");
+    Slider {
+        mass: body.mass.unwrap_or(0.0),
+    }
+}
+
+pub(super) fn crank(check: &mut Check, values: &Values) -> Crank {
+    let body = solid(check, values);
+    let cg = values.number("cg").unwrap_or(0.0);
+    let cg_lateral = values.number("cg_lateral").unwrap_or(0.0);
+    let why = ": the crank has a centre of gravity away from O";
+    body.needs_mass(check, values, &["cg", "cg_lateral"], why);
+    let inertia = body.inertia(check, values, cg * cg + cg_lateral * cg_lateral);
+    let help = "add inertia = \"... kg mm^2\" about O, or density, length, width and depth";
+    body.needs(check, values, "body", "inertia", help);
+    Crank {
+        mass: body.mass.unwrap_or(0.0),
+        cg,
+        cg_lateral,
+        inertia,
+    }
+}
+
+pub(super) fn rod(check: &mut Check, values: &Values, length: f64) -> Rod {
+    let model = match values.text("model") {
+        Some("two-mass") => RodModel::TwoMass,
+        Some("spin-only") => RodModel::SpinOnly,
+        Some("massless") => RodModel::Massless,
+        _ => RodModel::Rigid,
+    };
+    let body = solid(check, values);
+    if model != RodModel::Massless {
+        let why = ": the rod has a centre of gravity or a moment of inertia";
+        body.needs_mass(check, values, &["cg", "cg_lateral", "inertia"], why);
+        let help = "add cg = \"... mm\", measured from the crank pin along the rod";
+        body.needs(check, values, "rod", "cg", help);
+    }
+    let middle = if body.boxed { length / 2.0 } else { 0.0 };
+    let cg = values.number("cg").unwrap_or(middle);
+    let cg_lateral = values.number("cg_lateral").unwrap_or(0.0);
+    let (inertia_about, squared) = match values.text("inertia_about") {
+        Some("crank-pin") => (InertiaAbout::CrankPin, cg * cg + cg_lateral * cg_lateral),
+        _ => (InertiaAbout::Cg, 0.0),
+    };
+    let inertia = body.inertia(check, values, squared);
+    if matches!(model, RodModel::Rigid | RodModel::SpinOnly) {
+        let help = "add inertia = \"... kg mm^2\" (see inertia_about), or density, length, width and depth";
+        body.needs(check, values, "body", "inertia", help);
+    }
+    Rod {
+        model,
+        mass: body.mass.unwrap_or(0.0),
+        cg,
+        cg_lateral,
+        inertia,
+        inertia_about,
+    }
+}

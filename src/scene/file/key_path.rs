@@ -1,0 +1,119 @@
+//! Where a value stands in a scene.
+
+use std::fmt;
+use std::str::FromStr;
+
+use super::keys::{self, Key, Kind, Section};
+use crate::scene::unit::Quantity;
+
+/// The place of a value in a scene, as `geometry.offset` or `torque[2].value`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct KeyPath {
+    pub section: &'static Section,
+    /// Which of several tables, from 0.
+    pub index: usize,
+    pub key: &'static Key,
+}
+
+impl KeyPath {
+    /// What the key measures, if it takes a quantity.
+    pub fn quantity(&self) -> Option<Quantity> {
+        match self.key.kind {
+            Kind::Of(quantity) | Kind::Formula(quantity) => Some(quantity),
+            _ => None,
+        }
+    }
+
+    /// The SI unit as scene files have it; empty for numbers and words.
+    pub fn unit(&self) -> &'static str {
+        self.quantity().map_or("", Quantity::si)
+    }
+
+    /// The path as the name of a column.
+    pub fn column(&self) -> String {
+        let name = self.to_string();
+        name.replace('[', "_").replace("].", "_").replace('.', "_")
+    }
+}
+
+/// The number of a table counts from 1 and may be left out where the first is meant.
+impl FromStr for KeyPath {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<KeyPath, String> {
+        let (table, name) = text.split_once('.').ok_or_else(|| {
+            format!("`{text}` is no key of a scene; write it like geometry.offset")
+        })?;
+        let (table, index) = numbered(table).ok_or_else(|| {
+            format!("`{table}` does not end in a number from 1 on, like torque[1]")
+        })?;
+        let section = keys::section(table).ok_or_else(|| {
+            let known = keys::SECTIONS.iter().map(|section| section.name);
+            let help = keys::did_you_mean(table, "a scene", known);
+            format!("`{table}` is not part of a scene; {help}")
+        })?;
+        let key = section.key(name).ok_or_else(|| {
+            let known = section.keys.iter().map(|key| key.name);
+            let help = keys::did_you_mean(name, table, known);
+            format!("`{name}` is not a key of {table}; {help}")
+        })?;
+        match index > 0 && !section.repeated {
+            true => Err(format!(
+                "a scene has one {table} only; write {table}.{name}"
+            )),
+            false => Ok(KeyPath {
+                section,
+                index,
+                key,
+            }),
+        }
+    }
+}
+
+impl fmt::Display for KeyPath {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (section, key) = (self.section.name, self.key.name);
+        match self.section.repeated {
+            true => write!(f, "{section}[{}].{key}", self.index + 1),
+            false => write!(f, "{section}.{key}"),
+        }
+    }
+}
+
+/// `torque[2]` as its name and its index from 0.
+fn numbered(table: &str) -> Option<(&str, usize)> {
+    let Some((name, number)) = table.split_once('[') else {
+        return Some((table, 0));
+    };
+    let number: usize = number.strip_suffix(']')?.trim().parse().ok()?;
+    Some((name, number.checked_sub(1)?))
+}
+
+/// A key of a scene that takes a quantity, read from a text like `crank.inertia` or `torque[2].coefficient`.
+#[derive(Clone, Copy, Debug)]
+pub struct NumberKey(pub(super) KeyPath);
+
+impl NumberKey {
+    /// The SI unit as scene files have it; empty for numbers.
+    pub fn unit(&self) -> &'static str {
+        self.0.unit()
+    }
+}
+
+impl fmt::Display for NumberKey {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl FromStr for NumberKey {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<NumberKey, String> {
+        let path: KeyPath = text.trim().parse()?;
+        match path.quantity() {
+            Some(_) => Ok(NumberKey(path)),
+            None => Err(format!("`{path}` holds no quantity")),
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! Scene files: from text to a [`Scene`](super::Scene), and to scenes with other values.
+//!
+//! [`read`] makes the text the values of each table, by the list of all [`keys`]; [`Draft`] sets values in place of these;
+//! [`assemble`] puts a scene together.
+
+mod assemble;
+mod bodies;
+mod draft;
+mod key_path;
+mod keys;
+mod loads;
+mod read;
+mod render;
+mod scene;
+mod schema;
+mod value;
+mod varied;
+
+pub(crate) use draft::DUARTE;
+pub use draft::{Assigned, Draft};
+pub use key_path::NumberKey;
+pub(crate) use keys::nearest;
+pub use render::printable;
+pub use schema::schema;
+pub use varied::{Varied, VariedValue};

@@ -1,0 +1,289 @@
+//! Scene files: from TOML to the values of each table, with the place of everything that is wrong.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::{Arc, OnceLock};
+
+use toml::de::{DeTable, DeValue};
+
+use super::VariedValue;
+use super::key_path::KeyPath;
+use super::keys::{self, Key, Kind, Section};
+use super::value::{self, Value};
+use crate::scene::check::Check;
+use crate::scene::places::Spans;
+use crate::scene::unit::Uncertain;
+use crate::scene::{Every, Load, Problem};
+
+/// The values of one table that could be read, by key.
+#[derive(Clone, Debug)]
+pub(super) struct Values {
+    pub section: &'static Section,
+    /// The load of the table, once it is known.
+    pub load: OnceLock<Load>,
+    path: String,
+    entries: BTreeMap<&'static str, Value>,
+}
+
+impl Values {
+    pub fn new(section: &'static Section, path: String) -> Values {
+        Values {
+            section,
+            load: OnceLock::new(),
+            path,
+            entries: BTreeMap::new(),
+        }
+    }
+
+    /// Puts a value in place of the one of a key, or beside the others; none for one that could not be read.
+    pub fn set(&mut self, key: &'static Key, value: Option<Value>) {
+        self.load = OnceLock::new();
+        match value {
+            Some(value) => self.entries.insert(key.name, value),
+            None => self.entries.remove(key.name),
+        };
+    }
+
+    pub fn number(&self, key: &str) -> Option<f64> {
+        match self.entries.get(key) {
+            Some(Value::Number(number)) => Some(number.value),
+            _ => None,
+        }
+    }
+
+    /// The quantity of a key with its standard error, also where a formula may stand.
+    pub fn uncertain(&self, key: &Key) -> Option<Uncertain> {
+        self.entries.get(key.name)?.number(key.kind)
+    }
+
+    /// A text or the word of a choice.
+    pub fn text(&self, key: &str) -> Option<&str> {
+        match self.entries.get(key) {
+            Some(Value::Text(text)) => Some(text),
+            Some(Value::Choice(word)) => Some(word),
+            _ => None,
+        }
+    }
+
+    /// A number without quotes where a quantity or a formula may stand.
+    pub fn bare(&self, key: &str) -> Option<&str> {
+        match self.entries.get(key) {
+            Some(Value::Bare(digits)) => Some(digits),
+            _ => None,
+        }
+    }
+
+    pub fn every(&self, key: &str) -> Option<Every> {
+        match self.entries.get(key) {
+            Some(Value::Every(every)) => Some(*every),
+            _ => None,
+        }
+    }
+
+    pub fn has(&self, key: &str) -> bool {
+        self.entries.contains_key(key)
+    }
+
+    pub fn names(&self) -> impl Iterator<Item = &'static str> + '_ {
+        self.entries.keys().copied()
+    }
+
+    /// The name of a key in problems, as `torque[1].value`.
+    pub fn field(&self, key: &str) -> String {
+        format!("{}.{key}", self.path)
+    }
+}
+
+/// What a document says, as far as it could be read.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Contents {
+    pub title: Option<String>,
+    pub tables: Vec<Arc<Values>>,
+    pub problems: Vec<Problem>,
+    /// Where keys and tables stand.
+    pub spans: Spans,
+}
+
+impl Contents {
+    pub fn of(document: &DeTable<'_>) -> Contents {
+        let mut found = Contents::default();
+        for (key, value) in document.iter() {
+            let name = key.get_ref().as_ref();
+            found.spans.insert(name.to_owned(), key.span());
+            if name == "title" {
+                found.title = value.get_ref().as_str().map(str::to_owned);
+                if found.title.is_none() {
+                    found.problem(name, "the title is not a text", "write title = \"...\"");
+                }
+            } else if let Some(section) = keys::section(name) {
+                found.section(section, value.get_ref());
+            } else {
+                let known = keys::SECTIONS.iter().map(|s| s.name).chain(["title"]);
+                let help = keys::did_you_mean(name, "a scene", known);
+                found.problem(name, format!("`{name}` is not part of a scene"), help);
+            }
+        }
+        found
+    }
+
+    fn problem(&mut self, field: &str, what: impl Into<String>, help: impl Into<String>) {
+        self.problems.push(Problem::new(field, what, help));
+    }
+
+    /// The tables of one section: one, or each `[[name]]`.
+    fn section(&mut self, section: &'static Section, value: &DeValue<'_>) {
+        let name = section.name;
+        match (value, section.repeated) {
+            (DeValue::Table(table), false) => self.read(section, name.to_owned(), table),
+            (DeValue::Array(array), true) if array.iter().all(|item| item.get_ref().is_table()) => {
+                for (i, item) in array.iter().enumerate() {
+                    let path = format!("{name}[{}]", i + 1);
+                    self.spans.insert(path.clone(), item.span());
+                    if let DeValue::Table(table) = item.get_ref() {
+                        self.read(section, path, table);
+                    }
+                }
+            }
+            (_, true) => {
+                let what = format!("`{name}` must be a list of tables");
+                self.problem(name, what, format!("begin each {name} with [[{name}]]"));
+            }
+            (_, false) => {
+                let what = format!("`{name}` must be a table");
+                self.problem(name, what, format!("begin it with [{name}], once"));
+            }
+        }
+    }
+
+    fn read(&mut self, section: &'static Section, path: String, table: &DeTable<'_>) {
+        let mut values = Values::new(section, path);
+        for (name, value) in table.iter() {
+            let field = values.field(name.get_ref());
+            let key = section.key(name.get_ref());
+            let span = key.map_or_else(|| name.span(), |_| value.span());
+            self.spans.insert(field.clone(), span);
+            let Some(key) = key else {
+                let name = name.get_ref();
+                let what = format!("`{name}` is not a key of {}", section.name);
+                let known = section.keys.iter().map(|key| key.name);
+                self.problem(&field, what, keys::did_you_mean(name, section.name, known));
+                continue;
+            };
+            match value::read(key, value.get_ref()) {
+                Ok(read) => values.set(key, Some(read)),
+                Err(error) => self.problem(&field, error.what, error.help),
+            }
+        }
+        self.tables.push(Arc::new(values));
+    }
+
+    /// The tables of a section.
+    pub fn of_section(&self, section: &Section) -> impl Iterator<Item = &Values> {
+        let tables = self.tables.iter().map(|values| &**values);
+        tables.filter(move |values| values.section.name == section.name)
+    }
+
+    /// The table of a key, which is added if there is to be one only.
+    ///
+    /// # Errors
+    /// If the scene has fewer tables of this name.
+    pub fn table(&mut self, path: &KeyPath) -> Result<&mut Values, Problem> {
+        let (section, name) = (path.section, path.section.name);
+        let count = self.of_section(section).count();
+        if count == 0 && !section.repeated {
+            let values = Values::new(section, name.to_owned());
+            self.tables.push(Arc::new(values));
+        }
+        let mut tables = self.tables.iter_mut();
+        let found = tables
+            .by_ref()
+            .filter(|values| values.section.name == name)
+            .nth(path.index);
+        found.map(Arc::make_mut).ok_or_else(|| {
+            let what = format!("`{path}` cannot be set: tables [[{name}]] in the scene: {count}");
+            let help = format!("add a [[{name}]] with its kind to the scene");
+            Problem::new(name, what, help)
+        })
+    }
+
+    /// Puts a value in place of the one in the file.
+    pub fn set(&mut self, check: &mut Check, path: KeyPath, value: &VariedValue) {
+        let values = match self.table(&path) {
+            Ok(values) => values,
+            Err(problem) => return check.problems.push(problem),
+        };
+        let field = values.field(path.key.name);
+        check.problems.retain(|problem| problem.field != field);
+        let read = match (value.number, path.key.kind) {
+            (Some(value), Kind::Of(_)) => Ok(Value::Number(Uncertain { value, error: 0.0 })),
+            _ => value::read_text(path.key, &value.text),
+        };
+        match read {
+            Ok(value) => values.set(path.key, Some(value)),
+            Err(error) => {
+                values.set(path.key, None);
+                check.add(field, error.what, error.help);
+            }
+        }
+    }
+}
+
+impl Check<'_> {
+    /// A problem with a key that is needed, unless it is there or already has one.
+    pub(super) fn missing(
+        &mut self,
+        values: &Values,
+        key: &str,
+        what: impl Into<String>,
+        help: impl Into<String>,
+    ) {
+        if !self.met(values, key) {
+            self.add(values.field(key), what, help);
+        }
+    }
+
+    /// Whether a key is there, even if unreadable.
+    pub(super) fn met(&self, values: &Values, key: &str) -> bool {
+        // Most scenes have no problem, and thousands are read in a sweep.
+        values.has(key) || !self.problems.is_empty() && !self.sound([&values.field(key)])
+    }
+
+    /// A problem at byte `at` of a text value.
+    pub(super) fn add_in_text(
+        &mut self,
+        field: &str,
+        text: &str,
+        at: usize,
+        what: String,
+        help: String,
+    ) {
+        let place = self.places.of(field);
+        let span = place.and_then(|(source, span)| inside(source, span, text, at));
+        let problem = Problem::new(field, what, help).at(span);
+        self.problems.push(problem);
+    }
+}
+
+/// Place of the character at byte `at` of a text whose value stands, with its quotes, at `value`. None if
+/// escapes make what is written differ from the text.
+fn inside(source: &str, value: Range<usize>, text: &str, at: usize) -> Option<Range<usize>> {
+    let end = value.end;
+    let quoted = source.get(value)?;
+    let long = ["\"\"\"", "'''"]
+        .iter()
+        .find_map(|q| quoted.strip_prefix(q));
+    let body = match long {
+        // The newline right after the opening quotes does not belong to the text.
+        Some(body) => ["\n", "\r\n"]
+            .iter()
+            .find_map(|newline| body.strip_prefix(newline))
+            .unwrap_or(body),
+        None => quoted.strip_prefix(['"', '\''])?,
+    };
+    if !body.starts_with(text) {
+        return None;
+    }
+    let start = end - body.len() + at;
+    let width = text.get(at..)?.chars().next().map_or(0, char::len_utf8);
+    Some(start..start + width)
+}

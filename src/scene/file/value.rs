@@ -1,0 +1,112 @@
+//! One value of a scene file.
+
+use toml::de::DeValue;
+
+use super::keys::{self, Key, Kind};
+use crate::scene::Every;
+use crate::scene::unit::{self, Uncertain, UnitError};
+
+/// A value that has been read.
+#[derive(Clone, Debug)]
+pub(super) enum Value {
+    /// SI
+    Number(Uncertain),
+    Text(String),
+    /// Digits without quotes where a quantity or a formula may stand; the kind of load decides.
+    Bare(String),
+    Choice(&'static str),
+    Every(Every),
+}
+
+impl Value {
+    /// The value as a quantity, SI, if it is one.
+    pub fn number(&self, kind: Kind) -> Option<Uncertain> {
+        match (self, kind) {
+            (Value::Number(number), _) => Some(*number),
+            (Value::Text(text) | Value::Bare(text), Kind::Formula(quantity)) => {
+                unit::uncertain(text, quantity).ok()
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Reads the value of a key, or says what is wrong and what would be right.
+pub(super) fn read(key: &Key, value: &DeValue<'_>) -> Result<Value, UnitError> {
+    let wrong = |what: String| {
+        let help = expected(key.kind);
+        Err(UnitError { what, help })
+    };
+    let text = match value {
+        DeValue::String(text) => text.to_string(),
+        DeValue::Float(number) => number.as_str().replace('_', ""),
+        DeValue::Integer(number) if number.radix() == 10 => number.as_str().replace('_', ""),
+        DeValue::Integer(number) => {
+            return wrong(format!(
+                "`{}` is a number to base {}",
+                key.name,
+                number.radix()
+            ));
+        }
+        other => {
+            let noun = other.type_str();
+            let n = if noun.starts_with(['a', 'e', 'i', 'o', 'u']) {
+                "n"
+            } else {
+                ""
+            };
+            return wrong(format!("`{}` is a{n} {noun}", key.name));
+        }
+    };
+    match key.kind {
+        Kind::Text | Kind::Formula(_) if value.is_str() => Ok(Value::Text(text)),
+        Kind::Text => wrong(format!("`{text}` is a number")),
+        Kind::Formula(_) => Ok(Value::Bare(text)),
+        Kind::Of(quantity) => unit::uncertain(&text, quantity).map(Value::Number),
+        Kind::TimeOrAngle => unit::time_or_angle(&text).map(Value::Every),
+        Kind::Choice(words) => choice(key, &text, words.iter().copied()),
+        Kind::Kinds(kinds) => choice(key, &text, kinds.iter().map(|kind| kind.name)),
+    }
+}
+
+fn choice(
+    key: &Key,
+    text: &str,
+    words: impl Iterator<Item = &'static str> + Clone,
+) -> Result<Value, UnitError> {
+    if let Some(word) = words.clone().find(|word| *word == text) {
+        return Ok(Value::Choice(word));
+    }
+    let help = match keys::nearest(text, words.clone()) {
+        Some(near) => format!("did you mean \"{near}\"? It may be {}", quoted(words)),
+        None => format!("write one of {}", quoted(words)),
+    };
+    let what = format!("`{}` cannot be `{text}`", key.name);
+    Err(UnitError { what, help })
+}
+
+/// Reads the value of a key from its text.
+pub(super) fn read_text(key: &Key, text: &str) -> Result<Value, UnitError> {
+    read(key, &DeValue::String(text.into()))
+}
+
+fn expected(kind: Kind) -> String {
+    match kind {
+        Kind::Choice(words) => format!("write one of {}", quoted(words.iter().copied())),
+        Kind::Kinds(kinds) => {
+            format!(
+                "write one of {}",
+                quoted(kinds.iter().map(|kind| kind.name))
+            )
+        }
+        Kind::Text => "write a text in quotes".to_owned(),
+        Kind::Of(quantity) | Kind::Formula(quantity) => {
+            format!("write {} like {}", quantity.name(), quantity.examples())
+        }
+        Kind::TimeOrAngle => "write a time or an angle like \"1 ms\", \"1 deg\"".to_owned(),
+    }
+}
+
+fn quoted(words: impl Iterator<Item = &'static str>) -> String {
+    format!("\"{}\"", words.collect::<Vec<_>>().join("\", \""))
+}

@@ -1,0 +1,274 @@
+//! The values that a key takes, one after the other or at random: what a sweep varies.
+
+use std::fmt;
+use std::str::FromStr;
+
+use statrs::distribution::{ContinuousCDF, Normal};
+
+use super::key_path::KeyPath;
+use super::keys::{Key, Kind};
+use super::value;
+use crate::scene::unit::{self, PLUS_MINUS, Quantity, Uncertain};
+
+/// Most values of one key.
+const MOST_VALUES: usize = 1_000_000;
+
+/// A key of a scene and the values it takes, read from texts like `geometry.offset=0mm:20mm:41`.
+///
+/// After the key stand the first value, the last one and their number, evenly spread; with `:log` at the end
+/// they are spread evenly in their logarithm. Or the values stand one by one, with commas between them, which
+/// is the way for words and formulas. `geometry.rod=100mm:120mm` is spread evenly between two bounds at random,
+/// `geometry.rod=155.8 +- 0.1 mm` is normal with this standard deviation. Keys are those of scene files; of several
+/// torques or forces the number tells which, as in `torque[2].value`.
+///
+/// ```
+/// use slider_crank::scene::Varied;
+/// let offset: Varied = "geometry.offset = 0mm:20mm:41".parse().unwrap();
+/// assert_eq!(offset.len(), 41);
+/// assert_eq!(offset.value(1).text, "0.5 mm");
+/// assert_eq!(offset.value(1).number, Some(0.0005));
+/// assert_eq!(offset.column(), "geometry_offset_m");
+/// let model: Varied = "rod.model = rigid, two-mass".parse().unwrap();
+/// assert_eq!(model.value(1).text, "two-mass");
+/// let rod: Varied = "geometry.rod = 155.8 +- 0.1 mm".parse().unwrap();
+/// assert!((rod.quantile(0.975).number.unwrap() - 0.155995996398454).abs() < 1e-12);
+/// assert!("geometry.ofset=0mm:20mm:41".parse::<Varied>().is_err());
+/// ```
+#[derive(Clone, Debug)]
+pub struct Varied {
+    pub(super) path: KeyPath,
+    /// The values as they are written.
+    text: String,
+    values: Values,
+    has_numbers: bool,
+}
+
+/// A value that a key of a scene takes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VariedValue {
+    /// As a scene file has it.
+    pub text: String,
+    /// In SI units and radians; none of words, formulas and files.
+    pub number: Option<f64>,
+}
+
+#[derive(Clone, Debug)]
+enum Values {
+    Listed(Vec<VariedValue>),
+    /// Evenly between two numbers, SI.
+    Uniform([f64; 2]),
+    /// With a mean and a standard deviation, SI.
+    Normal(Normal),
+}
+
+impl Varied {
+    /// Number of values that are listed; one of a distribution.
+    #[allow(clippy::len_without_is_empty)]
+    pub fn len(&self) -> usize {
+        match &self.values {
+            Values::Listed(list) => list.len(),
+            Values::Uniform(_) | Values::Normal(_) => 1,
+        }
+    }
+
+    /// Whether the values are random.
+    pub fn is_distribution(&self) -> bool {
+        !matches!(self.values, Values::Listed(_))
+    }
+
+    /// The bounds of an even distribution, in SI units and radians.
+    pub fn bounds(&self) -> Option<[f64; 2]> {
+        match self.values {
+            Values::Uniform(bounds) => Some(bounds),
+            Values::Listed(_) | Values::Normal(_) => None,
+        }
+    }
+
+    /// The SI unit of the values as scene files have it; empty for numbers and words.
+    pub fn unit(&self) -> &'static str {
+        self.path.unit()
+    }
+
+    /// Whether all values are quantities.
+    pub fn has_numbers(&self) -> bool {
+        self.has_numbers
+    }
+
+    /// The key, as `geometry.offset`.
+    pub fn key(&self) -> String {
+        self.path.to_string()
+    }
+
+    /// The key as the name of a column, with the SI unit of its numbers, as `geometry_offset_m`.
+    pub fn column(&self) -> String {
+        let name = self.path.column();
+        match self.path.quantity().map(Quantity::column) {
+            Some(unit) if self.has_numbers && !unit.is_empty() => format!("{name}_{unit}"),
+            _ => name,
+        }
+    }
+
+    /// A listed value; the median of a distribution.
+    ///
+    /// # Panics
+    /// If there is no value of this index, as slices do.
+    pub fn value(&self, index: usize) -> VariedValue {
+        match &self.values {
+            Values::Listed(list) => list[index].clone(),
+            Values::Uniform(_) | Values::Normal(_) => self.quantile(0.5),
+        }
+    }
+
+    /// The value below which a part `p` of a distribution lies, with 0 < p < 1; listed values are equally likely.
+    pub fn quantile(&self, p: f64) -> VariedValue {
+        let number = match &self.values {
+            Values::Listed(list) => return list[(p * list.len() as f64) as usize].clone(),
+            Values::Uniform([low, high]) => low + p * (high - low),
+            Values::Normal(normal) => normal.inverse_cdf(p),
+        };
+        VariedValue::of(number, self.unit())
+    }
+}
+
+impl VariedValue {
+    /// A number in SI units and radians.
+    pub(super) fn of(number: f64, unit: &str) -> VariedValue {
+        VariedValue {
+            text: format!("{number} {unit}").trim_end().to_owned(),
+            number: Some(number),
+        }
+    }
+}
+
+/// The values as they are written.
+impl fmt::Display for Varied {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+impl FromStr for Varied {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Varied, String> {
+        let (key, values) = text.split_once('=').ok_or_else(|| {
+            format!("`{text}` has no values; write it like geometry.offset=0mm:20mm:41")
+        })?;
+        let path: KeyPath = key.trim().parse()?;
+        let text = values.trim().to_owned();
+        let values = read(path.key, values)?;
+        let has_numbers = match &values {
+            Values::Listed(list) => list.iter().all(|value| value.number.is_some()),
+            Values::Uniform(_) | Values::Normal(_) => true,
+        };
+        Ok(Varied {
+            path,
+            text,
+            values,
+            has_numbers,
+        })
+    }
+}
+
+/// Reads `0mm:20mm:41`, `1:100:5:log` or `150 mm, 155.83 mm`; the distributions `0mm:20mm` or `155.8 +- 0.1 mm`.
+fn read(key: &Key, text: &str) -> Result<Values, String> {
+    let fields: Vec<&str> = text.split(':').map(str::trim).collect();
+    let texts = match (fields.as_slice(), key.kind) {
+        (_, Kind::Text) => listed(text),
+        ([one], _) if PLUS_MINUS.iter().any(|sign| one.contains(sign)) => {
+            let normal = number(key, one)?.and_then(|n| Normal::new(n.value, n.error).ok());
+            return normal
+                .map(Values::Normal)
+                .ok_or_else(|| format!("`{one}` is no number with a standard deviation above 0"));
+        }
+        ([_], _) => listed(text),
+        ([low, high], _) => {
+            let bound = |text: &str| {
+                let number = number(key, text)?.ok_or_else(|| format!("`{text}` is no number"));
+                number.map(|number| number.value)
+            };
+            let (from, to) = (bound(low)?, bound(high)?);
+            return match from < to {
+                true => Ok(Values::Uniform([from, to])),
+                false => Err(format!("`{low}` is not less than `{high}`")),
+            };
+        }
+        ([from, to, count], _) => spread(from, to, count, false)?,
+        ([from, to, count, "log"], _) => spread(from, to, count, true)?,
+        _ => {
+            return Err(format!(
+                "`{text}` is no range; write first, last and count, like 0mm:20mm:41 or 1mm:100mm:7:log"
+            ));
+        }
+    };
+    let value = |text: String| {
+        let number = number(key, &text)?.map(|number| number.value);
+        Ok(VariedValue { text, number })
+    };
+    let values: Result<_, String> = texts.into_iter().map(value).collect();
+    Ok(Values::Listed(values?))
+}
+
+/// The quantity that a text is, if the key takes one.
+fn number(key: &Key, text: &str) -> Result<Option<Uncertain>, String> {
+    let value = value::read_text(key, text).map_err(|error| error.to_string())?;
+    match text {
+        "" => Err(format!("a value of `{}` is empty", key.name)),
+        _ => Ok(value.number(key.kind)),
+    }
+}
+
+/// The values between commas; those in brackets, as of `max(1, omega)`, do not count.
+fn listed(text: &str) -> Vec<String> {
+    let mut depth = 0;
+    let parts = text.split(|c: char| {
+        depth += i32::from(c == '(') - i32::from(c == ')');
+        c == ',' && depth == 0
+    });
+    parts.map(|part| part.trim().to_owned()).collect()
+}
+
+/// Values from the first to the last, in the unit in which these are written.
+fn spread(from: &str, to: &str, written: &str, logarithmic: bool) -> Result<Vec<String>, String> {
+    let count = written
+        .parse()
+        .ok()
+        .filter(|count| (1..=MOST_VALUES).contains(count));
+    let count = count
+        .ok_or_else(|| format!("`{written}` is not a number of values from 1 to {MOST_VALUES}"))?;
+    let ((first, unit), (last, last_unit)) = (split(from)?, split(to)?);
+    if !unit.is_empty() && unit != last_unit {
+        return Err(format!(
+            "`{from}` and `{to}` have different units; write both in one"
+        ));
+    }
+    if count == 1 && first != last {
+        return Err(format!("one value cannot be both `{from}` and `{to}`"));
+    }
+    if logarithmic && first * last <= 0.0 {
+        return Err(format!(
+            "`{from}` to `{to}` has no even spread in the logarithm; both must have one sign"
+        ));
+    }
+    let end = count - 1;
+    let at = |i: usize| match i {
+        0 => first,
+        i if i == end => last,
+        i if logarithmic => first * (last / first).powf(i as f64 / end as f64),
+        // Divided last, so that decimal steps stay decimal.
+        i => first + (last - first) * i as f64 / end as f64,
+    };
+    let text = |i| format!("{} {last_unit}", at(i)).trim_end().to_owned();
+    Ok((0..count).map(text).collect())
+}
+
+/// A number and its unit.
+fn split(text: &str) -> Result<(f64, &str), String> {
+    let (digits, unit) = unit::split(text)?;
+    let number = digits
+        .parse()
+        .ok()
+        .filter(|number: &f64| number.is_finite());
+    let number = number.ok_or_else(|| format!("`{text}` is not a finite number"))?;
+    Ok((number, unit))
+}
