@@ -103,9 +103,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let plot = arguments.plot.open()?;
     let page = page(arguments.report.as_ref())?;
     let results = compare(&scenes, &arguments.options(), text_on_stdout)?;
-    fill(rows, || report::precision_csv(&results))?;
+    fill(rows, || Ok(report::precision_csv(&results)))?;
     draw(plot, || {
-        report::precision_figure(&results, arguments.plot.size())
+        report::precision_figure(&results, arguments.plot.size)
     })?;
     fill(page, || {
         report::precision_page(&results, &origin(files.first()))

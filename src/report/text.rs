@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use super::joint::clearance;
-use super::key_values::{Facts, degrees, fact, in_turn, six, with_error};
+use super::key_values::{Facts, aligned, degrees, fact, in_turn, six, with_error};
 use super::steady::steady_state;
 use crate::kinematics::{Kinematics, Located, NamedPosition};
 use crate::simulate::{Row, Summary, TorqueRange};
@@ -12,18 +12,8 @@ use crate::simulate::{Row, Summary, TorqueRange};
 /// Characters of the longest name of a position.
 pub(super) const NAMES: usize = 24;
 
-/// The summary of a run, with a few of its rows.
-pub fn summary(summary: &Summary, rows: &[Row]) -> String {
-    let mut text = facts(summary).lines(17);
-    if !rows.is_empty() {
-        text.push('\n');
-        text.push_str(&table(rows));
-    }
-    text
-}
-
 /// What there is to say of a run.
-pub(super) fn facts(summary: &Summary) -> Facts {
+pub(super) fn run(summary: &Summary) -> Facts {
     let mut facts = Facts::of(&summary.scene);
     facts.add("engine", &summary.engine);
     end(&mut facts, summary);
@@ -148,25 +138,21 @@ fn seconds(value: f64) -> String {
 
 /// Rows in columns that stand below each other.
 pub(super) fn table(rows: &[Row]) -> String {
-    let mut text = String::new();
-    let _ = writeln!(
-        text,
-        "{:>12} {:>10} {:>11} {:>14} {:>11} {:>11}",
-        "t [s]", "turns", "theta [deg]", "omega [rad/s]", "x [mm]", "v [m/s]"
-    );
+    const WIDTHS: [isize; 6] = [12, 10, 11, 14, 11, 11];
+    let [theta, omega, x, v] = ["theta [deg]", "omega [rad/s]", "x [mm]", "v [m/s]"];
+    let mut text = aligned(&WIDTHS, ["t [s]", "turns", theta, omega, x, v]);
     for row in rows {
         let turns = (row.theta / TAU).floor();
-        let _ = writeln!(
-            text,
-            "{:>12.6} {:>10} {:>11.4} {:>14.6} {:>11.4} {:>11.5}",
-            row.t,
-            turns,
-            (row.theta - turns * TAU).to_degrees(),
-            row.omega,
-            row.x * 1e3,
+        let cells = [
+            format!("{:.6}", row.t),
+            turns.to_string(),
+            format!("{:.4}", (row.theta - turns * TAU).to_degrees()),
+            format!("{:.6}", row.omega),
+            format!("{:.4}", row.x * 1e3),
             // Minus zero is zero.
-            row.v + 0.0
-        );
+            format!("{:.5}", row.v + 0.0),
+        ];
+        text += &aligned(&WIDTHS, cells);
     }
     text
 }

@@ -28,7 +28,7 @@ impl Growing {
     pub fn open(
         target: &Path,
         mark: &str,
-        header: &str,
+        header: &[u8],
         row: impl FnMut(&str) -> Result<(), Error>,
     ) -> Result<Growing, Error> {
         // Whether the target can be written shows now, not when all is computed.
@@ -50,13 +50,13 @@ impl Growing {
             file,
             mark: mark.len() as u64,
         };
-        growing.take_up(&(mark + header), row)?;
+        growing.take_up(&[mark.as_bytes(), header].concat(), row)?;
         Ok(growing)
     }
 
     fn take_up(
         &mut self,
-        head: &str,
+        head: &[u8],
         mut row: impl FnMut(&str) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let failed = |source| error(&self.part, source);
@@ -68,7 +68,7 @@ impl Growing {
             .take(most)
             .read_to_end(&mut found)
             .map_err(failed)?;
-        if !head.as_bytes().starts_with(&found) {
+        if !head.starts_with(&found) {
             return Err(self.of_another());
         }
         let mut whole = most;
@@ -87,7 +87,7 @@ impl Growing {
         self.file.set_len(whole).map_err(failed)?;
         self.file.seek(SeekFrom::End(0)).map_err(failed)?;
         if whole == 0 {
-            self.append(head.as_bytes())?;
+            self.append(head)?;
         }
         Ok(())
     }
