@@ -7,9 +7,9 @@ use super::decimate::Thinned;
 use super::figure::{Axis, Figure};
 use super::key_values::Facts;
 use super::rows::{cells, header};
-use super::steady::speed_figure;
+use super::run::{self, speed_figure};
 use super::table::Table;
-use super::{Look, Origin, Report, page, text};
+use super::{Look, Origin, Report, page};
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::simulate::{Energies, Row, Summary};
@@ -85,14 +85,14 @@ impl RunReport<'_> {
 
 impl Report for RunReport<'_> {
     fn facts(&self) -> Facts {
-        text::run(self.summary)
+        run::run(self.summary)
     }
 
     fn text(&self) -> String {
         let text = self.facts().lines(17);
         match self.preview {
             [] => text,
-            rows => text + "\n" + &text::table(rows),
+            rows => text + "\n" + &run::table(rows),
         }
     }
 
