@@ -37,16 +37,6 @@ pub struct Origin {
     pub command: String,
 }
 
-/// A fact for the template.
-#[derive(Serialize)]
-struct Fact<'a> {
-    name: &'a str,
-    value: &'a str,
-    /// Belongs to the one before.
-    is_part: bool,
-    is_warning: bool,
-}
-
 /// What the scripts of the page read.
 #[derive(Serialize)]
 struct Data<'a> {
@@ -119,12 +109,6 @@ pub(super) fn html(
     look: &Look<'_>,
 ) -> Result<String, Error> {
     let (titles, facts): (Vec<_>, Vec<_>) = facts.iter().partition(|(name, _)| *name == "scene");
-    let facts = facts.into_iter().map(|(name, value)| Fact {
-        name: name.trim(),
-        value,
-        is_part: name.starts_with(' '),
-        is_warning: matches!(name, "warning" | "stopped early"),
-    });
     let mut notes = Vec::new();
     if table.stride > 1 {
         notes.push(format!("One in {} rows is shown.", table.stride));
@@ -165,7 +149,7 @@ pub(super) fn html(
     let page = context! {
         title => titles.first().map_or("A slider-crank", |(_, title)| title),
         version => env!("CARGO_PKG_VERSION"),
-        facts => Value::from_serialize(facts.collect::<Vec<_>>()),
+        facts => Value::from_serialize(&facts),
         terms => Value::from_serialize(&terms),
         notes => Value::from_serialize(&notes),
         scene => &origin.scene,
