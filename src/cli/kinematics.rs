@@ -58,7 +58,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "ANGLE", value_parser = angle, allow_hyphen_values = true)]
     newton_guess: Option<f64>,
     /// Draws a diagram of the forces in place of columns: turning-moment, pressure-volume, polar, orders or balance
-    #[arg(long, value_name = "NAME", value_parser = diagram, requires = "plot", conflicts_with_all = ["show", "over"], help_heading = "Picture")]
+    #[arg(long, value_name = "NAME", value_parser = diagram, requires = "plot", conflicts_with_all = ["show", "over"])]
     diagram: Option<Diagram>,
 }
 

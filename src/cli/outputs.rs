@@ -12,7 +12,6 @@ use crate::report::{ENDINGS, Origin, Output, Picture, Report, Shape, View};
 
 /// Where a picture goes, and how large it is.
 #[derive(Debug, Args)]
-#[command(next_help_heading = "Picture")]
 pub(super) struct Plot {
     /// Draws a picture to this file: SVG, PNG or PDF, as its name ends
     #[arg(long, value_name = "FILE")]
@@ -24,7 +23,6 @@ pub(super) struct Plot {
 
 /// What a picture of rows shows.
 #[derive(Debug, Args)]
-#[command(next_help_heading = "Picture")]
 pub(super) struct PlotOfRows {
     #[command(flatten)]
     pub to: Plot,
@@ -64,7 +62,7 @@ pub(super) struct Outputs {
     /// Writes the rows as CSV to this file, `-` for standard output
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Writes mechanism, curves and key figures as one HTML page to this file
+    /// Writes the result as one HTML page to this file: key figures, curves, and the mechanism in motion if there is one
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
     /// Prints the summary as one JSON object

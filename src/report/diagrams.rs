@@ -176,10 +176,7 @@ fn polar(rows: &[TurnRow]) -> Vec<Figure> {
         let (sin, cos) = row.kinematics.theta.sin_cos();
         (x * cos + y * sin, y * cos - x * sin)
     };
-    let pin: fn(&Reactions) -> [f64; 2] = |forces| forces.crank_pin;
-    let bearing: fn(&Reactions) -> [f64; 2] = |forces| forces.crank_bearing;
-    let wrist: fn(&Reactions) -> [f64; 2] = |forces| forces.wrist_pin;
-    let figure = |(title, of, turns): (&str, fn(&Reactions) -> [f64; 2], bool)| {
+    let figure = |title: &str, turns: bool, of: fn(&Reactions) -> [f64; 2]| {
         let [along, across] = match turns {
             true => ["along the crank [N]", "across it [N]"],
             false => ["along x [N]", "along y [N]"],
@@ -197,25 +194,20 @@ fn polar(rows: &[TurnRow]) -> Vec<Figure> {
             .line("", points.collect())
             .points("", vec![(0.0, 0.0)])
     };
-    let figures = [
-        (
-            "force on the rod at the crank pin, turning with the crank",
-            pin,
-            true,
-        ),
-        (
-            "force on the crank at its bearing, turning with the crank",
-            bearing,
-            true,
-        ),
-        ("force on the crank at its bearing, at rest", bearing, false),
-        (
-            "force on the slider at the wrist pin, at rest",
-            wrist,
-            false,
-        ),
+    let [pin, wrist] = [
+        "force on the rod at the crank pin, turning with the crank",
+        "force on the slider at the wrist pin, at rest",
     ];
-    figures.map(figure).into()
+    let [turning, at_rest] = [
+        "force on the crank at its bearing, turning with the crank",
+        "force on the crank at its bearing, at rest",
+    ];
+    vec![
+        figure(pin, true, |forces| forces.crank_pin),
+        figure(turning, true, |forces| forces.crank_bearing),
+        figure(at_rest, false, |forces| forces.crank_bearing),
+        figure(wrist, false, |forces| forces.wrist_pin),
+    ]
 }
 
 /// Amplitudes (order, size) as stems.
