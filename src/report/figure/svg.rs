@@ -61,8 +61,16 @@ impl Svg {
 
     fn shape(&mut self, kind: &str, places: impl IntoIterator<Item = Place>, look: &str) {
         let _ = write!(self.0, "<{kind} points=\"");
+        // Curves have many points, which this writes faster than the formatter.
+        let mut buffer = zmij::Buffer::new();
+        let mut put = |value: f64, end: char| {
+            self.0
+                .push_str(buffer.format((100.0 * value).round() / 100.0));
+            self.0.push(end);
+        };
         for (x, y) in places {
-            let _ = write!(self.0, "{x:.2},{y:.2} ");
+            put(x, ',');
+            put(y, ' ');
         }
         let _ = writeln!(self.0, "\" {look}/>");
     }
