@@ -4,7 +4,7 @@ use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slider_crank::error::Error;
-use slider_crank::report::{self, PlotRows, RowColumns, View};
+use slider_crank::report::{self, PlotRows, Report, RowColumns, RunReport, View};
 use slider_crank::scene::Scene as Plain;
 use slider_crank::simulate::{
     Options, Row, RowSink, Simulation, SteadyOptions, simulate_rows, simulate_with_rows,
@@ -168,7 +168,13 @@ impl Run {
             simulate_rows(&scene, &options, &mut rows)?;
             let mut summary = self.run.summary.clone();
             summary.steady_state = found;
-            rows.rows.page(&summary, &scene, &asked.origin("simulate"))
+            let report = RunReport {
+                summary: &summary,
+                scene: &scene,
+                plot: &rows.rows,
+                preview: &[],
+            };
+            report.page(&asked.origin("simulate"))
         })
     }
 }

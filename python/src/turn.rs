@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slider_crank::kinematics::{Length, OneTurn, TurnOptions, one_turn};
-use slider_crank::report;
+use slider_crank::report::{self, Report, StaticsReport, TurnReport};
 use slider_crank::scene::unit::Quantity;
 use slider_crank::statics::{StaticAnalysis, StaticsOptions};
 
@@ -66,12 +66,39 @@ pub fn kinematics<'py>(
     };
     let asked = scene.get();
     let (turn, table, summary) = call::run(py, |call| {
-        let turn = one_turn(&asked.scene(call), &options)?;
-        let table = report::turn_table(&turn, every);
+        let scene = asked.scene(call);
+        let turn = one_turn(&scene, &options)?;
+        let table = turn_report(&turn, &scene, every).table();
         let summary = report::json(&turn)?;
         Ok((turn, table, summary))
     })?;
     Ok((arrays(py, table)?, summary, Turn { turn, scene, every }))
+}
+
+fn turn_report<'a>(
+    result: &'a OneTurn,
+    scene: &'a slider_crank::scene::Scene,
+    every: f64,
+) -> TurnReport<'a> {
+    TurnReport {
+        result,
+        scene,
+        every,
+        diagram: None,
+    }
+}
+
+fn statics_report<'a>(
+    result: &'a StaticAnalysis,
+    scene: &'a slider_crank::scene::Scene,
+    every: f64,
+) -> StaticsReport<'a> {
+    StaticsReport {
+        result,
+        scene,
+        every,
+        details: true,
+    }
 }
 
 #[pymethods]
@@ -80,8 +107,8 @@ impl Turn {
     fn page(&self) -> PyResult<String> {
         let asked = self.scene.get();
         let scene = asked.scene(&Call::default());
-        report::turn_page(&self.turn, self.every, &scene, &asked.origin("kinematics"))
-            .map_err(raised)
+        let report = turn_report(&self.turn, &scene, self.every);
+        report.page(&asked.origin("kinematics")).map_err(raised)
     }
 }
 
@@ -116,8 +143,9 @@ pub fn statics<'py>(
     };
     let asked = scene.get();
     let (analysis, table, summary) = call::run(py, |call| {
-        let analysis = slider_crank::statics::statics(&asked.scene(call), &options)?;
-        let table = report::statics_table(&analysis, every);
+        let scene = asked.scene(call);
+        let analysis = slider_crank::statics::statics(&scene, &options)?;
+        let table = statics_report(&analysis, &scene, every).table();
         let summary = report::json(&analysis)?;
         Ok((analysis, table, summary))
     })?;
@@ -135,7 +163,7 @@ impl Balanced {
     fn page(&self) -> PyResult<String> {
         let asked = self.scene.get();
         let scene = asked.scene(&Call::default());
-        report::statics_page(&self.analysis, self.every, &scene, &asked.origin("statics"))
-            .map_err(raised)
+        let report = statics_report(&self.analysis, &scene, self.every);
+        report.page(&asked.origin("statics")).map_err(raised)
     }
 }

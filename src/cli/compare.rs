@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Outcome, PlotOfRows, check_files, create, draw, fill, page, print, say};
+use super::{Outcome, Outputs};
 use crate::error::Error;
 use crate::report::{Comparison, Motion, Origin};
 use crate::scene::Scene;
@@ -16,38 +16,23 @@ pub(super) struct Arguments {
     /// Scene files, which are simulated, and CSV files: rows of `simulate` or `inverse`, or measured motions
     #[arg(required = true, num_args = 2..)]
     motions: Vec<PathBuf>,
-    /// Writes values and differences as CSV to this file, `-` for standard output
-    #[arg(long, value_name = "FILE")]
-    out: Option<PathBuf>,
+    #[command(flatten)]
+    outputs: Outputs,
     /// Adds joint, guide and shaking forces of scenes
     #[arg(long)]
     reactions: bool,
-    /// Writes the curves over each other as one HTML page to this file
-    #[arg(long, value_name = "FILE")]
-    report: Option<PathBuf>,
-    /// Prints the differences as one JSON object
-    #[arg(long)]
-    json: bool,
-    #[command(flatten)]
-    plot: PlotOfRows,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
-    let read: Vec<&Path> = arguments.motions.iter().map(PathBuf::as_path).collect();
-    let written = [
-        arguments.out.as_ref(),
-        arguments.plot.path(),
-        arguments.report.as_ref(),
-    ];
-    let written: Vec<PathBuf> = written.into_iter().flatten().cloned().collect();
-    check_files(&read, &written)?;
+    let read: Vec<Option<&PathBuf>> = arguments.motions.iter().map(Some).collect();
+    let streams = arguments.outputs.streams(&read)?;
     let options = Options {
         reactions: arguments.reactions,
         estimate: false,
         ..Options::default()
     };
     let mut motions: Vec<Motion> = Vec::new();
-    for file in read {
+    for file in &arguments.motions {
         let times = motions.first().map(Motion::times);
         motions.push(match is_data(file) {
             true => Motion::of_file(file)?,
@@ -58,26 +43,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         });
     }
     let result = Comparison::new(&motions)?;
-    let out = create(arguments.out.as_ref())?;
-    let plot = arguments.plot.open()?;
-    let page = page(arguments.report.as_ref())?;
-    draw(plot, || result.figure(&arguments.plot.view()))?;
-    fill(page, || {
-        let origin = Origin {
-            scene: None,
-            command: super::command_line(),
-        };
-        result.page(&origin)
-    })?;
-    let to_stdout = super::is_standard(arguments.out.as_ref());
-    if let Some(output) = out {
-        result.rows(output)?;
-    }
-    match (arguments.json, to_stdout) {
-        (true, _) => print(&result.json()?)?,
-        (false, true) => say(result.text().trim_end()),
-        (false, false) => print(&result.text())?,
-    }
+    let origin = Origin {
+        scene: None,
+        command: super::command_line(),
+    };
+    let targets = arguments.outputs.open()?;
+    targets.write(&result, &result, &origin, &streams)?;
     Ok(Outcome::Done)
 }
 

@@ -120,7 +120,7 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
         &[
             arguments.residuals.as_ref(),
             arguments.mean_cycle.as_ref(),
-            arguments.plot.path(),
+            arguments.plot.to.plot.as_ref(),
             arguments.report.as_ref(),
         ],
         arguments.json,
@@ -157,7 +157,7 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
     let out = create(arguments.out.as_ref())?;
     let residuals = create(arguments.residuals.as_ref())?;
     let mean = create(arguments.mean_cycle.as_ref())?;
-    let plot = arguments.plot.open()?;
+    let plot = arguments.plot.to.open()?;
     let page = page(arguments.report.as_ref())?;
     // What is odd in the data may be why it is refused.
     let uncertain = draft.uncertain()?;

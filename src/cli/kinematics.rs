@@ -5,13 +5,12 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
-    Outcome, PlotOfRows, Streams, angle, check_rows_of_turn, create, draw, fill, length, origin,
-    page, positive_angle, quantity, say,
+    Outcome, Outputs, angle, check_rows_of_turn, length, origin, positive_angle, quantity, say,
 };
 use crate::error::Error;
 use crate::kinematics::Length;
 use crate::kinematics::TurnOptions;
-use crate::report::{self, Diagram};
+use crate::report::{self, Diagram, TurnReport};
 use crate::scene::unit::Quantity;
 
 /// Arguments of `kinematics`.
@@ -22,9 +21,8 @@ pub(super) struct Arguments {
     /// Crank angle between rows, from 0 to 360 degrees inclusive, with --forces to the end of the cycle of the loads
     #[arg(long, value_name = "ANGLE", default_value = "1 deg", value_parser = positive_angle, allow_hyphen_values = true)]
     every: f64,
-    /// Writes the rows as CSV to this file, `-` for standard output
-    #[arg(long, value_name = "FILE")]
-    out: Option<PathBuf>,
+    #[command(flatten)]
+    outputs: Outputs,
     /// Adds the forces at the scene's speed, taken as constant: torque, inertia forces, joint and shaking forces
     #[arg(long)]
     forces: bool,
@@ -59,28 +57,16 @@ pub(super) struct Arguments {
     /// Closes the loop by Newton-Raphson too, from this guess of the rod's angle seen from the slider, like "180 deg"
     #[arg(long, value_name = "ANGLE", value_parser = angle, allow_hyphen_values = true)]
     newton_guess: Option<f64>,
-    /// Writes the mechanism, curves and key figures as one HTML page to this file
-    #[arg(long, value_name = "FILE")]
-    report: Option<PathBuf>,
-    /// Prints the summary as one JSON object
-    #[arg(long)]
-    json: bool,
-    #[command(flatten)]
-    plot: PlotOfRows,
     /// Draws a diagram of the forces in place of columns: turning-moment, pressure-volume, polar, orders or balance
-    #[arg(long, value_name = "NAME", value_parser = diagram, requires = "plot", conflicts_with_all = ["show", "over"], help_heading = "Picture")]
+    #[arg(long, value_name = "NAME", value_parser = diagram, requires = "plot", conflicts_with_all = ["show", "over"])]
     diagram: Option<Diagram>,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
-    let streams = Streams::new(
-        &[arguments.scene.as_ref()],
-        arguments.out.as_ref(),
-        &[arguments.plot.path(), arguments.report.as_ref()],
-        arguments.json,
-    )?;
+    let read = arguments.scene.as_ref();
+    let streams = arguments.outputs.streams(&[read])?;
     check_rows_of_turn(arguments.every)?;
-    let mut scene = streams.scene(arguments.scene.as_ref())?;
+    let mut scene = streams.scene(read)?;
     if let Some((stroke, ratio)) = arguments.stroke.zip(arguments.rod_ratio) {
         let (crank, rod) =
             crate::kinematics::size_from_stroke(stroke, ratio, scene.geometry.offset)?;
@@ -88,24 +74,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         say(&report::sized(crank, rod));
     }
     let result = crate::kinematics::one_turn(&scene, &arguments.options())?;
-    let out = create(arguments.out.as_ref())?;
-    let plot = arguments.plot.open()?;
-    let page = page(arguments.report.as_ref())?;
-    draw(plot, || match arguments.diagram {
-        None => report::turn_figure(&result, &arguments.plot.view()),
-        Some(diagram) => {
-            let svg = diagram.svg(&result, &scene, arguments.plot.view().size)?;
-            svg.ok_or_else(|| nothing_to_draw(diagram))
-        }
-    })?;
-    if let Some(output) = out {
-        report::turn_rows(&result, arguments.every, output)?;
-    }
-    fill(page, || {
-        let origin = origin(arguments.scene.as_ref());
-        report::turn_page(&result, arguments.every, &scene, &origin)
-    })?;
-    streams.show(&result, || report::turn(&result))?;
+    let report = TurnReport {
+        result: &result,
+        scene: &scene,
+        every: arguments.every,
+        diagram: arguments.diagram,
+    };
+    let targets = arguments.outputs.open()?;
+    targets.write(&report, &result, &origin(read), &streams)?;
     Ok(Outcome::Done)
 }
 
@@ -120,14 +96,6 @@ impl Arguments {
             iterate_from: self.newton_guess,
         }
     }
-}
-
-fn nothing_to_draw(diagram: Diagram) -> Error {
-    let help = match diagram {
-        Diagram::PressureVolume => "the scene needs a load of the kind gas",
-        _ => "the crank has to turn fully",
-    };
-    Error::refused(format!("there is no {} diagram", diagram.name()), help)
 }
 
 fn diagram(text: &str) -> Result<Diagram, String> {

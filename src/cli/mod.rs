@@ -10,7 +10,7 @@ mod identify;
 mod inverse;
 mod kinematics;
 mod optimise;
-mod picture;
+mod outputs;
 mod precision;
 mod reading;
 mod reproduce;
@@ -32,7 +32,7 @@ use crate::error::Error;
 use crate::report::Origin;
 use crate::scene::unit::{self, Quantity};
 use crate::scene::{DUARTE, Scene};
-use picture::{Plot, PlotOfRows};
+use outputs::{Outputs, Plot, PlotOfRows};
 use streams::{
     Streams, check_files, create, draw, fill, is_standard, page, print, say, say_styled,
 };

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::optimise::{Asked, Subject, optimise};
 use crate::plan::Method;
 use crate::report;
-use crate::scene::{Draft, Varied};
+use crate::scene::Varied;
 use crate::simulate::{SteadyOptions, Stop};
 use crate::sweep::{Figure, Goal, SweepOptions};
 
@@ -85,13 +85,7 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
         &[best.as_ref()],
         arguments.json,
     )?;
-    let draft = match read {
-        Some(file) => Draft::load(file)?,
-        None => Draft::duarte(),
-    };
-    if let Ok(scene) = draft.scene() {
-        streams.spare_tables(&scene)?;
-    }
+    let draft = streams.draft(read.as_ref())?;
     let goal = arguments
         .goal()
         .ok_or_else(|| Error::refused("there is no goal", "say which, like --least guide_peak"))?;
@@ -103,7 +97,7 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
     let (out, best) = (create(out.as_ref())?, create(best.as_ref())?);
     let varied = arguments.vary.clone();
     let found = optimise(draft.clone(), varied, &asked, arguments.options(stop))?;
-    fill(out, || report::starts_csv(&found))?;
+    fill(out, || Ok(report::starts_csv(&found)))?;
     fill(best, || {
         let values = arguments.vary.iter().zip(&found.values);
         let values = values.map(|(varied, value)| (varied, value.text.as_str()));

@@ -103,9 +103,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let plot = arguments.plot.open()?;
     let page = page(arguments.report.as_ref())?;
     let results = compare(&scenes, &arguments.options(), text_on_stdout)?;
-    fill(rows, || report::precision_csv(&results))?;
+    fill(rows, || Ok(report::precision_csv(&results)))?;
     draw(plot, || {
-        report::precision_figure(&results, arguments.plot.size())
+        report::precision_figure(&results, arguments.plot.size)
     })?;
     fill(page, || {
         report::precision_page(&results, &origin(files.first()))
@@ -164,33 +164,21 @@ fn scenes(files: &[PathBuf]) -> Result<Vec<Scene>, Error> {
 
 /// All scene files that are named; of a folder those called `*.toml`, by their names.
 fn scene_files(named: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
-    let mut files = Vec::new();
-    for path in named {
-        if path.is_dir() {
-            files.extend(files_of(path)?);
-        } else {
-            files.push(path.clone());
-        }
-    }
-    Ok(files)
+    let files = named.iter().map(|path| match path.is_dir() {
+        true => files_of(path),
+        false => Ok(vec![path.clone()]),
+    });
+    Ok(files.collect::<Result<Vec<_>, _>>()?.concat())
 }
 
 fn files_of(folder: &Path) -> Result<Vec<PathBuf>, Error> {
-    let failed = |source| Error::Read {
+    let entries = std::fs::read_dir(folder)
+        .and_then(|entries| entries.map(|entry| Ok(entry?.path())).collect());
+    let mut files: Vec<PathBuf> = entries.map_err(|source| Error::Read {
         file: folder.to_owned(),
         source,
-    };
-    let mut files = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(failed)? {
-        let path = entry.map_err(failed)?.path();
-        if path.is_file()
-            && path
-                .extension()
-                .is_some_and(|extension| extension == "toml")
-        {
-            files.push(path);
-        }
-    }
+    })?;
+    files.retain(|path| path.is_file() && path.extension().is_some_and(|end| end == "toml"));
     if files.is_empty() {
         return Err(Error::refused(
             format!("the folder `{}` holds no scene file", folder.display()),

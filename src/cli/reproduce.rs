@@ -56,10 +56,10 @@ fn write_files(folder: &Path, result: &crate::reproduce::Reproduction) -> Result
         source,
     })?;
     let write = |name: String, text: String| Output::create(&folder.join(name))?.text(&text);
-    write("numbers.csv".to_owned(), report::reproduction_csv(result)?)?;
+    write("numbers.csv".to_owned(), report::reproduction_csv(result))?;
     for drawing in &result.drawings {
         let name = report::file_name(drawing);
-        write(format!("{name}.csv"), report::drawing_csv(drawing)?)?;
+        write(format!("{name}.csv"), report::drawing_csv(drawing))?;
         write(format!("{name}.svg"), report::drawing_svg(drawing)?)?;
     }
     Ok(1 + 2 * result.drawings.len())

@@ -5,10 +5,10 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 
-use super::{Outcome, PlotOfRows, Streams, create, draw, fill, origin, page};
+use super::{Outcome, Outputs, origin};
 use crate::error::Error;
 use crate::plan::Method;
-use crate::report::{self, PlotRows, Preview, RowWriter};
+use crate::report::{PlotRows, Preview, RowWriter, RunReport};
 use crate::scene::Scene;
 use crate::simulate::Stop;
 use crate::simulate::{Options, Row, RowSink, SteadyOptions};
@@ -18,15 +18,8 @@ use crate::simulate::{Options, Row, RowSink, SteadyOptions};
 pub(super) struct Arguments {
     /// Scene file, `-` for standard input; without it the built-in Duarte engine
     scene: Option<PathBuf>,
-    /// Writes the rows as CSV to this file, `-` for standard output
-    #[arg(long, value_name = "FILE")]
-    out: Option<PathBuf>,
-    /// Writes the mechanism in motion, curves, key figures and what is modelled as one HTML page to this file
-    #[arg(long, value_name = "FILE")]
-    report: Option<PathBuf>,
-    /// Prints the summary as one JSON object
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    outputs: Outputs,
     /// Adds joint, guide and shaking forces to the rows, and the largest of them to the summary
     #[arg(long)]
     reactions: bool,
@@ -59,8 +52,6 @@ pub(super) struct Arguments {
     /// Most events that are listed
     #[arg(long, value_name = "COUNT", default_value_t = Options::default().events_kept)]
     max_events: usize,
-    #[command(flatten)]
-    plot: PlotOfRows,
 }
 
 /// Time in which an engine that is asked to stop ends by itself, with its summary; rows of motions that were computed
@@ -76,7 +67,9 @@ struct Rows<'a> {
     t: f64,
     writer: Option<RowWriter>,
     preview: Option<Preview>,
-    plot: Option<PlotRows>,
+    /// Whether rows are kept for a picture or a page.
+    plots: bool,
+    plot: PlotRows,
     /// Whether a joint is loose.
     loose: bool,
 }
@@ -97,7 +90,7 @@ impl Rows<'_> {
 
 impl RowSink for Rows<'_> {
     fn wants_rows(&self) -> bool {
-        self.writer.is_some() || self.preview.is_some() || self.plot.is_some()
+        self.writer.is_some() || self.preview.is_some() || self.plots
     }
 
     fn row(&mut self, row: &Row) -> Result<(), Error> {
@@ -106,8 +99,8 @@ impl RowSink for Rows<'_> {
         if let Some(preview) = &mut self.preview {
             preview.take(row);
         }
-        if let Some(plot) = &mut self.plot {
-            plot.take(row)?;
+        if self.plots {
+            self.plot.take(row)?;
         }
         match &mut self.writer {
             Some(writer) => writer.row(row),
@@ -116,11 +109,11 @@ impl RowSink for Rows<'_> {
     }
 
     fn wants_steps(&self) -> bool {
-        self.loose && self.plot.is_some()
+        self.loose && self.plots
     }
 
     fn step(&mut self, row: &Row) -> Result<(), Error> {
-        self.plot.as_mut().map_or(Ok(()), |plot| plot.take(row))
+        self.plot.take(row)
     }
 }
 
@@ -147,14 +140,10 @@ impl Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> {
-    let streams = Streams::new(
-        &[arguments.scene.as_ref()],
-        arguments.out.as_ref(),
-        &[arguments.plot.path(), arguments.report.as_ref()],
-        arguments.json,
-    )?;
-    let mut scene = streams.scene(arguments.scene.as_ref())?;
-    let origin = origin(arguments.scene.as_ref());
+    let read = arguments.scene.as_ref();
+    let streams = arguments.outputs.streams(&[read])?;
+    let mut scene = streams.scene(read)?;
+    let origin = origin(read);
     if let Some(tolerance) = arguments.tolerance {
         // It has no place in the file.
         Scene::new(1.0, 2.0).tolerance(tolerance).check()?;
@@ -167,15 +156,14 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
     if let Some(steady) = &steady {
         scene = steady.start(&scene);
     }
-    let output = create(arguments.out.as_ref())?;
-    let figure = arguments.plot.open()?;
-    let page = page(arguments.report.as_ref())?;
+    let mut targets = arguments.outputs.open()?;
     let mut rows = Rows {
         stop,
         seen: None,
         t: f64::NAN,
-        plot: (figure.is_some() || page.is_some()).then(|| PlotRows::new(arguments.plot.view())),
-        writer: output.map(RowWriter::new),
+        plots: targets.picture.is_some() || targets.page.is_some(),
+        plot: PlotRows::new(arguments.outputs.plot.view()),
+        writer: targets.rows.take().map(RowWriter::new),
         preview: streams.text_on_stdout().then(Preview::default),
         loose: scene.clearance.is_some(),
     };
@@ -196,11 +184,13 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
     let mut summary = result.summary;
     summary.steady_state = steady;
     let preview = rows.preview.map_or(Vec::new(), |preview| preview.rows());
-    if let Some(plot) = &rows.plot {
-        draw(figure, || plot.to_svg(&summary, &scene))?;
-        fill(page, || plot.page(&summary, &scene, &origin))?;
-    }
-    streams.show(&summary, || report::summary(&summary, &preview))?;
+    let report = RunReport {
+        summary: &summary,
+        scene: &scene,
+        plot: &rows.plot,
+        preview: &preview,
+    };
+    targets.write(&report, &summary, &origin, &streams)?;
     Ok(match summary.stopped {
         Some(stopped) => Outcome::Incomplete(stopped.to_string()),
         None => Outcome::Done,

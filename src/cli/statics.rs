@@ -5,11 +5,10 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
-    Outcome, PlotOfRows, Streams, angle, check_rows_of_turn, create, draw, fill, length, origin,
-    page, positive_angle, print, quantity,
+    Outcome, Outputs, angle, check_rows_of_turn, length, origin, positive_angle, print, quantity,
 };
 use crate::error::Error;
-use crate::report;
+use crate::report::{self, StaticsReport};
 use crate::scene::unit::Quantity;
 use crate::statics::StaticsOptions;
 
@@ -47,12 +46,8 @@ pub(super) struct Arguments {
     /// Adds the velocity ratio and the angle at the crank pin to the rows
     #[arg(long)]
     details: bool,
-    /// Writes the rows as CSV to this file, `-` for standard output
-    #[arg(long, value_name = "FILE")]
-    out: Option<PathBuf>,
-    /// Writes the mechanism, curves and key figures as one HTML page to this file
-    #[arg(long, value_name = "FILE")]
-    report: Option<PathBuf>,
+    #[command(flatten)]
+    outputs: Outputs,
     /// Calibration of a force sensor instead: a CSV file of loads and readings, like `load [N],strain`
     #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "out", "plot", "report", "torque", "weight", "force"])]
     calibration: Option<PathBuf>,
@@ -64,11 +59,6 @@ pub(super) struct Arguments {
         allow_hyphen_values = true
     )]
     reading: Vec<f64>,
-    /// Prints the summary as one JSON object
-    #[arg(long)]
-    json: bool,
-    #[command(flatten)]
-    plot: PlotOfRows,
 }
 
 fn torque(text: &str) -> Result<f64, String> {
@@ -106,35 +96,25 @@ impl Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     if let Some(file) = &arguments.calibration {
         let result = crate::statics::calibrate(file, &arguments.reading)?;
-        print(&if arguments.json {
+        print(&if arguments.outputs.json {
             report::json(&result)?
         } else {
             report::calibration(&result)
         })?;
         return Ok(Outcome::Done);
     }
-    let streams = Streams::new(
-        &[arguments.scene.as_ref()],
-        arguments.out.as_ref(),
-        &[arguments.plot.path(), arguments.report.as_ref()],
-        arguments.json,
-    )?;
+    let read = arguments.scene.as_ref();
+    let streams = arguments.outputs.streams(&[read])?;
     check_rows_of_turn(arguments.every)?;
-    let scene = streams.scene(arguments.scene.as_ref())?;
+    let scene = streams.scene(read)?;
     let result = crate::statics::statics(&scene, &arguments.options())?;
-    let out = create(arguments.out.as_ref())?;
-    let plot = arguments.plot.open()?;
-    let page = page(arguments.report.as_ref())?;
-    draw(plot, || {
-        report::statics_figure(&result, &arguments.plot.view())
-    })?;
-    if let Some(output) = out {
-        report::statics_rows(&result, arguments.every, arguments.details, output)?;
-    }
-    fill(page, || {
-        let origin = origin(arguments.scene.as_ref());
-        report::statics_page(&result, arguments.every, &scene, &origin)
-    })?;
-    streams.show(&result, || report::statics(&result))?;
+    let report = StaticsReport {
+        result: &result,
+        scene: &scene,
+        every: arguments.every,
+        details: arguments.details,
+    };
+    let targets = arguments.outputs.open()?;
+    targets.write(&report, &result, &origin(read), &streams)?;
     Ok(Outcome::Done)
 }

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::watch;
 use crate::error::Error;
 use crate::report::{self, Output, Picture};
-use crate::scene::{Scene, printable};
+use crate::scene::{Draft, Scene, printable};
 
 /// The files and streams of a command, checked before anything is computed.
 pub(super) struct Streams {
@@ -65,7 +65,19 @@ impl Streams {
         Ok(scene)
     }
 
-    /// Whether no result would go onto a table that a scene reads.
+    /// The text of a scene: a file, or the built-in engine.
+    ///
+    /// # Errors
+    /// [`Error::Read`]; [`Error::Refused`] if a result would go onto a table that it reads.
+    pub fn draft(&self, file: Option<&PathBuf>) -> Result<Draft, Error> {
+        let draft = file.map_or_else(|| Ok(Draft::duarte()), |file| Draft::load(file))?;
+        if let Ok(scene) = draft.scene() {
+            self.spare_tables(&scene)?;
+        }
+        Ok(draft)
+    }
+
+    /// Refuses results that would go onto a table that a scene reads.
     ///
     /// # Errors
     /// [`Error::Refused`].

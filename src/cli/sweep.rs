@@ -9,7 +9,7 @@ use super::{Outcome, Streams, fill, origin, page, watch};
 use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{self, SweepAsked, SweepWriter};
-use crate::scene::{Draft, Varied};
+use crate::scene::Varied;
 use crate::simulate::SteadyOptions;
 use crate::simulate::Stop;
 use crate::sweep::{Figure, Goal, LatinHypercube, Sweep, SweepOptions};
@@ -128,13 +128,7 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
     }
     let (read, out) = (arguments.scene.as_ref(), arguments.out.as_ref());
     let streams = Streams::new(&[read], out, &[arguments.report.as_ref()], arguments.json)?;
-    let draft = match read {
-        Some(file) => Draft::load(file)?,
-        None => Draft::duarte(),
-    };
-    if let Ok(scene) = draft.scene() {
-        streams.spare_tables(&scene)?;
-    }
+    let draft = streams.draft(read)?;
     let options = SweepOptions {
         figures: arguments.figures(),
         sample: arguments.sample(),

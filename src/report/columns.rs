@@ -19,11 +19,6 @@ impl Curve {
         let values = table.numbers(&self.name).unwrap_or_default();
         values.iter().map(move |value| factor * value)
     }
-
-    /// Words and unit.
-    pub fn label(&self) -> String {
-        labelled(&self.quantity.label, &self.quantity.unit)
-    }
 }
 
 /// Words and unit of an axis.

@@ -1,5 +1,7 @@
 //! CSV: shortest numbers that read back the same, empty cells for what does not exist.
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 
 use super::Output;
@@ -8,8 +10,64 @@ use crate::error::Error;
 /// Rows whose text one core makes at a time.
 const PIECE: usize = 1 << 12;
 
+/// A cell of a row.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Cell {
+    Number(f64),
+    Text(String),
+}
+
+impl Cell {
+    /// No value.
+    pub const EMPTY: Cell = Cell::Text(String::new());
+
+    /// From a CSV file.
+    pub fn read(text: &str) -> Cell {
+        let number = text.parse();
+        number.map_or_else(|_| Cell::Text(text.to_owned()), Cell::Number)
+    }
+
+    /// The number, if there is a finite one.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Cell::Number(number) => Some(*number).filter(|number| number.is_finite()),
+            Cell::Text(_) => None,
+        }
+    }
+
+    /// In a CSV file, without quotes.
+    pub fn text(&self) -> Cow<'_, str> {
+        match self {
+            Cell::Number(value) => {
+                let mut text = Vec::new();
+                number(*value, &mut text);
+                String::from_utf8(text).unwrap_or_default().into()
+            }
+            Cell::Text(text) => text.into(),
+        }
+    }
+}
+
+impl From<f64> for Cell {
+    fn from(value: f64) -> Cell {
+        Cell::Number(value)
+    }
+}
+
+impl From<Option<f64>> for Cell {
+    fn from(value: Option<f64>) -> Cell {
+        value.map_or(Cell::EMPTY, Cell::Number)
+    }
+}
+
+impl From<&str> for Cell {
+    fn from(text: &str) -> Cell {
+        Cell::Text(text.to_owned())
+    }
+}
+
 /// Appends the shortest text that reads back as the same number; nothing for what is not finite.
-pub(super) fn number(value: f64, text: &mut Vec<u8>) {
+fn number(value: f64, text: &mut Vec<u8>) {
     if value.is_finite() {
         let mut buffer = zmij::Buffer::new();
         let shortest = buffer.format_finite(value + 0.0);
@@ -17,33 +75,42 @@ pub(super) fn number(value: f64, text: &mut Vec<u8>) {
     }
 }
 
-/// A number as a cell.
-pub(super) fn shortest(value: f64) -> String {
-    let mut text = Vec::new();
-    number(value, &mut text);
-    String::from_utf8(text).unwrap_or_default()
-}
-
-/// Appends a text, in quotes where a cell needs them.
-pub(super) fn word(value: &str, text: &mut Vec<u8>) {
-    if value.contains([',', '"', '\n', '\r']) {
-        text.push(b'"');
-        text.extend(value.replace('"', "\"\"").as_bytes());
-        text.push(b'"');
-    } else {
-        text.extend(value.as_bytes());
+/// Appends cells with commas between them and a line break at the end.
+fn joined<T>(
+    cells: impl IntoIterator<Item = T>,
+    text: &mut Vec<u8>,
+    put: impl Fn(T, &mut Vec<u8>),
+) {
+    for (i, cell) in cells.into_iter().enumerate() {
+        if i > 0 {
+            text.push(b',');
+        }
+        put(cell, text);
     }
+    text.push(b'\n');
 }
 
 /// Appends a line of numbers.
 pub(super) fn line(values: impl IntoIterator<Item = f64>, text: &mut Vec<u8>) {
-    for (i, value) in values.into_iter().enumerate() {
-        if i > 0 {
-            text.push(b',');
+    joined(values, text, number);
+}
+
+/// Appends a line of cells, in quotes where a text needs them.
+pub(super) fn cells<'a>(cells: impl IntoIterator<Item = &'a Cell>, text: &mut Vec<u8>) {
+    joined(cells, text, |cell, text| match cell {
+        Cell::Number(value) => number(*value, text),
+        Cell::Text(value) if value.contains([',', '"', '\n', '\r']) => {
+            text.extend(format!("\"{}\"", value.replace('"', "\"\"")).as_bytes());
         }
-        number(value, text);
-    }
-    text.push(b'\n');
+        Cell::Text(value) => text.extend(value.as_bytes()),
+    });
+}
+
+/// A header and rows of cells.
+pub(super) fn text(header: &[&str], rows: impl IntoIterator<Item = Vec<Cell>>) -> String {
+    let mut text = format!("{}\n", header.join(",")).into_bytes();
+    rows.into_iter().for_each(|row| cells(&row, &mut text));
+    String::from_utf8(text).unwrap_or_default()
 }
 
 /// Writes a header and the lines of all rows, their texts made on all cores, and completes the output.
@@ -66,30 +133,4 @@ pub(super) fn write_all<Row: Sync>(
         }
     }
     output.finish()
-}
-
-pub(super) fn failed(error: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> Error {
-    Error::Write {
-        target: "CSV".to_owned(),
-        source: std::io::Error::other(error),
-    }
-}
-
-/// Rows of words and numbers, with quotes where a cell needs them.
-pub(super) fn quoted<'a, Row: IntoIterator<Item = String>>(
-    header: impl IntoIterator<Item = &'a str>,
-    rows: impl IntoIterator<Item = Row>,
-) -> Result<String, Error> {
-    let mut writer = ::csv::Writer::from_writer(Vec::new());
-    let mut header = header.into_iter().peekable();
-    if header.peek().is_some() {
-        writer.write_record(header).map_err(failed)?;
-    }
-    for row in rows {
-        writer.write_record(row).map_err(failed)?;
-    }
-    let bytes = writer
-        .into_inner()
-        .map_err(|error| failed(error.to_string()))?;
-    String::from_utf8(bytes).map_err(failed)
 }

@@ -1,5 +1,6 @@
 //! Columns of rows as curves in aligned panels: which, over what, in which units and how large.
 
+use super::Look;
 use super::columns::{Curve, base, curves, labelled};
 use super::figure::{Axis, Figure, Shape, Sheet};
 use super::quantity::split;
@@ -18,35 +19,6 @@ pub struct View {
     pub size: Option<Shape>,
 }
 
-/// What a command shows of its rows by itself.
-pub(super) struct Shown<'a> {
-    pub title: &'a str,
-    pub show: &'a [&'a str],
-    pub over: &'a str,
-    /// Panels beside each other.
-    pub columns: usize,
-    /// Half the width of a band in standard errors.
-    pub band: f64,
-    /// Whether curves grow without bound towards dead centres, so that their bulk is shown.
-    pub has_poles: bool,
-    /// What is drawn beside the columns, unless columns are chosen.
-    pub beside: Vec<Figure>,
-}
-
-impl Default for Shown<'_> {
-    fn default() -> Self {
-        Shown {
-            title: "",
-            show: &[],
-            over: "theta",
-            columns: 1,
-            band: 0.0,
-            has_poles: false,
-            beside: Vec::new(),
-        }
-    }
-}
-
 impl View {
     /// Refuses what is no column of rows under this header (names with commas between them).
     ///
@@ -57,9 +29,8 @@ impl View {
         for text in &self.show {
             curves(&names, text)?;
         }
-        self.over
-            .iter()
-            .try_for_each(|over| base(&names, over).map(|_| ()))
+        let mut over = self.over.iter();
+        over.try_for_each(|over| base(&names, over).map(|_| ()))
     }
 
     /// Whether nothing was chosen to be shown.
@@ -68,50 +39,52 @@ impl View {
     }
 
     /// The chosen columns as SVG, those of one quantity in one panel.
-    pub(super) fn svg(&self, table: &Table, shown: Shown<'_>) -> Result<String, Error> {
+    pub(super) fn svg(&self, table: &Table, look: Look<'_>) -> Result<String, Error> {
         let names: Vec<&str> = table.names().collect();
-        let over = base(&names, self.over.as_deref().unwrap_or(shown.over))?;
+        let own = if look.over.is_empty() {
+            "theta"
+        } else {
+            look.over
+        };
+        let over = base(&names, self.over.as_deref().unwrap_or(own))?;
         let mut chosen = Vec::new();
+        for text in &self.show {
+            chosen.extend(curves(&names, text)?);
+        }
         if self.show.is_empty() {
             // A command shows what its rows have.
-            let found = shown
+            let found = look
                 .show
                 .iter()
                 .filter_map(|text| curves(&names, text).ok());
             chosen.extend(found.flatten());
         }
-        for text in &self.show {
-            chosen.extend(curves(&names, text)?);
-        }
-        let mut panels: Vec<(String, Vec<Curve>)> = Vec::new();
+        let mut panels: Vec<Vec<Curve>> = Vec::new();
         for curve in chosen {
-            let key = format!("{} {}", curve.quantity.group, curve.quantity.unit);
-            match panels.iter_mut().find(|(known, _)| *known == key) {
-                Some((_, curves)) => curves.push(curve),
-                None => panels.push((key, vec![curve])),
+            let key = |curve: &Curve| (curve.quantity.group.clone(), curve.quantity.unit.clone());
+            match panels
+                .iter_mut()
+                .find(|panel| key(&panel[0]) == key(&curve))
+            {
+                Some(panel) => panel.push(curve),
+                None => panels.push(vec![curve]),
             }
         }
-        let mut figures: Vec<Figure> = panels
-            .into_iter()
-            .map(|(_, curves)| panel(table, &over, &curves, &shown))
-            .collect();
-        let beside = if self.is_default() {
-            shown.beside
+        let panels = panels
+            .iter()
+            .map(|curves| panel(table, &over, curves, &look));
+        let mut figures: Vec<Figure> = panels.collect();
+        let columns = if figures.len() > 3 { look.columns } else { 1 };
+        if self.is_default() && !look.beside.is_empty() {
+            figures.extend(look.beside);
         } else {
-            Vec::new()
-        };
-        let is_aligned = beside.is_empty();
-        figures.extend(beside);
-        let columns = if figures.len() > 3 { shown.columns } else { 1 };
-        if is_aligned {
             // Panels below each other share their horizontal axis.
-            let above = figures.len().saturating_sub(columns);
-            figures[..above]
-                .iter_mut()
-                .for_each(|figure| figure.x_axis().unlabelled());
+            let above = figures.len().saturating_sub(columns.max(1));
+            let above = figures[..above].iter_mut();
+            above.for_each(|figure| figure.x.label.clear());
         }
         let sheet = Sheet {
-            title: shown.title,
+            title: look.title,
             columns,
             size: self.size,
         };
@@ -120,49 +93,40 @@ impl View {
 }
 
 /// Columns of one quantity, with their bands.
-fn panel(table: &Table, over: &Curve, curves: &[Curve], shown: &Shown<'_>) -> Figure {
-    let x: Vec<f64> = over.values(table).collect();
-    let axis = |curve: &Curve| match &*curve.quantity.unit {
-        "°" => Axis::degrees(curve.label()),
-        _ => Axis::linear(curve.label()),
-    };
-    let [first, rest @ ..] = curves else {
-        return Figure::new("", axis(over), Axis::linear(""));
-    };
-    let unit = &*first.quantity.unit;
-    let mut label = match rest {
-        [] => first.label(),
-        _ => labelled(&first.quantity.group, unit),
-    };
-    let values = || curves.iter().flat_map(|curve| curve.values(table));
-    let cut = if shown.has_poles {
-        bulk(values())
-    } else {
-        None
-    };
-    if cut.is_some() {
-        label.push_str(", peaks cut off");
-    }
-    let mut y_axis = match unit {
+fn panel(table: &Table, over: &Curve, curves: &[Curve], look: &Look<'_>) -> Figure {
+    let axis = |label: String, unit: &str| match unit {
         "°" => Axis::degrees(label),
         _ => Axis::linear(label),
     };
-    y_axis = y_axis.or(labelled("", unit).trim());
-    if let Some((low, high)) = cut {
-        y_axis = y_axis.range(low, high);
+    let x: Vec<f64> = over.values(table).collect();
+    let first = &curves[0].quantity;
+    let is_alone = curves.len() == 1;
+    let words = if is_alone { &first.label } else { &first.group };
+    let mut label = labelled(words, &first.unit);
+    let values = || curves.iter().flat_map(|curve| curve.values(table));
+    let cut = look.has_poles.then(|| bulk(values())).flatten();
+    if cut.is_some() {
+        label.push_str(", peaks cut off");
     }
-    let mut figure = Figure::new("", axis(over), y_axis);
+    let mut up = axis(label, &first.unit).or(labelled("", &first.unit).trim());
+    if let Some((low, high)) = cut {
+        up = up.range(low, high);
+    }
+    let across = axis(
+        labelled(&over.quantity.label, &over.quantity.unit),
+        &over.quantity.unit,
+    );
+    let mut figure = Figure::new("", across, up);
     for curve in curves {
-        let band = band(table, curve, shown.band);
-        let tells = !rest.is_empty() || band.is_some();
+        let band = band(table, curve, look.band);
+        let tells = !is_alone || band.is_some();
         let label = if tells { &curve.quantity.label } else { "" };
-        let y: Vec<f64> = curve.values(table).collect();
         if let Some(band) = band {
             let points = x.iter().zip(band).map(|(x, [low, high])| (*x, low, high));
             figure = figure.band(label, points.collect());
         }
-        let points = broken_at_poles(outlined(&x, &y), cut);
-        figure = figure.line(label, points);
+        let y: Vec<f64> = curve.values(table).collect();
+        figure = figure.line(label, broken_at_poles(outlined(&x, &y), cut));
     }
     figure
 }
@@ -173,19 +137,15 @@ fn band(table: &Table, curve: &Curve, factor: f64) -> Option<Vec<[f64; 2]>> {
     let beside = |word: &str| table.numbers(&format!("{name}_{word}{unit}"));
     let scale = curve.quantity.factor;
     if let Some((low, high)) = beside("min").zip(beside("max")) {
-        let edges = low.iter().zip(high);
-        return Some(
-            edges
-                .map(|(low, high)| [low * scale, high * scale])
-                .collect(),
-        );
+        let edges = low.iter().zip(high).map(|(a, b)| [a * scale, b * scale]);
+        return Some(edges.collect());
     }
     let values = curve.values(table).zip(beside("se")?);
-    let edges = |(value, error): (f64, &f64)| {
+    let edges = values.map(|(value, error)| {
         let half = factor * error * scale;
         [value - half, value + half]
-    };
-    Some(values.map(edges).collect())
+    });
+    Some(edges.collect())
 }
 
 /// Points that a curve needs; more are thinned out.
@@ -197,25 +157,23 @@ fn outlined(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
     if piece <= 4 {
         return x.iter().copied().zip(y.iter().copied()).collect();
     }
-    let mut points = Vec::new();
-    for (x, y) in x.chunks(piece).zip(y.chunks(piece)) {
-        let extreme = |values: &[f64]| {
-            let order = |i: &usize, j: &usize| values[*i].total_cmp(&values[*j]);
-            [
-                (0..values.len()).min_by(order),
-                (0..values.len()).max_by(order),
-            ]
-        };
-        let mut kept: Vec<usize> = [extreme(x), extreme(y)]
+    let pieces = x.chunks(piece).zip(y.chunks(piece));
+    let points = pieces.flat_map(|(x, y)| {
+        let order = |of: &'_ [f64], i: usize, j: usize| of[i].total_cmp(&of[j]);
+        let rows = || 0..x.len();
+        let mut kept: Vec<usize> = [x, y]
             .into_iter()
-            .flatten()
+            .flat_map(|of| {
+                let least = rows().min_by(|i, j| order(of, *i, *j));
+                [least, rows().max_by(|i, j| order(of, *i, *j))]
+            })
             .flatten()
             .collect();
         kept.sort_unstable();
         kept.dedup();
-        points.extend(kept.into_iter().map(|i| (x[i], y[i])));
-    }
-    points
+        kept.into_iter().map(move |i| (x[i], y[i]))
+    });
+    points.collect()
 }
 
 /// Part of the values at each end that may belong to poles.

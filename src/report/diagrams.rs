@@ -1,13 +1,13 @@
 //! The diagrams of the trade: turning moment, indicator diagram, polar diagrams of the loads on pins and bearings, orders,
 //! balance of the first order.
 
-use std::f64::consts::PI;
-
 use super::figure::{Axis, Figure, Shape, Sheet};
 use super::key_values::{Facts, degrees, fact, six};
+use super::statics::SPACING;
 use crate::error::Error;
 use crate::kinematics::{Diagrams, OneTurn, Order, TurnRow};
 use crate::scene::{Load, Scene};
+use crate::simulate::Reactions;
 
 /// A diagram of the forces over a cycle at constant speed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,9 +78,6 @@ impl Diagram {
     }
 }
 
-/// Crank angle between the points of a diagram, rad.
-const SPACING: f64 = PI / 360.0;
-
 /// What is read off the diagrams.
 pub(super) fn facts(facts: &mut Facts, diagrams: &Diagrams) {
     let moment = &diagrams.turning_moment;
@@ -128,43 +125,32 @@ pub(super) fn facts(facts: &mut Facts, diagrams: &Diagrams) {
     );
 }
 
-fn over_angle(title: &str, label: &str) -> Figure {
-    Figure::new(
-        title,
-        Axis::degrees("crank angle θ [°]"),
-        Axis::linear(label),
-    )
-}
-
 fn turning_moment(diagrams: &Diagrams, rows: &[TurnRow]) -> Figure {
     let moment = &diagrams.turning_moment;
     let mean = moment.mean_nm;
     let torque = |row: &TurnRow| row.forces.map_or(f64::NAN, |forces| forces.torque);
-    let at = |row: &TurnRow| row.kinematics.theta.to_degrees();
+    let points = rows.iter();
+    let points = points.map(|row| (row.kinematics.theta.to_degrees(), mean, torque(row)));
+    let points: Vec<_> = points.collect();
     let above = format!("energy; it fluctuates by {} J", six(moment.fluctuation_j));
-    over_angle("turning moment", "driving torque [N m]")
-        .line(
-            "driving torque",
-            rows.iter().map(|row| (at(row), torque(row))).collect(),
-        )
-        .line(
-            format!("mean {} N m", six(mean)),
-            rows.iter().map(|row| (at(row), mean)).collect(),
-        )
-        .band(
-            above,
-            rows.iter()
-                .map(|row| (at(row), mean, torque(row)))
-                .collect(),
-        )
+    let line = |of: fn(&(f64, f64, f64)) -> (f64, f64)| points.iter().map(of).collect();
+    Figure::new(
+        "turning moment",
+        Axis::degrees("crank angle θ [°]"),
+        Axis::linear("driving torque [N m]"),
+    )
+    .line("driving torque", line(|point| (point.0, point.2)))
+    .line(
+        format!("mean {} N m", six(mean)),
+        line(|point| (point.0, point.1)),
+    )
+    .band(above, points.clone())
 }
 
 /// One figure for each pressure of the scene.
 fn pressures(scene: &Scene, rows: &[TurnRow]) -> Vec<Figure> {
-    let far = rows
-        .iter()
-        .map(|row| row.kinematics.x.abs())
-        .fold(0.0, f64::max);
+    let distances = rows.iter().map(|row| row.kinematics.x.abs());
+    let far = distances.fold(0.0, f64::max);
     let gases = scene.forces.iter().filter_map(|load| match load {
         Load::Gas { pressure, area, .. } => Some((pressure, *area)),
         _ => None,
@@ -185,52 +171,42 @@ fn pressures(scene: &Scene, rows: &[TurnRow]) -> Vec<Figure> {
 }
 
 fn polar(rows: &[TurnRow]) -> Vec<Figure> {
-    let of = |value: &dyn Fn(&TurnRow) -> Option<[f64; 2]>| -> Vec<(f64, f64)> {
-        let values = rows.iter().filter_map(value);
-        values.map(|[x, y]| (x, y)).collect()
-    };
     // Components along the crank and a quarter of a turn ahead of it.
-    let turning = |row: &TurnRow, [x, y]: [f64; 2]| {
+    let turned = |row: &TurnRow, [x, y]: [f64; 2]| {
         let (sin, cos) = row.kinematics.theta.sin_cos();
-        [x * cos + y * sin, y * cos - x * sin]
+        (x * cos + y * sin, y * cos - x * sin)
     };
-    let in_crank = |title: &str, points: Vec<(f64, f64)>| {
-        Figure::new(
-            title,
-            Axis::linear("along the crank [N]"),
-            Axis::linear("across it [N]"),
-        )
-        .equal()
-        .line("", points)
-        .points("", vec![(0.0, 0.0)])
+    let figure = |title: &str, turns: bool, of: fn(&Reactions) -> [f64; 2]| {
+        let [along, across] = match turns {
+            true => ["along the crank [N]", "across it [N]"],
+            false => ["along x [N]", "along y [N]"],
+        };
+        let points = rows.iter().filter_map(|row| {
+            let force = of(&row.forces?.reactions);
+            Some(if turns {
+                turned(row, force)
+            } else {
+                force.into()
+            })
+        });
+        Figure::new(title, Axis::linear(along), Axis::linear(across))
+            .equal()
+            .line("", points.collect())
+            .points("", vec![(0.0, 0.0)])
     };
-    let at_rest = |title: &str, points: Vec<(f64, f64)>| {
-        Figure::new(
-            title,
-            Axis::linear("along x [N]"),
-            Axis::linear("along y [N]"),
-        )
-        .equal()
-        .line("", points)
-        .points("", vec![(0.0, 0.0)])
-    };
+    let [pin, wrist] = [
+        "force on the rod at the crank pin, turning with the crank",
+        "force on the slider at the wrist pin, at rest",
+    ];
+    let [turning, at_rest] = [
+        "force on the crank at its bearing, turning with the crank",
+        "force on the crank at its bearing, at rest",
+    ];
     vec![
-        in_crank(
-            "force on the rod at the crank pin, turning with the crank",
-            of(&|row| Some(turning(row, row.forces?.reactions.crank_pin))),
-        ),
-        in_crank(
-            "force on the crank at its bearing, turning with the crank",
-            of(&|row| Some(turning(row, row.forces?.reactions.crank_bearing))),
-        ),
-        at_rest(
-            "force on the crank at its bearing, at rest",
-            of(&|row| Some(row.forces?.reactions.crank_bearing)),
-        ),
-        at_rest(
-            "force on the slider at the wrist pin, at rest",
-            of(&|row| Some(row.forces?.reactions.wrist_pin)),
-        ),
+        figure(pin, true, |forces| forces.crank_pin),
+        figure(turning, true, |forces| forces.crank_bearing),
+        figure(at_rest, false, |forces| forces.crank_bearing),
+        figure(wrist, false, |forces| forces.wrist_pin),
     ]
 }
 
@@ -258,10 +234,8 @@ fn orders(orders: &[Order]) -> Vec<Figure> {
 
 fn balance(diagrams: &Diagrams, result: &OneTurn, rows: &[TurnRow]) -> Figure {
     let balance = &diagrams.balance;
-    let speed = result
-        .forces
-        .as_ref()
-        .map_or(0.0, |forces| forces.speed_rad_per_s);
+    let forces = result.forces.as_ref();
+    let speed = forces.map_or(0.0, |forces| forces.speed_rad_per_s);
     let size = balance.counterweight_kg_m * speed * speed;
     let force = |row: &TurnRow, part: f64| {
         let [x, y] = row
@@ -271,12 +245,13 @@ fn balance(diagrams: &Diagrams, result: &OneTurn, rows: &[TurnRow]) -> Figure {
         (x + part * size * cos, y + part * size * sin)
     };
     let with = format!("with {} kg m", six(balance.counterweight_kg_m));
-    let axis = |name: &str| Axis::linear(format!("along {name} [N]"));
-    Figure::new("shaking force over the cycle", axis("x"), axis("y"))
-        .equal()
-        .line(
-            "without counterweight",
-            rows.iter().map(|row| force(row, 0.0)).collect(),
-        )
-        .line(with, rows.iter().map(|row| force(row, 1.0)).collect())
+    let line = |part: f64| rows.iter().map(|row| force(row, part)).collect();
+    Figure::new(
+        "shaking force over the cycle",
+        Axis::linear("along x [N]"),
+        Axis::linear("along y [N]"),
+    )
+    .equal()
+    .line("without counterweight", line(0.0))
+    .line(with, line(1.0))
 }

@@ -1,7 +1,7 @@
 //! Identified values as text and CSV.
 
 use super::Output;
-use super::csv::{quoted, shortest};
+use super::csv::{self, Cell};
 use super::key_values::{Facts, digits, fact, rounded, six};
 use crate::error::Error;
 use crate::inverse::identify::Identification;
@@ -71,10 +71,9 @@ pub fn identification_csv(result: &Identification, output: Output) -> Result<(),
         "half_band",
     ];
     let rows = result.values.iter().map(|one| {
-        let numbers = [one.start, one.value, one.standard_error, one.half_band].map(shortest);
-        [one.key.clone(), one.unit.to_string()]
-            .into_iter()
-            .chain(numbers)
+        let numbers = [one.start, one.value, one.standard_error, one.half_band].map(Cell::from);
+        let words = [Cell::from(&*one.key), Cell::from(&*one.unit.to_string())];
+        words.into_iter().chain(numbers).collect()
     });
-    output.text(&quoted(header, rows)?)
+    output.text(&csv::text(&header, rows))
 }

@@ -4,11 +4,11 @@ use std::f64::consts::TAU;
 use std::fmt::{Display, Write};
 
 /// Names and values in order; names that belong to the one before begin with spaces.
-pub(super) struct Facts(Vec<(String, String)>);
+pub struct Facts(Vec<(String, String)>);
 
 impl Facts {
     /// The facts of a scene begin with its title, if it has one.
-    pub fn of(scene: &str) -> Facts {
+    pub(super) fn of(scene: &str) -> Facts {
         let mut facts = Facts(Vec::new());
         if !scene.is_empty() {
             facts.add("scene", scene);
@@ -16,29 +16,46 @@ impl Facts {
         facts
     }
 
-    pub fn add(&mut self, name: impl Display, value: impl Display) {
+    pub(super) fn add(&mut self, name: impl Display, value: impl Display) {
         self.0.push((name.to_string(), value.to_string()));
     }
 
-    pub fn warnings(&mut self, warnings: &[impl Display]) {
+    pub(super) fn warnings(&mut self, warnings: &[impl Display]) {
         for warning in warnings {
             self.add("warning", warning);
         }
     }
 
-    pub fn iter(&self) -> impl Iterator<Item = (&str, &str)> {
+    pub(super) fn iter(&self) -> impl Iterator<Item = (&str, &str)> {
         let facts = self.0.iter();
         facts.map(|(name, value)| (name.as_str(), value.as_str()))
     }
 
     /// A line for each fact, the values below each other after names of so many characters.
-    pub fn lines(&self, width: usize) -> String {
+    pub(super) fn lines(&self, width: usize) -> String {
         let mut text = String::new();
         for (name, value) in self.iter() {
             let _ = writeln!(text, "{name:<width$} {value}");
         }
         text
     }
+}
+
+/// A line of cells below each other: at the right of columns of these widths, at the left where they are negative.
+pub(super) fn aligned<C: AsRef<str>>(
+    widths: &[isize],
+    cells: impl IntoIterator<Item = C>,
+) -> String {
+    let mut text = String::new();
+    for (cell, width) in cells.into_iter().zip(widths) {
+        let gap = if text.is_empty() { "" } else { " " };
+        let (cell, size) = (cell.as_ref(), width.unsigned_abs());
+        let _ = match *width < 0 {
+            true => write!(text, "{gap}{cell:<size$}"),
+            false => write!(text, "{gap}{cell:>size$}"),
+        };
+    }
+    text + "\n"
 }
 
 /// Adds a fact whose value is formatted.

@@ -1,15 +1,15 @@
-//! The motion of a run as a figure and as a page.
+//! The motion of a run.
 
 use std::f64::consts::TAU;
 
-use super::curves::{Shown, View};
+use super::curves::View;
 use super::decimate::Thinned;
 use super::figure::{Axis, Figure};
-use super::page::{Origin, Page};
+use super::key_values::Facts;
 use super::rows::{cells, header};
-use super::steady::speed_figure;
+use super::run::{self, speed_figure};
 use super::table::Table;
-use super::text::facts;
+use super::{Look, Origin, Report, page};
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::simulate::{Energies, Row, Summary};
@@ -45,15 +45,65 @@ impl PlotRows {
         self.rows.take(*row);
         Ok(())
     }
+}
 
-    /// The rows by columns, with their energies, and how far the slider is from where ideal joints would have it.
-    fn table(&self, scene: &Scene) -> Table {
-        let mut rows = self.rows.kept().to_vec();
+/// A run with some of its rows.
+pub struct RunReport<'a> {
+    /// What was found.
+    pub summary: &'a Summary,
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Rows for a picture and a page.
+    pub plot: &'a PlotRows,
+    /// Rows of the text.
+    pub preview: &'a [Row],
+}
+
+impl RunReport<'_> {
+    fn rows(&self) -> &[Row] {
+        self.plot.rows.kept()
+    }
+
+    /// Path of the journal's centre in the bearing, with the circle of the clearance, mm.
+    fn orbit(&self, radial: f64) -> Figure {
+        let path = self.rows().iter().filter_map(|row| row.clearance);
+        let path = path.map(|joint| (1e3 * joint.journal[0], 1e3 * joint.journal[1]));
+        let circle = (0..=180).map(|i| {
+            let (sin, cos) = (f64::from(i) / 180.0 * TAU).sin_cos();
+            (radial * cos, radial * sin)
+        });
+        Figure::new(
+            "path of the journal's centre in the bearing",
+            Axis::linear("along x [mm]"),
+            Axis::linear("along y [mm]"),
+        )
+        .equal()
+        .line("journal", path.collect())
+        .dashed("radial clearance", circle.collect())
+    }
+}
+
+impl Report for RunReport<'_> {
+    fn facts(&self) -> Facts {
+        run::run(self.summary)
+    }
+
+    fn text(&self) -> String {
+        let text = self.facts().lines(17);
+        match self.preview {
+            [] => text,
+            rows => text + "\n" + &run::table(rows),
+        }
+    }
+
+    /// The rows with their energies, and how far the slider is from where ideal joints would have it.
+    fn table(&self) -> Table {
+        let mut rows = self.rows().to_vec();
         // States at steps come after the rows inside of the step.
         rows.sort_by(|one, other| one.t.total_cmp(&other.t));
-        let energies = Energies::of(scene);
+        let energies = Energies::of(self.scene);
         let mut table = Table::new(&rows.first().map_or(String::new(), columns));
-        table.stride = self.rows.stride();
+        table.stride = self.plot.rows.stride();
         for row in &rows {
             let [kinetic, potential] = energies
                 .as_ref()
@@ -66,41 +116,24 @@ impl PlotRows {
         table
     }
 
-    /// The run as one page.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
-    pub fn page(&self, summary: &Summary, scene: &Scene, origin: &Origin) -> Result<String, Error> {
-        let steady = summary
-            .steady_state
-            .as_ref()
-            .map(speed_figure)
-            .transpose()?;
-        Page::new(origin, &facts(summary))
-            .figures(steady.into_iter().collect())
-            .table(&self.table(scene))
-            .mechanism(scene)
-            .terms(summary)
-            .events(&summary.events, summary.events_total)
-            .html()
-    }
-
-    /// What is to be seen as SVG: by itself the slider's motion over time, beside that of ideal joints where a joint is
-    /// loose, with the contact force and the journal's path; else the crank's speed.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] if there is nothing to draw.
-    pub fn to_svg(&self, summary: &Summary, scene: &Scene) -> Result<String, Error> {
-        let short = self.rows.kept().last().is_some_and(|row| row.t < 0.5);
-        let mut shown = Shown {
-            title: &summary.scene,
+    /// The slider's motion over time, beside that of ideal joints where a joint is loose, with the contact force and the
+    /// journal's path; else the crank's speed.
+    fn look(&self) -> Look<'_> {
+        let short = self.rows().last().is_some_and(|row| row.t < 0.5);
+        let look = Look {
+            title: &self.summary.scene,
             show: &["x", "v", "a", "omega"],
             over: if short { "t:ms" } else { "t" },
             columns: 2,
-            ..Shown::default()
+            scene: Some(self.scene),
+            run: Some(self.summary),
+            ..Look::default()
         };
-        if let Some(joint) = &summary.clearance {
-            shown.show = &[
+        let Some(joint) = &self.summary.clearance else {
+            return look;
+        };
+        Look {
+            show: &[
                 "x",
                 "x_ideal",
                 "v",
@@ -109,37 +142,24 @@ impl PlotRows {
                 "a_ideal",
                 "contact_force",
                 "slider_deviation",
-            ];
-            shown.beside = vec![self.orbit(1e3 * joint.radial_m)];
+            ],
+            beside: vec![self.orbit(1e3 * joint.radial_m)],
+            ..look
         }
-        self.view.svg(&self.table(scene), shown)
     }
 
-    /// Path of the journal's centre in the bearing, with the circle of the clearance, mm.
-    fn orbit(&self, radial: f64) -> Figure {
-        let path = self.rows.kept().iter().filter_map(|row| row.clearance);
-        let path: Vec<_> = path
-            .map(|joint| (1e3 * joint.journal[0], 1e3 * joint.journal[1]))
-            .collect();
-        let circle = (0..=180).map(|i| {
-            let (sin, cos) = (f64::from(i) / 180.0 * TAU).sin_cos();
-            (radial * cos, radial * sin)
-        });
-        Figure::new(
-            "path of the journal's centre in the bearing",
-            Axis::linear("along x [mm]"),
-            Axis::linear("along y [mm]"),
-        )
-        .equal()
-        .line("journal", path)
-        .dashed("radial clearance", circle.collect())
+    fn page(&self, origin: &Origin) -> Result<String, Error> {
+        let mut look = self.look();
+        if let Some(steady) = &self.summary.steady_state {
+            look.figures.push(speed_figure(steady)?);
+        }
+        page::html(origin, &self.facts(), &self.table(), &look)
     }
 }
 
 /// Names of the columns that are drawn of rows like this one.
 fn columns(row: &Row) -> String {
-    let mut names = header(row);
-    names.push_str(",kinetic_energy_j,potential_energy_j,whole_energy_j");
+    let mut names = header(row) + ",kinetic_energy_j,potential_energy_j,whole_energy_j";
     if row.clearance.is_some() {
         names.push_str(",slider_deviation_m");
     }

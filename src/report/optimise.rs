@@ -1,9 +1,8 @@
 //! The best design as text, its searches as CSV.
 
-use super::csv::{quoted, shortest};
+use super::csv::{self, Cell};
 use super::key_values::{Facts, fact, rounded, six};
 use super::quantity::Quantity;
-use crate::error::Error;
 use crate::optimise::{AGREEMENT, Optimum, OptimumValue, Proof, SubjectMet};
 
 /// The best design, its limits, and how sure it is.
@@ -95,27 +94,24 @@ fn proof(found: &Optimum) -> String {
 }
 
 /// A row for each local search.
-pub fn starts_csv(found: &Optimum) -> Result<String, Error> {
-    let of = |ending: &'static str| {
-        let columns = found.values.iter().map(|one| one.column.as_str());
-        columns.map(move |column| format!("{ending}{column}"))
+pub fn starts_csv(found: &Optimum) -> String {
+    let of = |prefix: &'static str| {
+        let values = found.values.iter();
+        values.map(move |one| format!("{prefix}{}", one.column))
     };
-    let header = ["search".to_owned()]
-        .into_iter()
-        .chain(of("start_"))
-        .chain(of(""))
-        .chain([&found.figure, "meets_subjects", "agrees", "designs"].map(str::to_owned));
-    let rows = (1..).zip(&found.starts).map(|(number, start)| {
-        let values = start.from.iter().chain(&start.to);
-        let figure = start.value.map_or(String::new(), shortest);
+    let last = [&found.figure, "meets_subjects", "agrees", "designs"].map(str::to_owned);
+    let header = ["search".to_owned()].into_iter().chain(of("start_"));
+    let header: Vec<String> = header.chain(of("")).chain(last).collect();
+    let rows = found.starts.iter().zip(1u32..).map(|(start, number)| {
         let [meets, agrees] = [start.meets_subjects, start.agrees].map(u8::from);
-        [number.to_string()]
-            .into_iter()
-            .chain(values.map(|value| shortest(*value)))
-            .chain([figure, meets.to_string(), agrees.to_string()])
-            .chain([start.designs.to_string()])
+        let values = start.from.iter().chain(&start.to);
+        let mut cells = vec![Cell::from(f64::from(number))];
+        cells.extend(values.map(|value| Cell::from(*value)));
+        cells.push(start.value.into());
+        cells.extend([meets, agrees].map(|flag| Cell::from(f64::from(flag))));
+        cells.push(Cell::from(start.designs as f64));
+        cells
     });
-    let rows: Vec<Vec<String>> = rows.map(Iterator::collect).collect();
-    let header: Vec<String> = header.collect();
-    quoted([], std::iter::once(header).chain(rows))
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    csv::text(&header, rows)
 }

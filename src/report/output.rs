@@ -1,16 +1,24 @@
 //! Where results go: standard output, or a file that appears only when it is complete.
 
+use std::fs::{File, Metadata};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use super::atomic_file::Unfinished;
+use tempfile::{Builder, NamedTempFile};
+
 use crate::error::Error;
 
 /// Names of standard output.
 const STANDARD: [&str; 2] = ["-", "/dev/stdout"];
 
 /// Folders of devices, and of files that are open already.
-const OPEN: [&str; 3] = ["/dev", "/dev/fd", "/proc/self/fd"];
+const OPEN: [&str; 3] = ["/dev", "/dev/fd", OPEN_FILES];
+
+/// Where the files that a process has open have names.
+const OPEN_FILES: &str = "/proc/self/fd";
+
+/// What the names of files begin with that are being written.
+const HIDDEN: &str = ".slider-crank-";
 
 /// Whether a path stands for standard output.
 pub fn is_standard_output(path: &Path) -> bool {
@@ -38,95 +46,81 @@ fn folder(path: &Path) -> &Path {
     }
 }
 
-/// Whether a file may be written, as its own permissions say.
-fn writable(path: &Path) -> io::Result<()> {
-    let file = std::fs::File::options().append(true).open(path)?;
-    if file.metadata()?.permissions().readonly() {
-        return Err(io::Error::other("it is write-protected"));
-    }
-    Ok(())
-}
-
 /// A stream of output. A file takes its name in [`Output::finish`].
 #[derive(Debug)]
 pub struct Output {
     target: String,
-    stream: Stream,
+    writer: BufWriter<Stream>,
+    /// The name that a file takes.
+    path: Option<PathBuf>,
 }
 
 #[derive(Debug)]
 enum Stream {
-    Standard(BufWriter<io::Stdout>),
-    Device(BufWriter<std::fs::File>),
-    File {
-        writer: BufWriter<Unfinished>,
-        folder: PathBuf,
-        path: PathBuf,
-    },
+    Standard(io::Stdout),
+    /// A device; on Linux a file without a name, of which nothing is left where the program is stopped.
+    File(File),
+    /// A file with a hidden name, on systems without nameless files.
+    Hidden(NamedTempFile),
+}
+
+impl Write for Stream {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Stream::Standard(stream) => stream.write(bytes),
+            Stream::File(file) => file.write(bytes),
+            Stream::Hidden(file) => file.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Stream::Standard(stream) => stream.flush(),
+            Stream::File(file) => file.flush(),
+            Stream::Hidden(file) => file.flush(),
+        }
+    }
 }
 
 impl Output {
     /// Opens the target; `-` is standard output. A target that cannot be written fails here, before the
     /// work is done.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
     pub fn create(path: &Path) -> Result<Output, Error> {
-        let target = path.display().to_string();
         if is_standard_output(path) {
             return Ok(Output::standard());
         }
-        let failed = |source| Error::Write {
+        let target = path.display().to_string();
+        let (stream, path) = opened(path).map_err(|source| Error::Write {
             target: target.clone(),
             source,
-        };
-        if is_stream(path) {
-            let file = std::fs::File::options().append(true).open(path);
-            return Ok(Output {
-                stream: Stream::Device(BufWriter::new(file.map_err(failed)?)),
-                target,
-            });
-        }
-        let path = &followed(path);
-        let folder = folder(path);
-        if !folder.is_dir() {
-            let why = format!("the folder `{}` does not exist", folder.display());
-            return Err(failed(io::Error::other(why)));
-        }
-        if path.is_dir() {
-            return Err(failed(io::Error::other("it is a folder")));
-        }
-        let before = std::fs::metadata(path).ok();
-        if before.is_some() {
-            // Another file would take its name, for which the folder's permission is enough.
-            writable(path).map_err(failed)?;
-        }
-        // Until it is complete its name means nothing to the user: the system's reason is given without it.
-        let file = Unfinished::new(folder, before.as_ref())
-            .map_err(|error| failed(error.kind().into()))?;
-        Ok(Output {
-            target,
-            stream: Stream::File {
-                writer: BufWriter::with_capacity(1 << 16, file),
-                folder: folder.to_owned(),
-                path: path.to_owned(),
-            },
-        })
+        })?;
+        Ok(Output::new(target, stream, path))
     }
 
     /// Standard output.
     pub fn standard() -> Output {
+        let stream = Stream::Standard(io::stdout());
+        Output::new("standard output".to_owned(), stream, None)
+    }
+
+    fn new(target: String, stream: Stream, path: Option<PathBuf>) -> Output {
         Output {
-            target: "standard output".to_owned(),
-            stream: Stream::Standard(BufWriter::with_capacity(1 << 16, io::stdout())),
+            target,
+            writer: BufWriter::with_capacity(1 << 16, stream),
+            path,
         }
     }
 
     /// Writes bytes.
     pub fn write(&mut self, bytes: &[u8]) -> Result<(), Error> {
-        let result = match &mut self.stream {
-            Stream::Standard(writer) => writer.write_all(bytes),
-            Stream::Device(writer) => writer.write_all(bytes),
-            Stream::File { writer, .. } => writer.write_all(bytes),
-        };
-        result.map_err(|source| self.error(source))
+        let written = self.writer.write_all(bytes);
+        written.map_err(|source| Error::Write {
+            target: self.target.clone(),
+            source,
+        })
     }
 
     /// Writes a text that is all there is to write.
@@ -137,28 +131,95 @@ impl Output {
 
     /// Completes the output; a file gets its name now.
     pub fn finish(self) -> Result<(), Error> {
-        let failed = |source| Error::Write {
-            target: self.target.clone(),
-            source,
-        };
-        match self.stream {
-            Stream::Standard(mut writer) => writer.flush().map_err(failed),
-            Stream::Device(mut writer) => writer.flush().map_err(failed),
-            Stream::File {
-                writer,
-                folder,
-                path,
-            } => {
-                let file = writer.into_inner().map_err(|e| failed(e.into_error()))?;
-                file.finish(&folder, &path).map_err(failed)
+        let (target, path) = (self.target, self.path);
+        let stream = self
+            .writer
+            .into_inner()
+            .map_err(io::IntoInnerError::into_error);
+        let finished = stream.and_then(|mut stream| {
+            stream.flush()?;
+            path.map_or(Ok(()), |path| named(stream, &path))
+        });
+        finished.map_err(|source| Error::Write { target, source })
+    }
+}
+
+/// A device, or a file beside the one whose name it takes.
+fn opened(path: &Path) -> io::Result<(Stream, Option<PathBuf>)> {
+    if is_stream(path) {
+        let file = File::options().append(true).open(path)?;
+        return Ok((Stream::File(file), None));
+    }
+    let path = followed(path);
+    let folder = folder(&path);
+    if !folder.is_dir() {
+        let why = format!("the folder `{}` does not exist", folder.display());
+        return Err(io::Error::other(why));
+    }
+    if path.is_dir() {
+        return Err(io::Error::other("it is a folder"));
+    }
+    let before = std::fs::metadata(&path).ok();
+    if before.is_some() {
+        // Another file would take its name, for which the folder's permission is enough.
+        let file = File::options().append(true).open(&path)?;
+        if file.metadata()?.permissions().readonly() {
+            return Err(io::Error::other("it is write-protected"));
+        }
+    }
+    // Until it is complete its name means nothing to the user: the system's reason is given without it.
+    let stream = unfinished(folder, before.as_ref()).map_err(|error| error.kind())?;
+    Ok((stream, Some(path)))
+}
+
+/// A file in a folder, with the permissions of the one that it is to replace.
+fn unfinished(folder: &Path, before: Option<&Metadata>) -> io::Result<Stream> {
+    let mut builder = Builder::new();
+    builder.prefix(HIDDEN);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let new = || std::fs::Permissions::from_mode(0o666);
+        let permissions = before.map_or_else(new, Metadata::permissions);
+        #[cfg(target_os = "linux")]
+        {
+            use rustix::fs::{Mode, OFlags};
+            let flags = OFlags::TMPFILE | OFlags::WRONLY | OFlags::CLOEXEC;
+            let mode = Mode::from_bits_truncate(permissions.mode());
+            if let Ok(file) = rustix::fs::open(folder, flags, mode)
+                && Path::new(OPEN_FILES).is_dir()
+            {
+                return Ok(Stream::File(File::from(file)));
             }
         }
+        builder.permissions(permissions);
     }
+    // Elsewhere a file has the permissions of its folder.
+    #[cfg(not(unix))]
+    let _ = before;
+    builder.tempfile_in(folder).map(Stream::Hidden)
+}
 
-    fn error(&self, source: io::Error) -> Error {
-        Error::Write {
-            target: self.target.clone(),
-            source,
+/// Gives a file its name, in its folder.
+fn named(stream: Stream, path: &Path) -> io::Result<()> {
+    match stream {
+        #[cfg(target_os = "linux")]
+        Stream::File(file) => {
+            use rustix::fs::{AtFlags, CWD};
+            use std::os::fd::AsRawFd;
+            let open = format!("{OPEN_FILES}/{}", file.as_raw_fd());
+            let link = |name: &Path| {
+                rustix::fs::linkat(CWD, &open, CWD, name, AtFlags::SYMLINK_FOLLOW)?;
+                Ok(())
+            };
+            // A link does not replace a file, as another name does.
+            let hidden = Builder::new().prefix(HIDDEN).make_in(folder(path), link)?;
+            hidden.persist(path).map_err(|error| error.error)?;
         }
+        Stream::Hidden(file) => {
+            file.persist(path).map_err(|error| error.error)?;
+        }
+        _ => {}
     }
+    Ok(())
 }

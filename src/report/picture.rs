@@ -22,14 +22,7 @@ const DPI: f32 = 96.0;
 #[derive(Debug)]
 pub struct Picture {
     output: Output,
-    format: Format,
-}
-
-#[derive(Clone, Copy, Debug)]
-enum Format {
-    Svg,
-    Png,
-    Pdf,
+    ending: String,
 }
 
 impl Picture {
@@ -39,13 +32,10 @@ impl Picture {
     /// [`Error::Write`].
     pub fn create(path: &Path) -> Result<Picture, Error> {
         let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
-        let format = match ending.to_str() {
-            Some("png") => Format::Png,
-            Some("pdf") => Format::Pdf,
-            _ => Format::Svg,
-        };
-        let output = Output::create(path)?;
-        Ok(Picture { output, format })
+        Ok(Picture {
+            output: Output::create(path)?,
+            ending: ending.to_string_lossy().into_owned(),
+        })
     }
 
     /// Draws a figure that is given as SVG.
@@ -53,17 +43,21 @@ impl Picture {
     /// # Errors
     /// [`Error::Write`].
     pub fn draw(mut self, svg: &str) -> Result<(), Error> {
-        let bytes = match self.format {
-            Format::Svg => return self.output.text(svg),
-            Format::Png => png(svg),
-            Format::Pdf => pdf(svg),
+        let bytes = match self.ending.as_str() {
+            "png" => pixels(svg, SCALE)?.encode_png().map_err(failed)?,
+            "pdf" => {
+                let page = svg2pdf::PageOptions { dpi: DPI };
+                let options = svg2pdf::ConversionOptions::default();
+                svg2pdf::to_pdf(&tree(svg)?, options, page).map_err(failed)?
+            }
+            _ => return self.output.text(svg),
         };
-        self.output.write(&bytes.map_err(failed)?)?;
+        self.output.write(&bytes)?;
         self.output.finish()
     }
 }
 
-fn tree(svg: &str) -> Result<Tree, String> {
+fn tree(svg: &str) -> Result<Tree, Error> {
     let mut fonts = Database::new();
     fonts.load_font_data(epaint_default_fonts::UBUNTU_LIGHT.to_vec());
     fonts.set_sans_serif_family("Ubuntu");
@@ -72,36 +66,28 @@ fn tree(svg: &str) -> Result<Tree, String> {
         font_family: "Ubuntu".to_owned(),
         ..Options::default()
     };
-    Tree::from_str(svg, &options).map_err(|error| error.to_string())
+    Tree::from_str(svg, &options).map_err(failed)
 }
 
 /// A figure as pixels, so many for each of the figure.
-pub(super) fn pixels(svg: &str, scale: f32) -> Result<Pixmap, String> {
+pub(super) fn pixels(svg: &str, scale: f32) -> Result<Pixmap, Error> {
     let tree = tree(svg)?;
-    let size = tree.size().to_int_size();
-    let size = size.scale_by(scale).ok_or("a figure without extent")?;
+    let size = tree.size().to_int_size().scale_by(scale);
+    let pixels = size.and_then(|size| Pixmap::new(size.width(), size.height()));
     let mut pixels =
-        Pixmap::new(size.width(), size.height()).ok_or("a figure too large for pixels")?;
-    let scaled = Transform::from_scale(scale, scale);
-    resvg::render(&tree, scaled, &mut pixels.as_mut());
+        pixels.ok_or_else(|| failed("it has no extent, or is too large for pixels"))?;
+    resvg::render(
+        &tree,
+        Transform::from_scale(scale, scale),
+        &mut pixels.as_mut(),
+    );
     Ok(pixels)
 }
 
-fn png(svg: &str) -> Result<Vec<u8>, String> {
-    let pixels = pixels(svg, SCALE)?;
-    pixels.encode_png().map_err(|error| error.to_string())
-}
-
 /// A figure that could not be written.
-pub(super) fn failed(reason: String) -> Error {
+pub(super) fn failed(reason: impl ToString) -> Error {
     Error::Write {
         target: "figure".to_owned(),
-        source: std::io::Error::other(reason),
+        source: std::io::Error::other(reason.to_string()),
     }
-}
-
-fn pdf(svg: &str) -> Result<Vec<u8>, String> {
-    let page = svg2pdf::PageOptions { dpi: DPI };
-    svg2pdf::to_pdf(&tree(svg)?, svg2pdf::ConversionOptions::default(), page)
-        .map_err(|error| error.to_string())
 }

@@ -1,11 +1,10 @@
 //! The comparison of methods: CSV, text and figure.
 
-use std::fmt::Write;
-
-use super::csv::{quoted, shortest};
+use super::Look;
+use super::csv::{self, Cell};
 use super::figure::{Axis, Figure, Shape, Sheet};
-use super::key_values::{Facts, six};
-use super::page::{Origin, Page, Scatter};
+use super::key_values::{Facts, aligned, fact, six};
+use super::page::{self, Origin, Scatter};
 use super::table::Table;
 use crate::error::Error;
 use crate::precision::{Precision, PrecisionRow};
@@ -25,23 +24,22 @@ const COLUMNS: [&str; 9] = [
 
 /// The comparison of several scenes as CSV: one row for each method and tolerance, times the least; cells of
 /// what does not exist are empty.
-pub fn precision_csv(scenes: &[Precision]) -> Result<String, Error> {
-    quoted(COLUMNS, cells(scenes))
+pub fn precision_csv(scenes: &[Precision]) -> String {
+    csv::text(&COLUMNS, cells(scenes))
 }
 
-fn cells(scenes: &[Precision]) -> impl Iterator<Item = Vec<String>> {
-    let number = |value: Option<f64>| value.map_or(String::new(), shortest);
-    let count = |value: Option<u64>| value.map_or(String::new(), |value| value.to_string());
+fn cells(scenes: &[Precision]) -> impl Iterator<Item = Vec<Cell>> {
+    let count = |value: Option<u64>| Cell::from(value.map(|value| value as f64));
     scenes.iter().flat_map(move |scene| {
         scene.rows.iter().map(move |row| {
             vec![
-                printable(&scene.scene).into_owned(),
-                row.method.clone(),
-                shortest(row.tolerance),
-                number(row.error_theta_rad),
-                number(row.error_omega_rad_per_s),
-                number(row.estimate_theta_rad),
-                number(row.wall_s),
+                Cell::from(&*printable(&scene.scene)),
+                Cell::from(&*row.method),
+                row.tolerance.into(),
+                row.error_theta_rad.into(),
+                row.error_omega_rad_per_s.into(),
+                row.estimate_theta_rad.into(),
+                row.wall_s.into(),
                 count(row.evaluations),
                 count(row.steps),
             ]
@@ -68,81 +66,84 @@ pub fn precision_page(scenes: &[Precision], origin: &Origin) -> Result<String, E
             facts.add("  note", note);
         }
     }
-    let rows: Vec<Vec<String>> = cells(scenes).collect();
-    let table = Table::of_cells(&COLUMNS.map(str::to_owned), &rows);
-    Page::new(origin, &facts)
-        .table(&table)
-        .scatter(Scatter {
-            x: "wall_s".to_owned(),
-            y: "error_theta_rad".to_owned(),
-            colour: String::new(),
-            log: true,
-            lines: true,
-            kind: "method",
-            within: "scene",
-        })
-        .html()
+    let table = Table::of_rows(&COLUMNS, &cells(scenes).collect::<Vec<_>>());
+    let scatter = Scatter {
+        x: "wall_s".to_owned(),
+        y: "error_theta_rad".to_owned(),
+        colour: String::new(),
+        log: true,
+        lines: true,
+        kind: "method",
+        within: "scene",
+    };
+    let look = Look {
+        scatter: Some(scatter),
+        ..Look::default()
+    };
+    page::html(origin, &facts, &table, &look)
 }
+
+/// Widths of the columns of the table.
+const WIDTHS: [isize; 9] = [-12, 9, 12, 14, 13, 10, 10, 11, 8];
 
 /// The comparison of one scene as a table.
 pub fn precision(scene: &Precision) -> String {
-    let mut text = String::new();
-    let mut put = |line: std::fmt::Arguments<'_>| {
-        let _ = writeln!(text, "{line}");
-    };
-    if !scene.scene.is_empty() {
-        put(format_args!("scene      {}", scene.scene));
-    }
-    put(format_args!("end        t = {} s", six(scene.t_s)));
-    put(format_args!("reference  {}", scene.reference));
+    let mut facts = Facts::of(&scene.scene);
+    fact!(facts, "end", "t = {} s", six(scene.t_s));
+    facts.add("reference", &scene.reference);
     if let (Some(theta), Some(omega)) = (
         scene.reference_error_theta_rad,
         scene.reference_error_omega_rad_per_s,
     ) {
-        let own = format!("{theta:.1e} rad, {omega:.1e} rad/s or less");
-        put(format_args!("its error  {own}"));
+        fact!(
+            facts,
+            "its error",
+            "{theta:.1e} rad, {omega:.1e} rad/s or less"
+        );
     }
-    put(format_args!(
-        "\n{:<12} {:>9} {:>12} {:>14} {:>13} {:>10} {:>10} {:>11} {:>8}",
+    let [error, speed, stated] = ["error [rad]", "error [rad/s]", "stated [rad]"];
+    let [least, evaluations] = ["least [us]", "evaluations"];
+    let header = [
         "method",
         "tolerance",
-        "error [rad]",
-        "error [rad/s]",
-        "stated [rad]",
-        "least [us]",
+        error,
+        speed,
+        stated,
+        least,
         "median",
-        "evaluations",
-        "steps"
-    ));
+        evaluations,
+        "steps",
+    ];
+    let mut text = facts.lines(10) + "\n" + &aligned(&WIDTHS, header);
     for row in &scene.rows {
-        put(format_args!("{}", line(row)));
+        text += &line(row);
     }
     for note in precision_notes(scene) {
-        put(format_args!("note: {note}"));
+        text += &format!("note: {note}\n");
     }
     text
 }
 
 fn line(row: &PrecisionRow) -> String {
-    let name = format!("{:<12} {:>9}", row.method, format!("{:.0e}", row.tolerance));
+    let name = [row.method.clone(), format!("{:.0e}", row.tolerance)].into_iter();
     if row.failure.is_some() && row.error_theta_rad.is_none() {
-        return format!("{name} {:>12}", "failed");
+        return aligned(&WIDTHS, name.chain(["failed".to_owned()]));
     }
     let bound = if row.error_is_bound { "<= " } else { "" };
-    let error = |value: Option<f64>| value.map_or("-".to_owned(), |v| format!("{bound}{v:.1e}"));
-    let plain = |value: Option<f64>| value.map_or("-".to_owned(), |v| format!("{v:.1e}"));
-    let micro = |value: Option<f64>| value.map_or("-".to_owned(), |v| format!("{:.1}", 1e6 * v));
-    let count = |value: Option<u64>| value.map_or("-".to_owned(), |v| v.to_string());
-    format!(
-        "{name} {:>12} {:>14} {:>13} {:>10} {:>10} {:>11} {:>8}",
-        error(row.error_theta_rad),
-        error(row.error_omega_rad_per_s),
-        plain(row.estimate_theta_rad),
+    let or_none = |value: Option<String>| value.unwrap_or_else(|| "-".to_owned());
+    let error = |value: Option<f64>, bound| or_none(value.map(|v| format!("{bound}{v:.1e}")));
+    let micro = |value: Option<f64>| or_none(value.map(|v| format!("{:.1}", 1e6 * v)));
+    let count = |value: Option<u64>| or_none(value.map(|v| v.to_string()));
+    let cells = [
+        error(row.error_theta_rad, bound),
+        error(row.error_omega_rad_per_s, bound),
+        error(row.estimate_theta_rad, ""),
         micro(row.wall_s),
         micro(row.wall_median_s),
         count(row.evaluations),
-        count(row.steps)
-    )
+        count(row.steps),
+    ];
+    aligned(&WIDTHS, name.chain(cells))
 }
 
 /// What the reader of the rows has to know.

@@ -1,11 +1,9 @@
 //! The papers' numbers as a table, CSV and JSON; their figures as CSV and SVG.
 
-use std::fmt::Write;
-
 use serde::Serialize;
 
-use super::csv::{quoted, shortest};
-use super::key_values::rounded;
+use super::csv::{self, Cell};
+use super::key_values::{aligned, rounded};
 use super::{Axis, Figure, Sheet};
 use crate::error::Error;
 use crate::reproduce::{Drawing, Entry, Plot, Reproduction, Style, Verdict};
@@ -48,77 +46,54 @@ fn short(value: f64) -> String {
     rounded(value, 7)
 }
 
-fn cell(value: Option<f64>) -> String {
-    value.map_or("-".to_owned(), short)
-}
-
 /// Every entry on a line or two, and the count of the verdicts.
 pub fn reproduction(result: &Reproduction) -> String {
+    const WIDTHS: [isize; 6] = [-22, 14, 14, -7, -21, 0];
     let mut text = String::new();
     let mut paper = "";
     for entry in &result.entries {
         if entry.paper != paper {
             paper = entry.paper;
-            let _ = writeln!(text, "{}{paper}", if text.is_empty() { "" } else { "\n" });
-            let _ = writeln!(
-                text,
-                "  {:<20} {:>14} {:>14} {:<7} {:<21} what",
-                "place", "printed", "ours", "unit", "verdict"
-            );
+            let gap = if text.is_empty() { "" } else { "\n" };
+            let header = ["  place", "printed", "ours", "unit", "verdict", "what"];
+            text += &format!("{gap}{paper}\n{}", aligned(&WIDTHS, header));
         }
-        let printed = entry
-            .printed
-            .parse()
-            .map_or(entry.printed.clone(), |value: f64| {
-                if entry.printed.len() > 12 {
-                    short(value)
-                } else {
-                    entry.printed.clone()
-                }
-            });
-        let _ = writeln!(
-            text,
-            "  {:<20} {:>14} {:>14} {:<7} {:<21} {}",
-            entry.place,
-            printed,
-            cell(entry.ours),
-            entry.unit,
+        let printed = match entry.printed.parse() {
+            Ok(value) if entry.printed.len() > 12 => short(value),
+            _ => entry.printed.clone(),
+        };
+        let cells = [
+            &*format!("  {}", entry.place),
+            &*printed,
+            &*entry.ours.map_or("-".to_owned(), short),
+            &*entry.unit,
             entry.verdict.name(),
-            entry.what
-        );
+            &*entry.what,
+        ];
+        text += &aligned(&WIDTHS, cells);
+        let more = " ".repeat(60);
         if !entry.condition.is_empty() {
-            let value = entry
-                .conditional
-                .map_or(String::new(), |v| format!(": {}", short(v)));
-            let _ = writeln!(text, "{:<60} {}{value}", "", entry.condition);
+            let value = entry.conditional.map(|value| format!(": {}", short(value)));
+            let (condition, value) = (&entry.condition, value.unwrap_or_default());
+            text += &format!("{more} {condition}{value}\n");
         }
         if entry.verdict != entry.expected {
-            let _ = writeln!(
-                text,
-                "{:<60} UNEXPECTED: known as \"{}\"",
-                "",
-                entry.expected.name()
-            );
+            let known = entry.expected.name();
+            text += &format!("{more} UNEXPECTED: known as \"{known}\"\n");
         }
     }
     let summary = ReproductionSummary::new(result);
-    let _ = writeln!(
-        text,
-        "\n{} reproduce, {} only if, {} cannot be reproduced; {} unexpected",
+    text + &format!(
+        "\n{} reproduce, {} only if, {} cannot be reproduced; {} unexpected\n",
         summary.reproduces,
         summary.reproduces_only_if,
         summary.cannot_be_reproduced,
         summary.unexpected
-    );
-    text
-}
-
-fn number(value: Option<f64>) -> String {
-    value.map_or(String::new(), shortest)
+    )
 }
 
 /// Every entry as CSV.
-pub fn reproduction_csv(result: &Reproduction) -> Result<String, Error> {
+pub fn reproduction_csv(result: &Reproduction) -> String {
     let header = [
         "paper",
         "place",
@@ -133,37 +108,34 @@ pub fn reproduction_csv(result: &Reproduction) -> Result<String, Error> {
     ];
     let row = |entry: &Entry| {
         vec![
-            entry.paper.to_owned(),
-            entry.place.clone(),
-            entry.what.clone(),
-            entry.unit.to_owned(),
-            entry.printed.clone(),
-            number(entry.ours),
-            number(entry.conditional),
-            entry.condition.clone(),
-            entry.verdict.name().to_owned(),
-            entry.expected.name().to_owned(),
+            entry.paper.into(),
+            entry.place.as_str().into(),
+            entry.what.as_str().into(),
+            entry.unit.as_str().into(),
+            entry.printed.as_str().into(),
+            entry.ours.into(),
+            entry.conditional.into(),
+            entry.condition.as_str().into(),
+            entry.verdict.name().into(),
+            entry.expected.name().into(),
         ]
     };
-    quoted(header, result.entries.iter().map(row))
+    csv::text(&header, result.entries.iter().map(row))
 }
 
 /// The data of a figure as CSV, one row for each point.
-pub fn drawing_csv(drawing: &Drawing) -> Result<String, Error> {
-    let rows = drawing.plots.iter().flat_map(|plot| {
-        plot.series.iter().flat_map(move |series| {
-            series.points.iter().map(move |(x, y)| {
-                vec![
-                    plot.x.to_owned(),
-                    plot.y.to_owned(),
-                    series.label.clone(),
-                    number(Some(*x)),
-                    number(Some(*y)),
-                ]
-            })
+pub fn drawing_csv(drawing: &Drawing) -> String {
+    let series = drawing.plots.iter();
+    let series = series.flat_map(|plot| plot.series.iter().map(move |series| (plot, series)));
+    let rows = series.flat_map(|(plot, series)| {
+        let names = [&*plot.x, &*plot.y, &*series.label];
+        let points = series.points.iter();
+        points.map(move |(x, y)| {
+            let numbers = [*x, *y].map(Cell::from);
+            names.map(Cell::from).into_iter().chain(numbers).collect()
         })
     });
-    quoted(["x_axis", "y_axis", "series", "x", "y"], rows)
+    csv::text(&["x_axis", "y_axis", "series", "x", "y"], rows)
 }
 
 /// A figure as SVG.

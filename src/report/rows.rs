@@ -5,8 +5,7 @@ use super::csv::line;
 use super::decimate::Thinned;
 use super::table::Table;
 use crate::error::Error;
-use crate::simulate::Reactions;
-use crate::simulate::{Row, RowSink};
+use crate::simulate::{Reactions, Row, RowSink};
 
 const MOTION: &str =
     "t_s,theta_rad,omega_rad_per_s,alpha_rad_per_s2,x_m,v_m_per_s,a_m_per_s2,phi_rad";
@@ -17,12 +16,12 @@ const TORQUE: &str = "crank_torque_nm";
 
 /// Cells of the columns [`REACTIONS`].
 pub(super) fn reactions(forces: &Reactions) -> impl Iterator<Item = f64> {
-    let pairs = [forces.crank_bearing, forces.crank_pin, forces.wrist_pin];
-    pairs
+    let joints = [forces.crank_bearing, forces.crank_pin, forces.wrist_pin];
+    let rest = [forces.guide].into_iter().chain(forces.shaking);
+    joints
         .into_iter()
         .flatten()
-        .chain([forces.guide])
-        .chain(forces.shaking)
+        .chain(rest)
         .chain([forces.shaking_moment])
 }
 
@@ -50,18 +49,11 @@ impl RowWriter {
 
 /// Names of the columns of rows like this one.
 pub(super) fn header(row: &Row) -> String {
-    let mut header = MOTION.to_owned();
-    for (given, columns) in [
-        (row.reactions.is_some(), REACTIONS),
-        (row.driving_torque.is_some(), TORQUE),
-        (row.clearance.is_some(), CLEARANCE),
-    ] {
-        if given {
-            header.push(',');
-            header.push_str(columns);
-        }
-    }
-    header
+    let mut columns = vec![MOTION];
+    columns.extend(row.reactions.map(|_| REACTIONS));
+    columns.extend(row.driving_torque.map(|_| TORQUE));
+    columns.extend(row.clearance.map(|_| CLEARANCE));
+    columns.join(",")
 }
 
 /// The cells of a row.
@@ -143,11 +135,8 @@ impl Preview {
     /// The rows kept, the last one of the run among them.
     pub fn rows(&self) -> Vec<Row> {
         let mut rows = self.few.kept().to_vec();
-        if let Some(last) = self.last
-            && rows.last().is_none_or(|row| row.t < last.t)
-        {
-            rows.push(last);
-        }
+        let end = rows.last().map_or(f64::NEG_INFINITY, |row| row.t);
+        rows.extend(self.last.filter(|last| last.t > end));
         rows
     }
 }

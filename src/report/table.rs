@@ -1,4 +1,4 @@
-//! Rows of a result by their columns, as pictures and pages read them.
+//! Rows of a result by their columns, as CSV files, pictures and pages read them.
 
 use std::borrow::Cow;
 
@@ -7,55 +7,25 @@ use base64::prelude::BASE64_STANDARD;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::csv::shortest;
-use crate::report::quantity::Quantity;
+use super::Output;
+use super::csv::{self, Cell};
+use super::quantity::Quantity;
+use crate::error::Error;
 
 /// Rows of a result by their columns.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Table {
     columns: Vec<Column>,
     /// Every so many rows of the result are here.
     pub(super) stride: u64,
+    /// Columns at the end that are for pictures and pages only.
+    pub(super) beside: usize,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Column {
     name: String,
     cells: Cells,
-}
-
-/// A cell of a row.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Cell {
-    Number(f64),
-    Text(String),
-}
-
-impl Cell {
-    /// No value.
-    pub const EMPTY: Cell = Cell::Text(String::new());
-
-    /// From a CSV file.
-    pub fn read(text: &str) -> Cell {
-        let number = text.parse();
-        number.map_or_else(|_| Cell::Text(text.to_owned()), Cell::Number)
-    }
-
-    /// The number, if there is a finite one.
-    pub fn number(&self) -> Option<f64> {
-        match self {
-            Cell::Number(number) => Some(*number).filter(|number| number.is_finite()),
-            Cell::Text(_) => None,
-        }
-    }
-
-    /// In a CSV file.
-    pub fn text(&self) -> Cow<'_, str> {
-        match self {
-            Cell::Number(number) => shortest(*number).into(),
-            Cell::Text(text) => text.into(),
-        }
-    }
 }
 
 /// What stands in a column.
@@ -77,6 +47,7 @@ impl Table {
         Table {
             columns: header.split(',').map(column).collect(),
             stride: 1,
+            beside: 0,
         }
     }
 
@@ -95,43 +66,44 @@ impl Table {
         columns.map(|column| (column.name, column.cells))
     }
 
-    /// Rows of the cells of a CSV file: numbers where all cells of a column are, in one unit.
-    pub(super) fn of_cells(header: &[String], rows: &[Vec<String>]) -> Table {
-        let column = |(i, name): (usize, &String)| Column {
-            name: name.clone(),
-            cells: Cells::of(rows.iter().map(|row| row.get(i).map_or("", String::as_str))),
-        };
-        Table {
-            columns: header.iter().enumerate().map(column).collect(),
-            stride: 1,
-        }
-    }
-
-    /// Rows of cells: numbers where all cells of a column are.
-    pub(super) fn of_rows(header: &[String], rows: &[Vec<Cell>]) -> Table {
+    /// Rows of cells: numbers where all cells of a column are, in one unit.
+    pub(super) fn of_rows<N: AsRef<str> + Sync>(header: &[N], rows: &[Vec<Cell>]) -> Table {
         static NONE: Cell = Cell::EMPTY;
-        let column = |(i, name): (usize, &String)| Column {
-            name: name.clone(),
-            cells: Cells::of_column(rows.iter().map(|row| row.get(i).unwrap_or(&NONE))),
+        let column = |(i, name): (usize, &N)| Column {
+            name: name.as_ref().to_owned(),
+            cells: Cells::of(rows.iter().map(|row| row.get(i).unwrap_or(&NONE))),
         };
         Table {
             columns: header.par_iter().enumerate().map(column).collect(),
             stride: 1,
+            beside: 0,
         }
     }
 
     /// Values of a column in SI, or in the unit that people wrote; none of words.
     pub(super) fn numbers(&self, name: &str) -> Option<&[f64]> {
         let column = self.columns.iter().find(|column| column.name == name)?;
-        match &column.cells {
-            Cells::Numbers(values, _) => Some(values),
-            Cells::Words(_) => None,
-        }
+        column.cells.numbers()
     }
 
     /// Names of the columns.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.columns.iter().map(|column| column.name.as_str())
+    }
+
+    /// Writes the columns of numbers as CSV, without those for pictures only.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub(super) fn csv(&self, output: Output) -> Result<(), Error> {
+        let columns = &self.columns[..self.columns.len() - self.beside];
+        let header: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
+        let columns = columns.iter().filter_map(|column| column.cells.numbers());
+        let columns: Vec<&[f64]> = columns.collect();
+        let rows: Vec<usize> = (0..columns.first().map_or(0, |values| values.len())).collect();
+        csv::write_all(output, &header.join(","), &rows, |row, text| {
+            csv::line(columns.iter().map(|values| values[*row]), text);
+        })
     }
 
     /// The columns for the page.
@@ -141,30 +113,29 @@ impl Table {
 }
 
 impl Cells {
-    fn of_column<'a>(cells: impl Iterator<Item = &'a Cell> + Clone) -> Cells {
+    fn numbers(&self) -> Option<&[f64]> {
+        match self {
+            Cells::Numbers(values, _) => Some(values),
+            Cells::Words(_) => None,
+        }
+    }
+
+    fn of<'a>(cells: impl Iterator<Item = &'a Cell> + Clone) -> Cells {
         let known = |cell: &Cell| matches!(cell, Cell::Number(_)) || *cell == Cell::EMPTY;
         if cells.clone().all(known) {
             let numbers = cells.map(|cell| cell.number().unwrap_or(f64::NAN));
             return Cells::Numbers(numbers.collect(), None);
         }
         let texts: Vec<Cow<'_, str>> = cells.map(Cell::text).collect();
-        Cells::of(texts.iter().map(AsRef::as_ref))
-    }
-
-    fn of<'a>(cells: impl Iterator<Item = &'a str> + Clone) -> Cells {
-        let mut units = cells
-            .clone()
-            .filter_map(|cell| number_and_unit(cell).map(|(_, unit)| unit));
-        let unit = units.next().unwrap_or_default();
-        let all = cells
-            .clone()
-            .all(|cell| cell.is_empty() || number_and_unit(cell).is_some());
-        if !all || !units.all(|other| other == unit) {
-            return Cells::Words(cells.map(str::to_owned).collect());
+        let given = || texts.iter().filter(|text| !text.is_empty());
+        let mut units = given().map(|text| number_and_unit(text).map(|(_, unit)| unit));
+        let unit = units.next().flatten();
+        if unit.is_none() || !units.all(|other| other == unit) {
+            return Cells::Words(texts.into_iter().map(Cow::into_owned).collect());
         }
-        let number = |cell: &str| number_and_unit(cell).map_or(f64::NAN, |(number, _)| number);
-        let given = (!unit.is_empty()).then(|| unit.to_owned());
-        Cells::Numbers(cells.map(number).collect(), given)
+        let number = |text: &Cow<str>| number_and_unit(text).map_or(f64::NAN, |(number, _)| number);
+        let unit = unit.filter(|unit| !unit.is_empty()).map(str::to_owned);
+        Cells::Numbers(texts.iter().map(number).collect(), unit)
     }
 }
 
@@ -183,7 +154,11 @@ impl Column {
                 if let Some(given) = given {
                     quantity.unit.to_mut().clone_from(given);
                 }
-                (Some(encoded(values)), None)
+                let bytes = values.iter().flat_map(|value| value.to_le_bytes());
+                (
+                    Some(BASE64_STANDARD.encode(bytes.collect::<Vec<u8>>())),
+                    None,
+                )
             }
             Cells::Words(words) => (None, Some(&words[..])),
         };
@@ -207,12 +182,4 @@ pub(super) struct Shown<'a> {
     data: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     words: Option<&'a [String]>,
-}
-
-fn encoded(values: &[f64]) -> String {
-    let bytes: Vec<u8> = values
-        .iter()
-        .flat_map(|value| value.to_le_bytes())
-        .collect();
-    BASE64_STANDARD.encode(bytes)
 }

@@ -507,7 +507,7 @@ fn figures_of_a_motion_that_ends_at_a_dead_centre_have_the_same_time() {
     let summary = folder.run(&arguments).done().json();
     let bands = summary["dead_centre_bands"].as_array().expect("a list");
     assert_eq!(bands.last().expect("a band")["to_s"], 1.0);
-    let last_time = folder.read("end.svg").matches(">\n1.0\n<").count();
+    let last_time = folder.read("end.svg").matches(">1.0<").count();
     assert_eq!(last_time, 4);
 }
 

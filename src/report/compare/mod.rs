@@ -6,13 +6,10 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
-use super::csv::{line, write_all};
-use super::curves::{Shown, View};
 use super::key_values::{Facts, fact, six};
-use super::page::{Origin, Page};
 use super::quantity::{Quantity, split};
 use super::table::Table;
-use super::{Output, json};
+use super::{Look, Report};
 use crate::error::Error;
 pub use motion::Motion;
 use motion::TIME;
@@ -28,6 +25,8 @@ pub struct Comparison {
     pub differences: Vec<Difference>,
     /// What is to be known beside them.
     pub warnings: Vec<String>,
+    #[serde(skip)]
+    title: String,
     #[serde(skip)]
     table: Table,
 }
@@ -112,46 +111,21 @@ impl Comparison {
         for k in 0..times.len() {
             table.push(values.iter().map(|column| column[k]));
         }
+        let names: Vec<String> = motions.iter().map(|motion| motion.name.clone()).collect();
         Ok(Comparison {
-            motions: motions.iter().map(|motion| motion.name.clone()).collect(),
+            title: names.join(", "),
+            motions: names,
             rows: times.len(),
             differences,
             warnings,
             table,
         })
     }
+}
 
-    /// Writes times, values and differences.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
-    pub fn rows(&self, output: Output) -> Result<(), Error> {
-        let names: Vec<&str> = self.table.names().collect();
-        let columns: Vec<&[f64]> = names
-            .iter()
-            .filter_map(|name| self.table.numbers(name))
-            .collect();
-        let rows: Vec<usize> = (0..self.rows).collect();
-        write_all(output, &names.join(","), &rows, |row, text| {
-            line(columns.iter().map(|column| column[*row]), text);
-        })
-    }
-
-    /// The summary as text.
-    pub fn text(&self) -> String {
-        self.facts().lines(24)
-    }
-
-    /// The summary as one JSON object.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
-    pub fn json(&self) -> Result<String, Error> {
-        json(self)
-    }
-
+impl Report for Comparison {
     fn facts(&self) -> Facts {
-        let mut facts = Facts::of(&self.motions.join(", "));
+        let mut facts = Facts::of(&self.title);
         for (number, name) in (1..).zip(&self.motions) {
             facts.add(format_args!("motion {number}"), name);
         }
@@ -176,13 +150,18 @@ impl Comparison {
         facts
     }
 
-    /// What is to be seen as SVG: by itself position and speed of crank and slider.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] if a column is not there.
-    pub fn figure(&self, view: &View) -> Result<String, Error> {
-        let shown = Shown {
-            title: &self.motions.join(", "),
+    fn text(&self) -> String {
+        self.facts().lines(24)
+    }
+
+    fn table(&self) -> Table {
+        self.table.clone()
+    }
+
+    /// Position and speed of crank and slider.
+    fn look(&self) -> Look<'_> {
+        Look {
+            title: &self.title,
             show: &[
                 "theta_of",
                 "theta_difference",
@@ -195,17 +174,8 @@ impl Comparison {
             ],
             over: "t",
             columns: 2,
-            ..Shown::default()
-        };
-        view.svg(&self.table, shown)
-    }
-
-    /// The comparison as one page.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
-    pub fn page(&self, origin: &Origin) -> Result<String, Error> {
-        Page::new(origin, &self.facts()).table(&self.table).html()
+            ..Look::default()
+        }
     }
 }
 

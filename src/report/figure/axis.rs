@@ -1,53 +1,74 @@
-//! An axis: its label, how values are spread over it, and its range.
+//! An axis: label, range, where a value lies on it, and the ticks.
 
-use super::{page, scale};
+use super::words::{TEXT, fitted, width};
+
+/// Part of the length of an axis that is left free beyond the values, at each end.
+const MARGIN: f64 = 0.04;
+
+/// Values beyond this are no quantities, and their differences may overflow.
+const LARGEST: f64 = 1e300;
+
+/// Values closer together than this part of their size are one value.
+const CONSTANT: f64 = 1e-13;
+
+/// Parts and multiples of a turn at which angles are read, degrees.
+const PARTS_OF_TURN: [f64; 8] = [10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0, 720.0];
 
 /// How values are spread over an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ScaleKind {
-    /// Evenly.
+enum Kind {
     Linear,
-    /// Evenly, read at parts of a turn.
+    /// Linear, read at parts of a turn.
     Degrees,
-    /// By their logarithm; values that are not positive have no place.
+    /// By the decimal logarithm; values that are not positive have no place.
     Log,
+}
+
+impl Kind {
+    /// The value that is spread evenly; not a number if there is none.
+    fn coordinate(self, value: f64) -> f64 {
+        match self {
+            _ if value.abs() > LARGEST => f64::NAN,
+            Kind::Log if value > 0.0 => value.log10(),
+            Kind::Log => f64::NAN,
+            Kind::Linear | Kind::Degrees => value,
+        }
+    }
 }
 
 /// An axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    pub(super) label: String,
+    pub(in crate::report) label: String,
     /// Where there is no room for the label.
     short: String,
-    pub(super) kind: ScaleKind,
-    pub(super) range: Option<(f64, f64)>,
+    kind: Kind,
+    range: Option<(f64, f64)>,
 }
 
 impl Axis {
-    /// A linear axis; the label names the quantity and its unit.
-    pub fn linear(label: impl Into<String>) -> Axis {
+    fn new(label: impl Into<String>, kind: Kind) -> Axis {
         Axis {
             label: label.into(),
             short: String::new(),
-            kind: ScaleKind::Linear,
+            kind,
             range: None,
         }
     }
 
+    /// A linear axis; the label names the quantity and its unit.
+    pub fn linear(label: impl Into<String>) -> Axis {
+        Axis::new(label, Kind::Linear)
+    }
+
     /// A linear axis of angles in degrees, with ticks at parts of a turn; the label names the angle and its unit.
     pub fn degrees(label: impl Into<String>) -> Axis {
-        Axis {
-            kind: ScaleKind::Degrees,
-            ..Axis::linear(label)
-        }
+        Axis::new(label, Kind::Degrees)
     }
 
     /// A logarithmic axis; the label names the quantity and its unit.
     pub fn log(label: impl Into<String>) -> Axis {
-        Axis {
-            kind: ScaleKind::Log,
-            ..Axis::linear(label)
-        }
+        Axis::new(label, Kind::Log)
     }
 
     /// With a shorter label, for where there is no room for the other.
@@ -56,27 +77,167 @@ impl Axis {
         self
     }
 
-    /// The label that has room in a length, pixels.
-    pub(super) fn label_within(&self, length: i32) -> String {
-        match page::text_width(&self.label, page::TEXT) <= length || self.short.is_empty() {
-            true => page::fitted(&self.label, length),
-            false => page::fitted(&self.short, length),
-        }
-    }
-
-    /// Without its label.
-    pub(in crate::report) fn unlabelled(&mut self) {
-        self.label.clear();
-    }
-
     /// Shows exactly this range; what lies outside is cut off. Without it the axis fits the values.
     pub fn range(mut self, low: f64, high: f64) -> Axis {
         self.range = Some((low, high));
         self
     }
 
+    /// The label that has room in a length, pixels.
+    pub(super) fn label_within(&self, length: f64) -> String {
+        match width(&self.label, TEXT) <= length || self.short.is_empty() {
+            true => fitted(&self.label, length),
+            false => fitted(&self.short, length),
+        }
+    }
+
     /// Whether a value has a place on the axis.
     pub(super) fn shows(&self, value: f64) -> bool {
-        scale::coordinate(self.kind, value).is_finite()
+        self.kind.coordinate(value).is_finite()
     }
+}
+
+/// A tick: where on the axis (0 to 1), and what is written there.
+pub(super) struct Tick {
+    pub at: f64,
+    pub label: String,
+}
+
+/// An axis with the limits of its coordinate.
+pub(super) struct Scale {
+    kind: Kind,
+    low: f64,
+    high: f64,
+}
+
+impl Scale {
+    /// The scale of an axis that has to show these values, if it has no range of its own.
+    pub fn new(axis: &Axis, values: impl Iterator<Item = f64>) -> Scale {
+        let kind = axis.kind;
+        let asked = axis
+            .range
+            .map(|(low, high)| (kind.coordinate(low), kind.coordinate(high)))
+            .filter(|(low, high)| low.is_finite() && high.is_finite() && low < high);
+        let (low, high) = asked.unwrap_or_else(|| {
+            let values = values.map(|value| kind.coordinate(value));
+            let (low, high) = values
+                .filter(|value| value.is_finite())
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+                    (low.min(value), high.max(value))
+                });
+            let margin = match kind {
+                _ if low > high => return (0.0, 1.0),
+                Kind::Log if high - low < 0.1 => 0.5,
+                Kind::Linear if high - low <= CONSTANT * low.abs().max(high.abs()) => {
+                    if low == 0.0 { 1.0 } else { 0.1 * low.abs() }
+                }
+                _ => MARGIN * (high - low),
+            };
+            (low - margin, high + margin)
+        });
+        Scale { kind, low, high }
+    }
+
+    /// Length of the axis in its coordinate.
+    pub fn length(&self) -> f64 {
+        self.high - self.low
+    }
+
+    /// Makes the axis so long, with the middle where it is.
+    pub fn lengthen(&mut self, length: f64) {
+        let more = 0.5 * (length - self.length());
+        self.low -= more;
+        self.high += more;
+    }
+
+    /// Where a value lies: 0 to 1 inside the limits; not a number if it has no place on this axis.
+    pub fn position(&self, value: f64) -> f64 {
+        (self.kind.coordinate(value) - self.low) / self.length()
+    }
+
+    /// Where a value lies, brought inside the limits; what a logarithmic axis cannot reach is at its start.
+    pub fn clamped(&self, value: f64) -> f64 {
+        if self.kind == Kind::Log && value <= 0.0 {
+            return 0.0;
+        }
+        self.position(value).clamp(0.0, 1.0)
+    }
+
+    /// At most `most` ticks.
+    pub fn ticks(&self, most: usize) -> Vec<Tick> {
+        if self.kind != Kind::Log {
+            return self.even(self.low, self.high, most);
+        }
+        let parts = self.decades(1, &[1, 2, 5]);
+        if (2..=most).contains(&parts.len()) {
+            return parts;
+        }
+        if self.length() < 1.5 {
+            return self.even(10f64.powf(self.low), 10f64.powf(self.high), most);
+        }
+        let span = (self.high.floor() - self.low.ceil()) as i32;
+        let step = [1, 2, 3, 5, 10, 20, 50, 100]
+            .into_iter()
+            .find(|step| span / step < most as i32);
+        self.decades(step.unwrap_or(200), &[1])
+    }
+
+    /// Parts of every `step`-th decade.
+    fn decades(&self, step: i32, parts: &[i32]) -> Vec<Tick> {
+        let exponents = self.low.floor() as i32..=self.high.ceil() as i32;
+        let ticks = exponents.flat_map(|exponent| parts.iter().map(move |part| (*part, exponent)));
+        let ticks = ticks.filter(|(_, exponent)| exponent.rem_euclid(step) == 0);
+        self.shown(ticks.map(|(part, exponent)| {
+            let value = f64::from(part) * 10f64.powi(exponent);
+            let label = match exponent {
+                0..=3 => format!("{value}"),
+                _ => format!("{part}e{exponent}"),
+            };
+            (value, label)
+        }))
+    }
+
+    /// Round numbers at even distances.
+    fn even(&self, low: f64, high: f64, most: usize) -> Vec<Tick> {
+        let least = (high - low) / most.max(1) as f64;
+        let of_turn = PARTS_OF_TURN.into_iter().find(|part| *part >= least);
+        let step = of_turn
+            .filter(|_| self.kind == Kind::Degrees && least > 5.0)
+            .unwrap_or_else(|| round_step(least));
+        let digits = |value: f64| value.abs().max(f64::MIN_POSITIVE).log10().floor() as i32;
+        let size = digits(low.abs().max(high.abs()));
+        let last = digits(step * (1.0 + 1e-9));
+        let first = (low / step).ceil();
+        let count = ((high / step).floor() - first).max(0.0) as usize + 1;
+        self.shown((0..count.min(most + 1)).map(|i| {
+            let value = (first + i as f64) * step;
+            let label = if value == 0.0 {
+                "0".to_owned()
+            } else if size > 6 || last < -6 {
+                let decimals = (digits(value * (1.0 + 1e-9)) - last).max(0) as usize;
+                format!("{value:.decimals$e}")
+            } else {
+                format!("{value:.*}", (-last).max(0) as usize)
+            };
+            (value, label)
+        }))
+    }
+
+    /// Ticks at these values, as far as they are inside the limits.
+    fn shown(&self, ticks: impl Iterator<Item = (f64, String)>) -> Vec<Tick> {
+        let tick = |(value, label)| Tick {
+            at: self.position(value),
+            label,
+        };
+        let inside = |tick: &Tick| (-1e-9..=1.0 + 1e-9).contains(&tick.at);
+        ticks.map(tick).filter(inside).collect()
+    }
+}
+
+/// The next step of 1, 2 or 5 times a power of ten.
+fn round_step(at_least: f64) -> f64 {
+    let decade = 10f64.powf(at_least.max(f64::MIN_POSITIVE).log10().floor());
+    let steps = [1.0, 2.0, 5.0].map(|part| part * decade).into_iter();
+    let mut large = steps.filter(|step| *step >= at_least * (1.0 - 1e-9));
+    large.next().unwrap_or(10.0 * decade)
 }

@@ -15,30 +15,26 @@ pub(super) fn inside((x, y): Place) -> bool {
 /// The pieces of a line that lie between the axes; a point that is not a number breaks the line.
 pub(super) fn pieces(points: &[Place]) -> Vec<Vec<Place>> {
     let mut pieces: Vec<Vec<Place>> = Vec::new();
-    let runs = points.split(|(x, y)| !(x + y).is_finite());
-    for run in runs.filter(|run| !run.is_empty()) {
+    for run in points.split(|(x, y)| !(x + y).is_finite()) {
         if let [only] = run {
             pieces.extend(inside(*only).then(|| vec![*only]));
-            continue;
         }
-        // Whether the last piece may go on with the next segment.
+        // Whether the last piece goes on with the next segment.
         let mut open = false;
         for pair in run.windows(2) {
-            let Some((begin, end)) = cut(pair[0], pair[1]) else {
-                open = false;
-                continue;
-            };
-            match pieces.last_mut() {
-                Some(piece) if open => piece.push(end),
-                _ => pieces.push(vec![begin, end]),
+            let part = cut(pair[0], pair[1]);
+            match (part, pieces.last_mut()) {
+                (None, _) => {}
+                (Some((_, end)), Some(piece)) if open => piece.push(end),
+                (Some((begin, end)), _) => pieces.push(vec![begin, end]),
             }
-            open = inside(pair[1]);
+            open = part.is_some() && inside(pair[1]);
         }
     }
     pieces
 }
 
-/// The part of a segment between the axes.
+/// The part of a segment between the axes (Liang and Barsky).
 fn cut(a: Place, b: Place) -> Option<(Place, Place)> {
     if inside(a) && inside(b) {
         return Some((a, b));

@@ -2,15 +2,14 @@
 
 mod axis;
 mod clip;
-mod draw;
-mod legend;
-mod marks;
-mod page;
-mod scale;
+mod panel;
+mod sheet;
+mod svg;
+mod words;
 
 use crate::error::Error;
-pub use axis::{Axis, ScaleKind};
-pub(super) use page::escaped;
+pub use axis::Axis;
+pub(super) use words::escaped;
 
 /// What is drawn of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,16 +28,10 @@ struct Series {
     label: String,
     look: Look,
     points: Vec<(f64, f64, f64)>,
-}
-
-/// A series with the numbers by which it is told apart.
-#[derive(Clone, Copy, Debug)]
-struct Numbered<'a> {
-    /// Number of its colour and marker.
+    /// Number of the colour and the marker: one for each label.
     colour: usize,
-    /// Number of its stroke, among series of this look.
-    line: usize,
-    series: &'a Series,
+    /// Number of the stroke, among series of this look.
+    stroke: usize,
 }
 
 /// A figure: a title, two axes and series of points.
@@ -64,7 +57,7 @@ struct Numbered<'a> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     title: String,
-    x: Axis,
+    pub(super) x: Axis,
     y: Axis,
     /// Whether both axes have one scale.
     is_equal: bool,
@@ -72,11 +65,6 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// Horizontal axis of the figure.
-    pub(super) fn x_axis(&mut self) -> &mut Axis {
-        &mut self.x
-    }
-
     /// A figure without series.
     pub fn new(title: impl Into<String>, x: Axis, y: Axis) -> Figure {
         Figure {
@@ -114,86 +102,59 @@ impl Figure {
         self.with(label, Look::LineWithPoints, points)
     }
 
-    /// The area between `low` and `high` of points (x, low, high).
-    pub fn band(mut self, label: impl Into<String>, points: Vec<(f64, f64, f64)>) -> Figure {
-        self.series.push(Series {
-            label: label.into(),
-            look: Look::Band,
-            points,
-        });
-        self
-    }
-
     /// A vertical line at `x`. Its label stands in the legend, once for all marks with the same label.
     pub fn vertical_mark(self, x: f64, label: impl Into<String>) -> Figure {
         self.with(label, Look::VerticalMark, vec![(x, f64::NAN)])
     }
 
+    fn with(self, label: impl Into<String>, look: Look, points: Vec<(f64, f64)>) -> Figure {
+        let points = points.into_iter().map(|(x, y)| (x, y, y));
+        self.push(label.into(), look, points.collect())
+    }
+
+    /// The area between `low` and `high` of points (x, low, high).
+    pub fn band(self, label: impl Into<String>, points: Vec<(f64, f64, f64)>) -> Figure {
+        self.push(label.into(), Look::Band, points)
+    }
+
+    fn push(mut self, label: String, look: Look, points: Vec<(f64, f64, f64)>) -> Figure {
+        let next = |numbers: &mut dyn Iterator<Item = usize>| numbers.max().map_or(0, |n| n + 1);
+        let coloured = || self.series.iter().filter(|s| s.look != Look::VerticalMark);
+        let known = coloured().find(|s| !label.is_empty() && s.label == label);
+        let colour = known.map_or_else(|| next(&mut coloured().map(|s| s.colour)), |s| s.colour);
+        let alike = || self.series.iter().filter(|s| s.look == look);
+        let known = alike().find(|s| s.colour == colour);
+        let stroke = known.map_or_else(|| next(&mut alike().map(|s| s.stroke)), |s| s.stroke);
+        self.series.push(Series {
+            label,
+            look,
+            points,
+            colour,
+            stroke,
+        });
+        self
+    }
+
     /// The figure as SVG; equal figures give equal texts.
     ///
     /// # Errors
-    /// [`Error::Write`], which would be a defect.
+    /// [`Error::Refused`] if there is no room.
     pub fn to_svg(&self) -> Result<String, Error> {
         Sheet::default().svg(std::slice::from_ref(self))
     }
 
-    fn with(mut self, label: impl Into<String>, look: Look, points: Vec<(f64, f64)>) -> Figure {
-        self.series.push(Series {
-            label: label.into(),
-            look,
-            points: points.into_iter().map(|(x, y)| (x, y, y)).collect(),
-        });
-        self
-    }
-}
-
-impl Figure {
     /// Coordinates of all points that have a place on both axes.
     fn values(&self, of: impl Fn((f64, f64, f64)) -> [f64; 2]) -> impl Iterator<Item = f64> {
-        let marks = |series: &Series| series.look == Look::VerticalMark;
-        let (x, y) = (&self.x, &self.y);
-        self.series
-            .iter()
-            .flat_map(move |series| {
-                let seen = move |(a, low, high): &(f64, f64, f64)| {
-                    x.shows(*a) && (marks(series) || y.shows(*low) || y.shows(*high))
-                };
-                series.points.iter().copied().filter(seen)
-            })
-            .flat_map(of)
-    }
-
-    fn is_empty(&self) -> bool {
-        self.values(|(_, low, high)| [low, high])
-            .all(|value| value.is_nan())
-    }
-
-    /// The series with the numbers of their looks: one number for each label.
-    fn numbered(&self) -> Vec<Numbered<'_>> {
-        let mut labels: Vec<&str> = Vec::new();
-        let mut drawn: Vec<(Look, usize)> = Vec::new();
-        let mut numbered = Vec::new();
-        for series in &self.series {
-            let label = series.label.as_str();
-            let known = labels.iter().position(|other| *other == label);
-            let known = known.filter(|_| !label.is_empty());
-            if known.is_none() && series.look != Look::VerticalMark {
-                labels.push(label);
-            }
-            let colour = known.unwrap_or(labels.len().saturating_sub(1));
-            let line = (series.look, colour);
-            if !drawn.contains(&line) {
-                drawn.push(line);
-            }
-            let alike = drawn.iter().filter(|(look, _)| *look == series.look);
-            let line = alike.take_while(|other| **other != line).count();
-            numbered.push(Numbered {
-                colour,
-                line,
-                series,
-            });
-        }
-        numbered
+        let seen = |series: &Series, (x, low, high): (f64, f64, f64)| {
+            let shown = self.y.shows(low) || self.y.shows(high);
+            self.x.shows(x) && (shown || series.look == Look::VerticalMark)
+        };
+        let all = self.series.iter();
+        let points = all.flat_map(move |series| {
+            let points = series.points.iter().copied();
+            points.filter(move |point| seen(series, *point))
+        });
+        points.flat_map(of)
     }
 }
 
@@ -215,14 +176,4 @@ pub struct Sheet<'a> {
     pub columns: usize,
     /// Size of the sheet; without it each figure has its usual one.
     pub size: Option<Shape>,
-}
-
-impl Sheet<'_> {
-    /// The figures as SVG; equal figures give equal texts.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] if the sheet is too small for them.
-    pub fn svg(&self, figures: &[Figure]) -> Result<String, Error> {
-        page::svg(self, figures)
-    }
 }

@@ -4,12 +4,12 @@ use super::plot;
 use super::text::facts;
 use crate::error::Error;
 use crate::inverse::{AsPrinted, CycleMean, Inverse, InverseRow, Residual};
-use crate::report::Output;
 use crate::report::csv::{line, write_all};
-use crate::report::curves::{Shown, View};
-use crate::report::page::{Origin, Page};
+use crate::report::curves::View;
+use crate::report::page::{self, Origin};
 use crate::report::rows::{REACTIONS, reactions};
 use crate::report::table::Table;
+use crate::report::{Look, Output};
 use crate::scene::Scene;
 
 const COLUMNS: &str = "t_s,theta_rad,omega_rad_per_s,alpha_rad_per_s2,slider_force_n,slider_force_se_n,crank_torque_nm,near_dead_centre,crank_torque_se_nm";
@@ -66,13 +66,11 @@ const MOST: usize = 100_000;
 /// # Errors
 /// [`Error::Write`].
 pub fn inverse_page(result: &Inverse, scene: &Scene, origin: &Origin) -> Result<String, Error> {
-    let table = table(result);
-    Page::new(origin, &facts(result))
-        .table(&table)
-        .mechanism(scene)
-        .band(result.summary.band_factor)
-        .with_poles()
-        .html()
+    let look = Look {
+        scene: Some(scene),
+        ..look(result)
+    };
+    page::html(origin, &facts(result), &table(result), &look)
 }
 
 /// What is to be seen as SVG; by itself data and fit, residuals, force and torque, with the forces as Duarte et al. print
@@ -88,15 +86,18 @@ pub fn inverse_figure(
     if view.is_default() {
         return plot::figure(result, printed, view.size);
     }
-    let shown = Shown {
+    view.svg(&table(result), look(result))
+}
+
+fn look(result: &Inverse) -> Look<'_> {
+    Look {
         title: &result.summary.scene,
         show: &["slider_force", "crank_torque"],
         over: "t",
         band: result.summary.band_factor,
         has_poles: true,
-        ..Shown::default()
-    };
-    view.svg(&table(result), shown)
+        ..Look::default()
+    }
 }
 
 /// Rows of a page by columns, with what was measured.

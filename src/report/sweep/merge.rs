@@ -1,7 +1,7 @@
 //! The parts of a sweep put together.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader};
+use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 use super::super::output::Output;
@@ -11,12 +11,11 @@ use super::{cells, texts};
 use crate::error::Error;
 use crate::sweep::Goal;
 
-/// The file of a part, open at its first design.
-struct Part {
-    path: PathBuf,
-    lines: std::io::Lines<BufReader<File>>,
-    /// The line of the first design, and its number from 1.
-    first: (String, usize),
+/// The rows of a part as lines, with the number of the first design.
+struct Part<'a> {
+    path: &'a Path,
+    lines: Box<dyn Iterator<Item = io::Result<String>>>,
+    first: usize,
 }
 
 /// Puts the files of the parts of a sweep together, in any order: the whole to `out`, and what it ranges over, with
@@ -32,11 +31,11 @@ pub fn merge(
     percentiles: bool,
 ) -> Result<SweepSummary, Error> {
     let mut header = String::new();
-    let parts = paths.iter().map(|path| Part::open(path, &mut header));
-    let mut parts: Vec<Part> = parts
-        .filter_map(Result::transpose)
-        .collect::<Result<_, _>>()?;
-    parts.sort_by_key(|part| part.first.1);
+    let mut parts = Vec::new();
+    for path in paths {
+        parts.extend(Part::open(path, &mut header)?);
+    }
+    parts.sort_by_key(|part| part.first);
     let mut tally = Tally::new(&texts(&header)?, percentiles, goals)?;
     let mut out = out.map(Output::create).transpose()?;
     let mut put = |line: &str| match &mut out {
@@ -45,12 +44,16 @@ pub fn merge(
     };
     put(&header)?;
     let mut next = 1;
-    for Part { path, lines, first } in parts {
-        for line in std::iter::once(Ok(first.0)).chain(lines) {
-            let line = line.map_err(|source| unread(&path, source))?;
-            let found = design(&path, &line)?;
+    for Part { path, lines, .. } in parts {
+        for line in lines {
+            let line = line.map_err(|source| unread(path, source))?;
+            let (found, shown) = (design(path, &line)?, path.display());
             if found != next {
-                return Err(not_next(&path, found, next));
+                let what = match found < next {
+                    true => format!("design {found} in `{shown}` is there twice"),
+                    false => format!("design {next} is missing: `{shown}` goes on with {found}"),
+                };
+                return Err(Error::refused(what, "give every part of one sweep once"));
             }
             next += 1;
             put(&line)?;
@@ -61,30 +64,25 @@ pub fn merge(
     Ok(tally.found())
 }
 
-impl Part {
+impl Part<'_> {
     /// Opens a file and takes its header, if it has one; none without designs.
-    fn open(path: &Path, header: &mut String) -> Result<Option<Part>, Error> {
+    fn open<'a>(path: &'a Path, header: &mut String) -> Result<Option<Part<'a>>, Error> {
         let failed = |source| unread(path, source);
         let mut lines = BufReader::new(File::open(path).map_err(failed)?).lines();
-        let mut line = lines.next().transpose().map_err(failed)?;
-        if line
-            .as_ref()
-            .is_some_and(|line| line.starts_with("design,"))
-        {
-            *header = line.unwrap_or_default();
-            line = lines.next().transpose().map_err(failed)?;
+        let mut next = || lines.next().transpose().map_err(failed);
+        let mut line = next()?;
+        if let Some(names) = line.take_if(|line| line.starts_with("design,")) {
+            *header = names;
+            line = next()?;
         }
         let Some(line) = line else { return Ok(None) };
         let first = design(path, &line)?;
-        Ok(Some(Part {
-            path: path.to_owned(),
-            lines,
-            first: (line, first),
-        }))
+        let lines = Box::new(std::iter::once(Ok(line)).chain(lines));
+        Ok(Some(Part { path, lines, first }))
     }
 }
 
-fn unread(path: &Path, source: std::io::Error) -> Error {
+fn unread(path: &Path, source: io::Error) -> Error {
     Error::Read {
         file: path.to_owned(),
         source,
@@ -95,23 +93,12 @@ fn unread(path: &Path, source: std::io::Error) -> Error {
 fn design(path: &Path, line: &str) -> Result<usize, Error> {
     let cell = line.split(',').next().unwrap_or_default();
     cell.parse().map_err(|_| {
+        let shown = path.display();
         Error::refused(
             format!(
-                "`{}` has a row that begins with `{cell}`, which is no number of a design",
-                path.display()
+                "`{shown}` has a row that begins with `{cell}`, which is no number of a design"
             ),
             "give the files that `sweep --shard` wrote",
         )
     })
-}
-
-fn not_next(path: &Path, found: usize, next: usize) -> Error {
-    let what = match found < next {
-        true => format!("design {found} in `{}` is there twice", path.display()),
-        false => format!(
-            "design {next} is missing: `{}` goes on with {found}",
-            path.display()
-        ),
-    };
-    Error::refused(what, "give every part of one sweep once")
 }

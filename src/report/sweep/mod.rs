@@ -1,6 +1,5 @@
 //! The designs of a sweep: rows, what they range over, and where they are kept until all are there.
 
-mod columns;
 mod file_lock;
 mod merge;
 mod ranges;
@@ -12,12 +11,13 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use super::csv::{failed, number, quoted, word};
+use super::csv::{self, Cell};
 use super::decimate::Thinned;
 use super::output::{Output, is_standard_output, is_stream};
-use super::table::{Cell, Table};
+use super::table::Table;
 use crate::error::Error;
-use crate::sweep::{Design, Goal, Sweep};
+use crate::scene::printable;
+use crate::sweep::{self, Design, Goal, Sweep};
 pub use merge::merge;
 pub use ranges::{
     FrontDesign, Spread, SweepExtreme, SweepRange, SweepSummary, VariedKey, sweep_page, sweep_text,
@@ -78,21 +78,21 @@ impl<'a> SweepWriter<'a> {
         asked: &SweepAsked,
     ) -> Result<SweepWriter<'a>, Error> {
         let mut shown = asked.kept.map(Thinned::new);
-        let header = columns::header(sweep);
+        let header = header(sweep);
         let mut tally = Tally::new(
             &header,
             asked.percentiles || sweep.sample().is_some(),
             &asked.goals,
         )?;
-        let header = quoted([], [header])?;
-        let header = if part == 1 { header.as_str() } else { "" };
+        let names: Vec<Cell> = header.iter().map(|name| Cell::from(&**name)).collect();
+        let header = if part == 1 { line(&names) } else { Vec::new() };
         let range = sweep.part(part, parts)?;
         let mut kept = 0;
         let target = match path {
             None => Target::Nothing,
             Some(path) if is_standard_output(path) || is_stream(path) => {
                 let mut output = Output::create(path)?;
-                output.write(header.as_bytes())?;
+                output.write(&header)?;
                 Target::Stream(output)
             }
             Some(path) => {
@@ -103,7 +103,7 @@ impl<'a> SweepWriter<'a> {
                     range.end
                 );
                 let mut last = String::new();
-                let file = Growing::open(path, &mark, header, |row| {
+                let file = Growing::open(path, &mark, &header, |row| {
                     let found = cells(row)?;
                     tally.take(&found);
                     if let Some(shown) = &mut shown {
@@ -116,7 +116,7 @@ impl<'a> SweepWriter<'a> {
                 // The tables that a scene names may have changed though its own file has not.
                 if kept > 0 {
                     let design = sweep.design(range.start + kept - 1);
-                    if line(&columns::cells(sweep, &design)) != last.as_bytes() {
+                    if line(&cells_of(sweep, &design)) != last.as_bytes() {
                         return Err(file.of_another());
                     }
                 }
@@ -142,7 +142,7 @@ impl<'a> SweepWriter<'a> {
     pub fn take(&mut self, designs: &[Design]) -> Result<(), Error> {
         let written = !matches!(self.target, Target::Nothing);
         let made = designs.par_iter().map(|design| {
-            let cells = columns::cells(self.sweep, design);
+            let cells = cells_of(self.sweep, design);
             let line = if written { line(&cells) } else { Vec::new() };
             (cells, line)
         });
@@ -164,7 +164,7 @@ impl<'a> SweepWriter<'a> {
     /// The rows that were kept.
     pub fn table(&self) -> Option<Table> {
         let shown = self.shown.as_ref()?;
-        let mut table = Table::of_rows(&columns::header(self.sweep), shown.kept());
+        let mut table = Table::of_rows(&header(self.sweep), shown.kept());
         table.stride = shown.stride();
         Some(table)
     }
@@ -182,19 +182,37 @@ impl<'a> SweepWriter<'a> {
     }
 }
 
+fn header(sweep: &Sweep) -> Vec<String> {
+    let varied = sweep.varied().iter().map(|one| one.column());
+    let figures = sweep.figures().iter().map(ToString::to_string);
+    let all = ["design".to_owned()].into_iter().chain(varied);
+    let all = all.chain(["status".to_owned()]).chain(figures);
+    all.chain(["notes".to_owned()]).collect()
+}
+
+fn cells_of(sweep: &Sweep, design: &Design) -> Vec<Cell> {
+    let mut cells = vec![Cell::from((design.index + 1) as f64)];
+    for (varied, value) in sweep.varied().iter().zip(&design.values) {
+        let number = value.number.filter(|_| varied.has_numbers());
+        cells.push(number.map_or_else(|| Cell::from(&*printable(&value.text)), Cell::from));
+    }
+    cells.push(design.outcome.name().into());
+    let figures = sweep.figures().iter();
+    cells.extend(figures.map(|figure| match figure.cell(design) {
+        sweep::Cell::Number(number) => number.into(),
+        sweep::Cell::Word(word) => word.into(),
+        sweep::Cell::Empty => Cell::EMPTY,
+    }));
+    // A row is a line.
+    let notes = design.notes.join("; ").replace(['\n', '\r'], " ");
+    cells.push(Cell::from(&*printable(&notes)));
+    cells
+}
+
 /// Cells as one line of CSV.
 fn line(cells: &[Cell]) -> Vec<u8> {
     let mut text = Vec::new();
-    for (i, cell) in cells.iter().enumerate() {
-        if i > 0 {
-            text.push(b',');
-        }
-        match cell {
-            Cell::Number(value) => number(*value, &mut text),
-            Cell::Text(value) => word(value, &mut text),
-        }
-    }
-    text.push(b'\n');
+    csv::cells(cells, &mut text);
     text
 }
 
@@ -207,7 +225,11 @@ fn cells(line: &str) -> Result<Vec<Cell>, Error> {
 fn texts(line: &str) -> Result<Vec<String>, Error> {
     let mut reader = ::csv::ReaderBuilder::new();
     let mut reader = reader.has_headers(false).from_reader(line.as_bytes());
-    let record = reader.records().next().transpose().map_err(failed)?;
+    let record = reader.records().next().transpose();
+    let record = record.map_err(|error| Error::Write {
+        target: "CSV".to_owned(),
+        source: std::io::Error::other(error),
+    })?;
     Ok(record
         .unwrap_or_default()
         .iter()

@@ -1,13 +1,12 @@
 //! What the key figures of a sweep range over.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
 use serde::Serialize;
 
-use super::super::key_values::{Facts, fact, six};
-use super::super::page::{Origin, Page, Scatter};
-use super::super::table::Table;
+use super::super::key_values::{Facts, aligned, fact, six};
+use super::super::page::{self, Origin, Scatter};
+use super::super::{Look, Table};
 use crate::error::Error;
 
 /// What a sweep found.
@@ -156,16 +155,18 @@ pub fn sweep_page(summary: &SweepSummary, table: &Table, origin: &Origin) -> Res
         2 => (column(2), first),
         _ => (first, String::new()),
     };
-    Page::new(origin, &facts)
-        .table(table)
-        .scatter(Scatter {
-            x: column(1),
-            y,
-            colour,
-            kind: "status",
-            ..Scatter::default()
-        })
-        .html()
+    let scatter = Scatter {
+        x: column(1),
+        y,
+        colour,
+        kind: "status",
+        ..Scatter::default()
+    };
+    let look = Look {
+        scatter: Some(scatter),
+        ..Look::default()
+    };
+    page::html(origin, &facts, table, &look)
 }
 
 fn facts(summary: &SweepSummary) -> Facts {
@@ -202,40 +203,24 @@ fn facts(summary: &SweepSummary) -> Facts {
 
 /// What a sweep found, in words and a table of the ranges.
 pub fn sweep_text(summary: &SweepSummary) -> String {
-    let mut text = facts(summary).lines(17);
-    let _ = writeln!(
-        text,
-        "\n{:<26} {:>12} {:>10} {:>12} {:>10}",
-        "", "least", "in design", "largest", "in design"
-    );
+    const RANGES: [isize; 5] = [-26, 12, 10, 12, 10];
+    let header = ["", "least", "in design", "largest", "in design"];
+    let mut text = facts(summary).lines(17) + "\n" + &aligned(&RANGES, header);
     for SweepRange {
         column, min, max, ..
     } in &summary.figures
     {
-        let _ = writeln!(
-            text,
-            "{column:<26} {:>12} {:>10} {:>12} {:>10}",
-            six(min.value),
-            min.design,
-            six(max.value),
-            max.design
-        );
+        let of = |end: &SweepExtreme| [six(end.value), end.design.to_string()];
+        let cells = [column.clone()].into_iter().chain(of(min)).chain(of(max));
+        text += &aligned(&RANGES, cells);
     }
-    spreads(summary, &mut text);
-    front(summary, &mut text);
-    text
-}
-
-fn spreads(summary: &SweepSummary, text: &mut String) {
-    let mut begun = false;
-    for SweepRange { column, spread, .. } in &summary.figures {
-        let Some(spread) = spread else { continue };
-        if !std::mem::replace(&mut begun, true) {
-            let _ = writeln!(
-                text,
-                "\n{:<26} {:>12} {:>12} {:>12} {:>12} {:>12}",
-                "", "mean", "deviation", "2.5 %", "median", "97.5 %"
-            );
+    const SPREADS: [isize; 6] = [-26, 12, 12, 12, 12, 12];
+    let spreads = summary.figures.iter();
+    let spreads = spreads.filter_map(|one| Some((&one.column, one.spread?)));
+    for (number, (column, spread)) in spreads.enumerate() {
+        if number == 0 {
+            let header = ["", "mean", "deviation", "2.5 %", "median", "97.5 %"];
+            text += &("\n".to_owned() + &aligned(&SPREADS, header));
         }
         let Spread {
             mean,
@@ -243,37 +228,38 @@ fn spreads(summary: &SweepSummary, text: &mut String) {
             p2_5,
             p50,
             p97_5,
-        } = *spread;
-        let _ = write!(text, "{column:<26}");
-        for value in [mean, standard_deviation, p2_5, p50, p97_5] {
-            let _ = write!(text, " {:>12}", six(value));
-        }
-        text.push('\n');
+        } = spread;
+        let values = [mean, standard_deviation, p2_5, p50, p97_5].map(six);
+        text += &aligned(&SPREADS, [column.clone()].into_iter().chain(values));
     }
+    text + &front(&summary.pareto_front)
 }
 
-fn front(summary: &SweepSummary, text: &mut String) {
+fn front(front: &[FrontDesign]) -> String {
     /// Designs that fit a screen.
     const SHOWN: usize = 20;
-    let front = &summary.pareto_front;
-    let Some(first) = front.first() else { return };
+    let Some(first) = front.first() else {
+        return String::new();
+    };
     let title = match first.figures.len() {
         1 => "best design",
         _ => "Pareto front",
     };
-    let _ = write!(text, "\n{title:<15}");
-    for column in first.figures.keys() {
-        let _ = write!(text, " {column:>26}");
-    }
-    text.push('\n');
+    let widths: Vec<isize> = [-15]
+        .into_iter()
+        .chain(first.figures.iter().map(|_| 26))
+        .collect();
+    let header = [title]
+        .into_iter()
+        .chain(first.figures.keys().map(String::as_str));
+    let mut text = "\n".to_owned() + &aligned(&widths, header);
     for one in front.iter().take(SHOWN) {
-        let _ = write!(text, "  design {:<6}", one.design);
-        for value in one.figures.values() {
-            let _ = write!(text, " {:>26}", six(*value));
-        }
-        text.push('\n');
+        let name = format!("  design {}", one.design);
+        let values = one.figures.values().map(|value| six(*value));
+        text += &aligned(&widths, [name].into_iter().chain(values));
     }
     if front.len() > SHOWN {
-        let _ = writeln!(text, "  and {} more", front.len() - SHOWN);
+        text += &format!("  and {} more\n", front.len() - SHOWN);
     }
+    text
 }

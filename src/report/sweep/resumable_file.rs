@@ -28,7 +28,7 @@ impl Growing {
     pub fn open(
         target: &Path,
         mark: &str,
-        header: &str,
+        header: &[u8],
         row: impl FnMut(&str) -> Result<(), Error>,
     ) -> Result<Growing, Error> {
         // Whether the target can be written shows now, not when all is computed.
@@ -50,32 +50,25 @@ impl Growing {
             file,
             mark: mark.len() as u64,
         };
-        growing.take_up(&(mark + header), row)?;
+        growing.take_up(&[mark.as_bytes(), header].concat(), row)?;
         Ok(growing)
     }
 
     fn take_up(
         &mut self,
-        head: &str,
+        head: &[u8],
         mut row: impl FnMut(&str) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let failed = |source| error(&self.part, source);
         let mut reader = BufReader::new(&self.file);
-        let mut found = Vec::new();
-        let most = head.len() as u64;
-        reader
-            .by_ref()
-            .take(most)
-            .read_to_end(&mut found)
-            .map_err(failed)?;
-        if !head.as_bytes().starts_with(&found) {
+        let (mut found, most) = (Vec::new(), head.len() as u64);
+        let mut begun = reader.by_ref().take(most);
+        begun.read_to_end(&mut found).map_err(failed)?;
+        if !head.starts_with(&found) {
             return Err(self.of_another());
         }
-        let mut whole = most;
-        if found.len() < head.len() {
-            // Cut off before its first row.
-            whole = 0;
-        }
+        // Without its whole head it was cut off before its first row.
+        let mut whole = if found.len() < head.len() { 0 } else { most };
         let mut text = String::new();
         while whole > 0 && reader.read_line(&mut text).map_err(failed)? > 0 && text.ends_with('\n')
         {
@@ -83,13 +76,12 @@ impl Growing {
             whole += text.len() as u64;
             text.clear();
         }
-        drop(reader);
         self.file.set_len(whole).map_err(failed)?;
         self.file.seek(SeekFrom::End(0)).map_err(failed)?;
-        if whole == 0 {
-            self.append(head.as_bytes())?;
+        match whole {
+            0 => self.append(head),
+            _ => Ok(()),
         }
-        Ok(())
     }
 
     /// Adds whole rows.

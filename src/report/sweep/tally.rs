@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::super::table::Cell;
+use super::super::csv::Cell;
 use super::ranges::{FrontDesign, Spread, SweepExtreme, SweepRange, SweepSummary, VariedKey};
 use crate::error::Error;
 use crate::sweep::{Goal, Member, ParetoFront, Sweep};

@@ -6,7 +6,7 @@ use crate::scene::{Joint, Scene};
 
 /// Lengths of the mechanism, m; points of bodies along and to the left of them.
 #[derive(Debug, Serialize)]
-pub(in crate::report) struct Drawing {
+pub(super) struct Drawing {
     pub crank: f64,
     pub rod: f64,
     pub offset: f64,
@@ -22,11 +22,10 @@ pub(in crate::report) struct Drawing {
     loose: Option<Loose>,
 }
 
-/// A loose joint.
+/// A loose joint with its radial clearance.
 #[derive(Debug, Serialize)]
 struct Loose {
     joint: &'static str,
-    /// Radial clearance.
     radial: f64,
 }
 

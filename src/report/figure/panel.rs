@@ -1,0 +1,217 @@
+//! One panel: title, axes with ticks, series, legend.
+
+use super::axis::{Scale, Tick};
+use super::clip::{Place, inside, pieces};
+use super::svg::{SAMPLE, Svg};
+use super::words::{TEXT, TITLE, fitted, line_height, width, wrapped};
+use super::{Figure, Look, Series};
+
+/// Free space at the edges, pixels.
+const EDGE: f64 = 10.0;
+
+/// Free space on the right of the axes, pixels; it holds half a tick label.
+const RIGHT: f64 = 34.0;
+
+/// Least distance between ticks of the y axis, pixels.
+const TICK_DISTANCE: f64 = 34.0;
+
+/// Free space after an entry of the legend, pixels.
+const GAP: f64 = 24.0;
+
+/// Height of a row of the legend, pixels.
+const ROW: f64 = 1.25 * TEXT + 4.0;
+
+/// An entry of the legend: a label as it fits, and the series that have it.
+type Entry<'f> = (String, Vec<&'f Series>);
+
+fn entry_width(label: &str) -> f64 {
+    SAMPLE + width(label, TEXT) + GAP
+}
+
+/// Rows of entries that fit beside each other.
+fn legend(figure: &Figure, room: f64) -> Vec<Vec<Entry<'_>>> {
+    let mut entries: Vec<Entry> = Vec::new();
+    let labelled = |series: &&Series| !series.label.is_empty() && !series.points.is_empty();
+    for series in figure.series.iter().filter(labelled) {
+        let known = |(_, of): &&mut Entry| of[0].label == series.label;
+        match entries.iter_mut().find(known) {
+            Some((_, of)) => of.push(series),
+            None => {
+                let label = fitted(&series.label, room - 2.0 * EDGE - SAMPLE - GAP);
+                entries.push((label, vec![series]));
+            }
+        }
+    }
+    let mut rows: Vec<Vec<Entry>> = Vec::new();
+    let mut left = 0.0;
+    for entry in entries {
+        let needed = entry_width(&entry.0);
+        match rows.last_mut() {
+            Some(row) if needed <= left => row.push(entry),
+            _ => {
+                left = room - 2.0 * EDGE;
+                rows.push(vec![entry]);
+            }
+        }
+        left -= needed;
+    }
+    rows
+}
+
+fn title(figure: &Figure, room: f64) -> Vec<String> {
+    wrapped(&figure.title, TITLE, room - 2.0 * EDGE)
+}
+
+/// What a title and a legend add to the height of a panel, pixels.
+pub(super) fn height_of_texts(figure: &Figure, room: f64) -> f64 {
+    let lines = title(figure, room).len() as f64;
+    lines * line_height(TITLE) + legend(figure, room).len() as f64 * ROW
+}
+
+/// Height of the label and ticks of the x axis, pixels.
+fn x_area(figure: &Figure) -> f64 {
+    let lines = if figure.x.label.is_empty() { 1.0 } else { 2.0 };
+    lines * line_height(TEXT) + 20.0
+}
+
+fn widest(ticks: &[Tick]) -> f64 {
+    let widths = ticks.iter().map(|tick| width(&tick.label, TEXT));
+    widths.fold(0.0, f64::max)
+}
+
+fn y_ticks(scale: &Scale, figure: &Figure, height: f64) -> Vec<Tick> {
+    scale.ticks(((height - x_area(figure)) / TICK_DISTANCE).max(2.0) as usize)
+}
+
+fn y_scale(figure: &Figure) -> Scale {
+    Scale::new(&figure.y, figure.values(|(_, low, high)| [low, high]))
+}
+
+/// Width of the label and the ticks of the y axis in a panel of a height in pixels.
+pub(super) fn y_area(figure: &Figure, height: f64) -> f64 {
+    widest(&y_ticks(&y_scale(figure), figure, height)) + line_height(TEXT) + 22.0
+}
+
+/// A panel at a place, of a size with its texts, and with so much room for the y axis.
+pub(super) fn panel(
+    svg: &mut Svg,
+    figure: &Figure,
+    (left, top): Place,
+    (room, height): Place,
+    y_area: f64,
+) {
+    let titles = title(figure, room);
+    svg.lines((left + 0.5 * room, top + EDGE), TITLE, &titles);
+    let legend = legend(figure, room);
+    let mut y = top + height - 0.5 * EDGE - legend.len() as f64 * ROW;
+    let high = top + EDGE + titles.len() as f64 * line_height(TITLE) + 6.0;
+    let corner = (left + EDGE + y_area, high);
+    let size = (room - y_area - EDGE - RIGHT, y - high - x_area(figure));
+    axes(svg, figure, corner, size, y_area);
+    for row in legend {
+        let needed: f64 = row.iter().map(|(label, _)| entry_width(label)).sum();
+        let mut x = left + 0.5 * (room - needed);
+        y += 0.5 * ROW;
+        for (label, of) in row {
+            of.iter().for_each(|series| svg.sample((x, y), series));
+            svg.text((x + SAMPLE + 6.0, y), "start", TEXT, 0.0, &label);
+            x += entry_width(&label);
+        }
+        y += 0.5 * ROW;
+    }
+}
+
+/// The axes with what lies between them: their upper left corner, width and height.
+fn axes(svg: &mut Svg, figure: &Figure, (left, high): Place, (long, tall): Place, y_area: f64) {
+    let mut x = Scale::new(&figure.x, figure.values(|(x, _, _)| [x, x]));
+    let mut y = y_scale(figure);
+    if figure.is_equal {
+        let per_pixel = (x.length() / long).max(y.length() / tall);
+        x.lengthen(per_pixel * long);
+        y.lengthen(per_pixel * tall);
+    }
+    let (right, low) = (left + long, high + tall);
+    let place = |(u, v): Place| (left + u * long, low - v * tall);
+    // As many ticks as their labels leave room for.
+    let fits = |ticks: &Vec<Tick>| ticks.len() as f64 * (widest(ticks) + 16.0) <= long;
+    let mut fewer = (2..=10).rev().map(|most| x.ticks(most));
+    for tick in fewer.find(fits).unwrap_or_default() {
+        let (x, _) = place((tick.at, 0.0));
+        svg.segment((x, low), (x, high), "#DEDEDE");
+        svg.segment((x, low), (x, low + 5.0), "black");
+        svg.text((x, low + 14.0), "middle", TEXT, 0.0, &tick.label);
+    }
+    for tick in y_ticks(&y, figure, tall + x_area(figure)) {
+        let (_, y) = place((0.0, tick.at));
+        svg.segment((left, y), (right, y), "#DEDEDE");
+        svg.segment((left - 5.0, y), (left, y), "black");
+        svg.text((left - 9.0, y), "end", TEXT, 0.0, &tick.label);
+    }
+    svg.segment((left, low), (right, low), "black");
+    svg.segment((left, low), (left, high), "black");
+    let middle = place((0.5, 0.5));
+    if !figure.x.label.is_empty() {
+        let label = figure.x.label_within(long + RIGHT);
+        svg.text((middle.0, low + 34.0), "middle", TEXT, 0.0, &label);
+    }
+    if !figure.y.label.is_empty() {
+        let label = figure.y.label_within(tall);
+        let x = left - y_area + 0.5 * line_height(TEXT);
+        svg.text((x, middle.1), "middle", TEXT, -90.0, &label);
+    }
+    if figure.values(|(_, low, high)| [low, high]).all(f64::is_nan) {
+        svg.text(middle, "middle", TEXT, 0.0, "nothing to show");
+    }
+    // Bands lie under lines, lines under points.
+    for layer in 0..3 {
+        for series in &figure.series {
+            draw(svg, layer, series, &x, &y, place);
+        }
+    }
+}
+
+/// What a series has in a layer: bands and marks, lines, points.
+fn draw(
+    svg: &mut Svg,
+    layer: u32,
+    series: &Series,
+    x: &Scale,
+    y: &Scale,
+    place: impl Fn(Place) -> Place,
+) {
+    let points = series.points.iter();
+    let positions = points.map(|&(a, b, _)| (x.position(a), y.position(b)));
+    match (layer, series.look) {
+        (0, Look::Band) => {
+            let edges: Vec<_> = series
+                .points
+                .iter()
+                .map(|&(a, low, high)| (x.position(a), y.clamped(low), y.clamped(high)))
+                .collect();
+            let seen =
+                |&(x, low, high): &(f64, f64, f64)| inside((x, 0.0)) && (low + high).is_finite();
+            for run in edges.split(|edge| !seen(edge)).filter(|run| run.len() > 1) {
+                let low = run.iter().map(|&(x, low, _)| place((x, low)));
+                let high = run.iter().rev().map(|&(x, _, high)| place((x, high)));
+                svg.band(low.chain(high).collect(), series.colour());
+            }
+        }
+        (0, Look::VerticalMark) => {
+            let marks = positions.map(|(x, _)| x).filter(|x| inside((*x, 0.0)));
+            marks.for_each(|x| svg.curve([place((x, 0.0)), place((x, 1.0))], series));
+        }
+        (1, Look::Line | Look::Dashed | Look::LineWithPoints) => {
+            for piece in pieces(&positions.collect::<Vec<_>>()) {
+                match piece[..] {
+                    // A line through one point cannot be seen.
+                    [only] => svg.marker(place(only), series),
+                    _ => svg.curve(piece.into_iter().map(&place), series),
+                }
+            }
+        }
+        (2, Look::Points | Look::LineWithPoints) => positions
+            .filter(|at| inside(*at))
+            .for_each(|at| svg.marker(place(at), series)),
+        _ => {}
+    }
+}

@@ -1,0 +1,54 @@
+//! Texts in figures: how wide they are, and how they fit.
+
+/// Sizes of the fonts, pixels.
+pub(super) const TITLE: f64 = 17.0;
+pub(super) const TEXT: f64 = 13.0;
+
+pub(super) fn line_height(size: f64) -> f64 {
+    1.25 * size
+}
+
+/// A text in XML, without control characters, as it has none.
+pub(in crate::report) fn escaped(text: &str) -> String {
+    let plain: String = text.chars().filter(|c| !c.is_control()).collect();
+    let text = plain.replace('&', "&amp;");
+    text.replace('<', "&lt;").replace('>', "&gt;")
+}
+
+/// Width of a text in pixels, rather too wide than too narrow: the fonts of the reader are not known.
+pub(super) fn width(text: &str, size: f64) -> f64 {
+    let em = |c: char| match c {
+        'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '\'' | '|' | '!' | ' ' => 0.36,
+        'm' | 'w' | 'M' | 'W' | '@' | '%' => 1.0,
+        c if c.is_uppercase() => 0.75,
+        c if c.is_ascii() => 0.64,
+        _ => 1.0,
+    };
+    size * text.chars().map(em).sum::<f64>()
+}
+
+/// A text broken between words so that its lines fit; a longer word is cut.
+pub(super) fn wrapped(text: &str, size: f64, room: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split(|c: char| c.is_whitespace() || c.is_control()) {
+        let mut word = word.to_owned();
+        while width(&word, size) > room && word.pop().is_some() {}
+        match lines.last_mut() {
+            _ if word.is_empty() => (),
+            Some(line) if width(&format!("{line} {word}"), size) <= room => {
+                line.push(' ');
+                line.push_str(&word);
+            }
+            _ => lines.push(word),
+        }
+    }
+    lines
+}
+
+/// As much of a label as fits in one line.
+pub(super) fn fitted(label: &str, room: f64) -> String {
+    wrapped(label, TEXT, room)
+        .into_iter()
+        .next()
+        .unwrap_or_default()
+}

@@ -1,0 +1,260 @@
+//! The mechanism to scale at an angle: as SVG, as DXF, and in motion as GIF.
+
+use std::fmt::Write;
+
+use super::Output;
+use super::drawing::Drawing;
+use super::figure::escaped;
+use super::picture::{failed, pixels};
+use crate::error::Error;
+use crate::scene::Scene;
+use ::gif::{Encoder, Frame, Repeat};
+
+/// The mechanism of a scene, to be drawn at any angle.
+#[derive(Debug)]
+pub struct Sketch {
+    drawing: Drawing,
+    title: String,
+}
+
+/// Crank angle, rad, and slider position, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// rad
+    pub theta: f64,
+    /// m
+    pub x: f64,
+}
+
+/// A part of the drawing; places in m.
+enum Part {
+    Line([f64; 2], [f64; 2]),
+    Circle([f64; 2], f64),
+}
+
+/// What a part stands for: layer of the DXF file and look in SVG.
+type Layer = (&'static str, &'static str);
+/// Guide, path of the crank pin, dead centres.
+const GROUND: Layer = (
+    "GROUND",
+    "fill=\"none\" stroke=\"#999\" stroke-width=\"1\" stroke-dasharray=\"5 4\"",
+);
+const ROD: Layer = (
+    "ROD",
+    "stroke=\"#0072b2\" stroke-width=\"5\" stroke-linecap=\"round\"",
+);
+const CRANK: Layer = (
+    "CRANK",
+    "stroke=\"#333\" stroke-width=\"7\" stroke-linecap=\"round\"",
+);
+const SLIDER: Layer = (
+    "SLIDER",
+    "stroke=\"#333\" stroke-width=\"2\" stroke-linecap=\"round\"",
+);
+const JOINT: Layer = (
+    "JOINTS",
+    "fill=\"white\" stroke=\"#333\" stroke-width=\"2\"",
+);
+const CENTRE_OF_GRAVITY: Layer = (
+    "CENTRES_OF_GRAVITY",
+    "fill=\"#d55e00\" stroke=\"#333\" stroke-width=\"1\"",
+);
+
+/// Width of the drawing, pixels.
+const WIDTH: f64 = 640.0;
+
+/// Coarseness of the choice of colours of a GIF, 1 to 30: a drawing has few.
+const COARSENESS: i32 = 20;
+
+/// What a drawing shows of the plane, m.
+#[derive(Clone, Copy)]
+struct Extent {
+    left: f64,
+    right: f64,
+    low: f64,
+    high: f64,
+}
+
+impl Extent {
+    /// Pixels to the metre, and the height of the drawing in pixels.
+    fn scale(self) -> (f64, f64) {
+        let scale = WIDTH / (self.right - self.left);
+        (scale, (scale * (self.high - self.low)).ceil() + 40.0)
+    }
+}
+
+impl Sketch {
+    /// Of the mechanism of a scene.
+    pub fn of(scene: &Scene) -> Sketch {
+        Sketch {
+            drawing: Drawing::of(scene),
+            title: scene.title.clone().unwrap_or_default(),
+        }
+    }
+
+    /// Half the height of the slider, m.
+    fn size(&self) -> f64 {
+        let Drawing { crank, rod, .. } = self.drawing;
+        (0.12 * crank).max(0.03 * (crank + rod))
+    }
+
+    /// Slider positions at the dead centres that exist, m.
+    fn dead_centres(&self) -> impl Iterator<Item = f64> {
+        let of = &self.drawing;
+        let (offset, branch) = (of.offset, of.branch);
+        let lengths = [of.rod + of.crank, of.rod - of.crank].into_iter();
+        let exist = lengths.filter(move |length| *length > 0.0 && *length >= offset.abs());
+        exist.map(move |length| branch * (length * length - offset * offset).sqrt())
+    }
+
+    /// What a drawing of these poses needs.
+    fn extent(&self, poses: impl Iterator<Item = Pose>) -> Extent {
+        let Drawing { crank, offset, .. } = self.drawing;
+        let room = 3.0 * self.size();
+        let places = poses.map(|pose| pose.x).chain(self.dead_centres());
+        let (left, right) = places.fold((-crank, crank), |(left, right), x| {
+            (left.min(x), right.max(x))
+        });
+        Extent {
+            left: left - room,
+            right: right + room,
+            low: (-crank).min(-offset) - room,
+            high: crank.max(-offset) + room,
+        }
+    }
+
+    /// The parts at a pose, those that lie below others first.
+    fn parts(&self, pose: Pose, extent: Extent) -> Vec<(Layer, Part)> {
+        let Drawing {
+            crank, rod, offset, ..
+        } = self.drawing;
+        let size = self.size();
+        let (sin, cos) = pose.theta.sin_cos();
+        let (pivot, pin, wrist) = ([0.0, 0.0], [crank * cos, crank * sin], [pose.x, -offset]);
+        let square = |x: f64, layer| {
+            let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+            let corner = move |k: usize| {
+                let [right, up] = corners[k % 4];
+                [x + right * size, -offset + up * size]
+            };
+            (0..4).map(move |k| (layer, Part::Line(corner(k), corner(k + 1))))
+        };
+        let guide = Part::Line([extent.left, -offset], [extent.right, -offset]);
+        let mut parts = vec![(GROUND, guide), (GROUND, Part::Circle(pivot, crank))];
+        parts.extend(self.dead_centres().flat_map(|x| square(x, GROUND)));
+        parts.push((ROD, Part::Line(pin, wrist)));
+        parts.push((CRANK, Part::Line(pivot, pin)));
+        parts.extend(square(pose.x, SLIDER));
+        parts.extend([pivot, pin, wrist].map(|at| (JOINT, Part::Circle(at, 0.35 * size))));
+        let along = [(wrist[0] - pin[0]) / rod, (wrist[1] - pin[1]) / rod];
+        let (crank_cg, rod_cg) = (self.drawing.crank_cg, self.drawing.rod_cg);
+        let marks = [
+            crank_cg.map(|cg| placed(pivot, [cos, sin], cg)),
+            rod_cg.map(|cg| placed(pin, along, cg)),
+        ];
+        let marks = marks.into_iter().flatten();
+        parts.extend(marks.map(|at| (CENTRE_OF_GRAVITY, Part::Circle(at, 0.25 * size))));
+        parts
+    }
+
+    /// The mechanism at a pose as SVG.
+    pub fn svg(&self, pose: Pose) -> String {
+        self.frame(pose, self.extent([pose].into_iter()), "")
+    }
+
+    /// The mechanism at a pose, in a frame that may be shared by others, with a note below.
+    fn frame(&self, pose: Pose, extent: Extent, note: &str) -> String {
+        let (scale, height) = extent.scale();
+        let at = |[x, y]: [f64; 2]| (scale * (x - extent.left), scale * (extent.high - y) + 20.0);
+        let (title, note) = (escaped(&self.title), escaped(note));
+        let mut svg = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {WIDTH} {height}\" \
+             role=\"img\">\n<title>{title}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
+        );
+        for ((_, look), part) in self.parts(pose, extent) {
+            let _ = match part {
+                Part::Line(from, to) => {
+                    let ((x1, y1), (x2, y2)) = (at(from), at(to));
+                    writeln!(
+                        svg,
+                        "<line x1=\"{x1:.2}\" y1=\"{y1:.2}\" x2=\"{x2:.2}\" y2=\"{y2:.2}\" {look}/>"
+                    )
+                }
+                Part::Circle(centre, radius) => {
+                    let ((x, y), r) = (at(centre), scale * radius);
+                    writeln!(
+                        svg,
+                        "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{r:.2}\" {look}/>"
+                    )
+                }
+            };
+        }
+        for (y, words) in [(16.0, title), (height - 6.0, note)] {
+            let _ = writeln!(
+                svg,
+                "<text x=\"8\" y=\"{y}\" font-family=\"sans-serif\" font-size=\"13\">{words}</text>"
+            );
+        }
+        svg + "</svg>\n"
+    }
+
+    /// The mechanism at a pose as DXF of AutoCAD R12: lines and circles in mm, a layer for each body.
+    pub fn dxf(&self, pose: Pose) -> String {
+        let mut dxf = String::from(
+            "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n",
+        );
+        let mm = |[x, y]: [f64; 2]| [1e3 * x, 1e3 * y];
+        let extent = self.extent([pose].into_iter());
+        for ((layer, _), part) in self.parts(pose, extent) {
+            let _ = match part {
+                Part::Line(from, to) => {
+                    let ([x1, y1], [x2, y2]) = (mm(from), mm(to));
+                    writeln!(
+                        dxf,
+                        "0\nLINE\n8\n{layer}\n10\n{x1}\n20\n{y1}\n11\n{x2}\n21\n{y2}"
+                    )
+                }
+                Part::Circle(centre, radius) => {
+                    let ([x, y], r) = (mm(centre), 1e3 * radius);
+                    writeln!(dxf, "0\nCIRCLE\n8\n{layer}\n10\n{x}\n20\n{y}\n40\n{r}")
+                }
+            };
+        }
+        dxf + "0\nENDSEC\n0\nEOF\n"
+    }
+}
+
+/// A point of a body: from its origin, along its axis and to the left of it.
+fn placed(origin: [f64; 2], along: [f64; 2], at: [f64; 2]) -> [f64; 2] {
+    [
+        origin[0] + at[0] * along[0] - at[1] * along[1],
+        origin[1] + at[0] * along[1] + at[1] * along[0],
+    ]
+}
+
+/// Writes the mechanism in motion as GIF: a frame for each pose with what is written below it, shown for so many
+/// hundredths of a second, again and again.
+///
+/// # Errors
+/// [`Error::Write`].
+pub fn animation(
+    sketch: &Sketch,
+    frames: &[(Pose, String)],
+    hundredths: u16,
+    mut output: Output,
+) -> Result<(), Error> {
+    let extent = sketch.extent(frames.iter().map(|(pose, _)| *pose));
+    let [width, height] = [WIDTH, extent.scale().1].map(|side| side.min(65_535.0) as u16);
+    let mut bytes = Vec::new();
+    let mut encoder = Encoder::new(&mut bytes, width, height, &[]).map_err(failed)?;
+    encoder.set_repeat(Repeat::Infinite).map_err(failed)?;
+    for (pose, note) in frames {
+        let mut rgba = pixels(&sketch.frame(*pose, extent, note), 1.0)?.take();
+        let mut frame = Frame::from_rgba_speed(width, height, &mut rgba, COARSENESS);
+        frame.delay = hundredths;
+        encoder.write_frame(&frame).map_err(failed)?;
+    }
+    drop(encoder);
+    output.write(&bytes)?;
+    output.finish()
+}
