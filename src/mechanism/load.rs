@@ -185,7 +185,8 @@ impl Loads {
 
     /// Torque and force of all loads together.
     pub fn value(&self, t: f64, theta: impl Into<Angle>, omega: f64, pose: &Pose) -> LoadValue {
-        self.at(&instant(t, theta, omega, [pose.x, pose.dx]))
+        let spent = self.without_potential(t, theta, omega, pose);
+        self.with_potential_at(pose.x).plus(spent)
     }
 
     /// Loads with a potential at slider position x, m.
@@ -205,7 +206,7 @@ impl Loads {
         pose: &Pose,
     ) -> LoadValue {
         let now = instant(t, theta, omega, [pose.x, pose.dx]);
-        self.spent(&now).plus(self.dry.value(&now))
+        self.without_potential_beside(self.of_time(t), &now)
     }
 
     /// Torque and force of the loads that depend on time (s) alone.
