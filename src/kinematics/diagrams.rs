@@ -6,9 +6,8 @@ use std::f64::consts::{PI, TAU};
 use serde::Serialize;
 
 use super::forces::ForceAnalysis;
-use super::turning_moment::TurningMoment;
+use super::turning_moment::{TurningMoment, areas};
 use crate::mechanism::Limits;
-use crate::numeric::gauss;
 use crate::scene::{Load, Scene};
 
 /// Diagrams of a cycle.
@@ -81,9 +80,6 @@ const HIGHEST: u32 = 12;
 /// Samples of a turn: the rectangle rule is exact for orders up to this less the highest.
 const SAMPLES: u32 = 2048;
 
-/// Error of areas as a part of the largest torque times a turn.
-pub(super) const TOLERANCE: f64 = 1e-12;
-
 impl ForceAnalysis {
     /// The diagrams of the cycle, with a counterweight for this part of the reciprocating mass; none of a crank that cannot
     /// turn fully.
@@ -123,9 +119,8 @@ impl ForceAnalysis {
             _ => None,
         });
         let gases: Vec<_> = gases.collect();
-        let area = gases
-            .iter()
-            .fold(0.0, |most: f64, (.., area)| most.max(area.abs()));
+        let area = gases.iter().map(|(.., area)| area.abs());
+        let area = area.fold(0.0, f64::max);
         if gases.is_empty() {
             return None;
         }
@@ -139,13 +134,9 @@ impl ForceAnalysis {
             force * linkage.pose(theta).dx
         };
         let pieces = self.pieces();
-        let largest = pieces
-            .iter()
-            .fold(0.0, |most: f64, end| most.max(power(*end).abs()));
-        let work: f64 = pieces
-            .windows(2)
-            .map(|w| gauss::adaptive(&power, w[0], w[1], TOLERANCE * largest * (w[1] - w[0])))
-            .sum();
+        let work_between = areas(&power, &pieces);
+        let work = pieces.windows(2).map(|w| work_between(&power, w[0], w[1]));
+        let work: f64 = work.sum();
         let swept = area * scene_stroke;
         // The crank of a negative speed passes the cycle backwards.
         let work = work * self.speed_rad_per_s.signum();

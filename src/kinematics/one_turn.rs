@@ -191,7 +191,7 @@ fn check_loop(linkage: &Linkage, guess: f64) -> LoopCheck {
     };
     for theta in angle::turn(1f64.to_radians()) {
         // A tolerance of 1e-9 crank lengths is what Gupta's 1e-6 mm is for a crank of a metre.
-        let Ok(found) = linkage.close_loop(theta, (guess, 0.0), 1e-9 * linkage.r) else {
+        let Some(found) = linkage.close_loop(theta, (guess, 0.0), 1e-9 * linkage.r) else {
             check.failed += 1;
             continue;
         };

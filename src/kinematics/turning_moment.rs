@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-use super::diagrams::TOLERANCE;
 use super::forces::ForceAnalysis;
 use crate::numeric::{gauss, root};
 
@@ -33,17 +32,25 @@ pub struct Area {
 /// Parts of an eighth of a turn in which the torque crosses its mean once at most.
 const LOOKS: u32 = 16;
 
+/// Error of areas as a part of the largest value times the length.
+const TOLERANCE: f64 = 1e-12;
+
+/// Integrals of functions of the size that one has at the ends of pieces.
+pub(super) fn areas(
+    size: &dyn Fn(f64) -> f64,
+    pieces: &[f64],
+) -> impl Fn(&dyn Fn(f64) -> f64, f64, f64) -> f64 {
+    let sizes = pieces.iter().map(|end| size(*end).abs());
+    let largest = sizes.fold(0.0, f64::max);
+    move |f, from, to| gauss::adaptive(f, from, to, TOLERANCE * largest * (to - from))
+}
+
 impl ForceAnalysis {
     /// Mean of the driving torque, and the areas on either side of it.
     pub(super) fn turning_moment(&self) -> TurningMoment {
         let pieces = self.pieces();
         let torque = |theta: f64| self.torque(theta);
-        let largest = pieces
-            .iter()
-            .fold(0.0, |most: f64, end| most.max(torque(*end).abs()));
-        let area = |f: &dyn Fn(f64) -> f64, from: f64, to: f64| {
-            gauss::adaptive(f, from, to, TOLERANCE * largest * (to - from))
-        };
+        let area = areas(&torque, &pieces);
         let work: f64 = pieces.windows(2).map(|w| area(&torque, w[0], w[1])).sum();
         let mean = work / self.whole();
         let above = |theta: f64| torque(theta % self.whole()) - mean;

@@ -1,7 +1,6 @@
 //! The equation at a place of rest: what holds there, and for how long.
 
-use super::dry::sign;
-use super::friction::Free;
+use super::friction::{Free, sign};
 use super::{Arms, CurveEquation, CurveTerms, LoadValue};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{Interval, Reach};

@@ -1,7 +1,8 @@
 //! The equation at many instants at once.
 
 use super::lagrange::forward;
-use super::{Equation, Inertia, LoadValue, Normal, Pose, Terms};
+use super::load::instant;
+use super::{Equation, Inertia, LoadValue, Normal, Terms};
 use crate::numeric::angle::Angle;
 use crate::numeric::trigonometry::sin_cos;
 
@@ -36,16 +37,13 @@ pub struct Positions<const N: usize> {
 }
 
 impl<const N: usize> Positions<N> {
-    fn zero() -> Positions<N> {
-        let [x, dx, m, half_dm, dv] = [[0.0; N]; 5];
-        Positions {
-            x,
-            dx,
-            m,
-            half_dm,
-            dv,
-        }
-    }
+    const ZERO: Positions<N> = Positions {
+        x: [0.0; N],
+        dx: [0.0; N],
+        m: [0.0; N],
+        half_dm: [0.0; N],
+        dv: [0.0; N],
+    };
 
     #[inline(always)]
     fn take(&mut self, i: usize, Terms { pose, inertia, dv }: &Terms) {
@@ -71,14 +69,14 @@ impl Equation {
         for i in 0..N {
             let (x, dx, omega) = (sides.x[i], sides.dx[i], at.omega[i]);
             let angle = Angle::new(at.turns, at.theta[i]);
+            let now = instant(at.t[i], angle, omega, [x, dx]);
             let steady = loads.with_potential_at(x);
-            let spent = loads.without_potential_beside(at.of_time[i], at.t[i], angle, omega, x, dx);
-            let spent = spent.torque + spent.force * dx;
+            let spent = loads.without_potential_beside(at.of_time[i], &now).over(dx);
             let inertia = Inertia {
                 m: sides.m[i],
                 half_dm: sides.half_dm[i],
             };
-            let q = steady.torque + steady.force * dx + spent;
+            let q = steady.over(dx) + spent;
             alpha[i] = forward(&inertia, sides.dv[i], q, omega);
             power[i] = spent * omega;
         }
@@ -87,13 +85,32 @@ impl Equation {
     /// Positions and terms at N crank angles, rad.
     #[inline]
     pub fn positions<const N: usize>(&self, theta: &[f64; N]) -> Positions<N> {
+        let mut positions = Positions::ZERO;
+        self.each(theta, |i, at| positions.take(i, at));
+        positions
+    }
+
+    /// What `take` makes of the terms at N crank angles.
+    #[inline(always)]
+    fn each<const N: usize>(&self, theta: &[f64; N], mut take: impl FnMut(usize, &Terms)) {
         let (sin, cos) = sin_cos(theta);
         let linkage = self.linkage();
         if linkage.stays_far_from_limits() {
-            self.sides(|i| linkage.pose_far_from_limits(sin[i], cos[i]))
+            for i in 0..N {
+                let pose = linkage.pose_far_from_limits(sin[i], cos[i]);
+                take(i, &self.terms_without_cases(pose));
+            }
         } else {
-            self.sides(|i| linkage.pose_at(sin[i], cos[i]))
+            for i in 0..N {
+                let pose = linkage.pose_at(sin[i], cos[i]);
+                take(i, &self.terms_without_cases(pose));
+            }
         }
+    }
+
+    /// Positions at the first `count` angles (rad); what is beyond is zero.
+    pub fn first_positions<const N: usize>(&self, theta: &[f64; N], count: usize) -> Positions<N> {
+        self.first(theta, count, |_| ()).0
     }
 
     /// Positions at the first `count` angles (rad), with the normal force at the guide; what is beyond is zero.
@@ -102,60 +119,31 @@ impl Equation {
         theta: &[f64; N],
         count: usize,
     ) -> (Positions<N>, [Normal; N]) {
-        const LANES: usize = 4;
-        let mut all = Positions::zero();
-        let mut normals = [Normal::default(); N];
-        let (terms, normal) = (self.terms_without_cases(), self.normal_without_cases());
-        let linkage = self.linkage();
-        let far = linkage.stays_far_from_limits();
-        for begin in (0..count).step_by(LANES) {
-            let some: [f64; LANES] = std::array::from_fn(|i| theta[(begin + i).min(N - 1)]);
-            let (sin, cos) = sin_cos(&some);
-            let of_guide: [(Terms, Normal); LANES] = if far {
-                std::array::from_fn(|i| {
-                    let at = terms(linkage.pose_far_from_limits(sin[i], cos[i]));
-                    (at, normal(&at))
-                })
-            } else {
-                std::array::from_fn(|i| {
-                    let at = terms(linkage.pose_at(sin[i], cos[i]));
-                    (at, normal(&at))
-                })
-            };
-            for (i, j) in (begin..count).take(LANES).enumerate() {
-                let (at, normal) = &of_guide[i];
-                all.take(j, at);
-                normals[j] = *normal;
-            }
-        }
-        (all, normals)
-    }
-
-    /// Positions at the first `count` angles; what is beyond is zero.
-    pub fn first_positions<const N: usize>(&self, theta: &[f64; N], count: usize) -> Positions<N> {
-        const LANES: usize = 4;
-        let mut all = Positions::zero();
-        for begin in (0..count).step_by(LANES) {
-            let some = std::array::from_fn(|i| theta[(begin + i).min(N - 1)]);
-            let at: Positions<LANES> = self.positions(&some);
-            for (i, j) in (begin..count).take(LANES).enumerate() {
-                all.x[j] = at.x[i];
-                all.dx[j] = at.dx[i];
-                all.m[j] = at.m[i];
-                all.half_dm[j] = at.half_dm[i];
-                all.dv[j] = at.dv[i];
-            }
-        }
-        all
+        self.first(theta, count, |at| self.normal_without_cases(at))
     }
 
     #[inline(always)]
-    fn sides<const N: usize>(&self, pose: impl Fn(usize) -> Pose) -> Positions<N> {
-        let mut sides = Positions::zero();
-        let terms = self.terms_without_cases();
-        for i in 0..N {
-            sides.take(i, &terms(pose(i)));
+    fn first<const N: usize, T: Copy + Default>(
+        &self,
+        theta: &[f64; N],
+        count: usize,
+        beside: impl Fn(&Terms) -> T,
+    ) -> (Positions<N>, [T; N]) {
+        const LANES: usize = 4;
+        let (mut all, mut of_all) = (Positions::ZERO, [T::default(); N]);
+        for begin in (0..count).step_by(LANES) {
+            let some: [f64; LANES] = std::array::from_fn(|i| theta[(begin + i).min(N - 1)]);
+            let (mut at, mut of_some) = (Positions::<LANES>::ZERO, [T::default(); LANES]);
+            self.each(&some, |i, terms| {
+                at.take(i, terms);
+                of_some[i] = beside(terms);
+            });
+            for (i, j) in (begin..count).take(LANES).enumerate() {
+                (all.x[j], all.dx[j], all.dv[j]) = (at.x[i], at.dx[i], at.dv[i]);
+                (all.m[j], all.half_dm[j]) = (at.m[i], at.half_dm[i]);
+                of_all[j] = of_some[i];
+            }
         }
-        sides
+        (all, of_all)
     }
 }

@@ -34,14 +34,29 @@ pub struct Body {
 impl Body {
     /// A point mass on a link.
     fn point(on: Link, mass: f64, along: f64, left: f64) -> Body {
-        let inertia = 0.0;
         Body {
             on,
             mass,
             along,
             left,
-            inertia,
+            inertia: 0.0,
         }
+    }
+
+    /// The rod of a scene as one body that carries forces; none of the model `spin-only`, which leaves out its translation.
+    pub(super) fn rod(scene: &Scene) -> Option<Body> {
+        let rod = scene.rod.unwrap_or_default();
+        let inertia = match rod.model {
+            RodModel::Massless => return Some(Body::default()),
+            RodModel::Rigid => rod.central_inertia().max(0.0),
+            // What two masses at the pins have about their centre of gravity.
+            RodModel::TwoMass => rod.mass * rod.cg * (scene.geometry.rod - rod.cg),
+            RodModel::SpinOnly => return None,
+        };
+        Some(Body {
+            inertia,
+            ..Body::point(Link::Rod, rod.mass, rod.cg, rod.cg_lateral)
+        })
     }
 
     /// Centre of gravity from the end that its link begins at, m, for the direction of the link (a unit vector).
@@ -78,9 +93,9 @@ impl Path {
         }
     }
 
-    #[inline(always)]
     /// Path of a point at (along, left) of the rod: A plus the point in the rod's axes
     /// d = (s cos φ, −sin φ), n = (sin φ, s cos φ), which turn by ψ' = −s φ'.
+    #[inline(always)]
     pub fn on_rod(linkage: &Linkage, pose: &Pose, along: f64, left: f64) -> Path {
         let s = linkage.s;
         let (dx, dy) = (s * pose.cos_phi, -pose.sin_phi);
@@ -102,10 +117,12 @@ impl Path {
 
     /// Path of the end of an arm that turns: first and second derivative of its angle.
     pub(super) fn turning([x, y]: [f64; 2], [first, second]: [f64; 2]) -> Path {
-        let squared = first * first;
         Path {
             dp: [-y * first, x * first],
-            d2p: [-y * second - squared * x, x * second - squared * y],
+            d2p: [
+                -y * second - x * first * first,
+                x * second - y * first * first,
+            ],
             dpsi: first,
             d2psi: second,
         }
@@ -118,16 +135,6 @@ impl Path {
             dp: sum(self.dp, arm.dp),
             d2p: sum(self.d2p, arm.d2p),
             ..*arm
-        }
-    }
-
-    /// Path of the slider.
-    pub fn on_slider(pose: &Pose) -> Path {
-        Path {
-            dp: [pose.dx, 0.0],
-            d2p: [pose.d2x, 0.0],
-            dpsi: 0.0,
-            d2psi: 0.0,
         }
     }
 }
@@ -161,12 +168,9 @@ impl Bodies {
             match rod.model {
                 RodModel::Massless => {}
                 RodModel::Rigid => {
-                    let body = Body {
-                        inertia: rod.central_inertia().max(0.0),
-                        ..Body::point(Link::Rod, rod.mass, rod.cg, rod.cg_lateral)
-                    };
-                    bodies.moving.push(body);
-                    bodies.heavy.push(body);
+                    let body = Body::rod(scene);
+                    bodies.moving.extend(body);
+                    bodies.heavy.extend(body);
                 }
                 RodModel::TwoMass => {
                     let at_wrist_pin = rod.mass * rod.cg / scene.geometry.rod;

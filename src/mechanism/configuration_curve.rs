@@ -15,7 +15,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::limits::SAME_LENGTHS;
 use super::rocker::Rocker;
-use super::{Class, Limits, Linkage};
+use super::{Body, Class, Limits, Link, Linkage, Path, Pose};
 use crate::numeric::angle::Angle;
 use crate::scene::Branch;
 
@@ -65,6 +65,58 @@ pub struct Place {
 }
 
 impl Place {
+    /// The position of a linkage at a crank angle, with that as the coordinate.
+    pub(super) fn of(linkage: &Linkage, pose: &Pose) -> Place {
+        let s = linkage.s;
+        Place {
+            sin: pose.sin,
+            cos: pose.cos,
+            dtheta: 1.0,
+            d2theta: 0.0,
+            rod_sin: pose.sin_phi,
+            rod_cos: s * pose.cos_phi,
+            drod: s * pose.dphi,
+            d2rod: s * pose.d2phi,
+            x: pose.x,
+            dx: pose.dx,
+            d2x: pose.d2x,
+        }
+    }
+
+    /// Crank and rod exchanged.
+    fn exchanged(self) -> Place {
+        Place {
+            sin: self.rod_sin,
+            cos: self.rod_cos,
+            dtheta: self.drod,
+            d2theta: self.d2rod,
+            rod_sin: self.sin,
+            rod_cos: self.cos,
+            drod: self.dtheta,
+            d2rod: self.d2theta,
+            ..self
+        }
+    }
+
+    /// The path of a body over the coordinate.
+    pub(super) fn path(&self, linkage: &Linkage, body: &Body) -> Path {
+        let crank = [self.cos, self.sin];
+        let turn = [self.dtheta, self.d2theta];
+        match body.on {
+            Link::Crank => Path::turning(body.arm(crank), turn),
+            Link::Rod => {
+                let pin = Path::turning(crank.map(|part| linkage.r * part), turn);
+                let arm = body.arm([self.rod_cos, -self.rod_sin]);
+                pin.carrying(&Path::turning(arm, [-self.drod, -self.d2rod]))
+            }
+            Link::Slider => Path {
+                dp: [self.dx, 0.0],
+                d2p: [self.d2x, 0.0],
+                ..Path::default()
+            },
+        }
+    }
+
     /// Rod inclination φ in [−90°, 90°], rad, as [`super::Pose::phi`].
     pub fn phi(&self) -> f64 {
         self.rod_sin.atan2(self.rod_cos.abs())
@@ -170,40 +222,8 @@ impl Curve {
     /// The position at coordinate q, rad.
     pub fn place(&self, q: f64) -> Place {
         match &self.chart {
-            Chart::Crank => {
-                let s = self.linkage.s;
-                let pose = self.linkage.pose(q);
-                Place {
-                    sin: pose.sin,
-                    cos: pose.cos,
-                    dtheta: 1.0,
-                    d2theta: 0.0,
-                    rod_sin: pose.sin_phi,
-                    rod_cos: s * pose.cos_phi,
-                    drod: s * pose.dphi,
-                    d2rod: s * pose.d2phi,
-                    x: pose.x,
-                    dx: pose.dx,
-                    d2x: pose.d2x,
-                }
-            }
-            Chart::Rod(swapped) => {
-                let s = swapped.s;
-                let pose = swapped.pose(q);
-                Place {
-                    sin: pose.sin_phi,
-                    cos: s * pose.cos_phi,
-                    dtheta: s * pose.dphi,
-                    d2theta: s * pose.d2phi,
-                    rod_sin: pose.sin,
-                    rod_cos: pose.cos,
-                    drod: 1.0,
-                    d2rod: 0.0,
-                    x: pose.x,
-                    dx: pose.dx,
-                    d2x: pose.d2x,
-                }
-            }
+            Chart::Crank => Place::of(&self.linkage, &self.linkage.pose(q)),
+            Chart::Rod(swapped) => Place::of(swapped, &swapped.pose(q)).exchanged(),
             Chart::Rocker(rocker) => rocker.place(&self.linkage, q),
         }
     }

@@ -5,20 +5,17 @@
 //! N = A q̈ + B q̇² + V_n − Q_n with A = Σ m p_n·p' + I ψ_n ψ', B = Σ m p_n·p'' + I ψ_n ψ''.
 
 use super::friction::{Free, Touch};
-use super::{Bodies, Body, Curve, Equation, Link, Loads, Place, Sense};
+use super::guide_force::Way;
+use super::{Curve, Equation, LoadValue, Loads, Place, Sense};
 use crate::numeric::angle::Angle;
 use crate::scene::{Friction, Instant, Scene};
 
 /// The equation of one scene on its configuration curve.
 #[derive(Clone, Debug)]
 pub struct CurveEquation {
+    equation: Equation,
     curve: Curve,
     vanishing: bool,
-    crank_inertia: f64,
-    moving: Vec<Body>,
-    heavy: Vec<Body>,
-    gravity: [f64; 2],
-    loads: Loads,
     friction: Option<Friction>,
 }
 
@@ -45,27 +42,26 @@ pub struct CurveTerms {
     pub(super) x_n: f64,
 }
 
-/// First and second derivative along the curve, first derivative across it, of a path and a turn angle.
-#[derive(Clone, Copy, Debug, Default)]
-struct Way {
-    p: [[f64; 2]; 3],
-    psi: [f64; 3],
+impl CurveTerms {
+    /// Q of a load, N m.
+    pub(super) fn along(&self, load: LoadValue) -> f64 {
+        load.torque * self.place.dtheta + load.force * self.place.dx
+    }
+
+    /// Q_n of a load, N.
+    pub(super) fn aside(&self, load: LoadValue) -> f64 {
+        load.torque * self.theta_n + load.force * self.x_n
+    }
 }
 
 impl CurveEquation {
     /// The equation of a scene on the curve.
     pub fn new(scene: &Scene, curve: Curve) -> CurveEquation {
-        let scene = scene.reduced();
-        let bodies = Bodies::new(&scene);
         let mut equation = CurveEquation {
+            equation: Equation::new(scene),
             curve,
             vanishing: false,
-            crank_inertia: bodies.crank_inertia,
-            moving: bodies.moving,
-            heavy: bodies.heavy,
-            gravity: scene.gravity.map_or([0.0; 2], |gravity| gravity.vector()),
-            loads: Loads::new(&scene),
-            friction: scene.friction,
+            friction: scene.reduced().friction,
         };
         let mut places = curve.limits().into_iter().chain(curve.dead_centres());
         equation.vanishing = places.any(|q| equation.vanishes_at(q));
@@ -79,7 +75,7 @@ impl CurveEquation {
 
     /// The loads.
     pub fn loads(&self) -> &Loads {
-        &self.loads
+        self.equation.loads()
     }
 
     /// The friction at the guide.
@@ -91,44 +87,26 @@ impl CurveEquation {
     pub fn across(&self, q: f64) -> CurveTerms {
         let place = self.curve.place(q);
         let linkage = self.curve.linkage();
-        let (lift, drop) = (linkage.r * place.cos, linkage.l * place.rod_cos);
-        let squared = lift * lift + drop * drop;
-        let (theta_n, rod_n) = (lift / squared, -drop / squared);
-        let frame = Frame {
-            a: [lift, linkage.r * place.sin],
-            along: [place.rod_cos, -place.rod_sin],
-            theta: [place.dtheta, place.d2theta, theta_n],
-            rod: [place.drod, place.d2rod, rod_n],
-            place: &place,
-            x_n: -linkage.r * place.sin * theta_n - linkage.l * place.rod_sin * rod_n,
-        };
-        let mut terms = CurveTerms {
+        let rod = &self.equation.rod;
+        let path = place.path(linkage, rod);
+        let turn = [place.dtheta, place.d2theta];
+        let [along, bend] = Way::along(turn, &path, [place.dx, place.d2x]);
+        let pin = [linkage.r * place.cos, linkage.r * place.sin];
+        let axis = [place.rod_cos, -place.rod_sin];
+        let aside = Way::aside(pin, axis.map(|part| linkage.l * part), rod.arm(axis));
+        let inertia = |a: &Way, b: &Way| self.equation.inertia_over(a, b);
+        let lift = |way: &Way| self.equation.weight_over([place.cos, place.sin], way);
+        CurveTerms {
+            m: inertia(&along, &along),
+            half_dm: inertia(&along, &bend),
+            dv: lift(&along),
+            a: inertia(&aside, &along),
+            b: inertia(&aside, &bend),
+            dv_n: lift(&aside) - self.equation.weight.slider[1],
+            theta_n: aside.theta,
+            x_n: aside.x,
             place,
-            m: self.crank_inertia * place.dtheta * place.dtheta,
-            half_dm: self.crank_inertia * place.dtheta * place.d2theta,
-            dv: 0.0,
-            a: self.crank_inertia * theta_n * place.dtheta,
-            b: self.crank_inertia * theta_n * place.d2theta,
-            dv_n: 0.0,
-            theta_n,
-            x_n: frame.x_n,
-        };
-        for body in &self.moving {
-            let (mass, inertia, way) = (body.mass, body.inertia, frame.of(body));
-            let ([along, bend, aside], [spin, twist, tilt]) = (way.p, way.psi);
-            terms.m += mass * dot(along, along) + inertia * spin * spin;
-            terms.half_dm += mass * dot(along, bend) + inertia * spin * twist;
-            terms.a += mass * dot(aside, along) + inertia * tilt * spin;
-            terms.b += mass * dot(aside, bend) + inertia * tilt * twist;
         }
-        if self.gravity != [0.0; 2] {
-            for body in &self.heavy {
-                let way = frame.of(body);
-                terms.dv -= body.mass * dot(self.gravity, way.p[0]);
-                terms.dv_n -= body.mass * dot(self.gravity, way.p[2]);
-            }
-        }
-        terms
     }
 
     /// Whether there is no inertia at coordinate q (rad), compared with that further on.
@@ -152,27 +130,65 @@ impl CurveEquation {
         }
     }
 
+    /// Torque and force of the loads, without friction; dry ones against this speed.
+    pub fn load(&self, place: &Place, t: f64, q: Angle, speed: f64) -> LoadValue {
+        self.equation.loads().at(&self.instant(place, t, q, speed))
+    }
+
+    /// Value of the loads beside what is known of the dry ones.
+    pub fn load_beside(
+        &self,
+        dry: LoadValue,
+        place: &Place,
+        t: f64,
+        q: Angle,
+        speed: f64,
+    ) -> LoadValue {
+        let spent = self
+            .equation
+            .loads()
+            .spent(&self.instant(place, t, q, speed));
+        self.equation
+            .loads()
+            .with_potential_at(place.x)
+            .plus(spent)
+            .plus(dry)
+    }
+
     /// Acceleration and normal force as they would be without friction, and what a force along the guide
     /// changes in them. Speed in rad/s of the coordinate.
     pub fn free(&self, t: f64, q: Angle, speed: f64) -> Free {
+        self.against(t, q, speed, None)
+    }
+
+    /// [`Self::free`] of a motion that dry loads oppose in these senses, whatever the speed.
+    pub fn free_against(&self, t: f64, q: Angle, speed: f64, sense: Sense) -> Free {
+        self.against(t, q, speed, Some(sense))
+    }
+
+    fn against(&self, t: f64, q: Angle, speed: f64, sense: Option<Sense>) -> Free {
         let terms = self.across(q.rest);
-        let place = &terms.place;
-        let sense = Sense::of(place.dtheta * speed, place.dx * speed);
-        self.against(&terms, t, q, speed, sense)
+        let mut free = self.without_dry(&terms, t, q, speed);
+        if self.equation.loads().are_dry() {
+            let now = self.instant(&terms.place, t, q, speed);
+            let sense = sense.unwrap_or_else(|| Sense::of(now.omega, now.v));
+            free.push(&terms, self.equation.loads().dry(&now, sense), speed);
+        }
+        free
     }
 
     /// Motion without friction and without the dry loads.
     pub(super) fn without_dry(&self, terms: &CurveTerms, t: f64, q: Angle, speed: f64) -> Free {
         let place = &terms.place;
-        let spent = self.loads.spent(&self.instant(place, t, q, speed));
-        let stored = self.loads.with_potential_at(place.x);
-        let (torque, force) = (stored.torque + spent.torque, stored.force + spent.force);
-        let along = torque * place.dtheta + force * place.dx;
-        let aside = torque * terms.theta_n + force * terms.x_n;
+        let spent = self
+            .equation
+            .loads()
+            .spent(&self.instant(place, t, q, speed));
+        let load = self.equation.loads().with_potential_at(place.x).plus(spent);
         let squared = speed * speed;
-        let pull = along - terms.dv;
+        let pull = terms.along(load) - terms.dv;
         let acceleration = (pull - terms.half_dm * squared) / terms.m;
-        let held = terms.b * squared + terms.dv_n - aside;
+        let held = terms.b * squared + terms.dv_n - terms.aside(load);
         Free {
             acceleration,
             normal: terms.a * acceleration + held,
@@ -181,9 +197,8 @@ impl CurveEquation {
             pull,
             held,
             x_n: terms.x_n,
-            a: terms.a,
             dx: place.dx,
-            power: (spent.torque * place.dtheta + spent.force * place.dx) * speed,
+            power: terms.along(spent) * speed,
         }
     }
 
@@ -202,7 +217,7 @@ impl CurveEquation {
             + (terms.dv_n - share * terms.dv)
             - load.force * slope;
         let mu = self.friction.map_or(0.0, |friction| friction.coefficient);
-        Touch::driven(without, slope, mu, place.dx * speed)
+        Touch::sliding(without, -slope, mu, place.dx * speed)
     }
 
     /// Kinetic energy, J.
@@ -212,64 +227,12 @@ impl CurveEquation {
 
     /// Potential energy of gravity and of the loads that have a potential, J.
     /// Crank angles count without `turns` whole turns, which would cost digits.
-    pub fn potential_energy(&self, equation: &Equation, q: Angle, turns: f64) -> f64 {
+    pub fn potential_energy(&self, q: Angle, turns: f64) -> f64 {
         let place = self.curve.place(q.rest);
         let mut theta = self.curve.crank_angle(q);
         theta.turns -= turns;
-        self.loads.potential(theta.radians(), place.x)
-            + equation.gravity_at(
-                [place.cos, place.sin],
-                [place.rod_cos, -place.rod_sin],
-                place.x,
-            )
+        let (crank, axis) = ([place.cos, place.sin], [place.rod_cos, -place.rod_sin]);
+        let gravity = self.equation.gravity_at(crank, axis, place.x);
+        self.loads().potential(theta.radians(), place.x) + gravity
     }
-}
-
-/// A position from which the ways of all bodies follow.
-struct Frame<'a> {
-    a: [f64; 2],
-    along: [f64; 2],
-    theta: [f64; 3],
-    rod: [f64; 3],
-    place: &'a Place,
-    x_n: f64,
-}
-
-impl Frame<'_> {
-    fn of(&self, body: &Body) -> Way {
-        match body.on {
-            Link::Crank => turning(body.arm([self.place.cos, self.place.sin]), self.theta),
-            Link::Rod => {
-                let pin = turning(self.a, self.theta);
-                let rest = turning(body.arm(self.along), self.rod.map(|turn| -turn));
-                let p = std::array::from_fn(|i| {
-                    [pin.p[i][0] + rest.p[i][0], pin.p[i][1] + rest.p[i][1]]
-                });
-                Way { p, psi: rest.psi }
-            }
-            Link::Slider => Way {
-                p: [[self.place.dx, 0.0], [self.place.d2x, 0.0], [self.x_n, 1.0]],
-                psi: [0.0; 3],
-            },
-        }
-    }
-}
-
-/// An arm that turns: first and second derivative of its angle along the curve, first across it.
-fn turning([x, y]: [f64; 2], [first, second, aside]: [f64; 3]) -> Way {
-    Way {
-        p: [
-            [-y * first, x * first],
-            [
-                -y * second - x * first * first,
-                x * second - y * first * first,
-            ],
-            [-y * aside, x * aside],
-        ],
-        psi: [first, second, aside],
-    }
-}
-
-fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
 }

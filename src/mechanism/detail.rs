@@ -65,15 +65,15 @@ impl Around<'_> {
     }
 
     fn loads(&self, loads: &NonlinearLoads, arms: Arms) -> Detail {
-        let sum = |list: &[Load]| {
-            let details = list.iter().map(|load| self.detail(load));
-            details.fold(Detail::NONE, Detail::plus)
+        let one = |(load, on_slider): &(Load, bool)| {
+            let arm = if *on_slider { arms.force } else { arms.torque };
+            self.detail(load).times(arm.abs())
         };
-        let torque = sum(&loads.torques).times(arms.torque.abs());
-        match loads.forces.is_empty() {
-            true => torque,
-            false => torque.plus(sum(&loads.forces).times(arms.force.abs())),
-        }
+        loads
+            .list()
+            .iter()
+            .map(one)
+            .fold(Detail::NONE, Detail::plus)
     }
 }
 
@@ -108,7 +108,7 @@ impl Loads {
 
     /// Whether they act on the slider or depend on its position or velocity.
     pub fn meet_slider(&self) -> bool {
-        self.on_slider || !self.reads().disjoint(Variables::X.or(Variables::V))
+        self.on_slider() || !self.reads().disjoint(Variables::X.or(Variables::V))
     }
 
     /// What the loads do on a piece of a motion, and in an ellipse of this size around it, each times its arm.
@@ -136,8 +136,7 @@ impl Loads {
 
     fn detail_of(classes: &[&NonlinearLoads], seen: &Seen, arms: Arms, ellipse: f64) -> Detail {
         let around = Around { seen, ellipse };
-        let classes = classes.iter().filter(|loads| !loads.is_empty());
-        let details = classes.map(|loads| around.loads(loads, arms));
+        let details = classes.iter().map(|loads| around.loads(loads, arms));
         details.fold(Detail::NONE, Detail::plus)
     }
 }

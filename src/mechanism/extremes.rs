@@ -53,13 +53,12 @@ impl Extremes {
 
 /// Poses at crank angles, rad: sines and cosines of some angles at a time.
 fn poses(linkage: &Linkage, grid: &[f64]) -> Vec<(f64, Pose)> {
-    let (some, rest) = grid.as_chunks::<8>();
-    let at_once = some.iter().flat_map(|angles| {
-        let (sin, cos) = sin_cos(angles);
-        std::array::from_fn::<_, 8, _>(|i| (angles[i], linkage.pose_at(sin[i], cos[i])))
+    let some = grid.chunks(8).flat_map(|some| {
+        let angles: [f64; 8] = std::array::from_fn(|i| some[i.min(some.len() - 1)]);
+        let (sin, cos) = sin_cos(&angles);
+        (0..some.len()).map(move |i| (angles[i], linkage.pose_at(sin[i], cos[i])))
     });
-    let one_by_one = rest.iter().map(|theta| (*theta, linkage.pose(*theta)));
-    at_once.chain(one_by_one).collect()
+    some.collect()
 }
 
 /// Smallest and largest `value` over a turn, from the roots of its derivative between these poses.

@@ -4,6 +4,11 @@
 //! changes the normal force: N = N_free + κ F. So N = N_free/(1 − c κ), linear for given signs; as N and N_free
 //! have the same sign while |c κ| < 1, one and only one solution exists iff μ |κ| < 1. Beyond it the
 //! equations of rigid bodies have no solution or two (Painlevé).
+//!
+//! Dry loads oppose motion with known magnitudes T of torques on the crank and D of forces on the slider. Rest lasts while
+//! |Q − V'| ≤ T|θ'| + D|x'|, and beyond that motion begins in the direction of Q − V' (Filippov's solution).
+
+use super::{CurveTerms, LoadValue};
 
 /// What the motion would be without friction, and what a force on the slider along the guide changes in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,8 +27,6 @@ pub struct Free {
     pub(super) held: f64,
     /// How far x moves when the slider is lifted
     pub(super) x_n: f64,
-    /// A, kg m
-    pub(super) a: f64,
     /// x', m
     pub(super) dx: f64,
     /// Power of the loads without potential, W
@@ -60,21 +63,26 @@ pub enum FromRest {
 }
 
 impl Free {
+    /// Adds a load to a motion at a speed (rad/s) of the coordinate.
+    pub(super) fn push(&mut self, terms: &CurveTerms, load: LoadValue, speed: f64) {
+        let (along, aside) = (terms.along(load), terms.aside(load));
+        self.pull += along;
+        self.acceleration += along / terms.m;
+        self.held -= aside;
+        self.normal += terms.a * along / terms.m - aside;
+        self.power += along * speed;
+    }
+
     /// q̈ and the forces while the slider slides, for c = −μ sgn(v) sgn(N).
     pub fn sliding(&self, c: f64) -> (f64, Touch) {
-        if c == 0.0 {
-            let touch = Touch {
-                normal: self.normal,
-                friction: 0.0,
-            };
-            return (self.acceleration, touch);
-        }
-        let normal = self.normal / (1.0 - c * self.kappa);
-        let friction = c * normal;
-        (
-            self.acceleration + self.gain * friction,
-            Touch { normal, friction },
-        )
+        // Without friction κ need not be a number.
+        let [kappa, gain] = if c == 0.0 {
+            [0.0; 2]
+        } else {
+            [self.kappa, self.gain]
+        };
+        let touch = Touch::rubbing(self.normal, kappa, c);
+        (self.acceleration + gain * touch.friction, touch)
     }
 
     /// Slider velocity, m/s, at a speed (rad/s) of the coordinate.
@@ -143,21 +151,43 @@ impl Free {
 }
 
 impl Touch {
-    /// The forces while a motion is kept up by a drive of the crank: `without` is the normal force (N) without
-    /// friction, `slope` = tan Φ how far x moves when the slider is lifted with the crank held. None where the
-    /// guide locks itself: no torque of the crank, however large, keeps up the motion.
-    pub(super) fn driven(without: f64, slope: f64, mu: f64, v: f64) -> Option<Touch> {
-        let c = -mu * v.signum() * without.signum();
-        if v == 0.0 || c == 0.0 {
-            return Some(Touch {
-                normal: without,
-                friction: 0.0,
-            });
-        }
-        let normal = without / (1.0 + c * slope);
-        (mu * slope.abs() < 1.0).then_some(Touch {
+    /// N = N_free/(1 − c κ) and F = c N.
+    pub(super) fn rubbing(free: f64, kappa: f64, c: f64) -> Touch {
+        let normal = free / (1.0 - c * kappa);
+        Touch {
             normal,
             friction: c * normal,
-        })
+        }
     }
+
+    /// The forces on a slider with the velocity v, from the normal force without friction (N) and κ; none where rigid bodies
+    /// jam, μ |κ| ≥ 1. With κ = −tan Φ, what a drive of the crank keeps up.
+    pub(super) fn sliding(free: f64, kappa: f64, mu: f64, v: f64) -> Option<Touch> {
+        let c = -mu * sign(v) * free.signum();
+        (c == 0.0 || mu * kappa.abs() < 1.0).then(|| Touch::rubbing(free, kappa, c))
+    }
+}
+
+/// Signs of the speeds of crank and slider that dry loads oppose; zero: they are at rest.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sense {
+    /// sgn(ω)
+    pub crank: f64,
+    /// sgn(v)
+    pub slider: f64,
+}
+
+impl Sense {
+    /// Of a speed of the crank (rad/s) and one of the slider (m/s).
+    pub fn of(omega: f64, v: f64) -> Sense {
+        Sense {
+            crank: sign(omega),
+            slider: sign(v),
+        }
+    }
+}
+
+/// sgn, zero at zero.
+pub(super) fn sign(value: f64) -> f64 {
+    if value == 0.0 { 0.0 } else { value.signum() }
 }

@@ -14,8 +14,8 @@ pub struct Inertia {
 }
 
 impl Inertia {
-    #[inline(always)]
     /// One kinetic term: M += m |p'|² + I ψ'², ½ M' += m p'·p'' + I ψ' ψ''.
+    #[inline(always)]
     pub fn add(&mut self, mass: f64, inertia: f64, path: &Path) {
         let Path {
             dp,
@@ -44,12 +44,12 @@ pub struct Terms {
 pub struct Equation {
     linkage: Linkage,
     pub(super) crank_inertia: f64,
-    pub(super) rod: Option<Body>,
+    pub(super) rod: Body,
+    has_rod: bool,
     pub(super) slider_mass: f64,
-    pub(super) weight: Option<Weight>,
+    pub(super) weight: Weight,
+    has_weight: bool,
     loads: Loads,
-    heavy: Vec<Body>,
-    gravity: [f64; 2],
 }
 
 /// V' = sine·sin θ + cosine·cos θ − rod weight · p' − slider weight · (x', 0).
@@ -70,24 +70,19 @@ impl Equation {
         let mut equation = Equation {
             linkage: Linkage::new(&scene.geometry),
             crank_inertia: bodies.crank_inertia,
-            rod: None,
+            rod: Body::default(),
+            has_rod: false,
             slider_mass: 0.0,
-            weight: None,
+            weight: Weight::of(&bodies.heavy, gravity),
+            has_weight: gravity != [0.0; 2] && !bodies.heavy.is_empty(),
             loads: Loads::new(&scene),
-            heavy: bodies.heavy,
-            gravity,
         };
         for body in &bodies.moving {
             match body.on {
-                Link::Crank => {
-                    let squared = body.along * body.along + body.left * body.left;
-                    equation.crank_inertia += body.mass * squared;
-                }
-                Link::Rod => equation.rod = Some(*body),
                 Link::Slider => equation.slider_mass += body.mass,
+                _ => (equation.rod, equation.has_rod) = (*body, true),
             }
         }
-        equation.weight = weight(&equation.heavy, gravity);
         equation
     }
 
@@ -108,53 +103,46 @@ impl Equation {
 
     /// Terms of the equation at a position.
     pub fn terms_at(&self, pose: Pose) -> Terms {
-        self.terms_of(pose, self.rod.as_ref(), self.weight.as_ref())
+        self.terms_of(pose, self.has_rod, self.has_weight)
     }
 
-    /// Terms at many positions: without cases, a rod or a weight that is not there being zero, so that
+    /// Terms at one of many positions: without cases, a rod or a weight that is not there being zero, so that
     /// the compiler can work on several side by side.
     #[inline(always)]
-    pub fn terms_without_cases(&self) -> impl Fn(Pose) -> Terms {
-        let rod = self.rod.unwrap_or_default();
-        let weight = self.weight.unwrap_or_default();
-        move |pose| self.terms_of(pose, Some(&rod), Some(&weight))
+    pub(super) fn terms_without_cases(&self, pose: Pose) -> Terms {
+        self.terms_of(pose, true, true)
     }
 
     #[inline(always)]
-    fn terms_of(&self, pose: Pose, rod: Option<&Body>, weight: Option<&Weight>) -> Terms {
+    fn terms_of(&self, pose: Pose, has_rod: bool, has_weight: bool) -> Terms {
         let mut inertia = Inertia {
             m: self.crank_inertia,
             half_dm: 0.0,
         };
-        let mut rod_path = Path::default();
-        if let Some(rod) = rod {
-            rod_path = Path::on_rod(&self.linkage, &pose, rod.along, rod.left);
-            inertia.add(rod.mass, rod.inertia, &rod_path);
+        let mut path = Path::default();
+        if has_rod {
+            let rod = &self.rod;
+            path = Path::on_rod(&self.linkage, &pose, rod.along, rod.left);
+            inertia.add(rod.mass, rod.inertia, &path);
         }
         if self.slider_mass != 0.0 {
             inertia.m += self.slider_mass * pose.dx * pose.dx;
             inertia.half_dm += self.slider_mass * pose.dx * pose.d2x;
         }
-        let dv = weight.map_or(0.0, |weight| {
-            weight.sine * pose.sin + weight.cosine * pose.cos
-                - (weight.rod[0] * rod_path.dp[0] + weight.rod[1] * rod_path.dp[1])
-                - weight.slider[0] * pose.dx
-        });
+        let mut dv = 0.0;
+        if has_weight {
+            let weight = &self.weight;
+            dv = weight.sine * pose.sin + weight.cosine * pose.cos
+                - (weight.rod[0] * path.dp[0] + weight.rod[1] * path.dp[1])
+                - weight.slider[0] * pose.dx;
+        }
         Terms { pose, inertia, dv }
     }
 
     /// θ̈ in rad/s² at time t (s), crank angle θ (rad, unwrapped) and speed θ̇ (rad/s). Not finite where the
     /// mechanism has no such position, a load no value, or the inertia vanishes: see [`Self::obstacle`].
     pub fn acceleration(&self, t: f64, theta: impl Into<Angle>, omega: f64) -> f64 {
-        let theta = theta.into();
-        let terms = self.terms(theta.rest);
-        let load = self.loads.value(t, theta, omega, &terms.pose);
-        forward(
-            &terms.inertia,
-            terms.dv,
-            load.generalized(&terms.pose),
-            omega,
-        )
+        self.acceleration_and_power(t, theta, omega).0
     }
 
     /// θ̈ as in [`Self::acceleration`], and the power (W) of the loads that have no potential.
@@ -165,12 +153,11 @@ impl Equation {
         omega: f64,
     ) -> (f64, f64) {
         let theta = theta.into();
-        let terms = self.terms(theta.rest);
-        let pose = &terms.pose;
-        let load = self.loads.value(t, theta, omega, pose);
-        let spent = self.loads.without_potential(t, theta, omega, pose);
-        let alpha = forward(&terms.inertia, terms.dv, load.generalized(pose), omega);
-        (alpha, spent.generalized(pose) * omega)
+        let Terms { pose, inertia, dv } = self.terms(theta.rest);
+        let spent = self.loads.without_potential(t, theta, omega, &pose);
+        let load = self.loads.with_potential_at(pose.x).plus(spent);
+        let alpha = forward(&inertia, dv, load.over(pose.dx), omega);
+        (alpha, spent.over(pose.dx) * omega)
     }
 
     /// Backward: the generalized force Q (N m) that goes with a motion.
@@ -217,20 +204,13 @@ impl Equation {
     }
 
     /// Potential energy of gravity, J, from the directions of crank and rod (from A) and the slider's place.
-    pub(super) fn gravity_at(&self, crank: [f64; 2], rod: [f64; 2], x: f64) -> f64 {
-        let [gx, gy] = self.gravity;
-        let energy = |body: &Body| {
-            let place = match body.on {
-                Link::Crank => body.arm(crank),
-                Link::Rod => {
-                    let (pin, arm) = (crank.map(|part| self.linkage.r * part), body.arm(rod));
-                    [pin[0] + arm[0], pin[1] + arm[1]]
-                }
-                Link::Slider => [x, -self.linkage.e],
-            };
-            -body.mass * (gx * place[0] + gy * place[1])
-        };
-        self.heavy.iter().map(energy).sum()
+    pub(super) fn gravity_at(&self, [cos, sin]: [f64; 2], axis: [f64; 2], x: f64) -> f64 {
+        let (Linkage { r, e, .. }, weight) = (self.linkage, &self.weight);
+        let arm = self.rod.arm(axis);
+        let rod = [r * cos + arm[0], r * sin + arm[1]];
+        let crank = weight.cosine * sin - weight.sine * cos;
+        let slider = weight.slider[0] * x - weight.slider[1] * e;
+        crank - (weight.rod[0] * rod[0] + weight.rod[1] * rod[1]) - slider
     }
 }
 
@@ -239,26 +219,24 @@ pub(super) fn forward(inertia: &Inertia, dv: f64, q: f64, omega: f64) -> f64 {
     (q - dv - inertia.half_dm * omega * omega) / inertia.m
 }
 
-/// V' = −Σ m g·p', the points of the crank summed to one sine and one cosine.
-fn weight(heavy: &[Body], gravity: [f64; 2]) -> Option<Weight> {
-    if gravity == [0.0; 2] || heavy.is_empty() {
-        return None;
-    }
-    let [gx, gy] = gravity;
-    let mut weight = Weight::default();
-    for body in heavy {
-        let (mass, along, left) = (body.mass, body.along, body.left);
-        match body.on {
-            Link::Crank => {
-                weight.sine += mass * (gx * along + gy * left);
-                weight.cosine += mass * (gx * left - gy * along);
-            }
-            Link::Rod => weight.rod = [mass * gx, mass * gy],
-            Link::Slider => {
-                weight.slider[0] += mass * gx;
-                weight.slider[1] += mass * gy;
+impl Weight {
+    /// V' = −Σ m g·p', the points of the crank summed to one sine and one cosine.
+    fn of(heavy: &[Body], [gx, gy]: [f64; 2]) -> Weight {
+        let mut weight = Weight::default();
+        for body in heavy {
+            let (mass, along, left) = (body.mass, body.along, body.left);
+            match body.on {
+                Link::Crank => {
+                    weight.sine += mass * (gx * along + gy * left);
+                    weight.cosine += mass * (gx * left - gy * along);
+                }
+                Link::Rod => weight.rod = [mass * gx, mass * gy],
+                Link::Slider => {
+                    weight.slider[0] += mass * gx;
+                    weight.slider[1] += mass * gy;
+                }
             }
         }
+        weight
     }
-    Some(weight)
 }

@@ -1,7 +1,7 @@
 //! Virtual work of the loads: all that is linear is summed once, the rest is called.
 
 use super::nonlinear_loads::NonlinearLoads;
-use super::{LoadValue, Pose};
+use super::{LoadValue, Pose, Sense};
 use crate::numeric::angle::Angle;
 use crate::scene::{Instant, Load, Scene, Variables};
 
@@ -9,13 +9,10 @@ use crate::scene::{Instant, Load, Scene, Variables};
 /// those whose work must be integrated.
 #[derive(Clone, Debug, Default)]
 pub struct Loads {
-    torque: f64,
-    /// −d torque/d omega, N m s/rad
-    rotary_damping: f64,
-    force: f64,
+    constant: LoadValue,
+    /// −d torque/dω, N m s/rad, and −d force/dv, N s/m.
+    damping: LoadValue,
     stiffness: f64,
-    /// −d force/d v, N s/m
-    linear_damping: f64,
     /// Loads of the position alone, without a potential that is known.
     pub(super) placed: NonlinearLoads,
     /// Loads of the time alone.
@@ -25,7 +22,7 @@ pub struct Loads {
     /// Loads that oppose motion.
     pub(super) dry: NonlinearLoads,
     reads: Variables,
-    pub(super) on_slider: bool,
+    on_slider: bool,
 }
 
 impl Loads {
@@ -35,37 +32,26 @@ impl Loads {
             on_slider: !scene.forces.is_empty(),
             ..Loads::default()
         };
-        for load in &scene.torques {
-            loads.reads = loads.reads.or(load.reads(false));
-            if let Some(value) = load.fixed() {
-                loads.torque += value;
-                continue;
-            }
+        let torques = scene.torques.iter().map(|load| (load, false));
+        for (load, on_slider) in torques.chain(scene.forces.iter().map(|load| (load, true))) {
+            loads.reads = loads.reads.or(load.reads(on_slider));
             match load {
-                Load::Viscous(coefficient) => loads.rotary_damping += coefficient,
+                Load::Viscous(coefficient) => *loads.damping.on(on_slider) += coefficient,
                 Load::Motor {
                     stall,
                     no_load_speed,
-                } => {
-                    loads.torque += stall;
-                    loads.rotary_damping += stall / no_load_speed;
+                } if !on_slider => {
+                    loads.constant.torque += stall;
+                    loads.damping.torque += stall / no_load_speed;
                 }
-                other => loads.class(other, false).torques.push(other.clone()),
-            }
-        }
-        for load in &scene.forces {
-            loads.reads = loads.reads.or(load.reads(true));
-            if let Some(value) = load.fixed() {
-                loads.force += value;
-                continue;
-            }
-            match load {
-                Load::Viscous(coefficient) => loads.linear_damping += coefficient,
-                Load::Spring { stiffness, rest } => {
+                Load::Spring { stiffness, rest } if on_slider => {
                     loads.stiffness += stiffness;
-                    loads.force += stiffness * rest;
+                    loads.constant.force += stiffness * rest;
                 }
-                other => loads.class(other, true).forces.push(other.clone()),
+                other => match other.fixed() {
+                    Some(value) => *loads.constant.on(on_slider) += value,
+                    None => loads.class(other, on_slider).push(other, on_slider),
+                },
             }
         }
         loads
@@ -83,12 +69,12 @@ impl Loads {
 
     /// Whether there is no load at all.
     pub fn are_none(&self) -> bool {
-        self.torque == 0.0 && self.force == 0.0 && self.stiffness == 0.0 && self.have_potential()
+        self.constant == LoadValue::default() && self.stiffness == 0.0 && self.have_potential()
     }
 
     /// Whether all work of the loads follows from a potential.
     pub fn have_potential(&self) -> bool {
-        self.rotary_damping == 0.0 && self.linear_damping == 0.0 && self.are_linear()
+        self.damping == LoadValue::default() && self.are_linear()
     }
 
     /// Whether all loads are linear in position and speed.
@@ -110,9 +96,18 @@ impl Loads {
         }
     }
 
+    fn classes(&self) -> [&NonlinearLoads; 4] {
+        [&self.placed, &self.timed, &self.mixed, &self.dry]
+    }
+
     pub(super) fn called(&self) -> impl Iterator<Item = &Load> {
-        let classes = [&self.placed, &self.timed, &self.mixed, &self.dry];
-        classes.into_iter().flat_map(NonlinearLoads::loads)
+        self.classes().into_iter().flat_map(NonlinearLoads::loads)
+    }
+
+    /// The first load that has no finite value.
+    pub fn without_value(&self, now: &Instant) -> Option<&Load> {
+        let mut classes = self.classes().into_iter();
+        classes.find_map(|class| class.without_value(now))
     }
 
     /// Whether there are loads that depend on speed or time otherwise than by damping.
@@ -154,7 +149,31 @@ impl Loads {
 
     /// The constant torque on the crank, N m.
     pub fn constant_torque(&self) -> f64 {
-        self.torque
+        self.constant.torque
+    }
+
+    /// Whether there are loads that oppose motion.
+    pub fn are_dry(&self) -> bool {
+        !self.dry.is_empty()
+    }
+
+    /// Whether such loads act on the crank, and on the slider.
+    pub fn dry_on(&self) -> [bool; 2] {
+        [false, true].map(|slider| self.dry.are_on(slider))
+    }
+
+    /// What they oppose motion with at most, N m and N.
+    pub fn dry_magnitude(&self, now: &Instant) -> LoadValue {
+        self.dry.magnitude(now)
+    }
+
+    /// Torque and force of the dry loads against motion in these senses.
+    pub fn dry(&self, now: &Instant, against: Sense) -> LoadValue {
+        let most = self.dry_magnitude(now);
+        LoadValue {
+            torque: -against.crank * most.torque,
+            force: -against.slider * most.force,
+        }
     }
 
     /// The next time after `t` (s) at which a load is not smooth in time.
@@ -166,16 +185,15 @@ impl Loads {
 
     /// Torque and force of all loads together.
     pub fn value(&self, t: f64, theta: impl Into<Angle>, omega: f64, pose: &Pose) -> LoadValue {
-        let steady = self.with_potential_at(pose.x);
-        let rest = self.without_potential(t, theta, omega, pose);
-        steady.plus(rest)
+        let spent = self.without_potential(t, theta, omega, pose);
+        self.with_potential_at(pose.x).plus(spent)
     }
 
     /// Loads with a potential at slider position x, m.
     pub fn with_potential_at(&self, x: f64) -> LoadValue {
         LoadValue {
-            torque: self.torque,
-            force: self.force - self.stiffness * x,
+            torque: self.constant.torque,
+            force: self.constant.force - self.stiffness * x,
         }
     }
 
@@ -187,42 +205,32 @@ impl Loads {
         omega: f64,
         pose: &Pose,
     ) -> LoadValue {
-        self.without_potential_beside(self.of_time(t), t, theta, omega, pose.x, pose.dx)
+        let now = instant(t, theta, omega, [pose.x, pose.dx]);
+        self.without_potential_beside(self.of_time(t), &now)
     }
 
     /// Torque and force of the loads that depend on time (s) alone.
     pub fn of_time(&self, t: f64) -> LoadValue {
-        if self.timed.is_empty() {
-            return LoadValue::default();
-        }
-        let now = Instant {
+        self.timed.value(&Instant {
             t,
             ..Instant::default()
-        };
-        self.timed.value(&now)
+        })
     }
 
     /// Torque and force of the loads without a potential that depend on the position alone, at slider position
     /// x, m.
     pub fn of_place(&self, theta: impl Into<Angle>, x: f64) -> LoadValue {
-        if self.placed.is_empty() {
-            return LoadValue::default();
-        }
-        self.placed.value(&Instant {
-            theta: theta.into().radians(),
-            x,
-            ..Instant::default()
-        })
+        self.placed.value(&instant(0.0, theta, 0.0, [x, 0.0]))
     }
 
     /// −dQ/dω of the loads that are linear in the speed, N m s/rad, where x' is `dx` (m/rad).
     pub fn damping(&self, dx: f64) -> f64 {
-        self.rotary_damping + self.linear_damping * dx * dx
+        self.damping.torque + self.damping.force * dx * dx
     }
 
     /// −d torque/dω (N m s/rad) and −d force/dv (N s/m) of the same.
     pub fn dampings(&self) -> [f64; 2] {
-        [self.rotary_damping, self.linear_damping]
+        [self.damping.torque, self.damping.force]
     }
 
     /// Torque and force of the loads of speed and time that are no damping, at some instants.
@@ -236,54 +244,27 @@ impl Loads {
         sums
     }
 
-    fn mixed_at(&self, t: f64, theta: Angle, omega: f64, [x, dx]: [f64; 2]) -> LoadValue {
-        if self.mixed.is_empty() {
-            return LoadValue::default();
-        }
-        self.mixed.value(&Instant {
-            t,
-            theta: theta.radians(),
-            omega,
-            x,
-            v: dx * omega,
-        })
+    /// As [`Self::without_potential`], with [`Self::of_time`] already known.
+    pub(super) fn without_potential_beside(&self, of_time: LoadValue, now: &Instant) -> LoadValue {
+        let called = [&self.placed, &self.mixed, &self.dry].map(|loads| loads.value(now));
+        let damped = self.damped(now).plus(of_time);
+        called.into_iter().fold(damped, LoadValue::plus)
     }
 
-    /// As [`Self::without_potential`], with [`Self::of_time`] already known, at slider position x (m) and its derivative.
-    pub(super) fn without_potential_beside(
-        &self,
-        of_time: LoadValue,
-        t: f64,
-        theta: impl Into<Angle>,
-        omega: f64,
-        x: f64,
-        dx: f64,
-    ) -> LoadValue {
-        let theta = theta.into();
-        let damped = LoadValue {
-            torque: -self.rotary_damping * omega,
-            force: -self.linear_damping * (dx * omega),
-        };
-        let mixed = self.mixed_at(t, theta, omega, [x, dx]);
-        damped
-            .plus(of_time)
-            .plus(self.of_place(theta, x))
-            .plus(mixed)
-            .plus(self.dry_of_speed(t, theta, omega, [x, dx]))
+    fn damped(&self, now: &Instant) -> LoadValue {
+        LoadValue {
+            torque: -self.damping.torque * now.omega,
+            force: -self.damping.force * now.v,
+        }
     }
 
     /// Torque and force of the loads whose work must be integrated, without dry ones.
     pub(super) fn spent(&self, now: &Instant) -> LoadValue {
-        let damped = LoadValue {
-            torque: -self.rotary_damping * now.omega,
-            force: -self.linear_damping * now.v,
-        };
-        let called = [&self.placed, &self.timed, &self.mixed];
-        let called = called.into_iter().filter(|loads| !loads.is_empty());
-        called.fold(damped, |sum, loads| sum.plus(loads.value(now)))
+        let called = [&self.placed, &self.timed, &self.mixed].map(|loads| loads.value(now));
+        called.into_iter().fold(self.damped(now), LoadValue::plus)
     }
 
-    /// Torque and force of all loads together, for a slider whose motion is not that of the ideal joints.
+    /// Torque and force of all loads together, also for a slider whose motion is not that of the ideal joints.
     pub fn at(&self, now: &Instant) -> LoadValue {
         let spent = self.spent(now).plus(self.dry.value(now));
         self.with_potential_at(now.x).plus(spent)
@@ -291,6 +272,18 @@ impl Loads {
 
     /// Potential of the loads that have one, J, from crank angle (from any fixed start) and position.
     pub fn potential(&self, theta: f64, x: f64) -> f64 {
-        -self.torque * theta - self.force * x + 0.5 * self.stiffness * x * x
+        let LoadValue { torque, force } = self.constant;
+        -torque * theta - force * x + 0.5 * self.stiffness * x * x
+    }
+}
+
+/// What loads see of a motion with these slider position x (m) and x' (m/rad).
+pub(super) fn instant(t: f64, theta: impl Into<Angle>, omega: f64, [x, dx]: [f64; 2]) -> Instant {
+    Instant {
+        t,
+        theta: theta.into().radians(),
+        omega,
+        x,
+        v: dx * omega,
     }
 }

@@ -16,27 +16,11 @@ pub struct Closure {
     pub branch: f64,
 }
 
-/// The iteration does not end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NotClosed {
-    /// The Jacobian is singular: the rod is guessed normal to the guide.
-    Singular,
-    /// No solution within the steps allowed.
-    TooManySteps,
-}
-
 impl Linkage {
     /// Solves r cos θ − l cos θ₃ − x = 0, e + r sin θ − l sin θ₃ = 0 (Gupta (2), (3)) for θ₃ and x from a
-    /// guess, until the norm of the two is at most `tolerance` (m). Either branch can be what it finds.
-    ///
-    /// # Errors
-    /// [`NotClosed`]
-    pub fn close_loop(
-        &self,
-        theta: f64,
-        guess: (f64, f64),
-        tolerance: f64,
-    ) -> Result<Closure, NotClosed> {
+    /// guess, until the norm of the two is at most `tolerance` (m). Either branch can be what it finds; none where the
+    /// Jacobian is singular, the rod being guessed normal to the guide, or the steps allowed do not lead there.
+    pub fn close_loop(&self, theta: f64, guess: (f64, f64), tolerance: f64) -> Option<Closure> {
         const MOST_STEPS: u32 = 100;
         let Linkage { r, l, e, .. } = *self;
         let (mut theta3, mut x) = guess;
@@ -45,7 +29,7 @@ impl Linkage {
             let f1 = r * theta.cos() - l * cos3 - x;
             let f2 = e + r * theta.sin() - l * sin3;
             if f1.hypot(f2) <= tolerance {
-                return Ok(Closure {
+                return Some(Closure {
                     theta3,
                     x,
                     iterations,
@@ -54,13 +38,9 @@ impl Linkage {
             }
             // [l sin θ₃, −1; −l cos θ₃, 0] (δ, ξ) = −(f1, f2).
             let step = f2 / (l * cos3);
-            let shift = f1 + l * sin3 * step;
-            if !(step.is_finite() && shift.is_finite()) {
-                return Err(NotClosed::Singular);
-            }
             theta3 += step;
-            x += shift;
+            x += f1 + l * sin3 * step;
         }
-        Err(NotClosed::TooManySteps)
+        None
     }
 }

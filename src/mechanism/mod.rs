@@ -9,7 +9,6 @@ mod clearance;
 mod configuration_curve;
 mod curve_equation;
 mod detail;
-mod dry;
 mod equivalent;
 mod extremes;
 mod first_order;
@@ -38,23 +37,22 @@ pub use at_rest::{AtRest, Held};
 pub use batch::Instants;
 pub use body::{Bodies, Body, Link, Path};
 pub use clearance::{
-    Depth, GuideForces, JointTouch, LooseMechanism, LooseRates, LooseState, NormalForce, Rubbing,
-    SpeedSizes, Turned,
+    Depth, JointTouch, LooseMechanism, LooseRates, LooseState, NormalForce, Rubbing, SpeedSizes,
+    Turned,
 };
 pub use configuration_curve::{Curve, Place};
 pub use curve_equation::{CurveEquation, CurveTerms};
-pub use dry::Sense;
 pub use equivalent::EquivalentMasses;
 pub use extremes::{Extreme, Extremes};
 pub use first_order::FirstOrder;
-pub use friction::{Free, FromRest, Jam, Touch};
+pub use friction::{Free, FromRest, Jam, Sense, Touch};
 pub use guide_force::Normal;
 pub use inverse_position::InversePosition;
 pub use lagrange::{Equation, Inertia, Terms};
 pub use limits::{Class, DeadCentre, Limits};
 pub use linkage::{Linkage, Pose};
 pub use load::Loads;
-pub use loop_closure::{Closure, NotClosed};
+pub use loop_closure::Closure;
 pub use nonlinear_loads::{LoadValue, single};
 pub use positions::NamedPosition;
 pub use reactions::{InertiaForces, Reactions, Reactor};

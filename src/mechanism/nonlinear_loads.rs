@@ -13,6 +13,14 @@ pub struct LoadValue {
 }
 
 impl LoadValue {
+    pub(super) fn on(&mut self, slider: bool) -> &mut f64 {
+        if slider {
+            &mut self.force
+        } else {
+            &mut self.torque
+        }
+    }
+
     /// Whether both are finite.
     pub fn is_finite(&self) -> bool {
         self.torque.is_finite() && self.force.is_finite()
@@ -37,71 +45,69 @@ impl LoadValue {
     }
 }
 
-/// Loads that are called.
+/// Loads that are called, each on the crank or on the slider.
 #[derive(Clone, Debug, Default)]
-pub(super) struct NonlinearLoads {
-    pub torques: Vec<Load>,
-    pub forces: Vec<Load>,
-}
+pub(super) struct NonlinearLoads(Vec<(Load, bool)>);
 
 impl NonlinearLoads {
-    pub fn is_empty(&self) -> bool {
-        self.torques.is_empty() && self.forces.is_empty()
+    pub fn push(&mut self, load: &Load, on_slider: bool) {
+        self.0.push((load.clone(), on_slider));
     }
 
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Whether some act on the slider, or some on the crank.
+    pub fn are_on(&self, slider: bool) -> bool {
+        self.0.iter().any(|(_, on_slider)| *on_slider == slider)
+    }
+
+    #[inline]
     pub fn value(&self, now: &Instant) -> LoadValue {
+        if self.is_empty() {
+            return LoadValue::default();
+        }
         self.values(&[*now])[0]
     }
 
     /// Values at some instants: formulas are read once for all of them.
     pub fn values<const N: usize>(&self, now: &[Instant; N]) -> [LoadValue; N] {
         let mut sums = [LoadValue::default(); N];
-        let mut values = [0.0; N];
-        for (loads, on_slider) in [(&self.torques, false), (&self.forces, true)] {
-            for load in loads {
-                if let Load::Expression(expression) = load {
-                    values = expression.values(now);
-                } else {
-                    for (value, now) in values.iter_mut().zip(now) {
-                        *value = single(load, on_slider, now);
-                    }
-                }
-                for (sum, value) in sums.iter_mut().zip(&values) {
-                    let sum = if on_slider {
-                        &mut sum.force
-                    } else {
-                        &mut sum.torque
-                    };
-                    *sum += value;
-                }
+        for (load, on_slider) in &self.0 {
+            let values = match load {
+                Load::Expression(expression) => expression.values(now),
+                _ => std::array::from_fn(|i| single(load, *on_slider, &now[i])),
+            };
+            for (sum, value) in sums.iter_mut().zip(&values) {
+                *sum.on(*on_slider) += value;
             }
         }
         sums
     }
 
-    fn sum(&self, value: impl Fn(&Load, bool) -> f64) -> LoadValue {
-        let sum = |loads: &[Load], on_slider| loads.iter().map(|load| value(load, on_slider)).sum();
-        LoadValue {
-            torque: sum(&self.torques, false),
-            force: sum(&self.forces, true),
-        }
-    }
-
     /// The first without a finite value.
     pub fn without_value(&self, now: &Instant) -> Option<&Load> {
-        let has_none = |load: &&Load, on_slider| !single(load, on_slider, now).is_finite();
-        let mut torques = self.torques.iter();
-        let torque = torques.find(|load| has_none(load, false));
-        torque.or_else(|| self.forces.iter().find(|load| has_none(load, true)))
+        let mut loads = self.0.iter();
+        let found = loads.find(|(load, on_slider)| !single(load, *on_slider, now).is_finite());
+        found.map(|(load, _)| load)
     }
 
     /// The sums of the magnitudes of loads that oppose motion, N m and N.
     pub fn magnitude(&self, now: &Instant) -> LoadValue {
-        self.sum(|load, on_slider| single_magnitude(load, on_slider, now))
+        let mut sums = LoadValue::default();
+        for (load, on_slider) in &self.0 {
+            *sums.on(*on_slider) += single_magnitude(load, *on_slider, now);
+        }
+        sums
     }
 
     pub fn loads(&self) -> impl Iterator<Item = &Load> {
-        self.torques.iter().chain(&self.forces)
+        self.0.iter().map(|(load, _)| load)
+    }
+
+    pub fn list(&self) -> &[(Load, bool)] {
+        &self.0
     }
 }
 
@@ -112,10 +118,9 @@ pub(super) fn single_magnitude(load: &Load, on_slider: bool, now: &Instant) -> f
         v: now.v.abs(),
         ..*now
     };
-    let magnitude = if let Load::Dry(magnitude) = load {
-        magnitude
-    } else {
-        load
+    let magnitude = match load {
+        Load::Dry(magnitude) => magnitude,
+        other => other,
     };
     single(magnitude, on_slider, &now)
 }

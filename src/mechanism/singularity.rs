@@ -1,8 +1,7 @@
 //! Why an equation has no acceleration somewhere.
 
-use super::{Equation, Loads};
+use super::Equation;
 use crate::numeric::angle::Angle;
-use crate::scene::{Instant, Load};
 
 /// What keeps the equation from having a finite acceleration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,15 +37,5 @@ impl Equation {
             });
         }
         None
-    }
-}
-
-impl Loads {
-    /// The first load that has no finite value.
-    pub fn without_value(&self, now: &Instant) -> Option<&Load> {
-        let classes = [&self.placed, &self.timed, &self.mixed, &self.dry];
-        classes
-            .into_iter()
-            .find_map(|class| class.without_value(now))
     }
 }

@@ -135,12 +135,12 @@ impl TorqueSlope {
                 [path, change]
             }
             Link::Slider => {
-                let change = Path {
-                    dp: [slope.dx, 0.0],
-                    d2p: [slope.d2x, 0.0],
+                let sliding = |first: f64, second: f64| Path {
+                    dp: [first, 0.0],
+                    d2p: [second, 0.0],
                     ..Path::default()
                 };
-                [Path::on_slider(pose), change]
+                [sliding(pose.dx, pose.d2x), sliding(slope.dx, slope.d2x)]
             }
         }
     }

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::drawing::{Drawing, Plot, Style};
-use super::entry::{Claim, Verdict};
+use super::entry::{Entry, Printed, Verdict};
 use crate::error::Error;
 use crate::numeric::difference;
 use crate::scene::{Expression, Instant};
@@ -117,14 +117,12 @@ impl Book {
     ///
     /// # Errors
     /// [`Error::Refused`] for data that cannot be read.
-    pub fn claims(&self) -> Result<Vec<Claim>, Error> {
-        records(self.files.claims)?
-            .into_iter()
-            .map(|record| self.claim(record))
-            .collect()
+    pub fn entries(&self) -> Result<Vec<Entry>, Error> {
+        let records = records(self.files.claims)?.into_iter();
+        records.map(|record| self.entry(record)).collect()
     }
 
-    fn claim(&self, record: [String; 10]) -> Result<Claim, Error> {
+    fn entry(&self, record: [String; 10]) -> Result<Entry, Error> {
         let [
             place,
             what,
@@ -146,16 +144,14 @@ impl Book {
             "" => Ok(None),
             formula => value(formula).map(Some),
         };
-        let ours = optional(&ours)?;
-        let claim = match (printed.strip_prefix('='), range.split_once("..")) {
-            (Some(formula), _) => Claim::formula(value(formula)?, ours),
+        let printed = match (printed.strip_prefix('='), range.split_once("..")) {
+            (Some(formula), _) => Printed::Formula(value(formula)?),
             (None, Some((least, most))) => {
-                let ends = [value(least)?, value(most)?];
-                Claim::between(&printed, ends, ours)
+                Printed::between(&printed, [value(least)?, value(most)?])
             }
             (None, None) => {
                 let number = printed.parse().map_err(|_| wrong(&printed, "a number"))?;
-                Claim::number(&printed, number, ours)
+                Printed::number(&printed, number)
             }
         };
         let (expected, cut) = match verdict.as_str() {
@@ -165,15 +161,17 @@ impl Book {
             "cannot" => (Verdict::Cannot, false),
             other => return Err(wrong(other, "a verdict")),
         };
-        Ok(Claim {
+        let entry = Entry::judged(printed, optional(&ours)?, optional(&conditional)?, cut);
+        Ok(Entry {
             place,
             what,
             unit,
-            conditional: optional(&conditional)?,
-            condition,
-            cut,
+            condition: match entry.verdict {
+                Verdict::Reproduces => String::new(),
+                _ => condition,
+            },
             expected,
-            ..claim
+            ..entry
         })
     }
 

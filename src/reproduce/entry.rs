@@ -55,23 +55,7 @@ pub struct Entry {
     pub expected: Verdict,
 }
 
-/// An entry before it is judged.
-#[derive(Clone, Debug)]
-pub(super) struct Claim {
-    pub place: String,
-    pub what: String,
-    pub unit: String,
-    pub printed: Printed,
-    pub ours: Option<f64>,
-    /// The value under the condition.
-    pub conditional: Option<f64>,
-    /// Digits were cut off rather than rounded under the condition.
-    pub cut: bool,
-    /// What has to be assumed or mended, or why nothing helps.
-    pub condition: String,
-    pub expected: Verdict,
-}
-
+/// What is printed, as it is compared.
 #[derive(Clone, Debug)]
 pub(super) enum Printed {
     /// A number as text, and how far a value may be from it.
@@ -84,86 +68,41 @@ pub(super) enum Printed {
 /// of those that are not the same the nearest differ by 7e-5.
 const SAME: f64 = 1e-9;
 
-impl Claim {
-    /// A printed number, right within half of its last digit.
-    pub fn number(text: &str, value: f64, ours: Option<f64>) -> Claim {
+impl Printed {
+    /// A number, right within half of its last digit.
+    pub fn number(text: &str, value: f64) -> Printed {
         let decimals = text.split_once('.').map_or(0, |(_, digits)| digits.len());
         let half = 0.5 * 10f64.powi(-(decimals as i32));
-        let printed = Printed::Number(text.to_owned(), value, half * (1.0 + SAME));
-        Claim::new(printed, ours)
+        Printed::Number(text.to_owned(), value, half * (1.0 + SAME))
     }
 
     /// Words that stand for all values between two.
-    pub fn between(words: &str, [least, most]: [f64; 2], ours: Option<f64>) -> Claim {
-        let (middle, half) = (0.5 * (least + most), 0.5 * (most - least));
-        Claim::new(Printed::Number(words.to_owned(), middle, half), ours)
+    pub fn between(words: &str, [least, most]: [f64; 2]) -> Printed {
+        Printed::Number(words.to_owned(), 0.5 * (least + most), 0.5 * (most - least))
     }
 
-    /// A printed formula, evaluated, beside the mechanics.
-    pub fn formula(value: f64, ours: Option<f64>) -> Claim {
-        Claim::new(Printed::Formula(value), ours)
-    }
-
-    fn new(printed: Printed, ours: Option<f64>) -> Claim {
-        Claim {
-            place: String::new(),
-            what: String::new(),
-            unit: String::new(),
-            printed,
-            ours,
-            conditional: None,
-            cut: false,
-            condition: String::new(),
-            expected: Verdict::Reproduces,
-        }
-    }
-
-    pub fn judged(self, paper: &'static str) -> Entry {
-        let verdict = self.verdict();
-        // A condition that is not needed is not named.
-        let needed = verdict != Verdict::Reproduces;
-        Entry {
-            paper,
-            place: self.place,
-            what: self.what,
-            unit: self.unit,
-            printed: match &self.printed {
-                Printed::Number(text, ..) => text.clone(),
-                Printed::Formula(value) => format!("{value}"),
-            },
-            ours: self.ours,
-            conditional: self.conditional.filter(|_| needed),
-            condition: if needed {
-                self.condition
-            } else {
-                String::new()
-            },
-            verdict,
-            expected: self.expected,
-        }
-    }
-
-    fn verdict(&self) -> Verdict {
-        let (holds, holds_if) = match self.printed {
+    /// The verdict beside our value and the one under the condition; `cut`: there digits were cut off rather than rounded.
+    fn verdict(&self, ours: Option<f64>, conditional: Option<f64>, cut: bool) -> Verdict {
+        let (holds, holds_if) = match *self {
             Printed::Number(_, value, tolerance) => {
                 let near = |candidate: f64| (candidate - value).abs() <= tolerance;
                 let cut = |candidate: f64| {
                     let past = candidate.abs() - value.abs();
-                    self.cut && (0.0..2.0 * tolerance).contains(&past)
+                    cut && (0.0..2.0 * tolerance).contains(&past)
                 };
                 (
-                    self.ours.is_some_and(near),
-                    self.conditional.is_some_and(|c| near(c) || cut(c)),
+                    ours.is_some_and(near),
+                    conditional.is_some_and(|c| near(c) || cut(c)),
                 )
             }
             Printed::Formula(value) => {
-                let Some(ours) = self.ours else {
+                let Some(ours) = ours else {
                     return Verdict::Cannot;
                 };
                 // Where nothing is left over, what is printed tells the size.
                 let size = if ours == 0.0 { value.abs() } else { ours.abs() };
                 let same = |a: f64| (a - ours).abs() <= SAME * size;
-                (same(value), self.conditional.is_some_and(same))
+                (same(value), conditional.is_some_and(same))
             }
         };
         match (holds, holds_if) {
@@ -174,24 +113,42 @@ impl Claim {
     }
 }
 
+impl Entry {
+    /// An entry without words: what is printed beside our value, and beside the one under a condition.
+    pub(super) fn judged(
+        printed: Printed,
+        ours: Option<f64>,
+        conditional: Option<f64>,
+        cut: bool,
+    ) -> Entry {
+        let verdict = printed.verdict(ours, conditional, cut);
+        Entry {
+            paper: "",
+            place: String::new(),
+            what: String::new(),
+            unit: String::new(),
+            printed: match printed {
+                Printed::Number(text, ..) => text,
+                Printed::Formula(value) => format!("{value}"),
+            },
+            ours,
+            // A condition that is not needed is not named.
+            conditional: conditional.filter(|_| verdict != Verdict::Reproduces),
+            condition: String::new(),
+            verdict,
+            expected: Verdict::Reproduces,
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn verdict(claim: Claim, conditional: f64, cut: bool) -> Verdict {
-        let conditional = Some(conditional);
-        let claim = Claim {
-            conditional,
-            cut,
-            ..claim
-        };
-        claim.judged("paper").verdict
-    }
-
     #[test]
     fn a_number_holds_within_half_of_its_last_digit() {
         let of = |ours: f64, conditional: f64, cut: bool| {
-            verdict(Claim::number("12.50", 12.5, Some(ours)), conditional, cut)
+            Printed::number("12.50", 12.5).verdict(Some(ours), Some(conditional), cut)
         };
         assert_eq!(of(12.5049, f64::NAN, false), Verdict::Reproduces);
         assert_eq!(of(12.5051, f64::NAN, false), Verdict::Cannot);
@@ -206,7 +163,7 @@ mod tests {
     #[test]
     fn a_formula_holds_or_its_mended_form_does() {
         let of = |value: f64, ours: f64, mended: f64| {
-            verdict(Claim::formula(value, Some(ours)), mended, false)
+            Printed::Formula(value).verdict(Some(ours), Some(mended), false)
         };
         assert_eq!(of(3.0 + 1e-9, 3.0, f64::NAN), Verdict::Reproduces);
         assert_eq!(of(3.0 + 1e-8, 3.0, f64::NAN), Verdict::Cannot);
@@ -214,18 +171,5 @@ mod tests {
         assert_eq!(of(4.0, 3.0, 3.1), Verdict::Cannot);
         assert_eq!(of(10.0, 0.0, 1e-10), Verdict::OnlyIf);
         assert_eq!(of(10.0, 0.0, 1e-7), Verdict::Cannot);
-    }
-
-    #[test]
-    fn a_condition_is_named_only_where_it_is_needed() {
-        let claim = Claim {
-            condition: "the moon is full".to_owned(),
-            conditional: Some(2.0),
-            expected: Verdict::OnlyIf,
-            ..Claim::number("1.0", 1.0, Some(1.0))
-        };
-        let entry = claim.judged("paper");
-        assert_eq!((entry.condition.as_str(), entry.conditional), ("", None));
-        assert_eq!(entry.expected, Verdict::OnlyIf, "a surprise");
     }
 }

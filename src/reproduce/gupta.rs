@@ -19,15 +19,9 @@ const FILES: Files = Files {
 const GUESS: (f64, f64) = (PI, 0.04);
 const TOLERANCE: f64 = 1e-9;
 
-/// The six quantities of the script, and ours: its rod points from the slider to the crank pin.
-const SCRIPT: [(&str, &str); 6] = [
-    ("script_theta3", "closed_theta3"),
-    ("script_r4", "closed_r4"),
-    ("script_omega3", "closed_omega3"),
-    ("script_v4", "closed_v4"),
-    ("script_alpha3", "closed_alpha3"),
-    ("script_a4", "closed_a4"),
-];
+/// The six quantities of the script, `script_` before them, and ours, `closed_`: its rod points from the slider to the crank
+/// pin.
+const QUANTITIES: [&str; 6] = ["theta3", "r4", "omega3", "v4", "alpha3", "a4"];
 
 /// Position, velocity and acceleration by the script and in closed form, SI.
 #[derive(Clone, Copy)]
@@ -40,7 +34,7 @@ impl Script {
     fn computed(&self, theta: f64) -> [f64; 6] {
         let Linkage { r, l, .. } = self.linkage;
         let speed = self.speed;
-        let Ok(found) = self.linkage.close_loop(theta, GUESS, TOLERANCE) else {
+        let Some(found) = self.linkage.close_loop(theta, GUESS, TOLERANCE) else {
             return [f64::NAN; 6];
         };
         let (sin3, cos3) = found.theta3.sin_cos();
@@ -72,10 +66,13 @@ impl Script {
     }
 
     fn value(&self, name: &str, theta: f64) -> Option<f64> {
-        let script = SCRIPT.iter().position(|(script, _)| *script == name);
-        let closed = SCRIPT.iter().position(|(_, closed)| *closed == name);
-        let script = script.map(|i| self.computed(theta)[i]);
-        script.or_else(|| closed.map(|i| self.closed(theta)[i]))
+        let (way, quantity) = name.split_once('_')?;
+        let i = QUANTITIES.iter().position(|known| *known == quantity)?;
+        match way {
+            "script" => Some(self.computed(theta)[i]),
+            "closed" => Some(self.closed(theta)[i]),
+            _ => None,
+        }
     }
 
     /// Largest relative distance of the two in 200 positions.

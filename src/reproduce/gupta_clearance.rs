@@ -6,7 +6,7 @@
 use std::f64::consts::TAU;
 
 use super::drawing::{Drawing, Plot, Style};
-use super::entry::Claim;
+use super::entry::{Entry, Printed};
 use crate::error::Error;
 use crate::scene::{Clearance, Every, Joint, Rod, Scene, Slider};
 use crate::simulate::{Options, Row, simulate_rows};
@@ -57,38 +57,36 @@ fn turns() -> Result<Vec<Vec<Row>>, Error> {
     SPEEDS.iter().map(turn).collect()
 }
 
-pub(super) fn claims() -> Result<Vec<Claim>, Error> {
+pub(super) fn entries() -> Result<Vec<Entry>, Error> {
     let turns = turns()?;
     let ideal = |row: &Row| row.clearance.map_or(f64::NAN, |joint| joint.ideal[0]);
     let all = || turns[0].iter().map(ideal);
     let stroke = all().fold(f64::MIN, f64::max) - all().fold(f64::MAX, f64::min);
-    let percent = |off: f64| 100.0 * off / stroke;
-    let little = |what: String, words: &str, off: f64| Claim {
-        place: "2.3, figure 14".to_owned(),
-        what,
-        unit: "% of stroke".to_owned(),
-        ..Claim::between(words, [0.0, VERY_LITTLE], Some(percent(off)))
-    };
-    let off = |off: f64, new: f64| {
-        if new.is_nan() {
-            new
-        } else {
-            off.max(new.abs())
+    let little = |what: String, words: &str, offs: &mut dyn Iterator<Item = f64>| {
+        let off = offs.fold(0.0, |most: f64, off| match off.is_nan() {
+            true => off,
+            false => most.max(off.abs()),
+        });
+        let printed = Printed::between(words, [0.0, VERY_LITTLE]);
+        Entry {
+            place: "2.3, figure 14".to_owned(),
+            what,
+            unit: "% of stroke".to_owned(),
+            ..Entry::judged(printed, Some(100.0 * off / stroke), None, false)
         }
     };
-    let mut claims = Vec::new();
+    let mut entries = Vec::new();
     for (speed, turn) in SPEEDS.iter().zip(&turns) {
         let what = format!("effect of the clearance on the position, {speed} rpm");
-        let far = turn.iter().map(|row| row.x - ideal(row)).fold(0.0, off);
-        claims.push(little(what, "very little", far));
+        let mut offs = turn.iter().map(|row| row.x - ideal(row));
+        entries.push(little(what, "very little", &mut offs));
     }
     for (speed, turn) in SPEEDS[1..].iter().zip(&turns[1..]) {
         let what = format!("position at 400 rpm, off that at {speed} rpm");
-        let pairs = turns[0].iter().zip(turn);
-        let far = pairs.map(|(high, low)| high.x - low.x).fold(0.0, off);
-        claims.push(little(what, "remains the same", far));
+        let mut offs = turns[0].iter().zip(turn).map(|(high, low)| high.x - low.x);
+        entries.push(little(what, "remains the same", &mut offs));
     }
-    Ok(claims)
+    Ok(entries)
 }
 
 pub(super) fn drawings() -> Result<Vec<Drawing>, Error> {

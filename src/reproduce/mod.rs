@@ -13,7 +13,6 @@ mod quantities;
 use crate::error::Error;
 use book::Book;
 pub use drawing::{Drawing, Plot, Series, Style};
-use entry::Claim;
 pub use entry::{Entry, Verdict};
 
 /// A paper.
@@ -94,22 +93,24 @@ pub fn reproduce(papers: &[Paper]) -> Result<Reproduction, Error> {
         drawings: Vec::new(),
     };
     for paper in papers {
-        let (claims, drawings) = match paper {
+        let (entries, drawings) = match paper {
             Paper::ObasekiAlfred => both(obaseki_alfred::book()?)?,
             Paper::Gupta => {
-                let (claims, drawings) = both(gupta::book()?)?;
+                let (entries, drawings) = both(gupta::book()?)?;
                 (
-                    [claims, gupta_clearance::claims()?].concat(),
+                    [entries, gupta_clearance::entries()?].concat(),
                     [drawings, gupta_clearance::drawings()?].concat(),
                 )
             }
-            Paper::Ng => (ng::book()?.claims()?, ng::drawings()?),
+            Paper::Ng => (ng::book()?.entries()?, ng::drawings()?),
             Paper::Duarte => both(duarte::book()?)?,
         };
         let name = paper.name();
-        result
-            .entries
-            .extend(claims.into_iter().map(|claim: Claim| claim.judged(name)));
+        let named = |entry: Entry| Entry {
+            paper: name,
+            ..entry
+        };
+        result.entries.extend(entries.into_iter().map(named));
         result
             .drawings
             .extend(drawings.into_iter().map(|drawing| Drawing {
@@ -126,6 +127,6 @@ pub fn reproduce(papers: &[Paper]) -> Result<Reproduction, Error> {
     Ok(result)
 }
 
-fn both(book: Book) -> Result<(Vec<Claim>, Vec<Drawing>), Error> {
-    Ok((book.claims()?, book.drawings()?))
+fn both(book: Book) -> Result<(Vec<Entry>, Vec<Drawing>), Error> {
+    Ok((book.entries()?, book.drawings()?))
 }

@@ -37,16 +37,22 @@ impl Ours {
 
     /// Value of a quantity at a crank angle, rad; motion per unit of crank speed.
     pub fn value(&self, name: &str, theta: f64) -> Option<f64> {
-        self.geometry(name, theta)
-            .or_else(|| self.limit(name))
-            .or_else(|| self.equation(name, theta))
-            .or_else(|| self.driven(name, theta))
-            .or_else(|| self.at_rest(name, theta))
-    }
-
-    fn geometry(&self, name: &str, theta: f64) -> Option<f64> {
         let pose = self.linkage.pose(theta);
-        let first = self.linkage.first_order(theta);
+        let first = || self.linkage.first_order(theta);
+        let extremes = || Extremes::new(&self.linkage);
+        let centre = |outer: bool| {
+            let centres = &self.limits.dead_centres;
+            centres.iter().find(|c| c.outer == outer).map(|c| c.theta)
+        };
+        let terms = || Equation::new(&self.scene).terms(theta);
+        let masses = || EquivalentMasses::new(&self.scene);
+        let forces = || {
+            let analysis = self.forces.get_or_init(|| forces(&self.scene).ok());
+            analysis.as_ref()
+        };
+        let reactions = || Some(forces()?.row(theta).reactions);
+        let largest = |s: StrokeTorque| s.max.value.abs().max(s.min.value.abs());
+        let at_rest = || Some(self.statics.as_ref()?.row(theta));
         Some(match name {
             "sin" => pose.sin,
             "cos" => pose.cos,
@@ -58,35 +64,16 @@ impl Ours {
             "x" => pose.x,
             "dx" => pose.dx,
             "d2x" => pose.d2x,
-            "first_d2x" => first.d2x,
-            "first_dx_d2x" => first.dx_d2x,
-            _ => return None,
-        })
-    }
-
-    fn limit(&self, name: &str) -> Option<f64> {
-        let extremes = || Extremes::new(&self.linkage);
-        let centre = |outer: bool| {
-            let centres = &self.limits.dead_centres;
-            centres.iter().find(|c| c.outer == outer).map(|c| c.theta)
-        };
-        match name {
-            "stroke" => Some(self.limits.stroke),
-            "advance" => self.limits.advance,
-            "retreat" => self.limits.retreat,
-            "time_ratio" => self.limits.time_ratio(),
-            "outer" => centre(true),
-            "inner" => centre(false),
-            "d2x_max" => extremes().map(|e| e.acceleration_max.value),
-            "d2x_min" => extremes().map(|e| e.acceleration_min.value),
-            _ => None,
-        }
-    }
-
-    fn equation(&self, name: &str, theta: f64) -> Option<f64> {
-        let terms = || Equation::new(&self.scene).terms(theta);
-        let masses = || EquivalentMasses::new(&self.scene);
-        Some(match name {
+            "first_d2x" => first().d2x,
+            "first_dx_d2x" => first().dx_d2x,
+            "stroke" => self.limits.stroke,
+            "advance" => self.limits.advance?,
+            "retreat" => self.limits.retreat?,
+            "time_ratio" => self.limits.time_ratio()?,
+            "outer" => centre(true)?,
+            "inner" => centre(false)?,
+            "d2x_max" => extremes()?.acceleration_max.value,
+            "d2x_min" => extremes()?.acceleration_min.value,
             "m" => terms().inertia.m,
             "half_dm" => terms().inertia.half_dm,
             "dv" => terms().dv,
@@ -94,52 +81,26 @@ impl Ours {
             "reciprocating" => masses().reciprocating_kg,
             "inertia_left" => masses().rod_inertia_left_kg_m2,
             "crank_inertia" => self.scene.crank?.inertia,
+            "torque" => forces()?.torque(theta),
+            "bearing_x" => reactions()?.crank_bearing[0],
+            "bearing_y" => reactions()?.crank_bearing[1],
+            "shaking" => reactions()?.shaking[0],
+            "inward" => largest(forces()?.inward?),
+            "outward" => largest(forces()?.outward?),
+            "force" => at_rest()?.balance.band?.value,
+            // The edge of the band on the side of zero.
+            "least" => at_rest()?.balance.band?.min?,
+            "thrust" => at_rest()?.balance.side_thrust?,
+            "velocity_ratio" => at_rest()?.velocity_ratio,
+            "gamma" => at_rest()?.crank_pin_angle,
+            "gamma_of_least" => {
+                let statics = self.statics.as_ref()?;
+                statics
+                    .row(statics.least.first()?.theta_rad)
+                    .crank_pin_angle
+            }
             _ => return None,
         })
-    }
-
-    fn driven(&self, name: &str, theta: f64) -> Option<f64> {
-        let known = [
-            "torque",
-            "bearing_x",
-            "bearing_y",
-            "shaking",
-            "inward",
-            "outward",
-        ];
-        if !known.contains(&name) {
-            return None;
-        }
-        let analysis = self.forces.get_or_init(|| forces(&self.scene).ok());
-        let analysis = analysis.as_ref()?;
-        let largest = |s: StrokeTorque| s.max.value.abs().max(s.min.value.abs());
-        let reactions = || analysis.row(theta).reactions;
-        match name {
-            "torque" => Some(analysis.torque(theta)),
-            "bearing_x" => Some(reactions().crank_bearing[0]),
-            "bearing_y" => Some(reactions().crank_bearing[1]),
-            "shaking" => Some(reactions().shaking[0]),
-            "inward" => analysis.inward.map(largest),
-            _ => analysis.outward.map(largest),
-        }
-    }
-
-    fn at_rest(&self, name: &str, theta: f64) -> Option<f64> {
-        let statics = self.statics.as_ref()?;
-        let row = statics.row(theta);
-        match name {
-            "force" => row.balance.band.map(|band| band.value),
-            // The edge of the band on the side of zero.
-            "least" => row.balance.band.and_then(|band| band.min),
-            "thrust" => row.balance.side_thrust,
-            "velocity_ratio" => Some(row.velocity_ratio),
-            "gamma" => Some(row.crank_pin_angle),
-            "gamma_of_least" => {
-                let least = statics.least.first()?;
-                Some(statics.row(least.theta_rad).crank_pin_angle)
-            }
-            _ => None,
-        }
     }
 }
 

@@ -6,9 +6,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use crate::support::random::{cases, magnitude, rotating_crank};
 use crate::support::{close, geometry};
 use proptest::prelude::*;
-use slider_crank::mechanism::{
-    EquivalentMasses, Limits, Linkage, NotClosed, Shape, size_from_stroke,
-};
+use slider_crank::mechanism::{EquivalentMasses, Limits, Linkage, Shape, size_from_stroke};
 use slider_crank::scene::{Branch, Crank, Rod, Scene, Slider};
 
 proptest! {
@@ -58,7 +56,7 @@ proptest! {
         let pose = linkage.pose(theta);
         for (guess, sign) in [(PI, 1.0), (0.0, -1.0)] {
             let right = Linkage::new(&geometry(g.crank, g.rod, g.offset, if sign > 0.0 { Branch::Right } else { Branch::Left }));
-            let Ok(found) = linkage.close_loop(theta, (guess, 0.0), 1e-13 * g.rod) else { continue };
+            let Some(found) = linkage.close_loop(theta, (guess, 0.0), 1e-13 * g.rod) else { continue };
             if found.branch == sign {
                 let want = right.pose(theta);
                 close("x", found.x, want.x, g.rod / pose.cos_phi.powi(2), 1e-12);
@@ -210,7 +208,7 @@ fn newton_raphson_of_gupta() {
             })
             .collect()
     };
-    let good: Vec<_> = run(180.0).into_iter().map(Result::unwrap).collect();
+    let good: Vec<_> = run(180.0).into_iter().map(Option::unwrap).collect();
     let steps: Vec<_> = good.iter().map(|found| found.iterations).collect();
     assert_eq!(
         (steps.iter().min(), steps.iter().max()),
@@ -224,15 +222,12 @@ fn newton_raphson_of_gupta() {
     );
     let mixed: Vec<_> = run(89.0)
         .into_iter()
-        .filter_map(Result::ok)
+        .flatten()
         .map(|found| found.branch)
         .collect();
     assert!(mixed.contains(&1.0) && mixed.contains(&-1.0));
     let upright = Linkage::new(&geometry(0.1, 0.3, 0.0, Branch::Right));
     let never = Linkage::new(&geometry(0.3, 0.1, 0.0, Branch::Right));
-    assert!(never.close_loop(FRAC_PI_2, (PI, 0.0), 1e-9).is_err());
-    assert_eq!(
-        upright.close_loop(0.0, (f64::NAN, 0.0), 1e-9),
-        Err(NotClosed::Singular)
-    );
+    assert!(never.close_loop(FRAC_PI_2, (PI, 0.0), 1e-9).is_none());
+    assert_eq!(upright.close_loop(0.0, (f64::NAN, 0.0), 1e-9), None);
 }

@@ -1,8 +1,8 @@
 //! Forces in the loose joint, and the accelerations that follow from them.
 
-use super::rubbing::{GuideForces, Rubbing};
+use super::rubbing::Rubbing;
 use super::{Action, Frame, LooseMechanism, LooseRates, LooseState, cross, dot};
-use crate::mechanism::LoadValue;
+use crate::mechanism::{LoadValue, Touch};
 use crate::numeric::angle::Angle;
 use crate::scene::{Instant, Joint};
 
@@ -54,7 +54,7 @@ impl LooseMechanism {
 
     /// The link's force N keeps ε·ε̈ + ε̇² at zero; it is linear in the accelerations.
     #[inline(never)]
-    pub(super) fn linked(&self, s: &LooseState, f: &Frame) -> LooseRates {
+    pub(super) fn linked(&self, load: &LoadValue, s: &LooseState, f: &Frame) -> LooseRates {
         let distance = dot(f.offset, f.offset).sqrt();
         let n = [f.offset[0] / distance, f.offset[1] / distance];
         let at = |normal: f64| {
@@ -62,11 +62,12 @@ impl LooseMechanism {
                 force: [normal * n[0], normal * n[1]],
                 ..Action::default()
             };
-            let rates = self.accelerations(s, f, action, Rubbing::Never);
+            let rates = self.under(load, s, f, action, Rubbing::Never);
             let bend = dot(f.offset, self.second(f, s, &rates)) + dot(f.rate, f.rate);
             (rates, bend)
         };
-        let unit = self.trial_force();
+        // A force of the size of those that occur, N.
+        let unit = self.slider_mass + self.rod_mass;
         let (free, pressed) = (at(0.0).1, at(unit).1);
         let normal = unit * free / (free - pressed);
         let (mut rates, _) = at(normal);
@@ -74,24 +75,7 @@ impl LooseMechanism {
         rates
     }
 
-    /// A force of the size of those that occur, N.
-    fn trial_force(&self) -> f64 {
-        self.slider_mass + self.rod_mass
-    }
-
-    /// The accelerations under what acts in the loose joint and at the guide.
-    #[inline(always)]
-    pub(super) fn accelerations(
-        &self,
-        s: &LooseState,
-        f: &Frame,
-        action: Action,
-        rubbing: Rubbing,
-    ) -> LooseRates {
-        self.under(&self.load(s), s, f, action, rubbing)
-    }
-
-    /// The accelerations under a load.
+    /// The accelerations under a load, what acts in the loose joint, and at the guide.
     #[inline(always)]
     pub(super) fn under(
         &self,
@@ -119,7 +103,7 @@ impl LooseMechanism {
     }
 
     #[inline(always)]
-    fn load(&self, s: &LooseState) -> LoadValue {
+    pub(super) fn load(&self, s: &LooseState) -> LoadValue {
         let Some(loads) = &self.loads else {
             return LoadValue::default();
         };
@@ -180,7 +164,7 @@ impl LooseMechanism {
             }
             Rubbing::Sticks => {
                 let spin_rate = moment / self.rod_inertia;
-                rates.guide = GuideForces {
+                rates.guide = Touch {
                     normal: normal(spin_rate),
                     friction: coupling * spin_rate - along,
                 };
@@ -214,7 +198,7 @@ impl LooseMechanism {
             }
             Rubbing::Sticks => {
                 let friction = -(along + self.slider_mass * gx);
-                rates.guide = GuideForces { normal, friction };
+                rates.guide = Touch { normal, friction };
                 0.0
             }
         };

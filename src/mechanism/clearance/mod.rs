@@ -13,11 +13,11 @@ mod start;
 mod turn;
 
 pub use law::NormalForce;
-pub use rubbing::{GuideForces, Rubbing};
+pub use rubbing::Rubbing;
 pub use seen::SpeedSizes;
 pub use turn::Turned;
 
-use super::Loads;
+use super::{Loads, Touch};
 use crate::scene::{Clearance, Friction, Joint};
 
 /// Position and velocity.
@@ -54,7 +54,7 @@ pub struct LooseRates {
     /// Power lost in the contact and by friction at the guide, W.
     pub lost: f64,
     /// What the guide does to the slider; found where it has friction only.
-    pub guide: GuideForces,
+    pub guide: Touch,
     /// Normal force, N: what the bearing's wall pushes the journal with.
     pub normal: f64,
     /// Force of the loose joint on the rod, friction included, N.
@@ -264,16 +264,17 @@ impl LooseMechanism {
         touch: JointTouch,
         rubbing: Rubbing,
     ) -> LooseRates {
+        let load = self.load(s);
         match touch {
-            JointTouch::Apart => self.accelerations(s, f, Action::default(), rubbing),
+            JointTouch::Apart => self.under(&load, s, f, Action::default(), rubbing),
             JointTouch::Pressed { approach, depth } => {
                 let (action, normal, lost) = self.contact(s, f, approach, depth);
-                let mut rates = self.accelerations(s, f, action, rubbing);
+                let mut rates = self.under(&load, s, f, action, rubbing);
                 rates.normal = normal;
                 rates.lost += lost;
                 rates
             }
-            JointTouch::Linked => self.linked(s, f),
+            JointTouch::Linked => self.linked(&load, s, f),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Coulomb friction of the slider in its guide while a joint is loose.
 
 use super::{JointTouch, LooseMechanism, LooseState};
+use crate::mechanism::Touch;
 use crate::numeric::exact::SUM_ROUNDING;
 
 /// How the slider rubs in its guide.
@@ -13,15 +14,6 @@ pub enum Rubbing {
     Slides(f64),
     /// The slider is held fast.
     Sticks,
-}
-
-/// The guide's forces on the slider.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct GuideForces {
-    /// Along +y, N.
-    pub normal: f64,
-    /// Along +x, N.
-    pub friction: f64,
 }
 
 impl LooseMechanism {
@@ -55,7 +47,7 @@ impl LooseMechanism {
         most * (1.0 + SUM_ROUNDING) - forces.friction.abs() * (1.0 - SUM_ROUNDING)
     }
 
-    fn held(&self, s: &LooseState, touch: JointTouch) -> GuideForces {
+    fn held(&self, s: &LooseState, touch: JointTouch) -> Touch {
         self.rates_in(s, &self.frame(s), touch, Rubbing::Sticks)
             .guide
     }
@@ -79,20 +71,13 @@ impl LooseMechanism {
         }
     }
 
-    /// The guide's forces on a slider that slides, from the normal force without friction and from what one newton
-    /// along the guide adds to it (κ): N = N₀/(1 − c κ) with the friction c N. Not a number where rigid bodies jam,
-    /// μ |κ| ≥ 1.
-    pub(super) fn sliding(&self, direction: f64, free: f64, kappa: f64) -> GuideForces {
+    /// The guide's forces on a slider that slides. Not numbers where rigid bodies jam.
+    pub(super) fn sliding(&self, direction: f64, free: f64, kappa: f64) -> Touch {
         let mu = self.guide.map_or(0.0, |guide| guide.coefficient);
-        let c = -mu * direction * free.signum();
-        let normal = match mu * kappa.abs() < 1.0 {
-            true => free / (1.0 - c * kappa),
-            false => f64::NAN,
-        };
-        GuideForces {
-            normal,
-            friction: c * normal,
-        }
+        Touch::sliding(free, kappa, mu, direction).unwrap_or(Touch {
+            normal: f64::NAN,
+            friction: f64::NAN,
+        })
     }
 
     /// Whether rigid bodies jam in a state.

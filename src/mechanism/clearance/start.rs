@@ -1,9 +1,9 @@
 //! The loose mechanism of a scene, and where its motion begins.
 
 use super::{LooseMechanism, LooseState, NormalForce};
-use crate::mechanism::{Equation, Linkage, Loads, Reactor};
+use crate::mechanism::{Body, Equation, Linkage, Loads, Reactor};
 use crate::numeric::angle::Angle;
-use crate::scene::{Clearance, ContactLaw, Joint, MotionKind, Problem, Problems, RodModel, Scene};
+use crate::scene::{Clearance, ContactLaw, Joint, MotionKind, Problem, Problems, Scene};
 
 impl LooseMechanism {
     /// The mechanism of a scene from which parts without strength were taken out.
@@ -15,10 +15,25 @@ impl LooseMechanism {
         let gravity = scene.gravity.map_or([0.0; 2], |gravity| gravity.vector());
         let driven = scene.motion.kind == MotionKind::ConstantSpeed;
         let mut problems = Vec::new();
-        let rod = RodInertia::new(scene, clearance.joint).unwrap_or_else(|problem| {
-            problems.push(problem);
-            RodInertia::NOT_KNOWN
+        let rod = Body::rod(scene).unwrap_or_else(|| {
+            problems.push(Problem::new(
+                "rod.model",
+                "the rod model \"spin-only\" leaves out the rod's translation, so it does not move freely in a clearance",
+                "use model = \"rigid\" or \"two-mass\"",
+            ));
+            // One that raises no further problem.
+            Body {
+                mass: 1.0,
+                inertia: 1.0,
+                ..Body::default()
+            }
         });
+        let rod_along = match clearance.joint {
+            Joint::CrankPin => rod.along - scene.geometry.rod,
+            Joint::WristPin => rod.along,
+        };
+        let squared = rod_along * rod_along + rod.left * rod.left;
+        let rod_inertia = rod.inertia + rod.mass * squared;
         let force = match clearance.law {
             ContactLaw::MasslessLink => Ok(NormalForce::default()),
             _ => NormalForce::new(&clearance),
@@ -44,9 +59,9 @@ impl LooseMechanism {
             crank_inertia: crank.inertia,
             crank_weight: [along * gy - left * gx, left * gy + along * gx],
             rod_mass: rod.mass,
-            rod_centre: rod.centre,
-            rod_inertia: rod.about_pinned_end,
-            per_rod_inertia: 1.0 / rod.about_pinned_end,
+            rod_centre: [rod_along, rod.left],
+            rod_inertia,
+            per_rod_inertia: 1.0 / rod_inertia,
             slider_mass,
             per_slider_mass: 1.0 / slider_mass,
             gravity,
@@ -179,49 +194,5 @@ impl LooseMechanism {
         } else {
             [distance, 0.0]
         }
-    }
-}
-
-/// The rod about its pinned end.
-struct RodInertia {
-    mass: f64,
-    centre: [f64; 2],
-    about_pinned_end: f64,
-}
-
-impl RodInertia {
-    /// One that raises no further problem.
-    const NOT_KNOWN: RodInertia = RodInertia {
-        mass: 1.0,
-        centre: [0.0; 2],
-        about_pinned_end: 1.0,
-    };
-
-    fn new(scene: &Scene, joint: Joint) -> Result<RodInertia, Problem> {
-        let rod = scene.rod.unwrap_or_default();
-        let length = scene.geometry.rod;
-        let central = match rod.model {
-            RodModel::Massless => 0.0,
-            RodModel::Rigid => rod.central_inertia().max(0.0),
-            // What two masses at the pins have about their centre of gravity.
-            RodModel::TwoMass => rod.mass * rod.cg * (length - rod.cg),
-            RodModel::SpinOnly => {
-                return Err(Problem::new(
-                    "rod.model",
-                    "the rod model \"spin-only\" leaves out the rod's translation, so it does not move freely in a clearance",
-                    "use model = \"rigid\" or \"two-mass\"",
-                ));
-            }
-        };
-        let along = match joint {
-            Joint::CrankPin => rod.cg - length,
-            Joint::WristPin => rod.cg,
-        };
-        let squared = along * along + rod.cg_lateral * rod.cg_lateral;
-        Ok(RodInertia {
-            mass: rod.mass,
-            centre: [along, rod.cg_lateral],
-            about_pinned_end: central + rod.mass * squared,
-        })
     }
 }

@@ -61,7 +61,6 @@ impl Rule {
         for j in 0..=degree {
             // From the sine of a symmetric argument, so that the points are symmetric to the last bit.
             rule.points[j] = (PI * (2.0 * j as f64 - n) / (2.0 * n)).sin();
-            rule.weights[j] = weight(&cosines, j);
         }
         let half = degree / 2;
         for j in 0..=half {
@@ -80,6 +79,9 @@ impl Rule {
             unit[j] = 1.0;
             let series = rule.series(&unit);
             rule.last[j] = [series.coefficient(degree - 1), series.coefficient(degree)];
+            // ∫ T_k over [−1, 1] is 2/(1 − k²) for even k.
+            let integral = |k: usize| 2.0 * series.coefficient(k) / (1.0 - (k * k) as f64);
+            rule.weights[j] = (0..=degree).step_by(2).map(integral).sum();
         }
         rule
     }
@@ -259,17 +261,4 @@ fn cosines(degree: usize) -> Vec<f64> {
 /// cos(π m/degree) of any m.
 fn cosine(cosines: &[f64], m: usize) -> f64 {
     cosines[m % cosines.len()]
-}
-
-/// Weight of the point `j` in the rule of Clenshaw and Curtis.
-fn weight(cosines: &[f64], j: usize) -> f64 {
-    let degree = cosines.len() / 2;
-    let end = j == 0 || j == degree;
-    let sum: f64 = (1..=degree / 2)
-        .map(|k| {
-            let last = if 2 * k == degree { 1.0 } else { 2.0 };
-            last * cosine(cosines, 2 * k * j) / (4.0 * (k * k) as f64 - 1.0)
-        })
-        .sum();
-    (1.0 - sum) * if end { 1.0 } else { 2.0 } / degree as f64
 }

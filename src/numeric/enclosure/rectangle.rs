@@ -96,20 +96,19 @@ impl Rectangle {
         )
     }
 
-    /// sinh z
-    pub fn sinh(self) -> Rectangle {
-        Rectangle::new(
-            self.re.rising(f64::sinh) * self.im.cos(),
-            self.re.cosh() * self.im.sin(),
-        )
+    /// i z
+    fn turned(self) -> Rectangle {
+        Rectangle::new(-self.im, self.re)
     }
 
-    /// cosh z
+    /// sinh z = −i sin iz
+    pub fn sinh(self) -> Rectangle {
+        -self.turned().sin().turned()
+    }
+
+    /// cosh z = cos iz
     pub fn cosh(self) -> Rectangle {
-        Rectangle::new(
-            self.re.cosh() * self.im.cos(),
-            self.re.rising(f64::sinh) * self.im.sin(),
-        )
+        self.turned().cos()
     }
 
     /// The values of an analytic function with a given slope: the mean value theorem on a convex set.

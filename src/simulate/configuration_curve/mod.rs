@@ -77,7 +77,7 @@ impl OnCurve {
         let (on, start) = (&self.equation, self.start);
         let angle = last.angle(last.end.theta);
         let turns = on.curve().crank_angle(start.angle).turns;
-        let potential = |q: Angle| on.potential_energy(equation, q, turns);
+        let potential = |q: Angle| on.potential_energy(q, turns);
         let kinetic = [
             on.kinetic_energy(start.angle, start.speed),
             on.kinetic_energy(angle, last.end.omega),
