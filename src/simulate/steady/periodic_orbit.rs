@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use super::super::forward::unserved;
 use super::super::guide_friction::Sliding;
-use super::super::stop::not_applicable;
 use super::cycles::{Cycle, Cycles};
 use crate::engine::WorkLimit;
 use crate::engine::angle::{CycleMap, FixedPoint, NoCycle, fixed_point};
@@ -165,7 +165,7 @@ impl<'a> Seeker<'a> {
         };
         if let Some((fixed, noise)) = fixed {
             found.cycle.uncertain /= fixed.slope.abs().max(noise);
-            // Motions do not cross: what is below zero is cycleing.
+            // Motions do not cross: what is below zero is rounding.
             found.multiplier = (1.0 + fixed.slope).max(0.0);
             found.multiplier_error = fixed.slope_error;
             found.approached = fixed.approached;
@@ -239,10 +239,7 @@ fn unbounded() -> Error {
 
 fn not_computed(why: NotApplicable) -> Error {
     Error::refused(
-        format!(
-            "the steady state cannot be computed: {}",
-            not_applicable(why)
-        ),
+        format!("the steady state cannot be computed: {}", unserved(why)),
         "look at the loads; or simulate until the motion repeats",
     )
 }
