@@ -212,7 +212,7 @@ pub fn precision_against(
             cells.push(Cell::new(&scene, method, tolerance, options)?);
         }
     }
-    let common = find(&scene, t_end, EVALUATIONS.min(options.max_evaluations))
+    let common = find(&scene, t_end, options.max_evaluations)
         .or_else(|| (plan.engine == Engine::ClosedForm).then(|| closed_form(&scene, t_end)));
     let references = match common {
         Some(common) => vec![(None, common)],
@@ -240,9 +240,6 @@ pub fn precision_against(
         left_out,
     })
 }
-
-/// Most evaluations of a reference, some seconds.
-const EVALUATIONS: u64 = 4_000_000;
 
 fn first_line(error: &Error) -> String {
     let text = error.to_string();
