@@ -26,11 +26,6 @@ impl Choice {
         }
     }
 
-    /// The time engine, by sweeps over Gauss nodes.
-    fn by_sweeps(reason: impl Into<Cow<'static, str>>) -> Choice {
-        Choice::in_time(Stepper::Picard, reason)
-    }
-
     /// The time engine.
     fn in_time(stepper: Stepper, reason: impl Into<Cow<'static, str>>) -> Choice {
         Choice {
@@ -107,13 +102,17 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Cho
         )),
         Method::Dop853 => Ok(Choice::in_time(Stepper::Dop853, asked)),
         Method::Dopri5 => Ok(Choice::in_time(Stepper::Dopri5, asked)),
-        Method::Time => Ok(Choice::by_sweeps(
+        Method::Time => Ok(Choice::in_time(
+            Stepper::Picard,
             "the loads and the start decide the motion: integration in time, by sweeps over Gauss nodes",
         )),
         _ if class == Class::ChangePoint => for_all(
             method,
             &[Method::Auto],
-            Choice::by_sweeps("a change point: integration in time along the configuration curve"),
+            Choice::in_time(
+                Stepper::Picard,
+                "a change point: integration in time along the configuration curve",
+            ),
             "the lengths of a change point, which it passes onto the other branch",
             IN_TIME,
         ),
@@ -121,7 +120,8 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Cho
         _ if loads.are_dry() => for_all(
             method,
             &[Method::Auto],
-            Choice::by_sweeps(
+            Choice::in_time(
+                Stepper::Picard,
                 "a load opposes motion: integration in time, piece by piece between the places where crank or slider turn back or rest",
             ),
             "a load of kind \"dry\", which turns round with the motion",
@@ -152,13 +152,15 @@ fn cannot_serve(method: Method, what: &str, help: &str) -> Error {
 /// The energy, else the crank angle, else the time as the independent variable.
 fn over_angle(method: Method, scene: &Scene, class: Class) -> Result<Choice, Error> {
     let rubs = scene.friction.is_some();
-    let without_energy = match rubs {
-        true => Some("Coulomb friction, whose work depends on the speed".to_owned()),
-        false => why_not_energy(scene).map(|why| format!("this scene: {why}")),
-    };
-    let scene_is = match rubs {
-        true => "this motion with Coulomb friction",
-        false => "this scene",
+    let (without_energy, scene_is) = match rubs {
+        true => (
+            Some("Coulomb friction, whose work depends on the speed".to_owned()),
+            "this motion with Coulomb friction",
+        ),
+        false => (
+            why_not_energy(scene).map(|why| format!("this scene: {why}")),
+            "this scene",
+        ),
     };
     match (method, without_energy) {
         (Method::Auto | Method::Energy, None) => Ok(Choice::of(
@@ -167,23 +169,31 @@ fn over_angle(method: Method, scene: &Scene, class: Class) -> Result<Choice, Err
         )),
         (Method::Energy, Some(what)) => Err(cannot_serve(method, &what, WITHOUT_ENERGY)),
         _ => match why_not_angle(scene, class) {
-            None if rubs => Ok(Choice::of(
-                Engine::Angle,
-                "the crank turns: its energy and the time over the crank angle, with Coulomb friction piece by piece between its changes; where it comes near to rest, integration in time takes over",
-            )),
-            None => Ok(Choice::of(
-                Engine::Angle,
-                "the crank turns: its energy and the time over the crank angle; where it comes near to rest, integration in time takes over",
-            )),
+            None => {
+                let piecewise = match rubs {
+                    true => ", with Coulomb friction piece by piece between its changes",
+                    false => "",
+                };
+                Ok(Choice::of(
+                    Engine::Angle,
+                    format!(
+                        "the crank turns: its energy and the time over the crank angle{piecewise}; where it comes near to rest, integration in time takes over"
+                    ),
+                ))
+            }
             Some(why) if method == Method::Angle => {
                 Err(cannot_serve(method, &format!("{scene_is}: {why}"), IN_TIME))
             }
-            Some(why) if rubs => Ok(Choice::by_sweeps(format!(
-                "Coulomb friction, and {why}: integration in time, piece by piece between its changes"
-            ))),
-            Some(why) => Ok(Choice::by_sweeps(format!(
-                "{why}: integration in time, by sweeps over Gauss nodes"
-            ))),
+            Some(why) if rubs => Ok(Choice::in_time(
+                Stepper::Picard,
+                format!(
+                    "Coulomb friction, and {why}: integration in time, piece by piece between its changes"
+                ),
+            )),
+            Some(why) => Ok(Choice::in_time(
+                Stepper::Picard,
+                format!("{why}: integration in time, by sweeps over Gauss nodes"),
+            )),
         },
     }
 }

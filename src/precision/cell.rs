@@ -3,8 +3,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use super::reference::Reference;
-use super::{PrecisionOptions, PrecisionRow, first_line};
+use super::{PrecisionOptions, PrecisionRow, Reference, first_line};
 use crate::error::Error;
 use crate::numeric::double_double::DoubleDouble;
 use crate::plan::{Engine, Method, Stepper};
@@ -35,11 +34,11 @@ pub(super) fn run(
     Ok(simulate_rows(scene, &options, &mut NoRows)?.summary)
 }
 
-/// Runs of the other methods, for scenes without a reference of their own.
-pub(super) fn other_methods(
+/// Runs of all methods at the tightest tolerance, with what computes them: the one with the least stated error first.
+pub(super) fn tight_runs(
     scene: &Scene,
     options: &PrecisionOptions,
-) -> Vec<(Identity, Reference)> {
+) -> Vec<(Option<Identity>, Reference)> {
     let mut scene = scene.clone();
     scene.run.tolerance = TIGHTEST;
     let methods = Method::each().filter(|method| *method != Method::Auto);
@@ -55,9 +54,26 @@ pub(super) fn other_methods(
             ends_at: None,
             slider: None,
         };
-        Some(((run.plan.engine, run.plan.stepper), reference))
+        Some((Some((run.plan.engine, run.plan.stepper)), reference))
     });
-    runs.collect()
+    let mut runs: Vec<_> = runs.collect();
+    runs.sort_by(|(_, a), (_, b)| a.theta_error.total_cmp(&b.theta_error));
+    runs
+}
+
+/// The end of a motion at constant speed.
+pub(super) fn closed_form(scene: &Scene, t_end: f64) -> Reference {
+    let omega = DoubleDouble::from(scene.motion.speed);
+    let theta = omega * t_end + scene.motion.angle;
+    Reference {
+        what: "angle + speed t in double-double arithmetic".to_owned(),
+        theta,
+        omega,
+        theta_error: DoubleDouble::ROUNDING * theta.value().abs(),
+        omega_error: 0.0,
+        ends_at: None,
+        slider: None,
+    }
 }
 
 /// What computes a motion: two names may stand for the same.
@@ -107,21 +123,8 @@ impl Cell {
         }
     }
 
-    /// The best of the others that is computed by something else.
-    pub(super) fn independent<'a>(
-        &self,
-        others: &'a [(Identity, Reference)],
-    ) -> Option<&'a Reference> {
-        let plan = &self.result.as_ref().ok()?.plan;
-        let own = (plan.engine, plan.stepper);
-        others
-            .iter()
-            .filter(|(identity, _)| *identity != own)
-            .map(|(_, reference)| reference)
-            .min_by(|a, b| a.theta_error.total_cmp(&b.theta_error))
-    }
-
-    pub(super) fn row(&self, reference: Option<&Reference>, named: bool) -> PrecisionRow {
+    /// Measured against the first reference that is computed by something else.
+    pub(super) fn row(&self, references: &[(Option<Identity>, Reference)]) -> PrecisionRow {
         let mut row = PrecisionRow::empty(self.method, self.scene.run.tolerance);
         row.runs = self.walls.len();
         let summary = match &self.result {
@@ -131,6 +134,9 @@ impl Cell {
                 return row;
             }
         };
+        let own = Some((summary.plan.engine, summary.plan.stepper));
+        let found = references.iter().position(|(identity, _)| *identity != own);
+        let reference = found.map(|index| &references[index].1);
         row.failure = unlike(summary, reference);
         if row.failure.is_some() {
             return row;
@@ -149,7 +155,7 @@ impl Cell {
             row.measured_against = Some("nothing: no other method reaches the end".to_owned());
             return row;
         };
-        if named {
+        if found != Some(0) {
             let (what, error) = (&reference.what, reference.theta_error);
             row.measured_against = Some(format!("{what}, its error {error:.1e} rad or less"));
         }

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use super::joint_force_maxima::refined;
 use super::outcome::Balance;
 use super::result::TorqueRange;
 use super::row::RowMaker;
@@ -9,7 +10,7 @@ use super::warning::NoRange;
 use crate::engine::time::Start;
 use crate::mechanism::Equation;
 use crate::numeric::angle::Angle;
-use crate::numeric::{gauss, maximum};
+use crate::numeric::gauss;
 use crate::scene::{Instant, Variable};
 
 /// A run at constant speed.
@@ -88,13 +89,21 @@ impl Drive<'_> {
         let ends = usize::from(whole);
         let looked_at = ends..times.len() - ends;
         let largest = |sign: f64| {
-            let mut best = ends;
-            for i in looked_at.clone() {
-                if sign * torques[i] > sign * torques[best] {
-                    best = i;
-                }
-            }
-            self.largest_beside(best, &times, &torques, sign)
+            let value = |i: usize| sign * torques[i];
+            let best = looked_at
+                .clone()
+                .max_by(|i, j| value(*i).total_cmp(&value(*j)));
+            let best = best.unwrap_or(ends);
+            let beside = [
+                best.saturating_sub(1),
+                best,
+                (best + 1).min(times.len() - 1),
+            ];
+            refined(
+                |t| sign * self.torque(t),
+                beside.map(|i| (times[i], value(i))),
+            )
+            .1
         };
         Ok(TorqueRange {
             min_nm: -largest(-1.0),
@@ -108,8 +117,8 @@ impl Drive<'_> {
         TAU / self.speed.abs()
     }
 
-    /// Times close enough to show all that geometry and loads make: of one turn, with one before it and one after it, if every turn
-    /// is the same and the run is longer; else of the run. And whether it is a whole turn.
+    /// Times close enough to show all that geometry and loads make: of one turn if every turn is the same and the run is longer,
+    /// else of the run. And whether it is a whole turn.
     pub fn places(&self) -> Result<(Vec<f64>, bool), NoRange> {
         let turn = self.turn();
         let reads = self.equation.loads().reads();
@@ -118,12 +127,13 @@ impl Drive<'_> {
         if !whole && self.end > MOST_TURNS * turn {
             return Err(NoRange::TooManyTurns(MOST_TURNS));
         }
-        let times = if whole {
-            self.times_of_turn()
+        // A quarter more than a turn, so that each of its places has two neighbours.
+        let turned = if whole {
+            1.25 * TAU
         } else {
-            self.times(self.end)
+            self.speed.abs() * self.end
         };
-        Ok((times, whole))
+        Ok((self.times(turned), whole))
     }
 
     /// Crank angles of a turn, close enough to show what the loads make.
@@ -133,42 +143,22 @@ impl Drive<'_> {
         self.equation.linkage().turn_grid(step)
     }
 
-    /// Times of the angles of one turn, wherever the run begins, and of one more, so that each has two neighbours.
-    fn times_of_turn(&self) -> Vec<f64> {
-        let mut angles = self.grid();
-        angles.push(angles[1] + TAU);
-        let time = |angle: &f64| (angle - self.start.rest) / self.speed;
-        let mut times: Vec<f64> = angles.iter().map(time).collect();
+    /// Times at which the crank is at an angle of the grid until it has turned so far (rad), and the ends.
+    fn times(&self, until: f64) -> Vec<f64> {
+        let (grid, sense) = (self.grid(), self.speed.signum());
+        let turns = 0..=(until / TAU).ceil() as i64;
+        let ahead = |theta: &f64| (sense * (theta - self.start.rest)).rem_euclid(TAU);
+        let all = turns.flat_map(|turn| {
+            let grid = grid.iter();
+            grid.map(move |theta| turn as f64 * TAU + ahead(theta))
+        });
+        let inside = all.filter(|turned| *turned <= until);
+        let times = inside
+            .chain([0.0, until])
+            .map(|turned| turned / self.speed.abs());
+        let mut times: Vec<f64> = times.collect();
         times.sort_by(f64::total_cmp);
         times
-    }
-
-    /// Times of the angles of each turn, with the ends.
-    fn times(&self, span: f64) -> Vec<f64> {
-        let grid = self.grid();
-        let turns = (span * self.speed.abs() / TAU).ceil() as i64;
-        let whole = |turn: i64| turn as f64 * TAU * self.speed.signum();
-        let angles =
-            (-1..=turns).flat_map(|turn| grid.iter().map(move |angle| angle + whole(turn)));
-        let mut times: Vec<f64> = angles
-            .map(|angle| (angle - self.start.rest) / self.speed)
-            .filter(|t| (0.0..=span).contains(t))
-            .chain([0.0, span])
-            .collect();
-        times.sort_by(f64::total_cmp);
-        times
-    }
-
-    /// Largest sign·torque between the neighbours of a time at which it is the largest of all.
-    fn largest_beside(&self, best: usize, times: &[f64], torques: &[f64], sign: f64) -> f64 {
-        let torque = |t: f64| sign * self.torque(t);
-        let known = |i: usize| (times[i], sign * torques[i]);
-        let (before, after) = (best.saturating_sub(1), (best + 1).min(times.len() - 1));
-        let (_, between) = match before < best && best < after {
-            true => maximum::between(torque, [before, best, after].map(known)),
-            false => maximum::largest(torque, times[before], times[after]),
-        };
-        between.max(known(best).1)
     }
 
     /// Mean over time. Over whole turns inertia and gravity do no work.

@@ -26,7 +26,6 @@ mod run;
 mod run_setup;
 mod schedule;
 mod simulation;
-mod stalled;
 mod state_transition;
 mod steady;
 mod stop;
@@ -42,10 +41,9 @@ pub use result::{Cost, ErrorEstimate, Event, Final, Piece, Summary, TorqueRange}
 pub use row::{LooseRow, NoRows, Row, RowSink};
 pub use run::{simulate, simulate_rows, simulate_with_rows};
 pub use simulation::Simulation;
-pub use stalled::Torques;
 pub use steady::{
     Estimated, Flywheel, LoadWork, SpeedExtreme, SpeedOrder, SteadyOptions, SteadyState,
     steady_state,
 };
-pub use stop::{Stopped, Why};
+pub use stop::{Stopped, Torques, Why};
 pub use warning::{NoRange, Warning};

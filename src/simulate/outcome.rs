@@ -7,8 +7,7 @@ use super::recorder::Record;
 use super::result::{Cost, ErrorEstimate, Final, Piece, Summary};
 use super::run_setup::RunSetup;
 use super::simulation::Simulation;
-use super::stalled;
-use super::stop::{Stopped, Why};
+use super::stop::{Stopped, Why, stalled};
 use super::warning::Warning;
 use crate::engine::time::Start;
 use crate::numeric::angle::Angle;
@@ -157,7 +156,7 @@ impl Outcome {
             .stopped
             .or_else(|| short_of(task.extent, &last, turned));
         let stopped = stopped.map(|why| Stopped {
-            why: stalled::reason(task, &last).unwrap_or(why),
+            why: stalled(task, &last).unwrap_or(why),
             at,
         });
         let summary = Summary {

@@ -1,14 +1,20 @@
 //! Why a run ends before its goal: a reason with its values and the state, and the words for it.
 
+use std::f64::consts::TAU;
 use std::fmt;
 
 use serde::{Serialize, Serializer};
 
-use super::stalled::Torques;
-use crate::engine::energy::NotApplicable;
+use super::result::Final;
+use super::run_setup::RunSetup;
 use crate::engine::time::Start;
 use crate::mechanism::Jam;
-use crate::scene::Load;
+use crate::numeric::angle::Angle;
+use crate::numeric::root;
+use crate::scene::{Load, Variable};
+
+/// A crank has stalled where it cannot leave a balance by more than this part of the way it came.
+const OF_ITS_WAY: f64 = 1e-3;
 
 /// A run that ended before its goal.
 #[derive(Clone, Debug)]
@@ -20,20 +26,33 @@ pub struct Stopped {
 }
 
 /// The reason.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Why {
     /// The work limit of evaluations is reached.
+    #[error("the work limit of evaluations is reached")]
     WorkLimit,
     /// The steps have become so short that it would be reached long before the end.
+    #[error(
+        "the steps have become so short that the work limit of evaluations would be reached long before the end"
+    )]
     WorkLimitAhead,
     /// The crank turns so often that it would be.
+    #[error(
+        "the crank turns so often that the work limit of evaluations would be reached long before the end"
+    )]
     TooManyTurns,
     /// Somebody asked to stop.
+    #[error("interrupted")]
     Interrupted,
     /// The crank needs for ever for so many turns.
+    #[error("the crank does not complete {}", Turns(*.0))]
     Turns(f64),
-    /// A periodic swing of this period, s.
+    /// A periodic swing.
+    #[error(
+        "the crank swings to and fro and does not complete {}: shown is one period of {period} s",
+        Turns(*turns)
+    )]
     Period {
         /// Turns that were asked for.
         turns: f64,
@@ -41,6 +60,10 @@ pub enum Why {
         period: f64,
     },
     /// So many turning points led no further than between two angles, rad.
+    #[error(
+        "the crank swings to and fro and does not complete {}: in its last {since} turning points it came no further than between theta = {} rad and {} rad",
+        Turns(*turns), reach[0], reach[1]
+    )]
     Caught {
         /// Turns that were asked for.
         turns: f64,
@@ -50,6 +73,7 @@ pub enum Why {
         reach: [f64; 2],
     },
     /// At rest for good.
+    #[error("the crank comes to rest{} and does not complete {}", held(held_by.as_ref()), Turns(*turns))]
     AtRest {
         /// Turns that were asked for.
         turns: f64,
@@ -57,6 +81,10 @@ pub enum Why {
         held_by: Option<Torques>,
     },
     /// Next to the balance of its torques, at a crank angle in rad.
+    #[error(
+        "the crank stalled at theta = {theta} rad, {torques}{}",
+        turns.map_or_else(String::new, |turns| format!(" and does not complete {}", Turns(turns)))
+    )]
     Stalled {
         /// rad
         theta: f64,
@@ -66,33 +94,51 @@ pub enum Why {
         turns: Option<f64>,
     },
     /// At a limit of its motion, where the rod stands normal to the guide.
+    #[error("the crank reaches the limit of its motion, where the rod stands normal to the guide")]
     AtLimit,
     /// A crank of prescribed speed at its limit.
+    #[error(
+        "the crank reaches the limit of its motion: the rod stands normal to the guide there and no constant speed passes it"
+    )]
     DrivenToLimit,
     /// Friction locks the guide of a crank of prescribed speed.
+    #[error(
+        "the guide locks itself from here on, as the coefficient of friction times tan phi reaches 1: no crank torque keeps up the speed"
+    )]
     Locked,
     /// A load has no finite value.
+    #[error(
+        "a load has no finite value at t = {} s, theta = {} rad, omega = {} rad/s{}",
+        asked.t, asked.angle.radians(), asked.speed, outside(load.as_ref())
+    )]
     NoValue {
         /// Where it was asked for.
         asked: Start,
         /// Which.
         load: Option<Load>,
     },
-    /// A load of a mechanism with a loose joint.
-    NoValueLoose(Load),
     /// The effective inertia vanishes.
+    #[error("the effective inertia vanishes")]
     NoInertia,
     /// The effective inertia nearly vanishes.
+    #[error("the effective inertia nearly vanishes and the speed grows without bound")]
     NearlyNoInertia,
     /// At a limit or dead centre on the configuration curve.
+    #[error(
+        "the effective inertia vanishes at this limit of its motion or dead centre, where the speed has no bound"
+    )]
     NoInertiaOnCurve,
     /// A load or the speed is too large for a number.
+    #[error("a load or the crank speed is too large to be computed with")]
     TooLarge,
     /// The steps have become too small.
+    #[error("the equation is singular or too stiff for this method")]
     Singular,
-    /// On the configuration curve the steps have become too small.
-    SingularOnCurve,
     /// The slider jams in its guide.
+    #[error(
+        "the slider jams in its guide: {} acceleration satisfies the equations of rigid bodies, as the coefficient of friction {mu} times |dN/dF| = {kappa} is 1 or more",
+        match solutions { Jam::NoSolution => "no", Jam::TwoSolutions => "more than one" }
+    )]
     Jam {
         /// How many accelerations there are.
         solutions: Jam,
@@ -102,155 +148,52 @@ pub enum Why {
         kappa: f64,
     },
     /// A slider with a loose joint jams.
+    #[error(
+        "the slider jams: rigid bodies with this coefficient of friction have no acceleration, or two"
+    )]
     JamLoose,
     /// The contact is too stiff for steps in double precision.
+    #[error("the contact is too stiff for steps in double precision")]
     ContactTooStiff,
     /// No engine told why.
+    #[error("the run ended before its goal and no engine gave a reason, a defect of this program")]
     Untold,
+}
+
+impl Why {
+    /// What would be right.
+    fn cure(&self) -> Option<&'static str> {
+        Some(match self {
+            Why::WorkLimit => "raise --max-evaluations, shorten the run or loosen the tolerance",
+            Why::WorkLimitAhead => {
+                "the equation is too stiff for a method in time, or a load jumps back and forth with the speed: give dry friction as kind = \"dry\" or at the guide as [friction], and steep losses less steep, or raise --max-evaluations"
+            }
+            Why::TooManyTurns => "shorten the run or raise --max-evaluations",
+            Why::Turns(_) | Why::Period { .. } | Why::Caught { .. } | Why::AtRest { .. } => {
+                "give a duration instead"
+            }
+            Why::Stalled { .. } => "give it more torque, or a duration instead",
+            Why::AtLimit => "give the rod or the slider a mass, which carries it on",
+            Why::NoInertia => "give the crank an inertia",
+            Why::NearlyNoInertia => {
+                "give the crank an inertia, or use method energy if the loads depend on the position alone"
+            }
+            Why::NoInertiaOnCurve => "give the rod or the slider a mass, or the crank an inertia",
+            _ => return None,
+        })
+    }
 }
 
 impl fmt::Display for Stopped {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Start { t, angle, speed } = self.at;
         let theta = angle.radians();
-        let place = format!("stopped at t = {t} s, theta = {theta} rad, omega = {speed} rad/s");
-        match &self.why {
-            Why::WorkLimit => write!(
-                f,
-                "the work limit of evaluations is reached: {place}; raise --max-evaluations, shorten the run or loosen the tolerance"
-            ),
-            Why::WorkLimitAhead => write!(
-                f,
-                "the steps have become so short that the work limit of evaluations would be reached long before the end: {place}; the equation is too stiff for a method in time, or a load jumps back and forth with the speed: give dry friction as kind = \"dry\" or at the guide as [friction], and steep losses less steep, or raise --max-evaluations"
-            ),
-            Why::TooManyTurns => write!(
-                f,
-                "the crank turns so often that the work limit of evaluations would be reached long before the end: {place}; shorten the run or raise --max-evaluations"
-            ),
-            Why::Interrupted => write!(f, "interrupted: {place}"),
-            Why::Turns(turns) => write!(
-                f,
-                "the crank does not complete {}: {place}; give a duration instead",
-                Turns(*turns)
-            ),
-            Why::Period { turns, period } => write!(
-                f,
-                "the crank swings to and fro and does not complete {}: shown is one period of {period} s; give a duration instead",
-                Turns(*turns)
-            ),
-            Why::Caught {
-                turns,
-                since,
-                reach: [from, to],
-            } => write!(
-                f,
-                "the crank swings to and fro and does not complete {}: in its last {since} turning points it came no further than between theta = {from} rad and {to} rad; stopped at t = {t} s; give a duration instead",
-                Turns(*turns)
-            ),
-            Why::AtRest { turns, held_by } => {
-                f.write_str("the crank comes to rest")?;
-                if let Some(torques) = held_by {
-                    write!(f, ", where friction holds {torques},")?;
-                }
-                write!(
-                    f,
-                    " and does not complete {}: {place}; give a duration instead",
-                    Turns(*turns)
-                )
-            }
-            Why::Stalled {
-                theta,
-                torques,
-                turns,
-            } => {
-                write!(f, "the crank stalled at theta = {theta} rad, {torques}")?;
-                if let Some(turns) = turns {
-                    write!(f, " and does not complete {}", Turns(*turns))?;
-                }
-                write!(
-                    f,
-                    ": stopped at t = {t} s, omega = {speed} rad/s; give it more torque, or a duration instead"
-                )
-            }
-            Why::AtLimit => write!(
-                f,
-                "the crank reaches the limit of its motion, where the rod stands normal to the guide: stopped at t = {t} s, theta = {theta} rad; give the rod or the slider a mass, which carries it on"
-            ),
-            Why::DrivenToLimit => write!(
-                f,
-                "the crank reaches the limit of its motion: the rod stands normal to the guide there and no constant speed passes it; stopped at t = {t} s, theta = {theta} rad"
-            ),
-            Why::Locked => write!(
-                f,
-                "the guide locks itself from here on, as the coefficient of friction times tan phi reaches 1: no crank torque keeps up the speed; stopped at t = {t} s, theta = {theta} rad"
-            ),
-            Why::NoValue { asked, load } => {
-                write!(
-                    f,
-                    "a load has no finite value at t = {} s, theta = {} rad, omega = {} rad/s",
-                    asked.t,
-                    asked.angle.radians(),
-                    asked.speed
-                )?;
-                match load {
-                    Some(load) if load.is_tabulated() => write!(f, " ({load}, beyond its rows)")?,
-                    Some(load) => write!(f, " ({load}, outside its domain)")?,
-                    None => {}
-                }
-                write!(f, ": {place}")
-            }
-            Why::NoValueLoose(load) => write!(f, "a load has no finite value ({load}): {place}"),
-            Why::NoInertia => write!(
-                f,
-                "the effective inertia vanishes: {place}; give the crank an inertia"
-            ),
-            Why::NearlyNoInertia => write!(
-                f,
-                "the effective inertia nearly vanishes and the speed grows without bound: {place}; give the crank an inertia, or use method energy if the loads depend on the position alone"
-            ),
-            Why::NoInertiaOnCurve => write!(
-                f,
-                "the effective inertia vanishes at this limit of its motion or dead centre, where the speed has no bound: {place}; give the rod or the slider a mass, or the crank an inertia"
-            ),
-            Why::TooLarge => write!(
-                f,
-                "a load or the crank speed is too large to be computed with: {place}"
-            ),
-            Why::Singular => write!(
-                f,
-                "the equation is singular or too stiff for this method: {place}"
-            ),
-            Why::SingularOnCurve => write!(
-                f,
-                "the equation is singular here or too stiff for this method: {place}"
-            ),
-            Why::Jam {
-                solutions,
-                mu,
-                kappa,
-            } => {
-                let what = match solutions {
-                    Jam::NoSolution => "no acceleration satisfies",
-                    Jam::TwoSolutions => "more than one acceleration satisfies",
-                };
-                write!(
-                    f,
-                    "the slider jams in its guide: {what} the equations of rigid bodies, as the coefficient of friction {mu} times |dN/dF| = {kappa} is 1 or more: {place}"
-                )
-            }
-            Why::JamLoose => write!(
-                f,
-                "the slider jams: rigid bodies with this coefficient of friction have no acceleration, or two; {place}"
-            ),
-            Why::ContactTooStiff => write!(
-                f,
-                "the contact is too stiff for steps in double precision: {place}"
-            ),
-            Why::Untold => write!(
-                f,
-                "the run ended before its goal: {place}; no engine gave a reason, which is a defect of this program"
-            ),
-        }
+        let why = &self.why;
+        write!(
+            f,
+            "{why}: stopped at t = {t} s, theta = {theta} rad, omega = {speed} rad/s"
+        )?;
+        why.cure().map_or(Ok(()), |cure| write!(f, "; {cure}"))
     }
 }
 
@@ -267,21 +210,6 @@ impl Serialize for Stopped {
     }
 }
 
-/// Why a motion over the crank angle does not go on.
-pub(super) fn not_applicable(unserved: NotApplicable) -> &'static str {
-    match unserved {
-        NotApplicable::Equilibrium => "it starts at rest without a force",
-        NotApplicable::NotFinite => "a load has no finite value on the way",
-        NotApplicable::NotSmooth => "a load is not smooth",
-        NotApplicable::TooSlow => "the crank comes too near to rest",
-        NotApplicable::WorkLimit => "it takes more evaluations than the work limit allows",
-        NotApplicable::TooManyTurns => "it takes more turns than the work limit allows",
-        NotApplicable::TooLong => {
-            "its turns differ from each other, and they are too many to be kept"
-        }
-    }
-}
-
 /// A number of turns in words.
 struct Turns(f64);
 
@@ -290,4 +218,79 @@ impl fmt::Display for Turns {
         let unit = if self.0 == 1.0 { "turn" } else { "turns" };
         write!(f, "{} {unit}", self.0)
     }
+}
+
+fn held(by: Option<&Torques>) -> String {
+    by.map_or_else(String::new, |torques| {
+        format!(", where friction holds {torques},")
+    })
+}
+
+fn outside(load: Option<&Load>) -> String {
+    load.map_or_else(String::new, |load| {
+        let of = match load.is_tabulated() {
+            true => "beyond its rows",
+            false => "outside its domain",
+        };
+        format!(" ({load}, {of})")
+    })
+}
+
+/// Torques that balance, N m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Torques {
+    /// Whether a motor is what drives.
+    by_motor: bool,
+    drive: f64,
+    load: f64,
+}
+
+impl fmt::Display for Torques {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Torques {
+            by_motor,
+            drive,
+            load,
+        } = self;
+        let what = if *by_motor { "motor" } else { "crank" };
+        write!(f, "{what} torque {drive} N m, load {load} N m")
+    }
+}
+
+/// What drives the crank at rest at an angle (rad), and what it is to move: forces on the slider and weight.
+pub(super) fn torques(task: &RunSetup<'_>, theta: f64) -> Torques {
+    let equation = task.equation();
+    let drive = equation.load(0.0, theta, 0.0).torque;
+    let is_motor = |load: &Load| matches!(load, Load::Motor { .. });
+    Torques {
+        by_motor: task.scene.torques.iter().any(is_motor),
+        drive,
+        load: -equation.driving_torque(0.0, theta, 0.0, 0.0) - drive,
+    }
+}
+
+/// Why a run was stopped at a state in which the crank had stalled: next to a balance, to which loads of the state alone bring
+/// it back, and out of which its energy does not lift it. None if it had not.
+pub(super) fn stalled(task: &RunSetup<'_>, last: &Final) -> Option<Why> {
+    let (equation, reduced) = (task.equation(), task.scene.reduced());
+    let loads = equation.loads();
+    let rests = reduced.friction.is_some() || loads.are_dry();
+    let timed = loads.reads().has(Variable::T);
+    if rests || timed || reduced.clearance.is_some() || !task.turns_fully() {
+        return None;
+    }
+    let net = |theta: f64| -equation.driving_torque(0.0, theta, 0.0, 0.0);
+    let theta = last.theta_rad;
+    let width = OF_ITS_WAY * (theta - task.start().radians()).abs();
+    let (below, above) = (theta - width, theta + width);
+    let (up, down) = (net(below), net(above));
+    let rest = Angle::from(theta).reduced().rest;
+    let kinetic = equation.kinetic_energy(rest, last.omega_rad_per_s);
+    let held = up > 0.0 && down < 0.0 && kinetic < 0.25 * width * up.min(-down);
+    let theta = held.then(|| root::bracketed(net, below, above))??;
+    Some(Why::Stalled {
+        theta,
+        torques: torques(task, theta),
+        turns: task.extent.angle().map(|angle| angle / TAU),
+    })
 }

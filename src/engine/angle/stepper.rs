@@ -134,12 +134,6 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
         self.evaluations + self.driven.positions() - self.positions
     }
 
-    /// Least kinetic energy at the points of the last panel, J.
-    pub fn least(&self) -> f64 {
-        let points = &self.swept.kinetic[..=self.swept.slope.degree()];
-        points.iter().copied().fold(f64::INFINITY, f64::min)
-    }
-
     /// Least and largest speed at the points of the last panel, rad/s.
     pub fn speeds(&self) -> Interval {
         let count = self.swept.slope.degree() + 1;

@@ -24,7 +24,7 @@ use super::schedule::Schedule;
 use super::simulation::Simulation;
 use super::stop::Why;
 use crate::engine::contact::{self, Ended, Finish, Settings, Stretch};
-use crate::engine::time::FAR;
+use crate::engine::time::{FAR, Start};
 use crate::error::Error;
 use crate::mechanism::{LooseMechanism, LooseState};
 use crate::numeric::angle::Angle;
@@ -196,7 +196,14 @@ impl<'a, const N: usize> Run<'a, N> {
             (Finish::StepTooSmall, _) if self.mechanism.jams(last) => Some(Why::JamLoose),
             (Finish::WorkLimit, _) => Some(self.task.limited()),
             (Finish::StepTooSmall, _) => Some(match self.without_value(last) {
-                Some(load) => Why::NoValueLoose(load.clone()),
+                Some(load) => Why::NoValue {
+                    asked: Start {
+                        t: last.t,
+                        angle: self.angle(last),
+                        speed: last.omega,
+                    },
+                    load: Some(load.clone()),
+                },
                 None => Why::ContactTooStiff,
             }),
         }

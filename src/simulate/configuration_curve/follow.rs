@@ -3,11 +3,11 @@
 use std::cell::Cell;
 
 use super::super::stop::Why;
-use super::piece::{End, Follow, Observer, Piece, crank_state};
 use super::stick_slip::{
     CLEAR, CRANK, DEAD_CENTRE, InPhase, LIMIT, NORMAL, Phase, Quantities, SPEED, Signs, TURNED,
     sliding,
 };
+use super::{End, Follow, Observer, Piece, crank_state};
 use crate::engine::event_functions;
 use crate::engine::event_functions::{Change, EventFunction};
 use crate::engine::step::{Node, Step};

@@ -2,7 +2,6 @@
 
 mod coordinate;
 mod follow;
-mod piece;
 mod release;
 mod rest;
 mod roundoff;
@@ -11,15 +10,15 @@ mod stick_slip;
 use std::sync::Arc;
 
 pub(super) use coordinate::AlongCurve;
-pub(super) use piece::{End, Follow, Observer, Piece, crank_state};
 pub(super) use roundoff::Noise;
 pub(super) use stick_slip::Phase;
 
 use super::outcome::Balance;
 use super::run_setup::RunSetup;
+use super::stop::Why;
 use super::warning::Warning;
 use crate::engine::step::Step;
-use crate::engine::time::Start;
+use crate::engine::time::{Finish, Settings, Start};
 use crate::mechanism::{Class, Curve, CurveEquation, Equation};
 use crate::numeric::angle::Angle;
 
@@ -87,5 +86,64 @@ impl OnCurve {
         let peak = equation.kinetic_energy(on.curve().crank_angle(angle).rest, fastest);
         let peak = if peak.is_finite() { peak } else { 0.0 };
         Balance::new(gained - work, &[kinetic[0], kinetic[1], rise, work, peak])
+    }
+}
+
+/// Takes what is computed in time.
+pub(super) trait Observer {
+    /// A part of the motion in a phase of the curve, or in none where the crank angle is the coordinate of a smooth motion;
+    /// true ends the run.
+    fn step(&mut self, step: &Step, phase: Option<Phase>) -> bool;
+
+    /// Something that happened on the curve.
+    fn event(&mut self, _kind: &'static str, _t: f64, _angle: Angle, _speed: f64) {}
+}
+
+/// What is followed, and how far.
+pub(super) struct Follow<'a> {
+    pub equation: &'a CurveEquation,
+    pub settings: Settings<'a>,
+    /// Of the coordinate.
+    pub start: Start,
+    /// How far the crank may turn from `turned_from`, rad.
+    pub turn_limit: Option<f64>,
+    /// Crank angle.
+    pub turned_from: Angle,
+}
+
+/// How a run in time ended.
+#[derive(Clone, Debug)]
+pub(super) enum End {
+    /// At its time, or after its turns, or another piece follows.
+    Done,
+    /// At rest for good before its turns are complete.
+    AtRest,
+    /// The observer ended it.
+    Stopped,
+    /// The integrator could not go on, or the work limit is reached.
+    Integrator(Finish),
+    /// For a reason that is known at once.
+    Named(Box<Why>),
+}
+
+/// A piece of motion in time.
+pub(super) struct Piece {
+    /// Last step.
+    pub last: Step,
+    /// Work of all that has no potential, J.
+    pub work: f64,
+    pub steps: u64,
+    pub evaluations: u64,
+    pub end: End,
+    /// Time, crank angle and speed of the last evaluation without a finite result.
+    pub impossible: Option<Start>,
+}
+
+/// Time, crank angle and speed (rad/s) at a state of the coordinate.
+pub(super) fn crank_state(curve: &Curve, at: Start) -> Start {
+    Start {
+        t: at.t,
+        angle: curve.crank_angle(at.angle),
+        speed: curve.place(at.angle.rest).dtheta * at.speed,
     }
 }

@@ -2,8 +2,8 @@
 
 use super::super::guide_friction::BESIDE;
 use super::super::stop::Why;
+use super::End;
 use super::follow::Run;
-use super::piece::End;
 use super::release::{self, Release};
 use super::stick_slip::{CRANK, DEAD_CENTRE, NORMAL, Phase, SPEED, Signs, against, signs};
 use crate::engine::Motion;

@@ -20,6 +20,7 @@ use std::time::Instant;
 use arrived::{Arrived, Driven};
 use engine_loop::Course;
 use notes::Notes;
+pub(super) use stop_reason::unserved;
 
 use super::angle_model::AngleModel;
 use super::configuration_curve::{self, End};

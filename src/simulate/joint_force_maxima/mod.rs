@@ -3,14 +3,13 @@
 //! The dense motion is looked at in rows that are close enough to show what geometry, loads and motion make, then by
 //! Brent's method beside those at which a force may be largest.
 
-mod rows;
 mod search;
 mod way;
 
 use serde::Serialize;
 
 use crate::mechanism::Reactions;
-pub(super) use search::{MOST_ROWS, search};
+pub(super) use search::{MOST_ROWS, refined, search};
 
 /// Number of forces that are looked at.
 pub(super) const FORCES: usize = 5;

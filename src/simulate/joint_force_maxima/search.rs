@@ -1,7 +1,6 @@
 //! The search for the largest forces of a finished run along its dense motion.
 
 use super::super::simulation::Simulation;
-use super::rows::{Rows, Top};
 use super::way::Way;
 use super::{FORCES, Peak, Peaks};
 use crate::numeric::maximum;
@@ -9,7 +8,7 @@ use crate::scene::Scene;
 
 /// Most rows of a search, and most steps that are kept for it.
 pub(in crate::simulate) const MOST_ROWS: usize = 400_000;
-/// Rows are close enough where half of them differ by this part in the largest values.
+/// Rows are close enough where every second of them shows the largest values to this part.
 const PART: f64 = 0.02;
 /// Most tops of a force that are looked at closely.
 const MOST_TOPS: usize = 8;
@@ -25,30 +24,25 @@ pub(in crate::simulate) fn search(scene: &Scene, run: &Simulation) -> Option<Pea
         if !sizes.as_flattened().iter().all(|size| size.is_finite()) {
             return None;
         }
-        let rows = Rows {
-            places: &way.places,
-            sizes: &sizes,
-        };
-        let is_resolved = |k| {
-            let [all, half] = [1, 2].map(|stride| rows.highest(k, stride));
-            (all - half).abs() <= PART * all
+        let is_resolved = |k: usize| {
+            let [all, half] = [1, 2].map(|stride| largest(&sizes, k, stride));
+            all - half <= PART * all
         };
         if (0..FORCES).all(is_resolved) {
-            return Some(Peaks::new(std::array::from_fn(|k| {
-                // A force is no larger than the parabola's top by more than that is above its row.
-                let surely = rows.tops(k, 1).map(|top| top.row()).fold(0.0, f64::max);
-                let may = |top: &Top| 2.0 * top.value - top.row() >= surely;
-                let mut tops: Vec<_> = rows.tops(k, 1).filter(may).collect();
-                tops.sort_by(|a, b| b.value.total_cmp(&a.value));
-                tops.truncate(MOST_TOPS);
-                peak(&way, run, k, &tops)
-            })));
+            let peak = |k| peak(&way, run, k, &sizes);
+            return Some(Peaks::new(std::array::from_fn(peak)));
         }
         if 2 * way.places.len() > MOST_ROWS {
             return None;
         }
         way.places = halved(&way.places);
     }
+}
+
+/// The largest size of a force on every `stride`-th row.
+fn largest(sizes: &[[f64; FORCES]], force: usize, stride: usize) -> f64 {
+    let rows = sizes.iter().step_by(stride);
+    rows.fold(0.0, |largest, row| largest.max(row[force]))
 }
 
 /// Places with one more between each two.
@@ -58,24 +52,29 @@ fn halved(places: &[f64]) -> Vec<f64> {
     between.chain(places.last().copied()).collect()
 }
 
-/// A force where it is largest beside some tops.
-fn peak(way: &Way, run: &Simulation, k: usize, tops: &[Top]) -> Peak {
+/// A force where it is largest: beside the rows that are no smaller than their neighbours, nor than the largest by more than
+/// rows may miss.
+fn peak(way: &Way, run: &Simulation, k: usize, sizes: &[[f64; FORCES]]) -> Peak {
     let size = |at: f64| (way.sizes)(at).map_or(f64::NEG_INFINITY, |sizes| sizes[k]);
-    let mut best = ((0.0, f64::NEG_INFINITY), 0.0);
-    for top in tops {
-        let [(from, _), here, (to, _)] = top.beside;
-        let between = match from < here.0 && here.0 < to {
-            true => maximum::between(size, top.beside),
-            false => maximum::largest(size, from, to),
-        };
-        for found in [here, between] {
-            if found.1 > best.0.1 {
-                best = (found, to - from);
-            }
-        }
-    }
-    let ((at, value), width) = best;
-    let (first, last) = (way.places[0], way.places[way.places.len() - 1]);
+    let last = sizes.len() - 1;
+    let beside = |row: usize| [row.saturating_sub(1), row, (row + 1).min(last)];
+    let least = (1.0 - 2.0 * PART) * largest(sizes, k, 1);
+    let is_top = |row: &usize| {
+        let [before, here, after] = beside(*row).map(|row| sizes[row][k]);
+        here >= least.max(before).max(after)
+    };
+    let mut tops: Vec<usize> = (0..=last).filter(is_top).collect();
+    tops.sort_by(|a, b| sizes[*b][k].total_cmp(&sizes[*a][k]));
+    tops.truncate(MOST_TOPS);
+    let ((at, value), width) = tops
+        .into_iter()
+        .map(|row| {
+            let known = beside(row).map(|row| (way.places[row], sizes[row][k]));
+            (refined(size, known), known[2].0 - known[0].0)
+        })
+        .reduce(|best, found| if found.0.1 > best.0.1 { found } else { best })
+        .unwrap_or_default();
+    let (first, last) = (way.places[0], way.places[last]);
     let beside = [-LEFT, LEFT].map(|left| size((at + left * width).clamp(first, last)));
     let t = (way.time)(at).clamp(0.0, run.summary.last.t_s);
     Peak {
@@ -84,4 +83,18 @@ fn peak(way: &Way, run: &Simulation, k: usize, tops: &[Top]) -> Peak {
         theta_rad: run.at(t).map_or(0.0, |(theta, _)| theta),
         added_n: (beside[0].max(beside[1]) - value).max(0.0),
     }
+}
+
+/// Where a function is largest beside a place, and its value there: `known` at the place and its neighbours, of which the place
+/// itself may be one.
+pub(in crate::simulate) fn refined(
+    f: impl FnMut(f64) -> f64,
+    known: [(f64, f64); 3],
+) -> (f64, f64) {
+    let [(from, _), here, (to, _)] = known;
+    let between = match from < here.0 && here.0 < to {
+        true => maximum::between(f, known),
+        false => maximum::largest(f, from, to),
+    };
+    if between.1 > here.1 { between } else { here }
 }

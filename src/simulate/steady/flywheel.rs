@@ -1,8 +1,7 @@
 //! The flywheel for a wanted coefficient of fluctuation.
 
-use super::describe;
-use super::periodic_orbit::{Found, Seeker};
-use super::refusal::Refusal;
+use super::Both;
+use super::periodic_orbit::Seeker;
 use super::result::{Estimated, Flywheel};
 use crate::engine::WorkLimit;
 use crate::error::Error;
@@ -10,36 +9,41 @@ use crate::mechanism::Equation;
 use crate::numeric::root;
 use crate::scene::{Crank, Scene};
 
-/// Steps into which the inertia that could be taken away is divided.
-const STEPS: u32 = 16;
 /// Largest inertia that is tried, in units of that of the mechanism.
 const LARGEST_INERTIA: f64 = 1e12;
 /// Halvings towards an inertia with which the crank stops.
 const HALVINGS: u32 = 40;
 
-/// Finds the flywheel with which the steady state has the `wanted` coefficient of fluctuation: the nearest on the way
-/// up from the crank's own inertia, or down.
+/// Finds the flywheel with which the steady state, of this speed (rad/s) at its start, has the `wanted` coefficient of
+/// fluctuation: more inertia than the crank's own if its own coefficient is larger, else less.
 pub(super) fn size(
     scene: &Scene,
-    found: &Found,
+    speed: f64,
     present: &Estimated,
     wanted: f64,
     limit: WorkLimit<'_>,
 ) -> Result<Flywheel, Error> {
     if !(wanted > 0.0 && wanted < 2.0) {
-        return Err(Refusal::NoCoefficient(wanted).into());
+        return Err(Error::refused(
+            format!("a coefficient of fluctuation of {wanted} is asked for"),
+            "give a number between 0 and 2, like 0.02",
+        ));
+    }
+    if present.value <= present.error {
+        return Err(Error::refused(
+            format!(
+                "no flywheel gives a coefficient of fluctuation of {wanted}: the speed is constant without one"
+            ),
+            "a flywheel is for a speed that varies",
+        ));
     }
     let excess = |added: f64| -> Result<f64, Error> {
-        let found = Seeker::new(&with(scene, added), found.speed, limit).find()?;
+        let found = Seeker::new(&with(scene, added), speed, limit).find()?;
         Ok((found.fluctuation() / wanted).ln())
     };
-    if present.value <= present.error {
-        return Err(Refusal::ConstantSpeed(wanted).into());
-    }
-    let (low, high) = if present.value > wanted {
-        heavier(scene, &excess)?
-    } else {
-        lighter(scene, wanted, &excess)?
+    let (low, high) = match present.value > wanted {
+        true => heavier(scene, &excess)?,
+        false => lighter(scene, wanted, &excess)?,
     };
     let mut failed = None;
     let added = root::bracketed(
@@ -53,17 +57,22 @@ pub(super) fn size(
         high,
     );
     let Some(added) = added else {
-        return Err(failed.unwrap_or_else(|| Refusal::NotFound(wanted).into()));
+        return Err(failed.unwrap_or_else(|| {
+            Error::refused(
+                format!("no flywheel was found for a coefficient of fluctuation of {wanted}"),
+                "ask for another coefficient",
+            )
+        }));
     };
     let scene = with(scene, added);
     scene.check()?;
-    let found = Seeker::new(&scene, found.speed, limit).find()?;
-    let check = Seeker::new(&scene, found.speed, limit).again()?;
-    let steady = describe(&scene, &found, &check);
+    let found = Seeker::new(&scene, speed, limit).find()?;
+    let both = Both::with_check(&scene, found, limit)?;
+    let fluctuation = both.fluctuation();
     let crank = scene.crank.map_or(0.0, |crank| crank.inertia);
     let step = 1e-4 * Equation::new(&scene).terms(scene.motion.angle).inertia.m;
     let slope = (excess(added + step)? - excess(added)?) / step;
-    let off = (steady.fluctuation.value - wanted).abs() + steady.fluctuation.error;
+    let off = (fluctuation.value - wanted).abs() + fluctuation.error;
     Ok(Flywheel {
         wanted_fluctuation: wanted,
         added_inertia_kg_m2: Estimated {
@@ -71,8 +80,8 @@ pub(super) fn size(
             error: off / (wanted * slope.abs()) + 2.0 * f64::EPSILON * crank,
         },
         crank_inertia_kg_m2: crank,
-        fluctuation: steady.fluctuation,
-        omega_mean_rad_per_s: steady.omega_mean_rad_per_s,
+        fluctuation,
+        omega_mean_rad_per_s: both.mean_speed(),
     })
 }
 
@@ -88,31 +97,40 @@ fn heavier(scene: &Scene, excess: &Excess<'_>) -> Result<(f64, f64), Error> {
         }
         (low, high) = (high, 2.0 * high);
     }
-    Err(Refusal::TooHeavy(high).into())
+    Err(Error::refused(
+        format!("no flywheel up to {high:.1e} kg m2 makes the coefficient of fluctuation so small"),
+        "ask for a larger coefficient",
+    ))
 }
 
-/// Inertias between which it rises to the wanted one, as far as inertia can be taken away.
+/// Inertias between which the fluctuation rises to the wanted one: from all taken away that can be, or where the crank then
+/// stops, from as much as it takes to go on.
 fn lighter(scene: &Scene, wanted: f64, excess: &Excess<'_>) -> Result<(f64, f64), Error> {
     let crank = scene.crank.unwrap_or_default();
     let most = crank.inertia - crank.mass * (crank.cg.powi(2) + crank.cg_lateral.powi(2));
-    let mut kept = 0.0;
+    let (mut kept, mut stops, mut tried) = (0.0, -most, -most);
     let mut largest = excess(0.0)?;
-    for i in 1..=STEPS {
-        let mut tried = -most * f64::from(i) / f64::from(STEPS);
-        for _ in 0..HALVINGS {
-            match excess(tried) {
-                Ok(excess) if excess >= 0.0 => return Ok((tried, kept)),
-                Ok(excess) => {
-                    largest = largest.max(excess);
-                    kept = tried;
+    for _ in 0..HALVINGS {
+        match excess(tried) {
+            Ok(excess) if excess >= 0.0 => return Ok((tried, kept)),
+            Ok(excess) => {
+                largest = largest.max(excess);
+                if tried == -most {
                     break;
                 }
-                Err(_) => tried = 0.5 * (tried + kept),
+                kept = tried;
             }
+            Err(_) => stops = tried,
         }
+        tried = 0.5 * (kept + stops);
     }
-    let largest = wanted * largest.exp();
-    Err(Refusal::TooLight { wanted, largest }.into())
+    Err(Error::refused(
+        format!(
+            "a coefficient of fluctuation of {wanted} needs a crank of less inertia than its mass has, or less than none; the largest that was reached is {:.6}",
+            wanted * largest.exp()
+        ),
+        "ask for a smaller coefficient",
+    ))
 }
 
 /// The scene with more inertia of the crank, kg m².

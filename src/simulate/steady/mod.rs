@@ -1,23 +1,28 @@
-//! The periodic steady state: its speeds, its work, and the flywheel for a wanted coefficient of fluctuation.
+//! The periodic steady state: the fixed point of the map of a cycle (Poincare), its speeds, its work, and the flywheel for a
+//! wanted coefficient of fluctuation.
 
+mod cycles;
 mod flywheel;
 mod loads;
-mod orders;
 mod periodic_orbit;
-mod refusal;
 mod result;
-mod round;
-mod timed;
+
+use std::f64::consts::TAU;
 
 use super::error_estimate::MARGIN;
 use crate::engine::WorkLimit;
 use crate::error::Error;
+use crate::mechanism::{Class, Limits, Linkage};
 use crate::numeric::stop::Stop;
-use crate::scene::Scene;
-pub use orders::SpeedOrder;
+use crate::plan::Cycle;
+use crate::scene::{MotionKind, Scene};
 use periodic_orbit::{Found, Seeker};
-use refusal::Refusal;
-pub use result::{Estimated, Flywheel, LoadWork, SpeedExtreme, SteadyState};
+pub use result::{Estimated, Flywheel, LoadWork, SpeedExtreme, SpeedOrder, SteadyState};
+
+/// Highest order of the speed that is shown, per turn.
+const HIGHEST_ORDER: f64 = 12.0;
+/// Samples of a turn: the rectangle rule is exact for orders up to this less the highest.
+const SAMPLES: f64 = 1024.0;
 
 /// What is asked for.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,15 +41,6 @@ impl Default for SteadyOptions {
             fluctuation: None,
             max_evaluations: super::Options::default().max_evaluations,
             stop: None,
-        }
-    }
-}
-
-impl SteadyOptions {
-    fn limit(&self) -> WorkLimit<'_> {
-        WorkLimit {
-            evaluations: self.max_evaluations,
-            stop: self.stop.as_ref(),
         }
     }
 }
@@ -80,37 +76,67 @@ pub fn steady_state(scene: &Scene, options: &SteadyOptions) -> Result<SteadyStat
 }
 
 fn search(scene: &Scene, options: &SteadyOptions) -> Result<SteadyState, Error> {
-    refusal::refuse_what_has_none(scene)?;
+    refuse_what_has_none(scene)?;
     let rests = scene.motion.speed == 0.0;
-    let limit = options.limit();
+    let limit = WorkLimit {
+        evaluations: options.max_evaluations,
+        stop: options.stop.as_ref(),
+    };
     let found = first(scene, rests, limit)?;
-    let check = Seeker::new(scene, found.speed, limit).again()?;
-    let starts = (!rests).then_some(found.approached);
-    let mut notes = Vec::new();
-    if rests {
-        notes
-            .push("the scene starts at rest, so its loads decide the sense of rotation".to_owned());
-    }
-    if starts == Some(false) {
-        notes.push(
-            "the motion from the scene's start stops; this is the next faster periodic one"
-                .to_owned(),
-        );
-    }
-    if found.any_speed {
-        notes.push(
-            "no load depends on the speed: every speed at which the crank turns fully is periodic, and the scene's start says which"
-                .to_owned(),
-        );
-    }
-    let mut steady = describe(scene, &found, &check);
-    steady.approached_from_start = starts;
+    let (any_speed, approached) = (found.any_speed, found.approached);
+    let speed = found.cycle.speed;
+    let mut steady = Both::with_check(scene, found, limit)?.described(scene);
+    steady.approached_from_start = (!rests).then_some(approached);
     steady.flywheel = options
         .fluctuation
-        .map(|wanted| flywheel::size(scene, &found, &steady.fluctuation, wanted, limit))
+        .map(|wanted| flywheel::size(scene, speed, &steady.fluctuation, wanted, limit))
         .transpose()?;
-    steady.notes = notes;
+    let notes = [
+        (
+            rests,
+            "the scene starts at rest, so its loads decide the sense of rotation",
+        ),
+        (
+            !rests && !approached,
+            "the motion from the scene's start stops; this is the next faster periodic one",
+        ),
+        (
+            any_speed,
+            "no load depends on the speed: every speed at which the crank turns fully is periodic, and the scene's start says which",
+        ),
+    ];
+    let notes = notes.into_iter().filter(|(holds, _)| *holds);
+    steady.notes = notes.map(|(_, note)| note.to_owned()).collect();
     Ok(steady)
+}
+
+fn refuse_what_has_none(scene: &Scene) -> Result<(), Error> {
+    scene.check()?;
+    let class = Limits::new(&Linkage::new(&scene.geometry), 0.0).class;
+    let (what, help) = if scene.motion.kind == MotionKind::ConstantSpeed {
+        (
+            "a steady state is sought, but the scene prescribes the crank's speed".to_owned(),
+            "use motion kind = \"free\"; the prescribed motion is steady already",
+        )
+    } else if let Some(why) = Cycle::of(scene).why_not {
+        (
+            format!("a steady state is sought, but no cycle is like the next: {why}"),
+            "use loads of theta that repeat, and loads of omega, x and v",
+        )
+    } else if scene.reduced().clearance.is_some() {
+        (
+            "a steady state cannot be found directly with clearance in a joint".to_owned(),
+            "take [clearance] out of the scene, or simulate until the motion repeats",
+        )
+    } else if class != Class::RotatingCrank {
+        (
+            format!("a steady state needs a crank that turns fully; these lengths make a {class}"),
+            "the crank turns fully if the rod is longer than crank and offset together",
+        )
+    } else {
+        return Ok(());
+    };
+    Err(Error::refused(what, help))
 }
 
 /// The steady state in the sense of the start speed; both senses are tried for a start at rest.
@@ -120,53 +146,149 @@ fn first(scene: &Scene, rests: bool, limit: WorkLimit<'_>) -> Result<Found, Erro
     }
     // Any speed serves to begin with.
     match [1.0, -1.0].map(|speed| Seeker::new(scene, speed, limit).find()) {
-        [Ok(found), _] | [_, Ok(found)] if found.any_speed => Err(Refusal::AnySpeed.into()),
-        [Ok(_), Ok(_)] => Err(Refusal::EitherSense.into()),
+        [Ok(found), _] | [_, Ok(found)] if found.any_speed => Err(Error::refused(
+            "the start is at rest, and no load depends on the speed: every speed is periodic",
+            "give a start speed: motion.speed",
+        )),
+        [Ok(_), Ok(_)] => Err(Error::refused(
+            "the start is at rest, and the crank has a steady state in either sense of rotation",
+            "give motion.speed the sign of the rotation that is meant",
+        )),
         [Ok(found), Err(_)] | [Err(_), Ok(found)] => Ok(found),
         [Err(error), Err(_)] => Err(error),
     }
 }
 
-/// The numbers, with errors from another computation of the same motion.
-fn describe(scene: &Scene, found: &Found, check: &Found) -> SteadyState {
-    let of = |value: &dyn Fn(&Found) -> f64, floor: f64| Estimated {
-        value: value(found),
-        error: MARGIN * (value(found) - value(check)).abs() + floor,
-    };
-    // What is left open of an energy moves the speed by half as much, relative to them.
-    let relative = 0.5 * found.uncertain + periodic_orbit::SPEED_ROUNDING;
-    let fluctuation = of(&|f| f.fluctuation(), relative * (2.0 + found.fluctuation()));
-    let speed = |value: &dyn Fn(&Found) -> f64| of(value, relative * value(found).abs());
-    let varies = found.fluctuation() > 4.0 * fluctuation.error;
-    let extreme = |which: usize| SpeedExtreme {
-        omega_rad_per_s: speed(&|f| f.extremes[which].omega),
-        theta_rad: varies.then(|| periodic_orbit::place(found, check, which, relative)),
-    };
-    let loads = loads::works(scene, found, check, relative);
-    let (power_in_w, power_out_w) = loads::powers(&loads);
-    let multiplier = Estimated {
-        value: found.multiplier,
-        error: MARGIN * (found.multiplier - check.multiplier).abs()
-            + found.multiplier_error.max(check.multiplier_error),
-    };
-    SteadyState {
-        scene: scene.title.clone().unwrap_or_default(),
-        theta_rad: scene.motion.angle,
-        omega_rad_per_s: speed(&|f| f.speed),
-        cycle_turns: found.turns as u32,
-        period_s: of(&|f| f.period, relative * found.period),
-        omega_mean_rad_per_s: speed(&|f| f.speed.signum() * f.way() / f.period),
-        slowest: extreme(0),
-        fastest: extreme(1),
-        fluctuation,
-        stable: multiplier.value + multiplier.error < 1.0,
-        multiplier,
-        approached_from_start: None,
-        speed_orders: orders::orders(found, check, relative),
-        power_in_w,
-        power_out_w,
-        loads,
-        flywheel: None,
-        notes: Vec::new(),
+/// Two computations of one periodic motion: their difference is the error.
+struct Both {
+    found: Found,
+    check: Found,
+    /// What is left open of the speeds, relative to them: by half as much as of the energies.
+    relative: f64,
+}
+
+impl Both {
+    fn with_check(scene: &Scene, found: Found, limit: WorkLimit<'_>) -> Result<Both, Error> {
+        Ok(Both {
+            check: Seeker::new(scene, found.cycle.speed, limit).again()?,
+            relative: 0.5 * found.cycle.uncertain + periodic_orbit::SPEED_ROUNDING,
+            found,
+        })
     }
+
+    fn of(&self, value: impl Fn(&Found) -> f64, floor: f64) -> Estimated {
+        let found = value(&self.found);
+        Estimated {
+            value: found,
+            error: MARGIN * (found - value(&self.check)).abs() + floor,
+        }
+    }
+
+    /// A speed or time.
+    fn relative(&self, value: impl Fn(&Found) -> f64) -> Estimated {
+        let size = value(&self.found).abs();
+        self.of(value, self.relative * size)
+    }
+
+    fn mean_speed(&self) -> Estimated {
+        self.relative(|f| f.cycle.speed.signum() * f.way() / f.cycle.period)
+    }
+
+    fn fluctuation(&self) -> Estimated {
+        self.of(
+            Found::fluctuation,
+            self.relative * (2.0 + self.found.fluctuation()),
+        )
+    }
+
+    fn described(&self, scene: &Scene) -> SteadyState {
+        let Both { found, check, .. } = self;
+        let fluctuation = self.fluctuation();
+        let varies = found.fluctuation() > 4.0 * fluctuation.error;
+        let extreme = |which: usize| SpeedExtreme {
+            omega_rad_per_s: self.relative(|f| f.extremes[which].omega),
+            theta_rad: varies.then(|| self.place(which)),
+        };
+        let loads = loads::works(scene, self);
+        let power = |sign: f64| {
+            let none = Estimated::default();
+            loads.iter().fold(none, |sum, load| Estimated {
+                value: sum.value + (sign * load.power_w.value).max(0.0),
+                error: sum.error + load.power_w.error,
+            })
+        };
+        let multiplier = self.of(
+            |f| f.multiplier,
+            found.multiplier_error.max(check.multiplier_error),
+        );
+        SteadyState {
+            scene: scene.title.clone().unwrap_or_default(),
+            theta_rad: scene.motion.angle,
+            omega_rad_per_s: self.relative(|f| f.cycle.speed),
+            cycle_turns: found.turns as u32,
+            period_s: self.relative(|f| f.cycle.period),
+            omega_mean_rad_per_s: self.mean_speed(),
+            slowest: extreme(0),
+            fastest: extreme(1),
+            fluctuation,
+            stable: multiplier.value + multiplier.error < 1.0,
+            multiplier,
+            approached_from_start: None,
+            speed_orders: self.orders(),
+            power_in_w: power(1.0),
+            power_out_w: power(-1.0),
+            loads,
+            flywheel: None,
+            notes: Vec::new(),
+        }
+    }
+
+    /// The crank angle of an extreme of the speed: an error of the acceleration by a part `relative` of the speed moves it
+    /// the more, the less the speed varies.
+    fn place(&self, which: usize) -> Estimated {
+        let Both { found, check, .. } = self;
+        let [here, there] = [found, check].map(|f| f.extremes[which].turned);
+        let apart = (here - there).abs();
+        let apart = apart.min((found.way() - apart).abs());
+        let angle = found.start.plus(found.cycle.speed.signum() * here);
+        Estimated {
+            value: angle.radians().rem_euclid(found.way()),
+            error: MARGIN * apart + self.relative * TAU / found.fluctuation().clamp(1e-12, 1.0),
+        }
+    }
+
+    /// Amplitudes of the Fourier series of the speed over the crank angle of a cycle.
+    fn orders(&self) -> Vec<SpeedOrder> {
+        let turns = self.found.turns;
+        let count = (SAMPLES * turns) as u32;
+        let speeds = [&self.found, &self.check].map(|motion| {
+            let step = motion.way() / f64::from(count);
+            let speed = |k: u32| motion.omega(f64::from(k) * step);
+            (0..count).map(speed).collect::<Vec<f64>>()
+        });
+        let rounding = self.relative * self.found.cycle.speed.abs();
+        let order = |k: u32| {
+            let [value, other] = speeds.each_ref().map(|samples| amplitude(samples, k));
+            SpeedOrder {
+                order: f64::from(k) / turns,
+                amplitude_rad_per_s: Estimated {
+                    value,
+                    error: MARGIN * (value - other).abs() + rounding,
+                },
+            }
+        };
+        (1..=(HIGHEST_ORDER * turns) as u32).map(order).collect()
+    }
+}
+
+/// Amplitude of what repeats k times in the samples.
+fn amplitude(samples: &[f64], k: u32) -> f64 {
+    let count = samples.len() as f64;
+    let (mut even, mut odd) = (0.0, 0.0);
+    for (index, sample) in samples.iter().enumerate() {
+        let (sin, cos) = (TAU * f64::from(k) * index as f64 / count).sin_cos();
+        even += sample * cos;
+        odd += sample * sin;
+    }
+    2.0 * even.hypot(odd) / count
 }

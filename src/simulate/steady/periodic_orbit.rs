@@ -2,15 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use super::super::angle_model::AngleModel;
-use super::super::error_estimate::{LEAST_TAIL, MARGIN};
+use super::super::forward::unserved;
 use super::super::guide_friction::Sliding;
-use super::Estimated;
-use super::refusal::{Over, Refusal, not_turned, over};
-use super::round::{Motion, Round, Rounds};
-use super::timed::Timed;
+use super::cycles::{Cycle, Cycles};
 use crate::engine::WorkLimit;
-use crate::engine::angle::{self, FixedPoint, Resolution};
+use crate::engine::angle::{CycleMap, FixedPoint, NoCycle, fixed_point};
+use crate::engine::energy::NotApplicable;
 use crate::error::Error;
 use crate::mechanism::{Equation, Limits};
 use crate::numeric::angle::Angle;
@@ -18,7 +15,7 @@ use crate::numeric::root;
 use crate::plan::cycle_over_angle;
 use crate::scene::{Scene, Variable};
 
-/// Relative error of speeds and times by rounding.
+/// Relative error of speeds and times by cycleing.
 pub(super) const SPEED_ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// A turn that gains no more than this part of its largest energy gains nothing.
 const NO_GAIN: f64 = 1e-12;
@@ -38,32 +35,24 @@ pub(super) struct Extreme {
 /// A periodic motion.
 pub(super) struct Found {
     pub start: Angle,
-    motion: Motion,
-    /// Speed at the start, rad/s.
-    pub speed: f64,
+    pub cycle: Cycle,
     /// Turns after which it is the same again.
     pub turns: f64,
-    /// Their time, s.
-    pub period: f64,
     /// Least and largest speed.
     pub extremes: [Extreme; 2],
     /// Deviation from it after these turns, by that before.
     pub multiplier: f64,
     pub multiplier_error: f64,
-    /// What is left open of its energies, relative to them.
-    pub uncertain: f64,
     pub approached: bool,
     /// Whether every speed is periodic.
     pub any_speed: bool,
-    /// Largest kinetic energy, J.
-    pub largest: f64,
 }
 
 impl Found {
     /// Coefficient of fluctuation: the range of the speed, by its mean.
     pub fn fluctuation(&self) -> f64 {
         let [slow, fast] = self.extremes;
-        (fast.omega - slow.omega).abs() * self.period / self.way()
+        (fast.omega - slow.omega).abs() * self.cycle.period / self.way()
     }
 
     /// The crank's way in a period, rad.
@@ -73,7 +62,7 @@ impl Found {
 
     /// Speed where the crank has turned by this since the start, rad, rad/s.
     pub fn omega(&self, turned: f64) -> f64 {
-        self.motion.omega(turned)
+        self.cycle.omega(self.start, turned)
     }
 }
 
@@ -111,7 +100,7 @@ impl<'a> Seeker<'a> {
         self.search(FIRST_LOG_STEP, false)
     }
 
-    /// A second computation, cut at other angles, because equal panels would err alike.
+    /// A second computation, to compare with.
     pub fn again(&self) -> Result<Found, Error> {
         self.search(STEP_BESIDE, true)
     }
@@ -121,28 +110,13 @@ impl<'a> Seeker<'a> {
         let inertia = |theta: f64| self.equation.terms(theta).inertia.m;
         let vanishes = |theta: f64| inertia(theta) <= 1e-12 * inertia(theta + 1.0);
         if limits.dead_centres.iter().any(|dc| vanishes(dc.theta)) {
-            return Err(Refusal::Unbounded.into());
+            return Err(unbounded());
         }
-        if over(&self.scene) == Over::Time {
-            let mut timed = Timed::new(&self.scene, self.speed, self.cycle, other, self.limit);
-            let found = self.solve(&mut timed, step);
-            return match (found, timed.refused) {
-                (Err(_), Some(why)) => Err(why),
-                (found, _) => found,
-            };
+        let mut cycles = Cycles::new(&self.scene, self.speed, self.cycle, other, self.limit);
+        match (self.solve(&mut cycles, step), cycles.refused) {
+            (Err(_), Some(why)) => Err(why),
+            (found, _) => found,
         }
-        let position = AngleModel::new(&self.equation, &limits, self.start, self.speed)
-            .with_cycle(self.cycle)
-            .with_friction(self.sliding.as_ref());
-        let resolution = Resolution {
-            // What a turn leaves out adds up over all turns that are remembered.
-            tail: LEAST_TAIL,
-            other,
-            guide: None,
-            limit: self.limit,
-        };
-        let turns = angle::Turns::new(&position, self.start, self.speed, resolution);
-        self.solve(&mut turns.map_err(not_turned)?, step)
     }
 
     /// Whether nothing depends on the speed.
@@ -151,44 +125,46 @@ impl<'a> Seeker<'a> {
         !reads.has(Variable::Omega) && !reads.has(Variable::V) && self.sliding.is_none()
     }
 
-    fn solve(&self, rounds: &mut dyn Rounds, step: f64) -> Result<Found, Error> {
+    fn solve(&self, cycles: &mut Cycles, step: f64) -> Result<Found, Error> {
         if self.any_speed() {
-            let round = rounds.round(rounds.first()).map_err(not_turned)?;
-            if round.gain.abs() > NO_GAIN.max(rounds.noise()) * round.largest {
-                return Err(match round.gain > 0.0 {
-                    true => Refusal::AlwaysGains(round.gain).into(),
-                    false => Refusal::AlwaysLoses(-round.gain).into(),
-                });
+            let cycle = cycles.cycle(cycles.first()).map_err(not_turned)?;
+            if cycle.gain.abs() > NO_GAIN.max(cycles.noise()) * cycle.largest {
+                let (what, load) = match cycle.gain > 0.0 {
+                    true => ("gains", "brakes"),
+                    false => ("loses", "drives the crank"),
+                };
+                return Err(Error::refused(
+                    format!(
+                        "no steady state: no load depends on the speed, and every cycle {what} {:.6e} J",
+                        cycle.gain.abs()
+                    ),
+                    format!("add a load that {load} and depends on the speed"),
+                ));
             }
-            return self.found(round, None);
+            return self.found(cycle, None);
         }
-        let fixed = angle::fixed_point(rounds, step).map_err(Refusal::from)?;
-        let round = rounds.round(fixed.kinetic);
-        let round = round.map_err(Refusal::NotComputed)?;
-        self.found(round, Some((fixed, rounds.noise())))
+        let fixed = fixed_point(cycles, step).map_err(no_cycle)?;
+        let cycle = cycles.cycle(fixed.kinetic).map_err(not_computed)?;
+        self.found(cycle, Some((fixed, cycles.noise())))
     }
 
     /// From a cycle, which is a fixed point found within some noise of the gain, or begins with any speed.
-    fn found(&self, round: Round, fixed: Option<(FixedPoint, f64)>) -> Result<Found, Error> {
+    fn found(&self, cycle: Cycle, fixed: Option<(FixedPoint, f64)>) -> Result<Found, Error> {
         let mut found = Found {
             start: self.start,
-            motion: round.motion,
-            speed: round.speed,
             turns: f64::from(self.cycle),
-            period: round.period,
             extremes: [Extreme {
                 turned: 0.0,
-                omega: round.speed,
+                omega: cycle.speed,
             }; 2],
             multiplier: 1.0,
             multiplier_error: 0.0,
-            uncertain: round.uncertain,
             approached: true,
             any_speed: fixed.is_none(),
-            largest: round.largest,
+            cycle,
         };
         if let Some((fixed, noise)) = fixed {
-            found.uncertain /= fixed.slope.abs().max(noise);
+            found.cycle.uncertain /= fixed.slope.abs().max(noise);
             // Motions do not cross: what is below zero is rounding.
             found.multiplier = (1.0 + fixed.slope).max(0.0);
             found.multiplier_error = fixed.slope_error;
@@ -199,11 +175,7 @@ impl<'a> Seeker<'a> {
             .extremes
             .iter()
             .all(|extreme| extreme.omega.is_finite());
-        if known {
-            Ok(found)
-        } else {
-            Err(Refusal::Unbounded.into())
-        }
+        if known { Ok(found) } else { Err(unbounded()) }
     }
 
     /// θ̈, rad/s².
@@ -217,7 +189,7 @@ impl<'a> Seeker<'a> {
 
     /// The largest sign·|speed|: of the angles of a fine grid, then where the acceleration vanishes beside it.
     fn extreme(&self, found: &Found, sign: f64) -> Extreme {
-        let (sense, whole) = (found.speed.signum(), found.way());
+        let (sense, whole) = (found.cycle.speed.signum(), found.way());
         let grid = self.equation.linkage().turn_grid(1f64.to_radians());
         let since = |theta: &f64| (sense * (theta - self.start.rest)).rem_euclid(TAU);
         let again = |turn: u32| {
@@ -258,15 +230,41 @@ impl<'a> Seeker<'a> {
     }
 }
 
-/// The crank angle of an extreme, with its error: that of the acceleration by a part `relative` of the speed moves it
-/// the more, the less the speed varies.
-pub(super) fn place(found: &Found, check: &Found, which: usize, relative: f64) -> Estimated {
-    let [here, there] = [found, check].map(|f| f.extremes[which].turned);
-    let apart = (here - there).abs();
-    let apart = apart.min((found.way() - apart).abs());
-    let angle = found.start.plus(found.speed.signum() * here);
-    Estimated {
-        value: angle.radians().rem_euclid(found.way()),
-        error: MARGIN * apart + relative * TAU / found.fluctuation().clamp(1e-12, 1.0),
+fn unbounded() -> Error {
+    Error::refused(
+        "the effective inertia vanishes at the dead centres, where the crank speed has no bound: there is no speed fluctuation",
+        "give the crank an inertia",
+    )
+}
+
+fn not_computed(why: NotApplicable) -> Error {
+    Error::refused(
+        format!("the steady state cannot be computed: {}", unserved(why)),
+        "look at the loads; or simulate until the motion repeats",
+    )
+}
+
+fn no_cycle(why: NoCycle) -> Error {
+    match why {
+        NoCycle::Gains => Error::refused(
+            "no steady state: at every speed a cycle gains energy",
+            "add a load that brakes the more the faster the crank turns",
+        ),
+        NoCycle::Stops => Error::refused(
+            "no steady state: at every speed a cycle loses energy or is not completed, the crank stops",
+            "add a load that drives the crank in the sense of motion.speed",
+        ),
+        NoCycle::NotApplicable(why) => not_computed(why),
+    }
+}
+
+/// Why a cycle of loads that do not depend on the speed cannot be computed.
+fn not_turned(why: NotApplicable) -> Error {
+    match why {
+        NotApplicable::TooSlow => Error::refused(
+            "no steady state: from its start speed the crank does not complete a turn, and no load depends on the speed",
+            "give a greater start speed, or a load that drives the crank and depends on the speed",
+        ),
+        why => not_computed(why),
     }
 }

@@ -2,11 +2,10 @@
 
 use serde::Serialize;
 
-use super::orders::SpeedOrder;
 use crate::scene::{Extent, Scene};
 
 /// A value with an estimate of its error, in the same unit.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Estimated {
     /// The value.
     pub value: f64,
@@ -21,6 +20,15 @@ pub struct SpeedExtreme {
     pub omega_rad_per_s: Estimated,
     /// Crank angle in the cycle, from 0 to 2π times its turns, rad; none if the speed does not vary by more than its error.
     pub theta_rad: Option<Estimated>,
+}
+
+/// What the crank speed repeats so many times a turn.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SpeedOrder {
+    /// Per turn.
+    pub order: f64,
+    /// Amplitude, rad/s.
+    pub amplitude_rad_per_s: Estimated,
 }
 
 /// The periodic motion of a scene.

@@ -1,19 +1,22 @@
 //! References in double-double arithmetic for motions made of pieces: with friction, past limits, in a loose joint. Two
 //! fineness levels must agree; equations and method have nothing in common with the engines.
 
+mod collocation;
+mod extended;
 mod extrapolation;
 mod guided;
 mod loose;
+mod whole;
 
+use extended::Extended;
 use extrapolation::Fineness;
 use guided::Guided;
 use loose::Loose;
 use slider_crank::error::Error;
 use slider_crank::mechanism::{Class, Equation, Limits, Linkage};
-use slider_crank::precision::extended::Extended;
-use slider_crank::precision::reference::{self, Reference, distance};
-use slider_crank::precision::{Precision, PrecisionOptions, precision_against};
+use slider_crank::precision::{Precision, PrecisionOptions, Reference, precision_against};
 use slider_crank::scene::{MotionKind, Scene};
+use whole::distance;
 
 /// The comparison of methods, against a reference also where a motion is made of pieces.
 pub fn precision(scene: &Scene, options: &PrecisionOptions) -> Result<Precision, Error> {
@@ -28,7 +31,7 @@ fn find(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
     let class = Limits::new(&Linkage::new(&reduced.geometry), 0.0).class;
     let whole = reduced.friction.is_none() && class == Class::RotatingCrank;
     if whole || scene.motion.kind == MotionKind::ConstantSpeed {
-        return reference::extended(scene, t_end, evaluations);
+        return whole::extended(scene, t_end, evaluations);
     }
     // Dry loads are not written in it.
     if class == Class::ChangePoint || Equation::new(scene).loads().are_dry() {

@@ -1,9 +1,9 @@
 //! The equations of crank, rod and slider with the force of the guide.
 
+use super::super::extended::value;
 use super::super::extrapolation::State;
 use super::{Guided, NUMBERS};
 use slider_crank::numeric::double_double::DoubleDouble;
-use slider_crank::precision::extended::value;
 use slider_crank::scene::Instant;
 
 type Pair = [DoubleDouble; 2];

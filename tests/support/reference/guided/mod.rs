@@ -9,11 +9,11 @@ mod equations;
 
 use std::cell::Cell;
 
+use super::extended::Extended;
 use super::extrapolation::{Change, Fineness, Pieces, State, follow};
 use equations::Equations;
 use slider_crank::numeric::double_double::DoubleDouble;
 use slider_crank::numeric::enclosure::Interval;
-use slider_crank::precision::extended::Extended;
 use slider_crank::scene::{Friction, Scene};
 
 /// Time, θ, Φ and their rates.

@@ -1,9 +1,9 @@
 //! Equations of crank, rod and slider with a loose joint.
 
+use super::super::extended::value;
 use super::super::extrapolation::State;
 use super::{Loose, Mode, NUMBERS};
 use slider_crank::numeric::double_double::DoubleDouble;
-use slider_crank::precision::extended::value;
 use slider_crank::scene::{Instant, Joint};
 
 type Vector = [DoubleDouble; 2];

@@ -4,11 +4,11 @@
 
 mod equations;
 
+use super::extended::Extended;
 use super::extrapolation::{Change, Fineness, Pieces, State, follow};
 use equations::solved;
 use slider_crank::mechanism::{LooseMechanism, LooseState, NormalForce};
 use slider_crank::numeric::double_double::DoubleDouble;
-use slider_crank::precision::extended::Extended;
 use slider_crank::scene::{Clearance, ContactLaw, MotionKind, Rod, RodModel, Scene};
 
 /// Time, θ, ψ, x and their rates.

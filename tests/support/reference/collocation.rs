@@ -1,10 +1,10 @@
 //! Gauss collocation in double-double arithmetic: order 2 STAGES, stable for stiff motions. Slow, and made to
 //! be right (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.7; II, IV.8).
 
-use crate::numeric::double_double::DoubleDouble;
 use nalgebra::{DMatrix, DVector};
 
-use crate::numeric::gauss::legendre;
+use slider_crank::numeric::double_double::DoubleDouble;
+use slider_crank::numeric::gauss::legendre;
 
 /// Collocation points of a step.
 const STAGES: usize = 16;

@@ -5,10 +5,10 @@
 //! With unit rates (velocities for θ̇ = 1, marked ₁) and accelerations for θ̈ = 0 (marked ₀),
 //! θ̈ = (Q + Σ m g·v₁ − Σ m a₀·v₁ − Σ I ψ̈₀ ψ̇₁) / (Σ m v₁² + Σ I ψ̇₁²).
 
-use crate::mechanism::single;
-use crate::numeric::double_double::DoubleDouble;
-use crate::numeric::enclosure::{Detail, Enclosed, Interval, Wanted, partition};
-use crate::scene::{InertiaAbout, Instant, Load, RodModel, Scene, Variables};
+use slider_crank::mechanism::single;
+use slider_crank::numeric::double_double::DoubleDouble;
+use slider_crank::numeric::enclosure::{Detail, Enclosed, Interval, Wanted, partition};
+use slider_crank::scene::{InertiaAbout, Instant, Load, RodModel, Scene, Variables};
 
 type Vector = [DoubleDouble; 2];
 

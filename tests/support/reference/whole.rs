@@ -1,31 +1,13 @@
 //! What the runs are measured against where no friction, no limit and no loose joint make pieces of the motion.
 
-use crate::numeric::double_double::DoubleDouble;
-
 use std::f64::consts::TAU;
 
 use super::collocation::{self, Acceleration, CORNER, ITERATIONS, Place, Resolution};
 use super::extended::{Extended, State};
-use crate::mechanism::{Class, Equation, Limits, Linkage};
-use crate::scene::{Load, MotionKind, Scene, Variable};
-
-/// The state at the end of a run, and how far it may be off.
-#[derive(Clone, Debug)]
-pub struct Reference {
-    pub what: String,
-    /// rad
-    pub theta: DoubleDouble,
-    /// rad/s
-    pub omega: DoubleDouble,
-    /// rad
-    pub theta_error: f64,
-    /// rad/s
-    pub omega_error: f64,
-    /// The time (s) at which the equations end, if they do before the run.
-    pub ends_at: Option<f64>,
-    /// Slider position (m) and how far it may be off, where a joint is loose.
-    pub slider: Option<(DoubleDouble, f64)>,
-}
+use slider_crank::mechanism::{Class, Equation, Limits, Linkage};
+use slider_crank::numeric::double_double::DoubleDouble;
+use slider_crank::precision::Reference;
+use slider_crank::scene::{Load, MotionKind, Scene, Variable};
 
 /// Two runs of the reference must agree; what is stated is larger than their distance by this.
 const MARGIN: f64 = 4.0;

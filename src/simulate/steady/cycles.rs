@@ -1,24 +1,56 @@
-//! A cycle by integration in time: for loads that jump, and for those whose corners are not known as crank angles.
+//! The map of a cycle (Poincare): the kinetic energy at its end from that at its start, by a run of one cycle.
 
 use super::super::{NoRows, Options, Simulation, simulate, simulate_rows};
-use super::round::{Motion, Round, Rounds};
 use crate::engine::WorkLimit;
 use crate::engine::angle::CycleMap;
 use crate::engine::energy::NotApplicable;
 use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::numeric::angle::Angle;
-use crate::plan::Method;
+use crate::numeric::root;
 use crate::scene::{Extent, Scene};
+use crate::trajectory::Trajectory;
 
 /// Local error target, and that of another computation to compare with.
 const TOLERANCE: f64 = 1e-14;
 const OTHER: f64 = 1e-13;
 
-/// Cycles in time.
-pub(super) struct Timed {
+/// A cycle.
+pub(super) struct Cycle {
+    pub trajectory: Trajectory,
+    /// s
+    pub period: f64,
+    /// Speed at its start, rad/s.
+    pub speed: f64,
+    /// Kinetic energy it gains, J.
+    pub gain: f64,
+    /// Largest kinetic energy, J.
+    pub largest: f64,
+    /// What is left open of its energies, relative to them.
+    pub uncertain: f64,
+}
+
+impl Cycle {
+    /// Speed (rad/s) where the crank has turned by this (rad) since the start.
+    pub fn omega(&self, start: Angle, turned: f64) -> f64 {
+        if let Some(orbit) = self.trajectory.as_orbit() {
+            return orbit.passage(turned).map_or(f64::NAN, |(_, speed)| speed);
+        }
+        let state = |t: f64| self.trajectory.state(t);
+        let ahead = |t: f64| {
+            let way = |(angle, _): (Angle, f64)| angle.minus(start).abs();
+            state(t).map_or(f64::NAN, way) - turned
+        };
+        let end = self.trajectory.end();
+        // At the end the way is rounded.
+        let t = root::bracketed(ahead, 0.0, end).unwrap_or(end);
+        state(t).map_or(f64::NAN, |(_, speed)| speed)
+    }
+}
+
+/// Cycles of any energy.
+pub(super) struct Cycles {
     scene: Scene,
-    start: Angle,
     turns: f64,
     /// Inertia at the start, kg m².
     inertia: f64,
@@ -29,21 +61,19 @@ pub(super) struct Timed {
     pub refused: Option<Error>,
 }
 
-impl Timed {
+impl Cycles {
     /// Cycles of so many turns, in the direction of `speed` (rad/s); `other`: for the computation to compare with.
-    pub fn new(scene: &Scene, speed: f64, turns: u32, other: bool, limit: WorkLimit<'_>) -> Timed {
+    pub fn new(scene: &Scene, speed: f64, turns: u32, other: bool, limit: WorkLimit<'_>) -> Cycles {
         let mut scene = scene.clone();
         scene.motion.speed = speed;
         scene.run.extent = Some(Extent::Revolutions(turns.into()));
         scene.run.output_every = None;
         scene.run.tolerance = if other { OTHER } else { TOLERANCE };
         let start = Angle::from(scene.motion.angle).reduced();
-        Timed {
+        Cycles {
             inertia: Equation::new(&scene).terms(start.rest).inertia.m,
-            start,
             turns: turns.into(),
             options: Options {
-                method: Method::Time,
                 estimate: false,
                 max_evaluations: limit.evaluations,
                 stop: limit.stop.cloned(),
@@ -61,7 +91,6 @@ impl Timed {
         0.5 * self.inertia * speed * speed
     }
 
-    /// One cycle.
     fn run(&mut self, kinetic: f64, keep: bool) -> Result<Simulation, NotApplicable> {
         let speed = (2.0 * kinetic / self.inertia).sqrt();
         self.scene.motion.speed = speed.copysign(self.scene.motion.speed);
@@ -84,9 +113,30 @@ impl Timed {
         let complete = summary.stopped.is_none() && turned > self.turns - 0.5;
         complete.then_some(run).ok_or(NotApplicable::TooSlow)
     }
+
+    /// The cycle that begins with a kinetic energy, J.
+    pub fn cycle(&mut self, kinetic: f64) -> Result<Cycle, NotApplicable> {
+        let run = self.run(kinetic, true)?;
+        let summary = &run.summary;
+        let last = summary.last.omega_rad_per_s;
+        let error = summary.error_estimate.map(|error| error.omega_rad_per_s);
+        // An energy is off by twice as much as its speed.
+        self.noise = self
+            .noise
+            .max(2.0 * error.unwrap_or(f64::INFINITY) / last.abs());
+        let slowest = summary.omega_max.abs().min(summary.omega_min.abs());
+        Ok(Cycle {
+            period: summary.last.t_s,
+            speed: self.scene.motion.speed,
+            gain: self.energy(last) - kinetic,
+            largest: self.largest,
+            uncertain: self.noise * self.largest / self.energy(slowest),
+            trajectory: run.trajectory.ok_or(NotApplicable::NotFinite)?,
+        })
+    }
 }
 
-impl CycleMap for Timed {
+impl CycleMap for Cycles {
     fn first(&self) -> f64 {
         self.energy(self.scene.motion.speed)
     }
@@ -102,31 +152,5 @@ impl CycleMap for Timed {
 
     fn noise(&self) -> f64 {
         self.noise
-    }
-}
-
-impl Rounds for Timed {
-    fn round(&mut self, kinetic: f64) -> Result<Round, NotApplicable> {
-        let run = self.run(kinetic, true)?;
-        let summary = &run.summary;
-        let last = summary.last.omega_rad_per_s;
-        let error = summary.error_estimate.map(|error| error.omega_rad_per_s);
-        // An energy is off by twice as much as its speed.
-        self.noise = self
-            .noise
-            .max(2.0 * error.unwrap_or(f64::INFINITY) / last.abs());
-        let slowest = summary.omega_max.abs().min(summary.omega_min.abs());
-        let trajectory = run.trajectory.ok_or(NotApplicable::NotFinite)?;
-        Ok(Round {
-            motion: Motion::Timed {
-                trajectory: Box::new(trajectory),
-                start: self.start,
-            },
-            period: summary.last.t_s,
-            speed: self.scene.motion.speed,
-            gain: self.energy(last) - kinetic,
-            largest: self.largest,
-            uncertain: self.noise * self.largest / self.energy(slowest),
-        })
     }
 }
