@@ -75,7 +75,7 @@ impl<D: Driven> PanelStepper<'_, D> {
 }
 
 /// Cuts some of the panels at a part of them, as far as they are long enough.
-pub(super) fn cut<D: Driven>(
+fn cut<D: Driven>(
     driven: &D,
     stations: Vec<Station<D::Place>>,
     share: f64,
