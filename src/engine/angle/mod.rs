@@ -14,13 +14,10 @@ mod errors;
 mod fixed_point;
 mod forces;
 mod guide;
-mod newton;
-mod one_turn;
 mod panel;
 mod poincare_map;
 mod predictor;
 mod refine;
-mod rest;
 mod seen;
 mod stepper;
 mod sweep;
@@ -44,10 +41,10 @@ use crate::numeric::enclosure::{Detail, Reach};
 pub use errors::Errors;
 pub use fixed_point::{CycleMap, FixedPoint, NoCycle, fixed_point};
 pub use guide::Guide;
-pub use one_turn::{Cycle, Turns};
 use stepper::{Done, PanelStepper};
 use swept::Spent;
 pub use table::{Switch, Table};
+pub use turn::{Cycle, Turns};
 
 /// A state of the crank at a position of a table.
 #[derive(Clone, Copy)]
