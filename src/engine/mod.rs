@@ -11,13 +11,12 @@ pub mod sight;
 pub mod step;
 pub mod time;
 pub mod work_forecast;
-mod work_limit;
 
 use std::cell::Cell;
 
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{Detail, Reach};
-pub use work_limit::WorkLimit;
+pub use work_forecast::WorkLimit;
 
 /// An equation of motion θ̈ = f(t, θ, θ̇) and a power whose integral is wanted beside it.
 pub trait Motion {

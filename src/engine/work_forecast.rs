@@ -1,7 +1,7 @@
-//! Forecast: will a run reach its work limit long before its end? Extrapolates its progress per evaluation.
+//! The work limit of a run, and the forecast whether it will be reached long before the end, from the progress per evaluation.
 
-use super::WorkLimit;
 use super::time::{FAR, Finish};
+use crate::numeric::stop::Stop;
 
 /// Evaluations over which a pace is taken.
 const WINDOW: u64 = 1_000_000;
@@ -91,5 +91,37 @@ impl<'a> WorkForecast<'a> {
             false => Finish::TooManyTurns,
         };
         (slow && was_slow).then_some(why)
+    }
+}
+
+/// A computation ends after so many evaluations, or where somebody asks it to stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WorkLimit<'a> {
+    /// Most evaluations.
+    pub evaluations: u64,
+    /// The request to stop, if there may be one.
+    pub stop: Option<&'a Stop>,
+}
+
+impl WorkLimit<'static> {
+    /// As long as it takes.
+    pub const NONE: WorkLimit<'static> = WorkLimit {
+        evaluations: u64::MAX,
+        stop: None,
+    };
+}
+
+impl WorkLimit<'_> {
+    /// Whether it ends after so many evaluations.
+    pub fn is_reached(&self, spent: u64) -> bool {
+        spent >= self.evaluations || self.stop.is_some_and(Stop::is_requested)
+    }
+
+    /// What is left of it after so many evaluations.
+    pub fn after(self, spent: u64) -> Self {
+        WorkLimit {
+            evaluations: self.evaluations.saturating_sub(spent),
+            ..self
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! Panels that were not solved: another degree, or cut.
+//! Panels that were not solved: another degree, or cut; and what is left of one after a change of the switch.
 
 use super::Driven;
 use super::panel::{Fineness, Station};
@@ -75,7 +75,7 @@ impl<D: Driven> PanelStepper<'_, D> {
 }
 
 /// Cuts some of the panels at a part of them, as far as they are long enough.
-pub(super) fn cut<D: Driven>(
+fn cut<D: Driven>(
     driven: &D,
     stations: Vec<Station<D::Place>>,
     share: f64,
@@ -91,4 +91,26 @@ pub(super) fn cut<D: Driven>(
         }
     }
     Ok(all)
+}
+
+impl<D: Driven> PanelStepper<'_, D> {
+    /// What is left of the next panel from an angle on.
+    pub(super) fn rest(&self, from: f64) -> Result<Station<D::Place>, NotApplicable> {
+        let whole = &self.stations[self.next];
+        let station = self.parts.last().unwrap_or(whole);
+        let index = station.is_rest.map_or(0, |index| index + 1);
+        station.rest(self.driven, from, index, whole.rests.get(index), self.fine)
+    }
+
+    /// Keeps what was found on a rest for the next turn.
+    pub(super) fn remember_rest(&mut self) {
+        if let Some((index, rest)) = self.parts.last().and_then(Station::as_rest) {
+            let rests = &mut self.stations[self.next].rests;
+            if index < rests.len() {
+                rests[index] = rest;
+            } else {
+                rests.push(rest);
+            }
+        }
+    }
 }

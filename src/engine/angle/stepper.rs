@@ -7,7 +7,6 @@ use super::super::energy::piece::Piece;
 use super::errors::{Errors, uncertain};
 use super::guide::Guide;
 use super::panel::{Fineness, Station};
-use super::refine::cut;
 use super::seen::hides;
 use super::sweep::{Start, sweep};
 use super::swept::{Spent, Swept};
@@ -86,10 +85,12 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
             speed,
         };
         let positions = driven.positions();
-        let mut stations = stations(driven, start, fine)?;
-        if resolution.other {
-            stations = cut(driven, stations, 0.37, fine, |_| true)?;
-        }
+        let cuts: &[f64] = if resolution.other {
+            &[0.37, 1.0]
+        } else {
+            &[1.0]
+        };
+        let stations = stations(driven, start, fine, cuts)?;
         let kinetic = 0.5 * stations[0].table.inertia[0] * speed * speed;
         if !kinetic.is_finite() {
             return Err(NotApplicable::NotFinite);

@@ -1,11 +1,11 @@
 //! The collocation on one panel: K' = F(θ) + L(θ, ω, t), t' = 1/ω at the points of the panel.
 
 use super::Driven;
-use super::newton::{correction, keep_positive};
 use super::panel::Station;
 use super::swept::Swept;
-use crate::numeric::chebyshev::{Values, largest};
+use crate::numeric::chebyshev::{Rule, Values, largest};
 use crate::numeric::exact::SUM_ROUNDING;
+use nalgebra::{DMatrix, DVectorViewMut};
 
 /// The state at the start of a panel.
 #[derive(Clone, Copy, Debug)]
@@ -247,4 +247,34 @@ impl Swept {
 /// What the rounding of its angles does to the series on a panel, as part of them.
 fn noise_of_angle<P: Copy>(station: &Station<P>) -> f64 {
     8.0 * f64::EPSILON * (1.0 + station.piece.from.abs() / station.half().abs())
+}
+
+/// Turns what a sweep would change into what makes the panel right, to first order: solves
+/// (1 − half·S·diag(rates)) δ = change, where S integrates from the start of the panel. None if there is no
+/// solution.
+pub(super) fn correction(
+    rule: &Rule,
+    half: f64,
+    rates: &Values,
+    change: &mut Values,
+) -> Option<()> {
+    let count = rule.degree() + 1;
+    let integrals = rule.integration();
+    let matrix = DMatrix::from_fn(count, count, |i, j| {
+        f64::from(u8::from(i == j)) - half * integrals[i][j] * rates[j]
+    });
+    let mut change = DVectorViewMut::from_slice(change, count);
+    matrix.lu().solve_mut(&mut change).then_some(())
+}
+
+/// Shortens a change that would leave less than a tenth of the kinetic energy somewhere.
+pub(super) fn keep_positive(kinetic: &Values, change: &mut Values) {
+    let share = |k: f64, c: f64| if c < -0.9 * k { -0.9 * k / c } else { 1.0 };
+    let pairs = kinetic.iter().zip(change.iter());
+    let least = pairs.fold(1.0f64, |least, (k, c)| least.min(share(*k, *c)));
+    if least < 1.0 {
+        for c in change {
+            *c *= least;
+        }
+    }
 }

@@ -1,7 +1,5 @@
 //! The panels of one cycle.
 
-use std::f64::consts::TAU;
-
 use super::Driven;
 use super::errors::Errors;
 use super::panel::{FIRST_DEGREE, Fineness, SHORTEST_PANEL, Station};
@@ -11,30 +9,33 @@ use crate::engine::energy::piece::HALF_TURN;
 use crate::engine::energy::segment::Segment;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule};
+use std::f64::consts::TAU;
 
 /// Panels of one cycle between the corners.
 pub(super) fn stations<D: Driven>(
     driven: &D,
     start: Angle,
     fine: Fineness,
+    cuts: &[f64],
 ) -> Result<Vec<Station<D::Place>>, NotApplicable> {
     let (few, all) = (driven.corners(), driven.corners_if_light());
     if few.len() < all.len() {
         // Beyond this degree more panels are no more work.
-        let heavy = between(driven, few, start, fine, FIRST_DEGREE)?;
+        let heavy = between(driven, few, start, fine, cuts, FIRST_DEGREE)?;
         if let Some(list) = heavy {
             return Ok(list);
         }
     }
-    Ok(between(driven, all, start, fine, MAX_DEGREE)?.unwrap_or_default())
+    Ok(between(driven, all, start, fine, cuts, MAX_DEGREE)?.unwrap_or_default())
 }
 
-/// Panels between some corners; none if one of them is not resolved up to the degree `most`.
+/// Panels between some corners, each cut at these parts of it, the last of which is one; none if one of them is not resolved up to the degree `most`.
 fn between<D: Driven>(
     driven: &D,
     corners: &[f64],
     start: Angle,
     fine: Fineness,
+    cuts: &[f64],
     most: usize,
 ) -> Result<Option<Vec<Station<D::Place>>>, NotApplicable> {
     let direction = fine.speed.signum();
@@ -56,8 +57,9 @@ fn between<D: Driven>(
         for to in ends {
             let parts = ((to - from) / HALF_TURN).ceil();
             let begin = from;
-            for part in 1..=parts as u32 {
-                let share = f64::from(part) / parts;
+            let whole = 0..parts as u32;
+            let shares = whole.flat_map(|part| cuts.iter().map(move |cut| f64::from(part) + cut));
+            for share in shares.map(|end| end / parts) {
                 let until = if share < 1.0 {
                     begin + share * (to - begin)
                 } else {

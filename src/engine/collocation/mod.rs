@@ -6,8 +6,6 @@
 //! method solves the same equations. The polynomial is the motion inside the step, too.
 
 mod attempt;
-mod error;
-mod guess;
 mod newton;
 mod series;
 mod state;

@@ -6,14 +6,12 @@
 //! variable (after Hénon, Physica D 5 (1982) 412): in it the motion is smooth, and the contact ends exactly at
 //! zero, without a search.
 
-mod accept;
 mod accepted_step;
 mod contact_phase;
 mod discontinuities;
 mod dop853;
 mod flight;
 mod run;
-mod seen;
 mod step;
 
 use super::WorkLimit;

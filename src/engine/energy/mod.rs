@@ -13,7 +13,6 @@ mod euler_maclaurin;
 mod extreme;
 pub(in crate::engine) mod interpolated_turns;
 mod kinetic;
-mod noise;
 mod one_turn;
 mod orbit;
 pub(in crate::engine) mod panel;
@@ -22,7 +21,6 @@ mod places;
 pub(in crate::engine) mod segment;
 mod time_sensitivity;
 mod turn_closure;
-mod turning_points;
 pub(in crate::engine) mod turns;
 
 use crate::numeric::chebyshev::Values;

@@ -1,8 +1,8 @@
 //! One panel: dt/dθ and t as series over a piece of the angle.
 
 use super::extreme::{Extreme, extremes};
-use super::kinetic::Energy;
-use super::noise::Noise;
+use super::kinetic::{Energy, Noise};
+
 use super::piece::{Piece, Turning};
 use super::time_sensitivity::TimeSensitivity;
 use super::{NotApplicable, Profile};
