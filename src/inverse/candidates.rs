@@ -28,6 +28,16 @@ pub(super) struct About {
     corner: f64,
 }
 
+impl About {
+    fn linear(&self) -> Linear<'_> {
+        Linear {
+            stretches: &self.stretches,
+            prior: self.prior,
+            scales: self.scales,
+        }
+    }
+}
+
 impl Problem<'_> {
     /// The linear model of a prior about a smoothed path.
     pub fn about(&self, prior: Prior, from: &Smoothed) -> About {
@@ -139,38 +149,37 @@ impl Problem<'_> {
         };
         let least = noise.likelihood + (self.record.times.len() as f64).ln();
         let of_cycle = |cycle: u8| {
-            let of = |harmonics: usize, noise: Noise, least: f64| {
+            let with = |harmonics: usize| {
                 let prior = Prior {
                     cycle,
                     harmonics,
                     ..TORQUE
                 };
-                let about = About {
+                About {
+                    prior,
                     stretches: self.repeated(about, prior),
                     path: about.path.clone(),
                     ..*about
-                };
-                let found = self.candidate_from(prior, &about, noise, least, correlated)?;
-                Some((found, about))
+                }
             };
-            let mut best = of(HARMONICS, *noise, least)?;
-            loop {
-                let Candidate { prior, noise, .. } = best.0;
-                let twice = 2 * prior.harmonics;
-                // Two coefficients each, of which the samples tell no more than they are.
-                if 4 * twice > self.record.times.len() {
+            let mut about = with(HARMONICS);
+            let mut first = self.candidate_from(about.prior, &about, *noise, least, correlated)?;
+            let mut likeliest = first.noise;
+            // Two coefficients for each, and the samples tell no more of them than there are samples.
+            while 8 * about.prior.harmonics <= self.record.times.len() {
+                let more = with(2 * about.prior.harmonics);
+                let next = more.linear().evaluated(Noise {
+                    spectrum: None,
+                    ..likeliest
+                });
+                if next.likelihood <= likeliest.likelihood {
                     break;
                 }
-                let first = Noise {
-                    spectrum: None,
-                    ..noise
-                };
-                match of(twice, first, noise.likelihood) {
-                    Some(next) if next.0.noise.likelihood > noise.likelihood => best = next,
-                    _ => break,
-                }
+                (about, likeliest) = (more, next);
             }
-            let (first, about) = best;
+            if about.prior != first.prior {
+                first = self.candidate_from(about.prior, &about, likeliest, least, correlated)?;
+            }
             let prior = Prior {
                 order: 2,
                 ..first.prior

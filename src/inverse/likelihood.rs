@@ -203,20 +203,9 @@ impl Linear<'_> {
         )
     }
 
-    /// Noise of u itself beside that of its rate, as strong as the samples allow. A prior that is too smooth has a band that does
-    /// not hold what is less smooth.
-    pub fn with_level(&self, noise: &Noise) -> Noise {
-        self.as_strong_as_allowed(noise, |level| Noise { level, ..*noise })
-    }
-
-    /// The Wiener process beside a part of u with a shape of its own, as strong as the samples allow: what that shape leaves out
-    /// may be smaller than they tell.
-    pub fn with_remainder(&self, noise: &Noise) -> Noise {
-        self.as_strong_as_allowed(noise, |corner| Noise { corner, ..*noise })
-    }
-
-    /// The strongest noise whose likelihood ratio to the likeliest is that of two standard errors.
-    fn as_strong_as_allowed(&self, noise: &Noise, with: impl Fn(f64) -> Noise) -> Noise {
+    /// The strongest noise, over a frequency, whose likelihood ratio to the likeliest is that of two standard errors. A prior that
+    /// is too smooth, or has a shape of its own, has a band that does not hold what is less smooth or of another shape.
+    pub fn as_strong_as_allowed(&self, noise: &Noise, with: impl Fn(f64) -> Noise) -> Noise {
         let mut best = noise.likelihood;
         let (mut found, mut strongest) = (*noise, 0.0);
         let mut frequency = noise.corner;

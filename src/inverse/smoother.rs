@@ -156,10 +156,12 @@ impl Problem<'_> {
                     noise = linear.with_drift(noise);
                 }
                 let has_shape = prior.follows_speed || prior.cycle > 0 && prior.order == 1;
-                if has_shape && iteration == 1 {
-                    noise = linear.with_remainder(&noise);
-                } else if prior.order >= 2 && iteration == 1 {
-                    noise = linear.with_level(&noise);
+                if iteration == 1 && has_shape {
+                    let with = |corner| Noise { corner, ..noise };
+                    noise = linear.as_strong_as_allowed(&noise, with);
+                } else if iteration == 1 && prior.order >= 2 {
+                    let with = |level| Noise { level, ..noise };
+                    noise = linear.as_strong_as_allowed(&noise, with);
                 }
             }
             let estimates = self.smoothed(&motion, &path, scales, &noise);

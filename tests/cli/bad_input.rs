@@ -266,8 +266,9 @@ fn what_a_title_says_is_shown_not_obeyed() {
         "--out",
         "-",
     ];
-    let table = folder.run(&cells).done().stdout;
-    assert!(table.contains("a\\u{1b}[31mb,"), "{table:?}");
+    let told = folder.run(&cells);
+    assert!(told.stdout.contains("a\\u{1b}[31mb,"), "{told:?}");
+    assert!(!told.stderr.contains('\u{1b}'), "{told:?}");
     let name = "a\u{1b}[31m.toml";
     let said = folder
         .run(&["check", name])
