@@ -28,16 +28,6 @@ pub(super) struct About {
     corner: f64,
 }
 
-impl About {
-    fn linear(&self) -> Linear<'_> {
-        Linear {
-            stretches: &self.stretches,
-            prior: self.prior,
-            scales: self.scales,
-        }
-    }
-}
-
 impl Problem<'_> {
     /// The linear model of a prior about a smoothed path.
     pub fn about(&self, prior: Prior, from: &Smoothed) -> About {
@@ -164,21 +154,19 @@ impl Problem<'_> {
             };
             let mut about = with(HARMONICS);
             let mut first = self.candidate_from(about.prior, &about, *noise, least, correlated)?;
-            let mut likeliest = first.noise;
             // Two coefficients for each, and the samples tell no more of them than there are samples.
             while 8 * about.prior.harmonics <= self.record.times.len() {
                 let more = with(2 * about.prior.harmonics);
-                let next = more.linear().evaluated(Noise {
+                let noise = Noise {
                     spectrum: None,
-                    ..likeliest
-                });
-                if next.likelihood <= likeliest.likelihood {
-                    break;
+                    ..first.noise
+                };
+                match self.candidate_from(more.prior, &more, noise, noise.likelihood, correlated) {
+                    Some(next) if next.noise.likelihood > noise.likelihood => {
+                        (about, first) = (more, next);
+                    }
+                    _ => break,
                 }
-                (about, likeliest) = (more, next);
-            }
-            if about.prior != first.prior {
-                first = self.candidate_from(about.prior, &about, likeliest, least, correlated)?;
             }
             let prior = Prior {
                 order: 2,

@@ -203,9 +203,15 @@ impl Linear<'_> {
         )
     }
 
-    /// The strongest noise, over a frequency, whose likelihood ratio to the likeliest is that of two standard errors. A prior that
+    /// The strongest noise, over a frequency, by which ln of the likelihood falls no more than `allowed` below the largest: by n²/2
+    /// for n standard errors. A prior that
     /// is too smooth, or has a shape of its own, has a band that does not hold what is less smooth or of another shape.
-    pub fn as_strong_as_allowed(&self, noise: &Noise, with: impl Fn(f64) -> Noise) -> Noise {
+    pub fn as_strong_as_allowed(
+        &self,
+        noise: &Noise,
+        allowed: f64,
+        with: impl Fn(f64) -> Noise,
+    ) -> Noise {
         let mut best = noise.likelihood;
         let (mut found, mut strongest) = (*noise, 0.0);
         let mut frequency = noise.corner;
@@ -213,14 +219,14 @@ impl Linear<'_> {
             let next = self.evaluated(with(frequency));
             best = best.max(next.likelihood);
             let fall = best - next.likelihood;
-            if fall <= ALLOWED && frequency > strongest {
+            if fall <= allowed && frequency > strongest {
                 (found, strongest) = (next, frequency);
             }
-            if (0.5 * ALLOWED..=ALLOWED).contains(&fall) {
+            if (0.5 * allowed..=allowed).contains(&fall) {
                 break;
             }
             // The fall grows like the density of the noise, by the sixth power.
-            frequency *= (0.75 * ALLOWED / fall.max(1e-3))
+            frequency *= (0.75 * allowed / fall.max(1e-3))
                 .powf(1.0 / 6.0)
                 .clamp(0.3, 2.0);
         }
@@ -279,9 +285,6 @@ impl Linear<'_> {
         best
     }
 }
-
-/// ln of the likelihood ratio that is allowed to more noise than is likeliest.
-const ALLOWED: f64 = 2.0;
 
 /// Most evaluations in the search for that noise.
 const LEVELS: usize = 12;

@@ -34,6 +34,10 @@ impl Smoothed {
     }
 }
 
+/// Falls of ln of the likelihood at one and at two standard errors of a parameter.
+const ONE_ERROR: f64 = 0.5;
+const TWO_ERRORS: f64 = 2.0;
+
 /// Most iterations of Gauss and Newton.
 pub(super) const ITERATIONS: usize = 12;
 
@@ -158,10 +162,10 @@ impl Problem<'_> {
                 let has_shape = prior.follows_speed || prior.cycle > 0 && prior.order == 1;
                 if iteration == 1 && has_shape {
                     let with = |corner| Noise { corner, ..noise };
-                    noise = linear.as_strong_as_allowed(&noise, with);
+                    noise = linear.as_strong_as_allowed(&noise, ONE_ERROR, with);
                 } else if iteration == 1 && prior.order >= 2 {
                     let with = |level| Noise { level, ..noise };
-                    noise = linear.as_strong_as_allowed(&noise, with);
+                    noise = linear.as_strong_as_allowed(&noise, TWO_ERRORS, with);
                 }
             }
             let estimates = self.smoothed(&motion, &path, scales, &noise);
