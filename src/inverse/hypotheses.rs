@@ -21,9 +21,9 @@ pub(super) struct Setting {
 pub(super) struct Hypothesis {
     state: Gaussian<3>,
     pub score: f64,
-    /// Its first angle, rad.
+    /// First angle, rad.
     begin: f64,
-    /// Its last angle in the list of all.
+    /// Last angle in the list of all.
     last: usize,
 }
 

@@ -11,7 +11,7 @@ use crate::scene::Instant;
 pub(super) struct Demand {
     /// Torque on the crank that the motion needs beside the torques of the scene, N m.
     pub torque: f64,
-    /// Its standard error.
+    /// Standard error.
     pub torque_se: f64,
     /// x', m/rad.
     pub arm: f64,
@@ -19,7 +19,7 @@ pub(super) struct Demand {
     pub arm_se: f64,
     /// Force on the slider that does the same, N.
     pub force: f64,
-    /// Its standard error.
+    /// Standard error.
     pub force_se: f64,
     /// Whether the rod is so near to normal to the guide that the terms of the equation grow without bound.
     pub near_limit: bool,

@@ -36,9 +36,9 @@ pub(super) struct Sample<const N: usize> {
 /// A normal distribution.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gaussian<const N: usize> {
-    /// Its mean.
+    /// Mean.
     pub mean: Vector<N>,
-    /// Its covariance, in units of σ².
+    /// Covariance, in units of σ².
     pub covariance: Matrix<N>,
 }
 

@@ -34,9 +34,9 @@ impl Scale {
 pub(super) struct Shown {
     /// rad or m; a crank-pin angle with its sign, continued over the turns.
     pub value: f64,
-    /// Its derivative with respect to the crank angle.
+    /// Derivative with respect to the crank angle.
     pub slope: f64,
-    /// Its second derivative.
+    /// Second derivative.
     pub curvature: f64,
 }
 

@@ -148,7 +148,7 @@ pub fn inverse(
 /// Slider force and crank torque from a measured motion, with the errors of uncertain values of the scene in their band.
 ///
 /// # Errors
-/// Those of [`inverse`].
+/// As [`inverse`].
 pub fn inverse_of_uncertain(
     scene: &Scene,
     uncertain: &[UncertainValue],

@@ -17,7 +17,7 @@ impl FitKind {
     /// All of them.
     pub const ALL: [FitKind; 3] = [FitKind::Auto, FitKind::Polynomial, FitKind::Smoother];
 
-    /// Its name in options and outputs.
+    /// Name in options and outputs.
     pub fn name(self) -> &'static str {
         match self {
             FitKind::Auto => "auto",

@@ -22,11 +22,11 @@ pub struct InverseRow {
     pub alpha: f64,
     /// Force on the slider along +x, N; none where the motion does not determine it.
     pub slider_force: Option<f64>,
-    /// Its standard error, N.
+    /// Standard error of the force, N.
     pub slider_force_se: Option<f64>,
     /// Torque on the crank that does the same as the slider force, N m; none where the guide locks itself against any.
     pub crank_torque: Option<f64>,
-    /// Its standard error, N m.
+    /// Standard error of the torque, N m.
     pub crank_torque_se: Option<f64>,
     /// Whether the force is left empty.
     pub near_dead_centre: bool,

@@ -47,7 +47,7 @@ pub struct DataSummary {
     pub file: Option<String>,
     /// The measured column.
     pub column: &'static str,
-    /// Its SI unit.
+    /// SI unit.
     pub unit: &'static str,
     /// Number of samples.
     pub rows: usize,
@@ -129,13 +129,13 @@ pub struct ForceRange {
     pub min: f64,
     /// When, s
     pub min_t_s: f64,
-    /// Its standard error, N or N m
+    /// Standard error, N or N m
     pub min_se: f64,
     /// N or N m
     pub max: f64,
     /// When, s
     pub max_t_s: f64,
-    /// Its standard error, N or N m
+    /// Standard error, N or N m
     pub max_se: f64,
     /// Median of the standard errors, N or N m
     pub median_se: f64,

@@ -13,7 +13,7 @@ pub(super) struct Spent {
 }
 
 impl Spent {
-    /// Its work from the start of a part of this length (rad, with sign) until a place in it, −1 to 1; J.
+    /// Work from the start of a part of this length (rad, with sign) until a place in it, −1 to 1; J.
     pub fn work(&self, rule: &Rule, span: f64, x: f64) -> f64 {
         let half = 0.5 * span / self.share;
         if x * self.share == 1.0 {
