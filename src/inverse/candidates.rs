@@ -57,7 +57,7 @@ impl Problem<'_> {
             prior,
             scales,
         };
-        let first = linear.evaluated(first);
+        let first = linear.begun(first);
         if first.likelihood < least {
             return None;
         }
@@ -157,12 +157,9 @@ impl Problem<'_> {
             // Two coefficients for each, and the samples tell no more of them than there are samples.
             while 8 * about.prior.harmonics <= self.record.times.len() {
                 let more = with(2 * about.prior.harmonics);
-                let noise = Noise {
-                    spectrum: None,
-                    ..first.noise
-                };
-                match self.candidate_from(more.prior, &more, noise, noise.likelihood, correlated) {
-                    Some(next) if next.noise.likelihood > noise.likelihood => {
+                let Noise { likelihood, .. } = first.noise;
+                match self.candidate_from(more.prior, &more, first.noise, likelihood, correlated) {
+                    Some(next) if next.noise.likelihood > likelihood => {
                         (about, first) = (more, next);
                     }
                     _ => break,

@@ -6,7 +6,7 @@ use super::linearised::{Linearised, State};
 use super::maximum::{better, climb};
 use super::periodic::Increments;
 use super::prior::Prior;
-use super::regression::{Posterior, Regression};
+use super::regression::{Posterior, Regression, Spectrum};
 use super::scales::{Noise, Scales};
 use super::state_space::{Autoregression, Deviations, Observed};
 
@@ -95,7 +95,7 @@ impl Linear<'_> {
     }
 
     /// The evidence with the part that repeats, of the spectrum that the noise has or else of the likeliest.
-    fn repeated(&self, noise: &mut Noise) -> Evidence {
+    fn repeated(&self, noise: &mut Noise, near: Option<Spectrum>) -> Evidence {
         let (mut evidence, regression) = self.regressed(noise);
         let starts = self.prior.states() * self.stretches.len();
         let free = (evidence.samples.saturating_sub(starts)).max(1) as f64;
@@ -108,7 +108,7 @@ impl Linear<'_> {
             };
             -0.5 * (free * variance.ln() + squares / variance + found.log_determinant)
         };
-        noise.spectrum = noise.spectrum.or_else(|| regression.likeliest(score));
+        noise.spectrum = noise.spectrum.or_else(|| regression.likeliest(near, score));
         if let Some(found) = noise
             .spectrum
             .and_then(|spectrum| regression.solved(spectrum))
@@ -120,10 +120,20 @@ impl Linear<'_> {
     }
 
     /// Noise with its likelihood and its σ.
-    pub fn evaluated(&self, mut noise: Noise) -> Noise {
+    pub fn evaluated(&self, noise: Noise) -> Noise {
+        self.evaluated_near(noise, None)
+    }
+
+    /// Noise with its likelihood, its σ, and the likeliest spectrum about the one it has.
+    pub fn begun(&self, mut noise: Noise) -> Noise {
+        let near = noise.spectrum.take();
+        self.evaluated_near(noise, near)
+    }
+
+    fn evaluated_near(&self, mut noise: Noise, near: Option<Spectrum>) -> Noise {
         let evidence = match self.prior.cycle {
             0 => self.evidence(&noise),
-            _ => self.repeated(&mut noise),
+            _ => self.repeated(&mut noise, near),
         };
         let dimension = self.prior.states();
         let starts = (dimension * self.stretches.len()) as f64;
@@ -175,10 +185,7 @@ impl Linear<'_> {
         let best = self.over(first.corner, first, by_corner);
         match best.spectrum {
             None => best,
-            _ => self.evaluated(Noise {
-                spectrum: None,
-                ..best
-            }),
+            Some(_) => self.begun(best),
         }
     }
 

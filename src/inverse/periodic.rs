@@ -8,6 +8,8 @@
 
 use std::iter;
 
+use nalgebra::{DMatrix, DMatrixView};
+
 use super::kalman::{Companion, Gaussian, Innovation, Return, Sample, Step};
 use super::linearised::Linearised;
 use super::matrix::Matrix;
@@ -168,6 +170,8 @@ impl<const N: usize> Companion<N> for Regressed<'_, N> {
 pub(super) struct Sensitivities<'a, const N: usize> {
     columns: Columns<'a, N>,
     posterior: &'a Posterior,
+    /// Of the covariance of the coefficients.
+    factor: DMatrix<f64>,
     /// The rows of each node, one after the other.
     list: Vec<f64>,
     shifts: Vec<f64>,
@@ -180,6 +184,7 @@ impl<'a, const N: usize> Sensitivities<'a, N> {
             list: Vec::with_capacity(model.observed.len() * columns.of.len()),
             columns,
             posterior,
+            factor: posterior.factor(),
             shifts: vec![0.0; model.observed.len()],
         }
     }
@@ -193,7 +198,8 @@ impl<'a, const N: usize> Sensitivities<'a, N> {
             *innovation = innovation.map(|value| value + shift);
         }
         for (columns, states) in self.list.chunks(ROWS * size).zip(path.chunks_mut(ROWS)) {
-            let spread = self.posterior.spread(columns);
+            let spread =
+                &self.factor * DMatrixView::from_slice(columns, count, columns.len() / count);
             let rows: Vec<&[f64]> = columns.chunks_exact(count).collect();
             for (k, state) in states.iter_mut().enumerate() {
                 let spread = spread.columns(N * k, N);

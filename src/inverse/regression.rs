@@ -1,6 +1,8 @@
 //! Linear regression on the harmonics of what repeats: normal equations, the likeliest spectrum, the coefficients.
 
-use nalgebra::{Cholesky, DMatrix, DVector};
+use nalgebra::{DMatrix, DVector};
+
+use crate::numeric::cholesky::cholesky;
 
 /// Rows that are multiplied by a matrix at once.
 pub(super) const ROWS: usize = 128;
@@ -22,6 +24,12 @@ impl Spectrum {
     fn deviations(self, count: usize) -> Vec<f64> {
         let of = |j: usize| self.size / (1.0 + (j / 2) as f64).powi(self.order);
         (0..count).map(of).collect()
+    }
+
+    /// s of the spectrum of another order that has the same variance at the middle harmonic of so many coefficients, on a logarithmic
+    /// scale.
+    fn of_order(self, order: i32, count: usize) -> f64 {
+        self.size * (0.5 * count as f64).sqrt().powi(order - self.order)
     }
 }
 
@@ -63,37 +71,26 @@ impl Regression {
         self.rows.clear();
     }
 
-    /// The likeliest of spectra, of which `likelihood` sees the fall of the squares and the rise of ln |S|.
-    pub fn likeliest(&self, likelihood: impl Fn(&Posterior) -> f64) -> Option<Spectrum> {
-        const GOLDEN: f64 = 0.618_033_988_749_894_9;
-        let told = self.information.diagonal().max();
+    /// The likeliest of spectra, of which `likelihood` sees the fall of the squares and the rise of ln |S|: of those near one, or of all.
+    pub fn likeliest(
+        &self,
+        near: Option<Spectrum>,
+        likelihood: impl Fn(&Posterior) -> f64,
+    ) -> Option<Spectrum> {
+        let told = 1.0 / self.information.diagonal().max().sqrt();
         let at = |log: f64, order: i32| {
-            let spectrum = Spectrum {
-                size: log.exp() / told.sqrt(),
-                order,
-            };
+            let size = log.exp();
+            let spectrum = Spectrum { size, order };
             let found = self.solved(spectrum).map(|found| likelihood(&found));
             (found.unwrap_or(f64::NEG_INFINITY), spectrum)
         };
         let of_order = |order: i32| {
-            // From nothing that is told to 1e13 times that.
-            let (mut low, mut high) = (-2.0, 30.0);
-            let inner = |low: f64, high: f64| {
-                [high, low].map(|end| end + GOLDEN * (low + high - 2.0 * end))
+            let [low, high] = match near {
+                // From nothing that is told to 1e13 times that.
+                None => [told * (-2f64).exp(), told * 30f64.exp()],
+                Some(near) => [0.25, 4.0].map(|part| part * near.of_order(order, self.score.len())),
             };
-            let [mut a, mut b] = inner(low, high).map(|log| (log, at(log, order)));
-            while high - low > 0.3 {
-                if a.1.0 > b.1.0 {
-                    (high, b) = (b.0, a);
-                    let next = inner(low, high)[0];
-                    a = (next, at(next, order));
-                } else {
-                    (low, a) = (a.0, b);
-                    let next = inner(low, high)[1];
-                    b = (next, at(next, order));
-                }
-            }
-            if a.1.0 > b.1.0 { a.1 } else { b.1 }
+            section([low.ln(), high.ln()], |log| at(log, order))
         };
         let best = (1..=ORDERS)
             .map(of_order)
@@ -109,7 +106,7 @@ impl Regression {
             let unit = if i == j { 1.0 } else { 0.0 };
             unit + deviations[i] * self.information[(i, j)] * deviations[j]
         });
-        let cholesky = Cholesky::new(scaled)?;
+        let cholesky = cholesky(scaled)?;
         let right = DVector::from_fn(count, |j, _| deviations[j] * self.score[j]);
         let solved = cholesky.solve(&right);
         let lower = cholesky.l();
@@ -121,6 +118,27 @@ impl Regression {
             lower,
         })
     }
+}
+
+/// The largest value over an interval, and what has it, by golden sections.
+fn section<T: Copy>([mut low, mut high]: [f64; 2], at: impl Fn(f64) -> (f64, T)) -> (f64, T) {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    const WIDTH: f64 = 0.5;
+    let inner =
+        |low: f64, high: f64| [high, low].map(|end| end + GOLDEN * (low + high - 2.0 * end));
+    let [mut a, mut b] = inner(low, high).map(|place| (place, at(place)));
+    while high - low > WIDTH {
+        if a.1.0 > b.1.0 {
+            (high, b) = (b.0, a);
+            let next = inner(low, high)[0];
+            a = (next, at(next));
+        } else {
+            (low, a) = (a.0, b);
+            let next = inner(low, high)[1];
+            b = (next, at(next));
+        }
+    }
+    if a.1.0 > b.1.0 { a.1 } else { b.1 }
 }
 
 /// The coefficients given the samples, in units of σ.
@@ -137,17 +155,11 @@ pub(super) struct Posterior {
 }
 
 impl Posterior {
-    /// Rows times a factor L of the covariance L Lᵀ, as columns.
-    pub fn spread(&self, rows: &[f64]) -> DMatrix<f64> {
+    /// A factor A of the covariance Aᵀ A.
+    pub fn factor(&self) -> DMatrix<f64> {
         let count = self.coefficients.len();
-        let mut columns = DMatrix::from_column_slice(count, rows.len() / count, rows);
-        for (j, mut row) in columns.row_iter_mut().enumerate() {
-            row *= self.deviations[j];
-        }
-        let unit = DMatrix::identity(count, count);
-        match self.lower.solve_lower_triangular(&unit) {
-            Some(inverse) => inverse * columns,
-            None => columns,
-        }
+        let deviations = DMatrix::from_diagonal(&DVector::from_column_slice(&self.deviations));
+        let solved = self.lower.solve_lower_triangular(&deviations);
+        solved.unwrap_or_else(|| DMatrix::identity(count, count))
     }
 }

@@ -2,6 +2,7 @@
 
 pub mod angle;
 pub mod chebyshev;
+pub mod cholesky;
 pub mod difference;
 pub mod dip;
 pub mod double_double;

@@ -1,0 +1,41 @@
+//! Cholesky factorization in blocks: nearly all of its work is products of matrices, at the speed of those.
+
+use nalgebra::{Cholesky, DMatrix, Dyn};
+
+/// Columns of a block.
+const BLOCK: usize = 48;
+
+/// A = L Lᵀ of a symmetric matrix; none where it is not positive definite.
+pub(crate) fn cholesky(mut a: DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
+    let order = a.nrows();
+    for first in (0..order).step_by(BLOCK) {
+        let size = BLOCK.min(order - first);
+        let (next, left) = (first + size, order - first - size);
+        let mut corner = a.view_mut((first, first), (size, size));
+        let lower = Cholesky::new(corner.clone_owned())?.l();
+        corner.copy_from(&lower);
+        let inverse = lower.solve_lower_triangular(&DMatrix::identity(size, size))?;
+        let below = a.view((next, first), (left, size)) * inverse.transpose();
+        a.view_mut((next, first), (left, size)).copy_from(&below);
+        let mut rest = a.view_mut((next, next), (left, left));
+        rest.gemm(-1.0, &below, &below.transpose(), 1.0);
+    }
+    Some(Cholesky::pack_dirty(a))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_factor_times_its_transpose_is_the_matrix() {
+        for order in [1, 47, 48, 49, 150] {
+            let root = DMatrix::from_fn(order, order, |i, j| ((i * 31 + j * 17) as f64).sin());
+            let matrix = &root * root.transpose() + DMatrix::identity(order, order);
+            let lower = cholesky(matrix.clone()).expect("positive definite").l();
+            let off = (&lower * lower.transpose() - &matrix).amax();
+            assert!(off < 1e-13 * matrix.amax(), "{order}: {off}");
+            assert!(cholesky(matrix - DMatrix::identity(order, order) * 2.0).is_none());
+        }
+    }
+}
