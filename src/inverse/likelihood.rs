@@ -210,32 +210,38 @@ impl Linear<'_> {
         )
     }
 
-    /// The strongest noise, over a frequency, by which ln of the likelihood falls no more than `allowed` below the largest: by n²/2
-    /// for n standard errors. A prior that
-    /// is too smooth, or has a shape of its own, has a band that does not hold what is less smooth or of another shape.
+    /// The strongest noise, over a frequency of at least `low`, by which ln of the likelihood falls no more than `allowed` below the
+    /// largest: by n²/2 for n standard errors. A prior that is too smooth, or has a shape of its own, has a band that does not hold
+    /// what is less smooth or of another shape.
     pub fn as_strong_as_allowed(
         &self,
         noise: &Noise,
+        mut low: f64,
         allowed: f64,
         with: impl Fn(f64) -> Noise,
     ) -> Noise {
         let mut best = noise.likelihood;
-        let (mut found, mut strongest) = (*noise, 0.0);
-        let mut frequency = noise.corner;
+        let (mut found, mut high) = (*noise, f64::INFINITY);
+        let mut frequency = noise.corner.max(FIRST * low);
         for _ in 0..LEVELS {
             let next = self.evaluated(with(frequency));
             best = best.max(next.likelihood);
             let fall = best - next.likelihood;
-            if fall <= allowed && frequency > strongest {
-                (found, strongest) = (next, frequency);
+            if fall > allowed {
+                high = frequency;
+            } else {
+                (found, low) = (next, frequency);
+                if fall >= 0.5 * allowed {
+                    break;
+                }
             }
-            if (0.5 * allowed..=allowed).contains(&fall) {
-                break;
-            }
-            // The fall grows like the density of the noise, by the sixth power.
-            frequency *= (0.75 * allowed / fall.max(1e-3))
-                .powf(1.0 / 6.0)
-                .clamp(0.3, 2.0);
+            // The fall grows like the density of the noise, by the sixth power of the frequency.
+            let next = frequency * (0.75 * allowed / fall.max(1e-3)).powf(1.0 / 6.0);
+            frequency = match next > low && next < high {
+                true => next.min(2.0 * frequency),
+                false if low > 0.0 => (low * high).sqrt(),
+                false => 0.5 * high,
+            };
         }
         found
     }
@@ -293,7 +299,8 @@ impl Linear<'_> {
     }
 }
 
-/// Most evaluations in the search for that noise.
+/// First factor of the frequency, and most evaluations, in the search for that noise.
+const FIRST: f64 = 1.2;
 const LEVELS: usize = 12;
 
 /// Most rounds of the search over one parameter after the other.

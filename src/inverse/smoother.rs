@@ -162,10 +162,10 @@ impl Problem<'_> {
                 let has_shape = prior.follows_speed || prior.cycle > 0 && prior.order == 1;
                 if iteration == 1 && has_shape {
                     let with = |corner| Noise { corner, ..noise };
-                    noise = linear.as_strong_as_allowed(&noise, ONE_ERROR, with);
+                    noise = linear.as_strong_as_allowed(&noise, noise.corner, ONE_ERROR, with);
                 } else if iteration == 1 && prior.order >= 2 {
                     let with = |level| Noise { level, ..noise };
-                    noise = linear.as_strong_as_allowed(&noise, TWO_ERRORS, with);
+                    noise = linear.as_strong_as_allowed(&noise, noise.level, TWO_ERRORS, with);
                 }
             }
             let estimates = self.smoothed(&motion, &path, scales, &noise);
