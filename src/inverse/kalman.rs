@@ -161,25 +161,27 @@ impl<const N: usize> Companion<N> for Evidence {
 /// The prediction error decomposition of the likelihood.
 pub(super) fn evidence<const N: usize>(model: &Deviations<'_>) -> Evidence {
     let mut evidence = Evidence::default();
-    run::<N>(model, &mut evidence);
+    run::<N>(model, None, &mut evidence);
     evidence
 }
 
 /// The prediction error decomposition of the likelihood without the periodic part, and what the samples tell of that.
 pub(super) fn regressed<const N: usize>(model: &Deviations<'_>, to: &mut Regression) -> Evidence {
     let mut both = (Evidence::default(), Regressed::new(model, to));
-    run::<N>(model, &mut both);
+    run::<N>(model, None, &mut both);
     both.0
 }
 
-/// Runs the filter.
+/// Runs the filter from before the first sample, or on from what it knows after that.
 #[inline(always)]
 pub(super) fn run<const N: usize>(
     model: &Deviations<'_>,
+    known: Option<Gaussian<N>>,
     companion: &mut impl Companion<N>,
 ) -> Gaussian<N> {
-    let mut now = model.start();
-    for node in 0..model.observed.len() {
+    let first = usize::from(known.is_some());
+    let mut now = known.unwrap_or_else(|| model.start());
+    for node in first..model.observed.len() {
         if node > 0 {
             let step = model.step(node - 1);
             now = now.predicted(&step);
@@ -233,7 +235,7 @@ pub(super) fn smooth<const N: usize>(
         innovations: vec![None; nodes],
         companion,
     };
-    let mut now = run(model, &mut forward);
+    let mut now = run(model, None, &mut forward);
     let Forward {
         mut path,
         innovations,

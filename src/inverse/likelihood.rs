@@ -135,8 +135,12 @@ impl Linear<'_> {
             0 => self.evidence(&noise),
             _ => self.repeated(&mut noise, near),
         };
-        let dimension = self.prior.states();
-        let starts = (dimension * self.stretches.len()) as f64;
+        self.judged(noise, &evidence, self.stretches.len())
+    }
+
+    /// Noise with its likelihood and its σ by what samples tell in filters that began so many times.
+    pub fn judged(&self, mut noise: Noise, evidence: &Evidence, begun: usize) -> Noise {
+        let starts = (self.prior.states() * begun) as f64;
         let free = evidence.samples as f64 - starts;
         let profiled = (evidence.squares / free.max(1.0)).sqrt();
         noise.sigma = self.scales.known.unwrap_or(profiled).max(self.scales.floor);
@@ -157,7 +161,7 @@ impl Linear<'_> {
         if self.prior.follows_speed {
             start += (spread[2 + self.prior.order] * speed * lever / alpha).ln();
         }
-        let likelihood = start * self.stretches.len() as f64
+        let likelihood = start * begun as f64
             - free * noise.sigma.ln()
             - 0.5 * (evidence.log_variances + evidence.squares / (noise.sigma * noise.sigma));
         if likelihood.is_finite() {
@@ -191,7 +195,7 @@ impl Linear<'_> {
 
     /// The largest likelihood over a frequency, from a first guess with its noise.
     fn over(&self, guess: f64, first: Noise, at: impl Fn(f64) -> Noise) -> Noise {
-        let range = [0.1 / self.scales.duration, 30.0 / self.scales.spacing].map(f64::ln);
+        let range = self.scales.corners().map(f64::ln);
         climb(|log| at(log.exp()), guess.ln(), first, range)
     }
 

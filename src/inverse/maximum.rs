@@ -69,13 +69,13 @@ fn value(points: &[(f64, Noise)], place: f64) -> f64 {
 pub(super) const ENOUGH: f64 = 0.05;
 
 /// A place and how much higher it is expected to be than what is known.
-struct Top {
-    place: f64,
+pub(super) struct Top {
+    pub place: f64,
     rise: f64,
 }
 
 /// Where the parabola through three points has its top, kept inside.
-fn vertex(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> Top {
+pub(super) fn vertex(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> Top {
     let (left, right) = ((b.1 - a.1) / (b.0 - a.0), (c.1 - b.1) / (c.0 - b.0));
     let curvature = (right - left) / (c.0 - a.0);
     if !curvature.is_finite() || curvature >= 0.0 {

@@ -28,6 +28,7 @@
 //! ```
 
 mod alignment;
+mod all_samples;
 mod as_printed;
 mod bands;
 mod branch_choice;

@@ -18,7 +18,7 @@ use crate::numeric::parallel;
 use crate::numeric::stop::Stop;
 
 /// Nodes that one thread smooths at a time, at least, beside those at both ends that are shared with its neighbours.
-const PIECE: usize = 8192;
+pub(super) const PIECE: usize = 8192;
 
 /// Time constants of the smoother after which nothing is left of what was before.
 const FORGOTTEN: f64 = 60.0;

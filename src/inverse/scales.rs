@@ -80,6 +80,11 @@ impl Scales {
         })
     }
 
+    /// Least and largest corner frequency, rad/s.
+    pub fn corners(&self) -> [f64; 2] {
+        [0.1 / self.duration, 30.0 / self.spacing]
+    }
+
     /// Spectral density of the process noise over σ².
     pub fn density(&self, corner: f64, order: usize) -> f64 {
         let integrations = i32::try_from(2 * (order + 2)).unwrap_or(10);

@@ -56,7 +56,11 @@ impl Problem<'_> {
             settled: false,
             ..found
         };
-        for _ in 0..ITERATIONS {
+        for iteration in 0..ITERATIONS {
+            // About a path that moves where samples are curved, again.
+            if iteration == 0 || iteration == 1 && !self.record.is_linear() {
+                whole.noise = self.by_all_samples(&motion, &path, whole.scales, &whole.noise);
+            }
             // The former ones take their memory.
             whole.estimates = Vec::new();
             whole.estimates = self.smoothed(&motion, &path, whole.scales, &whole.noise);

@@ -114,7 +114,7 @@ impl<'a> Trials<'a> {
     /// Prediction errors of a model.
     pub fn innovations(&self, model: &Stretch, noise: &Noise) -> Innovations {
         let mut found = Innovations::default();
-        kalman::run::<3>(&self.deviations(model, noise), &mut found);
+        kalman::run::<3>(&self.deviations(model, noise), None, &mut found);
         found
     }
 

@@ -1,0 +1,114 @@
+//! The likelihood by all samples of a long record, whose noise stretches of it have told before: what varies more slowly than a
+//! stretch lasts, only the whole tells. Filters of several noises run side by side along the record.
+
+use super::kalman::{self, Evidence, Gaussian};
+use super::likelihood::Linear;
+use super::linearised::Motion;
+use super::maximum::vertex;
+use super::problem::{PIECE, Problem};
+use super::record::Path;
+use super::scales::{Noise, Scales};
+use crate::numeric::parallel;
+
+/// Most rounds in which corner frequencies beyond those that were tried are looked at.
+const ROUNDS: usize = 6;
+
+impl Problem<'_> {
+    /// The likeliest corner frequency by all samples about a path along all nodes, from a first one.
+    pub fn by_all_samples(
+        &self,
+        motion: &Motion<'_>,
+        path: &Path,
+        scales: Scales,
+        first: &Noise,
+    ) -> Noise {
+        let linear = Linear {
+            stretches: &[],
+            prior: motion.prior,
+            scales,
+        };
+        let [lowest, highest] = scales.corners().map(f64::ln);
+        let mut tried: Vec<(f64, Noise)> = Vec::new();
+        let mut logs = [-1.0, 0.0, 1.0].map(|off| first.corner.ln() + off);
+        for _ in 0..ROUNDS {
+            let logs_inside = logs.map(|log| log.clamp(lowest, highest));
+            let noises = logs_inside.map(|log| Noise {
+                corner: log.exp(),
+                ..*first
+            });
+            let evidences = self.evidences(motion, path, &linear, &noises);
+            let judged = noises.into_iter().zip(&evidences);
+            let judged = judged.map(|(noise, evidence)| linear.judged(noise, evidence, 1));
+            tried.extend(logs_inside.into_iter().zip(judged));
+            tried.sort_by(|a, b| a.0.total_cmp(&b.0));
+            tried.dedup_by(|a, b| a.0 == b.0);
+            let likelihood = |k: &usize| tried[*k].1.likelihood;
+            let order = |a: &usize, b: &usize| likelihood(a).total_cmp(&likelihood(b));
+            let best = (0..tried.len()).max_by(order).unwrap_or(0);
+            let (log, noise) = tried[best];
+            if log == lowest || log == highest {
+                return noise;
+            }
+            let side = match best {
+                0 => -1.0,
+                _ if best + 1 == tried.len() => 1.0,
+                _ => {
+                    let point = |k: usize| (tried[k].0, tried[k].1.likelihood);
+                    let top = vertex(point(best - 1), point(best), point(best + 1));
+                    let corner = top.place.exp();
+                    return Noise { corner, ..noise };
+                }
+            };
+            logs = [1.0, 2.0, 4.0].map(|off| log + side * off);
+        }
+        *first
+    }
+
+    /// What the samples tell of noises.
+    fn evidences(
+        &self,
+        motion: &Motion<'_>,
+        path: &Path,
+        linear: &Linear<'_>,
+        noises: &[Noise],
+    ) -> Vec<Evidence> {
+        let correlated = noises.iter().any(|noise| noise.correlated.is_some());
+        match motion.prior.states() + usize::from(correlated) {
+            3 => self.filtered::<3>(motion, path, linear, noises),
+            4 => self.filtered::<4>(motion, path, linear, noises),
+            5 => self.filtered::<5>(motion, path, linear, noises),
+            _ => self.filtered::<6>(motion, path, linear, noises),
+        }
+    }
+
+    fn filtered<const N: usize>(
+        &self,
+        motion: &Motion<'_>,
+        path: &Path,
+        linear: &Linear<'_>,
+        noises: &[Noise],
+    ) -> Vec<Evidence> {
+        let last = self.grid.len() - 1;
+        let firsts: Vec<usize> = (0..last).step_by(PIECE).collect();
+        let mut filters: Vec<(Option<Gaussian<N>>, Evidence)> =
+            vec![Default::default(); noises.len()];
+        for some in firsts.chunks(noises.len()) {
+            // A stretch begins at the node where the one before ends.
+            let stretches = parallel::map(some.iter(), |first| {
+                let range = *first..last.min(first + PIECE) + 1;
+                self.stretch(motion, path, range, noises[0].sigma)
+            });
+            filters = parallel::map(
+                filters.into_iter().zip(noises),
+                |((now, mut evidence), noise)| {
+                    let now = stretches.iter().fold(now, |now, stretch| {
+                        let model = linear.deviations(stretch, noise);
+                        Some(kalman::run::<N>(&model, now, &mut evidence))
+                    });
+                    (now, evidence)
+                },
+            );
+        }
+        filters.into_iter().map(|(_, evidence)| evidence).collect()
+    }
+}
