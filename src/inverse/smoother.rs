@@ -85,15 +85,17 @@ impl Problem<'_> {
         let is_noise = found.noise.sigma > 1.5 * self.record.floor && self.record.codes.is_none();
         if is_noise && Whiteness::of(innovations).is_violated() {
             // Two parameters more (Schwarz 1978).
-            let least = likelihood(&white) + (self.record.times.len() as f64).ln();
+            let cost = (self.record.times.len() as f64).ln();
             let guesses = Autoregression::guesses(found.scales.spacing);
             let about = self.about(found.prior, &kinematic);
             let first = self.candidate(found.prior, &about, &guesses).noise;
             if let Some(guess) = first.correlated
-                && first.likelihood > least
+                && first.likelihood > likelihood(&white) + cost
             {
                 let correlated = self.tried(&kinematic, &[guess]);
-                if let Some(other) = self.first_settled(&correlated, &kinematic) {
+                let other = self.first_settled(&correlated, &kinematic);
+                let gain = |other: &Smoothed| other.noise.likelihood - found.noise.likelihood;
+                if let Some(other) = other.filter(|other| gain(other) > cost) {
                     (found, tried) = (other, listed(&correlated));
                 }
             }
