@@ -1,12 +1,12 @@
 //! The likelihood by all samples of a long record, whose noise stretches of it have told before: what varies more slowly than a
 //! stretch lasts, only the whole tells. Filters of several noises run side by side along the record.
 
+use super::grid::Path;
 use super::kalman::{self, Evidence, Gaussian};
 use super::likelihood::Linear;
 use super::linearised::Motion;
 use super::maximum::vertex;
 use super::problem::{PIECE, Problem};
-use super::record::Path;
 use super::scales::{Noise, Scales};
 use crate::numeric::parallel;
 

@@ -3,7 +3,7 @@
 use crate::numeric::median::median;
 use serde::Serialize;
 
-use super::row::{Doubt, InverseRow};
+use super::row::{Doubt, InverseRow, LONG_ARM};
 
 /// A stretch of the motion in which the slider force is left empty.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -32,9 +32,6 @@ pub struct BandRule {
     /// The rule in words.
     pub rule: &'static str,
 }
-
-/// The lever arm, in cranks, below which the rule applies.
-pub(super) const LONG_ARM: f64 = 0.5;
 
 const RULE: &str = "within |x'| < r/2 the slider force is left empty where half of its 95 % band is wider than the largest crank torque of the motion (or ten times the median half-width of that torque's band, if larger) over the crank length, or where x' is less than five standard errors from zero; near the limit of a rocker (cos phi < 0.3) the width alone counts, and each torque of a rocker is divided by |x'| where that is longer than the crank; it is left empty too with friction or dry loads where the crank speed is less than five standard errors from zero";
 

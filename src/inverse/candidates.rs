@@ -2,14 +2,13 @@
 
 use std::ops::Range;
 
+use super::grid::Path;
 use super::likelihood::{Linear, Stretch};
 use super::periodic::Increments;
-use super::prior::{Candidate, LADDERS, Prior, TORQUE};
+use super::prior::{LADDERS, Prior, TORQUE};
 use super::problem::{Problem, angles};
-use super::record::Path;
-use super::scales::{Noise, Scales};
+use super::scales::{Autoregression, Noise, Scales};
 use super::smoother::Smoothed;
-use super::state_space::Autoregression;
 use crate::numeric::parallel;
 
 /// No instrument tells an angle to the root of the rounding of doubles, rad: a record so exact was computed, and errs smoothly,
@@ -18,6 +17,28 @@ const COMPUTED: f64 = 1.5e-8;
 
 /// Harmonics of a cycle at first; they are doubled as long as that makes the samples likelier.
 const HARMONICS: usize = 24;
+
+/// A prior with its noise, about a path.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate {
+    pub prior: Prior,
+    pub noise: Noise,
+    pub scales: Scales,
+}
+
+/// ln of the likelihood of the likeliest.
+pub(super) fn likelihood(tried: &[Candidate]) -> f64 {
+    let best = tried.first();
+    best.map_or(f64::NEG_INFINITY, |best| best.noise.likelihood)
+}
+
+/// Priors with the ln of their likelihoods.
+pub(super) fn listed(tried: &[Candidate]) -> Vec<(Prior, f64)> {
+    tried
+        .iter()
+        .map(|candidate| (candidate.prior, candidate.noise.likelihood))
+        .collect()
+}
 
 /// The linear model about a smoothed path: one for all orders of an unknown, whose derivatives are 0 along that path.
 pub(super) struct About {

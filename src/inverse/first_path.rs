@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
+use super::grid::Path;
 use super::linearised::State;
 use super::prior::{Prior, Unknown};
 use super::problem::Problem;
-use super::record::Path;
 use super::smoother::Smoothed;
 use crate::numeric::parallel;
 

@@ -1,9 +1,9 @@
 //! The motion without mechanics: what the samples alone say, by white snap, with the noise that makes them likeliest.
 
+use super::grid::Path;
 use super::likelihood::Linear;
 use super::prior::KINEMATIC;
 use super::problem::Problem;
-use super::record::Path;
 use super::scales::Scales;
 use super::smoother::{AT_REST, ITERATIONS, Smoothed};
 

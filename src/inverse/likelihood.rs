@@ -7,8 +7,8 @@ use super::maximum::{better, climb};
 use super::periodic::Increments;
 use super::prior::Prior;
 use super::regression::{Posterior, Regression, Spectrum};
-use super::scales::{Noise, Scales};
-use super::state_space::{Autoregression, Deviations, Observed};
+use super::scales::{Autoregression, Noise, Scales};
+use super::state_space::{Deviations, Observed};
 
 /// Stretches of nodes with their linear models, and the scales of the search.
 #[derive(Clone, Copy, Debug)]

@@ -38,6 +38,7 @@ mod code_moments;
 mod estimate;
 mod first_path;
 mod fitted;
+mod grid;
 mod guide;
 mod hypotheses;
 pub mod identify;
@@ -66,6 +67,7 @@ mod refusals;
 mod regression;
 mod residual_tests;
 mod row;
+mod rows;
 mod samples;
 mod scales;
 mod sensors_beside;
@@ -73,6 +75,7 @@ mod shared_errors;
 mod smoother;
 mod state_space;
 mod summary;
+mod typical_sizes;
 mod unwrap;
 mod warnings;
 
@@ -91,7 +94,7 @@ use self::guide::Guide;
 use self::inverse_dynamics::Backwards;
 use self::measurement_model::{Scale, Sensor};
 use self::quantised::Codes;
-use self::row::Rows;
+use self::rows::Rows;
 use self::shared_errors::SharedErrors;
 use crate::error::Error;
 use crate::mechanism::{Equation, Reactions, Reactor};
@@ -201,7 +204,13 @@ fn recovered(
         guide: guide.as_ref(),
     };
     let factor = student::half_band(fitted.free);
-    let shared = SharedErrors::new(&sources, &backwards, &fitted, measurement.times());
+    let shared = SharedErrors::new(
+        &sources,
+        &backwards,
+        &fitted.motion,
+        &fitted.moved,
+        measurement.times(),
+    );
     let found = Rows::new(&backwards, &fitted, measurement, &shared, factor);
     refusals::reachable(measurement, &found)?;
     limit::keeps_clear(&angles.sensor, &fitted, measurement)?;

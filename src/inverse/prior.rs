@@ -1,7 +1,5 @@
 //! What is unknown and how it may vary: the priors among which the likelihood chooses.
 
-use super::scales::{Noise, Scales};
-
 /// What is unknown and varies as an integrated Wiener process.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Unknown {
@@ -98,25 +96,3 @@ pub(super) const LADDERS: [&[Prior]; 4] = [
     &[FOLLOWING],
     &[KINEMATIC, Prior::new(Unknown::Acceleration, 3)],
 ];
-
-/// A prior with its noise, about a path.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Candidate {
-    pub prior: Prior,
-    pub noise: Noise,
-    pub scales: Scales,
-}
-
-/// ln of the likelihood of the likeliest.
-pub(super) fn likelihood(tried: &[Candidate]) -> f64 {
-    let best = tried.first();
-    best.map_or(f64::NEG_INFINITY, |best| best.noise.likelihood)
-}
-
-/// Priors with the ln of their likelihoods.
-pub(super) fn listed(tried: &[Candidate]) -> Vec<(Prior, f64)> {
-    tried
-        .iter()
-        .map(|candidate| (candidate.prior, candidate.noise.likelihood))
-        .collect()
-}

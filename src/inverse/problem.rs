@@ -3,12 +3,13 @@
 use std::ops::Range;
 
 use super::estimate::Estimate;
+use super::grid::{Grid, Path, hermite};
 use super::kalman;
 use super::likelihood::{Linear, Stretch};
 use super::linearised::{Linearised, Motion, Rates, State};
 use super::periodic::{Increments, Sensitivities};
 use super::prior::Prior;
-use super::record::{Grid, Path, Record, hermite};
+use super::record::Record;
 use super::regression::Posterior;
 use super::scales::{Noise, Scales};
 use super::smoother::Smoothed;
@@ -69,32 +70,6 @@ impl<'a> Problem<'a> {
             prior,
             origin: self.record.origin,
         }
-    }
-
-    /// Root mean square of d measured/dθ.
-    pub fn slope(&self, path: &Path) -> f64 {
-        let stride = path.states.len().div_ceil(1000);
-        let slopes = path.states.iter().step_by(stride);
-        let slopes = slopes.map(|state| self.record.sensor.shown(state[0]).slope.powi(2));
-        let (sum, count) = slopes
-            .filter(|s| s.is_finite())
-            .fold((0.0, 0.0), |(s, n), x| (s + x, n + 1.0));
-        (sum / f64::max(count, 1.0)).sqrt()
-    }
-
-    /// Turns from one end of a path to the other.
-    pub fn turns(&self, path: &Smoothed) -> f64 {
-        let angle = |estimate: Option<&Estimate>| estimate.map_or(0.0, |e| e.state[0]);
-        let way = angle(path.estimates.last()) - angle(path.estimates.first());
-        way.abs() / std::f64::consts::TAU
-    }
-
-    /// Way of the crank from sample to sample, rad, root mean square.
-    pub fn way(&self) -> f64 {
-        let record = &self.record;
-        let squares = record.values.windows(2).map(|w| (w[1] - w[0]).powi(2));
-        let mean = squares.sum::<f64>() / record.values.len() as f64;
-        mean.sqrt() / record.sensor.size()
     }
 
     /// The linear model of a stretch of nodes about a path.

@@ -2,8 +2,6 @@
 
 use std::ops::Range;
 
-use super::record::Record;
-
 /// Codes of an encoder.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Codes {
@@ -133,27 +131,6 @@ impl Codes {
     /// Standard deviation of an error that may lie anywhere in a step, rad.
     pub fn spread(self) -> f64 {
         self.step / 12f64.sqrt()
-    }
-}
-
-impl Record<'_> {
-    /// Takes the middles of intervals for samples, each as good as its width: what passages from step to step tell, whatever the
-    /// motion between them is.
-    pub fn take_middles(&mut self, codes: Codes) {
-        self.codes = None;
-        for (i, interval) in std::mem::take(&mut self.intervals).iter().enumerate() {
-            let counts = interval.middle.is_finite();
-            self.values[i] = if counts {
-                interval.middle
-            } else {
-                self.values[i]
-            };
-            self.weights[i] = if counts {
-                (codes.step / interval.width).powi(2)
-            } else {
-                0.0
-            };
-        }
     }
 }
 

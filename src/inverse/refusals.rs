@@ -1,7 +1,8 @@
 //! What cannot be computed backwards, and why.
 
 use super::inverse_dynamics::Backwards;
-use super::row::{InverseRow, Rows};
+use super::row::InverseRow;
+use super::rows::Rows;
 use crate::error::Error;
 use crate::plan::{Method, Plan};
 use crate::scene::{Measurement, MotionKind, Scene};

@@ -1,13 +1,7 @@
 //! One output row for each sample.
 
-use super::bands::{BandRule, DeadCentreBand, LONG_ARM, alike};
-use super::fitted::Fitted;
-use super::inverse_dynamics::{Backwards, Demand};
+use super::inverse_dynamics::Demand;
 use super::motion_estimate::MotionEstimate;
-use super::shared_errors::SharedErrors;
-use crate::mechanism::Linkage;
-use crate::numeric::parallel;
-use crate::scene::Measurement;
 
 /// Motion, force and torque at one sample, SI and radians.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -43,27 +37,6 @@ pub struct Residual {
     pub residual: f64,
 }
 
-impl Residual {
-    pub(super) fn list(fitted: &Fitted, measurement: &Measurement) -> Vec<Residual> {
-        let times = measurement.times();
-        parallel::list(times.len(), |i| Residual {
-            t: times[i],
-            measured: fitted.measured[i],
-            residual: fitted.residuals[i],
-        })
-    }
-}
-
-/// All rows of a motion and the bands without force.
-#[derive(Debug)]
-pub(super) struct Rows {
-    pub rows: Vec<InverseRow>,
-    pub bands: Vec<DeadCentreBand>,
-    pub rule: BandRule,
-    /// The first sample whose crank angle the mechanism cannot take.
-    pub unreachable: Option<usize>,
-}
-
 /// What decides whether a row has a force.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Doubt {
@@ -79,8 +52,11 @@ pub(super) struct Doubt {
     pub friction_known: bool,
 }
 
+/// The lever arm, in cranks, below which the rule applies.
+pub(super) const LONG_ARM: f64 = 0.5;
+
 impl Doubt {
-    fn new(demand: &Demand, r: f64) -> Doubt {
+    pub fn new(demand: &Demand, r: f64) -> Doubt {
         let arm = demand.arm.abs();
         Doubt {
             exists: arm.is_finite(),
@@ -95,7 +71,7 @@ impl Doubt {
 
 impl InverseRow {
     /// A row before it is decided whether it has a force.
-    fn new(t: f64, state: &MotionEstimate, demand: &Demand) -> InverseRow {
+    pub(super) fn new(t: f64, state: &MotionEstimate, demand: &Demand) -> InverseRow {
         let [theta, omega, alpha] = state.value;
         let is_known = demand.torque.is_finite() && demand.torque_se.is_finite();
         InverseRow {
@@ -108,99 +84,6 @@ impl InverseRow {
             crank_torque: is_known.then_some(demand.torque),
             crank_torque_se: is_known.then_some(demand.torque_se),
             near_dead_centre: false,
-        }
-    }
-}
-
-/// All rows with their forces, and what is in doubt of each.
-fn demanded(
-    backwards: &Backwards<'_>,
-    fitted: &Fitted,
-    measurement: &Measurement,
-    shared: &SharedErrors,
-) -> (Vec<InverseRow>, Vec<Doubt>) {
-    let times = measurement.times();
-    let r = backwards.equation.linkage().r;
-    parallel::pairs(times.len(), |i| {
-        let state = fitted.motion[i].stretched(measurement.time_uncertainty());
-        let mut demand = backwards.demand(times[i], &state);
-        [demand.force_se, demand.torque_se] = shared.with(i, [demand.force_se, demand.torque_se]);
-        let row = InverseRow::new(times[i], &state, &demand);
-        (row, Doubt::new(&demand, r))
-    })
-}
-
-/// Crank torques and their standard errors, N m, of a rocker over its lever arm where that is
-/// longer than the crank: it grows without bound towards a limit, and the torque with it.
-fn torques<'a>(
-    linkage: &'a Linkage,
-    rows: &'a [InverseRow],
-) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
-    let rocks = !linkage.limit_angles().is_empty();
-    rows.iter().filter_map(move |row| {
-        let longer = if rocks {
-            (linkage.pose(row.theta).dx.abs() / linkage.r).max(1.0)
-        } else {
-            1.0
-        };
-        Some((row.crank_torque? / longer, row.crank_torque_se? / longer))
-    })
-}
-
-impl Rows {
-    /// The rows; half of a 95 % band is `factor` standard errors.
-    pub fn new(
-        backwards: &Backwards<'_>,
-        fitted: &Fitted,
-        measurement: &Measurement,
-        shared: &SharedErrors,
-        factor: f64,
-    ) -> Rows {
-        let linkage = backwards.equation.linkage();
-        let (rows, doubts) = demanded(backwards, fitted, measurement, shared);
-        let rule = BandRule::new(linkage.r, torques(linkage, &rows), factor);
-        let mut found = Rows {
-            rows,
-            bands: Vec::new(),
-            rule,
-            unreachable: doubts.iter().position(|doubt| !doubt.exists),
-        };
-        found.leave_out_doubtful(&doubts, factor);
-        found
-    }
-
-    /// Leaves out the forces that are in doubt.
-    fn leave_out_doubtful(&mut self, doubts: &[Doubt], factor: f64) {
-        let mut before: Option<&str> = None;
-        for (i, doubt) in doubts.iter().enumerate() {
-            let row = &mut self.rows[i];
-            let reason = self.rule.reason(row, doubt, factor);
-            if let Some(reason) = reason {
-                (row.slider_force, row.slider_force_se) = (None, None);
-                row.near_dead_centre = true;
-                let (t, theta) = (row.t, row.theta);
-                let goes_on = before.is_some_and(|before| alike(before, reason));
-                self.extend_band(t, theta, reason, goes_on);
-            }
-            before = reason;
-        }
-    }
-
-    fn extend_band(&mut self, t: f64, theta: f64, reason: &'static str, goes_on: bool) {
-        match self.bands.last_mut() {
-            Some(band) if goes_on => {
-                band.to_s = t;
-                band.to_theta_rad = theta;
-                band.rows += 1;
-            }
-            _ => self.bands.push(DeadCentreBand {
-                from_s: t,
-                to_s: t,
-                from_theta_rad: theta,
-                to_theta_rad: theta,
-                rows: 1,
-                reason,
-            }),
         }
     }
 }

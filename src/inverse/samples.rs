@@ -1,12 +1,13 @@
 //! The samples of a measurement as the smoother and the polynomial take them.
 
 use super::branch_tracking::CrankAngles;
+use super::grid::{Grid, Path};
 use super::measurement_model::{Scale, Sensor};
 use super::prior::KINEMATIC;
 use super::problem::Problem;
 use super::quantised::Codes;
-use super::record::{Grid, Path, Record};
-use super::sensors_beside::SensorBeside;
+use super::record::Record;
+use super::record::SensorBeside;
 use super::smoother::Smoothed;
 use super::{first_path, outliers};
 use crate::mechanism::Equation;

@@ -1,11 +1,7 @@
 //! Typical sizes along a record, and the noise that is estimated in terms of them.
 
-use super::linearised::{Motion, State};
-use super::problem::Problem;
-use super::quantised::Codes;
-use super::record::Path;
+use super::linearised::State;
 use super::regression::Spectrum;
-use super::state_space::Autoregression;
 
 /// Typical sizes along a record.
 #[derive(Clone, Copy, Debug)]
@@ -92,44 +88,24 @@ impl Scales {
     }
 }
 
-impl Problem<'_> {
-    /// Typical sizes along a path with a prior.
-    pub fn scales(&self, motion: &Motion<'_>, path: &Path, slope: f64, shape: [f64; 2]) -> Scales {
-        let times = &self.grid.times;
-        let duration = times[times.len() - 1] - times[0];
-        let samples = self.record.times.len() as f64;
-        let stride = path.states.len().div_ceil(1000);
-        let (mut lever, mut count) = (0.0, 0.0);
-        for (node, state) in path.nodes().step_by(stride) {
-            let rates = motion.rates(times[node], state);
-            if rates.by_unknown.is_finite() {
-                lever += rates.by_unknown * rates.by_unknown;
-                count += 1.0;
-            }
-        }
-        Scales {
-            spacing: duration / (samples - 1.0),
-            duration,
-            slope,
-            lever: (lever / count).sqrt(),
-            motion: shape,
-            speed: spread(path.states.iter().step_by(stride).map(|state| state[1])),
-            floor: self.record.floor,
-            known: self.record.codes.map(Codes::spread),
-        }
-    }
+/// Correlated noise: a first-order autoregression beside the white noise of the samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Autoregression {
+    /// Rate at which the correlation decays, 1/s.
+    pub decay: f64,
+    /// White part of the variance of a sample.
+    pub white: f64,
 }
 
-/// Standard deviation of numbers.
-fn spread(numbers: impl Iterator<Item = f64>) -> f64 {
-    let (mut count, mut mean, mut squares) = (0.0, 0.0, 0.0);
-    for number in numbers {
-        count += 1.0;
-        let off = number - mean;
-        mean += off / count;
-        squares += off * (number - mean);
+/// White part of the variance of correlated noise.
+const WHITE: f64 = 0.02;
+
+impl Autoregression {
+    /// First guesses for samples so far apart, s.
+    pub fn guesses(spacing: f64) -> [Autoregression; 3] {
+        [0.2, 1.0, 5.0].map(|steps| Autoregression {
+            decay: 1.0 / (steps * spacing),
+            white: WHITE,
+        })
     }
-    (squares / f64::max(count, 1.0))
-        .sqrt()
-        .max(f64::MIN_POSITIVE)
 }

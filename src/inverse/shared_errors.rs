@@ -3,7 +3,6 @@
 
 use serde::Serialize;
 
-use super::fitted::Fitted;
 use super::guide::Guide;
 use super::inverse_dynamics::Backwards;
 use super::measurement_model::Sensor;
@@ -11,8 +10,8 @@ use super::motion_estimate::MotionEstimate;
 use super::polynomial::Polynomial;
 use super::problem::Problem;
 use super::record::Record;
+use super::record::SensorBeside;
 use super::row::InverseRow;
-use super::sensors_beside::SensorBeside;
 use super::smoother::Smoothed;
 use crate::error::Error;
 use crate::mechanism::Equation;
@@ -146,7 +145,8 @@ impl SharedErrors {
     pub fn new(
         sources: &[Source],
         backwards: &Backwards<'_>,
-        fitted: &Fitted,
+        motion: &[MotionEstimate],
+        moved: &[Vec<[f64; 3]>],
         times: &[f64],
     ) -> SharedErrors {
         let of = |(source, moved): (&Source, &Vec<[f64; 3]>)| {
@@ -156,7 +156,7 @@ impl SharedErrors {
                 ..*backwards
             };
             parallel::list(times.len(), |i| {
-                let here = fitted.motion[i].value;
+                let here = motion[i].value;
                 let a = backwards.needed(times[i], here, here[1]);
                 let b = there.needed(times[i], moved[i], here[1]);
                 [0, 1].map(|k| b[k] - a[k])
@@ -164,7 +164,7 @@ impl SharedErrors {
         };
         SharedErrors {
             names: sources.iter().map(|source| source.name.clone()).collect(),
-            of: sources.iter().zip(&fitted.moved).map(of).collect(),
+            of: sources.iter().zip(moved).map(of).collect(),
         }
     }
 

@@ -3,15 +3,14 @@
 
 use std::ops::Range;
 
+use super::candidates::{Candidate, likelihood, listed};
 use super::estimate::Estimate;
+use super::grid::Path;
 use super::likelihood::Linear;
-use super::prior::Prior;
-use super::prior::{Candidate, KINEMATIC, likelihood, listed};
+use super::prior::{KINEMATIC, Prior};
 use super::problem::Problem;
-use super::record::Path;
 use super::residual_tests::Whiteness;
-use super::scales::{Noise, Scales};
-use super::state_space::Autoregression;
+use super::scales::{Autoregression, Noise, Scales};
 
 /// A smoothed motion with its prior and noise.
 #[derive(Clone, Debug)]

@@ -7,6 +7,7 @@ use super::linearised::{Linearised, State};
 use super::matrix::{Matrix, diagonal};
 use super::periodic::Increments;
 use super::prior::Prior;
+use super::scales::Autoregression;
 
 /// Mean deviation of the samples of a node from the nominal path.
 #[derive(Clone, Copy, Debug, Default)]
@@ -17,28 +18,6 @@ pub(super) struct Observed {
     pub slope: f64,
     /// Variance over that of one sample; infinite without a sample.
     pub variance: f64,
-}
-
-/// Correlated noise: a first-order autoregression beside the white noise of the samples.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Autoregression {
-    /// Rate at which the correlation decays, 1/s.
-    pub decay: f64,
-    /// White part of the variance of a sample.
-    pub white: f64,
-}
-
-/// White part of the variance of correlated noise.
-const WHITE: f64 = 0.02;
-
-impl Autoregression {
-    /// First guesses for samples so far apart, s.
-    pub fn guesses(spacing: f64) -> [Autoregression; 3] {
-        [0.2, 1.0, 5.0].map(|steps| Autoregression {
-            decay: 1.0 / (steps * spacing),
-            white: WHITE,
-        })
-    }
 }
 
 /// The linear model of the deviations from a nominal path; N is 2 + order, and one more with correlated noise.

@@ -4,7 +4,8 @@ use serde::Serialize;
 
 use super::bands::{BandRule, DeadCentreBand};
 use super::fitted::Fitted;
-use super::row::{InverseRow, Rows};
+use super::row::InverseRow;
+use super::rows::Rows;
 use super::shared_errors::BudgetShare;
 use crate::numeric::median::median;
 use crate::numeric::parallel;

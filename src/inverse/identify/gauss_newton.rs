@@ -1,16 +1,16 @@
 //! Gauss-Newton iterations: values by the prediction errors, path by the smoother, noise by the marginal likelihood.
 
+use super::super::grid::Path;
 use super::super::kalman;
 use super::super::likelihood::Stretch;
 use super::super::problem::Problem;
-use super::super::record::Path;
 use super::super::scales::Noise;
 use super::super::smoother::Smoothed;
-use super::FreeValue;
 use super::information::Information;
 use super::misfit::Misfit;
 use super::optimum::{Found, Optimum};
 use super::trial::{Innovations, MISSING, Trials};
+use super::values::FreeValue;
 use crate::error::Error;
 use crate::numeric::parallel;
 use crate::scene::Scene;

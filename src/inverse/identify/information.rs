@@ -2,25 +2,8 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use super::FreeValue;
+use super::values::FreeValue;
 use crate::error::Error;
-
-/// A value with its error.
-#[derive(Clone, Debug, serde::Serialize)]
-pub struct IdentifiedValue {
-    /// Name, as `crank.inertia`.
-    pub key: String,
-    /// SI unit.
-    pub unit: String,
-    /// Value from which the search set out.
-    pub start: f64,
-    /// Value found.
-    pub value: f64,
-    /// Standard error.
-    pub standard_error: f64,
-    /// Half of the 95 % band.
-    pub half_band: f64,
-}
 
 /// Least eigenvalue of the information scaled to a unit diagonal: differences of innovations are right to about 1e-6, and what is
 /// smaller than their squares is theirs.

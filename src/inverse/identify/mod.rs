@@ -12,16 +12,17 @@ mod misfit;
 mod of_draft;
 mod optimum;
 mod trial;
+mod values;
 
-pub use information::IdentifiedValue;
 #[cfg(feature = "cli")]
 pub use of_draft::{FreeKey, identify_keys};
+pub use values::{FreeValue, IdentifiedValue};
 
 use self::gauss_newton::Search;
 use self::optimum::Found;
 use super::branch_choice::crank_angles;
+use super::grid::Grid;
 use super::measurement_model::{Scale, Sensor};
-use super::record::Grid;
 use super::residual_tests::Whiteness;
 use super::samples::{first_path, kinematic};
 use super::warnings::alone;
@@ -29,21 +30,6 @@ use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::numeric::student;
 use crate::scene::{Measured, Measurement, Scene};
-
-/// A value that is free.
-#[derive(Clone, Debug)]
-pub struct FreeValue {
-    /// Name, as `crank.inertia`.
-    pub key: String,
-    /// SI unit.
-    pub unit: String,
-    /// Value from which the search sets out.
-    pub start: f64,
-    /// Size of a change that matters where the start is 0.
-    pub scale: f64,
-    /// Whether it is what the sensor shows where it should show 0 (rad or m): the index mark of an angle, the zero of x.
-    pub is_sensor_zero: bool,
-}
 
 /// Values of a scene from a measured motion.
 #[derive(Clone, Debug, serde::Serialize)]

@@ -1,9 +1,10 @@
 //! Where the likelihood is largest.
 
-use super::FreeValue;
-use super::information::{IdentifiedValue, Information};
+use super::information::Information;
 use super::misfit::Misfit;
-use crate::inverse::record::Path;
+use super::values::FreeValue;
+use super::values::IdentifiedValue;
+use crate::inverse::grid::Path;
 use crate::inverse::scales::Noise;
 
 /// An optimum of the likelihood.

@@ -2,16 +2,17 @@
 
 use std::borrow::Cow;
 
+use super::super::grid::Path;
 use super::super::kalman::{self, Companion, Innovation, Sample};
 use super::super::likelihood::{Linear, Stretch};
 use super::super::maximum::{ENOUGH, climb};
 use super::super::measurement_model::{Scale, Sensor};
 use super::super::prior::{Prior, Unknown};
 use super::super::problem::Problem;
-use super::super::record::{Path, Record};
+use super::super::record::Record;
 use super::super::scales::{Noise, Scales};
 use super::super::state_space::Deviations;
-use super::FreeValue;
+use super::values::FreeValue;
 use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::scene::Scene;

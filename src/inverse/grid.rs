@@ -1,0 +1,184 @@
+//! Nodes of a path, and the path along them.
+
+use std::ops::Range;
+
+use super::linearised::State;
+
+/// Nodes of the path with their samples.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Grid {
+    /// Times, s.
+    pub times: Vec<f64>,
+    /// First sample of each node, and at the end the number of samples: a node has those up to the next one's first.
+    pub first: Vec<usize>,
+    /// Time of a block of samples that stand at one node, s; 0 where each has its own.
+    pub block: f64,
+}
+
+/// A path: the nominal one of a linear model.
+#[derive(Clone, Debug)]
+pub(super) struct Path {
+    /// The nodes along which it is known, rising.
+    pub ranges: Vec<Range<usize>>,
+    /// One for each of these nodes.
+    pub states: Vec<State>,
+    /// Variance of the crank angle, rad², where the samples are so curved in it that it counts.
+    pub variances: Option<Vec<f64>>,
+}
+
+/// A stretch of a path.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece<'a> {
+    /// The first node.
+    pub first: usize,
+    pub states: &'a [State],
+    pub variances: Option<&'a [f64]>,
+}
+
+impl Path {
+    /// A path along all nodes.
+    pub fn whole(states: Vec<State>, variances: Option<Vec<f64>>) -> Path {
+        Path {
+            ranges: std::iter::once(0..states.len()).collect(),
+            states,
+            variances,
+        }
+    }
+
+    /// The part along some nodes of one of its ranges.
+    pub fn piece(&self, nodes: &Range<usize>) -> Piece<'_> {
+        let mut before = 0;
+        for range in &self.ranges {
+            if range.contains(&nodes.start) {
+                before += nodes.start - range.start;
+                break;
+            }
+            before += range.len();
+        }
+        let places = before..before + nodes.len();
+        Piece {
+            first: nodes.start,
+            states: &self.states[places.clone()],
+            variances: self.variances.as_ref().map(|list| &list[places]),
+        }
+    }
+
+    /// This path along some nodes of its ranges alone.
+    pub fn along(&self, ranges: Vec<Range<usize>>) -> Path {
+        let pieces: Vec<Piece<'_>> = ranges.iter().map(|range| self.piece(range)).collect();
+        let variances = || pieces.iter().filter_map(|piece| piece.variances);
+        Path {
+            states: pieces
+                .iter()
+                .flat_map(|piece| piece.states)
+                .copied()
+                .collect(),
+            variances: self
+                .variances
+                .is_some()
+                .then(|| variances().flatten().copied().collect()),
+            ranges,
+        }
+    }
+
+    /// The nodes with their states.
+    pub fn nodes(&self) -> impl Iterator<Item = (usize, &State)> {
+        self.ranges.iter().flat_map(Clone::clone).zip(&self.states)
+    }
+}
+
+impl Piece<'_> {
+    /// Crank angle at a time, rad.
+    pub fn angle(&self, grid: &Grid, t: f64) -> f64 {
+        let last = self.first + self.states.len() - 1;
+        let a = grid.around(t).0.clamp(self.first, last - 1);
+        let state = |k: usize| [0, 1].map(|i| self.states[k - self.first][i]);
+        let times = [grid.times[a], grid.times[a + 1]];
+        hermite(times, [state(a), state(a + 1)], t)[0]
+    }
+}
+
+/// Value and slope at t of the cubic that has values and slopes at two times.
+pub(super) fn hermite(times: [f64; 2], ends: [[f64; 2]; 2], t: f64) -> [f64; 2] {
+    let h = times[1] - times[0];
+    let s = (t - times[0]) / h;
+    let [[p, u], [q, v]] = ends;
+    let mean = (q - p) / h;
+    let (c, d) = (3.0 * mean - 2.0 * u - v, u + v - 2.0 * mean);
+    [
+        p + h * s * (u + s * (c + s * d)),
+        u + s * (2.0 * c + 3.0 * s * d),
+    ]
+}
+
+/// Largest way of the crank from node to node, rad.
+const LONGEST: f64 = 0.12;
+
+/// Samples from which on they may be taken together, nodes that are left at least, and the largest way of the crank, rad, along
+/// which they are.
+const MANY: usize = 100_000;
+const BLOCKS: usize = 50_000;
+const SHORT: f64 = 0.02;
+
+impl Grid {
+    /// Nodes that stand for blocks of samples, if these are so many and so dense that little happens in a block.
+    pub fn of_blocks(times: &[f64], angles: &[f64]) -> Option<Grid> {
+        let count = times.len();
+        let stride = count.div_ceil(1000);
+        let some: Vec<f64> = angles.iter().step_by(stride).copied().collect();
+        let way: f64 = some.windows(2).map(|w| (w[1] - w[0]).abs()).sum();
+        let dense = (SHORT * count as f64 / way.max(f64::MIN_POSITIVE)) as usize;
+        let length = dense.min(count / BLOCKS);
+        if count < MANY || length < 2 {
+            return None;
+        }
+        let blocks = count / length;
+        let mut first: Vec<usize> = (0..=blocks).map(|k| k * count / blocks).collect();
+        first.dedup();
+        let times: Vec<f64> = first
+            .windows(2)
+            .map(|w| 0.5 * (times[w[0]] + times[w[1] - 1]))
+            .collect();
+        let widest = times.windows(2).map(|w| w[1] - w[0]).fold(0.0, f64::max);
+        Some(Grid {
+            times,
+            first,
+            block: widest,
+        })
+    }
+
+    /// Nodes at the samples and between those that are far apart.
+    pub fn new(times: &[f64], angles: &[f64]) -> Grid {
+        Grid::finer(times, angles, LONGEST)
+    }
+
+    /// Nodes at the samples and between those, at most so far apart, rad.
+    pub fn finer(times: &[f64], angles: &[f64], longest: f64) -> Grid {
+        let mut grid = Grid::default();
+        for (i, t) in times.iter().enumerate() {
+            grid.times.push(*t);
+            grid.first.push(i);
+            let Some(next) = times.get(i + 1) else { break };
+            let parts = ((angles[i + 1] - angles[i]).abs() / longest)
+                .ceil()
+                .clamp(1.0, 1e4);
+            for k in 1..parts as usize {
+                grid.times.push(t + (next - t) * k as f64 / parts);
+                grid.first.push(i + 1);
+            }
+        }
+        grid.first.push(times.len());
+        grid
+    }
+
+    /// The nodes on both sides of a time, or the two at the end beyond which it is.
+    pub fn around(&self, t: f64) -> (usize, usize) {
+        let before = self.times.partition_point(|time| *time <= t);
+        let before = before.clamp(1, self.times.len() - 1) - 1;
+        (before, before + 1)
+    }
+
+    pub fn len(&self) -> usize {
+        self.times.len()
+    }
+}

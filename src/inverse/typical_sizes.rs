@@ -1,0 +1,77 @@
+//! Typical sizes along a record: root mean squares over some of its nodes.
+
+use super::estimate::Estimate;
+use super::grid::Path;
+use super::linearised::Motion;
+use super::problem::Problem;
+use super::quantised::Codes;
+use super::scales::Scales;
+use super::smoother::Smoothed;
+
+impl Problem<'_> {
+    /// Root mean square of d measured/dθ.
+    pub fn slope(&self, path: &Path) -> f64 {
+        let stride = path.states.len().div_ceil(1000);
+        let slopes = path.states.iter().step_by(stride);
+        let slopes = slopes.map(|state| self.record.sensor.shown(state[0]).slope.powi(2));
+        let (sum, count) = slopes
+            .filter(|s| s.is_finite())
+            .fold((0.0, 0.0), |(s, n), x| (s + x, n + 1.0));
+        (sum / f64::max(count, 1.0)).sqrt()
+    }
+
+    /// Turns from one end of a path to the other.
+    pub fn turns(&self, path: &Smoothed) -> f64 {
+        let angle = |estimate: Option<&Estimate>| estimate.map_or(0.0, |e| e.state[0]);
+        let way = angle(path.estimates.last()) - angle(path.estimates.first());
+        way.abs() / std::f64::consts::TAU
+    }
+
+    /// Way of the crank from sample to sample, rad, root mean square.
+    pub fn way(&self) -> f64 {
+        let record = &self.record;
+        let squares = record.values.windows(2).map(|w| (w[1] - w[0]).powi(2));
+        let mean = squares.sum::<f64>() / record.values.len() as f64;
+        mean.sqrt() / record.sensor.size()
+    }
+
+    /// Typical sizes along a path with a prior.
+    pub fn scales(&self, motion: &Motion<'_>, path: &Path, slope: f64, shape: [f64; 2]) -> Scales {
+        let times = &self.grid.times;
+        let duration = times[times.len() - 1] - times[0];
+        let samples = self.record.times.len() as f64;
+        let stride = path.states.len().div_ceil(1000);
+        let (mut lever, mut count) = (0.0, 0.0);
+        for (node, state) in path.nodes().step_by(stride) {
+            let rates = motion.rates(times[node], state);
+            if rates.by_unknown.is_finite() {
+                lever += rates.by_unknown * rates.by_unknown;
+                count += 1.0;
+            }
+        }
+        Scales {
+            spacing: duration / (samples - 1.0),
+            duration,
+            slope,
+            lever: (lever / count).sqrt(),
+            motion: shape,
+            speed: spread(path.states.iter().step_by(stride).map(|state| state[1])),
+            floor: self.record.floor,
+            known: self.record.codes.map(Codes::spread),
+        }
+    }
+}
+
+/// Standard deviation of numbers.
+fn spread(numbers: impl Iterator<Item = f64>) -> f64 {
+    let (mut count, mut mean, mut squares) = (0.0, 0.0, 0.0);
+    for number in numbers {
+        count += 1.0;
+        let off = number - mean;
+        mean += off / count;
+        squares += off * (number - mean);
+    }
+    (squares / f64::max(count, 1.0))
+        .sqrt()
+        .max(f64::MIN_POSITIVE)
+}
