@@ -3,11 +3,10 @@
 
 use super::kalman::{self, Evidence};
 use super::linearised::{Linearised, State};
-use super::maximum::{better, climb};
 use super::periodic::Increments;
 use super::prior::Prior;
 use super::regression::{Posterior, Regression, Spectrum};
-use super::scales::{Autoregression, Noise, Scales};
+use super::scales::{Noise, Scales};
 use super::state_space::{Deviations, Observed};
 
 /// Stretches of nodes with their linear models, and the scales of the search.
@@ -169,143 +168,4 @@ impl Linear<'_> {
         }
         noise
     }
-
-    /// The largest likelihood over the corner frequency, from a first guess.
-    pub fn maximised(&self, guess: f64, correlated: Option<Autoregression>) -> Noise {
-        self.renewed(Noise {
-            correlated,
-            ..Noise::white(guess)
-        })
-    }
-
-    /// The likeliest corner frequency beside what else a noise has, from the one that it has.
-    pub fn renewed(&self, noise: Noise) -> Noise {
-        self.improved(self.evaluated(noise))
-    }
-
-    /// The likeliest corner frequency beside what else a noise has, whose likelihood is known.
-    pub fn improved(&self, first: Noise) -> Noise {
-        let by_corner = |corner| self.evaluated(Noise { corner, ..first });
-        let best = self.over(first.corner, first, by_corner);
-        match best.spectrum {
-            None => best,
-            Some(_) => self.begun(best),
-        }
-    }
-
-    /// The largest likelihood over a frequency, from a first guess with its noise.
-    fn over(&self, guess: f64, first: Noise, at: impl Fn(f64) -> Noise) -> Noise {
-        let range = self.scales.corners().map(f64::ln);
-        climb(|log| at(log.exp()), guess.ln(), first, range)
-    }
-
-    /// The largest likelihood over corner frequencies all over the range.
-    pub fn anywhere(&self) -> Noise {
-        let lowest = (0.5 / self.scales.duration).ln();
-        let highest = (3.0 / self.scales.spacing).ln();
-        let count = (highest - lowest).ceil().max(1.0);
-        let best = (0..=count as usize)
-            .map(|k| (lowest + (highest - lowest) * k as f64 / count).exp())
-            .map(|corner| self.evaluated(Noise::white(corner)))
-            .max_by(|a, b| a.likelihood.total_cmp(&b.likelihood));
-        best.map_or_else(
-            || self.maximised(highest.exp(), None),
-            |best| self.improved(best),
-        )
-    }
-
-    /// The strongest noise, over a frequency of at least `low`, by which ln of the likelihood falls no more than `allowed` below the
-    /// largest: by n²/2 for n standard errors. A prior that is too smooth, or has a shape of its own, has a band that does not hold
-    /// what is less smooth or of another shape.
-    pub fn as_strong_as_allowed(
-        &self,
-        noise: &Noise,
-        mut low: f64,
-        allowed: f64,
-        with: impl Fn(f64) -> Noise,
-    ) -> Noise {
-        let mut best = noise.likelihood;
-        let (mut found, mut high) = (*noise, f64::INFINITY);
-        let mut frequency = noise.corner.max(FIRST * low);
-        for _ in 0..LEVELS {
-            let next = self.evaluated(with(frequency));
-            best = best.max(next.likelihood);
-            let fall = best - next.likelihood;
-            if fall > allowed {
-                high = frequency;
-            } else {
-                (found, low) = (next, frequency);
-                if fall >= 0.5 * allowed {
-                    break;
-                }
-            }
-            // The fall grows like the density of the noise, by the sixth power of the frequency.
-            let next = frequency * (0.75 * allowed / fall.max(1e-3)).powf(1.0 / 6.0);
-            frequency = match next > low && next < high {
-                true => next.min(2.0 * frequency),
-                false if low > 0.0 => (low * high).sqrt(),
-                false => 0.5 * high,
-            };
-        }
-        found
-    }
-
-    /// The likeliest noise of g beside that of u: a loss that is not in proportion to the speed.
-    pub fn with_drift(&self, mut noise: Noise) -> Noise {
-        for _ in 0..2 {
-            let level = noise.level.max(noise.corner);
-            let first = self.evaluated(Noise { level, ..noise });
-            let by_level = |level| self.evaluated(Noise { level, ..noise });
-            noise = better(noise, self.over(level, first, by_level));
-            noise = better(noise, self.improved(noise));
-        }
-        noise
-    }
-
-    /// The largest likelihood over the corner frequency, the correlation of the noise and its white part.
-    pub fn correlated(&self, from: &Noise, guesses: &[Autoregression]) -> Noise {
-        let mut best = Noise {
-            likelihood: f64::NEG_INFINITY,
-            ..*from
-        };
-        for guess in guesses {
-            let correlated = Some(*guess);
-            let found = self.evaluated(Noise {
-                correlated,
-                ..*from
-            });
-            if found.likelihood > best.likelihood {
-                best = found;
-            }
-        }
-        for _ in 0..ROUNDS {
-            let before = best.likelihood;
-            let Some(now) = best.correlated else { break };
-            let decay = now.decay.ln();
-            let range = [
-                (0.01 / self.scales.duration).ln(),
-                (5.0 / self.scales.spacing).ln(),
-            ];
-            let by_decay = |log: f64| {
-                let decay = log.exp();
-                self.evaluated(Noise {
-                    correlated: Some(Autoregression { decay, ..now }),
-                    ..best
-                })
-            };
-            best = better(best, climb(by_decay, decay, best, range));
-            best = better(best, self.improved(best));
-            if best.likelihood - before < 0.1 {
-                break;
-            }
-        }
-        best
-    }
 }
-
-/// First factor of the frequency, and most evaluations, in the search for that noise.
-const FIRST: f64 = 1.2;
-const LEVELS: usize = 12;
-
-/// Most rounds of the search over one parameter after the other.
-const ROUNDS: usize = 8;

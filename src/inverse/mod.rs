@@ -55,6 +55,7 @@ mod mean_cycle;
 mod measurement_model;
 mod mirror_image;
 mod motion_estimate;
+mod noise_search;
 mod options;
 mod outliers;
 mod periodic;

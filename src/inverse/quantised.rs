@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use crate::numeric::median::median;
+
 /// Codes of an encoder.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Codes {
@@ -71,7 +73,8 @@ impl Codes {
     }
 
     /// What the samples say without what follows from others: passages from step to step, and steps that were shown at a sample
-    /// beside which others were left out, in the middle of a stay, and at both ends. All samples where those are fewer.
+    /// beside which others were left out, at both ends, and within a stay: one for each time that a stay lasts as long as usual,
+    /// for a crank at rest could leave the step between. All samples where those are fewer.
     pub fn intervals(&self, times: &[f64], values: &[f64]) -> Vec<Interval> {
         let shown = |sample: usize| Interval {
             t: times[sample],
@@ -84,18 +87,23 @@ impl Codes {
         ends.push(values.len());
         let stays: Vec<Range<usize>> = ends.windows(2).map(|w| w[0]..w[1]).collect();
         let skips = |i: usize| i == 0 || i == values.len() || self.count(values, i).abs() > 1;
+        let usual = median(stays.iter().map(|stay| stay.len() as f64)).unwrap_or(1.0) as usize;
         let mut list = Vec::new();
         for (k, stay) in stays.iter().enumerate() {
             let last = stay.end - 1;
-            let mut seen = [
-                skips(stay.start).then_some(stay.start),
-                (stay.len() > 2).then_some(stay.start + stay.len() / 2),
-                skips(stay.end).then_some(last),
-            ];
-            if seen[0] == seen[2] {
-                seen[2] = None;
-            }
-            list.extend(seen.into_iter().flatten().map(shown));
+            let parts = if stay.len() > 2 {
+                stay.len().div_ceil(usual.max(1))
+            } else {
+                0
+            };
+            let mut seen: Vec<usize> = (1..=parts)
+                .map(|part| stay.start + stay.len() * part / (parts + 1))
+                .collect();
+            seen.extend(skips(stay.start).then_some(stay.start));
+            seen.extend(skips(stay.end).then_some(last));
+            seen.sort_unstable();
+            seen.dedup();
+            list.extend(seen.into_iter().map(shown));
             if let Some(next) = stays.get(k + 1)
                 && !skips(stay.end)
             {
