@@ -15,10 +15,10 @@ use crate::scene::{Measured, Measurement};
 const WAY: f64 = 0.3;
 
 /// Least samples about a turning point.
-const LEAST: usize = 6;
+const LEAST_SAMPLES: usize = 6;
 
 /// Standard errors by which a turning point is off a dead centre.
-const SIGNIFICANT: f64 = 3.0;
+const ERRORS_OFF: f64 = 3.0;
 
 /// The sensor as it is, and those that show the turning points at the dead centres, where they are off.
 pub(super) fn sensors<'a>(sensor: Sensor<'a>, measurement: &Measurement) -> Vec<Sensor<'a>> {
@@ -68,7 +68,7 @@ struct Turn {
 
 impl Turn {
     fn is_off(&self) -> bool {
-        (self.shown - self.at).abs() > SIGNIFICANT * self.error
+        (self.shown - self.at).abs() > ERRORS_OFF * self.error
     }
 }
 
@@ -86,7 +86,7 @@ fn turning_point(measurement: &Measurement, sense: f64, crank: f64) -> Option<[f
     let mut first = 0;
     while first < values.len() {
         let near = values[first..].iter().take_while(|v| is_near(**v)).count();
-        if near >= LEAST {
+        if near >= LEAST_SAMPLES {
             turns.extend(vertex(measurement, first..first + near));
         }
         first += near.max(1);

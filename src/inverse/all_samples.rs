@@ -6,12 +6,12 @@ use super::kalman::{self, Evidence, Gaussian};
 use super::likelihood::Linear;
 use super::linearised::Motion;
 use super::maximum::vertex;
-use super::problem::{PIECE, Problem};
+use super::problem::{NODES_OF_A_THREAD, Problem};
 use super::scales::{Noise, Scales};
 use crate::numeric::parallel;
 
 /// Most rounds in which corner frequencies beyond those that were tried are looked at.
-const ROUNDS: usize = 6;
+const CORNER_ROUNDS: usize = 6;
 
 impl Problem<'_> {
     /// The likeliest corner frequency by all samples about a path along all nodes, from a first one.
@@ -30,7 +30,7 @@ impl Problem<'_> {
         let [lowest, highest] = scales.corners().map(f64::ln);
         let mut tried: Vec<(f64, Noise)> = Vec::new();
         let mut logs = [-1.0, 0.0, 1.0].map(|off| first.corner.ln() + off);
-        for _ in 0..ROUNDS {
+        for _ in 0..CORNER_ROUNDS {
             let logs_inside = logs.map(|log| log.clamp(lowest, highest));
             let noises = logs_inside.map(|log| Noise {
                 corner: log.exp(),
@@ -89,13 +89,13 @@ impl Problem<'_> {
         noises: &[Noise],
     ) -> Vec<Evidence> {
         let last = self.grid.len() - 1;
-        let firsts: Vec<usize> = (0..last).step_by(PIECE).collect();
+        let firsts: Vec<usize> = (0..last).step_by(NODES_OF_A_THREAD).collect();
         let mut filters: Vec<(Option<Gaussian<N>>, Evidence)> =
             vec![Default::default(); noises.len()];
         for some in firsts.chunks(noises.len()) {
             // A stretch begins at the node where the one before ends.
             let stretches = parallel::map(some.iter(), |first| {
-                let range = *first..last.min(first + PIECE) + 1;
+                let range = *first..last.min(first + NODES_OF_A_THREAD) + 1;
                 self.stretch(motion, path, range, noises[0].sigma)
             });
             filters = parallel::map(

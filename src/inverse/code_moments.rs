@@ -9,12 +9,12 @@ use super::likelihood::Linear;
 use super::prior::Prior;
 use super::problem::Problem;
 use super::quantised::{Codes, Interval};
-use super::smoother::{AT_REST, Smoothed, change};
+use super::smoother::{PATH_AT_REST, Smoothed, change};
 use crate::numeric::parallel;
 
 /// Jitters that are tried, in steps, and most samples by which one is chosen.
 const JITTERS: [f64; 8] = [1e-3, 0.01, 0.03, 0.1, 0.2, 0.3, 0.5, 1.0];
-const ENOUGH: usize = 4000;
+const JITTER_SAMPLES: usize = 4000;
 
 /// Part by which the normal distributions move towards the moments.
 const DAMPING: f64 = 0.6;
@@ -95,7 +95,7 @@ impl Problem<'_> {
             })
         };
         let mut list = parallel::list(record.intervals.len(), of);
-        let stride = list.len().div_ceil(ENOUGH);
+        let stride = list.len().div_ceil(JITTER_SAMPLES);
         let likelihood = |jitter: f64| {
             let some = list.iter().step_by(stride).flatten();
             some.map(|b| b.cavity.matched(jitter * codes.step / b.width).0)
@@ -126,8 +126,8 @@ impl Problem<'_> {
 }
 
 /// Most rounds of expectation propagation, and those between two estimates of the noise of the motion.
-const ROUNDS: usize = 16;
-const SOME: usize = 4;
+const PROPAGATION_ROUNDS: usize = 16;
+const ROUNDS_OF_A_NOISE: usize = 4;
 
 impl Smoothed {
     /// Whether motion and likelihood are finite.
@@ -144,13 +144,13 @@ impl Problem<'_> {
         smoothed.noise.sigma = codes.spread();
         let motion = self.motion(smoothed.prior);
         let mut is_at_rest = false;
-        for round in 0..ROUNDS {
+        for round in 0..PROPAGATION_ROUNDS {
             let beliefs = self.beliefs(codes, &smoothed);
             self.propagate(codes, &beliefs);
             let path = smoothed.path(false);
             // The noise of the motion follows codes that hardly move.
-            let is_last = round + 1 == ROUNDS || is_at_rest;
-            if is_last || round % SOME == SOME - 1 {
+            let is_last = round + 1 == PROPAGATION_ROUNDS || is_at_rest;
+            if is_last || round % ROUNDS_OF_A_NOISE == ROUNDS_OF_A_NOISE - 1 {
                 let linear = Linear {
                     stretches: &self.stretches(&motion, &path, smoothed.noise.sigma),
                     prior: smoothed.prior,
@@ -162,7 +162,7 @@ impl Problem<'_> {
             if is_last {
                 break;
             }
-            is_at_rest = change(&smoothed.estimates, &path) < AT_REST;
+            is_at_rest = change(&smoothed.estimates, &path) < PATH_AT_REST;
         }
         // Of the samples by which the evidence is found.
         let beliefs = self.beliefs(codes, &smoothed);

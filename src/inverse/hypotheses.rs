@@ -52,7 +52,7 @@ pub(super) struct Tracker<'a, 's> {
 }
 
 /// Most hypotheses that are kept, and ln of the likelihood ratio beyond which one is dropped.
-const MOST: usize = 6;
+const MOST_HYPOTHESES: usize = 6;
 pub(super) const DROPPED: f64 = 50.0;
 
 impl Tracker<'_, '_> {
@@ -234,8 +234,9 @@ fn prune(list: &mut Vec<Hypothesis>) {
             let off = |i: usize| other.state.mean[i] - now.state.mean[i];
             (0..2).all(|i| off(i).powi(2) < now.state.covariance[i][i])
         };
-        let drop =
-            now.score < list[0].score - DROPPED || list[..kept].iter().any(agrees) || kept == MOST;
+        let drop = now.score < list[0].score - DROPPED
+            || list[..kept].iter().any(agrees)
+            || kept == MOST_HYPOTHESES;
         if !drop && now.score.is_finite() {
             list[kept] = now;
             kept += 1;

@@ -5,7 +5,7 @@ use super::likelihood::Linear;
 use super::prior::KINEMATIC;
 use super::problem::Problem;
 use super::scales::Scales;
-use super::smoother::{AT_REST, ITERATIONS, Smoothed};
+use super::smoother::{ITERATIONS, PATH_AT_REST, Smoothed};
 
 /// First standard deviation of a sample over the way between two, and the factor by which it is lowered: the prior of the start
 /// is then as wide as that way.
@@ -54,7 +54,7 @@ impl Problem<'_> {
             };
             shape = [rms(2).max(f64::MIN_POSITIVE), rms(3).max(f64::MIN_POSITIVE)];
             let lowered = floor <= self.record.floor || noise.sigma > 3.0 * floor;
-            let settled = lowered && (change < AT_REST || is_linear);
+            let settled = lowered && (change < PATH_AT_REST || is_linear);
             best = Some(Smoothed {
                 prior: KINEMATIC,
                 noise,

@@ -49,7 +49,7 @@ pub(super) fn climb(
         }
         let [a, b, c] = [best - 1, best, best + 1].map(|k| (points[k].0, points[k].1.likelihood));
         let top = vertex(a, b, c);
-        if !top.place.is_finite() || top.rise < ENOUGH {
+        if !top.place.is_finite() || top.rise < ENOUGH_RISE {
             break;
         }
         points.push((top.place, at(top.place)));
@@ -66,7 +66,7 @@ fn value(points: &[(f64, Noise)], place: f64) -> f64 {
 }
 
 /// Rise of ln of a likelihood that is not worth another evaluation.
-pub(super) const ENOUGH: f64 = 0.05;
+pub(super) const ENOUGH_RISE: f64 = 0.05;
 
 /// A place and how much higher it is expected to be than what is known.
 pub(super) struct Top {

@@ -113,7 +113,7 @@ impl Linear<'_> {
                 best = found;
             }
         }
-        for _ in 0..ROUNDS {
+        for _ in 0..CORRELATION_ROUNDS {
             let before = best.likelihood;
             let Some(now) = best.correlated else { break };
             let decay = now.decay.ln();
@@ -143,4 +143,4 @@ const FIRST: f64 = 1.2;
 const LEVELS: usize = 12;
 
 /// Most rounds of the search over one parameter after the other.
-const ROUNDS: usize = 8;
+const CORRELATION_ROUNDS: usize = 8;

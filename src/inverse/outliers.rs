@@ -12,13 +12,13 @@ const FAR: f64 = 5.7;
 const TIED: f64 = 0.5;
 
 /// Part of the samples beyond which what lies far off is no outlier.
-const MOST: f64 = 0.1;
+const MOST_OUTLIERS: f64 = 0.1;
 
 /// Standard deviation of normal noise over the median of its sizes.
 const NORMAL: f64 = 1.4826;
 
 /// Weight below which a sample does not count.
-const LEAST: f64 = 1e-6;
+const LEAST_WEIGHT: f64 = 1e-6;
 
 /// Weights of the samples, that go in steps of this width, by a smoothed motion; none where there are no outliers and never were.
 pub(super) fn weights(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Option<Vec<f64>> {
@@ -47,7 +47,7 @@ pub(super) fn weights(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> 
     }
     let far = || standardised.iter().filter(|r| r.abs() > FAR * scale);
     let count = far().count() as f64;
-    if count == 0.0 || count > MOST * standardised.len() as f64 {
+    if count == 0.0 || count > MOST_OUTLIERS * standardised.len() as f64 {
         let weighted = record.weights.iter().any(|w| *w < 1.0);
         return weighted.then(|| match count {
             0.0 => record.weights.clone(),
@@ -60,7 +60,7 @@ pub(super) fn weights(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> 
         let square = (r / scale).powi(2);
         let odds = part / (1.0 - part) / wide.sqrt() * (0.5 * square * (1.0 - 1.0 / wide)).exp();
         let weight = 1.0 / (1.0 + odds);
-        if weight < LEAST { 0.0 } else { weight }
+        if weight < LEAST_WEIGHT { 0.0 } else { weight }
     };
     Some(standardised.iter().map(weight).collect())
 }

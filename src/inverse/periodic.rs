@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DMatrixView};
 use super::kalman::{Companion, Gaussian, Innovation, Return, Sample, Step};
 use super::linearised::Linearised;
 use super::matrix::Matrix;
-use super::regression::{Posterior, ROWS, Regression};
+use super::regression::{Posterior, ROWS_AT_ONCE, Regression};
 use super::state_space::Deviations;
 
 /// Harmonics in the middle and at the end of each step less those at its begin.
@@ -197,7 +197,11 @@ impl<'a, const N: usize> Sensitivities<'a, N> {
         for (shift, innovation) in self.shifts.iter().zip(innovations) {
             *innovation = innovation.map(|value| value + shift);
         }
-        for (columns, states) in self.list.chunks(ROWS * size).zip(path.chunks_mut(ROWS)) {
+        for (columns, states) in self
+            .list
+            .chunks(ROWS_AT_ONCE * size)
+            .zip(path.chunks_mut(ROWS_AT_ONCE))
+        {
             let spread =
                 &self.factor * DMatrixView::from_slice(columns, count, columns.len() / count);
             let rows: Vec<&[f64]> = columns.chunks_exact(count).collect();

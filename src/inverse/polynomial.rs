@@ -11,7 +11,7 @@ const ITERATIONS: usize = 30;
 const CHOICES: usize = 3;
 
 /// Change of the crank angle, rad, at which the iterations have come to rest.
-const AT_REST: f64 = 1e-10;
+const ANGLE_AT_REST: f64 = 1e-10;
 
 /// A fitted polynomial and the motion at its samples.
 #[derive(Clone, Debug)]
@@ -62,7 +62,7 @@ impl Polynomial {
             let change = pairs.fold(0.0, |most: f64, (state, theta)| {
                 most.max((state.value[0] - theta).abs())
             });
-            let settled = record.is_linear() || change < AT_REST;
+            let settled = record.is_linear() || change < ANGLE_AT_REST;
             if settled || iteration + 1 == ITERATIONS || !change.is_finite() {
                 return Ok(Polynomial {
                     fit,

@@ -19,7 +19,7 @@ use crate::numeric::parallel;
 use crate::numeric::stop::Stop;
 
 /// Nodes that one thread smooths at a time, at least, beside those at both ends that are shared with its neighbours.
-pub(super) const PIECE: usize = 8192;
+pub(super) const NODES_OF_A_THREAD: usize = 8192;
 
 /// Time constants of the smoother after which nothing is left of what was before.
 const FORGOTTEN: f64 = 60.0;
@@ -105,15 +105,15 @@ impl<'a> Problem<'a> {
 
     /// The ranges of nodes by which hyper-parameters are estimated: all, or of long records a few stretches.
     pub fn sampled(&self) -> Vec<Range<usize>> {
-        const MOST: usize = 6000;
-        const PARTS: usize = 4;
+        const MOST_NODES: usize = 6000;
+        const STRETCHES: usize = 4;
         let nodes = self.grid.len();
-        if nodes <= MOST {
+        if nodes <= MOST_NODES {
             return self.all();
         }
-        let length = MOST / PARTS;
-        let begin = |part: usize| (nodes - length) * part / (PARTS - 1);
-        (0..PARTS)
+        let length = MOST_NODES / STRETCHES;
+        let begin = |part: usize| (nodes - length) * part / (STRETCHES - 1);
+        (0..STRETCHES)
             .map(|part| begin(part)..begin(part) + length)
             .collect()
     }
@@ -157,7 +157,7 @@ impl<'a> Problem<'a> {
         let times = &self.grid.times;
         let shared = FORGOTTEN / noise.corner;
         let density = nodes as f64 / scales.duration;
-        let length = PIECE.max((4.0 * shared * density).min(nodes as f64) as usize);
+        let length = NODES_OF_A_THREAD.max((4.0 * shared * density).min(nodes as f64) as usize);
         let job = |(core, known, found): (Range<usize>, Range<usize>, &mut [Estimate])| {
             if self.is_stopped() {
                 return;

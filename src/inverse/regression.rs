@@ -3,12 +3,16 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::numeric::cholesky::cholesky;
+use crate::numeric::maximum::largest_to;
 
 /// Rows that are multiplied by a matrix at once.
-pub(super) const ROWS: usize = 128;
+pub(super) const ROWS_AT_ONCE: usize = 128;
 
 /// Largest order of the periodic process.
 const ORDERS: i32 = 3;
+
+/// To what ln s of a spectrum is sought.
+const WIDTH: f64 = 0.2;
 
 /// Variances of the coefficients.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,7 +52,7 @@ impl Regression {
         Regression {
             information: DMatrix::zeros(count, count),
             score: vec![0.0; count],
-            rows: Vec::with_capacity(ROWS * count),
+            rows: Vec::with_capacity(ROWS_AT_ONCE * count),
         }
     }
 
@@ -58,7 +62,7 @@ impl Regression {
             *score -= value * per * error * per;
             self.rows.push(value * per);
         }
-        if self.rows.len() == ROWS * self.score.len() {
+        if self.rows.len() == ROWS_AT_ONCE * self.score.len() {
             self.multiply();
         }
     }
@@ -78,23 +82,25 @@ impl Regression {
         likelihood: impl Fn(&Posterior) -> f64,
     ) -> Option<Spectrum> {
         let told = 1.0 / self.information.diagonal().max().sqrt();
-        let at = |log: f64, order: i32| {
-            let size = log.exp();
-            let spectrum = Spectrum { size, order };
-            let found = self.solved(spectrum).map(|found| likelihood(&found));
-            (found.unwrap_or(f64::NEG_INFINITY), spectrum)
-        };
         let of_order = |order: i32| {
             let [low, high] = match near {
                 // From nothing that is told to 1e13 times that.
                 None => [told * (-2f64).exp(), told * 30f64.exp()],
                 Some(near) => [0.25, 4.0].map(|part| part * near.of_order(order, self.score.len())),
             };
-            section([low.ln(), high.ln()], |log| at(log, order))
+            let with = |log: f64| Spectrum {
+                size: log.exp(),
+                order,
+            };
+            let value = |log: f64| {
+                self.solved(with(log))
+                    .map_or(f64::NEG_INFINITY, |found| likelihood(&found))
+            };
+            let (log, value) = largest_to(value, [low.ln(), high.ln()], WIDTH);
+            (value, with(log))
         };
-        let best = (1..=ORDERS)
-            .map(of_order)
-            .max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let orders = (1..=ORDERS).map(of_order);
+        let best = orders.max_by(|a, b| a.0.total_cmp(&b.0))?;
         best.0.is_finite().then_some(best.1)
     }
 
@@ -118,27 +124,6 @@ impl Regression {
             lower,
         })
     }
-}
-
-/// The largest value over an interval, and what has it, by golden sections.
-fn section<T: Copy>([mut low, mut high]: [f64; 2], at: impl Fn(f64) -> (f64, T)) -> (f64, T) {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    const WIDTH: f64 = 0.5;
-    let inner =
-        |low: f64, high: f64| [high, low].map(|end| end + GOLDEN * (low + high - 2.0 * end));
-    let [mut a, mut b] = inner(low, high).map(|place| (place, at(place)));
-    while high - low > WIDTH {
-        if a.1.0 > b.1.0 {
-            (high, b) = (b.0, a);
-            let next = inner(low, high)[0];
-            a = (next, at(next));
-        } else {
-            (low, a) = (a.0, b);
-            let next = inner(low, high)[1];
-            b = (next, at(next));
-        }
-    }
-    if a.1.0 > b.1.0 { a.1 } else { b.1 }
 }
 
 /// The coefficients given the samples, in units of σ.

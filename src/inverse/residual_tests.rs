@@ -13,7 +13,7 @@ pub(super) struct Whiteness {
 }
 
 /// Standard deviations beyond which residuals are not taken for white noise: one in 10 000 records of noise is beyond.
-const SIGNIFICANT: f64 = 3.7;
+const DEVIATIONS: f64 = 3.7;
 
 /// Most autocorrelations that are tested.
 const LAGS: usize = 20;
@@ -47,7 +47,7 @@ impl Whiteness {
 
     /// Whether the residuals are plainly not white.
     pub fn is_violated(&self) -> bool {
-        self.ljung_box > SIGNIFICANT
+        self.ljung_box > DEVIATIONS
     }
 }
 

@@ -5,10 +5,10 @@ use super::problem::Problem;
 use super::smoother::Smoothed;
 
 /// Rounds in which noise and path find each other.
-const ROUNDS: usize = 4;
+const SENSOR_ROUNDS: usize = 4;
 
 /// Part of the squares of residuals that is noise at least, where the path itself may have made them.
-const LEAST: f64 = 0.1;
+const LEAST_NOISE: f64 = 0.1;
 
 impl Problem<'_> {
     /// A smoothed motion by all sensors, from that by the record's own: the noise of each is that of its residuals, over the part
@@ -17,7 +17,7 @@ impl Problem<'_> {
         if self.record.beside.is_empty() {
             return smoothed;
         }
-        for _ in 0..ROUNDS {
+        for _ in 0..SENSOR_ROUNDS {
             let noises: Vec<[f64; 2]> = (0..self.record.beside.len())
                 .map(|k| self.noise_beside(k, &smoothed))
                 .collect();
@@ -50,7 +50,7 @@ impl Problem<'_> {
         }
         let variance = match other.sigma.is_finite() {
             true => squares / f64::max(free, 1.0),
-            false => (squares - of_path).max(LEAST * squares) / f64::max(count, 1.0),
+            false => (squares - of_path).max(LEAST_NOISE * squares) / f64::max(count, 1.0),
         };
         let least = 4.0 * f64::EPSILON * largest;
         [variance.sqrt().max(least), sum / f64::max(count, 1.0)]

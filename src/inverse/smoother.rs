@@ -41,7 +41,7 @@ const TWO_ERRORS: f64 = 2.0;
 pub(super) const ITERATIONS: usize = 12;
 
 /// Change of the path, in its standard errors, at which the iterations have come to rest.
-pub(super) const AT_REST: f64 = 0.05;
+pub(super) const PATH_AT_REST: f64 = 0.05;
 
 impl Problem<'_> {
     /// A motion that was smoothed at some of the nodes, smoothed at all with its noise, about paths from this first one.
@@ -64,7 +64,7 @@ impl Problem<'_> {
             whole.estimates = Vec::new();
             whole.estimates = self.smoothed(&motion, &path, whole.scales, &whole.noise);
             let change = path.moved(&whole.estimates);
-            whole.settled = found.settled && (is_linear || change < AT_REST);
+            whole.settled = found.settled && (is_linear || change < PATH_AT_REST);
             if whole.settled || !change.is_finite() {
                 break;
             }
@@ -177,7 +177,7 @@ impl Problem<'_> {
             let change = path.moved(&estimates);
             (result.noise, result.estimates) = (noise, estimates);
             // The noise of the second iteration has in it what makes the band hold.
-            if change < AT_REST && iteration > 0 {
+            if change < PATH_AT_REST && iteration > 0 {
                 result.settled = true;
                 break;
             }

@@ -8,11 +8,15 @@ const WIDTH: f64 = 1.0 / (1u32 << 30) as f64;
 /// Where between a and b a function with one top is largest, and its value there: by parabolas through three
 /// points, and by the golden section where they do not serve (Brent, Algorithms for Minimization without
 /// Derivatives, 1973, ch. 5).
-pub fn largest(mut f: impl FnMut(f64) -> f64, a: f64, b: f64) -> (f64, f64) {
-    let (a, b) = (a.min(b), a.max(b));
+pub fn largest(f: impl FnMut(f64) -> f64, a: f64, b: f64) -> (f64, f64) {
+    largest_to(f, [a.min(b), a.max(b)], WIDTH * (b - a).abs())
+}
+
+/// As [`largest`], to a place that is right to about twice a width.
+pub fn largest_to(mut f: impl FnMut(f64) -> f64, [a, b]: [f64; 2], width: f64) -> (f64, f64) {
     let first = a + GOLDEN_PART * (b - a);
     let first = (first, f(first));
-    brent(f, [a, b], [first; 3], 0.0)
+    brent(f, [a, b], [first; 3], 0.0, width)
 }
 
 /// As [`largest`], of a function that is known at three places in order and no smaller at the middle one.
@@ -24,7 +28,13 @@ pub fn between(f: impl FnMut(f64) -> f64, known: [(f64, f64); 3]) -> (f64, f64) 
         (high, low)
     };
     let width = high.0 - low.0;
-    brent(f, [low.0, high.0], [middle, next, last], width)
+    brent(
+        f,
+        [low.0, high.0],
+        [middle, next, last],
+        width,
+        WIDTH * width,
+    )
 }
 
 /// From the best three points, the best one first, and the size of the step before last.
@@ -33,8 +43,8 @@ fn brent(
     [mut a, mut b]: [f64; 2],
     mut best: [(f64, f64); 3],
     mut last_step: f64,
+    least_step: f64,
 ) -> (f64, f64) {
-    let least_step = WIDTH * (b - a);
     let mut step = last_step;
     // Three times as many as golden sections alone take.
     for _ in 0..120 {

@@ -25,10 +25,10 @@ const WIDTH: f64 = 0.3;
 const WIDENED: f64 = 3.0;
 
 /// Most halvings of a step.
-const HALVINGS: usize = 20;
+const STEP_HALVINGS: usize = 20;
 
 /// Change of values and path, in standard errors, at which the iterations have come to rest.
-const AT_REST: f64 = 0.01;
+const VALUES_AT_REST: f64 = 0.01;
 
 /// Step of differences in standard errors of a value that is free alone: prediction errors are linear along it, and their change is
 /// well above rounding.
@@ -38,7 +38,7 @@ const STEP: f64 = 0.1;
 const FIRST: f64 = 1e-4;
 
 /// ln of the likelihood ratio from which on a missing torque is significant.
-pub(super) const SIGNIFICANT: f64 = 2.0;
+pub(super) const SIGNIFICANT_RISE: f64 = 2.0;
 
 /// The search for the largest likelihood.
 pub(super) struct Search<'a> {
@@ -160,7 +160,7 @@ impl<'a> Search<'a> {
             values = taken;
             let model = self.trials.model(&values, &self.path, sigma)?;
             let (turned, innovations) = self.smooth(&model, &noise);
-            let settled = full.max(moved).max(turned) < AT_REST;
+            let settled = full.max(moved).max(turned) < VALUES_AT_REST;
             if settled || part == 0.0 && !with_torque || iterations == ITERATIONS {
                 return Ok(Optimum {
                     values,
@@ -215,7 +215,7 @@ impl<'a> Search<'a> {
         let squares = base.squares(&base.errors);
         let mut refused = None;
         let mut part = 1.0;
-        for _ in 0..HALVINGS {
+        for _ in 0..STEP_HALVINGS {
             let pairs = values.iter().zip(&step.change);
             let at: Vec<f64> = pairs.map(|(value, change)| value + part * change).collect();
             match self.trials.model(&at, &self.path, noise.sigma) {

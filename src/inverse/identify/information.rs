@@ -7,7 +7,7 @@ use crate::error::Error;
 
 /// Least eigenvalue of the information scaled to a unit diagonal: differences of innovations are right to about 1e-6, and what is
 /// smaller than their squares is theirs.
-const ROUNDING: f64 = 1e-11;
+const LEAST_EIGENVALUE: f64 = 1e-11;
 
 /// Part to which changes of values of the weakest combination are one factor: that to which values count as in it.
 const ALIKE: f64 = 0.1;
@@ -68,7 +68,7 @@ impl Information {
             eigen,
             scaled,
         };
-        if found.eigen.eigenvalues.min() < ROUNDING {
+        if found.eigen.eigenvalues.min() < LEAST_EIGENVALUE {
             return Err(found.alike(values, free));
         }
         Ok(found)

@@ -3,7 +3,7 @@
 
 use nalgebra::DVector;
 
-use super::gauss_newton::{SIGNIFICANT, first_step};
+use super::gauss_newton::{SIGNIFICANT_RISE, first_step};
 use super::optimum::Optimum;
 use super::trial::Trials;
 use crate::error::Error;
@@ -22,7 +22,7 @@ pub(super) struct Misfit {
 }
 
 /// Part of a derivative that rounding of differences may leave beside those of other keys.
-const ROUNDING: f64 = 1e-5;
+const SCORE_ROUNDING: f64 = 1e-5;
 
 impl Misfit {
     /// The misfit at an optimum; none where the samples are no likelier with a torque beside the equation, and its residuals are white noise.
@@ -37,7 +37,7 @@ impl Misfit {
         let base = trials.innovations(&model, &noise);
         let errors = base.standardised();
         let is_code = trials.noise.is_infinite();
-        let is_likely = with_torque.likelihood - noise.likelihood <= SIGNIFICANT;
+        let is_likely = with_torque.likelihood - noise.likelihood <= SIGNIFICANT_RISE;
         if is_likely && (is_code || is_white(&errors)) {
             return Ok(None);
         }
@@ -64,8 +64,10 @@ impl Misfit {
         let mut helpers: Vec<_> = (trials.count..trials.all.len()).filter_map(score).collect();
         helpers.sort_by(|a, b| b.2.total_cmp(&a.2));
         // As good as the best, and better than none.
-        let least = helpers.first().map_or(0.0, |best| best.2 - SIGNIFICANT);
-        helpers.retain(|one| one.2 > SIGNIFICANT.max(least));
+        let least = helpers
+            .first()
+            .map_or(0.0, |best| best.2 - SIGNIFICANT_RISE);
+        helpers.retain(|one| one.2 > SIGNIFICANT_RISE.max(least));
         let helpers = helpers
             .into_iter()
             .map(|(key, left, _)| (key, left))
@@ -121,7 +123,7 @@ fn beside(basis: &[DVector<f64>], vector: DVector<f64>) -> Option<DVector<f64>> 
         }
     }
     let left = rest.norm();
-    (left.is_finite() && left > ROUNDING * size).then(|| rest / left)
+    (left.is_finite() && left > SCORE_ROUNDING * size).then(|| rest / left)
 }
 
 #[cfg(test)]

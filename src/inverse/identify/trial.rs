@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::super::grid::Path;
 use super::super::kalman::{self, Companion, Innovation, Sample};
 use super::super::likelihood::{Linear, Stretch};
-use super::super::maximum::{ENOUGH, climb};
+use super::super::maximum::{ENOUGH_RISE, climb};
 use super::super::measurement_model::{Scale, Sensor};
 use super::super::prior::{Prior, Unknown};
 use super::super::problem::Problem;
@@ -160,7 +160,7 @@ impl<'a> Trials<'a> {
             here,
             [low, high],
         );
-        match found.likelihood - here.likelihood > ENOUGH {
+        match found.likelihood - here.likelihood > ENOUGH_RISE {
             true => found,
             false => here,
         }
