@@ -11,6 +11,7 @@ mod inverse;
 mod inverse_friction;
 mod inverse_fuzz;
 mod inverse_limits;
+mod long_records;
 mod measured_rows;
 mod noise;
 mod polynomial;
