@@ -34,9 +34,6 @@ const VALUES_AT_REST: f64 = 0.01;
 /// well above rounding.
 const STEP: f64 = 0.1;
 
-/// First step of differences over a value.
-const FIRST: f64 = 1e-4;
-
 /// ln of the likelihood ratio from which on a missing torque is significant.
 pub(super) const SIGNIFICANT_RISE: f64 = 2.0;
 
@@ -79,6 +76,7 @@ impl<'a> Search<'a> {
                 Some(_) => f64::INFINITY,
                 None => smooth.noise.sigma,
             },
+            correlated: smooth.noise.correlated,
         };
         Search { trials, path }
     }
@@ -122,7 +120,12 @@ impl<'a> Search<'a> {
 
     /// Iterates until values and path come to rest, with a torque beside the equation or without.
     fn climbed(&mut self, mut values: Vec<f64>, with_torque: bool) -> Result<Optimum, Error> {
-        let mut steps: Vec<f64> = self.trials.free().iter().map(first_step).collect();
+        let mut steps: Vec<f64> = self
+            .trials
+            .free()
+            .iter()
+            .map(FreeValue::first_step)
+            .collect();
         let mut sigma = self.trials.scales.floor;
         let mut last = None;
         let mut width = WIDTH;
@@ -268,11 +271,18 @@ impl<'a> Search<'a> {
     /// Moves the path to the smoothed one; the root mean square of its way in standard errors, and the prediction errors in
     /// their standard deviations.
     fn smooth(&mut self, model: &Stretch, noise: &Noise) -> (f64, Vec<f64>) {
-        let (deviations, innovations) =
-            kalman::smooth::<3>(&self.trials.deviations(model, noise), &mut ());
+        match noise.correlated {
+            None => self.smoothed::<3>(model, noise),
+            Some(_) => self.smoothed::<4>(model, noise),
+        }
+    }
+
+    fn smoothed<const N: usize>(&mut self, model: &Stretch, noise: &Noise) -> (f64, Vec<f64>) {
+        let deviations = self.trials.deviations(model, noise);
+        let (deviations, innovations) = kalman::smooth::<N>(&deviations, &mut ());
         let mut sum = 0.0;
         for (state, deviation) in self.path.states.iter_mut().zip(&deviations) {
-            for (value, change) in state.iter_mut().zip(&deviation.mean) {
+            for (value, change) in state[..3].iter_mut().zip(&deviation.mean) {
                 *value += change;
             }
             let variance = deviation.covariance[0][0] * noise.sigma * noise.sigma;
@@ -285,14 +295,4 @@ impl<'a> Search<'a> {
             told.map(|value| value / noise.sigma).collect(),
         )
     }
-}
-
-/// First step of differences.
-pub(super) fn first_step(free: &FreeValue) -> f64 {
-    FIRST
-        * if free.start == 0.0 {
-            free.scale
-        } else {
-            free.start.abs()
-        }
 }

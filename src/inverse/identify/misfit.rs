@@ -3,7 +3,7 @@
 
 use nalgebra::DVector;
 
-use super::gauss_newton::{SIGNIFICANT_RISE, first_step};
+use super::gauss_newton::SIGNIFICANT_RISE;
 use super::optimum::Optimum;
 use super::trial::Trials;
 use crate::error::Error;
@@ -44,7 +44,7 @@ impl Misfit {
         let mut values = at.values.clone();
         values.extend(trials.all[trials.count..].iter().map(|one| one.start));
         let column = |k: usize| {
-            let step = first_step(&trials.all[k]);
+            let step = trials.all[k].first_step();
             let found = trials.derivatives(&values, k, step, &at.path, &base, &noise);
             found.ok().map(DVector::from_vec)
         };

@@ -104,7 +104,11 @@ fn identify_among(
         problem.grid = Grid::finer(&problem.record.times, along, LONGEST);
     }
     let first = first_path(&problem, &angles);
-    let smooth = problem.kinematic(first, smooth.noise.sigma);
+    let mut smooth = problem.kinematic(first, smooth.noise.sigma);
+    let (likeliest, _) = problem.likeliest(smooth.clone());
+    if likeliest.noise.correlated.is_some() {
+        smooth.noise = likeliest.noise;
+    }
     let search = Search::new(scene_at, all, count, &problem, &smooth);
     // A crank that was read backwards is a reason why the equation does not describe the record.
     let found = search.run();

@@ -10,7 +10,7 @@ use super::super::measurement_model::{Scale, Sensor};
 use super::super::prior::{Prior, Unknown};
 use super::super::problem::Problem;
 use super::super::record::Record;
-use super::super::scales::{Noise, Scales};
+use super::super::scales::{Autoregression, Noise, Scales};
 use super::super::state_space::Deviations;
 use super::values::FreeValue;
 use crate::error::Error;
@@ -31,6 +31,8 @@ pub(super) struct Trials<'a> {
     pub scales: Scales,
     /// Standard deviation of a sample about the motion without mechanics; infinite of codes, which have a noise of their own.
     pub noise: f64,
+    /// First-order autoregression of that noise, where the smoothed motion says so.
+    pub correlated: Option<Autoregression>,
 }
 
 /// Prediction errors with their variances in units of σ².
@@ -54,8 +56,8 @@ impl Innovations {
     }
 }
 
-impl Companion<3> for Innovations {
-    fn updated(&mut self, _: usize, _: &Sample<3>, found: &Innovation<3>) {
+impl<const N: usize> Companion<N> for Innovations {
+    fn updated(&mut self, _: usize, _: &Sample<N>, found: &Innovation<N>) {
         self.errors.push(found.error);
         self.variances.push(found.variance);
     }
@@ -115,14 +117,25 @@ impl<'a> Trials<'a> {
     /// Prediction errors of a model.
     pub fn innovations(&self, model: &Stretch, noise: &Noise) -> Innovations {
         let mut found = Innovations::default();
-        kalman::run::<3>(&self.deviations(model, noise), None, &mut found);
+        let deviations = self.deviations(model, noise);
+        match self.correlated {
+            None => drop(kalman::run::<3>(&deviations, None, &mut found)),
+            Some(_) => drop(kalman::run::<4>(&deviations, None, &mut found)),
+        }
         found
     }
 
     /// Marginal likelihood and σ for a corner frequency of the missing torque.
     pub fn at(&self, model: &Stretch, corner: f64) -> Noise {
-        let mut noise = Noise::white(corner);
-        let evidence = kalman::evidence::<3>(&self.deviations(model, &noise));
+        let mut noise = Noise {
+            correlated: self.correlated,
+            ..Noise::white(corner)
+        };
+        let deviations = self.deviations(model, &noise);
+        let evidence = match self.correlated {
+            None => kalman::evidence::<3>(&deviations),
+            Some(_) => kalman::evidence::<4>(&deviations),
+        };
         let free = (evidence.samples as f64 - 2.0 - self.count as f64).max(1.0);
         noise.sigma = (evidence.squares / free).sqrt().max(self.scales.floor);
         let likelihood = -free * noise.sigma.ln()

@@ -31,3 +31,17 @@ pub struct IdentifiedValue {
     /// Half of the 95 % band.
     pub half_band: f64,
 }
+
+/// First step of differences over a value.
+const FIRST: f64 = 1e-4;
+
+impl FreeValue {
+    /// First step of differences.
+    pub(super) fn first_step(&self) -> f64 {
+        FIRST
+            * match self.start {
+                0.0 => self.scale,
+                start => start.abs(),
+            }
+    }
+}
