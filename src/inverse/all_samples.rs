@@ -34,6 +34,7 @@ impl Problem<'_> {
             let logs_inside = logs.map(|log| log.clamp(lowest, highest));
             let noises = logs_inside.map(|log| Noise {
                 corner: log.exp(),
+                likelihood: f64::NEG_INFINITY,
                 ..*first
             });
             let evidences = self.evidences(motion, path, &linear, &noises);
