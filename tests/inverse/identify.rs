@@ -91,7 +91,7 @@ fn correlated_noise_leaves_friction_within_its_band() {
     let (c, d, kept) = (0.0055, 0.13, 0.9f64);
     let theta = run_down(0.02, c, d, 40.0);
     let mut inside = [0; 2];
-    for seed in 0..40u64 {
+    for seed in 0..20u64 {
         let mut random = Random((seed + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
         let mut noise = 3e-4 * random.normal();
         let times: Vec<f64> = (0..600).map(|i| 0.0015 * f64::from(i)).collect();
@@ -109,8 +109,8 @@ fn correlated_noise_leaves_friction_within_its_band() {
             assert!(one.half_band < 0.6 * truth, "{one:?}");
         }
     }
-    // As above.
-    assert!(inside.iter().all(|count| *count >= 34), "{inside:?}");
+    // 19 of 20 are expected; fewer than 16 are one chance in 400.
+    assert!(inside.iter().all(|count| *count >= 16), "{inside:?}");
 }
 
 /// A coarse encoder says between which codes the crank is: several samples in a code are no several samples of noise.
