@@ -1,8 +1,10 @@
 //! Columns of rows as curves in aligned panels: which, over what, in which units and how large.
 
-use super::Look;
+use std::f64::consts::PI;
+
 use super::columns::{Curve, base, curves, labelled};
 use super::figure::{Axis, Figure, Shape, Sheet};
+use super::look::Look;
 use super::quantity::split;
 use super::table::Table;
 use crate::error::Error;
@@ -147,6 +149,9 @@ fn band(table: &Table, curve: &Curve, factor: f64) -> Option<Vec<[f64; 2]>> {
     });
     Some(edges.collect())
 }
+
+/// Crank angle between the points of a curve, rad.
+pub(super) const SPACING: f64 = PI / 360.0;
 
 /// Points that a curve needs; more are thinned out.
 const POINTS: usize = 4000;

@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::super::key_values::{Facts, aligned, fact, six};
-use super::super::page::{self, Origin, Scatter};
-use super::super::{Look, Table};
+use super::super::look::{Look, Scatter};
+use super::super::page::{self, Origin};
+use super::super::table::Table;
 use crate::error::Error;
 
 /// What a sweep found.
