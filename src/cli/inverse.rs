@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::outputs::PlotOfRows;
 use super::reading::ReadingArguments;
-use super::{Outcome, PlotOfRows, Streams, create, draw, fill, is_standard, origin, page};
+use super::streams::{Outcome, Streams, create, draw, fill, is_standard, origin, page};
 use crate::error::Error;
 use crate::inverse::{self, AsPrinted, FitKind, FitSize, InverseOptions};
 use crate::report;

@@ -4,9 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{
-    Outcome, Outputs, angle, check_rows_of_turn, length, origin, positive_angle, quantity, say,
-};
+use super::outputs::Outputs;
+use super::streams::{Outcome, origin};
+use super::values::{angle, check_rows_of_turn, length, positive_angle, quantity};
+use super::watch::say;
 use crate::error::Error;
 use crate::kinematics::Length;
 use crate::kinematics::TurnOptions;

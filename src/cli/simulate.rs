@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 
-use super::{Outcome, Outputs, origin};
+use super::outputs::Outputs;
+use super::streams::{Outcome, origin};
 use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{PlotRows, Preview, RowWriter, RunReport};
