@@ -17,7 +17,6 @@ const STILL_LARGER: &[(&str, usize)] = &[
     ("engine/energy", 14),
     ("inverse", 14),
     ("inverse/identify", 7),
-    ("scene", 9),
     ("simulate", 14),
 ];
 
