@@ -26,7 +26,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let read: Vec<Option<&PathBuf>> = arguments.motions.iter().map(Some).collect();
-    let streams = arguments.outputs.streams(&read)?;
+    let streams = arguments.outputs.streams(&read, &[])?;
     let options = Options {
         reactions: arguments.reactions,
         estimate: false,

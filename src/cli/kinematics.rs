@@ -65,7 +65,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let read = arguments.scene.as_ref();
-    let streams = arguments.outputs.streams(&[read])?;
+    let streams = arguments.outputs.streams(&[read], &[])?;
     check_rows_of_turn(arguments.every)?;
     let mut scene = streams.scene(read)?;
     if let Some((stroke, ratio)) = arguments.stroke.zip(arguments.rod_ratio) {

@@ -142,7 +142,7 @@ impl Arguments {
 
 pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> {
     let read = arguments.scene.as_ref();
-    let streams = arguments.outputs.streams(&[read])?;
+    let streams = arguments.outputs.streams(&[read], &[])?;
     let mut scene = streams.scene(read)?;
     let origin = origin(read);
     if let Some(tolerance) = arguments.tolerance {

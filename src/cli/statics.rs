@@ -105,7 +105,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         return Ok(Outcome::Done);
     }
     let read = arguments.scene.as_ref();
-    let streams = arguments.outputs.streams(&[read])?;
+    let streams = arguments.outputs.streams(&[read], &[])?;
     check_rows_of_turn(arguments.every)?;
     let scene = streams.scene(read)?;
     let result = crate::statics::statics(&scene, &arguments.options())?;

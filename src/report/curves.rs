@@ -2,10 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::columns::{Curve, base, curves, labelled};
 use super::figure::{Axis, Figure, Shape, Sheet};
 use super::look::Look;
-use super::quantity::split;
+use super::quantity::{Curve, base, curves, split};
 use super::table::Table;
 use crate::error::Error;
 
@@ -91,6 +90,23 @@ impl View {
             size: self.size,
         };
         sheet.svg(&figures)
+    }
+}
+
+impl Curve {
+    /// Values as they are shown.
+    pub fn values<'a>(&self, table: &'a Table) -> impl Iterator<Item = f64> + use<'a> {
+        let factor = self.quantity.factor;
+        let values = table.numbers(&self.name).unwrap_or_default();
+        values.iter().map(move |value| factor * value)
+    }
+}
+
+/// Words and unit of an axis.
+fn labelled(words: &str, unit: &str) -> String {
+    match unit {
+        "" => words.to_owned(),
+        unit => format!("{words} [{unit}]"),
     }
 }
 

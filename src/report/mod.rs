@@ -4,7 +4,6 @@
 //! picture and page follow.
 
 mod calibration;
-mod columns;
 mod compare;
 mod csv;
 mod curves;
@@ -43,10 +42,7 @@ pub use diagrams::Diagram;
 pub use explain::explanation;
 pub use figure::{Axis, Figure, Shape, Sheet};
 pub use identify::{identification, identification_csv};
-pub use inverse::{
-    inverse, inverse_figure, inverse_page, inverse_rows, inverse_table, mean_cycle, residual_table,
-    residuals,
-};
+pub use inverse::{InverseReport, inverse_table, mean_cycle, residual_table, residuals};
 pub use key_values::Facts;
 pub use look::Look;
 pub use motion::{PlotRows, RunReport};

@@ -16,7 +16,7 @@ const MOST_COEFFICIENTS: usize = 13;
 const MOST_WARNINGS: usize = 6;
 
 /// Summary and some rows, with the forces as Duarte et al. print them if given.
-pub fn inverse(result: &Inverse, printed: Option<&AsPrinted>) -> String {
+pub(super) fn text(result: &Inverse, printed: Option<&AsPrinted>) -> String {
     let mut text = facts(result).lines(22);
     let room = LINES.saturating_sub(text.lines().count() + 2);
     table(&mut text, result, printed, room.clamp(1, ROWS));
