@@ -33,6 +33,8 @@ pub(super) struct Arguments {
     /// Gives the force that acts beside the forces of the scene, not the whole force on the slider
     #[arg(long)]
     beside_forces: bool,
+    #[command(flatten)]
+    outputs: Outputs,
     /// Adds joint, guide and shaking forces to the rows
     #[arg(long)]
     reactions: bool,
@@ -47,8 +49,6 @@ pub(super) struct Arguments {
     /// standard errors and their scatter from cycle to cycle
     #[arg(long, value_name = "FILE")]
     mean_cycle: Option<PathBuf>,
-    #[command(flatten)]
-    outputs: Outputs,
 }
 
 fn kind(text: &str) -> Result<FitKind, String> {
