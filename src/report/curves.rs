@@ -170,11 +170,11 @@ fn band(table: &Table, curve: &Curve, factor: f64) -> Option<Vec<[f64; 2]>> {
 pub(super) const SPACING: f64 = PI / 360.0;
 
 /// Points that a curve needs; more are thinned out.
-const POINTS: usize = 4000;
+const CURVE_POINTS: usize = 4000;
 
 /// A curve through so few points that a picture stays small; the extremes of each piece are kept.
 fn outlined(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
-    let piece = (4 * x.len()).div_ceil(POINTS).max(1);
+    let piece = (4 * x.len()).div_ceil(CURVE_POINTS).max(1);
     if piece <= 4 {
         return x.iter().copied().zip(y.iter().copied()).collect();
     }
@@ -198,7 +198,7 @@ fn outlined(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
 }
 
 /// Part of the values at each end that may belong to poles.
-const TAIL: f64 = 0.05;
+const POLES_SHARE: f64 = 0.05;
 
 /// The range of the bulk of values, if it is far less than their whole range: of the central ones, widened by their
 /// range to both sides.
@@ -206,7 +206,7 @@ fn bulk(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     let mut values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
     values.sort_unstable_by(f64::total_cmp);
     let last = values.len().checked_sub(1)?;
-    let beyond = (TAIL * last as f64).round() as usize;
+    let beyond = (POLES_SHARE * last as f64).round() as usize;
     let (low, high) = (values[beyond], values[last - beyond]);
     let room = high - low;
     let whole = values[last] - values[0];
