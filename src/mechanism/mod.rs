@@ -20,6 +20,7 @@ mod limits;
 mod linkage;
 mod load;
 mod loop_closure;
+mod loose_state;
 mod nonlinear_loads;
 mod place;
 mod positions;
@@ -38,10 +39,7 @@ mod way;
 pub use at_rest::{AtRest, Held};
 pub use batch::Instants;
 pub use body::{Bodies, Body, Link, Path};
-pub use clearance::{
-    Depth, JointTouch, LooseMechanism, LooseRates, LooseState, NormalForce, Rubbing, SpeedSizes,
-    Turned,
-};
+pub use clearance::{Depth, JointTouch, LooseMechanism, NormalForce, Rubbing, SpeedSizes, Turned};
 pub use configuration_curve::Curve;
 pub use curve_equation::{CurveEquation, CurveTerms};
 pub use equivalent::EquivalentMasses;
@@ -55,6 +53,7 @@ pub use limits::{Class, DeadCentre, Limits};
 pub use linkage::{Linkage, Pose};
 pub use load::Loads;
 pub use loop_closure::Closure;
+pub use loose_state::{LooseRates, LooseState};
 pub use nonlinear_loads::{LoadValue, Sense, single};
 pub use place::Place;
 pub use positions::NamedPosition;

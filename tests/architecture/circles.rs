@@ -111,28 +111,64 @@ impl Imports {
         file.to_owned()
     }
 
-    /// The circles, each with its files.
-    fn circles(&self) -> BTreeSet<Vec<&String>> {
+    /// The files that each file imports.
+    fn of_files(&self) -> Graph {
         let files = |paths: &Vec<String>| paths.iter().map(|path| self.file_of(path)).collect();
-        let direct = self.named.iter().map(|(file, paths)| (file, files(paths)));
-        let direct: BTreeMap<&String, Vec<String>> = direct.collect();
-        let reached = |file: &String| {
-            let (mut found, mut open) = (BTreeSet::new(), vec![file.clone()]);
-            while let Some(file) = open.pop() {
-                let next = direct.get(&file).into_iter().flatten().cloned();
-                open.extend(next.filter(|next| found.insert(next.clone())));
-            }
-            found
-        };
-        let reached: BTreeMap<&String, BTreeSet<String>> =
-            direct.keys().map(|file| (*file, reached(file))).collect();
-        let circle = |(file, to): (&&String, &BTreeSet<String>)| {
-            let back = |other: &&&String| to.contains(**other) && reached[*other].contains(*file);
-            reached.keys().filter(back).copied().collect()
-        };
-        let circles = reached.iter().map(circle);
-        circles.filter(|circle: &Vec<_>| circle.len() > 1).collect()
+        let named = self.named.iter();
+        named
+            .map(|(file, paths)| (file.clone(), files(paths)))
+            .collect()
     }
+
+    /// The folders that each folder beside them imports from.
+    fn of_folders(&self) -> Graph {
+        let is_folder = |place: &String| {
+            self.named
+                .keys()
+                .any(|file| file.starts_with(&format!("{place}/")))
+        };
+        let mut graph = Graph::new();
+        for (one, others) in self.of_files() {
+            for other in others {
+                let pairs = one.split('/').zip(other.split('/'));
+                let depth = 1 + pairs.take_while(|(one, other)| one == other).count();
+                let beside = [&one, &other]
+                    .map(|file| file.split('/').take(depth).collect::<Vec<_>>().join("/"));
+                if beside.iter().all(is_folder) {
+                    let [one, other] = beside;
+                    graph.entry(one).or_default().insert(other);
+                }
+            }
+        }
+        graph
+    }
+}
+
+/// What each of some places imports.
+type Graph = BTreeMap<String, BTreeSet<String>>;
+
+/// The places that one leads to.
+fn reached<'a>(graph: &'a Graph, from: &'a String) -> BTreeSet<&'a String> {
+    let (mut found, mut open) = (BTreeSet::new(), vec![from]);
+    while let Some(place) = open.pop() {
+        let next = graph.get(place).into_iter().flatten();
+        open.extend(next.filter(|next| found.insert(*next)));
+    }
+    found
+}
+
+/// The circles of a graph, each with its places.
+fn circles(graph: &Graph) -> BTreeSet<Vec<&String>> {
+    let reached: BTreeMap<&String, BTreeSet<&String>> = graph
+        .keys()
+        .map(|place| (place, reached(graph, place)))
+        .collect();
+    let circle = |(place, to): (&&String, &BTreeSet<&String>)| {
+        let back = |other: &&&String| to.contains(**other) && reached[*other].contains(*place);
+        reached.keys().filter(back).copied().collect()
+    };
+    let circles = reached.iter().map(circle);
+    circles.filter(|circle: &Vec<_>| circle.len() > 1).collect()
 }
 
 /// The folder that all files of a circle are in.
@@ -151,10 +187,10 @@ fn folder(circle: &[&String]) -> String {
 
 #[test]
 fn files_import_in_one_direction() {
-    let imports = Imports::of(&sources());
+    let imports = Imports::of(&sources()).of_files();
     let mut wrong = Vec::new();
     let mut gone = STILL_LARGER.to_vec();
-    for circle in imports.circles() {
+    for circle in circles(&imports) {
         let (folder, size) = (folder(&circle), circle.len());
         let known = STILL_LARGER.iter().find(|(known, _)| *known == folder);
         gone.retain(|(known, _)| *known != folder || size <= MOST_IN_CIRCLE);
@@ -167,17 +203,22 @@ fn files_import_in_one_direction() {
 }
 
 #[test]
+fn folders_import_in_one_direction() {
+    let imports = Imports::of(&sources()).of_folders();
+    assert_eq!(circles(&imports), BTreeSet::new());
+    assert!(imports.len() > 15, "{imports:?}");
+}
+
+#[test]
 fn a_name_that_is_given_on_counts_for_its_file() {
-    let circles = |of_c: &str| {
+    let found = |of_c: &str| {
         let of_a = "mod b;\nmod c;\n\npub use b::B;\npub use c::{C, D};";
         let of_b = "use super::{C, D as Other};";
         let sources = [("a/mod.rs", of_a), ("a/b.rs", of_b), ("a/c.rs", of_c)];
-        format!(
-            "{:?}",
-            Imports::of(&sources.map(|(place, code)| Source::new(place, code))).circles()
-        )
+        let sources = sources.map(|(place, code)| Source::new(place, code));
+        format!("{:?}", circles(&Imports::of(&sources).of_files()))
     };
-    assert_eq!(circles("pub struct C;"), "{}");
-    assert_eq!(circles("use crate::a::B;"), r#"{["a/b", "a/c"]}"#);
-    assert_eq!(circles("fn f() { super::g() }"), r#"{["a", "a/b", "a/c"]}"#);
+    assert_eq!(found("pub struct C;"), "{}");
+    assert_eq!(found("use crate::a::B;"), r#"{["a/b", "a/c"]}"#);
+    assert_eq!(found("fn f() { super::g() }"), r#"{["a", "a/b", "a/c"]}"#);
 }
