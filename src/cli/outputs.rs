@@ -74,9 +74,6 @@ pub(super) struct Outputs {
 
 impl Outputs {
     /// The streams of a command that reads these files, and writes others too.
-    ///
-    /// # Errors
-    /// [`Error::Refused`].
     pub fn streams(
         &self,
         read: &[Option<&PathBuf>],

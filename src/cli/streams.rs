@@ -85,9 +85,6 @@ impl Streams {
     }
 
     /// Refuses results that would go onto a table that a scene reads.
-    ///
-    /// # Errors
-    /// [`Error::Refused`].
     pub fn spare_tables(&self, scene: &Scene) -> Result<(), Error> {
         check_files(&scene.table_files().collect::<Vec<_>>(), &self.written)
     }
@@ -116,9 +113,6 @@ impl Streams {
 }
 
 /// Refuses to write two results to one file, or one onto a file that is read.
-///
-/// # Errors
-/// [`Error::Refused`].
 pub(super) fn check_files(read: &[&Path], written: &[PathBuf]) -> Result<(), Error> {
     for (index, path) in written.iter().enumerate() {
         let (shown, here) = (path.display(), place(path));
@@ -152,9 +146,6 @@ fn place(path: &Path) -> PathBuf {
 }
 
 /// Refuses a name whose ending promises another format than is written.
-///
-/// # Errors
-/// [`Error::Refused`].
 pub(super) fn check_ending(path: Option<&PathBuf>, written: &[&str]) -> Result<(), Error> {
     let Some((path, ending)) = path.and_then(|path| Some((path, path.extension()?))) else {
         return Ok(());
