@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slider_crank::inverse::identify::{FreeKey, identify_keys};
 use slider_crank::inverse::{FitKind, FitSize, Inverse, InverseOptions, inverse_of_uncertain};
-use slider_crank::report;
+use slider_crank::report::{self, InverseReport, Report};
 use slider_crank::scene::unit::Quantity;
 use slider_crank::scene::{Beside, Measured, Measurement as Samples, Reading};
 
@@ -180,8 +180,12 @@ impl Recovered {
     /// The report page.
     fn page(&self) -> PyResult<String> {
         let asked = self.scene.get();
-        let scene = asked.scene(&Call::default());
-        report::inverse_page(&self.found, &scene, &asked.origin("inverse")).map_err(raised)
+        let report = InverseReport {
+            result: &self.found,
+            scene: &asked.scene(&Call::default()),
+            printed: None,
+        };
+        report.page(&asked.origin("inverse")).map_err(raised)
     }
 }
 

@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::streams::check_ending;
-use super::{Outcome, Streams, angle, print};
+use super::streams::{Outcome, Streams, check_ending};
+use super::values::angle;
+use super::watch::print;
 use crate::error::Error;
 use crate::report::{Output, Picture, Pose, Sketch, animation};
 use crate::scene::Scene;

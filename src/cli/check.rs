@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::reading::ReadingArguments;
-use super::{Outcome, print, say, scene};
+use super::streams::{Outcome, scene};
+use super::watch::{print, say};
 use crate::error::Error;
 use crate::plan;
 use crate::scene::{Measurement, Reading, load_table};

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Outcome, Outputs};
+use super::outputs::Outputs;
+use super::streams::{Outcome, command_line};
 use crate::error::Error;
 use crate::report::{Comparison, Motion, Origin};
 use crate::scene::Scene;
@@ -25,7 +26,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let read: Vec<Option<&PathBuf>> = arguments.motions.iter().map(Some).collect();
-    let streams = arguments.outputs.streams(&read)?;
+    let streams = arguments.outputs.streams(&read, &[])?;
     let options = Options {
         reactions: arguments.reactions,
         estimate: false,
@@ -45,7 +46,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let result = Comparison::new(&motions)?;
     let origin = Origin {
         scene: None,
-        command: super::command_line(),
+        command: command_line(),
     };
     let targets = arguments.outputs.open()?;
     targets.write(&result, &result, &origin, &streams)?;

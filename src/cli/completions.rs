@@ -1,9 +1,10 @@
 //! `completions`: what shells complete, and the man page.
 
-use clap::{Args, ValueEnum};
+use clap::{Args, Command, ValueEnum};
 use clap_complete::Shell;
 
-use super::{Outcome, print};
+use super::streams::Outcome;
+use super::watch::print;
 use crate::error::Error;
 
 /// Arguments of `completions`.
@@ -25,8 +26,8 @@ enum Reader {
     Man,
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
-    let mut command = super::help::command();
+/// Writes what a shell completes of the program, or its man page.
+pub(super) fn run(arguments: &Arguments, mut program: Command) -> Result<Outcome, Error> {
     let shell = match arguments.reader {
         Reader::Bash => Shell::Bash,
         Reader::Zsh => Shell::Zsh,
@@ -34,12 +35,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         Reader::PowerShell => Shell::PowerShell,
         Reader::Elvish => Shell::Elvish,
         Reader::Man => {
-            print(&man(command)?)?;
+            print(&man(program)?)?;
             return Ok(Outcome::Done);
         }
     };
     let mut text = Vec::new();
-    clap_complete::generate(shell, &mut command, "slider-crank", &mut text);
+    clap_complete::generate(shell, &mut program, "slider-crank", &mut text);
     print(&String::from_utf8_lossy(&text))?;
     Ok(Outcome::Done)
 }

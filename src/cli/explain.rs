@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Outcome, angle, print, scene};
+use super::streams::{Outcome, scene};
+use super::values::angle;
+use super::watch::print;
 use crate::error::Error;
 use crate::plan::Method;
 use crate::report;

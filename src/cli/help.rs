@@ -1,6 +1,6 @@
 //! Help texts: options in groups, and an example of each command.
 
-use clap::{Command, CommandFactory};
+use clap::Command;
 
 /// Groups of options, by their long names.
 const GROUPS: [(&str, &str); 4] = [
@@ -42,9 +42,9 @@ const EXAMPLES: [&str; 16] = [
     "check data/ng.toml",
 ];
 
-/// The arguments of the program, with their help.
-pub(super) fn command() -> Command {
-    super::Arguments::command().mut_subcommands(|one| {
+/// The arguments of the program with groups and examples.
+pub(super) fn with_groups(program: Command) -> Command {
+    program.mut_subcommands(|one| {
         let own = |line: &&&str| line.split(' ').next() == Some(one.get_name());
         let lines = EXAMPLES.iter().filter(own);
         let lines: String = lines

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::reading::ReadingArguments;
-use super::{Outcome, Streams, create, is_standard};
+use super::streams::{Outcome, Streams, create, is_standard};
 use crate::error::Error;
 use crate::inverse::identify::{FreeKey, identify_keys};
 use crate::report;

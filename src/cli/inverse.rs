@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::outputs::Outputs;
 use super::reading::ReadingArguments;
-use super::{Outcome, PlotOfRows, Streams, create, draw, fill, is_standard, origin, page};
+use super::streams::{Outcome, create, is_standard, origin};
 use crate::error::Error;
 use crate::inverse::{self, AsPrinted, FitKind, FitSize, InverseOptions};
-use crate::report;
+use crate::report::{self, InverseReport};
 use crate::scene::{Draft, Measurement, Reading};
 use crate::simulate::Stop;
 
@@ -32,9 +33,8 @@ pub(super) struct Arguments {
     /// Gives the force that acts beside the forces of the scene, not the whole force on the slider
     #[arg(long)]
     beside_forces: bool,
-    /// Writes the rows as CSV to this file, `-` for standard output
-    #[arg(long, value_name = "FILE")]
-    out: Option<PathBuf>,
+    #[command(flatten)]
+    outputs: Outputs,
     /// Adds joint, guide and shaking forces to the rows
     #[arg(long)]
     reactions: bool,
@@ -49,14 +49,6 @@ pub(super) struct Arguments {
     /// standard errors and their scatter from cycle to cycle
     #[arg(long, value_name = "FILE")]
     mean_cycle: Option<PathBuf>,
-    /// Writes mechanism, samples, curves with their bands and key figures as one HTML page to this file
-    #[arg(long, value_name = "FILE")]
-    report: Option<PathBuf>,
-    /// Prints the summary as one JSON object
-    #[arg(long)]
-    json: bool,
-    #[command(flatten)]
-    plot: PlotOfRows,
 }
 
 fn kind(text: &str) -> Result<FitKind, String> {
@@ -114,16 +106,9 @@ fn measurement(arguments: &Arguments) -> Result<Measurement, Error> {
 }
 
 pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> {
-    let streams = Streams::new(
+    let streams = arguments.outputs.streams(
         &[arguments.scene.as_ref(), arguments.data.as_ref()],
-        arguments.out.as_ref(),
-        &[
-            arguments.residuals.as_ref(),
-            arguments.mean_cycle.as_ref(),
-            arguments.plot.to.plot.as_ref(),
-            arguments.report.as_ref(),
-        ],
-        arguments.json,
+        &[arguments.residuals.as_ref(), arguments.mean_cycle.as_ref()],
     )?;
     if is_standard(arguments.scene.as_ref()) && is_standard(arguments.data.as_ref()) {
         return Err(Error::refused(
@@ -154,35 +139,27 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
         .as_printed
         .then(|| AsPrinted::new(&scene))
         .transpose()?;
-    let out = create(arguments.out.as_ref())?;
+    let targets = arguments.outputs.open()?;
     let residuals = create(arguments.residuals.as_ref())?;
     let mean = create(arguments.mean_cycle.as_ref())?;
-    let plot = arguments.plot.to.open()?;
-    let page = page(arguments.report.as_ref())?;
     // What is odd in the data may be why it is refused.
     let uncertain = draft.uncertain()?;
     let mut result = inverse::inverse_of_uncertain(&scene, &uncertain, &measurement, &options)
         .map_err(|error| error.with_notes(measurement.notes()))?;
     let of_printed = printed.as_ref().and_then(AsPrinted::warning);
     result.summary.warnings.extend(of_printed);
-    draw(plot, || {
-        report::inverse_figure(&result, printed.as_ref(), &arguments.plot.view())
-    })?;
-    if let Some(output) = out {
-        report::inverse_rows(&result, printed.as_ref(), output)?;
-    }
     if let Some(output) = residuals {
         report::residuals(&result, output)?;
     }
     if let Some(output) = mean {
         report::mean_cycle(&result, output)?;
     }
-    fill(page, || {
-        let origin = origin(arguments.scene.as_ref());
-        report::inverse_page(&result, &scene, &origin)
-    })?;
-    streams.show(&result.summary, || {
-        report::inverse(&result, printed.as_ref())
-    })?;
+    let report = InverseReport {
+        result: &result,
+        scene: &scene,
+        printed: printed.as_ref(),
+    };
+    let origin = origin(arguments.scene.as_ref());
+    targets.write(&report, &result.summary, &origin, &streams)?;
     Ok(Outcome::Done)
 }

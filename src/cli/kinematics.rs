@@ -4,9 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{
-    Outcome, Outputs, angle, check_rows_of_turn, length, origin, positive_angle, quantity, say,
-};
+use super::outputs::Outputs;
+use super::streams::{Outcome, origin};
+use super::values::{angle, check_rows_of_turn, length, positive_angle, quantity};
+use super::watch::say;
 use crate::error::Error;
 use crate::kinematics::Length;
 use crate::kinematics::TurnOptions;
@@ -64,7 +65,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let read = arguments.scene.as_ref();
-    let streams = arguments.outputs.streams(&[read])?;
+    let streams = arguments.outputs.streams(&[read], &[])?;
     check_rows_of_turn(arguments.every)?;
     let mut scene = streams.scene(read)?;
     if let Some((stroke, ratio)) = arguments.stroke.zip(arguments.rod_ratio) {

@@ -20,22 +20,17 @@ mod statics;
 mod streams;
 mod sweep;
 mod synthesis;
+mod values;
 mod watch;
 
 use std::io::IsTerminal;
-use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{FromArgMatches, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::error::Error;
-use crate::report::Origin;
-use crate::scene::unit::{self, Quantity};
-use crate::scene::{DUARTE, Scene};
-use outputs::{Outputs, Plot, PlotOfRows};
-use streams::{
-    Streams, check_files, create, draw, fill, is_standard, page, print, say, say_styled,
-};
+use streams::Outcome;
+use watch::{say, say_styled};
 
 /// Dynamics of the offset slider-crank from its Lagrange equation.
 #[derive(Debug, Parser)]
@@ -81,16 +76,10 @@ enum Command {
     Completions(completions::Arguments),
 }
 
-/// Whether the computation was completed.
-enum Outcome {
-    Done,
-    /// What was computed is kept; the message says up to where.
-    Incomplete(String),
-}
-
 /// Runs the program with the arguments of the process.
 pub fn main() -> ExitCode {
-    let matches = help::command().get_matches();
+    let program = || help::with_groups(Arguments::command());
+    let matches = program().get_matches();
     let arguments = Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     let takes_requests = matches!(
         arguments.command,
@@ -113,7 +102,7 @@ pub fn main() -> ExitCode {
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
-        Command::Completions(arguments) => completions::run(&arguments),
+        Command::Completions(arguments) => completions::run(&arguments, program()),
     };
     watch::clear();
     match result {
@@ -136,75 +125,4 @@ pub fn main() -> ExitCode {
 fn colour() -> bool {
     std::io::stderr().is_terminal()
         && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
-}
-
-/// The scene of a command: a file, or the built-in engine.
-fn scene(file: Option<&PathBuf>) -> Result<Scene, Error> {
-    match file {
-        Some(file) => Scene::load(file),
-        None => Ok(Scene::duarte()),
-    }
-}
-
-/// Where a result comes from: the text of its scene, as far as it can be read again, and the command.
-fn origin(file: Option<&PathBuf>) -> Origin {
-    Origin {
-        scene: match file {
-            Some(file) if is_standard(Some(file)) => None,
-            Some(file) => std::fs::read_to_string(file).ok(),
-            None => Some(DUARTE.to_owned()),
-        },
-        command: command_line(),
-    }
-}
-
-/// The command of this process as a shell reads it.
-fn command_line() -> String {
-    let quoted = |argument: String| {
-        let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+@%".contains(c);
-        match !argument.is_empty() && argument.chars().all(plain) {
-            true => argument,
-            false => format!("'{}'", argument.replace('\'', "'\\''")),
-        }
-    };
-    let arguments = std::env::args_os().skip(1);
-    let arguments = arguments.map(|argument| quoted(argument.to_string_lossy().into_owned()));
-    std::iter::once("slider-crank".to_owned())
-        .chain(arguments)
-        .collect::<Vec<_>>()
-        .join(" ")
-}
-
-fn quantity(text: &str, quantity: Quantity) -> Result<f64, String> {
-    unit::parse(text, quantity).map_err(|error| error.to_string())
-}
-
-fn angle(text: &str) -> Result<f64, String> {
-    quantity(text, Quantity::Angle)
-}
-
-fn length(text: &str) -> Result<f64, String> {
-    match quantity(text, Quantity::Length)? {
-        length if length > 0.0 => Ok(length),
-        _ => Err("the length must be positive, like \"27 mm\"".to_owned()),
-    }
-}
-
-fn positive_angle(text: &str) -> Result<f64, String> {
-    match angle(text)? {
-        step if step > 0.0 => Ok(step),
-        _ => Err("the angle must be positive, like \"1 deg\"".to_owned()),
-    }
-}
-
-/// Refuses a crank angle between rows (rad) so small that it is a slip of the unit.
-fn check_rows_of_turn(every: f64) -> Result<(), Error> {
-    const MOST_ROWS: f64 = 1e8;
-    if std::f64::consts::TAU / every > MOST_ROWS {
-        return Err(Error::refused(
-            format!("--every {every} rad gives more than {MOST_ROWS} rows"),
-            "give an angle like \"1 deg\"",
-        ));
-    }
-    Ok(())
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{ArgGroup, Args};
 
-use super::{Outcome, Streams, create, fill};
+use super::streams::{Outcome, Streams, create, fill};
 use crate::error::Error;
 use crate::optimise::{Asked, Subject, optimise};
 use crate::plan::Method;

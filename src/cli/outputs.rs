@@ -73,12 +73,14 @@ pub(super) struct Outputs {
 }
 
 impl Outputs {
-    /// The streams of a command that reads these files.
-    ///
-    /// # Errors
-    /// [`Error::Refused`].
-    pub fn streams(&self, read: &[Option<&PathBuf>]) -> Result<Streams, Error> {
+    /// The streams of a command that reads these files, and writes others too.
+    pub fn streams(
+        &self,
+        read: &[Option<&PathBuf>],
+        others: &[Option<&PathBuf>],
+    ) -> Result<Streams, Error> {
         let files = [self.plot.to.plot.as_ref(), self.report.as_ref()];
+        let files = [others, &files].concat();
         Streams::new(read, self.out.as_ref(), &files, self.json)
     }
 

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{
-    Outcome, Plot, check_files, create, draw, fill, is_standard, origin, page, print, say, scene,
-};
+use super::outputs::Plot;
+use super::streams::{Outcome, check_files, create, draw, fill, is_standard, origin, page, scene};
+use super::watch::{print, say};
 use crate::error::Error;
 use crate::precision::{Precision, PrecisionOptions};
 use crate::report;

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Outcome, print, say};
+use super::streams::Outcome;
+use super::watch::{print, say};
 use crate::error::Error;
 use crate::report::{self, Output, ReproductionSummary};
 use crate::reproduce::Paper;

@@ -2,7 +2,8 @@
 
 use clap::Args;
 
-use super::{Outcome, print};
+use super::streams::Outcome;
+use super::watch::print;
 use crate::error::Error;
 use crate::{report, scene};
 

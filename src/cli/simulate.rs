@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 
-use super::{Outcome, Outputs, origin};
+use super::outputs::Outputs;
+use super::streams::{Outcome, origin};
 use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{PlotRows, Preview, RowWriter, RunReport};
@@ -141,7 +142,7 @@ impl Arguments {
 
 pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> {
     let read = arguments.scene.as_ref();
-    let streams = arguments.outputs.streams(&[read])?;
+    let streams = arguments.outputs.streams(&[read], &[])?;
     let mut scene = streams.scene(read)?;
     let origin = origin(read);
     if let Some(tolerance) = arguments.tolerance {

@@ -4,9 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{
-    Outcome, Outputs, angle, check_rows_of_turn, length, origin, positive_angle, print, quantity,
-};
+use super::outputs::Outputs;
+use super::streams::{Outcome, origin};
+use super::values::{angle, check_rows_of_turn, length, positive_angle, quantity};
+use super::watch::print;
 use crate::error::Error;
 use crate::report::{self, StaticsReport};
 use crate::scene::unit::Quantity;
@@ -104,7 +105,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         return Ok(Outcome::Done);
     }
     let read = arguments.scene.as_ref();
-    let streams = arguments.outputs.streams(&[read])?;
+    let streams = arguments.outputs.streams(&[read], &[])?;
     check_rows_of_turn(arguments.every)?;
     let scene = streams.scene(read)?;
     let result = crate::statics::statics(&scene, &arguments.options())?;

@@ -1,14 +1,21 @@
 //! What a command reads and where its results go.
 
-use std::io::{IsTerminal, Write};
+use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use super::watch;
+use super::watch::{self, print, say};
 use crate::error::Error;
-use crate::report::{self, Output, Picture};
-use crate::scene::{Draft, Scene, printable};
+use crate::report::{self, Origin, Output, Picture};
+use crate::scene::{DUARTE, Draft, Scene};
+
+/// Whether the computation was completed.
+pub(super) enum Outcome {
+    Done,
+    /// What was computed is kept; the message says up to where.
+    Incomplete(String),
+}
 
 /// The files and streams of a command, checked before anything is computed.
 pub(super) struct Streams {
@@ -60,7 +67,7 @@ impl Streams {
     /// # Errors
     /// What is wrong with it; [`Error::Refused`] if a result would go onto a table that it reads.
     pub fn scene(&self, file: Option<&PathBuf>) -> Result<Scene, Error> {
-        let scene = super::scene(file)?;
+        let scene = scene(file)?;
         self.spare_tables(&scene)?;
         Ok(scene)
     }
@@ -78,9 +85,6 @@ impl Streams {
     }
 
     /// Refuses results that would go onto a table that a scene reads.
-    ///
-    /// # Errors
-    /// [`Error::Refused`].
     pub fn spare_tables(&self, scene: &Scene) -> Result<(), Error> {
         check_files(&scene.table_files().collect::<Vec<_>>(), &self.written)
     }
@@ -109,9 +113,6 @@ impl Streams {
 }
 
 /// Refuses to write two results to one file, or one onto a file that is read.
-///
-/// # Errors
-/// [`Error::Refused`].
 pub(super) fn check_files(read: &[&Path], written: &[PathBuf]) -> Result<(), Error> {
     for (index, path) in written.iter().enumerate() {
         let (shown, here) = (path.display(), place(path));
@@ -145,9 +146,6 @@ fn place(path: &Path) -> PathBuf {
 }
 
 /// Refuses a name whose ending promises another format than is written.
-///
-/// # Errors
-/// [`Error::Refused`].
 pub(super) fn check_ending(path: Option<&PathBuf>, written: &[&str]) -> Result<(), Error> {
     let Some((path, ending)) = path.and_then(|path| Some((path, path.extension()?))) else {
         return Ok(());
@@ -171,23 +169,6 @@ pub(super) fn check_ending(path: Option<&PathBuf>, written: &[&str]) -> Result<(
 /// Whether a path stands for standard input or output.
 pub(super) fn is_standard(path: Option<&PathBuf>) -> bool {
     path.is_some_and(|path| report::is_standard_output(path))
-}
-
-/// The one place that talks to the user beside the results.
-pub(super) fn say(message: &str) {
-    say_styled(&printable(message));
-}
-
-/// Prints a text with colours, whose parts are printable.
-pub(super) fn say_styled(message: &str) {
-    watch::clear();
-    let _ = writeln!(std::io::stderr(), "{message}");
-}
-
-/// Writes a text to standard output.
-pub(super) fn print(text: &str) -> Result<(), Error> {
-    watch::clear();
-    Output::standard().text(&printable(text))
 }
 
 /// Opens an output that may be asked for, `-` for standard output.
@@ -218,4 +199,41 @@ pub(super) fn draw(
 pub(super) fn page(path: Option<&PathBuf>) -> Result<Option<Output>, Error> {
     check_ending(path, &["html", "htm"])?;
     create(path)
+}
+
+/// The scene of a command: a file, or the built-in engine.
+pub(super) fn scene(file: Option<&PathBuf>) -> Result<Scene, Error> {
+    match file {
+        Some(file) => Scene::load(file),
+        None => Ok(Scene::duarte()),
+    }
+}
+
+/// Where a result comes from: the text of its scene, as far as it can be read again, and the command.
+pub(super) fn origin(file: Option<&PathBuf>) -> Origin {
+    Origin {
+        scene: match file {
+            Some(file) if is_standard(Some(file)) => None,
+            Some(file) => std::fs::read_to_string(file).ok(),
+            None => Some(DUARTE.to_owned()),
+        },
+        command: command_line(),
+    }
+}
+
+/// The command of this process as a shell reads it.
+pub(super) fn command_line() -> String {
+    let quoted = |argument: String| {
+        let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+@%".contains(c);
+        match !argument.is_empty() && argument.chars().all(plain) {
+            true => argument,
+            false => format!("'{}'", argument.replace('\'', "'\\''")),
+        }
+    };
+    let arguments = std::env::args_os().skip(1);
+    let arguments = arguments.map(|argument| quoted(argument.to_string_lossy().into_owned()));
+    std::iter::once("slider-crank".to_owned())
+        .chain(arguments)
+        .collect::<Vec<_>>()
+        .join(" ")
 }

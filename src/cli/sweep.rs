@@ -5,7 +5,8 @@ use std::time::Instant;
 
 use clap::Args;
 
-use super::{Outcome, Streams, fill, origin, page, watch};
+use super::streams::{Outcome, Streams, fill, origin, page};
+use super::watch;
 use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{self, SweepAsked, SweepWriter};

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Outcome, Streams, create, fill, length};
+use super::streams::{Outcome, Streams, create, fill};
+use super::values::length;
 use crate::error::Error;
 use crate::kinematics::{Choice, synthesis};
 use crate::report;

@@ -1,6 +1,6 @@
-//! Whoever waits for a computation: its progress on a terminal, and Ctrl-C.
+//! Whoever waits for a computation: what is said, its progress on a terminal, and Ctrl-C.
 
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::process;
 use std::sync::{Mutex, PoisonError};
 use std::thread;
@@ -8,6 +8,9 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::error::Error;
+use crate::report::Output;
+use crate::scene::printable;
 use crate::simulate::Stop;
 
 /// A computation is said to be under way after this time, s.
@@ -37,7 +40,7 @@ pub(super) fn start(takes_requests: bool) -> Stop {
     let interrupted = move || {
         if !takes_requests || request.is_requested() {
             clear();
-            super::say("error: interrupted: nothing more is written");
+            say("error: interrupted: nothing more is written");
             process::exit(1);
         }
         request.request();
@@ -106,4 +109,21 @@ fn show(stop: &Stop) -> bool {
         bar.tick();
         true
     })
+}
+
+/// The one place that talks to the user beside the results.
+pub(super) fn say(message: &str) {
+    say_styled(&printable(message));
+}
+
+/// Prints a text with colours, whose parts are printable.
+pub(super) fn say_styled(message: &str) {
+    clear();
+    let _ = writeln!(std::io::stderr(), "{message}");
+}
+
+/// Writes a text to standard output.
+pub(super) fn print(text: &str) -> Result<(), Error> {
+    clear();
+    Output::standard().text(&printable(text))
 }

@@ -7,78 +7,11 @@ use super::runge_kutta;
 use super::runge_kutta::{Call, Ended};
 use super::sight::hides;
 use super::step::{Node, Step};
-use super::work_forecast::{Ends, WorkForecast};
+use super::work_forecast::WorkForecast;
 use super::{Counted, Motion, WorkLimit};
 use crate::numeric::angle::Angle;
 
-/// The methods.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Method {
-    /// Gauss collocation of order 24 by sweeps.
-    Picard,
-    /// One of ode_solvers.
-    Library(runge_kutta::Method),
-}
-
-/// How to integrate.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings<'a> {
-    /// The method.
-    pub method: Method,
-    /// Local error target, relative and absolute.
-    pub tolerance: f64,
-    /// Last time, s.
-    pub t_end: f64,
-    /// How far (rad) the crank has to turn, if the run ends with that; else infinite.
-    pub way: f64,
-    /// The run ends there with [`Finish::WorkLimit`].
-    pub limit: WorkLimit<'a>,
-    /// Unit of work, J, in which its error is measured.
-    pub work_unit: f64,
-    /// First steps of a run from the same start, from which this one sets out.
-    pub guide: &'a [Step],
-}
-
-impl Settings<'_> {
-    /// Where a run ends.
-    pub fn ends(&self) -> Ends<'_> {
-        Ends {
-            t: self.t_end,
-            way: self.way,
-            limit: self.limit,
-        }
-    }
-}
-
-/// How a run ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Finish {
-    /// At the last time.
-    AtEnd,
-    /// Where the sink wanted it to end.
-    Stopped,
-    /// The work limit is reached.
-    WorkLimit,
-    /// At the pace of the last steps it would be reached long before the end.
-    WorkLimitAhead,
-    /// At the speed of the last turns it would be.
-    TooManyTurns,
-    /// The step size became too small for the time to move on: a singularity.
-    StepTooSmall,
-    /// There is no acceleration at the start.
-    NoStart,
-}
-
-/// A run's start.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Start {
-    /// s
-    pub t: f64,
-    /// rad
-    pub angle: Angle,
-    /// rad/s
-    pub speed: f64,
-}
+pub use super::run_in_time::{Ends, FAR, Finish, Method, Settings, Start};
 
 /// Result vectors of the library grow with each step of a call.
 const STEPS_IN_A_CALL: usize = 256;
@@ -86,9 +19,6 @@ const STEPS_IN_A_CALL: usize = 256;
 /// A longer way (rad) of one step is no motion that its polynomial follows, nor one whose events can be listed: the step
 /// is tried again, as one of a turn.
 const LONGEST_STEP: f64 = 2.0 * TAU;
-
-/// A last time (s) from which on a run has none of its own.
-pub const FAR: f64 = 1e9;
 
 /// Integrates and hands every accepted step to `sink`, which ends the run by returning true.
 /// Returns how the run ended, the last state reached (its angle beside the turns) and the number of steps.

@@ -1,7 +1,6 @@
-//! The work limit of a run, and the forecast whether it will be reached long before the end, from the progress per evaluation.
+//! The forecast whether a run will reach its work limit long before its end, from the progress per evaluation.
 
-use super::time::{FAR, Finish};
-use crate::numeric::stop::Stop;
+use super::run_in_time::{Ends, FAR, Finish};
 
 /// Evaluations over which a pace is taken.
 const WINDOW: u64 = 1_000_000;
@@ -9,17 +8,6 @@ const WINDOW: u64 = 1_000_000;
 /// moves by less than so much (rad) with each evaluation, or turns at a speed that lasts.
 const BEYOND: f64 = 5.0;
 const CRAWL: f64 = 1e-5;
-
-/// Where a run ends.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ends<'a> {
-    /// Last time, s.
-    pub t: f64,
-    /// How far (rad) the crank turns, or infinite.
-    pub way: f64,
-    /// The work limit.
-    pub limit: WorkLimit<'a>,
-}
 
 /// How fast a run proceeds.
 #[derive(Clone, Copy, Debug)]
@@ -91,37 +79,5 @@ impl<'a> WorkForecast<'a> {
             false => Finish::TooManyTurns,
         };
         (slow && was_slow).then_some(why)
-    }
-}
-
-/// A computation ends after so many evaluations, or where somebody asks it to stop.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WorkLimit<'a> {
-    /// Most evaluations.
-    pub evaluations: u64,
-    /// The request to stop, if there may be one.
-    pub stop: Option<&'a Stop>,
-}
-
-impl WorkLimit<'static> {
-    /// As long as it takes.
-    pub const NONE: WorkLimit<'static> = WorkLimit {
-        evaluations: u64::MAX,
-        stop: None,
-    };
-}
-
-impl WorkLimit<'_> {
-    /// Whether it ends after so many evaluations.
-    pub fn is_reached(&self, spent: u64) -> bool {
-        spent >= self.evaluations || self.stop.is_some_and(Stop::is_requested)
-    }
-
-    /// What is left of it after so many evaluations.
-    pub fn after(self, spent: u64) -> Self {
-        WorkLimit {
-            evaluations: self.evaluations.saturating_sub(spent),
-            ..self
-        }
     }
 }

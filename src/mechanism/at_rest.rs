@@ -1,6 +1,7 @@
 //! The equation at a place of rest: what holds there, and for how long.
 
-use super::friction::{Free, sign};
+use super::friction::Free;
+use super::nonlinear_loads::sign;
 use super::{Arms, CurveEquation, CurveTerms, LoadValue};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{Interval, Reach};

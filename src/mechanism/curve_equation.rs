@@ -5,7 +5,7 @@
 //! N = A q̈ + B q̇² + V_n − Q_n with A = Σ m p_n·p' + I ψ_n ψ', B = Σ m p_n·p'' + I ψ_n ψ''.
 
 use super::friction::{Free, Touch};
-use super::guide_force::Way;
+use super::way::Way;
 use super::{Curve, Equation, LoadValue, Loads, Place, Sense};
 use crate::numeric::angle::Angle;
 use crate::scene::{Friction, Instant, Scene};
@@ -234,5 +234,17 @@ impl CurveEquation {
         let (crank, axis) = ([place.cos, place.sin], [place.rod_cos, -place.rod_sin]);
         let gravity = self.equation.gravity_at(crank, axis, place.x);
         self.loads().potential(theta.radians(), place.x) + gravity
+    }
+}
+
+impl Free {
+    /// Adds a load to a motion at a speed (rad/s) of the coordinate.
+    pub(super) fn push(&mut self, terms: &CurveTerms, load: LoadValue, speed: f64) {
+        let (along, aside) = (terms.along(load), terms.aside(load));
+        self.pull += along;
+        self.acceleration += along / terms.m;
+        self.held -= aside;
+        self.normal += terms.a * along / terms.m - aside;
+        self.power += along * speed;
     }
 }

@@ -8,7 +8,7 @@
 //! Dry loads oppose motion with known magnitudes T of torques on the crank and D of forces on the slider. Rest lasts while
 //! |Q − V'| ≤ T|θ'| + D|x'|, and beyond that motion begins in the direction of Q − V' (Filippov's solution).
 
-use super::{CurveTerms, LoadValue};
+use super::nonlinear_loads::sign;
 
 /// What the motion would be without friction, and what a force on the slider along the guide changes in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,16 +63,6 @@ pub enum FromRest {
 }
 
 impl Free {
-    /// Adds a load to a motion at a speed (rad/s) of the coordinate.
-    pub(super) fn push(&mut self, terms: &CurveTerms, load: LoadValue, speed: f64) {
-        let (along, aside) = (terms.along(load), terms.aside(load));
-        self.pull += along;
-        self.acceleration += along / terms.m;
-        self.held -= aside;
-        self.normal += terms.a * along / terms.m - aside;
-        self.power += along * speed;
-    }
-
     /// q̈ and the forces while the slider slides, for c = −μ sgn(v) sgn(N).
     pub fn sliding(&self, c: f64) -> (f64, Touch) {
         // Without friction κ need not be a number.
@@ -166,28 +156,4 @@ impl Touch {
         let c = -mu * sign(v) * free.signum();
         (c == 0.0 || mu * kappa.abs() < 1.0).then(|| Touch::rubbing(free, kappa, c))
     }
-}
-
-/// Signs of the speeds of crank and slider that dry loads oppose; zero: they are at rest.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Sense {
-    /// sgn(ω)
-    pub crank: f64,
-    /// sgn(v)
-    pub slider: f64,
-}
-
-impl Sense {
-    /// Of a speed of the crank (rad/s) and one of the slider (m/s).
-    pub fn of(omega: f64, v: f64) -> Sense {
-        Sense {
-            crank: sign(omega),
-            slider: sign(v),
-        }
-    }
-}
-
-/// sgn, zero at zero.
-pub(super) fn sign(value: f64) -> f64 {
-    if value == 0.0 { 0.0 } else { value.signum() }
 }

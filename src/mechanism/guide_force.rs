@@ -1,7 +1,7 @@
 //! The normal force at the guide of a crank that turns, and what friction adds to the force that drives the crank.
 
-use super::CurveTerms;
-use super::{Equation, Path, Terms};
+use super::way::Way;
+use super::{CurveTerms, Equation, Path, Terms};
 
 /// The normal force as it would be without friction: N = place + torque·τ + force·F + square·ω², with the loads
 /// τ (torque on the crank) and F (force on the slider).
@@ -65,71 +65,5 @@ impl Normal {
     pub fn grip(&self, c: f64) -> Option<f64> {
         let jams = c.abs() * self.force.abs() >= 1.0;
         (!jams).then(|| c * self.dx / (1.0 - c * self.force))
-    }
-}
-
-/// Derivatives of θ, the rod's centre of gravity p, its direction ψ and x in one direction, or the second ones along the curve.
-pub(super) struct Way {
-    pub theta: f64,
-    pub p: [f64; 2],
-    pub psi: f64,
-    pub x: f64,
-}
-
-impl Way {
-    /// First and second derivatives along the curve.
-    #[inline(always)]
-    pub(super) fn along(theta: [f64; 2], path: &Path, x: [f64; 2]) -> [Way; 2] {
-        [
-            Way {
-                theta: theta[0],
-                p: path.dp,
-                psi: path.dpsi,
-                x: x[0],
-            },
-            Way {
-                theta: theta[1],
-                p: path.d2p,
-                psi: path.d2psi,
-                x: x[1],
-            },
-        ]
-    }
-
-    /// Across the curve, from the crank, the rod and the arm of its centre of gravity: crank and slider are lifted by one off the
-    /// guide, in the direction of least change of both angles.
-    #[inline(always)]
-    pub(super) fn aside(crank: [f64; 2], rod: [f64; 2], arm: [f64; 2]) -> Way {
-        let squared = crank[0] * crank[0] + rod[0] * rod[0];
-        let (theta, psi) = (crank[0] / squared, rod[0] / squared);
-        Way {
-            theta,
-            p: [
-                -theta * crank[1] - psi * arm[1],
-                theta * crank[0] + psi * arm[0],
-            ],
-            psi,
-            x: -theta * crank[1] - psi * rod[1],
-        }
-    }
-}
-
-impl Equation {
-    /// Σ m p_a·p_b + I ψ_a ψ_b over all bodies.
-    #[inline(always)]
-    pub(super) fn inertia_over(&self, a: &Way, b: &Way) -> f64 {
-        let rod = &self.rod;
-        let turned = rod.inertia * a.psi * b.psi;
-        let moved = rod.mass * (a.p[0] * b.p[0] + a.p[1] * b.p[1]);
-        self.crank_inertia * a.theta * b.theta + (moved + turned) + self.slider_mass * (a.x * b.x)
-    }
-
-    /// −Σ m g·p_a of gravity, for a slider that stays in its guide.
-    #[inline(always)]
-    pub(super) fn weight_over(&self, [cos, sin]: [f64; 2], a: &Way) -> f64 {
-        let weight = &self.weight;
-        (weight.sine * sin + weight.cosine * cos) * a.theta
-            - (weight.rod[0] * a.p[0] + weight.rod[1] * a.p[1])
-            - weight.slider[0] * a.x
     }
 }

@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 use std::fmt;
 
 use super::Linkage;
+use super::linkage::SAME_LENGTHS;
 use crate::numeric::exact::sum3;
 
 /// Class of the mechanism.
@@ -87,10 +88,6 @@ pub struct Limits {
 
 /// At this cos φ the rod counts as normal to the guide: what follows has no digits in the crank angle.
 const NEARLY_NORMAL: f64 = 1e-3;
-
-/// Lengths that differ by less than this part of crank and rod together count as equal: reading rod, crank and offset rounds
-/// their difference by ε of that at most, and by 3 ε where the unit is no power of ten of a metre, like an inch.
-pub(super) const SAME_LENGTHS: f64 = 4.0 * f64::EPSILON;
 
 impl Limits {
     /// The limits of a linkage, for a crank that turns in the direction of `speed` (its sign alone

@@ -2,9 +2,12 @@
 //!
 //! sin φ = (e + r sin θ)/l, x = r cos θ + s l cos φ, s = ±1 for the assembly branch.
 
-use super::limits::SAME_LENGTHS;
 use crate::numeric::exact::sum3;
 use crate::scene::{Branch, Geometry};
+
+/// Lengths that differ by less than this part of crank and rod together count as equal: reading rod, crank and offset rounds
+/// their difference by ε of that at most, and by 3 ε where the unit is no power of ten of a metre, like an inch.
+pub(super) const SAME_LENGTHS: f64 = 4.0 * f64::EPSILON;
 
 /// The lengths of the mechanism, ready for evaluation.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -20,7 +20,9 @@ mod limits;
 mod linkage;
 mod load;
 mod loop_closure;
+mod loose_state;
 mod nonlinear_loads;
+mod place;
 mod positions;
 mod reactions;
 mod rocker;
@@ -32,20 +34,18 @@ mod sizing;
 mod solid;
 mod statics;
 mod torque_slope;
+mod way;
 
 pub use at_rest::{AtRest, Held};
 pub use batch::Instants;
 pub use body::{Bodies, Body, Link, Path};
-pub use clearance::{
-    Depth, JointTouch, LooseMechanism, LooseRates, LooseState, NormalForce, Rubbing, SpeedSizes,
-    Turned,
-};
-pub use configuration_curve::{Curve, Place};
+pub use clearance::{Depth, JointTouch, LooseMechanism, NormalForce, Rubbing, SpeedSizes, Turned};
+pub use configuration_curve::Curve;
 pub use curve_equation::{CurveEquation, CurveTerms};
 pub use equivalent::EquivalentMasses;
 pub use extremes::{Extreme, Extremes};
 pub use first_order::FirstOrder;
-pub use friction::{Free, FromRest, Jam, Sense, Touch};
+pub use friction::{Free, FromRest, Jam, Touch};
 pub use guide_force::Normal;
 pub use inverse_position::InversePosition;
 pub use lagrange::{Equation, Inertia, Terms};
@@ -53,7 +53,9 @@ pub use limits::{Class, DeadCentre, Limits};
 pub use linkage::{Linkage, Pose};
 pub use load::Loads;
 pub use loop_closure::Closure;
-pub use nonlinear_loads::{LoadValue, single};
+pub use loose_state::{LooseRates, LooseState};
+pub use nonlinear_loads::{LoadValue, Sense, single};
+pub use place::Place;
 pub use positions::NamedPosition;
 pub use reactions::{InertiaForces, Reactions, Reactor};
 pub use seen::{Arms, Seen};

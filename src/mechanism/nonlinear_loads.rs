@@ -154,3 +154,27 @@ pub fn single(load: &Load, on_slider: bool, now: &Instant) -> f64 {
         Load::Function { function, .. } => function(now),
     }
 }
+
+/// Signs of the speeds of crank and slider that dry loads oppose; zero: they are at rest.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sense {
+    /// sgn(ω)
+    pub crank: f64,
+    /// sgn(v)
+    pub slider: f64,
+}
+
+impl Sense {
+    /// Of a speed of the crank (rad/s) and one of the slider (m/s).
+    pub fn of(omega: f64, v: f64) -> Sense {
+        Sense {
+            crank: sign(omega),
+            slider: sign(v),
+        }
+    }
+}
+
+/// sgn, zero at zero.
+pub(super) fn sign(value: f64) -> f64 {
+    if value == 0.0 { 0.0 } else { value.signum() }
+}

@@ -1,7 +1,6 @@
 //! Numbers of about 31 digits: unevaluated sums of two floats (Dekker, Numer. Math. 18 (1971) 224).
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
-use std::sync::OnceLock;
 
 use super::exact::two_sum;
 
@@ -46,17 +45,6 @@ impl DoubleDouble {
         high: 1.0,
         low: 0.0,
     };
-    /// A turn, 2 pi.
-    pub const TAU: DoubleDouble = DoubleDouble {
-        high: 4.0 * DoubleDouble::QUARTER[0],
-        low: 4.0 * DoubleDouble::QUARTER[1],
-    };
-    /// A quarter turn.
-    const QUARTER: [f64; 3] = [
-        std::f64::consts::FRAC_PI_2,
-        6.123233995736766e-17,
-        -1.4973849048591698e-33,
-    ];
 
     /// The nearest float.
     pub fn value(self) -> f64 {
@@ -73,47 +61,6 @@ impl DoubleDouble {
         let rest = self - DoubleDouble { high, low };
         quick_sum(root, rest.high / (2.0 * root))
     }
-
-    /// Sine and cosine: the series around the nearest quarter turn.
-    pub fn sin_cos(self) -> (DoubleDouble, DoubleDouble) {
-        let quarters = (self.high / DoubleDouble::QUARTER[0]).round();
-        let x = DoubleDouble::QUARTER.iter().fold(self, |x, part| {
-            let (high, low) = product(quarters, *part);
-            x - DoubleDouble { high, low }
-        });
-        let square = x * x;
-        let [odd, even] = inverse_factorials();
-        let sum = |factors: &[DoubleDouble; TERMS]| {
-            let terms = factors.iter().rev();
-            terms.fold(DoubleDouble::ZERO, |sum, factor| sum * square + *factor)
-        };
-        let (sin, cos) = (x * sum(odd), sum(even));
-        match quarters.rem_euclid(4.0) as u8 {
-            0 => (sin, cos),
-            1 => (cos, -sin),
-            2 => (-sin, -cos),
-            _ => (-cos, sin),
-        }
-    }
-}
-
-/// Terms of the series up to an eighth of a turn: (π/4)²⁸/28! is 4e-33.
-const TERMS: usize = 14;
-
-/// ±1/n! for odd and for even n.
-fn inverse_factorials() -> &'static [[DoubleDouble; TERMS]; 2] {
-    static FACTORS: OnceLock<[[DoubleDouble; TERMS]; 2]> = OnceLock::new();
-    FACTORS.get_or_init(|| {
-        let mut factors = [[DoubleDouble::ZERO; TERMS]; 2];
-        let mut inverse = DoubleDouble::ONE;
-        for n in 0..2 * TERMS {
-            if n > 0 {
-                inverse = inverse / n as f64;
-            }
-            factors[1 - n % 2][n / 2] = if n & 2 == 0 { inverse } else { -inverse };
-        }
-        factors
-    })
 }
 
 impl From<f64> for DoubleDouble {

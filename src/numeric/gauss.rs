@@ -19,6 +19,24 @@ pub fn legendre(n: u32, i: usize) -> (f64, f64) {
     (0.5 * (1.0 + x), 1.0 / ((1.0 - x * x) * slope * slope))
 }
 
+/// A Legendre series at many places, by its recurrence.
+pub fn legendre_series<const K: usize, const N: usize>(
+    coefficients: &[f64; K],
+    x: [f64; N],
+) -> [f64; N] {
+    let (mut p, mut before) = ([1.0; N], [0.0; N]);
+    let mut sum = [0.0; N];
+    for (k, coefficient) in coefficients.iter().enumerate() {
+        let n = k as f64;
+        let (by_last, by_before) = ((2.0 * n + 1.0) / (n + 1.0), n / (n + 1.0));
+        for i in 0..N {
+            sum[i] += coefficient * p[i];
+            (p[i], before[i]) = (by_last * x[i] * p[i] - by_before * before[i], p[i]);
+        }
+    }
+    sum
+}
+
 /// ∫ f over [from, to] by the rule with three points on each of `panels` equal panels.
 pub fn composite(f: impl Fn(f64) -> f64, from: f64, to: f64, panels: u32) -> f64 {
     let h = (to - from) / f64::from(panels);

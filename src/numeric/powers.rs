@@ -25,13 +25,13 @@ impl Powers {
             DoubleDouble::from(expansion.middle),
             DoubleDouble::from(expansion.half),
         );
-        let slope = DoubleDouble::from(1.0) / half;
+        let slope = DoubleDouble::ONE / half;
         let mut sums = vec![zero; count];
         let mut sizes = vec![0.0; count];
         let mut squares = vec![zero; count];
         let mut before = vec![zero; count];
         let mut now = vec![zero; count];
-        now[0] = DoubleDouble::from(1.0) / expansion.norms[0];
+        now[0] = DoubleDouble::ONE / expansion.norms[0];
         for j in 0..count {
             for k in 0..=j {
                 let term = expansion.coefficients[j] * now[k];

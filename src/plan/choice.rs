@@ -230,7 +230,7 @@ fn why_not_angle(scene: &Scene, class: Class) -> Option<String> {
 }
 
 /// Angles of a turn at which the guide is looked at.
-const PLACES: u32 = 64;
+const ANGLES_OF_TURN: u32 = 64;
 
 /// Whether rigid bodies jam at one of some angles of the turn.
 fn jams(scene: &Scene) -> bool {
@@ -239,8 +239,8 @@ fn jams(scene: &Scene) -> bool {
     let mu = guide
         .friction()
         .map_or(0.0, |friction| friction.coefficient);
-    let theta = |i: u32| TAU * f64::from(i) / f64::from(PLACES);
-    (0..PLACES).any(|i| guide.across(theta(i)).normal().grip(mu).is_none())
+    let theta = |i: u32| TAU * f64::from(i) / f64::from(ANGLES_OF_TURN);
+    (0..ANGLES_OF_TURN).any(|i| guide.across(theta(i)).normal().grip(mu).is_none())
 }
 
 /// The first load whose corners are not known as crank angles, and why.

@@ -134,3 +134,24 @@ pub(super) fn write_all<Row: Sync>(
     }
     output.finish()
 }
+
+/// One line of CSV as cells.
+pub(super) fn read(line: &str) -> Result<Vec<Cell>, Error> {
+    Ok(texts(line)?.iter().map(|text| Cell::read(text)).collect())
+}
+
+/// One line of CSV as the texts of its cells.
+pub(super) fn texts(line: &str) -> Result<Vec<String>, Error> {
+    let mut reader = ::csv::ReaderBuilder::new();
+    let mut reader = reader.has_headers(false).from_reader(line.as_bytes());
+    let record = reader.records().next().transpose();
+    let record = record.map_err(|error| Error::Write {
+        target: "CSV".to_owned(),
+        source: std::io::Error::other(error),
+    })?;
+    Ok(record
+        .unwrap_or_default()
+        .iter()
+        .map(str::to_owned)
+        .collect())
+}

@@ -1,9 +1,10 @@
 //! Columns of rows as curves in aligned panels: which, over what, in which units and how large.
 
-use super::Look;
-use super::columns::{Curve, base, curves, labelled};
+use std::f64::consts::PI;
+
 use super::figure::{Axis, Figure, Shape, Sheet};
-use super::quantity::split;
+use super::look::Look;
+use super::quantity::{Curve, base, curves, split};
 use super::table::Table;
 use crate::error::Error;
 
@@ -92,6 +93,23 @@ impl View {
     }
 }
 
+impl Curve {
+    /// Values as they are shown.
+    pub fn values<'a>(&self, table: &'a Table) -> impl Iterator<Item = f64> + use<'a> {
+        let factor = self.quantity.factor;
+        let values = table.numbers(&self.name).unwrap_or_default();
+        values.iter().map(move |value| factor * value)
+    }
+}
+
+/// Words and unit of an axis.
+fn labelled(words: &str, unit: &str) -> String {
+    match unit {
+        "" => words.to_owned(),
+        unit => format!("{words} [{unit}]"),
+    }
+}
+
 /// Columns of one quantity, with their bands.
 fn panel(table: &Table, over: &Curve, curves: &[Curve], look: &Look<'_>) -> Figure {
     let axis = |label: String, unit: &str| match unit {
@@ -148,12 +166,15 @@ fn band(table: &Table, curve: &Curve, factor: f64) -> Option<Vec<[f64; 2]>> {
     Some(edges.collect())
 }
 
+/// Crank angle between the points of a curve, rad.
+pub(super) const SPACING: f64 = PI / 360.0;
+
 /// Points that a curve needs; more are thinned out.
-const POINTS: usize = 4000;
+const CURVE_POINTS: usize = 4000;
 
 /// A curve through so few points that a picture stays small; the extremes of each piece are kept.
 fn outlined(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
-    let piece = (4 * x.len()).div_ceil(POINTS).max(1);
+    let piece = (4 * x.len()).div_ceil(CURVE_POINTS).max(1);
     if piece <= 4 {
         return x.iter().copied().zip(y.iter().copied()).collect();
     }
@@ -177,7 +198,7 @@ fn outlined(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
 }
 
 /// Part of the values at each end that may belong to poles.
-const TAIL: f64 = 0.05;
+const POLES_SHARE: f64 = 0.05;
 
 /// The range of the bulk of values, if it is far less than their whole range: of the central ones, widened by their
 /// range to both sides.
@@ -185,7 +206,7 @@ fn bulk(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     let mut values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
     values.sort_unstable_by(f64::total_cmp);
     let last = values.len().checked_sub(1)?;
-    let beyond = (TAIL * last as f64).round() as usize;
+    let beyond = (POLES_SHARE * last as f64).round() as usize;
     let (low, high) = (values[beyond], values[last - beyond]);
     let room = high - low;
     let whole = values[last] - values[0];

@@ -1,9 +1,9 @@
 //! The diagrams of the trade: turning moment, indicator diagram, polar diagrams of the loads on pins and bearings, orders,
 //! balance of the first order.
 
+use super::curves::SPACING;
 use super::figure::{Axis, Figure, Shape, Sheet};
 use super::key_values::{Facts, degrees, fact, six};
-use super::statics::SPACING;
 use crate::error::Error;
 use crate::kinematics::{Diagrams, OneTurn, Order, TurnRow};
 use crate::scene::{Load, Scene};

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::inverse::identify::Identification;
 
 /// Correlation from which on two values are named.
-const CLOSE: f64 = 0.9;
+const STRONG_CORRELATION: f64 = 0.9;
 
 /// Values with their errors and what to know of them.
 pub fn identification(result: &Identification) -> String {
@@ -37,7 +37,7 @@ pub fn identification(result: &Identification) -> String {
     );
     for (i, row) in result.correlations.iter().enumerate() {
         for (j, value) in row.iter().enumerate().take(i) {
-            if value.abs() > CLOSE {
+            if value.abs() > STRONG_CORRELATION {
                 fact!(
                     facts,
                     "correlation",

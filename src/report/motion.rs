@@ -6,7 +6,7 @@ use super::curves::View;
 use super::decimate::Thinned;
 use super::figure::{Axis, Figure};
 use super::key_values::Facts;
-use super::rows::{cells, header};
+use super::rows::{ROWS_KEPT, cells, header};
 use super::run::{self, speed_figure};
 use super::table::Table;
 use super::{Look, Origin, Report, page};
@@ -20,9 +20,6 @@ pub struct PlotRows {
     view: View,
     rows: Thinned<Row>,
 }
-
-/// Most rows that are kept.
-const ROWS_KEPT: usize = 100_000;
 
 impl PlotRows {
     /// No rows yet; what is to be seen of them.

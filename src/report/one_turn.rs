@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
+use super::curves::SPACING;
 use super::diagrams::{self, Diagram};
 use super::key_values::{Facts, degrees, fact, given, six};
 use super::rows::{REACTIONS, reactions};
-use super::statics::SPACING;
 use super::text::{NAMES, extreme, kinematics};
 use super::{Look, Report, Table, View};
 use crate::error::Error;

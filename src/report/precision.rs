@@ -1,10 +1,10 @@
 //! The comparison of methods: CSV, text and figure.
 
-use super::Look;
 use super::csv::{self, Cell};
 use super::figure::{Axis, Figure, Shape, Sheet};
 use super::key_values::{Facts, aligned, fact, six};
-use super::page::{self, Origin, Scatter};
+use super::look::{Look, Scatter};
+use super::page::{self, Origin};
 use super::table::Table;
 use crate::error::Error;
 use crate::precision::{Precision, PrecisionRow};

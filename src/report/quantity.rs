@@ -1,9 +1,13 @@
-//! What the columns of rows mean: words, symbol, and the unit that people read them in, from the name of the column.
+//! What the columns of rows mean: words, symbol, and the unit that people read them in, from the name of the column; and
+//! columns by the names that people give them.
 
 use std::borrow::Cow;
 use std::f64::consts::PI;
 
 use serde::Serialize;
+
+use crate::error::Error;
+use crate::scene::unit;
 
 /// The name of a column without its unit, and the ending that tells the unit.
 pub(super) fn split(column: &str) -> (&str, &str) {
@@ -131,6 +135,67 @@ fn group(name: &str, unit: &str) -> String {
         "" => name.replace('_', " "),
         unit => format!("{} [{unit}]", name.replace('_', " ")),
     }
+}
+
+/// A column in the unit that it is drawn in.
+#[derive(Clone, Debug)]
+pub(super) struct Curve {
+    pub name: String,
+    pub quantity: Quantity,
+}
+
+/// The column of the horizontal axis.
+pub(super) fn base(names: &[&str], text: &str) -> Result<Curve, Error> {
+    let mut found = curves(names, text)?;
+    match found.len() {
+        1 => Ok(found.remove(0)),
+        _ => Err(no_column(names, text)),
+    }
+}
+
+/// The columns that a text names, with the unit behind a colon.
+pub(super) fn curves(names: &[&str], text: &str) -> Result<Vec<Curve>, Error> {
+    let (wanted, in_unit) = match text.split_once(':') {
+        Some((wanted, unit)) => (wanted.trim(), Some(unit.trim())),
+        None => (text.trim(), None),
+    };
+    let has_name = |name: &&&str| **name == wanted || split(name).0 == wanted;
+    let part = |name: &&&str| {
+        let rest = |rest: &str| rest.starts_with('_') || rest.ends_with('_');
+        let base = split(name).0;
+        let (first, last) = (base.strip_prefix(wanted), base.strip_suffix(wanted));
+        !wanted.is_empty() && [first, last].into_iter().flatten().any(rest)
+    };
+    let mut found: Vec<&&str> = names.iter().filter(has_name).collect();
+    if found.is_empty() {
+        found = names.iter().filter(part).collect();
+    }
+    if found.is_empty() {
+        return Err(no_column(names, text));
+    }
+    found.into_iter().map(|name| curve(name, in_unit)).collect()
+}
+
+fn curve(name: &str, in_unit: Option<&str>) -> Result<Curve, Error> {
+    let mut quantity = Quantity::of(name);
+    if let Some(unit) = in_unit {
+        let ratio = unit::ratio(&quantity.unit, unit)
+            .map_err(|reason| Error::refused(reason, "a unit like x:cm, theta:rad or force:kN"))?;
+        quantity.factor *= ratio;
+        quantity.unit = unit.to_owned().into();
+    }
+    Ok(Curve {
+        name: name.to_owned(),
+        quantity,
+    })
+}
+
+fn no_column(names: &[&str], text: &str) -> Error {
+    let bases: Vec<&str> = names.iter().map(|name| split(name).0).collect();
+    Error::refused(
+        format!("`{text}` names no column of these rows"),
+        format!("columns: {}", bases.join(", ")),
+    )
 }
 
 #[cfg(test)]

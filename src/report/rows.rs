@@ -14,6 +14,9 @@ const CLEARANCE: &str =
     "x_ideal_m,v_ideal_m_per_s,a_ideal_m_per_s2,journal_x_m,journal_y_m,contact_force_n";
 const TORQUE: &str = "crank_torque_nm";
 
+/// Most rows that are kept for pictures and pages.
+pub(super) const ROWS_KEPT: usize = 100_000;
+
 /// Cells of the columns [`REACTIONS`].
 pub(super) fn reactions(forces: &Reactions) -> impl Iterator<Item = f64> {
     let joints = [forces.crank_bearing, forces.crank_pin, forces.wrist_pin];

@@ -1,7 +1,6 @@
 //! Static equilibrium.
 
-use std::f64::consts::PI;
-
+use super::curves::SPACING;
 use super::key_values::{Facts, aligned, fact, given};
 use super::text::{NAMES, extreme, place};
 use super::{Look, Report, Table, View};
@@ -109,9 +108,6 @@ impl Report for StaticsReport<'_> {
         view.svg(&StaticsReport { every, ..*self }.table(), self.look())
     }
 }
-
-/// Crank angle between the points of a figure, rad.
-pub(super) const SPACING: f64 = PI / 360.0;
 
 fn cells(row: &StaticsRow) -> [f64; 9] {
     let cell = |value: Option<f64>| value.unwrap_or(f64::NAN);

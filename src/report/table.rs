@@ -92,9 +92,6 @@ impl Table {
     }
 
     /// Writes the columns of numbers as CSV, without those for pictures only.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
     pub(super) fn csv(&self, output: Output) -> Result<(), Error> {
         let columns = &self.columns[..self.columns.len() - self.beside];
         let header: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();

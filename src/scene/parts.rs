@@ -1,6 +1,4 @@
-//! Geometry, gravity and friction; values with a standard error.
-
-use super::Scene;
+//! Geometry, gravity and friction.
 
 /// Lengths and assembly of the mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,13 +71,4 @@ pub struct Friction {
     pub coefficient: f64,
     /// Static coefficient.
     pub static_coefficient: f64,
-}
-
-/// A value of a scene with its standard error.
-#[derive(Clone, Debug)]
-pub struct UncertainValue {
-    /// Name, as `geometry.rod`.
-    pub key: String,
-    /// The scene with the value a standard error higher, or lower where it cannot be higher.
-    pub moved: Scene,
 }

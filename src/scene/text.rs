@@ -16,9 +16,6 @@ const NO_TEXT: [(&[u8], &str); 4] = [
 ];
 
 /// What a file holds; `-` is standard input.
-///
-/// # Errors
-/// [`Error::Read`].
 pub(super) fn bytes(file: &Path) -> Result<Vec<u8>, Error> {
     let read = if file == Path::new("-") {
         let mut bytes = Vec::new();

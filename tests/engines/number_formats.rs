@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use crate::support::exact::SinCos;
 use slider_crank::numeric::angle::TAU_REST;
 use slider_crank::numeric::double_double::DoubleDouble;
 use slider_crank::numeric::interpolate::{Curve, Interpolation, lacks};

@@ -1,8 +1,8 @@
 //! Runs that cannot reach their end are given up, and no others.
 
 use slider_crank::engine::WorkLimit;
-use slider_crank::engine::time::FAR;
-use slider_crank::engine::work_forecast::{Ends, WorkForecast};
+use slider_crank::engine::time::{Ends, FAR};
+use slider_crank::engine::work_forecast::WorkForecast;
 
 const LIMIT: u64 = 100_000_000;
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use crate::support::exact::{Dd, Jet};
+use crate::support::exact::{Dd, Jet, SinCos};
 use crate::support::random::{angle, any_class, cases, rotating_crank};
 use crate::support::{Exact, Point, Sizes, close, condition, geometry};
 use proptest::prelude::*;
@@ -159,7 +159,7 @@ fn a_large_offset_takes_no_digits_of_the_rods_height() {
                     Branch::Left,
                 );
                 let dd = Dd::from;
-                let u = dd(g.offset) + dd(g.crank) * Dd::sin_cos(mirror * theta).0;
+                let u = dd(g.offset) + dd(g.crank) * Dd::from(mirror * theta).sin_cos().0;
                 let w = ((dd(g.rod) - u) * (dd(g.rod) + u)).sqrt().value();
                 let pose = Linkage::new(&g).pose(mirror * theta);
                 close("l cos phi", pose.cos_phi * g.rod, w, w, 2e-15);
@@ -185,7 +185,7 @@ fn margins_typed_in_decimals_keep_their_digits() {
 
 #[test]
 fn the_reference_closes_the_loop_to_thirty_digits() {
-    let cos = Dd::sin_cos(FRAC_PI_2).1.value();
+    let cos = Dd::from(FRAC_PI_2).sin_cos().1.value();
     assert_eq!(cos, 6.123233995736766e-17);
     for theta in [-19.3, -2.0, 0.7, FRAC_PI_2, 4.6, 17.0] {
         let g = geometry(1.1, 2.3, -0.9, Branch::Left);

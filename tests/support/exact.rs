@@ -1,55 +1,46 @@
-//! Numbers as unevaluated sums of two floats, and Taylor series of them.
+//! Numbers of about 31 digits with sine and cosine, and Taylor series of them.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::sync::OnceLock;
 
-/// high + low, about 31 digits (Dekker, Numer. Math. 18 (1971) 224).
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Dd(f64, f64);
+pub use slider_crank::numeric::double_double::DoubleDouble as Dd;
 
-impl Dd {
-    pub const ZERO: Dd = Dd(0.0, 0.0);
+/// A quarter turn in three parts.
+const QUARTER: [f64; 3] = [
+    std::f64::consts::FRAC_PI_2,
+    6.123233995736766e-17,
+    -1.4973849048591698e-33,
+];
 
-    pub fn value(self) -> f64 {
-        self.0
+/// A turn, 2 pi.
+pub fn turn() -> Dd {
+    (Dd::from(QUARTER[0]) + QUARTER[1]) * 4.0
+}
+
+/// What only references need of a number.
+pub trait SinCos {
+    fn abs(self) -> Dd;
+
+    /// Sine and cosine: the series around the nearest quarter turn.
+    fn sin_cos(self) -> (Dd, Dd);
+}
+
+impl SinCos for Dd {
+    fn abs(self) -> Dd {
+        if self.value() < 0.0 { -self } else { self }
     }
 
-    pub fn abs(self) -> Dd {
-        if self.0 < 0.0 { -self } else { self }
-    }
-
-    /// Square root, NaN below zero: one Newton step from that of the float.
-    pub fn sqrt(self) -> Dd {
-        if self.0 == 0.0 {
-            return Dd::ZERO;
-        }
-        let root = self.0.sqrt();
-        let rest = self - Dd::product(root, root);
-        Dd(root, 0.0) + Dd(rest.0 / (2.0 * root), 0.0)
-    }
-
-    /// Sine and cosine of a float, by their series around the nearest quarter turn.
-    pub fn sin_cos(angle: f64) -> (Dd, Dd) {
-        // π/2 in three parts.
-        const QUARTER: [f64; 3] = [
-            std::f64::consts::FRAC_PI_2,
-            6.123233995736766e-17,
-            -1.4973849048591698e-33,
-        ];
-        let quarters = (angle / QUARTER[0]).round();
-        let x = QUARTER
-            .iter()
-            .fold(Dd(angle, 0.0), |x, part| x - Dd::product(quarters, *part));
-        let (mut sin, mut cos) = (Dd::ZERO, Dd::ZERO);
-        let mut term = Dd(1.0, 0.0);
-        for n in 0..32 {
-            let signed = if n & 2 == 0 { term } else { -term };
-            if n & 1 == 0 {
-                cos = cos + signed;
-            } else {
-                sin = sin + signed;
-            }
-            term = term * x / Dd(f64::from(n + 1), 0.0);
-        }
+    fn sin_cos(self) -> (Dd, Dd) {
+        let quarters = (self.value() / QUARTER[0]).round();
+        let parts = QUARTER.iter();
+        let x = parts.fold(self, |x, part| x - Dd::from(quarters) * *part);
+        let square = x * x;
+        let [odd, even] = inverse_factorials();
+        let sum = |factors: &[Dd; TERMS]| {
+            let terms = factors.iter().rev();
+            terms.fold(Dd::ZERO, |sum, factor| sum * square + *factor)
+        };
+        let (sin, cos) = (x * sum(odd), sum(even));
         match quarters.rem_euclid(4.0) as u8 {
             0 => (sin, cos),
             1 => (cos, -sin),
@@ -57,65 +48,25 @@ impl Dd {
             _ => (-cos, sin),
         }
     }
-
-    fn sum(a: f64, b: f64) -> Dd {
-        let s = a + b;
-        let part = s - a;
-        Dd(s, (a - (s - part)) + (b - part))
-    }
-
-    fn product(a: f64, b: f64) -> Dd {
-        let p = a * b;
-        Dd(p, a.mul_add(b, -p))
-    }
 }
 
-impl From<f64> for Dd {
-    fn from(value: f64) -> Dd {
-        Dd(value, 0.0)
-    }
-}
+/// Terms of the series up to an eighth of a turn: (π/4)²⁸/28! is 4e-33.
+const TERMS: usize = 14;
 
-impl Neg for Dd {
-    type Output = Dd;
-    fn neg(self) -> Dd {
-        Dd(-self.0, -self.1)
-    }
-}
-
-impl Add for Dd {
-    type Output = Dd;
-    fn add(self, other: Dd) -> Dd {
-        let (high, low) = (Dd::sum(self.0, other.0), Dd::sum(self.1, other.1));
-        let carried = Dd::sum(high.0, high.1 + low.0);
-        Dd::sum(carried.0, carried.1 + low.1)
-    }
-}
-
-impl Sub for Dd {
-    type Output = Dd;
-    fn sub(self, other: Dd) -> Dd {
-        self + -other
-    }
-}
-
-impl Mul for Dd {
-    type Output = Dd;
-    fn mul(self, other: Dd) -> Dd {
-        let p = Dd::product(self.0, other.0);
-        Dd::sum(p.0, p.1 + (self.0 * other.1 + self.1 * other.0))
-    }
-}
-
-impl Div for Dd {
-    type Output = Dd;
-    fn div(self, other: Dd) -> Dd {
-        let first = self.0 / other.0;
-        let rest = self - other * Dd(first, 0.0);
-        let second = rest.0 / other.0;
-        let rest = rest - other * Dd(second, 0.0);
-        Dd::sum(first, second) + Dd(rest.0 / other.0, 0.0)
-    }
+/// ±1/n! for odd and for even n.
+fn inverse_factorials() -> &'static [[Dd; TERMS]; 2] {
+    static FACTORS: OnceLock<[[Dd; TERMS]; 2]> = OnceLock::new();
+    FACTORS.get_or_init(|| {
+        let mut factors = [[Dd::ZERO; TERMS]; 2];
+        let mut inverse = Dd::ONE;
+        for n in 0..2 * TERMS {
+            if n > 0 {
+                inverse = inverse / n as f64;
+            }
+            factors[1 - n % 2][n / 2] = if n & 2 == 0 { inverse } else { -inverse };
+        }
+        factors
+    })
 }
 
 /// Value and the first three derivatives with respect to the crank angle.
@@ -125,7 +76,7 @@ pub struct Jet([Dd; 4]);
 impl Jet {
     /// Sine and cosine of the crank angle itself.
     pub fn sin_cos(angle: f64) -> (Jet, Jet) {
-        let (sin, cos) = Dd::sin_cos(angle);
+        let (sin, cos) = Dd::from(angle).sin_cos();
         (Jet([sin, cos, -sin, -cos]), Jet([cos, -sin, -cos, sin]))
     }
 

@@ -1,8 +1,7 @@
 //! The forces at the points of a panel.
 
 use super::Driven;
-use super::panel::Station;
-use super::sweep::Start;
+use super::panel::{Start, Station};
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 use crate::numeric::enclosure::Interval;
 

@@ -3,10 +3,7 @@
 use super::super::energy::piece::SAME_ANGLE;
 use super::super::energy::segment::Segment;
 use super::super::energy::{Orbit, panel::Panel};
-use super::Driven;
 use super::panel::Station;
-use super::stepper::PanelStepper;
-use super::sweep::{SETTLED, Start, Tails};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 
@@ -91,30 +88,6 @@ impl<'a> Guide<'a> {
             } else {
                 return Some(panel);
             }
-        }
-    }
-}
-
-impl<D: Driven> PanelStepper<'_, D> {
-    /// Takes a guess of the kinetic energy at the points of the next panel: that of the guide, whose error the sweeps are to
-    /// show, or that of the last turns. A panel beyond a change of the switch is solved as if there was none, which the guide
-    /// does not know.
-    pub(super) fn guess(&mut self, start: Start) -> Tails {
-        let station = self.parts.last().unwrap_or(&self.stations[self.next]);
-        let smooth = station.table.switch.is_none();
-        let guide = self.guide.as_mut().filter(|_| smooth);
-        let known = guide.and_then(|guide| {
-            self.swept.kinetic = guide.kinetic(station, self.turns, start.kinetic)?;
-            Some(SETTLED * guide.tail)
-        });
-        if known.is_none() {
-            let reads_time = self.driven.is_driven() && self.driven.reads_time();
-            station.guess(start.kinetic, reads_time, &mut self.swept.kinetic);
-        }
-        let series = self.fine.tail;
-        Tails {
-            series,
-            sweeps: known.unwrap_or(series),
         }
     }
 }

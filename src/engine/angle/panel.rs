@@ -3,10 +3,22 @@
 use super::super::energy::NotApplicable;
 use super::super::energy::piece::{Piece, Turning};
 use super::predictor::Predictor;
-use super::sweep::SLOW_FACTOR;
 use super::{Driven, State, Table};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Values, largest};
+
+/// The state at the start of a panel.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Start {
+    /// s
+    pub t: f64,
+    /// J
+    pub kinetic: f64,
+    /// Whole turns beside the angles of the panel.
+    pub turns: f64,
+    /// Sign of the speed.
+    pub direction: f64,
+}
 
 /// A panel with what depends on the position alone: the same in each cycle.
 #[derive(Clone)]
@@ -62,6 +74,8 @@ pub(super) struct Fineness {
 pub(super) const SHORTEST_PANEL: f64 = 1e-9;
 /// What the forces leave out adds up over the turns: it is to be less by this.
 const ADDED_UP: f64 = 0.1;
+/// Sweeps that gain less than this factor give way to Newton's method; taken for the factor before it is known.
+pub(super) const SLOW_FACTOR: f64 = 0.3;
 /// Degree of the series that are tried first.
 pub(super) const FIRST_DEGREE: usize = 24;
 

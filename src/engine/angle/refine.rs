@@ -8,9 +8,6 @@ use crate::engine::energy::NotApplicable;
 
 /// With less than this part of the largest kinetic energy the crank is near to rest.
 const NEAR_REST: f64 = 1e-2;
-/// Half of a panel of a crank near to rest is not cut below this, rad: a step in time passes the place. Half or twice as much
-/// changes none of 200 random runs.
-const SHORTEST_NEAR_REST: f64 = 1e-3;
 /// With less than this part of it a crank that seems to stop on a panel, half of which is this long, rad, is not
 /// followed to where it does: towards there each panel is a fraction of the one before, and a step in time passes.
 const STOPPING_ENERGY: f64 = 0.1;
@@ -38,7 +35,7 @@ impl<D: Driven> PanelStepper<'_, D> {
             && why == Unsolved::Stops
             && self.kinetic < STOPPING_ENERGY * fastest
             && half < STOPPING_LENGTH;
-        if stops || slow && half < SHORTEST_NEAR_REST {
+        if stops {
             return Err(NotApplicable::TooSlow);
         }
         let Some([first, second]) = station.parts(self.driven, 0.5, self.fine)? else {
@@ -54,9 +51,7 @@ impl<D: Driven> PanelStepper<'_, D> {
             self.parts.pop();
             self.parts.extend([second, first]);
         } else if station.failed
-            || station.is_new()
-                && half > STOPPING_LENGTH
-                && station.largest_work() < SMALL_WORK * self.kinetic
+            || station.is_new() && station.largest_work() < SMALL_WORK * self.kinetic
         {
             self.stations.splice(self.next..=self.next, [first, second]);
         } else {

@@ -1,7 +1,6 @@
 //! Whether the points of a panel show the loads on it.
 
-use super::panel::{Fineness, Station};
-use super::sweep::Start;
+use super::panel::{Fineness, Start, Station};
 use super::swept::Swept;
 use super::{Driven, State, Table};
 use crate::engine::events::ROUNDED;

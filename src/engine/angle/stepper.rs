@@ -6,9 +6,9 @@ use super::super::energy::panel::Panel;
 use super::super::energy::piece::Piece;
 use super::errors::{Errors, uncertain};
 use super::guide::Guide;
-use super::panel::{Fineness, Station};
+use super::panel::{Fineness, Start, Station};
 use super::seen::hides;
-use super::sweep::{Start, sweep};
+use super::sweep::{SETTLED, Tails, sweep};
 use super::swept::{Spent, Swept};
 use super::switch::{Side, begins_beyond, side};
 use super::turn::stations;
@@ -212,6 +212,28 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
                 }
             }
             self.evaluations += self.swept.evaluations;
+        }
+    }
+
+    /// Takes a guess of the kinetic energy at the points of the next panel: that of the guide, whose error the sweeps are to
+    /// show, or that of the last turns. A panel beyond a change of the switch is solved as if there was none, which the guide
+    /// does not know.
+    fn guess(&mut self, start: Start) -> Tails {
+        let station = self.parts.last().unwrap_or(&self.stations[self.next]);
+        let smooth = station.table.switch.is_none();
+        let guide = self.guide.as_mut().filter(|_| smooth);
+        let known = guide.and_then(|guide| {
+            self.swept.kinetic = guide.kinetic(station, self.turns, start.kinetic)?;
+            Some(SETTLED * guide.tail)
+        });
+        if known.is_none() {
+            let reads_time = self.driven.is_driven() && self.driven.reads_time();
+            station.guess(start.kinetic, reads_time, &mut self.swept.kinetic);
+        }
+        let series = self.fine.tail;
+        Tails {
+            series,
+            sweeps: known.unwrap_or(series),
         }
     }
 

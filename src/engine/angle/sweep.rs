@@ -1,29 +1,14 @@
 //! The collocation on one panel: K' = F(θ) + L(θ, ω, t), t' = 1/ω at the points of the panel.
 
 use super::Driven;
-use super::panel::Station;
+use super::panel::{SLOW_FACTOR, Start, Station};
 use super::swept::Swept;
 use crate::numeric::chebyshev::{Rule, Values, largest};
 use crate::numeric::exact::SUM_ROUNDING;
 use nalgebra::{DMatrix, DVectorViewMut};
 
-/// The state at the start of a panel.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Start {
-    /// s
-    pub t: f64,
-    /// J
-    pub kinetic: f64,
-    /// Whole turns beside the angles of the panel.
-    pub turns: f64,
-    /// Sign of the speed.
-    pub direction: f64,
-}
-
 /// Most sweeps over a panel.
 const MOST_SWEEPS: u32 = 40;
-/// Sweeps that gain less than this factor give way to Newton's method; taken for the factor before it is known.
-pub(super) const SLOW_FACTOR: f64 = 0.3;
 /// Sweeps end where what they leave is this part of the tail: it adds up over the turns.
 pub(super) const SETTLED: f64 = 1e-3;
 /// Least factor that a sweep is taken to leave.

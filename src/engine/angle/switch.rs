@@ -1,7 +1,6 @@
 //! Where the switch changes its sign on a panel, and with it the form of the forces.
 
-use super::panel::{SHORTEST_PANEL, Station};
-use super::sweep::Start;
+use super::panel::{SHORTEST_PANEL, Start, Station};
 use super::swept::Swept;
 use super::{Driven, Switch};
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values, largest};

@@ -1,12 +1,9 @@
 //! The panels of one cycle.
 
 use super::Driven;
-use super::errors::Errors;
 use super::panel::{FIRST_DEGREE, Fineness, SHORTEST_PANEL, Station};
-use super::stepper::PanelStepper;
 use crate::engine::energy::NotApplicable;
 use crate::engine::energy::piece::HALF_TURN;
-use crate::engine::energy::segment::Segment;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule};
 use std::f64::consts::TAU;
@@ -79,40 +76,4 @@ fn between<D: Driven>(
         }
     }
     Ok(Some(list))
-}
-
-impl<D: Driven> PanelStepper<'_, D> {
-    /// Starts the panels anew, at the start of a cycle with another kinetic energy, J.
-    pub fn restart(&mut self, kinetic: f64) {
-        self.parts.clear();
-        self.guide = None;
-        self.next = 0;
-        self.t = (0.0, 0.0);
-        self.kinetic = kinetic;
-        self.kinetic_low = 0.0;
-        self.errors = Errors::at(kinetic, 0.0);
-        self.fastest = kinetic;
-        self.turns = 0.0;
-        self.gain = 0.0;
-        self.work = 0.0;
-        self.refined = false;
-        self.hid = false;
-    }
-
-    /// The panels of the cycle that begins with a kinetic energy, J; `visit` sees the run after each of them, and may end it.
-    pub fn cycle(
-        &mut self,
-        kinetic: f64,
-        mut visit: impl FnMut(&Self) -> Result<(), NotApplicable>,
-    ) -> Result<Segment, NotApplicable> {
-        self.restart(kinetic);
-        let mut leg = Segment::open();
-        loop {
-            leg.push(self.panel()?.panel);
-            visit(self)?;
-            if self.at_cycle() {
-                return Ok(leg);
-            }
-        }
-    }
 }

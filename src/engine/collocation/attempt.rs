@@ -2,9 +2,10 @@
 
 use super::super::step::Step;
 use super::super::{Motion, NODES};
-use super::series::{legendre, rounding};
+use super::series::rounding;
 use super::state::State;
 use super::step::Collocation;
+use crate::numeric::gauss::legendre_series;
 
 /// A step that holds.
 pub struct Accepted {
@@ -52,7 +53,7 @@ impl Collocation<'_> {
             (None, None) => [self.alpha; NODES],
             (None, Some((length, coefficients))) => {
                 let ratio = 2.0 * h / length;
-                legendre(coefficients, self.tableau.nodes.map(|c| 1.0 + ratio * c))
+                legendre_series(coefficients, self.tableau.nodes.map(|c| 1.0 + ratio * c))
             }
         };
         self.update(state, h);

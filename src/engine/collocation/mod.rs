@@ -18,7 +18,6 @@ use super::step::{Node, Step};
 use super::time::{Finish, Settings, Start};
 use super::{Counted, Motion};
 use attempt::{Accepted, Failed, Try};
-pub(super) use series::legendre;
 use state::State;
 use step::Collocation;
 pub use tableau::Tableau;

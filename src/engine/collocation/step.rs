@@ -6,9 +6,10 @@ use super::super::time::Settings;
 use super::super::{Batch, Counted, Motion, NODES};
 use super::attempt::{Accepted, Failed, Try};
 use super::newton::Newton;
-use super::series::{dot, legendre};
+use super::series::dot;
 use super::state::State;
 use super::tableau::Tableau;
+use crate::numeric::gauss::legendre_series;
 
 /// Most sweeps of a step; one that needs more is too long.
 const SWEEPS: usize = 14;
@@ -265,7 +266,7 @@ impl<'a> Collocation<'a> {
         }
         powers[0] += 0.5 * h * state.omega;
         powers[1] += 0.5 * h * state.omega;
-        let [at_start, at_end] = legendre(coefficients, [-1.0, 1.0]);
+        let [at_start, at_end] = legendre_series(coefficients, [-1.0, 1.0]);
         let (start, end) = (state.node(at_start), next.node(at_end));
         let step = Step::with_powers(state.turns, start, end, powers);
         let alpha = self.motion.acceleration(next.t, next.angle(), next.omega);

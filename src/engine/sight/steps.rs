@@ -1,10 +1,10 @@
 //! Loads between the nodes of a step in time.
 
 use super::{Hidden, Look, Way, hidden};
-use crate::engine::collocation::legendre;
 use crate::engine::step::Step;
 use crate::engine::{Counted, Motion, NODES};
 use crate::numeric::enclosure::{Detail, Interval, Reach};
+use crate::numeric::gauss::legendre_series;
 
 /// The motion on a step.
 pub struct OnStep<'a> {
@@ -82,7 +82,7 @@ impl Way for OnStep<'_> {
         };
         let t = self.time(at);
         let (theta, omega) = self.step.at(t);
-        let [shown] = legendre(coefficients, [2.0 * at - 1.0]);
+        let [shown] = legendre_series(coefficients, [2.0 * at - 1.0]);
         self.motion.acceleration(t, self.step.angle(theta), omega) - shown
     }
 }

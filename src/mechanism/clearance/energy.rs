@@ -1,6 +1,7 @@
 //! Energy of the mechanism with a loose joint.
 
-use super::{LooseMechanism, LooseState, dot};
+use super::{LooseMechanism, dot};
+use crate::mechanism::LooseState;
 use crate::scene::{ContactLaw, Joint};
 
 impl LooseMechanism {

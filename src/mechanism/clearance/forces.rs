@@ -1,8 +1,8 @@
 //! Forces in the loose joint, and the accelerations that follow from them.
 
 use super::rubbing::Rubbing;
-use super::{Action, Frame, LooseMechanism, LooseRates, LooseState, cross, dot};
-use crate::mechanism::{LoadValue, Touch};
+use super::{Action, Frame, LooseMechanism, cross, dot};
+use crate::mechanism::{LoadValue, LooseRates, LooseState, Touch};
 use crate::numeric::angle::Angle;
 use crate::scene::{Instant, Joint};
 

@@ -1,6 +1,5 @@
 //! Force between journal and bearing.
 
-use super::LooseMechanism;
 use crate::scene::{Clearance, ContactLaw, Problem, Problems};
 
 /// Normal force F = K δ^1.5 (1 + D δ̇/δ̇₀), never negative: journal and bearing do not stick to each other.
@@ -55,23 +54,6 @@ impl NormalForce {
     /// 1 + D δ̇/δ̇₀: what damping makes of the elastic force; below zero there is no force.
     pub fn factor(&self, rate: f64, approach: f64) -> f64 {
         1.0 + self.damping * rate / approach
-    }
-}
-
-impl LooseMechanism {
-    /// Factor of the elastic force at a rate of the depth (m/s); a contact presses while it is positive.
-    pub fn pressing(&self, rate: f64, approach: f64) -> f64 {
-        self.force.factor(rate, approach)
-    }
-
-    /// Speed by which the contact law divides, m/s, for a contact that begins with this speed.
-    pub fn approach(&self, speed: f64) -> f64 {
-        speed.max(self.clearance.least_approach_speed)
-    }
-
-    /// The law of the contact.
-    pub fn force(&self) -> &NormalForce {
-        &self.force
     }
 }
 

@@ -17,51 +17,8 @@ pub use rubbing::Rubbing;
 pub use seen::SpeedSizes;
 pub use turn::Turned;
 
-use super::{Loads, Touch};
+use super::{Loads, LooseRates, LooseState};
 use crate::scene::{Clearance, Friction, Joint};
-
-/// Position and velocity.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LooseState {
-    /// s
-    pub t: f64,
-    /// Crank angle θ, rad.
-    pub theta: f64,
-    /// Direction ψ of the rod from the crank's end to the slider's, rad from +x; −φ on the right branch and
-    /// π + φ on the left one.
-    pub psi: f64,
-    /// Slider position, m.
-    pub x: f64,
-    /// rad/s
-    pub omega: f64,
-    /// ψ̇, rad/s
-    pub spin: f64,
-    /// m/s
-    pub v: f64,
-}
-
-/// What follows from a state and the forces in it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LooseRates {
-    /// rad/s²
-    pub alpha: f64,
-    /// ψ̈, rad/s²
-    pub spin_rate: f64,
-    /// m/s²
-    pub a: f64,
-    /// Power of the loads and of the torque that drives a crank of prescribed speed, W.
-    pub power: f64,
-    /// Power lost in the contact and by friction at the guide, W.
-    pub lost: f64,
-    /// What the guide does to the slider; found where it has friction only.
-    pub guide: Touch,
-    /// Normal force, N: what the bearing's wall pushes the journal with.
-    pub normal: f64,
-    /// Force of the loose joint on the rod, friction included, N.
-    pub on_rod: [f64; 2],
-    /// Torque on the crank beside those of the scene, N m, that keeps a prescribed speed.
-    pub driving_torque: f64,
-}
 
 /// Depth of the contact with its derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -228,6 +185,21 @@ impl LooseMechanism {
     /// The clearance of the scene.
     pub fn clearance(&self) -> &Clearance {
         &self.clearance
+    }
+
+    /// Factor of the elastic force at a rate of the depth (m/s); a contact presses while it is positive.
+    pub fn pressing(&self, rate: f64, approach: f64) -> f64 {
+        self.force.factor(rate, approach)
+    }
+
+    /// Speed by which the contact law divides, m/s, for a contact that begins with this speed.
+    pub fn approach(&self, speed: f64) -> f64 {
+        speed.max(self.clearance.least_approach_speed)
+    }
+
+    /// The law of the contact.
+    pub fn force(&self) -> &NormalForce {
+        &self.force
     }
 
     /// Accelerations, powers and forces.

@@ -1,7 +1,7 @@
 //! Coulomb friction of the slider in its guide while a joint is loose.
 
-use super::{JointTouch, LooseMechanism, LooseState};
-use crate::mechanism::Touch;
+use super::{JointTouch, LooseMechanism};
+use crate::mechanism::{LooseState, Touch};
 use crate::numeric::exact::SUM_ROUNDING;
 
 /// How the slider rubs in its guide.

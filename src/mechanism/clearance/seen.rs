@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use super::rubbing::Rubbing;
-use super::{Action, LooseMechanism, LooseState};
-use crate::mechanism::{Arms, LoadValue, Seen};
+use super::{Action, LooseMechanism};
+use crate::mechanism::{Arms, LoadValue, LooseState, Seen};
 use crate::numeric::enclosure::{Detail, Interval};
 use crate::scene::Joint;
 

@@ -1,7 +1,7 @@
 //! The loose mechanism of a scene, and where its motion begins.
 
-use super::{LooseMechanism, LooseState, NormalForce};
-use crate::mechanism::{Body, Equation, Linkage, Loads, Reactor};
+use super::{LooseMechanism, NormalForce};
+use crate::mechanism::{Body, Equation, Linkage, Loads, LooseState, Reactor};
 use crate::numeric::angle::Angle;
 use crate::scene::{Clearance, ContactLaw, Joint, MotionKind, Problem, Problems, Scene};
 

@@ -3,7 +3,7 @@
 use super::words::{TEXT, fitted, width};
 
 /// Part of the length of an axis that is left free beyond the values, at each end.
-const MARGIN: f64 = 0.04;
+const FREE_SHARE: f64 = 0.04;
 
 /// Values beyond this are no quantities, and their differences may overflow.
 const LARGEST: f64 = 1e300;
@@ -83,6 +83,12 @@ impl Axis {
         self
     }
 
+    /// Shows this range, with the room beside it that an axis leaves beside values.
+    pub fn around(self, low: f64, high: f64) -> Axis {
+        let free = FREE_SHARE * (high - low);
+        self.range(low - free, high + free)
+    }
+
     /// The label that has room in a length, pixels.
     pub(super) fn label_within(&self, length: f64) -> String {
         match width(&self.label, TEXT) <= length || self.short.is_empty() {
@@ -131,7 +137,7 @@ impl Scale {
                 Kind::Linear if high - low <= CONSTANT * low.abs().max(high.abs()) => {
                     if low == 0.0 { 1.0 } else { 0.1 * low.abs() }
                 }
-                _ => MARGIN * (high - low),
+                _ => FREE_SHARE * (high - low),
             };
             (low - margin, high + margin)
         });

@@ -4,11 +4,11 @@
 pub(super) type Place = (f64, f64);
 
 /// Rounding of a point on the border.
-const SLACK: f64 = 1e-9;
+const BORDER_ROUNDING: f64 = 1e-9;
 
 /// Whether a point lies between the axes.
 pub(super) fn inside((x, y): Place) -> bool {
-    let range = -SLACK..=1.0 + SLACK;
+    let range = -BORDER_ROUNDING..=1.0 + BORDER_ROUNDING;
     range.contains(&x) && range.contains(&y)
 }
 

@@ -7,16 +7,16 @@ use super::words::{TEXT, TITLE, fitted, line_height, width, wrapped};
 use super::{Figure, Look, Series};
 
 /// Free space at the edges, pixels.
-const EDGE: f64 = 10.0;
+const EDGE_SPACE: f64 = 10.0;
 
 /// Free space on the right of the axes, pixels; it holds half a tick label.
-const RIGHT: f64 = 34.0;
+const RIGHT_SPACE: f64 = 34.0;
 
 /// Least distance between ticks of the y axis, pixels.
 const TICK_DISTANCE: f64 = 34.0;
 
 /// Free space after an entry of the legend, pixels.
-const GAP: f64 = 24.0;
+const ENTRY_GAP: f64 = 24.0;
 
 /// Height of a row of the legend, pixels.
 const ROW: f64 = 1.25 * TEXT + 4.0;
@@ -25,7 +25,7 @@ const ROW: f64 = 1.25 * TEXT + 4.0;
 type Entry<'f> = (String, Vec<&'f Series>);
 
 fn entry_width(label: &str) -> f64 {
-    SAMPLE + width(label, TEXT) + GAP
+    SAMPLE + width(label, TEXT) + ENTRY_GAP
 }
 
 /// Rows of entries that fit beside each other.
@@ -37,7 +37,7 @@ fn legend(figure: &Figure, room: f64) -> Vec<Vec<Entry<'_>>> {
         match entries.iter_mut().find(known) {
             Some((_, of)) => of.push(series),
             None => {
-                let label = fitted(&series.label, room - 2.0 * EDGE - SAMPLE - GAP);
+                let label = fitted(&series.label, room - 2.0 * EDGE_SPACE - SAMPLE - ENTRY_GAP);
                 entries.push((label, vec![series]));
             }
         }
@@ -49,7 +49,7 @@ fn legend(figure: &Figure, room: f64) -> Vec<Vec<Entry<'_>>> {
         match rows.last_mut() {
             Some(row) if needed <= left => row.push(entry),
             _ => {
-                left = room - 2.0 * EDGE;
+                left = room - 2.0 * EDGE_SPACE;
                 rows.push(vec![entry]);
             }
         }
@@ -59,7 +59,7 @@ fn legend(figure: &Figure, room: f64) -> Vec<Vec<Entry<'_>>> {
 }
 
 fn title(figure: &Figure, room: f64) -> Vec<String> {
-    wrapped(&figure.title, TITLE, room - 2.0 * EDGE)
+    wrapped(&figure.title, TITLE, room - 2.0 * EDGE_SPACE)
 }
 
 /// What a title and a legend add to the height of a panel, pixels.
@@ -101,12 +101,15 @@ pub(super) fn panel(
     y_area: f64,
 ) {
     let titles = title(figure, room);
-    svg.lines((left + 0.5 * room, top + EDGE), TITLE, &titles);
+    svg.lines((left + 0.5 * room, top + EDGE_SPACE), TITLE, &titles);
     let legend = legend(figure, room);
-    let mut y = top + height - 0.5 * EDGE - legend.len() as f64 * ROW;
-    let high = top + EDGE + titles.len() as f64 * line_height(TITLE) + 6.0;
-    let corner = (left + EDGE + y_area, high);
-    let size = (room - y_area - EDGE - RIGHT, y - high - x_area(figure));
+    let mut y = top + height - 0.5 * EDGE_SPACE - legend.len() as f64 * ROW;
+    let high = top + EDGE_SPACE + titles.len() as f64 * line_height(TITLE) + 6.0;
+    let corner = (left + EDGE_SPACE + y_area, high);
+    let size = (
+        room - y_area - EDGE_SPACE - RIGHT_SPACE,
+        y - high - x_area(figure),
+    );
     axes(svg, figure, corner, size, y_area);
     for row in legend {
         let needed: f64 = row.iter().map(|(label, _)| entry_width(label)).sum();
@@ -151,7 +154,7 @@ fn axes(svg: &mut Svg, figure: &Figure, (left, high): Place, (long, tall): Place
     svg.segment((left, low), (left, high), "black");
     let middle = place((0.5, 0.5));
     if !figure.x.label.is_empty() {
-        let label = figure.x.label_within(long + RIGHT);
+        let label = figure.x.label_within(long + RIGHT_SPACE);
         svg.text((middle.0, low + 34.0), "middle", TEXT, 0.0, &label);
     }
     if !figure.y.label.is_empty() {

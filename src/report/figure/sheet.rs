@@ -10,7 +10,7 @@ use crate::error::Error;
 const PANEL: (f64, f64) = (680.0, 420.0);
 
 /// Least width and height of the area between the axes with its ticks, pixels.
-const LEAST: (f64, f64) = (150.0, 100.0);
+const LEAST_PANEL: (f64, f64) = (150.0, 100.0);
 
 /// Pixels to the millimetre: 96 to the inch.
 const PER_MM: f64 = 96.0 / 25.4;
@@ -41,8 +41,8 @@ impl Sheet<'_> {
         let fixed = (above + texts.iter().sum::<f64>()).ceil();
         let rows = texts.len().max(1) as f64;
         let inner = asked.map_or(PANEL.1, |(_, height)| ((height - fixed) / rows).floor());
-        if width < LEAST.0 || inner < LEAST.1 {
-            let least = [LEAST.0 * across, LEAST.1 * rows + fixed];
+        if width < LEAST_PANEL.0 || inner < LEAST_PANEL.1 {
+            let least = [LEAST_PANEL.0 * across, LEAST_PANEL.1 * rows + fixed];
             let [width, height] = least.map(|pixels| (pixels / PER_MM).ceil());
             return Err(Error::refused(
                 format!("the picture is too small for {} panels", figures.len()),

@@ -6,22 +6,19 @@ use crate::report::key_values::rounded;
 use crate::report::{Axis, Figure, Shape, Sheet};
 
 /// Points of a curve that a figure shows.
-const POINTS: usize = 2000;
+const CURVE_POINTS: usize = 2000;
 
 /// Samples that are drawn over the fit, so that both are seen.
-const SAMPLES: usize = 100;
+const SAMPLES_DRAWN: usize = 100;
 
 /// Stretches without force that are marked.
-const MARKS: usize = 40;
+const MARKS_DRAWN: usize = 40;
 
 /// Part of the forces, at each end, that may lie in the peaks beside dead centres.
-const PEAKS: f64 = 0.025;
+const PEAKS_SHARE: f64 = 0.025;
 
 /// Part of the longest lever arm of a motion above which a force is in no such peak.
 const LONG_ARM: f64 = 0.1;
-
-/// Part of a range that is left free beside it.
-const MARGIN: f64 = 0.04;
 
 /// Data, fit, residuals, force and torque side by side, as SVG; with the forces as Duarte et al. print them if given.
 pub(super) fn figure(
@@ -46,8 +43,7 @@ pub(super) fn figure(
 /// The time of all samples, whether or not they have a force.
 fn time(result: &Inverse) -> Axis {
     let data = &result.summary.data;
-    let margin = MARGIN * (data.to_s - data.from_s);
-    Axis::linear("time [s]").range(data.from_s - margin, data.to_s + margin)
+    Axis::linear("time [s]").around(data.from_s, data.to_s)
 }
 
 /// Name and unit of what was measured, and its size in SI.
@@ -74,8 +70,8 @@ fn one_in(stride: usize, name: &str) -> String {
 
 fn motion(result: &Inverse) -> Figure {
     let (name, unit, scale) = quantity(result);
-    let few = stride(result.residuals.len(), SAMPLES);
-    let many = stride(result.residuals.len(), POINTS);
+    let few = stride(result.residuals.len(), SAMPLES_DRAWN);
+    let many = stride(result.residuals.len(), CURVE_POINTS);
     let samples = result.residuals.iter().step_by(few);
     let fit = result.residuals.iter().step_by(many);
     Figure::new(
@@ -100,7 +96,7 @@ fn motion(result: &Inverse) -> Figure {
 fn residuals(result: &Inverse) -> Figure {
     let (_, unit, scale) = quantity(result);
     let (data, sigma) = (&result.summary.data, result.summary.fit.sigma * scale);
-    let many = stride(result.residuals.len(), POINTS);
+    let many = stride(result.residuals.len(), CURVE_POINTS);
     let list = result.residuals.iter().step_by(many);
     let level = |y: f64| [data.from_s, data.to_s].map(|t| (t, y)).to_vec();
     let label = "twice the standard deviation of a sample";
@@ -151,7 +147,7 @@ fn forces(result: &Inverse, printed: Option<&AsPrinted>) -> Figure {
             .line("energies of the paper", line(&force(0)))
             .dashed("(9) as printed", line(&force(1)));
     }
-    let few = stride(summary.dead_centre_bands.len(), MARKS);
+    let few = stride(summary.dead_centre_bands.len(), MARKS_DRAWN);
     for band in summary.dead_centre_bands.iter().step_by(few) {
         let label = one_in(few, "not determined");
         figure = figure.vertical_mark(0.5 * (band.from_s + band.to_s), label);
@@ -181,7 +177,7 @@ fn torques(result: &Inverse) -> Figure {
 /// The rows that are drawn, with a gap wherever the lever arm x' changes its sign: the force has no value at a dead
 /// centre, and other signs on either side.
 fn drawn(result: &Inverse) -> Vec<Option<&InverseRow>> {
-    let stride = stride(result.rows.len(), POINTS);
+    let stride = stride(result.rows.len(), CURVE_POINTS);
     let mut drawn = Vec::new();
     let mut side = 0.0;
     for row in result.rows.iter().step_by(stride) {
@@ -221,7 +217,7 @@ fn without_peaks(label: &str, forces: &[(f64, f64)]) -> (Axis, bool) {
     let Some(last) = sorted.len().checked_sub(1) else {
         return (axis, false);
     };
-    let beyond = (PEAKS * last as f64) as usize;
+    let beyond = (PEAKS_SHARE * last as f64) as usize;
     let (low, high) = (sorted[beyond], sorted[last - beyond]);
     let longest = forces
         .iter()
@@ -237,7 +233,5 @@ fn without_peaks(label: &str, forces: &[(f64, f64)]) -> (Axis, bool) {
     if low <= lowest && highest <= high {
         return (axis, false);
     }
-    let (low, high) = (low.max(lowest), high.min(highest));
-    let margin = MARGIN * (high - low);
-    (axis.range(low - margin, high + margin), true)
+    (axis.around(low.max(lowest), high.min(highest)), true)
 }

@@ -1,31 +1,85 @@
 //! Rows of `inverse` as CSV, made for millions of them.
 
-use super::plot;
-use super::text::facts;
+use super::{plot, text};
 use crate::error::Error;
 use crate::inverse::{AsPrinted, CycleMean, Inverse, InverseRow, Residual};
 use crate::report::csv::{line, write_all};
 use crate::report::curves::View;
-use crate::report::page::{self, Origin};
-use crate::report::rows::{REACTIONS, reactions};
-use crate::report::table::Table;
-use crate::report::{Look, Output};
+use crate::report::rows::{REACTIONS, ROWS_KEPT, reactions};
+use crate::report::{Facts, Look, Output, Report, Table};
 use crate::scene::Scene;
 
 const COLUMNS: &str = "t_s,theta_rad,omega_rad_per_s,alpha_rad_per_s2,slider_force_n,slider_force_se_n,crank_torque_nm,near_dead_centre,crank_torque_se_nm";
 
 const PRINTED: &str = "spin_only_force_n,duarte_9_force_n";
 
-/// Writes the rows, with joint forces if they were asked for, and with the forces as Duarte et al. print them.
-pub fn inverse_rows(
-    result: &Inverse,
-    printed: Option<&AsPrinted>,
-    output: Output,
-) -> Result<(), Error> {
-    let header = header(result, printed);
-    write_all(output, &header, &result.rows, |row, text| {
-        line(cells(result, printed, row), text);
-    })
+/// Slider force and crank torque of a measured motion.
+#[derive(Clone, Copy)]
+pub struct InverseReport<'a> {
+    /// What was found.
+    pub result: &'a Inverse,
+    /// The scene.
+    pub scene: &'a Scene,
+    /// The forces as Duarte et al. print them, for rows, text and figure.
+    pub printed: Option<&'a AsPrinted>,
+}
+
+impl Report for InverseReport<'_> {
+    fn facts(&self) -> Facts {
+        text::facts(self.result)
+    }
+
+    /// Facts and some rows.
+    fn text(&self) -> String {
+        text::text(self.result, self.printed)
+    }
+
+    /// Rows with what was measured, thinned out.
+    fn table(&self) -> Table {
+        let result = self.result;
+        let data = &result.summary.data;
+        let (name, unit) = (data.column, data.unit);
+        let mut table = Table::new(&format!("{COLUMNS},{name}_measured_{unit},residual_{unit}"));
+        table.stride = result.rows.len().div_ceil(ROWS_KEPT).max(1) as u64;
+        let rows = result.rows.iter().zip(&result.residuals);
+        for (row, sample) in rows.step_by(table.stride as usize) {
+            table.push(
+                values(row)
+                    .into_iter()
+                    .chain([sample.measured, sample.residual]),
+            );
+        }
+        table
+    }
+
+    fn look(&self) -> Look<'_> {
+        Look {
+            title: &self.result.summary.scene,
+            show: &["slider_force", "crank_torque"],
+            over: "t",
+            band: self.result.summary.band_factor,
+            has_poles: true,
+            scene: Some(self.scene),
+            ..Look::default()
+        }
+    }
+
+    /// All rows, with joint forces if they were asked for, and with the printed forces.
+    fn csv(&self, output: Output) -> Result<(), Error> {
+        let (result, printed) = (self.result, self.printed);
+        let header = header(result, printed);
+        write_all(output, &header, &result.rows, |row, text| {
+            line(cells(result, printed, row), text);
+        })
+    }
+
+    /// By itself data and fit, residuals, force and torque, with the printed forces.
+    fn figure(&self, view: &View) -> Result<String, Error> {
+        if view.is_default() {
+            return plot::figure(self.result, self.printed, view.size);
+        }
+        view.svg(&self.table(), self.look())
+    }
 }
 
 /// The rows by columns.
@@ -56,69 +110,6 @@ fn cells(result: &Inverse, printed: Option<&AsPrinted>, row: &InverseRow) -> Vec
         values.extend(printed.forces(row).unwrap_or([f64::NAN; 2]));
     }
     values
-}
-
-/// Most rows on a page.
-const MOST: usize = 100_000;
-
-/// The inverse as one page: rows with what was measured.
-///
-/// # Errors
-/// [`Error::Write`].
-pub fn inverse_page(result: &Inverse, scene: &Scene, origin: &Origin) -> Result<String, Error> {
-    let look = Look {
-        scene: Some(scene),
-        ..look(result)
-    };
-    page::html(origin, &facts(result), &table(result), &look)
-}
-
-/// What is to be seen as SVG; by itself data and fit, residuals, force and torque, with the forces as Duarte et al. print
-/// them if given.
-///
-/// # Errors
-/// [`Error::Refused`] if a column is not there, or no room.
-pub fn inverse_figure(
-    result: &Inverse,
-    printed: Option<&AsPrinted>,
-    view: &View,
-) -> Result<String, Error> {
-    if view.is_default() {
-        return plot::figure(result, printed, view.size);
-    }
-    view.svg(&table(result), look(result))
-}
-
-fn look(result: &Inverse) -> Look<'_> {
-    Look {
-        title: &result.summary.scene,
-        show: &["slider_force", "crank_torque"],
-        over: "t",
-        band: result.summary.band_factor,
-        has_poles: true,
-        ..Look::default()
-    }
-}
-
-/// Rows of a page by columns, with what was measured.
-fn table(result: &Inverse) -> Table {
-    let data = &result.summary.data;
-    let (name, unit) = (data.column, data.unit);
-    let mut table = Table::new(&format!("{COLUMNS},{name}_measured_{unit},residual_{unit}"));
-    table.stride = result.rows.len().div_ceil(MOST).max(1) as u64;
-    for (row, sample) in result
-        .rows
-        .iter()
-        .zip(&result.residuals)
-        .step_by(table.stride as usize)
-    {
-        table.push(
-            values(row)
-                .into_iter()
-                .chain([sample.measured, sample.residual]),
-        );
-    }
-    table
 }
 
 /// Writes what was measured, what the fit gives, and the difference.

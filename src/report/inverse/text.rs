@@ -6,20 +6,20 @@ use super::super::key_values::{Facts, fact};
 use crate::inverse::{AsPrinted, DataSummary, DeadCentreBand, FitSummary, ForceRange, Inverse};
 
 /// Lines of the whole text, those of a screen.
-const LINES: usize = 40;
+const TEXT_LINES: usize = 40;
 
 /// Most rows of the table.
-const ROWS: usize = 16;
+const MOST_TABLE_ROWS: usize = 16;
 
 /// Most coefficients and most warnings that are listed: with both there is room for a table of six rows.
 const MOST_COEFFICIENTS: usize = 13;
 const MOST_WARNINGS: usize = 6;
 
 /// Summary and some rows, with the forces as Duarte et al. print them if given.
-pub fn inverse(result: &Inverse, printed: Option<&AsPrinted>) -> String {
+pub(super) fn text(result: &Inverse, printed: Option<&AsPrinted>) -> String {
     let mut text = facts(result).lines(22);
-    let room = LINES.saturating_sub(text.lines().count() + 2);
-    table(&mut text, result, printed, room.clamp(1, ROWS));
+    let room = TEXT_LINES.saturating_sub(text.lines().count() + 2);
+    table(&mut text, result, printed, room.clamp(1, MOST_TABLE_ROWS));
     text
 }
 

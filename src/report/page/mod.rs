@@ -3,9 +3,9 @@
 use minijinja::{AutoEscape, Environment, Value, context};
 use serde::Serialize;
 
-use super::Look;
 use super::drawing::Drawing;
 use super::key_values::Facts;
+use super::look::{Look, Scatter};
 use super::table::{Shown, Table};
 use crate::error::Error;
 use crate::simulate::Event;
@@ -49,23 +49,6 @@ struct Data<'a> {
     poles: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     scatter: &'a Option<Scatter>,
-}
-
-/// What is shown at first of rows that are no motion.
-#[derive(Clone, Debug, Default, Serialize)]
-pub(super) struct Scatter {
-    pub x: String,
-    pub y: String,
-    /// Column of the colour, or empty.
-    pub colour: String,
-    /// Whether both axes are logarithmic.
-    pub log: bool,
-    /// Whether rows of a kind are joined.
-    pub lines: bool,
-    /// Column of the kinds that are told apart.
-    pub kind: &'static str,
-    /// Column of what is shown one at a time.
-    pub within: &'static str,
 }
 
 /// An event as the scripts read it.

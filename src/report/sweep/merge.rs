@@ -4,10 +4,10 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
+use super::super::csv;
 use super::super::output::Output;
 use super::ranges::SweepSummary;
 use super::tally::Tally;
-use super::{cells, texts};
 use crate::error::Error;
 use crate::sweep::Goal;
 
@@ -36,7 +36,7 @@ pub fn merge(
         parts.extend(Part::open(path, &mut header)?);
     }
     parts.sort_by_key(|part| part.first);
-    let mut tally = Tally::new(&texts(&header)?, percentiles, goals)?;
+    let mut tally = Tally::new(&csv::texts(&header)?, percentiles, goals)?;
     let mut out = out.map(Output::create).transpose()?;
     let mut put = |line: &str| match &mut out {
         Some(out) => out.write(format!("{line}\n").as_bytes()),
@@ -57,7 +57,7 @@ pub fn merge(
             }
             next += 1;
             put(&line)?;
-            tally.take(&cells(&line)?);
+            tally.take(&csv::read(&line)?);
         }
     }
     out.map_or(Ok(()), Output::finish)?;

@@ -104,7 +104,7 @@ impl<'a> SweepWriter<'a> {
                 );
                 let mut last = String::new();
                 let file = Growing::open(path, &mark, &header, |row| {
-                    let found = cells(row)?;
+                    let found = csv::read(row)?;
                     tally.take(&found);
                     if let Some(shown) = &mut shown {
                         shown.take(found);
@@ -214,25 +214,4 @@ fn line(cells: &[Cell]) -> Vec<u8> {
     let mut text = Vec::new();
     csv::cells(cells, &mut text);
     text
-}
-
-/// One line of CSV as cells.
-fn cells(line: &str) -> Result<Vec<Cell>, Error> {
-    Ok(texts(line)?.iter().map(|text| Cell::read(text)).collect())
-}
-
-/// One line of CSV as the texts of its cells.
-fn texts(line: &str) -> Result<Vec<String>, Error> {
-    let mut reader = ::csv::ReaderBuilder::new();
-    let mut reader = reader.has_headers(false).from_reader(line.as_bytes());
-    let record = reader.records().next().transpose();
-    let record = record.map_err(|error| Error::Write {
-        target: "CSV".to_owned(),
-        source: std::io::Error::other(error),
-    })?;
-    Ok(record
-        .unwrap_or_default()
-        .iter()
-        .map(str::to_owned)
-        .collect())
 }

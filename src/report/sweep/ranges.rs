@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::super::key_values::{Facts, aligned, fact, six};
-use super::super::page::{self, Origin, Scatter};
-use super::super::{Look, Table};
+use super::super::look::{Look, Scatter};
+use super::super::page::{self, Origin};
+use super::super::table::Table;
 use crate::error::Error;
 
 /// What a sweep found.
@@ -237,7 +238,7 @@ pub fn sweep_text(summary: &SweepSummary) -> String {
 
 fn front(front: &[FrontDesign]) -> String {
     /// Designs that fit a screen.
-    const SHOWN: usize = 20;
+    const DESIGNS_SHOWN: usize = 20;
     let Some(first) = front.first() else {
         return String::new();
     };
@@ -253,13 +254,13 @@ fn front(front: &[FrontDesign]) -> String {
         .into_iter()
         .chain(first.figures.keys().map(String::as_str));
     let mut text = "\n".to_owned() + &aligned(&widths, header);
-    for one in front.iter().take(SHOWN) {
+    for one in front.iter().take(DESIGNS_SHOWN) {
         let name = format!("  design {}", one.design);
         let values = one.figures.values().map(|value| six(*value));
         text += &aligned(&widths, [name].into_iter().chain(values));
     }
-    if front.len() > SHOWN {
-        text += &format!("  and {} more\n", front.len() - SHOWN);
+    if front.len() > DESIGNS_SHOWN {
+        text += &format!("  and {} more\n", front.len() - DESIGNS_SHOWN);
     }
     text
 }

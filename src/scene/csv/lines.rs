@@ -16,6 +16,8 @@ const NO_VALUE: [&str; 4] = ["#N/A", "#VALUE!", "#DIV/0!", "#NUM!"];
 
 /// What is wrong with a value that goes on over the end of its line.
 pub(in crate::scene) const OPEN_QUOTE: &str = "a quote is not closed on its line";
+pub(in crate::scene) const CLOSE_QUOTE: &str =
+    "write numbers without quotes, and each row on a line of its own";
 
 impl Dialect {
     /// The dialect of a text of which some lines are skipped: a line `sep=;` says the delimiter; else it is a semicolon or a

@@ -1,14 +1,14 @@
 //! Values that have been read, put together to a scene: defaults, boxes, loads.
 
 use std::f64::consts::FRAC_PI_2;
-use std::path::Path;
 
+use super::loads::keys_fit;
 use super::read::{Contents, Values};
 use super::{bodies, loads};
 use crate::scene::check::Check;
 use crate::scene::{
-    Branch, Clearance, ContactLaw, Extent, Friction, Gravity, Joint, Load, Motion, MotionKind,
-    Places, Run, Scene,
+    Branch, Clearance, ContactLaw, Extent, Friction, Gravity, Joint, Load, Motion, MotionKind, Run,
+    Scene,
 };
 
 /// The scene of these tables. What is missing or could not be read has a value that raises no further
@@ -63,12 +63,6 @@ pub(super) fn scene(check: &mut Check, contents: Contents) -> Scene {
         scene.run = run(check, values);
     }
     scene
-}
-
-/// Where the tables that a scene names are looked for: beside it.
-pub(super) fn folder(places: &Places) -> &Path {
-    let file = places.0.as_ref().map(|source| source.file.as_path());
-    file.and_then(Path::parent).unwrap_or(Path::new(""))
 }
 
 /// Keys that every table of the section has.
@@ -134,30 +128,6 @@ fn motion(check: &mut Check, values: &Values) -> Motion {
         angle: values.number("angle").unwrap_or(0.0),
         speed: values.number("speed").unwrap_or(0.0),
     }
-}
-
-/// Whether all keys that the kind needs are there. Those that are not are reported, and those of other
-/// kinds.
-pub(super) fn keys_fit(check: &mut Check, values: &Values, kind: &str) -> Option<()> {
-    let section = values.section;
-    let kind = section.kinds().iter().find(|one| one.name == kind)?;
-    for name in values.names().filter(|name| *name != "kind") {
-        if !kind.keys.contains(&name) {
-            let what = format!("`{name}` does not belong to kind \"{}\"", kind.name);
-            let help = format!("kind \"{}\" has {}", kind.name, kind.keys.join(", "));
-            check.add(values.field(name), what, help);
-        }
-    }
-    let required = &kind.keys[..kind.required];
-    for key in section
-        .keys
-        .iter()
-        .filter(|key| required.contains(&key.name))
-    {
-        let what = format!("`{}` is missing for kind \"{}\"", key.name, kind.name);
-        check.missing(values, key.name, what, format!("add {}", key.example()));
-    }
-    required.iter().all(|name| values.has(name)).then_some(())
 }
 
 fn run(check: &mut Check, values: &Values) -> Run {

@@ -1,13 +1,13 @@
 //! Torques and forces.
 
 use std::f64::consts::PI;
+use std::path::Path;
 
-use super::assemble::{folder, keys_fit};
 use super::read::Values;
 use crate::scene::check::Check;
 use crate::scene::number::with_unit;
 use crate::scene::unit::{self, Quantity};
-use crate::scene::{Every, Expression, Interpolation, Load, Table, Variable};
+use crate::scene::{Every, Expression, Interpolation, Load, Places, Table, Variable};
 
 /// The load of one `[[torque]]` or `[[force]]`, unless it has a problem.
 pub(super) fn load(check: &mut Check, values: &Values) -> Option<Load> {
@@ -36,6 +36,30 @@ pub(super) fn load(check: &mut Check, values: &Values) -> Option<Load> {
         }
         _ => gas(check, values),
     }
+}
+
+/// Whether all keys that the kind needs are there. Those that are not are reported, and those of other
+/// kinds.
+pub(super) fn keys_fit(check: &mut Check, values: &Values, kind: &str) -> Option<()> {
+    let section = values.section;
+    let kind = section.kinds().iter().find(|one| one.name == kind)?;
+    for name in values.names().filter(|name| *name != "kind") {
+        if !kind.keys.contains(&name) {
+            let what = format!("`{name}` does not belong to kind \"{}\"", kind.name);
+            let help = format!("kind \"{}\" has {}", kind.name, kind.keys.join(", "));
+            check.add(values.field(name), what, help);
+        }
+    }
+    let required = &kind.keys[..kind.required];
+    for key in section
+        .keys
+        .iter()
+        .filter(|key| required.contains(&key.name))
+    {
+        let what = format!("`{}` is missing for kind \"{}\"", key.name, kind.name);
+        check.missing(values, key.name, what, format!("add {}", key.example()));
+    }
+    required.iter().all(|name| values.has(name)).then_some(())
 }
 
 fn constant(check: &mut Check, values: &Values, quantity: Quantity) -> Option<Load> {
@@ -126,6 +150,12 @@ fn table(check: &mut Check, values: &Values, of: Variable, quantity: Quantity) -
     Table::read(&file, of, quantity, interpolation, period)
         .map_err(|error| check.add(values.field(&error.field), error.what, error.help))
         .ok()
+}
+
+/// Where the tables that a scene names are looked for: beside it.
+fn folder(places: &Places) -> &Path {
+    let file = places.0.as_ref().map(|source| source.file.as_path());
+    file.and_then(Path::parent).unwrap_or(Path::new(""))
 }
 
 /// The period in the unit of the table's variable.

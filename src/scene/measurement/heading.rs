@@ -2,10 +2,9 @@
 
 use super::Reading;
 use super::columns::{Columns, Named, is_count};
-use super::read::CLOSE_QUOTE;
 use crate::scene::csv::cell;
 use crate::scene::csv::header::{self, Header};
-use crate::scene::csv::lines::{Dialect, OPEN_QUOTE, span};
+use crate::scene::csv::lines::{CLOSE_QUOTE, Dialect, OPEN_QUOTE, span};
 use crate::scene::number::counted;
 use crate::scene::{Problem, unit};
 

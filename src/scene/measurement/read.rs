@@ -9,13 +9,10 @@ use super::listed::Listed;
 use super::{Beside, BesideColumn, Measured, Measurement, Reading, Source};
 use crate::numeric::parallel;
 use crate::scene::csv::cell::{self, NotANumber};
-use crate::scene::csv::lines::{Dialect, OPEN_QUOTE, span};
+use crate::scene::csv::lines::{CLOSE_QUOTE, Dialect, OPEN_QUOTE, span};
 use crate::scene::number::counted;
 use crate::scene::text::with_line_feeds;
 use crate::scene::{Problem, Problems};
-
-pub(super) const CLOSE_QUOTE: &str =
-    "write numbers without quotes, and each row on a line of its own";
 
 /// Bytes of a piece of text that a thread reads at a time, about.
 const PIECE: usize = 1 << 18;

@@ -8,7 +8,8 @@ use std::f64::consts::TAU;
 use super::check::Check;
 use super::number::{apart, computed, show};
 use super::{
-    Every, Extent, Friction, Geometry, InertiaAbout, Motion, MotionKind, Rod, RodModel, Run, Scene,
+    Every, Extent, Friction, Geometry, InertiaAbout, Motion, MotionKind, Problems, Rod, RodModel,
+    Run, Scene,
 };
 use crate::numeric::exact::sum3;
 
@@ -26,6 +27,21 @@ const LARGEST_ANGLE: f64 = 1e12;
 
 /// What decides whether the mechanism can be assembled.
 const LENGTHS: [&str; 3] = ["geometry.crank", "geometry.rod", "geometry.offset"];
+
+impl Scene {
+    /// All that is wrong with the scene's values.
+    ///
+    /// # Errors
+    /// [`Problems`] with one entry for each impossible value.
+    pub fn check(&self) -> Result<(), Problems> {
+        let mut check = Check {
+            problems: Vec::new(),
+            places: &self.places,
+        };
+        problems(self, &mut check);
+        check.result()
+    }
+}
 
 /// Adds one problem for each impossible value. Values that have a problem already are not compared with
 /// others: what follows from a problem is none of its own.

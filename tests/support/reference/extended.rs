@@ -5,6 +5,7 @@
 //! With unit rates (velocities for θ̇ = 1, marked ₁) and accelerations for θ̈ = 0 (marked ₀),
 //! θ̈ = (Q + Σ m g·v₁ − Σ m a₀·v₁ − Σ I ψ̈₀ ψ̇₁) / (Σ m v₁² + Σ I ψ̇₁²).
 
+use crate::support::exact::SinCos;
 use slider_crank::mechanism::single;
 use slider_crank::numeric::double_double::DoubleDouble;
 use slider_crank::numeric::enclosure::{Detail, Enclosed, Interval, Wanted, partition};

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use super::collocation::{self, Acceleration, CORNER, ITERATIONS, Place, Resolution};
 use super::extended::{Extended, State};
+use crate::support::exact::turn;
 use slider_crank::mechanism::{Class, Equation, Limits, Linkage};
 use slider_crank::numeric::double_double::DoubleDouble;
 use slider_crank::precision::Reference;
@@ -121,7 +122,7 @@ impl Motion {
         t_end: f64,
         until: &dyn Fn(f64) -> Option<Place>,
     ) -> Option<Place> {
-        let turn = DoubleDouble::TAU * start.omega.value().signum();
+        let turn = turn() * start.omega.value().signum();
         let mut period = DoubleDouble::from((turn / start.omega).value());
         for _ in 0..ITERATIONS {
             let end = until(period.value())?;

@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::super::Driven;
 use super::super::seen::at_speeds;
 use super::super::stepper::PanelStepper;
+use super::super::{Driven, Errors};
 use super::{DEGREE, Way};
 use crate::engine::energy::NotApplicable;
 use crate::engine::energy::interpolated_turns::{Cell, Turn};
@@ -59,15 +59,20 @@ impl<D: Driven> Way<'_, D> {
     fn whole_turn(&mut self, kinetic: f64) -> Result<((Segment, Turn), Interval), NotApplicable> {
         self.march.gives_up = false;
         let mut speeds: Option<Interval> = None;
-        let leg = self.march.cycle(kinetic, |march| {
-            let here = march.speeds();
+        self.march.restart(kinetic);
+        let mut leg = Segment::open();
+        loop {
+            leg.push(self.march.panel()?.panel);
+            let here = self.march.speeds();
             speeds = Some(speeds.map_or(here, |all| all.hull(here)));
-            // Panels that end at a place of this energy alone make another turn of it.
-            match march.hid {
-                true => Err(NotApplicable::NotSmooth),
-                false => Ok(()),
+            if self.march.hid {
+                // Panels that end at a place of this energy alone make another turn of it.
+                return Err(NotApplicable::NotSmooth);
             }
-        })?;
+            if self.march.at_cycle() {
+                break;
+            }
+        }
         let turn = Turn {
             count: self.march.turns.abs(),
             duration: self.march.t.0,
@@ -75,5 +80,24 @@ impl<D: Driven> Way<'_, D> {
             work: self.march.work,
         };
         Ok(((leg, turn), speeds.unwrap_or_default()))
+    }
+}
+
+impl<D: Driven> PanelStepper<'_, D> {
+    /// Starts the panels anew, at the start of a cycle with another kinetic energy, J.
+    pub fn restart(&mut self, kinetic: f64) {
+        self.parts.clear();
+        self.guide = None;
+        self.next = 0;
+        self.t = (0.0, 0.0);
+        self.kinetic = kinetic;
+        self.kinetic_low = 0.0;
+        self.errors = Errors::at(kinetic, 0.0);
+        self.fastest = kinetic;
+        self.turns = 0.0;
+        self.gain = 0.0;
+        self.work = 0.0;
+        self.refined = false;
+        self.hid = false;
     }
 }

@@ -9,8 +9,9 @@ use super::super::energy::piece::SAME_ANGLE;
 use super::super::energy::segment::Segment;
 use super::super::energy::turns::{Map, Recent, Turns};
 use super::super::energy::{NotApplicable, Orbit};
-use super::stepper::PanelStepper;
-use super::{Done, Driven, Driving, Errors, FEW_TURNS, Goal, Resolution, Short, work_until};
+use super::driving::{FEW_TURNS, work_until};
+use super::stepper::{Done, PanelStepper};
+use super::{Driven, Driving, Errors, Goal, Resolution, Short};
 use crate::engine::WorkLimit;
 use crate::numeric::angle::Angle;
 

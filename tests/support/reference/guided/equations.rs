@@ -3,6 +3,7 @@
 use super::super::extended::value;
 use super::super::extrapolation::State;
 use super::{Guided, NUMBERS};
+use crate::support::exact::SinCos;
 use slider_crank::numeric::double_double::DoubleDouble;
 use slider_crank::scene::Instant;
 

@@ -11,6 +11,7 @@ use std::cell::Cell;
 
 use super::extended::Extended;
 use super::extrapolation::{Change, Fineness, Pieces, State, follow};
+use crate::support::exact::SinCos;
 use equations::Equations;
 use slider_crank::numeric::double_double::DoubleDouble;
 use slider_crank::numeric::enclosure::Interval;

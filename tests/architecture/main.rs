@@ -1,6 +1,8 @@
 //! The directions in which data flows, read from the sources:
 //! scene -> mechanism -> plan -> engine -> trajectory -> simulate -> report -> cli.
 
+mod circles;
+
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};

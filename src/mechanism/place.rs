@@ -1,0 +1,89 @@
+//! A position of the mechanism on its configuration curve.
+
+use super::{Body, Link, Linkage, Path, Pose};
+
+/// A position, with two derivatives with respect to q (a dash), which like θ and Φ is an angle in rad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// sin θ
+    pub sin: f64,
+    /// cos θ
+    pub cos: f64,
+    /// θ'
+    pub dtheta: f64,
+    /// θ''
+    pub d2theta: f64,
+    /// sin Φ: the rod points along (cos Φ, −sin Φ).
+    pub rod_sin: f64,
+    /// cos Φ: zero at a limit, its sign is that of the branch.
+    pub rod_cos: f64,
+    /// Φ'
+    pub drod: f64,
+    /// Φ''
+    pub d2rod: f64,
+    /// Slider position x, m.
+    pub x: f64,
+    /// x', m.
+    pub dx: f64,
+    /// x'', m.
+    pub d2x: f64,
+}
+
+impl Place {
+    /// The position of a linkage at a crank angle, with that as the coordinate.
+    pub(super) fn of(linkage: &Linkage, pose: &Pose) -> Place {
+        let s = linkage.s;
+        Place {
+            sin: pose.sin,
+            cos: pose.cos,
+            dtheta: 1.0,
+            d2theta: 0.0,
+            rod_sin: pose.sin_phi,
+            rod_cos: s * pose.cos_phi,
+            drod: s * pose.dphi,
+            d2rod: s * pose.d2phi,
+            x: pose.x,
+            dx: pose.dx,
+            d2x: pose.d2x,
+        }
+    }
+
+    /// Crank and rod exchanged.
+    pub(super) fn exchanged(self) -> Place {
+        Place {
+            sin: self.rod_sin,
+            cos: self.rod_cos,
+            dtheta: self.drod,
+            d2theta: self.d2rod,
+            rod_sin: self.sin,
+            rod_cos: self.cos,
+            drod: self.dtheta,
+            d2rod: self.d2theta,
+            ..self
+        }
+    }
+
+    /// The path of a body over the coordinate.
+    pub(super) fn path(&self, linkage: &Linkage, body: &Body) -> Path {
+        let crank = [self.cos, self.sin];
+        let turn = [self.dtheta, self.d2theta];
+        match body.on {
+            Link::Crank => Path::turning(body.arm(crank), turn),
+            Link::Rod => {
+                let pin = Path::turning(crank.map(|part| linkage.r * part), turn);
+                let arm = body.arm([self.rod_cos, -self.rod_sin]);
+                pin.carrying(&Path::turning(arm, [-self.drod, -self.d2rod]))
+            }
+            Link::Slider => Path {
+                dp: [self.dx, 0.0],
+                d2p: [self.d2x, 0.0],
+                ..Path::default()
+            },
+        }
+    }
+
+    /// Rod inclination φ in [−90°, 90°], rad, as [`super::Pose::phi`].
+    pub fn phi(&self) -> f64 {
+        self.rod_sin.atan2(self.rod_cos.abs())
+    }
+}
