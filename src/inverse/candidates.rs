@@ -49,6 +49,51 @@ pub(super) struct About {
     corner: f64,
 }
 
+impl About {
+    fn linear(&self, prior: Prior) -> Linear<'_> {
+        Linear {
+            stretches: &self.stretches,
+            prior,
+            scales: self.scales,
+        }
+    }
+
+    /// A prior with its likeliest noise.
+    pub fn candidate(&self, prior: Prior, correlated: &[Autoregression]) -> Candidate {
+        let first = self.linear(prior).begun(Noise::white(self.corner));
+        self.climbed(prior, first, correlated)
+    }
+
+    /// A prior with its likeliest noise, from a first one; none where `least` says that it is not worth that.
+    fn candidate_from(
+        &self,
+        prior: Prior,
+        first: Noise,
+        least: f64,
+        correlated: &[Autoregression],
+    ) -> Option<Candidate> {
+        let first = self.linear(prior).begun(first);
+        (first.likelihood >= least).then(|| self.climbed(prior, first, correlated))
+    }
+
+    /// A prior with its likeliest noise, from a first one whose likelihood is known.
+    fn climbed(&self, prior: Prior, first: Noise, correlated: &[Autoregression]) -> Candidate {
+        let linear = self.linear(prior);
+        let mut noise = linear.improved(first);
+        if !correlated.is_empty() {
+            let found = linear.correlated(&noise, correlated);
+            // Noise that leaves the path rougher than white noise does is motion.
+            let rougher = found.corner > noise.corner;
+            noise = if rougher { noise } else { found };
+        }
+        Candidate {
+            prior,
+            noise,
+            scales: self.scales,
+        }
+    }
+}
+
 impl Problem<'_> {
     /// The linear model of a prior about a smoothed path.
     pub fn about(&self, prior: Prior, from: &Smoothed) -> About {
@@ -61,51 +106,6 @@ impl Problem<'_> {
             corner: from.noise.corner,
             path,
         }
-    }
-
-    /// A prior with its likeliest noise, from a first one; none where `least` says that it is not worth that.
-    fn candidate_from(
-        &self,
-        prior: Prior,
-        about: &About,
-        first: Noise,
-        least: f64,
-        correlated: &[Autoregression],
-    ) -> Option<Candidate> {
-        let scales = about.scales;
-        let linear = Linear {
-            stretches: &about.stretches,
-            prior,
-            scales,
-        };
-        let first = linear.begun(first);
-        if first.likelihood < least {
-            return None;
-        }
-        let mut noise = linear.improved(first);
-        if !correlated.is_empty() {
-            let found = linear.correlated(&noise, correlated);
-            // Noise that leaves the path rougher than white noise does is motion.
-            let rougher = found.corner > noise.corner;
-            noise = if rougher { noise } else { found };
-        }
-        Some(Candidate {
-            prior,
-            noise,
-            scales,
-        })
-    }
-
-    /// A prior about a smoothed path.
-    pub fn candidate(
-        &self,
-        prior: Prior,
-        about: &About,
-        correlated: &[Autoregression],
-    ) -> Candidate {
-        let first = Noise::white(about.corner);
-        let found = self.candidate_from(prior, about, first, f64::NEG_INFINITY, correlated);
-        found.unwrap_or_else(|| unreachable!("any likelihood will do"))
     }
 
     /// Priors about a path, the likeliest first. The order of each unknown rises as long as its likelihood does.
@@ -121,7 +121,7 @@ impl Problem<'_> {
             let mut tried: Vec<Candidate> = Vec::new();
             let about = self.about(ladder[0], kinematic);
             for prior in *ladder {
-                let next = self.candidate(*prior, &about, correlated);
+                let next = about.candidate(*prior, correlated);
                 let before = tried
                     .last()
                     .map_or(f64::NEG_INFINITY, |c| c.noise.likelihood);
@@ -174,12 +174,12 @@ impl Problem<'_> {
                 }
             };
             let mut about = with(HARMONICS);
-            let mut first = self.candidate_from(about.prior, &about, *noise, least, correlated)?;
+            let mut first = about.candidate_from(about.prior, *noise, least, correlated)?;
             // Two coefficients for each, and the samples tell no more of them than there are samples.
             while 8 * about.prior.harmonics <= self.record.times.len() {
                 let more = with(2 * about.prior.harmonics);
                 let Noise { likelihood, .. } = first.noise;
-                match self.candidate_from(more.prior, &more, first.noise, likelihood, correlated) {
+                match more.candidate_from(more.prior, first.noise, likelihood, correlated) {
                     Some(next) if next.noise.likelihood > likelihood => {
                         (about, first) = (more, next);
                     }
@@ -190,7 +190,7 @@ impl Problem<'_> {
                 order: 2,
                 ..first.prior
             };
-            let next = self.candidate_from(prior, &about, first.noise, least, correlated);
+            let next = about.candidate_from(prior, first.noise, least, correlated);
             Some(std::iter::once(first).chain(next))
         };
         let cycles = [1, 2]

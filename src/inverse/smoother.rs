@@ -87,7 +87,7 @@ impl Problem<'_> {
             let cost = (self.record.times.len() as f64).ln();
             let guesses = Autoregression::guesses(found.scales.spacing);
             let about = self.about(found.prior, &kinematic);
-            let first = self.candidate(found.prior, &about, &guesses).noise;
+            let first = about.candidate(found.prior, &guesses).noise;
             if let Some(guess) = first.correlated
                 && first.likelihood > likelihood(&white) + cost
             {
