@@ -3,8 +3,9 @@
 use std::f64::consts::TAU;
 use std::time::Instant;
 
+use super::balance::Balance;
 use super::driving_torque::Drive;
-use super::outcome::{Balance, Estimate, Outcome};
+use super::outcome::{Estimate, Outcome};
 use super::recorder::Recorder;
 use super::result::{ErrorEstimate, Event};
 use super::row::{Row, RowSink};

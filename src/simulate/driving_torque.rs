@@ -2,15 +2,14 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::joint_force_maxima::refined;
-use super::outcome::Balance;
+use super::balance::Balance;
 use super::result::TorqueRange;
-use super::row::RowMaker;
+use super::row_maker::RowMaker;
 use super::warning::NoRange;
 use crate::engine::time::Start;
 use crate::mechanism::Equation;
 use crate::numeric::angle::Angle;
-use crate::numeric::gauss;
+use crate::numeric::{gauss, maximum};
 use crate::scene::{Instant, Variable};
 
 /// A run at constant speed.
@@ -99,7 +98,7 @@ impl Drive<'_> {
                 best,
                 (best + 1).min(times.len() - 1),
             ];
-            refined(
+            maximum::beside(
                 |t| sign * self.torque(t),
                 beside.map(|i| (times[i], value(i))),
             )

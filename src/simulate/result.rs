@@ -5,7 +5,6 @@ use std::borrow::Cow;
 use serde::Serialize;
 
 use super::clearance::ClearanceSummary;
-use super::joint_force_maxima::Peaks;
 use super::steady::SteadyState;
 use super::stop::Stopped;
 use super::warning::Warning;
@@ -148,4 +147,60 @@ pub struct Event {
     pub theta_rad: f64,
     /// rad/s; infinite, and null in JSON, where the inertia vanishes and the speed has no bound
     pub omega_rad_per_s: f64,
+}
+
+/// Joint forces of which the largest are looked for.
+pub(super) const FORCES: usize = 5;
+
+/// The largest size of a force in a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Peak {
+    /// N
+    pub value_n: f64,
+    /// When, s.
+    pub t_s: f64,
+    /// Where the crank is then, rad, unwrapped.
+    pub theta_rad: f64,
+    /// What the last refinement added, N. The error of the motion itself comes on top.
+    pub added_n: f64,
+}
+
+/// The largest sizes of the joint forces in a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Peaks {
+    /// Of the crank's bearing at O.
+    pub crank_bearing: Peak,
+    /// Between crank and rod.
+    pub crank_pin: Peak,
+    /// Between rod and slider.
+    pub wrist_pin: Peak,
+    /// Of the guide, normal to it.
+    pub guide: Peak,
+    /// Minus the rate of change of the momentum of the mechanism.
+    pub shaking: Peak,
+}
+
+impl Peaks {
+    pub(super) fn new(
+        [crank_bearing, crank_pin, wrist_pin, guide, shaking]: [Peak; FORCES],
+    ) -> Peaks {
+        Peaks {
+            crank_bearing,
+            crank_pin,
+            wrist_pin,
+            guide,
+            shaking,
+        }
+    }
+
+    /// All of them, with their names.
+    pub fn named(&self) -> [(&'static str, Peak); FORCES] {
+        [
+            ("crank bearing", self.crank_bearing),
+            ("crank pin", self.crank_pin),
+            ("wrist pin", self.wrist_pin),
+            ("guide", self.guide),
+            ("shaking force", self.shaking),
+        ]
+    }
 }

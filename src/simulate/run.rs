@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::guide_friction::Sliding;
 use super::options::Options;
-use super::row::{NoRows, RowMaker, RowSink};
+use super::row::{NoRows, RowSink};
+use super::row_maker::RowMaker;
 use super::run_setup::RunSetup;
 use super::schedule::{self, Schedule};
 use super::simulation::Simulation;

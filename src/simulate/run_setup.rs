@@ -1,7 +1,7 @@
 //! A run that is ready to be computed.
 
 use super::options::Options;
-use super::row::RowMaker;
+use super::row_maker::RowMaker;
 use super::schedule::Schedule;
 use super::stop::Why;
 use crate::engine::runge_kutta;

@@ -1,13 +1,12 @@
 //! The mechanism as the energy engine sees it: inertia, potential and force over the crank angle.
 
 mod profile;
-mod spot;
 mod work;
 
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
-use super::guide_friction::{Grip, Guide, Sliding};
+use super::guide_friction::{Grip, Guide, Sliding, Spot};
 use super::marks::{Marks, in_order};
 use crate::engine::WorkLimit;
 use crate::engine::angle::{Driven, State, Table};
@@ -16,7 +15,6 @@ use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 use crate::numeric::enclosure::{Detail, Reach};
 use crate::scene::Variable;
-pub(super) use spot::Spot;
 
 /// Inertia, potential and force of an equation whose loads depend on the position alone.
 pub(super) struct AngleModel<'a> {

@@ -1,8 +1,7 @@
 //! Follows a run with a loose joint: rows, events, and what the contact does.
 
-use super::super::joint_force_maxima::{FORCES, Peak};
 use super::super::recorder::Recorder;
-use super::super::result::Event;
+use super::super::result::{Event, FORCES, Peak};
 use super::super::row::{LooseRow, Row};
 use super::super::row_writer::Part;
 use super::super::run_setup::RunSetup;

@@ -11,8 +11,7 @@ mod result;
 use std::f64::consts::TAU;
 use std::time::Instant;
 
-pub use record::ContactStatistics;
-pub use result::{Beyond, ClearanceSummary, Horizon, LooseFinal};
+pub use result::{Beyond, ClearanceSummary, ContactStatistics, Horizon, LooseFinal};
 
 use super::closed_form;
 use super::error_estimate::{TIGHTER, TIGHTEST};

@@ -2,11 +2,11 @@
 
 use std::cell::Cell;
 
-use super::super::stop::Why;
-use super::stick_slip::{
+use super::super::stick_slip::{
     CLEAR, CRANK, DEAD_CENTRE, InPhase, LIMIT, NORMAL, Phase, Quantities, SPEED, Signs, TURNED,
     sliding,
 };
+use super::super::stop::Why;
 use super::{End, Follow, Observer, Piece, crank_state};
 use crate::engine::event_functions;
 use crate::engine::event_functions::{Change, EventFunction};

@@ -1,20 +1,17 @@
 //! Motion in time on the configuration curve: past the limits of a rocker, and with Coulomb friction.
 
-mod coordinate;
 mod follow;
 mod release;
 mod rest;
 mod roundoff;
-mod stick_slip;
 
 use std::sync::Arc;
 
-pub(super) use coordinate::AlongCurve;
 pub(super) use roundoff::Noise;
-pub(super) use stick_slip::Phase;
 
-use super::outcome::Balance;
+use super::balance::Balance;
 use super::run_setup::RunSetup;
+use super::stick_slip::Phase;
 use super::stop::Why;
 use super::warning::Warning;
 use crate::engine::step::Step;

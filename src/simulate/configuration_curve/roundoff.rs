@@ -3,7 +3,7 @@
 use super::super::error_estimate::ONE_ROUNDING;
 use super::super::roundoff_propagation::Spread;
 use super::super::state_transition::Slopes;
-use super::stick_slip::{InPhase, Phase};
+use super::super::stick_slip::{InPhase, Phase};
 use crate::engine::Counted;
 use crate::engine::step::Step;
 use crate::mechanism::CurveEquation;
@@ -16,7 +16,7 @@ const PLACE: f64 = 4.0;
 
 /// Carries it from step to step.
 #[derive(Clone, Copy, Debug, Default)]
-pub(in crate::simulate) struct Noise {
+pub(crate) struct Noise {
     /// Evaluations for the slopes.
     pub evaluations: u64,
     /// Acceleration at the end of the last step, and its phase.

@@ -1,7 +1,8 @@
 //! Errors of motions over the crank angle: by rounding of times and places, and by what their series leave out.
 
+use super::super::balance::Balance;
 use super::super::error_estimate::MARGIN;
-use super::super::outcome::{Balance, Estimate};
+use super::super::outcome::Estimate;
 use super::super::result::ErrorEstimate;
 use super::super::run_setup::RunSetup;
 use super::arrived::Arrived;

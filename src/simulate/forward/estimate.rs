@@ -9,13 +9,14 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::super::checkpoints::Compared;
-use super::super::configuration_curve::{End, Noise, Observer, OnCurve, Phase};
+use super::super::configuration_curve::{End, Noise, Observer, OnCurve};
 use super::super::error_estimate::{Forward, MARGIN, Rounding, much_tighter, tighter};
 use super::super::outcome::Estimate;
 use super::super::recorder::Record;
 use super::super::result::{Cost, ErrorEstimate};
 use super::super::roundoff_propagation::Spread;
 use super::super::state_transition::StateTransition;
+use super::super::stick_slip::Phase;
 use super::arrived::{Arrived, Driven, Sink};
 use super::engine_loop::Course;
 use super::errors_over_angle::{

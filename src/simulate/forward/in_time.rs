@@ -3,7 +3,8 @@
 
 use std::borrow::Cow;
 
-use super::super::configuration_curve::{self, End, Follow, Observer, OnCurve, Phase, Piece};
+use super::super::configuration_curve::{self, End, Follow, Observer, OnCurve, Piece};
+use super::super::stick_slip::Phase;
 use super::super::stop;
 use super::arrived::Why;
 use super::clear::Clear;

@@ -3,7 +3,6 @@
 
 mod arrived;
 mod clear;
-mod crank;
 mod engine_loop;
 mod errors_over_angle;
 mod estimate;
@@ -20,12 +19,12 @@ use std::time::Instant;
 use arrived::{Arrived, Driven};
 use engine_loop::Course;
 use notes::Notes;
-pub(super) use stop_reason::unserved;
 
 use super::angle_model::AngleModel;
+use super::balance::Balance;
 use super::configuration_curve::{self, End};
 use super::error_estimate::Forward;
-use super::outcome::{Balance, Outcome};
+use super::outcome::Outcome;
 use super::recorder::Record;
 use super::row::RowSink;
 use super::run_setup::RunSetup;

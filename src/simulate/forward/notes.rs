@@ -5,15 +5,16 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::super::bounded_motion::Swing;
-use super::super::configuration_curve::{AlongCurve, Observer, OnCurve, Phase, crank_state};
+use super::super::configuration_curve::{Observer, OnCurve, crank_state};
+use super::super::coordinate::{AlongCurve, Coordinate, Crank};
 use super::super::passages::{Stretch, is_dead_centre};
-use super::super::recorder::{Coordinate, Record, Recorder};
+use super::super::recorder::{Record, Recorder};
 use super::super::result::Event;
 use super::super::row::RowSink;
 use super::super::run_setup::RunSetup;
+use super::super::stick_slip::Phase;
 use super::super::stop::Why;
 use super::arrived::{Arrived, Driven, Sink};
-use super::crank::Crank;
 use crate::engine::Counted;
 use crate::engine::events::{self, Crossing};
 use crate::engine::step::Step;
@@ -110,8 +111,6 @@ impl<'a> Notes<'a> {
         let crank = Crank {
             maker: &self.task.maker,
             motion: self.motion,
-            start: self.task.start(),
-            crossings: &self.crossings,
         };
         self.recorder.step(&mut step, until, &crank, None) || self.ends_at.is_some()
     }
@@ -227,7 +226,7 @@ impl<'a> Notes<'a> {
 
 /// The coordinate of a curve in one phase.
 fn along<'a>(task: &'a RunSetup<'_>, on: &'a CurveEquation, phase: Phase) -> AlongCurve<'a> {
-    AlongCurve::new(on, phase, task.maker.reactor.as_deref(), task.start())
+    AlongCurve::new(on, phase, task.maker.reactor.as_deref())
 }
 
 impl Observer for Notes<'_> {

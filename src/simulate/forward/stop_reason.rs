@@ -2,7 +2,8 @@
 
 use super::super::configuration_curve::End;
 use super::super::run_setup::RunSetup;
-use super::super::stop::{self, Why};
+use super::super::stalled::torques;
+use super::super::stop::{Why, unserved};
 use super::arrived::Arrived;
 use super::engine_loop::Course;
 use crate::engine::energy::NotApplicable;
@@ -19,7 +20,7 @@ pub(super) fn reason(course: &Course<'_>, arrived: &Arrived) -> Option<Why> {
         (End::Integrator(finish), _) => *finish,
         (End::AtRest, Extent::Revolutions(turns)) => {
             let theta = arrived.now.angle.radians();
-            let held_by = task.turns_fully().then(|| stop::torques(task, theta));
+            let held_by = task.turns_fully().then(|| torques(task, theta));
             return Some(Why::AtRest { turns, held_by });
         }
         _ => return None,
@@ -117,19 +118,4 @@ pub(super) fn refusal(task: &RunSetup<'_>, why: NotApplicable) -> Error {
         ),
         "use --method auto or time",
     )
-}
-
-/// Why a motion over the crank angle does not go on.
-pub(in crate::simulate) fn unserved(why: NotApplicable) -> &'static str {
-    match why {
-        NotApplicable::Equilibrium => "it starts at rest without a force",
-        NotApplicable::NotFinite => "a load has no finite value on the way",
-        NotApplicable::NotSmooth => "a load is not smooth",
-        NotApplicable::TooSlow => "the crank comes too near to rest",
-        NotApplicable::WorkLimit => "it takes more evaluations than the work limit allows",
-        NotApplicable::TooManyTurns => "it takes more turns than the work limit allows",
-        NotApplicable::TooLong => {
-            "its turns differ from each other, and they are too many to be kept"
-        }
-    }
 }

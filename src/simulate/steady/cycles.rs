@@ -1,6 +1,9 @@
 //! The map of a cycle (Poincare): the kinetic energy at its end from that at its start, by a run of one cycle.
 
-use super::super::{NoRows, Options, Simulation, simulate, simulate_rows};
+use super::super::options::Options;
+use super::super::row::NoRows;
+use super::super::run::{simulate, simulate_rows};
+use super::super::simulation::Simulation;
 use crate::engine::WorkLimit;
 use crate::engine::angle::CycleMap;
 use crate::engine::energy::NotApplicable;

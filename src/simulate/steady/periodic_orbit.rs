@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::super::forward::unserved;
 use super::super::guide_friction::Sliding;
+use super::super::stop::unserved;
 use super::cycles::{Cycle, Cycles};
 use crate::engine::WorkLimit;
 use crate::engine::angle::{CycleMap, FixedPoint, NoCycle, fixed_point};

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use super::super::guide_friction::BESIDE;
+use super::guide_friction::BESIDE;
 use crate::engine::Motion;
 use crate::engine::event_functions::EventFunction;
 use crate::engine::events::ROUNDED;
@@ -27,7 +27,7 @@ pub(super) type Signs = [f64; QUANTITIES];
 
 /// How the slider touches its guide.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::simulate) enum Phase {
+pub(super) enum Phase {
     /// The slider slides.
     Sliding {
         /// −μ sgn(v) sgn(N), zero without friction.
