@@ -31,8 +31,8 @@ impl Balance {
             turns: at.angle.turns - start.turns,
             rest: at.angle.rest,
         };
-        let begin = equation.kinetic_energy(start.rest, task.scene.motion.speed)
-            + equation.potential_energy(start.rest);
+        let begin =
+            equation.kinetic_energy(start.rest, task.speed) + equation.potential_energy(start.rest);
         let last =
             equation.kinetic_energy(at.angle.rest, at.speed) + equation.potential_energy(turned);
         Balance::new(last - begin - work, &[largest_kinetic, begin, last, work])

@@ -30,7 +30,7 @@ pub(super) fn run<'a>(
     let begun = Instant::now();
     let equation = task.equation();
     let start = task.start();
-    let speed = task.scene.motion.speed;
+    let speed = task.speed;
     let asked = duration(task.extent, speed);
     let blocked = time_to_limit(task, start, speed).filter(|t| *t < asked);
     let end = blocked.unwrap_or(asked);
@@ -131,7 +131,7 @@ fn time_to_limit(task: &RunSetup<'_>, start: Angle, speed: f64) -> Option<f64> {
 
 /// Passages of the dead centres until a time (s): the first ones, in order, and how many there are.
 pub(super) fn events(task: &RunSetup<'_>, end: f64) -> (Vec<Event>, u64) {
-    let (start, speed) = (task.start(), task.scene.motion.speed);
+    let (start, speed) = (task.start(), task.speed);
     if speed == 0.0 {
         return (Vec::new(), 0);
     }
@@ -169,15 +169,15 @@ impl Part for Uniform<'_> {
     }
 
     fn turned(&mut self, t: f64) -> f64 {
-        self.task.scene.motion.speed * t
+        self.task.speed * t
     }
 
     fn time_of(&mut self, turned: f64, _: [f64; 2]) -> Option<f64> {
-        Some(turned / self.task.scene.motion.speed)
+        Some(turned / self.task.speed)
     }
 
     fn row(&mut self, t: f64) -> Row {
-        let speed = self.task.scene.motion.speed;
+        let speed = self.task.speed;
         let angle = self.task.start().plus(speed * t);
         self.task.maker.row(t, angle, speed, Some(0.0))
     }

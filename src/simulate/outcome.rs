@@ -63,7 +63,7 @@ impl Outcome {
         if !task.limits.dead_centres.iter().any(|dc| vanishes(dc.theta)) {
             return self;
         }
-        let usual = task.scene.motion.speed.abs().max(self.at.speed.abs());
+        let usual = task.speed.abs().max(self.at.speed.abs());
         let is_bounded = |speed: f64| speed.abs() < 1e6 * usual;
         let (low, high) = self.record.speed;
         let shown = |speed: f64| match is_bounded(speed) {
@@ -157,8 +157,10 @@ impl Outcome {
             summary,
             trajectory: record.pieces.map(Trajectory::joined),
             dense: DenseRows {
+                maker: (self.engine != Engine::Contact).then(|| task.maker.clone()),
+                alpha: (self.engine == Engine::ClosedForm).then_some(0.0),
+                curve: None,
                 spells: record.spells,
-                ..DenseRows::default()
             },
         }
     }

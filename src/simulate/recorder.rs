@@ -85,7 +85,7 @@ impl<'a> Recorder<'a> {
         rows: &'a mut dyn RowSink,
         schedule: Schedule,
     ) -> Recorder<'a> {
-        let speed = task.scene.motion.speed;
+        let speed = task.speed;
         Recorder {
             task,
             writer: RowWriter::new(rows, schedule),

@@ -64,7 +64,7 @@ pub(super) fn lengthen(spells: &mut Vec<Spell>, [from, until]: [f64; 2], phase: 
 }
 
 /// What makes rows of a finished run.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct DenseRows {
     pub maker: Option<RowMaker>,
     /// Crank acceleration of a prescribed motion, rad/s².

@@ -27,6 +27,7 @@ mod table;
 mod turn;
 mod undamped;
 
+use std::cell::RefCell;
 use std::f64::consts::TAU;
 
 use super::WorkLimit;
@@ -41,6 +42,7 @@ use crate::numeric::enclosure::{Detail, Reach};
 pub use errors::Errors;
 pub use fixed_point::{CycleMap, FixedPoint, NoCycle, fixed_point};
 pub use guide::Guide;
+use panel::Station;
 use stepper::{Done, PanelStepper};
 use swept::Spent;
 pub use table::{Switch, Table};
@@ -54,6 +56,16 @@ pub struct State<'a, P> {
     pub angle: Angle,
     /// rad/s
     pub speed: f64,
+}
+
+/// The panels of a run, for the next one from the same angle in the same direction: what depends on the position is tabulated,
+/// and the next run sets out from its profiles.
+pub struct Panels<P>(Vec<Station<P>>);
+
+impl<P> Default for Panels<P> {
+    fn default() -> Panels<P> {
+        Panels(Vec::new())
+    }
 }
 
 /// What the engine needs of a mechanism.
@@ -70,6 +82,9 @@ pub trait Driven {
         side: f64,
         table: &mut Table<Self::Place>,
     );
+
+    /// Where the panels of a run are left for the next one from the same angle; none where each run stands alone.
+    fn shared(&self) -> Option<&RefCell<Panels<Self::Place>>>;
 
     /// How many positions were tabulated so far.
     fn positions(&self) -> u64;
@@ -226,6 +241,7 @@ pub fn run<D: Driven>(
                 Goal::Turned(way) => orbit.time_of_turn(way).unwrap_or(orbit.length()),
             };
             let work = march.work - work + work_until(orbit.last_leg(), end, &spent);
+            march.leave_panels();
             return Ok(Driving {
                 orbit,
                 end,
@@ -258,11 +274,12 @@ fn forecast<'a, D: Driven>(
 
 /// A run that ended before its goal, from an angle with a speed (rad/s).
 fn ended<D: Driven>(
-    march: PanelStepper<'_, D>,
+    mut march: PanelStepper<'_, D>,
     leg: Segment,
     (start, speed): (Angle, f64),
     why: NotApplicable,
 ) -> Driving {
+    march.leave_panels();
     Driving {
         short: leg.last_angle(start.turns).map(|angle| Short {
             why,

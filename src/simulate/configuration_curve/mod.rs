@@ -48,7 +48,7 @@ impl OnCurve {
     /// The equation on the curve of the start, and the start on it; none where no curve goes through it.
     pub fn through_start(task: &RunSetup<'_>) -> Option<OnCurve> {
         let (curve, angle) = Curve::through(task.equation().linkage(), task.start())?;
-        let speed = match task.scene.motion.speed {
+        let speed = match task.speed {
             0.0 => 0.0,
             speed => speed / curve.place(angle.rest).dtheta,
         };

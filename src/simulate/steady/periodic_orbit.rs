@@ -2,9 +2,12 @@
 
 use std::f64::consts::TAU;
 
+use super::super::angle_model::AngleModel;
 use super::super::guide_friction::Sliding;
+use super::super::options::Options;
+use super::super::run_setup::RunSetup;
 use super::super::stop::unserved;
-use super::cycles::{Cycle, Cycles};
+use super::cycles::{Cycle, Cycles, one_cycle};
 use crate::engine::WorkLimit;
 use crate::engine::angle::{CycleMap, FixedPoint, NoCycle, fixed_point};
 use crate::engine::energy::NotApplicable;
@@ -112,7 +115,16 @@ impl<'a> Seeker<'a> {
         if limits.dead_centres.iter().any(|dc| vanishes(dc.theta)) {
             return Err(unbounded());
         }
-        let mut cycles = Cycles::new(&self.scene, self.speed, self.cycle, other, self.limit);
+        let scene = one_cycle(&self.scene, self.speed, self.cycle, other);
+        let options = Options {
+            max_evaluations: self.limit.evaluations,
+            stop: self.limit.stop.cloned(),
+            events_kept: 0,
+            ..Options::default()
+        };
+        let task = RunSetup::new(&scene, &options, 0)?;
+        let model = AngleModel::of(&task).with_shared_panels();
+        let mut cycles = Cycles::new(&task, &model);
         match (self.solve(&mut cycles, step), cycles.refused) {
             (Err(_), Some(why)) => Err(why),
             (found, _) => found,
@@ -125,7 +137,7 @@ impl<'a> Seeker<'a> {
         !reads.has(Variable::Omega) && !reads.has(Variable::V) && self.sliding.is_none()
     }
 
-    fn solve(&self, cycles: &mut Cycles, step: f64) -> Result<Found, Error> {
+    fn solve(&self, cycles: &mut Cycles<'_>, step: f64) -> Result<Found, Error> {
         if self.any_speed() {
             let cycle = cycles.cycle(cycles.first()).map_err(not_turned)?;
             if cycle.gain.abs() > NO_GAIN.max(cycles.noise()) * cycle.largest {
