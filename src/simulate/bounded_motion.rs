@@ -36,6 +36,7 @@ impl Swing {
         };
         let loads = task.equation().loads();
         let enough = match task.scene.reduced().friction {
+            _ if task.one_way => 0,
             _ if loads.reads().has(Variable::T) => ENOUGH_IN_TIME,
             None if !loads.are_dry() => ENOUGH,
             _ => ENOUGH_WITH_FRICTION,
@@ -64,7 +65,8 @@ impl Swing {
 
     /// Whether it led no further for so long, and as long as it took to get there, that the run ends.
     pub fn is_caught(&self) -> bool {
-        self.since >= self.enough.max(self.before)
+        let seen = self.since + self.before;
+        seen > 0 && (self.enough == 0 || self.since >= self.enough.max(self.before))
     }
 
     /// Why the run ends; `crank`: crank angle of the coordinate.

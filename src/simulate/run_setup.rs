@@ -24,6 +24,8 @@ pub(super) struct RunSetup<'a> {
     pub extent: Extent,
     /// Crank speed at the start, rad/s.
     pub speed: f64,
+    /// Whether the run ends where the crank turns back.
+    pub one_way: bool,
     /// Most steps or pieces of the dense motion that are kept.
     pub kept: usize,
     pub limits: Limits,
@@ -52,6 +54,7 @@ impl<'a> RunSetup<'a> {
                 Some(extent) => extent,
             },
             speed: scene.motion.speed,
+            one_way: false,
             kept,
             limits: Limits::new(equation.linkage(), scene.motion.speed),
             maker: RowMaker {

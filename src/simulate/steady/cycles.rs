@@ -106,6 +106,7 @@ impl<'a> Cycles<'a> {
         };
         let task = RunSetup {
             speed: self.speed(kinetic),
+            one_way: true,
             kept: if keep { usize::MAX } else { 0 },
             options: &options,
             ..self.task.clone()

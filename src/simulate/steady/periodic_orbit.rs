@@ -67,6 +67,11 @@ impl Found {
     pub fn omega(&self, turned: f64) -> f64 {
         self.cycle.omega(self.start, turned)
     }
+
+    /// The crank angle there.
+    pub fn angle(&self, turned: f64) -> Angle {
+        self.start.plus(self.cycle.speed.signum() * turned)
+    }
 }
 
 /// What looks for the periodic motion of a scene.
