@@ -3,11 +3,8 @@
 mod follow;
 mod release;
 mod rest;
-mod roundoff;
 
 use std::sync::Arc;
-
-pub(super) use roundoff::Noise;
 
 use super::balance::Balance;
 use super::run_setup::RunSetup;
