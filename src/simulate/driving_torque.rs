@@ -10,7 +10,7 @@ use crate::engine::time::Start;
 use crate::mechanism::Equation;
 use crate::numeric::angle::Angle;
 use crate::numeric::{gauss, maximum};
-use crate::scene::{Instant, Variable};
+use crate::scene::Variable;
 
 /// A run at constant speed.
 pub(super) struct Drive<'a> {
@@ -42,23 +42,15 @@ impl Drive<'_> {
     /// The torque has no finite value at a time (s).
     fn not_finite(&self, t: f64) -> NoRange {
         let angle = self.start.plus(self.speed * t);
-        let pose = self.equation.linkage().pose(angle.rest);
-        let now = Instant {
+        let at = Start {
             t,
-            theta: angle.radians(),
-            omega: self.speed,
-            x: pose.x,
-            v: pose.dx * self.speed,
+            angle,
+            speed: self.speed,
         };
-        let load = self.equation.loads().without_value(&now).cloned();
         NoRange::NotFinite {
-            at_limit: !pose.exists(),
-            load: load.map(Box::new),
-            at: Start {
-                t,
-                angle,
-                speed: self.speed,
-            },
+            at_limit: !self.equation.linkage().pose(angle.rest).exists(),
+            load: self.maker.without_value(at).map(Box::new),
+            at,
         }
     }
 

@@ -58,9 +58,7 @@ impl Estimate {
 impl Outcome {
     /// With speeds that are shown as infinite where the inertia vanishes, at the dead centres of a crank without inertia.
     pub fn with_bounded_speeds(mut self, task: &RunSetup<'_>) -> Outcome {
-        let inertia = |theta: f64| task.equation().terms(theta).inertia.m;
-        let vanishes = |theta: f64| inertia(theta) <= 1e-12 * inertia(theta + 1.0);
-        if !task.limits.dead_centres.iter().any(|dc| vanishes(dc.theta)) {
+        if !task.inertia_vanishes() {
             return self;
         }
         let usual = task.speed.abs().max(self.at.speed.abs());

@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use super::guide_friction::Sliding;
 use super::row::Row;
+use crate::engine::time::Start;
 use crate::mechanism::{CurveEquation, Equation, Pose, Reactions, Reactor};
 use crate::numeric::angle::Angle;
+use crate::scene::{Instant, Load};
 
 /// Makes rows from states.
 #[derive(Clone, Debug)]
@@ -20,6 +22,19 @@ pub(super) struct RowMaker {
 }
 
 impl RowMaker {
+    /// The load without a finite value at a state, if there is one.
+    pub fn without_value(&self, at: Start) -> Option<Load> {
+        let pose = self.equation.linkage().pose(at.angle.rest);
+        let now = Instant {
+            t: at.t,
+            theta: at.angle.radians(),
+            omega: at.speed,
+            x: pose.x,
+            v: pose.dx * at.speed,
+        };
+        self.equation.loads().without_value(&now).cloned()
+    }
+
     /// Friction on the slider (N, along +x) in a prescribed motion; not a number where the guide locks itself.
     pub fn friction(&self, t: f64, angle: Angle, omega: f64, alpha: f64) -> f64 {
         self.guide.as_ref().map_or(0.0, |guide| {

@@ -88,6 +88,14 @@ impl<'a> RunSetup<'a> {
         self.limits.class == Class::RotatingCrank
     }
 
+    /// Whether the inertia vanishes at the dead centres, where the speed of a crank without inertia has no bound.
+    pub fn inertia_vanishes(&self) -> bool {
+        let inertia = |theta: f64| self.equation().terms(theta).inertia.m;
+        let vanishes = |theta: f64| inertia(theta) <= 1e-12 * inertia(theta + 1.0);
+        let mut dead_centres = self.limits.dead_centres.iter();
+        dead_centres.any(|dc| vanishes(dc.theta))
+    }
+
     /// The state of the crank at the start.
     pub fn first_state(&self) -> Start {
         Start {

@@ -45,9 +45,10 @@ pub(super) fn works(scene: &Scene, both: &Both) -> Vec<LoadWork> {
     let equation = Equation::new(scene);
     if let Some(sliding) = Sliding::new(scene, &equation) {
         // Not at the start of a motion, where the guide is what it will be.
-        let force =
-            |angle: Angle, omega: f64| sliding.state(f64::MIN_POSITIVE, angle, omega).1.friction;
-        let torque = |angle: Angle, omega: f64| force(angle, omega) * linkage.pose(angle.rest).dx;
+        let torque = |angle: Angle, omega: f64| {
+            let (_, touch) = sliding.state(f64::MIN_POSITIVE, angle, omega);
+            touch.friction * linkage.pose(angle.rest).dx
+        };
         add("friction at the guide".to_owned(), None, &torque);
     }
     works
