@@ -24,7 +24,6 @@ pub(super) struct Swing {
     before: u64,
     /// Turning points that are waited for at least.
     enough: u64,
-    /// Turns that are asked for.
     turns: f64,
 }
 
@@ -50,7 +49,6 @@ impl Swing {
         })
     }
 
-    /// Takes a turning point.
     pub fn turns_at(&mut self, at: Angle) {
         let [low, high] = self.reach;
         let (above, below) = (at.minus(high), low.minus(at));

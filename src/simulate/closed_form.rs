@@ -97,7 +97,6 @@ pub(super) fn run<'a>(
     Ok(run)
 }
 
-/// The coefficient of friction of the guide.
 fn friction(task: &RunSetup<'_>) -> f64 {
     let friction = task
         .maker
@@ -157,7 +156,6 @@ pub(super) fn events(task: &RunSetup<'_>, end: f64) -> (Vec<Event>, u64) {
     (again.take(kept).map(event).collect(), total)
 }
 
-/// The motion.
 struct Uniform<'a> {
     task: &'a RunSetup<'a>,
     end: f64,

@@ -9,7 +9,6 @@ use crate::engine::{Counted, Motion};
 use crate::mechanism::{CurveEquation, Reactor};
 use crate::numeric::angle::Angle;
 
-/// A coordinate.
 pub(super) trait Coordinate {
     /// The equation of motion, by which steps are refined.
     fn motion(&self) -> &dyn Motion;

@@ -103,7 +103,6 @@ impl Drive<'_> {
         })
     }
 
-    /// Time of a turn, s.
     fn turn(&self) -> f64 {
         TAU / self.speed.abs()
     }

@@ -6,7 +6,6 @@ use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{Detail, Reach};
 use crate::scene::Variable;
 
-/// The equation, integrated forward.
 pub(super) struct Forward<'a>(pub &'a Equation);
 
 impl Motion for Forward<'_> {

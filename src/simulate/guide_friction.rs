@@ -13,7 +13,6 @@ const AT_DEAD_CENTRE: f64 = 1e-12;
 /// How far beside an angle signs show and slopes are taken, rad.
 pub(super) const BESIDE: f64 = 1e-6;
 
-/// Friction at the guide.
 #[derive(Debug)]
 pub(super) struct Sliding {
     equation: CurveEquation,

@@ -85,7 +85,6 @@ impl Outcome {
         self
     }
 
-    /// The result of the run.
     pub fn conclude(self, task: &RunSetup<'_>) -> Simulation {
         let Outcome {
             at,

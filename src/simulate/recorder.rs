@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::time::{Duration, Instant};
 
-use super::checkpoints::Checkpoints;
+use super::checkpoints::STEPS_KEPT;
 use super::coordinate::Coordinate;
 use super::passages::Stretch;
 use super::result::{Event, Piece};
@@ -34,8 +34,8 @@ pub(super) struct Record {
     pub spells: Vec<Spell>,
     /// Which engines ran, if they took turns.
     pub engines: Vec<Piece>,
-    /// States on the way.
-    pub checkpoints: Checkpoints,
+    /// The first steps in time.
+    pub first: Vec<Step>,
     /// Time spent on rows.
     pub row_time: Duration,
 }
@@ -50,7 +50,7 @@ impl Record {
             pieces: None,
             spells: Vec::new(),
             engines: Vec::new(),
-            checkpoints: Checkpoints::default(),
+            first: Vec::new(),
             row_time: Duration::ZERO,
         }
     }
@@ -66,7 +66,6 @@ impl Record {
     }
 }
 
-/// Records a run.
 pub(super) struct Recorder<'a> {
     task: &'a RunSetup<'a>,
     writer: RowWriter<'a>,
@@ -170,7 +169,9 @@ impl<'a> Recorder<'a> {
         along: &dyn Coordinate,
         phase: Option<Phase>,
     ) -> bool {
-        self.record.checkpoints.pass(step);
+        if self.record.first.len() < STEPS_KEPT {
+            self.record.first.push(*step);
+        }
         let mut part = InStep {
             step,
             until,

@@ -9,7 +9,6 @@ use crate::mechanism::{CurveEquation, Equation, Pose, Reactions, Reactor};
 use crate::numeric::angle::Angle;
 use crate::scene::{Instant, Load};
 
-/// Makes rows from states.
 #[derive(Clone, Debug)]
 pub(super) struct RowMaker {
     pub equation: Arc<Equation>,

@@ -70,7 +70,6 @@ impl<'a> RunSetup<'a> {
         })
     }
 
-    /// When rows are due.
     pub fn schedule(&self) -> Schedule {
         Schedule::new(self.scene.run.output_every, self.extent)
     }

@@ -55,7 +55,6 @@ pub(super) struct Spell {
     pub phase: Phase,
 }
 
-/// Takes a step in one phase.
 pub(super) fn lengthen(spells: &mut Vec<Spell>, [from, until]: [f64; 2], phase: Phase) {
     match spells.last_mut() {
         Some(last) if last.until == from && last.phase == phase => last.until = until,

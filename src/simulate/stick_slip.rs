@@ -19,23 +19,19 @@ pub(super) const TURNED: usize = 3;
 pub(super) const NORMAL: usize = 4;
 pub(super) const CLEAR: usize = 5;
 pub(super) const CRANK: usize = 6;
-/// How many they are.
 pub(super) const QUANTITIES: usize = 7;
 
-/// Signs of the watched quantities.
 pub(super) type Signs = [f64; QUANTITIES];
 
 /// How the slider touches its guide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Phase {
-    /// The slider slides.
     Sliding {
         /// −μ sgn(v) sgn(N), zero without friction.
         c: f64,
         /// What dry loads oppose, if there are any.
         against: Sense,
     },
-    /// The slider sticks.
     Sticking,
 }
 

@@ -14,7 +14,6 @@ use crate::mechanism::LooseState;
 use crate::numeric::angle::Angle;
 use crate::numeric::root;
 
-/// What was seen so far.
 pub(super) struct Seen {
     pub record: Record,
     pub total: Tally,
@@ -84,7 +83,6 @@ impl<'a, const N: usize> Follow<'a, N> {
         self.seen.ends_at.map_or(stretch.end[0], |s| s.t)
     }
 
-    /// What makes rows of states.
     pub fn rows(&self) -> LooseRows<'a, N> {
         LooseRows {
             model: self.model,
@@ -111,7 +109,6 @@ impl<'a, const N: usize> Follow<'a, N> {
         }
     }
 
-    /// Impacts and separations.
     fn follow_phase(&mut self, stretch: &Stretch<'_, N>) {
         let s = self.model.state(&stretch.start);
         let kind = match (self.seen.phase, stretch.phase) {
@@ -196,7 +193,6 @@ impl<'a, const N: usize> Follow<'a, N> {
     }
 }
 
-/// Makes rows of states with a loose joint.
 pub(super) struct LooseRows<'a, const N: usize> {
     model: &'a Loose<'a, N>,
     task: &'a RunSetup<'a>,

@@ -35,7 +35,6 @@ use record::Record;
 /// Samples of the journal's path in a turn, while there are few enough turns.
 const SAMPLES_IN_A_TURN: f64 = 64.0;
 
-/// Runs a scene with a loose joint.
 pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
     let scene = task.scene.reduced();
     let Some(clearance) = scene.clearance else {
@@ -231,7 +230,6 @@ impl<'a, const N: usize> Run<'a, N> {
     }
 }
 
-/// A run that has ended.
 struct Done<'a, const N: usize> {
     model: &'a Loose<'a, N>,
     ended: Ended<N>,
@@ -242,7 +240,6 @@ struct Done<'a, const N: usize> {
     wall_s: f64,
 }
 
-/// The run at a tighter tolerance.
 struct Tighter {
     last: LooseState,
     record: Record,

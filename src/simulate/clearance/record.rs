@@ -51,7 +51,6 @@ impl Tally {
 /// Most samples kept; beyond them every second one goes.
 const SAMPLES_KEPT: usize = 1024;
 
-/// Samples and tallies of a run.
 #[derive(Clone, Debug)]
 pub(super) struct Record {
     /// Distance of the samples, s.

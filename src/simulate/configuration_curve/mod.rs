@@ -93,7 +93,6 @@ pub(super) trait Observer {
     fn event(&mut self, _kind: &'static str, _t: f64, _angle: Angle, _speed: f64) {}
 }
 
-/// What is followed, and how far.
 pub(super) struct Follow<'a> {
     pub equation: &'a CurveEquation,
     pub settings: Settings<'a>,
@@ -101,7 +100,6 @@ pub(super) struct Follow<'a> {
     pub start: Start,
     /// How far the crank may turn from `turned_from`, rad.
     pub turn_limit: Option<f64>,
-    /// Crank angle.
     pub turned_from: Angle,
 }
 
@@ -120,9 +118,7 @@ pub(super) enum End {
     Named(Box<Why>),
 }
 
-/// A piece of motion in time.
 pub(super) struct Piece {
-    /// Last step.
     pub last: Step,
     /// Work of all that has no potential, J.
     pub work: f64,

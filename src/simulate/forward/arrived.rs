@@ -55,7 +55,6 @@ pub(super) enum Why {
     NotApplicable(NotApplicable),
 }
 
-/// Where a pass arrived.
 pub(super) struct Arrived {
     pub now: Start,
     /// Last step, if the pass ended in time.
@@ -79,7 +78,6 @@ pub(super) struct Arrived {
 }
 
 impl Arrived {
-    /// At the start.
     pub fn at(start: Start) -> Arrived {
         Arrived {
             now: start,

@@ -10,14 +10,11 @@ use crate::engine::angle::Driven;
 use crate::engine::step::Step;
 use crate::engine::time::Start;
 use crate::numeric::angle::Angle;
-use crate::scene::Extent;
 
 /// With less than this part of the largest kinetic energy since it turned the crank is not handed over.
 const FAST: f64 = 0.25;
 /// A hand-over keeps this far from corners, rad: they may be events.
 const APART: f64 = 1e-6;
-/// Fewer turns than this before the end do not pay.
-const FEW_TURNS: f64 = 2.0;
 
 /// A crank that is followed in time until it turns safely again.
 pub(super) struct Until<'a, 'o> {
@@ -87,7 +84,6 @@ impl<'a, 'o> Until<'a, 'o> {
         angle.minus(self.turned).abs() >= self.wait
             && kinetic >= FAST * self.since
             && self.is_apart(angle)
-            && self.pays(end.t, angle, end.omega)
     }
 
     fn is_apart(&self, angle: Angle) -> bool {
@@ -95,16 +91,5 @@ impl<'a, 'o> Until<'a, 'o> {
         corners
             .map(|corner| (angle.rest - corner).rem_euclid(TAU))
             .all(|ahead| ahead.min(TAU - ahead) > APART)
-    }
-
-    fn pays(&self, t: f64, angle: Angle, speed: f64) -> bool {
-        let turns = match self.course.extent {
-            Extent::Duration(duration) => speed.abs() * (duration - t) / TAU,
-            Extent::Revolutions(turns) => {
-                let turned = angle.minus(self.course.task.start());
-                turns - speed.signum() * turned / TAU
-            }
-        };
-        turns >= FEW_TURNS
     }
 }

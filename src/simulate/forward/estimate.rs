@@ -83,7 +83,7 @@ fn by_second_run(
         settings: Settings {
             method: Method::Picard,
             tolerance: much_tighter(course.settings.tolerance),
-            guide: record.checkpoints.first(),
+            guide: &record.first,
             t_end,
             ..course.settings
         },
@@ -116,7 +116,7 @@ fn by_second_run(
             worst_row(one.driving.end, error, |t| row_error(orbits, t, error))
         }),
         (Some(_), None) => None,
-        (None, _) => Some(compared.worst(error, MARGIN)),
+        (None, _) => compared.worst(error),
     };
     Some(Estimate {
         error,
@@ -191,7 +191,7 @@ impl<'m, 'a> Second<'m, 'a> {
             motion,
             rounding: Rounding::new(moves),
             on: None,
-            compared: record.checkpoints.compared(),
+            compared: Compared::with(&record.first),
         }
     }
 

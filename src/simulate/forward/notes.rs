@@ -28,7 +28,6 @@ use crate::trajectory::Trajectory;
 /// Two passages of a dead centre this near to each other (rad) are one, at the end of a piece and the start of the next.
 const SAME_PLACE: f64 = 1e-9;
 
-/// Notes of a run.
 pub(super) struct Notes<'a> {
     task: &'a RunSetup<'a>,
     recorder: Recorder<'a>,
@@ -129,7 +128,6 @@ impl<'a> Notes<'a> {
         fails || self.swing.is_some_and(|swing| swing.is_caught())
     }
 
-    /// Least and largest speed.
     fn follow_speed(&mut self, step: &mut Step) {
         let speed = self.recorder.speed();
         *speed = events::follow_speed(step, self.motion, *speed);

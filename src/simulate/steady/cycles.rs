@@ -20,7 +20,6 @@ use crate::trajectory::Trajectory;
 const TOLERANCE: f64 = 1e-14;
 const OTHER: f64 = 1e-13;
 
-/// A cycle.
 pub(super) struct Cycle {
     pub trajectory: Trajectory,
     /// s

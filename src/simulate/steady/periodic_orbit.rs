@@ -33,7 +33,6 @@ pub(super) struct Extreme {
     pub omega: f64,
 }
 
-/// A periodic motion.
 pub(super) struct Found {
     pub start: Angle,
     pub cycle: Cycle,
