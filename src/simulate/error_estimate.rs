@@ -72,14 +72,24 @@ pub(super) const LEAST_TAIL: f64 = 4e-15;
 pub(super) const MUCH_TIGHTER: f64 = 1e4;
 /// A short run is far better than a loose tolerance: the second one is never looser than at the default tolerance.
 const LOOSEST: f64 = 1e-10 / MUCH_TIGHTER;
-/// The second run of a loose joint is so much tighter.
+/// The second run of a loose joint, and where collocation does not get to the end, is so much tighter.
 pub(super) const TIGHTER: f64 = 50.0;
 /// What is stated is larger than the distance of the two runs by this, for the error of the second.
 pub(super) const MARGIN: f64 = 1.5;
 /// Where rounding inside a step takes over.
 pub(super) const TIGHTEST: f64 = 1e-15;
 
+/// The method of the run again is tighter than this only by so much, for rounding inside the steps takes over, and they would
+/// collapse.
+const TIGHTEST_AGAIN: f64 = 1e-13;
+const A_LITTLE: f64 = 5.0;
+
 /// Tolerance of a second run that is so much tighter that its own error does not count.
 pub(super) fn much_tighter(tolerance: f64) -> f64 {
     (tolerance / MUCH_TIGHTER).clamp(TIGHTEST, LOOSEST)
+}
+
+/// Tolerance of the method of the run again.
+pub(super) fn tighter(tolerance: f64) -> f64 {
+    (tolerance / TIGHTER).max(TIGHTEST_AGAIN.min(tolerance / A_LITTLE))
 }

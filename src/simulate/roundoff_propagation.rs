@@ -3,6 +3,7 @@
 use super::state_transition::{Slopes, StateTransition};
 use super::stick_slip::{InPhase, Phase};
 use crate::engine::step::Step;
+use crate::engine::time::Method;
 use crate::engine::{Counted, Motion};
 use crate::mechanism::{CurveEquation, Equation};
 
@@ -22,6 +23,8 @@ const PLACE_ON_CURVE: f64 = 4.0;
 pub(super) struct Rounding {
     /// In units of the last place.
     pub spread: Spread,
+    /// Whether the states at the ends of steps are rounded: collocation carries the digits below the last place.
+    rounds_states: bool,
     /// Evaluations for slopes on the configuration curve.
     pub evaluations: u64,
     /// Acceleration at the end of the last step on the curve, and its phase.
@@ -31,16 +34,17 @@ pub(super) struct Rounding {
 impl Rounding {
     /// Of a run that moves or stays in a balance. Tolerances are absolute for angles below one radian: of a motion less than a
     /// unit in the last place of one is not resolved at the start, however small the angle.
-    pub fn new(moves: bool) -> Rounding {
+    pub fn new(method: Method, moves: bool) -> Rounding {
         let angle = if moves { ONE_ROUNDING } else { 0.0 };
         Rounding {
             spread: Spread::default().plus(angle, 0.0),
+            rounds_states: !matches!(method, Method::Picard),
             evaluations: 0,
             before: None,
         }
     }
 
-    /// A state is rounded where another engine takes over; in a step collocation carries the digits below the last place.
+    /// A state is rounded.
     pub fn round(&mut self, theta: f64, omega: f64) {
         let [angle, speed] = [theta, omega].map(|size| ONE_ROUNDING * size.abs());
         self.spread = self.spread.plus(angle, speed);
@@ -61,6 +65,9 @@ impl Rounding {
         }
         let carried = self.spread.carried(&transition);
         self.spread = carried.pushed(place.hypot(size), &transition, step.length());
+        if self.rounds_states {
+            self.round(end.theta, end.omega);
+        }
     }
 
     /// Carries it over a step on the configuration curve in one phase.

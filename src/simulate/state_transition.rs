@@ -9,7 +9,7 @@
 use std::array::from_fn;
 use std::f64::consts::PI;
 
-use nalgebra::Matrix2;
+use nalgebra::Matrix3;
 
 use crate::engine::step::Step;
 use crate::engine::{Batch, Motion};
@@ -22,17 +22,21 @@ const RULE: [(f64, f64); NODES] = [
     (0.887_298_334_620_741_7, 5.0 / 18.0),
 ];
 
-/// Changes from which slopes of the acceleration are taken, about the square root of a rounding: of the angle, rad, and of the
-/// speed, in parts of itself. The angle changes by no more than in the step, next to a limit
+/// Changes from which slopes of the acceleration are taken, about the square root of a rounding: of the angle, rad, of the
+/// speed, in parts of itself, and of the time, in parts of the step. The angle changes by no more than in the step, next to a limit
 /// the slope may be steep on a way that short, but enough to stand out from rounding.
 const CHANGE: f64 = 1e-7;
 const LEAST_CHANGE: f64 = 1e-9;
+const LATER: f64 = 1e-5;
 
 /// On a way this short, rad, the motion a little later is no guide: angle and speed are rounded.
 const SHORTEST_WAY: f64 = 1e-11;
 
 /// Nothing is known of a step of which an exponent is larger.
 const STEEPEST: f64 = 1e12;
+
+/// Where the time changes the motion by more than this part of it in a step, the one a little later is another one.
+const PUSHED: f64 = 0.3;
 
 /// A 2 by 2 matrix, row by row.
 pub(super) type StateTransition = [[f64; 2]; 2];
@@ -44,8 +48,8 @@ pub(super) struct Slopes {
     by_angle: [f64; NODES],
     /// 1/s
     by_speed: [f64; NODES],
-    /// Whether the time changes them too: then a motion a little later is another one.
-    timed: bool,
+    /// rad/s³
+    by_time: [f64; NODES],
 }
 
 impl Slopes {
@@ -54,8 +58,9 @@ impl Slopes {
         let (start, end, h) = (&step.start, &step.end, step.length());
         let aside = (end.theta - start.theta).abs().clamp(LEAST_CHANGE, CHANGE);
         let timed = motion.depends_on_time();
+        let later = LATER * h;
         let mut faster = [0.0; NODES];
-        // The state at each node, and with another angle and speed.
+        // The state at each node, and with another angle, speed and time.
         let mut beside = Batch {
             turns: step.turns,
             ..Batch::default()
@@ -64,21 +69,24 @@ impl Slopes {
             let t = start.t + part * h;
             let (theta, speed) = step.at(t);
             faster[i] = CHANGE * speed.abs().max(start.omega.abs()).max(1.0);
-            for at in 3 * i..3 * i + 3 {
+            for j in 0..4 {
+                let at = 4 * i + j;
                 (beside.t[at], beside.theta[at], beside.omega[at]) = (t, theta, speed);
             }
-            beside.theta[3 * i + 1] += aside;
-            beside.omega[3 * i + 2] += faster[i];
+            beside.theta[4 * i + 1] += aside;
+            beside.omega[4 * i + 2] += faster[i];
+            beside.t[4 * i + 3] += later;
             if timed {
-                beside.of_time[3 * i..3 * i + 3].fill(motion.of_time(t));
+                beside.of_time[4 * i..4 * i + 3].fill(motion.of_time(t));
+                beside.of_time[4 * i + 3] = motion.of_time(t + later);
             }
         }
         motion.fill(&mut beside);
-        let gain = |i: usize, j: usize| beside.alpha[3 * i + j] - beside.alpha[3 * i];
+        let gain = |i: usize, j: usize| beside.alpha[4 * i + j] - beside.alpha[4 * i];
         Slopes {
             by_angle: from_fn(|i| gain(i, 1) / aside),
             by_speed: from_fn(|i| gain(i, 2) / faster[i]),
-            timed,
+            by_time: from_fn(|i| gain(i, 3) / later),
         }
     }
 
@@ -90,27 +98,38 @@ impl Slopes {
     /// What a perturbation at the start of the step has become at its end.
     pub fn transition(&self, step: &Step) -> StateTransition {
         let h = step.length();
-        let plain = self.plain(h);
+        let (plain, pushed) = self.plain(h);
         let travel = (step.end.theta - step.start.theta).abs();
-        if self.timed || travel < SHORTEST_WAY {
+        let along = [step.start.omega, step.start.alpha];
+        // What the time changes in the forces moves the motion a little later in another way.
+        let then = [step.end.omega - pushed[0], step.end.alpha - pushed[1]];
+        let size = |[angle, speed]: [f64; 2]| angle.hypot(h * speed);
+        if travel < SHORTEST_WAY || size(pushed) > PUSHED * size(along) {
             return plain;
         }
-        let [along, then] = [&step.start, &step.end].map(|node| [node.omega, node.alpha]);
         let found = self.with_motion(&plain, along, then, h);
         let finite = found.iter().flatten().all(|entry| entry.is_finite());
         if finite { found } else { plain }
     }
 
-    /// By the slopes alone, over a step of length h; slopes that stay are met exactly.
-    fn plain(&self, h: f64) -> StateTransition {
-        // Of the angle, and the speed in angles over h.
-        let slopes =
-            from_fn(|i| Matrix2::new(0.0, 1.0, h * h * self.by_angle[i], h * self.by_speed[i]));
-        let end = exponential(slopes);
-        [
+    /// What a perturbation at the start of a step of length h has become at its end, and what the time then changes in
+    /// angle and speed. Slopes that stay are met exactly.
+    fn plain(&self, h: f64) -> (StateTransition, [f64; 2]) {
+        let largest = self.by_time.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+        let unit = if largest > 0.0 { h * h * largest } else { 1.0 };
+        // Of the angle, the speed in angles over h, and one.
+        let [first, middle, last]: [Matrix3<f64>; NODES] = from_fn(|i| {
+            let (by_angle, by_speed) = (h * h * self.by_angle[i], h * self.by_speed[i]);
+            let push = h * h * self.by_time[i] / unit;
+            Matrix3::new(0.0, 1.0, 0.0, by_angle, by_speed, push, 0.0, 0.0, 0.0)
+        });
+        let end = exponential([first, middle, last]);
+        let transition = [
             [end[(0, 0)], h * end[(0, 1)]],
             [end[(1, 0)] / h, end[(1, 1)]],
-        ]
+        ];
+        let pushed = [unit * end[(0, 2)], unit * end[(1, 2)] / h];
+        (transition, pushed)
     }
 
     /// The transition that takes `along` to `then`, with the right determinant; the rest as in another one. Speeds
@@ -146,11 +165,11 @@ impl Slopes {
 /// The solution of y' = A(s) y over 0 < s < 1, from A at the nodes. Magnus's series at order six (Blanes, Casas, Oteo, Ros,
 /// Physics Reports 470, 2009, eq. 253) where it is known to converge, ∫ ‖A‖ < π (section 2.7 there); where losses are
 /// steeper, each A for its part of the step, which decays where A does.
-fn exponential([first, middle, last]: [Matrix2<f64>; NODES]) -> Matrix2<f64> {
-    let size = |a: &Matrix2<f64>| a.iter().fold(0.0f64, |most, entry| most.max(entry.abs()));
+fn exponential([first, middle, last]: [Matrix3<f64>; NODES]) -> Matrix3<f64> {
+    let size = |a: &Matrix3<f64>| a.iter().fold(0.0f64, |most, entry| most.max(entry.abs()));
     let largest = [&first, &middle, &last].map(size);
     if !largest.iter().all(|size| *size < STEEPEST) {
-        return Matrix2::repeat(f64::NAN);
+        return Matrix3::repeat(f64::NAN);
     }
     if mean(&[first.norm(), middle.norm(), last.norm()]) < PI {
         let even = (first - 2.0 * middle + last) * (10.0 / 3.0);
@@ -160,7 +179,7 @@ fn exponential([first, middle, last]: [Matrix2<f64>; NODES]) -> Matrix2<f64> {
         let mixed = commutator(&(inner - 20.0 * middle - even), &(odd - outer / 60.0));
         (middle + even / 12.0 + mixed / 240.0).exp()
     } else {
-        let part = |a: Matrix2<f64>, i: usize| (a * RULE[i].1).exp();
+        let part = |a: Matrix3<f64>, i: usize| (a * RULE[i].1).exp();
         part(last, 2) * part(middle, 1) * part(first, 0)
     }
 }
@@ -170,7 +189,7 @@ fn mean(values: &[f64; NODES]) -> f64 {
     weighted.map(|((_, weight), value)| weight * value).sum()
 }
 
-fn commutator(x: &Matrix2<f64>, y: &Matrix2<f64>) -> Matrix2<f64> {
+fn commutator(x: &Matrix3<f64>, y: &Matrix3<f64>) -> Matrix3<f64> {
     x * y - y * x
 }
 

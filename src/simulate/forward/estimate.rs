@@ -10,7 +10,7 @@ use std::time::Instant;
 
 use super::super::checkpoints::Compared;
 use super::super::configuration_curve::{End, Observer, OnCurve};
-use super::super::error_estimate::{Forward, MARGIN, much_tighter};
+use super::super::error_estimate::{Forward, MARGIN, much_tighter, tighter};
 use super::super::outcome::Estimate;
 use super::super::recorder::Record;
 use super::super::result::{Cost, ErrorEstimate};
@@ -71,41 +71,53 @@ fn by_second_run(
     let t_end = arrived.now.t;
     let over_angle = arrived.over_angle > 0;
     let share = arrived.evaluations.saturating_mul(FOR_ONE);
-    let finer = Course {
-        first: if over_angle {
-            Engine::Angle
-        } else {
-            Engine::Time
-        },
-        is_second: true,
-        extent: Extent::Duration(t_end),
-        resolution: finer(guide),
-        settings: Settings {
-            method: Method::Picard,
-            tolerance: much_tighter(course.settings.tolerance),
-            guide: &record.first,
-            t_end,
-            ..course.settings
-        },
-        wait: OTHER_WAIT,
-        limit: WorkLimit {
-            evaluations: share
-                .saturating_add(BESIDE[usize::from(over_angle)])
-                .min(course.limit.evaluations),
-            ..course.limit
-        },
-        ..course.clone()
+    let plain = Settings {
+        t_end,
+        ..course.settings
     };
-    let forward = Forward(course.task.equation());
-    let motion = Counted::new(&forward);
-    let mut seen = Second::new(&finer, &motion, record);
-    let best = finer.run(&motion, &mut seen).ok()?;
-    if !matches!(best.end, End::Done) {
-        return None;
-    }
-    let (spread, compared) = (seen.rounding.spread, &seen.compared);
+    let tolerance = plain.tolerance;
+    let collocation = Settings {
+        method: Method::Picard,
+        tolerance: much_tighter(tolerance),
+        guide: &record.first,
+        ..plain
+    };
+    // Where collocation does not get to the end.
+    let again = Settings {
+        tolerance: tighter(tolerance),
+        ..plain
+    };
+    let mut evaluations = 0;
+    let second = |settings| {
+        let finer = Course {
+            first: match over_angle {
+                true => Engine::Angle,
+                false => Engine::Time,
+            },
+            is_second: true,
+            extent: Extent::Duration(t_end),
+            resolution: finer(guide),
+            settings,
+            wait: OTHER_WAIT,
+            limit: WorkLimit {
+                evaluations: share
+                    .saturating_add(BESIDE[usize::from(over_angle)])
+                    .min(course.limit.evaluations),
+                ..course.limit
+            },
+            ..course.clone()
+        };
+        let forward = Forward(course.task.equation());
+        let motion = Counted::new(&forward);
+        let mut seen = Second::new(&finer, &motion, record);
+        let best = finer.run(&motion, &mut seen).ok()?;
+        evaluations += best.evaluations + seen.rounding.evaluations;
+        let arrives = matches!(best.end, End::Done);
+        arrives.then_some((best, seen.rounding.spread, seen.compared))
+    };
+    let (best, spread, compared) = [collocation, again].into_iter().find_map(second)?;
     let cost = Cost {
-        evaluations: best.evaluations + seen.rounding.evaluations,
+        evaluations,
         wall_s: begun.elapsed().as_secs_f64(),
     };
     let error = distance(course, arrived, &best, spread);
@@ -189,7 +201,7 @@ impl<'m, 'a> Second<'m, 'a> {
         Second {
             equation: course.task.equation(),
             motion,
-            rounding: Rounding::new(moves),
+            rounding: Rounding::new(course.settings.method, moves),
             on: None,
             compared: Compared::with(&record.first),
         }
