@@ -21,7 +21,7 @@ use crate::plan::Engine;
 use crate::trajectory::Trajectory;
 
 /// What was recorded of a run.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Record {
     /// The first events, at most as many as were asked for.
     pub events: Vec<Event>,
@@ -44,14 +44,8 @@ impl Record {
     /// Of a run that starts with this speed, rad/s.
     pub fn new(speed: f64) -> Record {
         Record {
-            events: Vec::new(),
-            events_total: 0,
             speed: (speed, speed),
-            pieces: None,
-            spells: Vec::new(),
-            engines: Vec::new(),
-            first: Vec::new(),
-            row_time: Duration::ZERO,
+            ..Record::default()
         }
     }
 

@@ -104,9 +104,10 @@ pub(super) struct Follow<'a> {
 }
 
 /// How a run in time ended.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) enum End {
     /// At its time, or after its turns, or another piece follows.
+    #[default]
     Done,
     /// At rest for good before its turns are complete.
     AtRest,

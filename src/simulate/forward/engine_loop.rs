@@ -53,7 +53,10 @@ impl Course<'_> {
             course: self,
             motion,
             sink,
-            arrived: Arrived::at(self.task.first_state()),
+            arrived: Arrived {
+                now: self.task.first_state(),
+                ..Arrived::default()
+            },
             places: self.position.evaluations(),
             beside: 0,
             wait: self.wait,
