@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::time::{Duration, Instant};
 
-use super::checkpoints::STEPS_KEPT;
+use super::checkpoints::Checkpoints;
 use super::coordinate::Coordinate;
 use super::passages::Stretch;
 use super::result::{Event, Piece};
@@ -34,8 +34,8 @@ pub(super) struct Record {
     pub spells: Vec<Spell>,
     /// Which engines ran, if they took turns.
     pub engines: Vec<Piece>,
-    /// The first steps in time.
-    pub first: Vec<Step>,
+    /// States on the way.
+    pub checkpoints: Checkpoints,
     /// Time spent on rows.
     pub row_time: Duration,
 }
@@ -163,9 +163,7 @@ impl<'a> Recorder<'a> {
         along: &dyn Coordinate,
         phase: Option<Phase>,
     ) -> bool {
-        if self.record.first.len() < STEPS_KEPT {
-            self.record.first.push(*step);
-        }
+        self.record.checkpoints.pass(step);
         let mut part = InStep {
             step,
             until,

@@ -29,8 +29,7 @@ pub struct Summary {
     /// Estimate of the global error of the last state; none if it was not asked for or cannot be given.
     pub error_estimate: Option<ErrorEstimate>,
     /// Error of the worst state on the way at which a second run is compared: a run may end better than it was before. None for
-    /// a loose joint, for a run that was handed from one engine to another or took thousands of steps in time, and without rows
-    /// over the crank angle.
+    /// a loose joint, for a run that was handed from one engine to another, and without rows over the crank angle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rows_error: Option<ErrorEstimate>,
     /// Energy at the end minus energy at the start minus work of the loads, divided by the largest of the

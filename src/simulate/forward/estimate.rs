@@ -79,7 +79,7 @@ fn by_second_run(
     let collocation = Settings {
         method: Method::Picard,
         tolerance: much_tighter(tolerance),
-        guide: &record.first,
+        guide: &record.checkpoints.first,
         ..plain
     };
     // Where collocation does not get to the end.
@@ -128,7 +128,7 @@ fn by_second_run(
             worst_row(one.driving.end, error, |t| row_error(orbits, t, error))
         }),
         (Some(_), None) => None,
-        (None, _) => compared.worst(error),
+        (None, _) => Some(compared.worst(error)),
     };
     Some(Estimate {
         error,
@@ -203,7 +203,7 @@ impl<'m, 'a> Second<'m, 'a> {
             motion,
             rounding: Rounding::new(course.settings.method, moves),
             on: None,
-            compared: Compared::with(&record.first),
+            compared: Compared::with(&record.checkpoints),
         }
     }
 
