@@ -42,7 +42,7 @@ use crate::numeric::enclosure::{Detail, Reach};
 pub use errors::Errors;
 pub use fixed_point::{CycleMap, FixedPoint, NoCycle, fixed_point};
 pub use guide::Guide;
-use panel::Station;
+pub use panel::Panels;
 use stepper::{Done, PanelStepper};
 use swept::Spent;
 pub use table::{Switch, Table};
@@ -56,16 +56,6 @@ pub struct State<'a, P> {
     pub angle: Angle,
     /// rad/s
     pub speed: f64,
-}
-
-/// The panels of a run, for the next one from the same angle in the same direction: what depends on the position is tabulated,
-/// and the next run sets out from its profiles.
-pub struct Panels<P>(Vec<Station<P>>);
-
-impl<P> Default for Panels<P> {
-    fn default() -> Panels<P> {
-        Panels(Vec::new())
-    }
 }
 
 /// What the engine needs of a mechanism.

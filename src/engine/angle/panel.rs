@@ -40,6 +40,16 @@ pub(super) struct Station<P> {
     pub is_rest: Option<usize>,
 }
 
+/// The panels of a run, for the next one from the same angle in the same direction: what depends on the position is tabulated,
+/// and the next run sets out from its profiles.
+pub struct Panels<P>(pub(super) Vec<Station<P>>);
+
+impl<P> Default for Panels<P> {
+    fn default() -> Panels<P> {
+        Panels(Vec::new())
+    }
+}
+
 /// What is left of a panel after a change of the switch.
 #[derive(Clone)]
 pub(super) struct Rest {
