@@ -64,7 +64,7 @@ pub enum Finish {
 }
 
 /// A run's start.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Start {
     /// s
     pub t: f64,

@@ -37,6 +37,17 @@ pub fn between(f: impl FnMut(f64) -> f64, known: [(f64, f64); 3]) -> (f64, f64) 
     )
 }
 
+/// Where a function is largest beside a place, and its value there: `known` at the place and its neighbours, of which the place
+/// itself may be one.
+pub fn beside(f: impl FnMut(f64) -> f64, known: [(f64, f64); 3]) -> (f64, f64) {
+    let [(from, _), here, (to, _)] = known;
+    let between = match from < here.0 && here.0 < to {
+        true => between(f, known),
+        false => largest(f, from, to),
+    };
+    if between.1 > here.1 { between } else { here }
+}
+
 /// From the best three points, the best one first, and the size of the step before last.
 fn brent(
     mut f: impl FnMut(f64) -> f64,

@@ -24,7 +24,6 @@ pub(super) struct Swing {
     before: u64,
     /// Turning points that are waited for at least.
     enough: u64,
-    /// Turns that are asked for.
     turns: f64,
 }
 
@@ -36,6 +35,7 @@ impl Swing {
         };
         let loads = task.equation().loads();
         let enough = match task.scene.reduced().friction {
+            _ if task.one_way => 0,
             _ if loads.reads().has(Variable::T) => ENOUGH_IN_TIME,
             None if !loads.are_dry() => ENOUGH,
             _ => ENOUGH_WITH_FRICTION,
@@ -49,7 +49,6 @@ impl Swing {
         })
     }
 
-    /// Takes a turning point.
     pub fn turns_at(&mut self, at: Angle) {
         let [low, high] = self.reach;
         let (above, below) = (at.minus(high), low.minus(at));
@@ -64,7 +63,8 @@ impl Swing {
 
     /// Whether it led no further for so long, and as long as it took to get there, that the run ends.
     pub fn is_caught(&self) -> bool {
-        self.since >= self.enough.max(self.before)
+        let seen = self.since + self.before;
+        seen > 0 && (self.enough == 0 || self.since >= self.enough.max(self.before))
     }
 
     /// Why the run ends; `crank`: crank angle of the coordinate.

@@ -3,8 +3,9 @@
 use std::f64::consts::TAU;
 use std::time::Instant;
 
+use super::balance::Balance;
 use super::driving_torque::Drive;
-use super::outcome::{Balance, Estimate, Outcome};
+use super::outcome::{Estimate, Outcome};
 use super::recorder::Recorder;
 use super::result::{ErrorEstimate, Event};
 use super::row::{Row, RowSink};
@@ -29,7 +30,7 @@ pub(super) fn run<'a>(
     let begun = Instant::now();
     let equation = task.equation();
     let start = task.start();
-    let speed = task.scene.motion.speed;
+    let speed = task.speed;
     let asked = duration(task.extent, speed);
     let blocked = time_to_limit(task, start, speed).filter(|t| *t < asked);
     let end = blocked.unwrap_or(asked);
@@ -96,7 +97,6 @@ pub(super) fn run<'a>(
     Ok(run)
 }
 
-/// The coefficient of friction of the guide.
 fn friction(task: &RunSetup<'_>) -> f64 {
     let friction = task
         .maker
@@ -130,7 +130,7 @@ fn time_to_limit(task: &RunSetup<'_>, start: Angle, speed: f64) -> Option<f64> {
 
 /// Passages of the dead centres until a time (s): the first ones, in order, and how many there are.
 pub(super) fn events(task: &RunSetup<'_>, end: f64) -> (Vec<Event>, u64) {
-    let (start, speed) = (task.start(), task.scene.motion.speed);
+    let (start, speed) = (task.start(), task.speed);
     if speed == 0.0 {
         return (Vec::new(), 0);
     }
@@ -156,7 +156,6 @@ pub(super) fn events(task: &RunSetup<'_>, end: f64) -> (Vec<Event>, u64) {
     (again.take(kept).map(event).collect(), total)
 }
 
-/// The motion.
 struct Uniform<'a> {
     task: &'a RunSetup<'a>,
     end: f64,
@@ -168,15 +167,15 @@ impl Part for Uniform<'_> {
     }
 
     fn turned(&mut self, t: f64) -> f64 {
-        self.task.scene.motion.speed * t
+        self.task.speed * t
     }
 
     fn time_of(&mut self, turned: f64, _: [f64; 2]) -> Option<f64> {
-        Some(turned / self.task.scene.motion.speed)
+        Some(turned / self.task.speed)
     }
 
     fn row(&mut self, t: f64) -> Row {
-        let speed = self.task.scene.motion.speed;
+        let speed = self.task.speed;
         let angle = self.task.start().plus(speed * t);
         self.task.maker.row(t, angle, speed, Some(0.0))
     }

@@ -2,16 +2,15 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::joint_force_maxima::refined;
-use super::outcome::Balance;
+use super::balance::Balance;
 use super::result::TorqueRange;
-use super::row::RowMaker;
+use super::row_maker::RowMaker;
 use super::warning::NoRange;
 use crate::engine::time::Start;
 use crate::mechanism::Equation;
 use crate::numeric::angle::Angle;
-use crate::numeric::gauss;
-use crate::scene::{Instant, Variable};
+use crate::numeric::{gauss, maximum};
+use crate::scene::Variable;
 
 /// A run at constant speed.
 pub(super) struct Drive<'a> {
@@ -43,23 +42,15 @@ impl Drive<'_> {
     /// The torque has no finite value at a time (s).
     fn not_finite(&self, t: f64) -> NoRange {
         let angle = self.start.plus(self.speed * t);
-        let pose = self.equation.linkage().pose(angle.rest);
-        let now = Instant {
+        let at = Start {
             t,
-            theta: angle.radians(),
-            omega: self.speed,
-            x: pose.x,
-            v: pose.dx * self.speed,
+            angle,
+            speed: self.speed,
         };
-        let load = self.equation.loads().without_value(&now).cloned();
         NoRange::NotFinite {
-            at_limit: !pose.exists(),
-            load: load.map(Box::new),
-            at: Start {
-                t,
-                angle,
-                speed: self.speed,
-            },
+            at_limit: !self.equation.linkage().pose(angle.rest).exists(),
+            load: self.maker.without_value(at).map(Box::new),
+            at,
         }
     }
 
@@ -99,7 +90,7 @@ impl Drive<'_> {
                 best,
                 (best + 1).min(times.len() - 1),
             ];
-            refined(
+            maximum::beside(
                 |t| sign * self.torque(t),
                 beside.map(|i| (times[i], value(i))),
             )
@@ -112,7 +103,6 @@ impl Drive<'_> {
         })
     }
 
-    /// Time of a turn, s.
     fn turn(&self) -> f64 {
         TAU / self.speed.abs()
     }

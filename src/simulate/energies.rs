@@ -1,6 +1,6 @@
 //! Kinetic and potential energy along a motion.
 
-use super::Row;
+use super::row::Row;
 use crate::mechanism::{Class, Equation};
 use crate::scene::Scene;
 

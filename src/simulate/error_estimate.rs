@@ -1,16 +1,11 @@
-//! The equation of motion as the integrators see it, and what rounding does to a run in time.
+//! The equation of motion as the integrators see it, and how much finer the second run of an estimate is.
 
-use super::roundoff_propagation::Spread;
-use super::state_transition::Slopes;
-use crate::engine::step::Step;
-use crate::engine::time;
 use crate::engine::{Batch, Motion};
 use crate::mechanism::{Equation, Instants, LoadValue};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{Detail, Reach};
 use crate::scene::Variable;
 
-/// The equation, integrated forward.
 pub(super) struct Forward<'a>(pub &'a Equation);
 
 impl Motion for Forward<'_> {
@@ -77,21 +72,13 @@ pub(super) const LEAST_TAIL: f64 = 4e-15;
 pub(super) const MUCH_TIGHTER: f64 = 1e4;
 /// A short run is far better than a loose tolerance: the second one is never looser than at the default tolerance.
 const LOOSEST: f64 = 1e-10 / MUCH_TIGHTER;
-/// Where collocation does not get to the end, the same method again, this much tighter.
+/// The second run of a loose joint, and where collocation does not get to the end, is so much tighter.
 pub(super) const TIGHTER: f64 = 50.0;
 /// What is stated is larger than the distance of the two runs by this, for the error of the second.
 pub(super) const MARGIN: f64 = 1.5;
-/// Standard deviation of one rounding, in units of the last place.
-pub(super) const ONE_ROUNDING: f64 = 0.3;
-/// Next to a balance several steps round in the same way, which adds up to this many times as much.
-const CORRELATED_ROUNDING: f64 = 2.0;
-/// Rounding of a step's mean acceleration, in units: of a few in each evaluation, averaged over the step.
-const EVALUATION: f64 = 1.0;
-/// An acceleration that is smaller than what this angle (rad) changes in it may be a difference of larger ones. Half or twice
-/// as much changes the stated errors of 200 random runs by 1 % at most.
-const BALANCED: f64 = 0.1;
 /// Where rounding inside a step takes over.
 pub(super) const TIGHTEST: f64 = 1e-15;
+
 /// The method of the run again is tighter than this only by so much, for rounding inside the steps takes over, and they would
 /// collapse.
 const TIGHTEST_AGAIN: f64 = 1e-13;
@@ -102,56 +89,7 @@ pub(super) fn much_tighter(tolerance: f64) -> f64 {
     (tolerance / MUCH_TIGHTER).clamp(TIGHTEST, LOOSEST)
 }
 
-/// Tolerance of the method of the run again, where that one does not get to the end.
+/// Tolerance of the method of the run again.
 pub(super) fn tighter(tolerance: f64) -> f64 {
     (tolerance / TIGHTER).max(TIGHTEST_AGAIN.min(tolerance / A_LITTLE))
-}
-
-/// What rounding does to a run in time.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Rounding {
-    /// In units of the last place.
-    pub spread: Spread,
-    /// Whether the states at the ends of steps are rounded: collocation carries the digits below the last place.
-    rounds_states: bool,
-}
-
-impl Rounding {
-    /// Of a run by a method, which moves or stays in a balance. Tolerances are absolute for angles below one radian: of a
-    /// motion less than a unit in the last place of one is not resolved at the start, however small the angle.
-    pub fn new(method: time::Method, moves: bool) -> Rounding {
-        let angle = if moves { ONE_ROUNDING } else { 0.0 };
-        Rounding {
-            spread: Spread::default().plus(angle, 0.0),
-            rounds_states: !matches!(method, time::Method::Picard),
-        }
-    }
-
-    /// The state at the end of a step is rounded.
-    pub fn round(&mut self, theta: f64, omega: f64) {
-        let [angle, speed] = [theta, omega].map(|size| ONE_ROUNDING * size.abs());
-        self.spread = self.spread.plus(angle, speed);
-    }
-
-    /// Carries it over a step, and adds what that rounds.
-    pub fn step(&mut self, equation: &Equation, motion: &dyn Motion, step: &Step) {
-        let slopes = Slopes::of(motion, step);
-        let transition = slopes.transition(step);
-        let (h, end) = (step.length(), &step.end);
-        let place = ONE_ROUNDING * end.theta.abs() * slopes.by_angle();
-        let mut size = end.alpha.abs();
-        if size < BALANCED * slopes.by_angle().abs() {
-            let angle = step.angle(end.theta);
-            let inertia = equation.terms(end.theta).inertia.m;
-            size = size.max(
-                CORRELATED_ROUNDING * equation.size_of_terms(end.t, angle, end.omega) / inertia,
-            );
-        }
-        let shaken = place.hypot(EVALUATION * size);
-        let carried = self.spread.carried(&transition);
-        self.spread = carried.pushed(shaken, &transition, h);
-        if self.rounds_states {
-            self.round(end.theta, end.omega);
-        }
-    }
 }

@@ -2,19 +2,17 @@
 
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
-use super::angle_model::Spot;
-use crate::engine::angle::Table;
+use crate::engine::angle::{State, Table};
 use crate::mechanism::{Arms, Curve, CurveEquation, Equation, LoadValue, Loads, Normal, Touch};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::Interval;
-use crate::scene::Scene;
+use crate::scene::{Instant, Scene};
 
 /// Within this part of the crank length x' has no sign.
 const AT_DEAD_CENTRE: f64 = 1e-12;
 /// How far beside an angle signs show and slopes are taken, rad.
 pub(super) const BESIDE: f64 = 1e-6;
 
-/// Friction at the guide.
 #[derive(Debug)]
 pub(super) struct Sliding {
     equation: CurveEquation,
@@ -53,6 +51,34 @@ impl Grip {
     /// What friction by it drives the crank with, N m.
     pub fn rubbed(&self, load: LoadValue) -> f64 {
         self.grip * self.pressed(load)
+    }
+}
+
+/// A position as the loads see it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spot {
+    /// x (m) and x' (m/rad).
+    pub at: [f64; 2],
+    /// Zero without friction.
+    pub grip: Grip,
+}
+
+impl Spot {
+    /// States as loads see them.
+    #[inline]
+    pub fn instants<const N: usize>(at: &[State<'_, Spot>; N]) -> [Instant; N] {
+        let mut instants = [Instant::default(); N];
+        for (instant, at) in instants.iter_mut().zip(at) {
+            let [x, dx] = at.place.at;
+            *instant = Instant {
+                t: at.t,
+                theta: at.angle.radians(),
+                omega: at.speed,
+                x,
+                v: dx * at.speed,
+            };
+        }
+        instants
     }
 }
 

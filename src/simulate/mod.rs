@@ -1,12 +1,13 @@
 //! Forward motion: scene in, trajectory, rows and summary out; the engines of the plan take turns between located events.
 
 mod angle_model;
+mod balance;
 mod bounded_motion;
 mod checkpoints;
 mod clearance;
 mod closed_form;
 mod configuration_curve;
-mod dense_rows;
+mod coordinate;
 mod driving_torque;
 mod energies;
 mod error_estimate;
@@ -21,13 +22,16 @@ mod recorder;
 mod result;
 mod roundoff_propagation;
 mod row;
+mod row_maker;
 mod row_writer;
 mod run;
 mod run_setup;
 mod schedule;
 mod simulation;
+mod stalled;
 mod state_transition;
 mod steady;
+mod stick_slip;
 mod stop;
 mod warning;
 
@@ -35,9 +39,8 @@ pub use crate::mechanism::Reactions;
 pub use crate::numeric::stop::Stop;
 pub use clearance::{Beyond, ClearanceSummary, ContactStatistics, Horizon, LooseFinal};
 pub use energies::Energies;
-pub use joint_force_maxima::{Peak, Peaks};
 pub use options::Options;
-pub use result::{Cost, ErrorEstimate, Event, Final, Piece, Summary, TorqueRange};
+pub use result::{Cost, ErrorEstimate, Event, Final, Peak, Peaks, Piece, Summary, TorqueRange};
 pub use row::{LooseRow, NoRows, Row, RowSink};
 pub use run::{simulate, simulate_rows, simulate_with_rows};
 pub use simulation::Simulation;

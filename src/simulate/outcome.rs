@@ -2,15 +2,15 @@
 
 use std::f64::consts::TAU;
 
-use super::dense_rows::DenseRows;
+use super::balance::Balance;
 use super::recorder::Record;
 use super::result::{Cost, ErrorEstimate, Final, Piece, Summary};
 use super::run_setup::RunSetup;
-use super::simulation::Simulation;
-use super::stop::{Stopped, Why, stalled};
+use super::simulation::{DenseRows, Simulation};
+use super::stalled::stalled;
+use super::stop::{Stopped, Why};
 use super::warning::Warning;
 use crate::engine::time::Start;
-use crate::numeric::angle::Angle;
 use crate::plan::Engine;
 use crate::scene::Extent;
 use crate::trajectory::Trajectory;
@@ -32,41 +32,6 @@ pub(super) struct Outcome {
     pub warnings: Vec<Warning>,
     pub stopped: Option<Why>,
     pub record: Record,
-}
-
-/// Energy at the end minus energy at the start minus work of the loads.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Balance {
-    /// J
-    pub residual: f64,
-    /// Largest energy that occurs, J.
-    pub largest: f64,
-}
-
-impl Balance {
-    /// From the residual and the energies that occur, J.
-    pub fn new(residual: f64, energies: &[f64]) -> Balance {
-        let largest = |largest: f64, energy: &f64| largest.max(energy.abs());
-        Balance {
-            residual,
-            largest: energies.iter().fold(0.0, largest),
-        }
-    }
-
-    /// Of a run whose largest kinetic energy (J) is known; `work` of the loads without potential, J.
-    pub fn of_crank(task: &RunSetup<'_>, at: &Start, work: f64, largest_kinetic: f64) -> Balance {
-        let equation = task.equation();
-        let start = task.start();
-        let turned = Angle {
-            turns: at.angle.turns - start.turns,
-            rest: at.angle.rest,
-        };
-        let begin = equation.kinetic_energy(start.rest, task.scene.motion.speed)
-            + equation.potential_energy(start.rest);
-        let last =
-            equation.kinetic_energy(at.angle.rest, at.speed) + equation.potential_energy(turned);
-        Balance::new(last - begin - work, &[largest_kinetic, begin, last, work])
-    }
 }
 
 /// Global error of the last state, and what its estimate cost.
@@ -93,12 +58,10 @@ impl Estimate {
 impl Outcome {
     /// With speeds that are shown as infinite where the inertia vanishes, at the dead centres of a crank without inertia.
     pub fn with_bounded_speeds(mut self, task: &RunSetup<'_>) -> Outcome {
-        let inertia = |theta: f64| task.equation().terms(theta).inertia.m;
-        let vanishes = |theta: f64| inertia(theta) <= 1e-12 * inertia(theta + 1.0);
-        if !task.limits.dead_centres.iter().any(|dc| vanishes(dc.theta)) {
+        if !task.inertia_vanishes() {
             return self;
         }
-        let usual = task.scene.motion.speed.abs().max(self.at.speed.abs());
+        let usual = task.speed.abs().max(self.at.speed.abs());
         let is_bounded = |speed: f64| speed.abs() < 1e6 * usual;
         let (low, high) = self.record.speed;
         let shown = |speed: f64| match is_bounded(speed) {
@@ -122,7 +85,6 @@ impl Outcome {
         self
     }
 
-    /// The result of the run.
     pub fn conclude(self, task: &RunSetup<'_>) -> Simulation {
         let Outcome {
             at,
@@ -192,8 +154,10 @@ impl Outcome {
             summary,
             trajectory: record.pieces.map(Trajectory::joined),
             dense: DenseRows {
+                maker: (self.engine != Engine::Contact).then(|| task.maker.clone()),
+                alpha: (self.engine == Engine::ClosedForm).then_some(0.0),
+                curve: None,
                 spells: record.spells,
-                ..DenseRows::default()
             },
         }
     }

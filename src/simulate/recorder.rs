@@ -4,23 +4,24 @@ use std::borrow::Cow;
 use std::time::{Duration, Instant};
 
 use super::checkpoints::Checkpoints;
-use super::configuration_curve::Phase;
-use super::dense_rows::{Spell, lengthen};
+use super::coordinate::Coordinate;
 use super::passages::Stretch;
 use super::result::{Event, Piece};
 use super::row::{Row, RowSink};
 use super::row_writer::{Part, RowWriter};
 use super::run_setup::RunSetup;
 use super::schedule::Schedule;
-use crate::engine::Motion;
+use super::simulation::{Spell, lengthen};
+use super::stick_slip::Phase;
 use crate::engine::step::Step;
 use crate::error::Error;
 use crate::numeric::angle::Angle;
+use crate::numeric::root;
 use crate::plan::Engine;
 use crate::trajectory::Trajectory;
 
 /// What was recorded of a run.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Record {
     /// The first events, at most as many as were asked for.
     pub events: Vec<Event>,
@@ -43,14 +44,8 @@ impl Record {
     /// Of a run that starts with this speed, rad/s.
     pub fn new(speed: f64) -> Record {
         Record {
-            events: Vec::new(),
-            events_total: 0,
             speed: (speed, speed),
-            pieces: None,
-            spells: Vec::new(),
-            engines: Vec::new(),
-            checkpoints: Checkpoints::default(),
-            row_time: Duration::ZERO,
+            ..Record::default()
         }
     }
 
@@ -65,25 +60,6 @@ impl Record {
     }
 }
 
-/// A coordinate along which steps are computed, as rows see it.
-pub(super) trait Coordinate {
-    /// The equation of motion, by which steps are refined.
-    fn motion(&self) -> &dyn Motion;
-
-    /// How far the crank has turned from the start of the run at a time (s) of a step, rad.
-    fn turned(&self, step: &Step, t: f64) -> f64;
-
-    /// When (s) it has turned so far (rad), between two times.
-    fn time_of(&self, step: &Step, turned: f64, between: [f64; 2]) -> Option<f64>;
-
-    /// When the crank turns back inside a step, s, in order.
-    fn turning_times(&self, step: &Step) -> Vec<f64>;
-
-    /// The row of a time (s), an angle of the coordinate and its rate (rad/s).
-    fn row(&self, t: f64, angle: Angle, speed: f64) -> Row;
-}
-
-/// Records a run.
 pub(super) struct Recorder<'a> {
     task: &'a RunSetup<'a>,
     writer: RowWriter<'a>,
@@ -102,7 +78,7 @@ impl<'a> Recorder<'a> {
         rows: &'a mut dyn RowSink,
         schedule: Schedule,
     ) -> Recorder<'a> {
-        let speed = task.scene.motion.speed;
+        let speed = task.speed;
         Recorder {
             task,
             writer: RowWriter::new(rows, schedule),
@@ -188,7 +164,12 @@ impl<'a> Recorder<'a> {
         phase: Option<Phase>,
     ) -> bool {
         self.record.checkpoints.pass(step);
-        let mut part = InStep { step, until, along };
+        let mut part = InStep {
+            step,
+            until,
+            along,
+            start: self.task.start(),
+        };
         if self.rows(&mut part) {
             return true;
         }
@@ -247,7 +228,12 @@ struct InStep<'a> {
     /// s
     until: f64,
     along: &'a dyn Coordinate,
+    /// Crank angle at the start of the run.
+    start: Angle,
 }
+
+/// A step is looked at in this many pieces for where the crank turns back.
+const PIECES: u32 = 8;
 
 impl Part for InStep<'_> {
     fn times(&self) -> [f64; 2] {
@@ -255,16 +241,27 @@ impl Part for InStep<'_> {
     }
 
     fn turned(&mut self, t: f64) -> f64 {
-        self.along.turned(self.step, t)
+        self.along.crank(self.step, t).0.minus(self.start)
     }
 
-    fn time_of(&mut self, turned: f64, between: [f64; 2]) -> Option<f64> {
+    fn time_of(&mut self, turned: f64, [from, to]: [f64; 2]) -> Option<f64> {
         self.step.refine(self.along.motion());
-        self.along.time_of(self.step, turned, between)
+        root::bracketed(|t| self.turned(t) - turned, from, to)
     }
 
     fn turning_times(&mut self) -> Vec<f64> {
-        self.along.turning_times(self.step)
+        let step = &*self.step;
+        let time = |piece: u32| match piece {
+            PIECES => step.end.t,
+            _ => step.start.t + step.length() * f64::from(piece) / f64::from(PIECES),
+        };
+        let speed = |t: f64| self.along.crank(step, t).1;
+        let turns = |i: u32| {
+            let (from, to) = (time(i), time(i + 1));
+            let turns = speed(from) * speed(to) < 0.0;
+            turns.then(|| root::bracketed(speed, from, to))?
+        };
+        (0..PIECES).filter_map(turns).collect()
     }
 
     fn row(&mut self, t: f64) -> Row {

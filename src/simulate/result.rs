@@ -5,7 +5,6 @@ use std::borrow::Cow;
 use serde::Serialize;
 
 use super::clearance::ClearanceSummary;
-use super::joint_force_maxima::Peaks;
 use super::steady::SteadyState;
 use super::stop::Stopped;
 use super::warning::Warning;
@@ -29,9 +28,8 @@ pub struct Summary {
     pub revolutions: f64,
     /// Estimate of the global error of the last state; none if it was not asked for or cannot be given.
     pub error_estimate: Option<ErrorEstimate>,
-    /// Error of the worst state on the way, of up to 128 that a second run is compared at: a run may end better than it was
-    /// before. None for a loose joint, for a run that was handed from one engine to another, and without rows over the
-    /// crank angle.
+    /// Error of the worst state on the way at which a second run is compared: a run may end better than it was before. None for
+    /// a loose joint, for a run that was handed from one engine to another, and without rows over the crank angle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rows_error: Option<ErrorEstimate>,
     /// Energy at the end minus energy at the start minus work of the loads, divided by the largest of the
@@ -148,4 +146,60 @@ pub struct Event {
     pub theta_rad: f64,
     /// rad/s; infinite, and null in JSON, where the inertia vanishes and the speed has no bound
     pub omega_rad_per_s: f64,
+}
+
+/// Joint forces of which the largest are looked for.
+pub(super) const FORCES: usize = 5;
+
+/// The largest size of a force in a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Peak {
+    /// N
+    pub value_n: f64,
+    /// When, s.
+    pub t_s: f64,
+    /// Where the crank is then, rad, unwrapped.
+    pub theta_rad: f64,
+    /// What the last refinement added, N. The error of the motion itself comes on top.
+    pub added_n: f64,
+}
+
+/// The largest sizes of the joint forces in a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Peaks {
+    /// Of the crank's bearing at O.
+    pub crank_bearing: Peak,
+    /// Between crank and rod.
+    pub crank_pin: Peak,
+    /// Between rod and slider.
+    pub wrist_pin: Peak,
+    /// Of the guide, normal to it.
+    pub guide: Peak,
+    /// Minus the rate of change of the momentum of the mechanism.
+    pub shaking: Peak,
+}
+
+impl Peaks {
+    pub(super) fn new(
+        [crank_bearing, crank_pin, wrist_pin, guide, shaking]: [Peak; FORCES],
+    ) -> Peaks {
+        Peaks {
+            crank_bearing,
+            crank_pin,
+            wrist_pin,
+            guide,
+            shaking,
+        }
+    }
+
+    /// All of them, with their names.
+    pub fn named(&self) -> [(&'static str, Peak); FORCES] {
+        [
+            ("crank bearing", self.crank_bearing),
+            ("crank pin", self.crank_pin),
+            ("wrist pin", self.wrist_pin),
+            ("guide", self.guide),
+            ("shaking force", self.shaking),
+        ]
+    }
 }

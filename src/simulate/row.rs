@@ -1,11 +1,7 @@
 //! Output rows: the state of the mechanism at one time.
 
-use std::sync::Arc;
-
-use super::guide_friction::Sliding;
 use crate::error::Error;
-use crate::mechanism::{CurveEquation, Equation, Pose, Reactions, Reactor};
-use crate::numeric::angle::Angle;
+use crate::mechanism::Reactions;
 
 /// One output row, SI and radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,98 +88,5 @@ impl RowSink for Vec<Row> {
     fn row(&mut self, row: &Row) -> Result<(), Error> {
         self.push(*row);
         Ok(())
-    }
-}
-
-/// Makes rows from states.
-#[derive(Clone, Debug)]
-pub(super) struct RowMaker {
-    pub equation: Arc<Equation>,
-    pub reactor: Option<Arc<Reactor>>,
-    pub driving_torque: bool,
-    /// The guide of a prescribed motion, if it has friction.
-    pub guide: Option<Arc<CurveEquation>>,
-    /// The guide of a crank that turns freely, if it has friction.
-    pub sliding: Option<Arc<Sliding>>,
-}
-
-impl RowMaker {
-    /// Friction on the slider (N, along +x) in a prescribed motion; not a number where the guide locks itself.
-    pub fn friction(&self, t: f64, angle: Angle, omega: f64, alpha: f64) -> f64 {
-        self.guide.as_ref().map_or(0.0, |guide| {
-            let touch = guide.driven(t, angle, omega, alpha);
-            touch.map_or(f64::NAN, |touch| touch.friction)
-        })
-    }
-
-    /// θ̈ of a free motion, rad/s², and the friction on the slider, N.
-    pub fn forward(&self, t: f64, angle: Angle, omega: f64) -> (f64, f64) {
-        match &self.sliding {
-            Some(sliding) => {
-                let (alpha, touch) = sliding.state(t, angle, omega);
-                (alpha, touch.friction)
-            }
-            None => (self.equation.acceleration(t, angle, omega), 0.0),
-        }
-    }
-
-    /// The joint forces of a free motion, or with `alpha` of a prescribed one, if they are asked for.
-    pub fn reactions(
-        &self,
-        t: f64,
-        angle: Angle,
-        omega: f64,
-        alpha: Option<f64>,
-    ) -> Option<Reactions> {
-        let pose = self.equation.linkage().pose(angle.rest);
-        let (alpha, friction) = self.acceleration(t, angle, omega, alpha);
-        self.forces(t, angle, &pose, [omega, alpha], friction)
-    }
-
-    /// θ̈, rad/s², and the friction on the slider, N.
-    fn acceleration(&self, t: f64, angle: Angle, omega: f64, alpha: Option<f64>) -> (f64, f64) {
-        match alpha {
-            Some(alpha) => (alpha, self.friction(t, angle, omega, alpha)),
-            None => self.forward(t, angle, omega),
-        }
-    }
-
-    fn forces(
-        &self,
-        t: f64,
-        angle: Angle,
-        pose: &Pose,
-        [omega, alpha]: [f64; 2],
-        friction: f64,
-    ) -> Option<Reactions> {
-        self.reactor.as_ref().map(|reactor| {
-            let mut load = self.equation.loads().value(t, angle, omega, pose);
-            load.force += friction;
-            reactor.reactions(pose, omega, alpha, &load)
-        })
-    }
-
-    /// The row of a free motion, or with `alpha` of a prescribed one.
-    pub fn row(&self, t: f64, angle: Angle, omega: f64, alpha: Option<f64>) -> Row {
-        let pose = self.equation.linkage().pose(angle.rest);
-        let (alpha, friction) = self.acceleration(t, angle, omega, alpha);
-        let reactions = self.forces(t, angle, &pose, [omega, alpha], friction);
-        let driving_torque = self.driving_torque.then(|| {
-            let torque = self.equation.driving_torque(t, angle, omega, alpha);
-            torque - friction * pose.dx
-        });
-        Row {
-            t,
-            theta: angle.radians(),
-            omega,
-            alpha,
-            x: pose.x,
-            v: pose.dx * omega,
-            a: pose.dx * alpha + pose.d2x * omega * omega,
-            phi: pose.phi(),
-            reactions,
-            driving_torque,
-            clearance: None,
-        }
     }
 }

@@ -29,7 +29,6 @@ pub(super) trait Part {
 /// A curve through so many points of a step shows its shape.
 const PLACES: u32 = 4;
 
-/// Writes rows.
 pub(super) struct RowWriter<'a> {
     rows: &'a mut dyn RowSink,
     schedule: Schedule,

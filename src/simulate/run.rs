@@ -1,18 +1,16 @@
 //! Forward motion: scene -> mechanism -> plan -> engine -> trajectory.
 
-use std::sync::Arc;
-
-use super::guide_friction::Sliding;
+use super::angle_model::AngleModel;
+use super::joint_force_maxima::{self, MOST_ROWS};
 use super::options::Options;
-use super::row::{NoRows, RowMaker, RowSink};
+use super::row::{NoRows, RowSink};
 use super::run_setup::RunSetup;
 use super::schedule::{self, Schedule};
 use super::simulation::Simulation;
 use super::warning::Warning;
-use super::{clearance, closed_form, forward, joint_force_maxima};
+use super::{clearance, closed_form, forward};
 use crate::error::Error;
-use crate::mechanism::{Curve, CurveEquation, Equation, Limits, Reactor};
-use crate::plan::{self, Engine, Plan};
+use crate::plan::Engine;
 use crate::scene::{Extent, MotionKind, Scene};
 
 /// Simulates a scene and keeps its dense trajectory.
@@ -62,57 +60,11 @@ fn run(
     rows: &mut dyn RowSink,
     kept: usize,
 ) -> Result<Simulation, Error> {
-    let kept = if options.reactions && scene.clearance.is_none() {
-        kept.max(joint_force_maxima::MOST_ROWS)
-    } else {
-        kept
-    };
-    let mut run = run_keeping(kept, scene, options, rows)?;
-    let summary = &run.summary;
-    if options.reactions && summary.stopped.is_none() && summary.clearance.is_none() {
-        let peaks = joint_force_maxima::search(scene, &run);
-        if peaks.is_none() {
-            run.summary.warnings.push(Warning::NoForceMaxima);
-        }
-        run.summary.peaks = peaks;
+    let mut task = RunSetup::new(scene, options, kept)?;
+    let looks = options.reactions && task.plan.engine != Engine::Contact;
+    if looks {
+        task.kept = kept.max(MOST_ROWS);
     }
-    Ok(run)
-}
-
-/// A run that keeps so many steps or pieces of its motion.
-fn run_keeping(
-    kept: usize,
-    scene: &Scene,
-    options: &Options,
-    rows: &mut dyn RowSink,
-) -> Result<Simulation, Error> {
-    plan::refuse(scene)?;
-    let plan = Plan::of_modelled(scene, options.method)?;
-    let extent = match scene.run.extent {
-        None | Some(Extent::Revolutions(0.0)) => Extent::Duration(0.0),
-        Some(extent) => extent,
-    };
-    let equation = Equation::new(scene);
-    let free = scene.motion.kind == MotionKind::Free;
-    let sliding = Sliding::new(scene, &equation).filter(|_| free);
-    let task = RunSetup {
-        scene,
-        options,
-        plan,
-        extent,
-        kept,
-        limits: Limits::new(equation.linkage(), scene.motion.speed),
-        maker: RowMaker {
-            reactor: match options.reactions {
-                true => Some(Arc::new(Reactor::new(scene)?)),
-                false => None,
-            },
-            driving_torque: options.driving_torque,
-            guide: guide(scene, &equation).map(Arc::new),
-            sliding: sliding.map(Arc::new),
-            equation: Arc::new(equation),
-        },
-    };
     if is_open(&task) && rows.wants_rows() {
         let blind = Options {
             estimate: false,
@@ -120,18 +72,22 @@ fn run_keeping(
             events_kept: 0,
             ..options.clone()
         };
-        let seen = run_keeping(0, scene, &blind, &mut NoRows)?.summary;
-        let end = seen.last.t_s;
+        let end = simulate_rows(scene, &blind, &mut NoRows)?.summary.last.t_s;
         schedule::refuse_rows(task.schedule().rows_until(end), end)?;
     }
     let mut run = match task.plan.engine {
         Engine::ClosedForm => closed_form::run(&task, rows),
         Engine::Contact => clearance::run(&task, rows),
-        Engine::Energy | Engine::Angle | Engine::Time => forward::run(&task, rows),
+        Engine::Energy | Engine::Angle | Engine::Time => {
+            forward::run(&task, &AngleModel::of(&task), rows)
+        }
     }?;
-    if run.summary.clearance.is_none() {
-        run.dense.maker = Some(task.maker);
-        run.dense.alpha = (!free).then_some(0.0);
+    if looks && run.summary.stopped.is_none() {
+        let peaks = joint_force_maxima::search(scene, &run);
+        if peaks.is_none() {
+            run.summary.warnings.push(Warning::NoForceMaxima);
+        }
+        run.summary.peaks = peaks;
     }
     Ok(run)
 }
@@ -144,13 +100,4 @@ fn is_open(task: &RunSetup<'_>) -> bool {
         && at_times
         && of_turns
         && task.scene.motion.kind == MotionKind::Free
-}
-
-/// The guide of a prescribed motion, if it has friction.
-fn guide(scene: &Scene, equation: &Equation) -> Option<CurveEquation> {
-    if scene.motion.kind != MotionKind::ConstantSpeed || scene.friction.is_none() {
-        return None;
-    }
-    let guide = CurveEquation::new(scene, Curve::on_crank(equation.linkage()));
-    guide.friction().is_some().then_some(guide)
 }

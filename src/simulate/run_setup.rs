@@ -1,30 +1,75 @@
 //! A run that is ready to be computed.
 
+use std::sync::Arc;
+
+use super::guide_friction::Sliding;
 use super::options::Options;
-use super::row::RowMaker;
+use super::row_maker::RowMaker;
 use super::schedule::Schedule;
 use super::stop::Why;
 use crate::engine::runge_kutta;
 use crate::engine::time::{self, Settings, Start};
-use crate::mechanism::{Class, Equation, Limits};
+use crate::error::Error;
+use crate::mechanism::{Class, Curve, CurveEquation, Equation, Limits, Reactor};
 use crate::numeric::angle::Angle;
-use crate::plan::{Plan, Stepper};
-use crate::scene::{Extent, Scene};
+use crate::plan::{self, Plan, Stepper};
+use crate::scene::{Extent, MotionKind, Scene};
 
 /// A scene with all that its engine needs.
+#[derive(Clone)]
 pub(super) struct RunSetup<'a> {
     pub scene: &'a Scene,
     pub options: &'a Options,
     pub plan: Plan,
     pub extent: Extent,
+    /// Crank speed at the start, rad/s.
+    pub speed: f64,
+    /// Whether the run ends where the crank turns back.
+    pub one_way: bool,
     /// Most steps or pieces of the dense motion that are kept.
     pub kept: usize,
     pub limits: Limits,
     pub maker: RowMaker,
 }
 
-impl RunSetup<'_> {
-    /// When rows are due.
+impl<'a> RunSetup<'a> {
+    /// Plans a scene; its run keeps so many steps or pieces of its motion.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] for impossible values, [`Error::Refused`] for what cannot be computed.
+    pub fn new(scene: &'a Scene, options: &'a Options, kept: usize) -> Result<RunSetup<'a>, Error> {
+        plan::refuse(scene)?;
+        let plan = Plan::of_modelled(scene, options.method)?;
+        let equation = Equation::new(scene);
+        let (sliding, guide) = match scene.motion.kind {
+            MotionKind::Free => (Sliding::new(scene, &equation), None),
+            MotionKind::ConstantSpeed => (None, guide(scene, &equation)),
+        };
+        Ok(RunSetup {
+            scene,
+            options,
+            plan,
+            extent: match scene.run.extent {
+                None | Some(Extent::Revolutions(0.0)) => Extent::Duration(0.0),
+                Some(extent) => extent,
+            },
+            speed: scene.motion.speed,
+            one_way: false,
+            kept,
+            limits: Limits::new(equation.linkage(), scene.motion.speed),
+            maker: RowMaker {
+                reactor: match options.reactions {
+                    true => Some(Arc::new(Reactor::new(scene)?)),
+                    false => None,
+                },
+                driving_torque: options.driving_torque,
+                guide: guide.map(Arc::new),
+                sliding: sliding.map(Arc::new),
+                equation: Arc::new(equation),
+            },
+        })
+    }
+
     pub fn schedule(&self) -> Schedule {
         Schedule::new(self.scene.run.output_every, self.extent)
     }
@@ -42,12 +87,20 @@ impl RunSetup<'_> {
         self.limits.class == Class::RotatingCrank
     }
 
+    /// Whether the inertia vanishes at the dead centres, where the speed of a crank without inertia has no bound.
+    pub fn inertia_vanishes(&self) -> bool {
+        let inertia = |theta: f64| self.equation().terms(theta).inertia.m;
+        let vanishes = |theta: f64| inertia(theta) <= 1e-12 * inertia(theta + 1.0);
+        let mut dead_centres = self.limits.dead_centres.iter();
+        dead_centres.any(|dc| vanishes(dc.theta))
+    }
+
     /// The state of the crank at the start.
     pub fn first_state(&self) -> Start {
         Start {
             t: 0.0,
             angle: self.start(),
-            speed: self.scene.motion.speed,
+            speed: self.speed,
         }
     }
 
@@ -61,9 +114,8 @@ impl RunSetup<'_> {
 
     /// How the run is integrated in time.
     pub fn settings(&self) -> Settings<'_> {
-        let motion = &self.scene.motion;
-        let inertia = self.equation().terms(motion.angle).inertia.m;
-        let unit = 0.5 * inertia * motion.speed.powi(2).max(1.0);
+        let inertia = self.equation().terms(self.scene.motion.angle).inertia.m;
+        let unit = 0.5 * inertia * self.speed.powi(2).max(1.0);
         Settings {
             method: match self.plan.stepper {
                 Some(Stepper::Dop853) => time::Method::Library(runge_kutta::Method::Dop853),
@@ -81,4 +133,11 @@ impl RunSetup<'_> {
             guide: &[],
         }
     }
+}
+
+/// The guide of a prescribed motion, if it has friction.
+fn guide(scene: &Scene, equation: &Equation) -> Option<CurveEquation> {
+    scene.friction?;
+    let guide = CurveEquation::new(scene, Curve::on_crank(equation.linkage()));
+    guide.friction().is_some().then_some(guide)
 }

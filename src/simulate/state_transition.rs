@@ -195,39 +195,32 @@ fn commutator(x: &Matrix3<f64>, y: &Matrix3<f64>) -> Matrix3<f64> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::error_estimate::Forward;
     use super::*;
     use crate::engine::Counted;
     use crate::engine::WorkLimit;
     use crate::engine::time::{self, Method, Settings, Start};
+    use crate::mechanism::Equation;
     use crate::numeric::angle::Angle;
+    use crate::scene::{Crank, Expression, Load, Scene};
 
     /// A pendulum with losses, pushed by so much in time.
-    struct Pendulum(f64);
-
-    impl Motion for Pendulum {
-        fn acceleration(&self, t: f64, angle: Angle, speed: f64) -> f64 {
-            self.0 * (3.0 * t).cos() - 4.0 * angle.rest.sin() - 0.1 * speed
-        }
-
-        fn acceleration_and_power(&self, t: f64, angle: Angle, speed: f64) -> (f64, f64) {
-            (self.acceleration(t, angle, speed), 0.0)
-        }
-
-        fn depends_on_time(&self) -> bool {
-            self.0 != 0.0
-        }
-
-        fn has_power(&self) -> bool {
-            false
-        }
-
-        fn next_corner(&self, _: f64) -> f64 {
-            f64::INFINITY
-        }
+    fn pendulum(push: f64) -> Equation {
+        let torque = format!("{push}*cos(3*t) - 4*sin(theta) - 0.1*omega");
+        let torque = Expression::parse(&torque).expect("a formula");
+        let crank = Crank {
+            inertia: 1.0,
+            ..Crank::default()
+        };
+        Equation::new(
+            &Scene::new(0.1, 0.3)
+                .crank(crank)
+                .torque(Load::Expression(torque)),
+        )
     }
 
     /// The steps from a start to a time.
-    fn steps(motion: &Pendulum, start: Start, t_end: f64) -> Vec<Step> {
+    fn steps(motion: &Forward<'_>, start: Start, t_end: f64) -> Vec<Step> {
         let settings = Settings {
             method: Method::Picard,
             tolerance: 1e-14,
@@ -251,7 +244,8 @@ mod tests {
     fn transitions_are_those_of_runs_from_starts_beside() {
         const ASIDE: f64 = 1e-4;
         for (push, angle, speed) in [(0.0, 2.0, 0.0), (0.0, 0.3, 9.0), (1.5, 1.0, -0.5)] {
-            let motion = Pendulum(push);
+            let equation = pendulum(push);
+            let motion = Forward(&equation);
             let start = |t: f64, angle: f64, speed: f64| Start {
                 t,
                 angle: Angle::from(angle),

@@ -1,20 +1,13 @@
 //! Why a run ends before its goal: a reason with its values and the state, and the words for it.
 
-use std::f64::consts::TAU;
 use std::fmt;
 
 use serde::{Serialize, Serializer};
 
-use super::result::Final;
-use super::run_setup::RunSetup;
+use crate::engine::energy::NotApplicable;
 use crate::engine::time::Start;
 use crate::mechanism::Jam;
-use crate::numeric::angle::Angle;
-use crate::numeric::root;
-use crate::scene::{Load, Variable};
-
-/// A crank has stalled where it cannot leave a balance by more than this part of the way it came.
-const OF_ITS_WAY: f64 = 1e-3;
+use crate::scene::Load;
 
 /// A run that ended before its goal.
 #[derive(Clone, Debug)]
@@ -240,9 +233,9 @@ fn outside(load: Option<&Load>) -> String {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Torques {
     /// Whether a motor is what drives.
-    by_motor: bool,
-    drive: f64,
-    load: f64,
+    pub(super) by_motor: bool,
+    pub(super) drive: f64,
+    pub(super) load: f64,
 }
 
 impl fmt::Display for Torques {
@@ -257,40 +250,17 @@ impl fmt::Display for Torques {
     }
 }
 
-/// What drives the crank at rest at an angle (rad), and what it is to move: forces on the slider and weight.
-pub(super) fn torques(task: &RunSetup<'_>, theta: f64) -> Torques {
-    let equation = task.equation();
-    let drive = equation.load(0.0, theta, 0.0).torque;
-    let is_motor = |load: &Load| matches!(load, Load::Motor { .. });
-    Torques {
-        by_motor: task.scene.torques.iter().any(is_motor),
-        drive,
-        load: -equation.driving_torque(0.0, theta, 0.0, 0.0) - drive,
+/// Why a motion over the crank angle does not go on.
+pub(super) fn unserved(why: NotApplicable) -> &'static str {
+    match why {
+        NotApplicable::Equilibrium => "it starts at rest without a force",
+        NotApplicable::NotFinite => "a load has no finite value on the way",
+        NotApplicable::NotSmooth => "a load is not smooth",
+        NotApplicable::TooSlow => "the crank comes too near to rest",
+        NotApplicable::WorkLimit => "it takes more evaluations than the work limit allows",
+        NotApplicable::TooManyTurns => "it takes more turns than the work limit allows",
+        NotApplicable::TooLong => {
+            "its turns differ from each other, and they are too many to be kept"
+        }
     }
-}
-
-/// Why a run was stopped at a state in which the crank had stalled: next to a balance, to which loads of the state alone bring
-/// it back, and out of which its energy does not lift it. None if it had not.
-pub(super) fn stalled(task: &RunSetup<'_>, last: &Final) -> Option<Why> {
-    let (equation, reduced) = (task.equation(), task.scene.reduced());
-    let loads = equation.loads();
-    let rests = reduced.friction.is_some() || loads.are_dry();
-    let timed = loads.reads().has(Variable::T);
-    if rests || timed || reduced.clearance.is_some() || !task.turns_fully() {
-        return None;
-    }
-    let net = |theta: f64| -equation.driving_torque(0.0, theta, 0.0, 0.0);
-    let theta = last.theta_rad;
-    let width = OF_ITS_WAY * (theta - task.start().radians()).abs();
-    let (below, above) = (theta - width, theta + width);
-    let (up, down) = (net(below), net(above));
-    let rest = Angle::from(theta).reduced().rest;
-    let kinetic = equation.kinetic_energy(rest, last.omega_rad_per_s);
-    let held = up > 0.0 && down < 0.0 && kinetic < 0.25 * width * up.min(-down);
-    let theta = held.then(|| root::bracketed(net, below, above))??;
-    Some(Why::Stalled {
-        theta,
-        torques: torques(task, theta),
-        turns: task.extent.angle().map(|angle| angle / TAU),
-    })
 }

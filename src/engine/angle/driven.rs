@@ -1,6 +1,9 @@
 //! What the engine needs of a mechanism.
 
+use std::cell::RefCell;
+
 use super::Table;
+use super::panel::Station;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
 use crate::numeric::enclosure::{Detail, Reach};
@@ -30,6 +33,9 @@ pub trait Driven {
         side: f64,
         table: &mut Table<Self::Place>,
     );
+
+    /// Where the panels of a run are left for the next one from the same angle; none where each run stands alone.
+    fn shared(&self) -> Option<&RefCell<Panels<Self::Place>>>;
 
     /// How many positions were tabulated so far.
     fn positions(&self) -> u64;
@@ -61,4 +67,14 @@ pub trait Driven {
     /// Corners and other angles, at which panels end too where the inertia nearly vanishes there: longer ones would not be
     /// resolved.
     fn corners_if_light(&self) -> &[f64];
+}
+
+/// The panels of a run, for the next one from the same angle in the same direction: what depends on the position is tabulated,
+/// and the next run sets out from its profiles.
+pub struct Panels<P>(pub(super) Vec<Station<P>>);
+
+impl<P> Default for Panels<P> {
+    fn default() -> Panels<P> {
+        Panels(Vec::new())
+    }
 }

@@ -30,7 +30,7 @@ mod table;
 mod turn;
 mod undamped;
 
-pub use driven::{Driven, State};
+pub use driven::{Driven, Panels, State};
 pub use driving::{Driving, Goal, Resolution, Short};
 pub use errors::Errors;
 pub use fixed_point::{CycleMap, FixedPoint, NoCycle, fixed_point};

@@ -69,6 +69,7 @@ pub fn run<D: Driven>(
                 Goal::Turned(way) => orbit.time_of_turn(way).unwrap_or(orbit.length()),
             };
             let work = march.work - work + work_until(orbit.last_leg(), end, &spent);
+            march.leave_panels();
             return Ok(Driving {
                 orbit,
                 end,
@@ -101,11 +102,12 @@ fn forecast<'a, D: Driven>(
 
 /// A run that ended before its goal, from an angle with a speed (rad/s).
 fn ended<D: Driven>(
-    march: PanelStepper<'_, D>,
+    mut march: PanelStepper<'_, D>,
     leg: Segment,
     (start, speed): (Angle, f64),
     why: NotApplicable,
 ) -> Driving {
+    march.leave_panels();
     Driving {
         short: leg.last_angle(start.turns).map(|angle| Short {
             why,

@@ -11,8 +11,7 @@ use super::seen::hides;
 use super::sweep::{SETTLED, Tails, sweep};
 use super::swept::{Spent, Swept};
 use super::switch::{Side, begins_beyond, side};
-use super::turn::stations;
-use super::{Driven, Resolution};
+use super::{Driven, Panels, Resolution, turn};
 use crate::engine::WorkLimit;
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::Interval;
@@ -55,6 +54,8 @@ pub(super) struct PanelStepper<'a, D: Driven> {
     /// Largest kinetic energy at the ends of panels so far, J.
     pub fastest: f64,
     start: Angle,
+    /// Whether it is compared with another run, and shares nothing with it.
+    other: bool,
     pub limit: WorkLimit<'a>,
     /// Whether a panel was cut or its degree raised since this was last cleared.
     pub refined: bool,
@@ -90,7 +91,11 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
         } else {
             &[1.0]
         };
-        let stations = stations(driven, start, fine, cuts)?;
+        let shared = driven.shared().filter(|_| !resolution.other);
+        let mut stations = shared.map_or_else(Vec::new, |shared| shared.take().0);
+        if stations.is_empty() {
+            stations = turn::stations(driven, start, fine, cuts)?;
+        }
         let kinetic = 0.5 * stations[0].table.inertia[0] * speed * speed;
         if !kinetic.is_finite() {
             return Err(NotApplicable::NotFinite);
@@ -123,11 +128,19 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
             positions,
             fastest: kinetic,
             start,
+            other: resolution.other,
             limit: resolution.limit,
             refined: false,
             hid: false,
             gives_up: false,
         })
+    }
+
+    /// Leaves the panels to the next run, if they are shared.
+    pub fn leave_panels(&mut self) {
+        if let Some(shared) = self.driven.shared().filter(|_| !self.other) {
+            shared.replace(Panels(std::mem::take(&mut self.stations)));
+        }
     }
 
     /// Evaluations of the loads and positions that were tabulated.

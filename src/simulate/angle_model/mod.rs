@@ -1,22 +1,22 @@
 //! The mechanism as the energy engine sees it: inertia, potential and force over the crank angle.
 
 mod profile;
-mod spot;
 mod work;
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::f64::consts::TAU;
 
-use super::guide_friction::{Grip, Guide, Sliding};
+use super::guide_friction::{Grip, Guide, Sliding, Spot};
 use super::marks::{Marks, in_order};
+use super::run_setup::RunSetup;
 use crate::engine::WorkLimit;
-use crate::engine::angle::{Driven, State, Table};
-use crate::mechanism::{Equation, Limits, LoadValue};
+use crate::engine::angle::{Driven, Panels, State, Table};
+use crate::mechanism::{Equation, LoadValue};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 use crate::numeric::enclosure::{Detail, Reach};
+use crate::plan::{Engine, cycle_over_angle};
 use crate::scene::Variable;
-pub(super) use spot::Spot;
 
 /// Inertia, potential and force of an equation whose loads depend on the position alone.
 pub(super) struct AngleModel<'a> {
@@ -24,7 +24,6 @@ pub(super) struct AngleModel<'a> {
     sliding: Option<&'a Sliding>,
     /// Whole turns of the start, beside all angles: loads over theta need not be the same in each turn.
     turns: f64,
-    dead_centres: Vec<f64>,
     /// Dead centres and corners of loads.
     corners: Vec<f64>,
     /// Turns after which the loads are the same again.
@@ -39,55 +38,59 @@ pub(super) struct AngleModel<'a> {
     /// Work of the loads in one turn, J, and its error, if they are the same in each.
     work_of_turn: Option<(f64, f64)>,
     evaluations: Cell<u64>,
+    /// On the positions of a motion made of its energy.
     limit: WorkLimit<'a>,
+    shared: Option<RefCell<Panels<Spot>>>,
 }
 
 impl<'a> AngleModel<'a> {
-    /// Angles are those beside the whole turns of `start`. Panels end at the rows of tables over the crank angle, and
-    /// may end at the dead centres, where the inertia of a mechanism without crank inertia has a corner.
-    pub fn new(
-        equation: &'a Equation,
-        limits: &Limits,
-        start: Angle,
-        speed: f64,
-    ) -> AngleModel<'a> {
+    /// The mechanism of a run; angles are those beside the whole turns of its start. Panels end at the rows of tables over the
+    /// crank angle, and may end at the dead centres, where the inertia of a mechanism without crank inertia has a corner.
+    pub fn of(task: &'a RunSetup<'_>) -> AngleModel<'a> {
+        let (equation, start) = (task.equation(), task.start());
         let loads = equation.loads();
-        let dead_centres: Vec<f64> = limits.dead_centres.iter().map(|dc| dc.theta).collect();
+        let dead_centres = task.limits.dead_centres.iter().map(|dc| dc.theta);
+        let dead_centres: Vec<f64> = dead_centres.collect();
         let tables = loads.angle_corners().into_iter();
         let of_loads = in_order(tables.map(|theta| theta.rem_euclid(TAU)));
         let corners = in_order(dead_centres.iter().chain(&of_loads).copied());
-        AngleModel {
+        let mut model = AngleModel {
             equation,
-            sliding: None,
+            sliding: task.maker.sliding.as_deref(),
             turns: start.turns,
-            dead_centres,
             cycle: 1,
             of_cycle: corners.clone(),
             corners,
             of_loads,
-            marks: Marks::new(equation, start, speed),
+            marks: Marks::new(equation, start, task.speed),
             marks_are_corners: false,
             repeats: loads.have_potential() && loads.constant_torque() == 0.0,
             work_of_turn: None,
             evaluations: Cell::new(0),
-            limit: WorkLimit::NONE,
+            limit: task.options.limit(),
+            shared: None,
+        };
+        if task.plan.engine != Engine::Time
+            && let Ok(turns) = cycle_over_angle(task.scene)
+        {
+            model.take_cycle(turns, &dead_centres);
+            if turns == 1 && task.plan.engine == Engine::Energy {
+                model.work_of_turn = Some(model.work_of_one_turn());
+            }
+        }
+        model
+    }
+
+    /// For many runs of one cycle: what depends on the position is tabulated once.
+    pub fn with_shared_panels(self) -> AngleModel<'a> {
+        AngleModel {
+            shared: Some(RefCell::default()),
+            ..self
         }
     }
 
-    /// A motion made of its energy ends after so many positions.
-    pub fn with_limit(mut self, limit: WorkLimit<'a>) -> AngleModel<'a> {
-        self.limit = limit;
-        self
-    }
-
-    /// With friction at the guide.
-    pub fn with_friction(mut self, sliding: Option<&'a Sliding>) -> AngleModel<'a> {
-        self.sliding = sliding;
-        self
-    }
-
-    /// For loads that are the same again after so many turns.
-    pub fn with_cycle(mut self, turns: u32) -> AngleModel<'a> {
+    /// Takes loads that are the same again after so many turns.
+    fn take_cycle(&mut self, turns: u32, dead_centres: &[f64]) {
         self.cycle = turns;
         let length = f64::from(turns) * TAU;
         let marks = self.marks.between(0.0, length);
@@ -102,12 +105,11 @@ impl<'a> AngleModel<'a> {
         }
         self.of_loads = in_order(self.of_loads.iter().chain(&marks).copied());
         let again = |turn: u32| {
-            let dead_centres = self.dead_centres.iter();
-            dead_centres.map(move |theta| theta + f64::from(turn) * TAU)
+            let before = f64::from(turn) * TAU;
+            dead_centres.iter().map(move |theta| theta + before)
         };
         let all = (0..turns).flat_map(again);
         self.of_cycle = in_order(all.chain(self.of_loads.iter().copied()));
-        self
     }
 
     /// Positions at which inertia and force were computed so far.
@@ -188,6 +190,10 @@ impl Driven for AngleModel<'_> {
             };
             sliding.tabulate(guide, loads, &of_place, table);
         }
+    }
+
+    fn shared(&self) -> Option<&RefCell<Panels<Spot>>> {
+        self.shared.as_ref()
     }
 
     fn cycle(&self) -> u32 {

@@ -6,7 +6,7 @@ use super::AngleModel;
 use crate::numeric::angle::Angle;
 use crate::numeric::gauss;
 
-impl<'a> AngleModel<'a> {
+impl AngleModel<'_> {
     /// The first mark of a formula after `from` on the way to `to`, in either direction, that is no corner of each turn.
     pub(super) fn mark(&self, from: f64, to: f64) -> Option<f64> {
         let before = self.turns * TAU;
@@ -16,21 +16,15 @@ impl<'a> AngleModel<'a> {
             .map(|mark| mark - before)
     }
 
-    /// Whether the loads depend on the position alone and are the same in each turn.
-    pub fn turns_are_alike(&self) -> bool {
-        self.work_of_turn.is_some()
-    }
-
-    /// For loads that depend on the position alone and are the same in each turn.
-    pub fn with_turns_alike(mut self) -> AngleModel<'a> {
+    /// Work of the loads in a turn, J, and its error: of loads that depend on the position alone and are the same in each.
+    pub(super) fn work_of_one_turn(&self) -> (f64, f64) {
         let torque = TAU * self.equation.loads().constant_torque();
         let (mut work, mut size) = (torque, torque.abs());
         if !self.equation.loads().have_potential() {
             work += self.work_between(0.0, TAU);
             size += gauss::composite(|theta| self.push(theta).abs(), 0.0, TAU, 64);
         }
-        self.work_of_turn = Some((work, f64::EPSILON * size));
-        self
+        (work, f64::EPSILON * size)
     }
 
     /// Work (J) of the loads without potential between two angles, by a quadrature of its own.
@@ -39,7 +33,7 @@ impl<'a> AngleModel<'a> {
             return 0.0;
         }
         let turns = to.turns - from.turns;
-        if !self.turns_are_alike() {
+        if self.work_of_turn.is_none() {
             return self.work_between(from.rest, to.rest + turns * TAU);
         }
         let whole = if turns == 0.0 {

@@ -2,18 +2,18 @@
 
 use std::f64::consts::TAU;
 
+use super::super::balance::Balance;
 use super::super::closed_form;
 use super::super::error_estimate::MARGIN;
-use super::super::joint_force_maxima::Peaks;
-use super::super::outcome::{Balance, Estimate, Outcome};
+use super::super::outcome::{Estimate, Outcome};
 use super::super::recorder::Record as Recorded;
-use super::super::result::ErrorEstimate;
+use super::super::result::{ErrorEstimate, Peaks};
 use super::super::simulation::Simulation;
 use super::super::stop::Why;
 use super::super::warning::Warning;
 use super::follow::{Seen, phi};
 use super::motion::{DRIVEN, FREE};
-use super::record::{ContactStatistics, Record};
+use super::record::Record;
 use super::result::{Beyond, ClearanceSummary, Horizon, LooseFinal};
 use super::{Done, Run, Tighter};
 use crate::engine::time::Start;
@@ -114,7 +114,7 @@ impl<const N: usize> Run<'_, N> {
         let t = parted.unwrap_or(end.t);
         let statistics = |record: &Record| {
             let (tally, from) = record.since(t);
-            ContactStatistics::new(&tally, from, end.t)
+            tally.statistics(from, end.t)
         };
         Horizon {
             t_s: t,
@@ -159,7 +159,7 @@ impl<const N: usize> Run<'_, N> {
         horizon: Option<Horizon>,
     ) -> ClearanceSummary {
         let clearance = self.mechanism.clearance();
-        let whole = ContactStatistics::new(&seen.total, 0.0, last.t);
+        let whole = seen.total.statistics(0.0, last.t);
         let linked = self.linked();
         ClearanceSummary {
             joint: match clearance.joint {

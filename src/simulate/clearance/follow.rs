@@ -1,8 +1,7 @@
 //! Follows a run with a loose joint: rows, events, and what the contact does.
 
-use super::super::joint_force_maxima::{FORCES, Peak};
 use super::super::recorder::Recorder;
-use super::super::result::Event;
+use super::super::result::{Event, FORCES, Peak};
 use super::super::row::{LooseRow, Row};
 use super::super::row_writer::Part;
 use super::super::run_setup::RunSetup;
@@ -15,7 +14,6 @@ use crate::mechanism::LooseState;
 use crate::numeric::angle::Angle;
 use crate::numeric::root;
 
-/// What was seen so far.
 pub(super) struct Seen {
     pub record: Record,
     pub total: Tally,
@@ -85,7 +83,6 @@ impl<'a, const N: usize> Follow<'a, N> {
         self.seen.ends_at.map_or(stretch.end[0], |s| s.t)
     }
 
-    /// What makes rows of states.
     pub fn rows(&self) -> LooseRows<'a, N> {
         LooseRows {
             model: self.model,
@@ -112,7 +109,6 @@ impl<'a, const N: usize> Follow<'a, N> {
         }
     }
 
-    /// Impacts and separations.
     fn follow_phase(&mut self, stretch: &Stretch<'_, N>) {
         let s = self.model.state(&stretch.start);
         let kind = match (self.seen.phase, stretch.phase) {
@@ -197,7 +193,6 @@ impl<'a, const N: usize> Follow<'a, N> {
     }
 }
 
-/// Makes rows of states with a loose joint.
 pub(super) struct LooseRows<'a, const N: usize> {
     model: &'a Loose<'a, N>,
     task: &'a RunSetup<'a>,

@@ -11,8 +11,7 @@ mod result;
 use std::f64::consts::TAU;
 use std::time::Instant;
 
-pub use record::ContactStatistics;
-pub use result::{Beyond, ClearanceSummary, Horizon, LooseFinal};
+pub use result::{Beyond, ClearanceSummary, ContactStatistics, Horizon, LooseFinal};
 
 use super::closed_form;
 use super::error_estimate::{TIGHTER, TIGHTEST};
@@ -36,7 +35,6 @@ use record::Record;
 /// Samples of the journal's path in a turn, while there are few enough turns.
 const SAMPLES_IN_A_TURN: f64 = 64.0;
 
-/// Runs a scene with a loose joint.
 pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
     let scene = task.scene.reduced();
     let Some(clearance) = scene.clearance else {
@@ -232,7 +230,6 @@ impl<'a, const N: usize> Run<'a, N> {
     }
 }
 
-/// A run that has ended.
 struct Done<'a, const N: usize> {
     model: &'a Loose<'a, N>,
     ended: Ended<N>,
@@ -243,7 +240,6 @@ struct Done<'a, const N: usize> {
     wall_s: f64,
 }
 
-/// The run at a tighter tolerance.
 struct Tighter {
     last: LooseState,
     record: Record,

@@ -1,6 +1,7 @@
 //! The largest joint forces of a run with a loose joint, step by step: impacts are too short for rows.
 
-use super::super::joint_force_maxima::{FORCES, Peak, sizes};
+use super::super::joint_force_maxima::sizes;
+use super::super::result::{FORCES, Peak};
 use super::follow::Follow;
 use super::motion::touch;
 use crate::engine::contact::{Phase, Stretch};

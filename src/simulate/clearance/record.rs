@@ -1,7 +1,7 @@
 //! What a run leaves behind in memory that does not grow with it: the journal's place at regular times, and what
 //! the contact did between them.
 
-use serde::Serialize;
+use super::result::ContactStatistics;
 
 /// What the contact did over some time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -31,39 +31,19 @@ impl Tally {
         self.peak = self.peak.max(other.peak);
         self.deepest = self.deepest.max(other.deepest);
     }
-}
 
-/// Statistics of the contact over a part of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct ContactStatistics {
-    /// s
-    pub from_s: f64,
-    /// s
-    pub to_s: f64,
-    /// Contacts that began.
-    pub impacts: u64,
-    /// Part of the time in contact.
-    pub contact_share: f64,
-    /// Largest normal force, N.
-    pub force_peak_n: f64,
-    /// Normal force, mean over time, N.
-    pub force_mean_n: f64,
-    /// Normal force, root of the mean square over time, N.
-    pub force_rms_n: f64,
-}
-
-impl ContactStatistics {
-    pub(super) fn new(tally: &Tally, from: f64, to: f64) -> ContactStatistics {
+    /// Over the time from one (s) to another.
+    pub fn statistics(&self, from: f64, to: f64) -> ContactStatistics {
         let mean = |sum: f64| if to > from { sum / (to - from) } else { 0.0 };
         ContactStatistics {
             from_s: from,
             to_s: to,
-            impacts: tally.impacts,
+            impacts: self.impacts,
             // The parts of the time add up to all of it but for rounding.
-            contact_share: mean(tally.touching).min(1.0),
-            force_peak_n: tally.peak,
-            force_mean_n: mean(tally.impulse),
-            force_rms_n: mean(tally.squared).sqrt(),
+            contact_share: mean(self.touching).min(1.0),
+            force_peak_n: self.peak,
+            force_mean_n: mean(self.impulse),
+            force_rms_n: mean(self.squared).sqrt(),
         }
     }
 }
@@ -71,7 +51,6 @@ impl ContactStatistics {
 /// Most samples kept; beyond them every second one goes.
 const SAMPLES_KEPT: usize = 1024;
 
-/// Samples and tallies of a run.
 #[derive(Clone, Debug)]
 pub(super) struct Record {
     /// Distance of the samples, s.
@@ -213,7 +192,7 @@ mod tests {
         }
         for since in 0..10 {
             let (tally, from) = record.since(f64::from(since));
-            let seen = ContactStatistics::new(&tally, from, end);
+            let seen = tally.statistics(from, end);
             assert!((seen.contact_share - 1.0).abs() < 1e-14, "{seen:?}");
             assert!(
                 (tally.touching / (end - from) - 1.0).abs() < 1e-14,

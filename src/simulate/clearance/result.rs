@@ -2,8 +2,6 @@
 
 use serde::Serialize;
 
-use super::record::ContactStatistics;
-
 /// The loose joint in the summary of a run.
 #[derive(Clone, Debug, Serialize)]
 pub struct ClearanceSummary {
@@ -77,4 +75,23 @@ pub struct Beyond {
     pub run: ContactStatistics,
     /// The run at the tighter tolerance.
     pub tighter: ContactStatistics,
+}
+
+/// Statistics of the contact over a part of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ContactStatistics {
+    /// s
+    pub from_s: f64,
+    /// s
+    pub to_s: f64,
+    /// Contacts that began.
+    pub impacts: u64,
+    /// Part of the time in contact.
+    pub contact_share: f64,
+    /// Largest normal force, N.
+    pub force_peak_n: f64,
+    /// Normal force, mean over time, N.
+    pub force_mean_n: f64,
+    /// Normal force, root of the mean square over time, N.
+    pub force_rms_n: f64,
 }

@@ -2,11 +2,11 @@
 
 use std::cell::Cell;
 
-use super::super::stop::Why;
-use super::stick_slip::{
+use super::super::stick_slip::{
     CLEAR, CRANK, DEAD_CENTRE, InPhase, LIMIT, NORMAL, Phase, Quantities, SPEED, Signs, TURNED,
     sliding,
 };
+use super::super::stop::Why;
 use super::{End, Follow, Observer, Piece, crank_state};
 use crate::engine::event_functions;
 use crate::engine::event_functions::{Change, EventFunction};
@@ -16,7 +16,6 @@ use crate::engine::work_forecast::WorkForecast;
 use crate::engine::{Counted, Motion};
 use crate::scene::Friction;
 
-/// A run under way.
 pub(super) struct Run<'a, 'o> {
     pub follow: &'a Follow<'a>,
     pub quantities: Quantities<'a>,
@@ -39,7 +38,6 @@ enum Cut {
 }
 
 impl Follow<'_> {
-    /// Follows the motion to its end.
     pub fn run(&self, observer: &mut dyn Observer) -> Piece {
         let Start { t, angle, speed } = self.start;
         let node = Node {
@@ -103,7 +101,6 @@ impl Run<'_, '_> {
         }
     }
 
-    /// Pieces of sliding until the end.
     fn pieces(&mut self) -> Option<End> {
         let in_time = self.in_phase(Phase::Sticking).depends_on_time();
         let ends = self.follow.settings.ends();

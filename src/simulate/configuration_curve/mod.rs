@@ -1,20 +1,14 @@
 //! Motion in time on the configuration curve: past the limits of a rocker, and with Coulomb friction.
 
-mod coordinate;
 mod follow;
 mod release;
 mod rest;
-mod roundoff;
-mod stick_slip;
 
 use std::sync::Arc;
 
-pub(super) use coordinate::AlongCurve;
-pub(super) use roundoff::Noise;
-pub(super) use stick_slip::Phase;
-
-use super::outcome::Balance;
+use super::balance::Balance;
 use super::run_setup::RunSetup;
+use super::stick_slip::Phase;
 use super::stop::Why;
 use super::warning::Warning;
 use crate::engine::step::Step;
@@ -51,7 +45,7 @@ impl OnCurve {
     /// The equation on the curve of the start, and the start on it; none where no curve goes through it.
     pub fn through_start(task: &RunSetup<'_>) -> Option<OnCurve> {
         let (curve, angle) = Curve::through(task.equation().linkage(), task.start())?;
-        let speed = match task.scene.motion.speed {
+        let speed = match task.speed {
             0.0 => 0.0,
             speed => speed / curve.place(angle.rest).dtheta,
         };
@@ -99,7 +93,6 @@ pub(super) trait Observer {
     fn event(&mut self, _kind: &'static str, _t: f64, _angle: Angle, _speed: f64) {}
 }
 
-/// What is followed, and how far.
 pub(super) struct Follow<'a> {
     pub equation: &'a CurveEquation,
     pub settings: Settings<'a>,
@@ -107,14 +100,14 @@ pub(super) struct Follow<'a> {
     pub start: Start,
     /// How far the crank may turn from `turned_from`, rad.
     pub turn_limit: Option<f64>,
-    /// Crank angle.
     pub turned_from: Angle,
 }
 
 /// How a run in time ended.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) enum End {
     /// At its time, or after its turns, or another piece follows.
+    #[default]
     Done,
     /// At rest for good before its turns are complete.
     AtRest,
@@ -126,9 +119,7 @@ pub(super) enum End {
     Named(Box<Why>),
 }
 
-/// A piece of motion in time.
 pub(super) struct Piece {
-    /// Last step.
     pub last: Step,
     /// Work of all that has no potential, J.
     pub work: f64,

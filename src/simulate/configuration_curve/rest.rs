@@ -1,11 +1,11 @@
 //! From motion to rest and from rest to motion, and where rigid bodies do not say how it goes on.
 
 use super::super::guide_friction::BESIDE;
+use super::super::stick_slip::{CRANK, DEAD_CENTRE, NORMAL, Phase, SPEED, Signs, against, signs};
 use super::super::stop::Why;
 use super::End;
 use super::follow::Run;
 use super::release::{self, Release};
-use super::stick_slip::{CRANK, DEAD_CENTRE, NORMAL, Phase, SPEED, Signs, against, signs};
 use crate::engine::Motion;
 use crate::engine::event_functions::EventFunction;
 use crate::engine::step::{Node, Step};

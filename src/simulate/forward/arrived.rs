@@ -55,7 +55,7 @@ pub(super) enum Why {
     NotApplicable(NotApplicable),
 }
 
-/// Where a pass arrived.
+#[derive(Default)]
 pub(super) struct Arrived {
     pub now: Start,
     /// Last step, if the pass ended in time.
@@ -79,24 +79,6 @@ pub(super) struct Arrived {
 }
 
 impl Arrived {
-    /// At the start.
-    pub fn at(start: Start) -> Arrived {
-        Arrived {
-            now: start,
-            last: None,
-            on_curve: false,
-            driven: None,
-            work: 0.0,
-            largest_kinetic: 0.0,
-            evaluations: 0,
-            steps: 0,
-            over_angle: 0,
-            in_time: 0,
-            end: End::Done,
-            impossible: None,
-        }
-    }
-
     /// Whether one engine computed the run in one piece.
     pub fn is_one_piece(&self) -> bool {
         self.over_angle + self.in_time == 1

@@ -2,56 +2,81 @@
 
 use std::f64::consts::TAU;
 
+use super::super::configuration_curve::Observer;
+use super::super::stick_slip::Phase;
+use super::arrived::Sink;
 use super::engine_loop::Course;
 use crate::engine::angle::Driven;
 use crate::engine::step::Step;
 use crate::engine::time::Start;
 use crate::numeric::angle::Angle;
-use crate::scene::Extent;
 
 /// With less than this part of the largest kinetic energy since it turned the crank is not handed over.
 const FAST: f64 = 0.25;
 /// A hand-over keeps this far from corners, rad: they may be events.
 const APART: f64 = 1e-6;
-/// Fewer turns than this before the end do not pay.
-const FEW_TURNS: f64 = 2.0;
 
-/// Follows a crank in time.
-pub(super) struct Clear<'a> {
+/// A crank that is followed in time until it turns safely again.
+pub(super) struct Until<'a, 'o> {
     course: &'a Course<'a>,
+    observer: &'o mut dyn Sink,
     wait: f64,
     /// Where it turned last.
     turned: Angle,
     /// Largest kinetic energy since then, J.
     since: f64,
-    /// Largest kinetic energy of all, J.
+    pub clear: Clear,
+}
+
+/// What was seen of the crank.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Clear {
+    /// Whether the angle may take over.
+    pub is_reached: bool,
+    /// Largest kinetic energy at the ends of steps, J.
     pub largest_kinetic: f64,
 }
 
-impl<'a> Clear<'a> {
-    pub fn new(course: &'a Course<'a>, from: Start, wait: f64) -> Clear<'a> {
-        Clear {
+impl Observer for Until<'_, '_> {
+    fn step(&mut self, step: &Step, phase: Option<Phase>) -> bool {
+        let ends = self.observer.step(step, phase);
+        self.clear.is_reached = !ends && self.is_reached(step);
+        ends || self.clear.is_reached
+    }
+
+    fn event(&mut self, kind: &'static str, t: f64, angle: Angle, speed: f64) {
+        self.observer.event(kind, t, angle, speed);
+    }
+}
+
+impl<'a, 'o> Until<'a, 'o> {
+    /// From a state on until the crank has turned by `wait` (rad) in one direction.
+    pub fn new(
+        course: &'a Course<'a>,
+        from: Start,
+        wait: f64,
+        observer: &'o mut dyn Sink,
+    ) -> Until<'a, 'o> {
+        Until {
             course,
+            observer,
             wait,
             turned: from.angle,
             since: 0.0,
-            largest_kinetic: 0.0,
+            clear: Clear::default(),
         }
     }
 
     /// Whether the angle may take over at the end of a step.
-    pub fn is_reached(&mut self, step: &Step) -> bool {
+    fn is_reached(&mut self, step: &Step) -> bool {
         if self.wait == f64::INFINITY {
             return false;
         }
         let end = &step.end;
         let angle = step.angle(end.theta);
-        let kinetic = self
-            .course
-            .task
-            .equation()
-            .kinetic_energy(angle.rest, end.omega);
-        self.largest_kinetic = self.largest_kinetic.max(kinetic);
+        let equation = self.course.task.equation();
+        let kinetic = equation.kinetic_energy(angle.rest, end.omega);
+        self.clear.largest_kinetic = self.clear.largest_kinetic.max(kinetic);
         if step.start.omega * end.omega <= 0.0 {
             (self.turned, self.since) = (angle, 0.0);
         }
@@ -59,7 +84,6 @@ impl<'a> Clear<'a> {
         angle.minus(self.turned).abs() >= self.wait
             && kinetic >= FAST * self.since
             && self.is_apart(angle)
-            && self.pays(end.t, angle, end.omega)
     }
 
     fn is_apart(&self, angle: Angle) -> bool {
@@ -67,16 +91,5 @@ impl<'a> Clear<'a> {
         corners
             .map(|corner| (angle.rest - corner).rem_euclid(TAU))
             .all(|ahead| ahead.min(TAU - ahead) > APART)
-    }
-
-    fn pays(&self, t: f64, angle: Angle, speed: f64) -> bool {
-        let turns = match self.course.extent {
-            Extent::Duration(duration) => speed.abs() * (duration - t) / TAU,
-            Extent::Revolutions(turns) => {
-                let turned = angle.minus(self.course.task.start());
-                turns - speed.signum() * turned / TAU
-            }
-        };
-        turns >= FEW_TURNS
     }
 }

@@ -21,7 +21,6 @@ use crate::scene::Extent;
 pub(super) struct Course<'a> {
     pub task: &'a RunSetup<'a>,
     pub position: &'a AngleModel<'a>,
-    /// The engine that begins.
     pub first: Engine,
     /// Whether it is the pass that another one is compared with.
     pub is_second: bool,
@@ -35,7 +34,6 @@ pub(super) struct Course<'a> {
     pub curve: OnceCell<OnCurve>,
 }
 
-/// A pass under way.
 pub(super) struct Pass<'a, 'o> {
     pub course: &'a Course<'a>,
     pub motion: &'a Counted<'a>,
@@ -55,7 +53,10 @@ impl Course<'_> {
             course: self,
             motion,
             sink,
-            arrived: Arrived::at(self.task.first_state()),
+            arrived: Arrived {
+                now: self.task.first_state(),
+                ..Arrived::default()
+            },
             places: self.position.evaluations(),
             beside: 0,
             wait: self.wait,

@@ -1,7 +1,8 @@
 //! Errors of motions over the crank angle: by rounding of times and places, and by what their series leave out.
 
+use super::super::balance::Balance;
 use super::super::error_estimate::MARGIN;
-use super::super::outcome::{Balance, Estimate};
+use super::super::outcome::Estimate;
 use super::super::result::ErrorEstimate;
 use super::super::run_setup::RunSetup;
 use super::arrived::Arrived;
@@ -73,7 +74,7 @@ pub(super) fn by_energy(
 
 /// Error of a state by that of its time, and by the rounding of its place and of energies.
 fn rounded(task: &RunSetup<'_>, (orbit, t): (&Orbit, f64), state: (Angle, f64)) -> ErrorEstimate {
-    let rests = task.scene.motion.speed == 0.0 || orbit.turns_back();
+    let rests = task.speed == 0.0 || orbit.turns_back();
     let rounding = if rests {
         ROUNDING_AT_REST
     } else {

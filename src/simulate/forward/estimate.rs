@@ -9,13 +9,14 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::super::checkpoints::Compared;
-use super::super::configuration_curve::{End, Noise, Observer, OnCurve, Phase};
-use super::super::error_estimate::{Forward, MARGIN, Rounding, much_tighter, tighter};
+use super::super::configuration_curve::{End, Observer, OnCurve};
+use super::super::error_estimate::{Forward, MARGIN, much_tighter, tighter};
 use super::super::outcome::Estimate;
 use super::super::recorder::Record;
 use super::super::result::{Cost, ErrorEstimate};
-use super::super::roundoff_propagation::Spread;
+use super::super::roundoff_propagation::{Rounding, Spread};
 use super::super::state_transition::StateTransition;
+use super::super::stick_slip::Phase;
 use super::arrived::{Arrived, Driven, Sink};
 use super::engine_loop::Course;
 use super::errors_over_angle::{
@@ -65,36 +66,43 @@ fn by_second_run(
     wants_rows: bool,
 ) -> Option<Estimate> {
     let begun = Instant::now();
-    let tolerance = course.settings.tolerance;
+    let guide = arrived.driven.as_ref().filter(|_| arrived.is_one_piece());
+    let guide = guide.map(|driven| Guide::new(&driven.driving.orbit, course.resolution.tail));
+    let t_end = arrived.now.t;
+    let over_angle = arrived.over_angle > 0;
+    let share = arrived.evaluations.saturating_mul(FOR_ONE);
+    let plain = Settings {
+        t_end,
+        ..course.settings
+    };
+    let tolerance = plain.tolerance;
     let collocation = Settings {
         method: Method::Picard,
         tolerance: much_tighter(tolerance),
-        guide: record.checkpoints.first(),
-        ..course.settings
+        guide: &record.checkpoints.first,
+        ..plain
     };
+    // Where collocation does not get to the end.
     let again = Settings {
         tolerance: tighter(tolerance),
-        ..course.settings
+        ..plain
     };
-    let guide = arrived.driven.as_ref().filter(|_| arrived.is_one_piece());
-    let guide = guide.map(|driven| Guide::new(&driven.driving.orbit, course.resolution.tail));
     let mut evaluations = 0;
-    let mut second = |settings: Settings<'_>| {
-        let share = arrived.evaluations.saturating_mul(FOR_ONE);
-        let beside = BESIDE[usize::from(arrived.over_angle > 0)];
-        let t_end = arrived.now.t;
+    let second = |settings| {
         let finer = Course {
-            first: match arrived.over_angle {
-                0 => Engine::Time,
-                _ => Engine::Angle,
+            first: match over_angle {
+                true => Engine::Angle,
+                false => Engine::Time,
             },
             is_second: true,
             extent: Extent::Duration(t_end),
             resolution: finer(guide),
-            settings: Settings { t_end, ..settings },
+            settings,
             wait: OTHER_WAIT,
             limit: WorkLimit {
-                evaluations: share.saturating_add(beside).min(course.limit.evaluations),
+                evaluations: share
+                    .saturating_add(BESIDE[usize::from(over_angle)])
+                    .min(course.limit.evaluations),
                 ..course.limit
             },
             ..course.clone()
@@ -103,11 +111,11 @@ fn by_second_run(
         let motion = Counted::new(&forward);
         let mut seen = Second::new(&finer, &motion, record);
         let best = finer.run(&motion, &mut seen).ok()?;
-        evaluations += best.evaluations + seen.noise.evaluations;
+        evaluations += best.evaluations + seen.rounding.evaluations;
         let arrives = matches!(best.end, End::Done);
-        arrives.then_some((best, seen.spread(), seen.compared))
+        arrives.then_some((best, seen.rounding.spread, seen.compared))
     };
-    let (best, spread, compared) = second(collocation).or_else(|| second(again))?;
+    let (best, spread, compared) = [collocation, again].into_iter().find_map(second)?;
     let cost = Cost {
         evaluations,
         wall_s: begun.elapsed().as_secs_f64(),
@@ -120,7 +128,7 @@ fn by_second_run(
             worst_row(one.driving.end, error, |t| row_error(orbits, t, error))
         }),
         (Some(_), None) => None,
-        (None, _) => Some(compared.worst(error, MARGIN)),
+        (None, _) => Some(compared.worst(error)),
     };
     Some(Estimate {
         error,
@@ -178,9 +186,8 @@ struct Second<'m, 'a> {
     equation: &'m Equation,
     motion: &'m Counted<'m>,
     rounding: Rounding,
-    /// The configuration curve of the last piece in time, if it follows one, and what rounding does along it.
+    /// The configuration curve of the last piece in time, if it follows one.
     on: Option<Arc<CurveEquation>>,
-    noise: Noise,
     compared: Compared<'a>,
 }
 
@@ -196,13 +203,8 @@ impl<'m, 'a> Second<'m, 'a> {
             motion,
             rounding: Rounding::new(course.settings.method, moves),
             on: None,
-            noise: Noise::default(),
-            compared: record.checkpoints.compared(),
+            compared: Compared::with(&record.checkpoints),
         }
-    }
-
-    fn spread(&self) -> Spread {
-        self.rounding.spread
     }
 
     /// What becomes of a perturbation over a piece over the angle: it is early by a time, which stays, and has another
@@ -269,15 +271,12 @@ impl Sink for Second<'_, '_> {
 impl Observer for Second<'_, '_> {
     fn step(&mut self, step: &Step, phase: Option<Phase>) -> bool {
         let Second {
-            rounding,
-            noise,
-            compared,
-            ..
+            rounding, compared, ..
         } = self;
         match self.on.as_deref().zip(phase) {
             Some((on, phase)) => {
                 compared.pass(step, |q| on.curve().place(q).dtheta);
-                rounding.spread = noise.step(rounding.spread, on, step, phase);
+                rounding.step_on_curve(on, step, phase);
             }
             None => {
                 rounding.step(self.equation, self.motion, step);

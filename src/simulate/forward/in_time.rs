@@ -3,17 +3,15 @@
 
 use std::borrow::Cow;
 
-use super::super::configuration_curve::{self, End, Follow, Observer, OnCurve, Phase, Piece};
+use super::super::configuration_curve::{self, End, Follow, Observer, OnCurve, Piece};
 use super::super::stop;
 use super::arrived::Why;
-use super::clear::Clear;
+use super::clear::{Clear, Until};
 use super::engine_loop::{Course, Pass};
 use super::stop_reason;
 use crate::engine::WorkLimit;
-use crate::engine::step::Step;
 use crate::engine::time::{self, Finish, Settings, Start};
 use crate::error::Error;
-use crate::numeric::angle::Angle;
 use crate::plan::Engine;
 use crate::scene::Extent;
 
@@ -28,10 +26,9 @@ impl Pass<'_, '_> {
             true => Some(course.on_curve()?),
             false => None,
         };
-        let mut clear = Clear::new(course, from, wait);
-        let (piece, back) = match on {
-            Some(on) => self.along_curve(on, &mut clear),
-            None => self.of_crank(&mut clear),
+        let (piece, clear) = match on {
+            Some(on) => self.along_curve(on, wait),
+            None => self.of_crank(wait),
         };
         let end = &piece.last.end;
         let coordinate = Start {
@@ -50,6 +47,7 @@ impl Pass<'_, '_> {
         arrived.impossible = piece.impossible;
         arrived.on_curve = on.is_some();
         arrived.last = Some(piece.last);
+        let back = clear.is_reached && matches!(piece.end, End::Stopped);
         arrived.end = match (piece.end, course.extent) {
             (End::Stopped, _) if back => End::Done,
             (End::Done, Extent::Revolutions(turns)) if arrived.now.t >= time::FAR => {
@@ -64,8 +62,8 @@ impl Pass<'_, '_> {
         Ok(Why::Ended)
     }
 
-    /// With the crank angle as the coordinate; whether the angle may take over.
-    fn of_crank(&mut self, clear: &mut Clear<'_>) -> (Piece, bool) {
+    /// With the crank angle as the coordinate.
+    fn of_crank(&mut self, wait: f64) -> (Piece, Clear) {
         let from = self.arrived.now;
         let settings = Settings {
             limit: WorkLimit {
@@ -75,36 +73,33 @@ impl Pass<'_, '_> {
             ..self.course.settings
         };
         self.sink.begin_in_time(from, None);
-        let mut until = Until {
-            observer: &mut *self.sink,
-            clear,
-            back: false,
-        };
-        let (mut finish, mut last, steps) = time::run(self.motion, from, &settings, &mut |step| {
+        let mut until = Until::new(self.course, from, wait, &mut *self.sink);
+        let (finish, last, steps) = time::run(self.motion, from, &settings, &mut |step| {
             until.step(step, None)
         });
-        let back = until.back && finish == Finish::Stopped;
-        if let Some(shortened) = self.sink.end_in_time(self.motion, &last, &settings) {
-            (finish, last) = (Finish::AtEnd, shortened);
-        }
+        let clear = until.clear;
+        let shortened = self.sink.end_in_time(self.motion, &last, &settings);
+        let end = match finish {
+            _ if shortened.is_some() => End::Done,
+            Finish::AtEnd => End::Done,
+            Finish::Stopped => End::Stopped,
+            finish => End::Integrator(finish),
+        };
+        let last = shortened.unwrap_or(last);
         let impossible = self.motion.impossible();
         let piece = Piece {
             last,
             work: last.end.work,
             steps,
             evaluations: 0,
-            end: match finish {
-                Finish::AtEnd => End::Done,
-                Finish::Stopped => End::Stopped,
-                finish => End::Integrator(finish),
-            },
+            end,
             impossible: impossible.map(|(t, angle, speed)| Start { t, angle, speed }),
         };
-        (piece, back)
+        (piece, clear)
     }
 
-    /// Along the curve; whether the angle may take over.
-    fn along_curve(&mut self, on: &OnCurve, clear: &mut Clear<'_>) -> (Piece, bool) {
+    /// Along the curve.
+    fn along_curve(&mut self, on: &OnCurve, wait: f64) -> (Piece, Clear) {
         let course = self.course;
         let begins = self.arrived.over_angle + self.arrived.in_time == 0;
         let follow = Follow {
@@ -119,17 +114,13 @@ impl Pass<'_, '_> {
             turned_from: course.task.start(),
         };
         self.sink.begin_in_time(follow.start, Some(on));
-        let mut until = Until {
-            observer: &mut *self.sink,
-            clear,
-            back: false,
-        };
+        let mut until = Until::new(course, self.arrived.now, wait, &mut *self.sink);
         let piece = follow.run(&mut until);
-        let back = until.back && matches!(piece.end, End::Stopped);
+        let clear = until.clear;
         self.beside += piece.evaluations;
         self.sink
             .end_in_time(self.motion, &piece.last, &follow.settings);
-        (piece, back)
+        (piece, clear)
     }
 }
 
@@ -142,24 +133,5 @@ impl Course<'_> {
         let on = OnCurve::through_start(self.task);
         let on = on.ok_or_else(|| stop_reason::no_start(self.task))?;
         Ok(self.curve.get_or_init(|| on))
-    }
-}
-
-/// Ends a piece when the crank turns safely again.
-struct Until<'a, 'c, O: Observer + ?Sized> {
-    observer: &'a mut O,
-    clear: &'a mut Clear<'c>,
-    back: bool,
-}
-
-impl<O: Observer + ?Sized> Observer for Until<'_, '_, O> {
-    fn step(&mut self, step: &Step, phase: Option<Phase>) -> bool {
-        let ends = self.observer.step(step, phase);
-        self.back = !ends && self.clear.is_reached(step);
-        ends || self.back
-    }
-
-    fn event(&mut self, kind: &'static str, t: f64, angle: Angle, speed: f64) {
-        self.observer.event(kind, t, angle, speed);
     }
 }

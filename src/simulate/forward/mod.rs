@@ -3,7 +3,6 @@
 
 mod arrived;
 mod clear;
-mod crank;
 mod engine_loop;
 mod errors_over_angle;
 mod estimate;
@@ -20,12 +19,12 @@ use std::time::Instant;
 use arrived::{Arrived, Driven};
 use engine_loop::Course;
 use notes::Notes;
-pub(super) use stop_reason::unserved;
 
 use super::angle_model::AngleModel;
+use super::balance::Balance;
 use super::configuration_curve::{self, End};
 use super::error_estimate::Forward;
-use super::outcome::{Balance, Outcome};
+use super::outcome::Outcome;
 use super::recorder::Record;
 use super::row::RowSink;
 use super::run_setup::RunSetup;
@@ -35,20 +34,23 @@ use crate::engine::Counted;
 use crate::engine::time::Finish;
 use crate::error::Error;
 use crate::numeric::angle::Angle;
-use crate::plan::{Engine, cycle_over_angle};
+use crate::plan::Engine;
 use crate::trajectory::Trajectory;
 
 /// How far the crank turns in one direction before the angle takes over again, rad.
 const WAIT: f64 = TAU;
 
-/// Runs a task.
-pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
+/// Runs a task, whose mechanism over the crank angle is known.
+pub(super) fn run(
+    task: &RunSetup<'_>,
+    position: &AngleModel<'_>,
+    rows: &mut dyn RowSink,
+) -> Result<Simulation, Error> {
     let begun = Instant::now();
     let wants_rows = rows.wants_rows();
-    let position = position(task);
     let course = Course {
         task,
-        position: &position,
+        position,
         first: task.plan.engine,
         is_second: false,
         extent: task.extent,
@@ -99,25 +101,6 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
         _ => outcome.with_bounded_speeds(task),
     };
     Ok(with_motion(outcome.conclude(task), course, arrived))
-}
-
-/// The mechanism over the crank angle.
-fn position<'a>(task: &'a RunSetup<'_>) -> AngleModel<'a> {
-    let speed = task.scene.motion.speed;
-    let mut position = AngleModel::new(task.equation(), &task.limits, task.start(), speed)
-        .with_friction(task.maker.sliding.as_deref())
-        .with_limit(task.options.limit());
-    if task.plan.engine == Engine::Time {
-        return position;
-    }
-    let cycle = cycle_over_angle(task.scene).ok();
-    if let Some(turns) = cycle {
-        position = position.with_cycle(turns);
-    }
-    if task.plan.engine == Engine::Energy && cycle == Some(1) {
-        position = position.with_turns_alike();
-    }
-    position
 }
 
 /// The engine by whose name a run goes: that over the angle, if any piece was.

@@ -5,15 +5,16 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::super::bounded_motion::Swing;
-use super::super::configuration_curve::{AlongCurve, Observer, OnCurve, Phase, crank_state};
+use super::super::configuration_curve::{Observer, OnCurve, crank_state};
+use super::super::coordinate::{AlongCurve, Coordinate, Crank};
 use super::super::passages::{Stretch, is_dead_centre};
-use super::super::recorder::{Coordinate, Record, Recorder};
+use super::super::recorder::{Record, Recorder};
 use super::super::result::Event;
 use super::super::row::RowSink;
 use super::super::run_setup::RunSetup;
+use super::super::stick_slip::Phase;
 use super::super::stop::Why;
 use super::arrived::{Arrived, Driven, Sink};
-use super::crank::Crank;
 use crate::engine::Counted;
 use crate::engine::events::{self, Crossing};
 use crate::engine::step::Step;
@@ -27,7 +28,6 @@ use crate::trajectory::Trajectory;
 /// Two passages of a dead centre this near to each other (rad) are one, at the end of a piece and the start of the next.
 const SAME_PLACE: f64 = 1e-9;
 
-/// Notes of a run.
 pub(super) struct Notes<'a> {
     task: &'a RunSetup<'a>,
     recorder: Recorder<'a>,
@@ -110,8 +110,6 @@ impl<'a> Notes<'a> {
         let crank = Crank {
             maker: &self.task.maker,
             motion: self.motion,
-            start: self.task.start(),
-            crossings: &self.crossings,
         };
         self.recorder.step(&mut step, until, &crank, None) || self.ends_at.is_some()
     }
@@ -130,7 +128,6 @@ impl<'a> Notes<'a> {
         fails || self.swing.is_some_and(|swing| swing.is_caught())
     }
 
-    /// Least and largest speed.
     fn follow_speed(&mut self, step: &mut Step) {
         let speed = self.recorder.speed();
         *speed = events::follow_speed(step, self.motion, *speed);
@@ -227,7 +224,7 @@ impl<'a> Notes<'a> {
 
 /// The coordinate of a curve in one phase.
 fn along<'a>(task: &'a RunSetup<'_>, on: &'a CurveEquation, phase: Phase) -> AlongCurve<'a> {
-    AlongCurve::new(on, phase, task.maker.reactor.as_deref(), task.start())
+    AlongCurve::new(on, phase, task.maker.reactor.as_deref())
 }
 
 impl Observer for Notes<'_> {

@@ -170,7 +170,7 @@ struct Solved {
 
 /// Solves a task.
 fn solve(task: &RunSetup<'_>, position: &AngleModel<'_>) -> Result<Solved, NotApplicable> {
-    let speed = task.scene.motion.speed;
+    let speed = task.speed;
     let tail = (SHARE_OF_ENERGY * task.scene.run.tolerance).clamp(LEAST_TAIL, MOST_TAIL);
     let (orbit, end, stopped) = until_the_end(task, |until| {
         Orbit::new(position, task.start(), speed, until, tail)
@@ -207,7 +207,7 @@ fn until_the_end(
         Extent::Revolutions(turns) => turns,
     };
     let radians = turns * TAU;
-    let speed = task.scene.motion.speed;
+    let speed = task.speed;
     // Long enough for the turns: twice as long again and again, unless the motion repeats.
     let mut until = if speed == 0.0 {
         1.0

@@ -2,14 +2,15 @@
 
 use super::super::configuration_curve::End;
 use super::super::run_setup::RunSetup;
-use super::super::stop::{self, Why};
+use super::super::stalled::torques;
+use super::super::stop::{Why, unserved};
 use super::arrived::Arrived;
 use super::engine_loop::Course;
 use crate::engine::energy::NotApplicable;
 use crate::engine::time::{Finish, Start};
 use crate::error::Error;
 use crate::mechanism::{CurveEquation, Equation, Singularity};
-use crate::scene::{Extent, Instant};
+use crate::scene::Extent;
 
 /// Why the run ended before its time, if it did.
 pub(super) fn reason(course: &Course<'_>, arrived: &Arrived) -> Option<Why> {
@@ -19,7 +20,7 @@ pub(super) fn reason(course: &Course<'_>, arrived: &Arrived) -> Option<Why> {
         (End::Integrator(finish), _) => *finish,
         (End::AtRest, Extent::Revolutions(turns)) => {
             let theta = arrived.now.angle.radians();
-            let held_by = task.turns_fully().then(|| stop::torques(task, theta));
+            let held_by = task.turns_fully().then(|| torques(task, theta));
             return Some(Why::AtRest { turns, held_by });
         }
         _ => return None,
@@ -29,18 +30,19 @@ pub(super) fn reason(course: &Course<'_>, arrived: &Arrived) -> Option<Why> {
         Finish::WorkLimitAhead => Why::WorkLimitAhead,
         Finish::TooManyTurns => Why::TooManyTurns,
         _ => match course.curve.get().filter(|_| arrived.on_curve) {
-            Some(on) => singular_on_curve(task.equation(), &on.equation, arrived),
-            None => singular(task.equation(), arrived),
+            Some(on) => singular_on_curve(task, &on.equation, arrived),
+            None => singular(task, arrived),
         },
     })
 }
 
 /// Why the steps of the crank became too small.
-fn singular(equation: &Equation, arrived: &Arrived) -> Why {
+fn singular(task: &RunSetup<'_>, arrived: &Arrived) -> Why {
+    let equation = task.equation();
     let at = arrived.impossible.unwrap_or(arrived.now);
     match equation.obstacle(at.t, at.angle, at.speed) {
         Some(Singularity::Blocked) => Why::AtLimit,
-        Some(Singularity::Load) => no_value(equation, at),
+        Some(Singularity::Load) => no_value(task, at),
         Some(Singularity::NoInertia) => Why::NoInertia,
         Some(Singularity::TooLarge) => Why::TooLarge,
         None if nearly_vanishes(equation, arrived.now.angle.rest) => Why::NearlyNoInertia,
@@ -49,33 +51,27 @@ fn singular(equation: &Equation, arrived: &Arrived) -> Why {
 }
 
 /// Why the steps along the configuration curve became too small.
-fn singular_on_curve(equation: &Equation, on: &CurveEquation, arrived: &Arrived) -> Why {
+fn singular_on_curve(task: &RunSetup<'_>, on: &CurveEquation, arrived: &Arrived) -> Why {
     let impossible = arrived.impossible.filter(|at| {
-        !equation
+        !task
+            .equation()
             .load(at.t, at.angle.radians(), at.speed)
             .is_finite()
     });
     let stands = arrived.last.map(|last| last.end.theta);
     match (impossible, stands) {
-        (Some(at), _) => no_value(equation, at),
+        (Some(at), _) => no_value(task, at),
         (None, Some(q)) if on.vanishes_at(q) => Why::NoInertiaOnCurve,
         _ => Why::Singular,
     }
 }
 
 /// A load has no finite value at a state: which.
-fn no_value(equation: &Equation, asked: Start) -> Why {
-    let theta = asked.angle.radians();
-    let pose = equation.linkage().pose(theta);
-    let now = Instant {
-        t: asked.t,
-        theta,
-        omega: asked.speed,
-        x: pose.x,
-        v: pose.dx * asked.speed,
-    };
-    let load = equation.loads().without_value(&now).cloned();
-    Why::NoValue { asked, load }
+fn no_value(task: &RunSetup<'_>, asked: Start) -> Why {
+    Why::NoValue {
+        asked,
+        load: task.maker.without_value(asked),
+    }
 }
 
 /// Whether the inertia is next to nothing at an angle (rad), compared with that a radian further.
@@ -117,19 +113,4 @@ pub(super) fn refusal(task: &RunSetup<'_>, why: NotApplicable) -> Error {
         ),
         "use --method auto or time",
     )
-}
-
-/// Why a motion over the crank angle does not go on.
-pub(in crate::simulate) fn unserved(why: NotApplicable) -> &'static str {
-    match why {
-        NotApplicable::Equilibrium => "it starts at rest without a force",
-        NotApplicable::NotFinite => "a load has no finite value on the way",
-        NotApplicable::NotSmooth => "a load is not smooth",
-        NotApplicable::TooSlow => "the crank comes too near to rest",
-        NotApplicable::WorkLimit => "it takes more evaluations than the work limit allows",
-        NotApplicable::TooManyTurns => "it takes more turns than the work limit allows",
-        NotApplicable::TooLong => {
-            "its turns differ from each other, and they are too many to be kept"
-        }
-    }
 }

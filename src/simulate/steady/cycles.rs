@@ -1,11 +1,16 @@
 //! The map of a cycle (Poincare): the kinetic energy at its end from that at its start, by a run of one cycle.
 
-use super::super::{NoRows, Options, Simulation, simulate, simulate_rows};
-use crate::engine::WorkLimit;
+use std::f64::consts::{PI, TAU};
+
+use super::super::angle_model::AngleModel;
+use super::super::forward;
+use super::super::options::Options;
+use super::super::row::NoRows;
+use super::super::run_setup::RunSetup;
+use super::super::simulation::Simulation;
 use crate::engine::angle::CycleMap;
 use crate::engine::energy::NotApplicable;
 use crate::error::Error;
-use crate::mechanism::Equation;
 use crate::numeric::angle::Angle;
 use crate::numeric::root;
 use crate::scene::{Extent, Scene};
@@ -15,7 +20,6 @@ use crate::trajectory::Trajectory;
 const TOLERANCE: f64 = 1e-14;
 const OTHER: f64 = 1e-13;
 
-/// A cycle.
 pub(super) struct Cycle {
     pub trajectory: Trajectory,
     /// s
@@ -48,41 +52,37 @@ impl Cycle {
     }
 }
 
-/// Cycles of any energy.
-pub(super) struct Cycles {
-    scene: Scene,
-    turns: f64,
+/// Cycles of any energy: runs of one set-up, which share their panels.
+pub(super) struct Cycles<'a> {
+    task: &'a RunSetup<'a>,
+    model: &'a AngleModel<'a>,
     /// Inertia at the start, kg m².
     inertia: f64,
-    options: Options,
     largest: f64,
     noise: f64,
     /// What a run was refused for, beside a crank that does not complete the cycle.
     pub refused: Option<Error>,
 }
 
-impl Cycles {
-    /// Cycles of so many turns, in the direction of `speed` (rad/s); `other`: for the computation to compare with.
-    pub fn new(scene: &Scene, speed: f64, turns: u32, other: bool, limit: WorkLimit<'_>) -> Cycles {
-        let mut scene = scene.clone();
-        scene.motion.speed = speed;
-        scene.run.extent = Some(Extent::Revolutions(turns.into()));
-        scene.run.output_every = None;
-        scene.run.tolerance = if other { OTHER } else { TOLERANCE };
-        let start = Angle::from(scene.motion.angle).reduced();
+/// The scene over one cycle of so many turns from a speed (rad/s); `other`: for the computation to compare with.
+pub(super) fn one_cycle(scene: &Scene, speed: f64, turns: u32, other: bool) -> Scene {
+    let mut scene = scene.clone();
+    scene.motion.speed = speed;
+    scene.run.extent = Some(Extent::Revolutions(turns.into()));
+    scene.run.output_every = None;
+    scene.run.tolerance = if other { OTHER } else { TOLERANCE };
+    scene
+}
+
+impl<'a> Cycles<'a> {
+    /// Runs of one cycle and its mechanism over the angle.
+    pub fn new(task: &'a RunSetup<'a>, model: &'a AngleModel<'a>) -> Cycles<'a> {
         Cycles {
-            inertia: Equation::new(&scene).terms(start.rest).inertia.m,
-            turns: turns.into(),
-            options: Options {
-                estimate: false,
-                max_evaluations: limit.evaluations,
-                stop: limit.stop.cloned(),
-                events_kept: 0,
-                ..Options::default()
-            },
+            task,
+            model,
+            inertia: task.equation().terms(task.start().rest).inertia.m,
             largest: 0.0,
-            noise: scene.run.tolerance,
-            scene,
+            noise: task.scene.run.tolerance,
             refused: None,
         }
     }
@@ -91,26 +91,35 @@ impl Cycles {
         0.5 * self.inertia * speed * speed
     }
 
+    /// Speed at the start with a kinetic energy (J), rad/s.
+    fn speed(&self, kinetic: f64) -> f64 {
+        (2.0 * kinetic / self.inertia)
+            .sqrt()
+            .copysign(self.task.speed)
+    }
+
     fn run(&mut self, kinetic: f64, keep: bool) -> Result<Simulation, NotApplicable> {
-        let speed = (2.0 * kinetic / self.inertia).sqrt();
-        self.scene.motion.speed = speed.copysign(self.scene.motion.speed);
         let options = Options {
             estimate: keep,
-            ..self.options.clone()
+            ..self.task.options.clone()
         };
-        let run = match keep {
-            true => simulate(&self.scene, &options),
-            false => simulate_rows(&self.scene, &options, &mut NoRows),
+        let task = RunSetup {
+            speed: self.speed(kinetic),
+            one_way: true,
+            kept: if keep { usize::MAX } else { 0 },
+            options: &options,
+            ..self.task.clone()
         };
-        let run = run.map_err(|error| {
+        let run = forward::run(&task, self.model, &mut NoRows).map_err(|error| {
             self.refused = Some(error);
             NotApplicable::NotFinite
         })?;
         let summary = &run.summary;
         let fastest = summary.omega_max.abs().max(summary.omega_min.abs());
         self.largest = self.energy(fastest);
-        let turned = summary.revolutions * self.scene.motion.speed.signum();
-        let complete = summary.stopped.is_none() && turned > self.turns - 0.5;
+        let turned = TAU * summary.revolutions * self.task.speed.signum();
+        let whole = task.extent.angle().unwrap_or_default();
+        let complete = summary.stopped.is_none() && turned > whole - PI;
         complete.then_some(run).ok_or(NotApplicable::TooSlow)
     }
 
@@ -127,7 +136,7 @@ impl Cycles {
         let slowest = summary.omega_max.abs().min(summary.omega_min.abs());
         Ok(Cycle {
             period: summary.last.t_s,
-            speed: self.scene.motion.speed,
+            speed: self.speed(kinetic),
             gain: self.energy(last) - kinetic,
             largest: self.largest,
             uncertain: self.noise * self.largest / self.energy(slowest),
@@ -136,9 +145,9 @@ impl Cycles {
     }
 }
 
-impl CycleMap for Cycles {
+impl CycleMap for Cycles<'_> {
     fn first(&self) -> f64 {
-        self.energy(self.scene.motion.speed)
+        self.energy(self.task.speed)
     }
 
     fn gain(&mut self, kinetic: f64) -> Result<f64, NotApplicable> {

@@ -1,7 +1,7 @@
 //! The flywheel for a wanted coefficient of fluctuation.
 
 use super::Both;
-use super::periodic_orbit::Seeker;
+use super::periodic_orbit::find;
 use super::result::{Estimated, Flywheel};
 use crate::engine::WorkLimit;
 use crate::error::Error;
@@ -38,7 +38,7 @@ pub(super) fn size(
         ));
     }
     let excess = |added: f64| -> Result<f64, Error> {
-        let found = Seeker::new(&with(scene, added), speed, limit).find()?;
+        let found = find(&with(scene, added), speed, limit)?;
         Ok((found.fluctuation() / wanted).ln())
     };
     let (low, high) = match present.value > wanted {
@@ -66,7 +66,7 @@ pub(super) fn size(
     };
     let scene = with(scene, added);
     scene.check()?;
-    let found = Seeker::new(&scene, speed, limit).find()?;
+    let found = find(&scene, speed, limit)?;
     let both = Both::with_check(&scene, found, limit)?;
     let fluctuation = both.fluctuation();
     let crank = scene.crank.map_or(0.0, |crank| crank.inertia);

@@ -17,13 +17,13 @@ const PIECES: u32 = 16;
 /// Each load of a scene, and friction at its guide.
 pub(super) fn works(scene: &Scene, both: &Both) -> Vec<LoadWork> {
     let Both { found, check, .. } = both;
-    let linkage = Linkage::new(&scene.geometry);
-    let linkage = &linkage;
+    let linkage = &Linkage::new(&scene.geometry);
     let mut works = Vec::new();
     let mut add = |name: String, load: Option<&Load>, torque: &Torque<'_>| {
-        let (work, size) = work(linkage, load, torque, found);
-        let (other, _) = self::work(linkage, load, torque, check);
-        let error = MARGIN * (work - other).abs() + 4.0 * both.relative * size;
+        let cuts = cuts(load, linkage, found);
+        let work = work(&cuts, torque, both.relative, found);
+        let error = MARGIN * (work - self::work(&cuts, torque, both.relative, check)).abs()
+            + 4.0 * both.relative * size(&cuts, torque, found);
         let over = |span: f64| Estimated {
             value: work / span,
             error: error / span.abs(),
@@ -45,9 +45,10 @@ pub(super) fn works(scene: &Scene, both: &Both) -> Vec<LoadWork> {
     let equation = Equation::new(scene);
     if let Some(sliding) = Sliding::new(scene, &equation) {
         // Not at the start of a motion, where the guide is what it will be.
-        let force =
-            |angle: Angle, omega: f64| sliding.state(f64::MIN_POSITIVE, angle, omega).1.friction;
-        let torque = |angle: Angle, omega: f64| force(angle, omega) * linkage.pose(angle.rest).dx;
+        let torque = |angle: Angle, omega: f64| {
+            let (_, touch) = sliding.state(f64::MIN_POSITIVE, angle, omega);
+            touch.friction * linkage.pose(angle.rest).dx
+        };
         add("friction at the guide".to_owned(), None, &torque);
     }
     works
@@ -70,20 +71,15 @@ fn crank_torque(linkage: &Linkage, load: &Load, on_slider: bool, angle: Angle, o
     arm * single(load, on_slider, &now)
 }
 
-/// Work over a period, J, and the size of what adds up to it.
-fn work(linkage: &Linkage, load: Option<&Load>, torque: &Torque<'_>, found: &Found) -> (f64, f64) {
+/// Where the crank has turned to (rad) at the corners of a load and the dead centres of a period, and between them.
+fn cuts(load: Option<&Load>, linkage: &Linkage, found: &Found) -> Vec<f64> {
     let sense = found.cycle.speed.signum();
-    let torque =
-        |turned: f64| sense * torque(found.start.plus(sense * turned), found.omega(turned));
     let begin = found.start.radians();
     let end = begin + sense * found.way();
     let turned = |theta: f64| sense * (theta - begin);
-    let mut cuts: Vec<f64> = load
-        .map(|load| load.corners_between(begin.min(end), begin.max(end)))
-        .unwrap_or_default()
-        .into_iter()
-        .map(turned)
-        .collect();
+    let corners = load.map(|load| load.corners_between(begin.min(end), begin.max(end)));
+    let corners = corners.into_iter().flatten();
+    let mut cuts: Vec<f64> = corners.map(turned).collect();
     let dead_centres = Limits::new(linkage, found.cycle.speed).dead_centres;
     for turn in 0..found.turns as u32 {
         let before = f64::from(turn) * TAU;
@@ -94,12 +90,29 @@ fn work(linkage: &Linkage, load: Option<&Load>, torque: &Torque<'_>, found: &Fou
     }
     cuts.push(found.way());
     cuts.sort_by(f64::total_cmp);
-    let integral = |f: &dyn Fn(f64) -> f64, tolerance: f64| -> f64 {
-        let pieces = cuts.windows(2);
-        pieces
-            .map(|w| gauss::adaptive(f, w[0], w[1], tolerance))
-            .sum()
+    cuts
+}
+
+/// Work over a period, J. Speeds are known to a part `relative` of themselves: what that makes of the work of a piece is not
+/// resolved.
+fn work(cuts: &[f64], torque: &Torque<'_>, relative: f64, found: &Found) -> f64 {
+    let sense = found.cycle.speed.signum();
+    let force = |turned: f64| sense * torque(found.angle(turned), found.omega(turned));
+    let piece = |ends: &[f64]| {
+        let [from, to] = [ends[0], ends[1]];
+        let (angle, speed) = (found.angle(from), found.omega(from));
+        let open = torque(angle, speed * (1.0 + relative)) - torque(angle, speed);
+        let tolerance = (1e-15 * found.cycle.largest).max(open.abs() * (to - from));
+        gauss::adaptive(&force, from, to, tolerance)
     };
-    let size = integral(&|turned| torque(turned).abs(), f64::INFINITY);
-    (integral(&torque, 1e-15 * found.cycle.largest), size)
+    cuts.windows(2).map(piece).sum()
+}
+
+/// Size of what adds up to the work, J.
+fn size(cuts: &[f64], torque: &Torque<'_>, found: &Found) -> f64 {
+    let size = |turned: f64| torque(found.angle(turned), found.omega(turned)).abs();
+    let pieces = cuts.windows(2);
+    pieces
+        .map(|ends| gauss::composite(size, ends[0], ends[1], 1))
+        .sum()
 }

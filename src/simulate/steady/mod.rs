@@ -16,7 +16,7 @@ use crate::mechanism::{Class, Limits, Linkage};
 use crate::numeric::stop::Stop;
 use crate::plan::Cycle;
 use crate::scene::{MotionKind, Scene};
-use periodic_orbit::{Found, Seeker};
+use periodic_orbit::{Found, find};
 pub use result::{Estimated, Flywheel, LoadWork, SpeedExtreme, SpeedOrder, SteadyState};
 
 /// Highest order of the speed that is shown, per turn.
@@ -142,10 +142,10 @@ fn refuse_what_has_none(scene: &Scene) -> Result<(), Error> {
 /// The steady state in the sense of the start speed; both senses are tried for a start at rest.
 fn first(scene: &Scene, rests: bool, limit: WorkLimit<'_>) -> Result<Found, Error> {
     if !rests {
-        return Seeker::new(scene, scene.motion.speed, limit).find();
+        return find(scene, scene.motion.speed, limit);
     }
     // Any speed serves to begin with.
-    match [1.0, -1.0].map(|speed| Seeker::new(scene, speed, limit).find()) {
+    match [1.0, -1.0].map(|speed| find(scene, speed, limit)) {
         [Ok(found), _] | [_, Ok(found)] if found.any_speed => Err(Error::refused(
             "the start is at rest, and no load depends on the speed: every speed is periodic",
             "give a start speed: motion.speed",
@@ -170,7 +170,7 @@ struct Both {
 impl Both {
     fn with_check(scene: &Scene, found: Found, limit: WorkLimit<'_>) -> Result<Both, Error> {
         Ok(Both {
-            check: Seeker::new(scene, found.cycle.speed, limit).again()?,
+            check: periodic_orbit::again(scene, found.cycle.speed, limit)?,
             relative: 0.5 * found.cycle.uncertain + periodic_orbit::SPEED_ROUNDING,
             found,
         })

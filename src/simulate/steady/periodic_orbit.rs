@@ -2,14 +2,15 @@
 
 use std::f64::consts::TAU;
 
-use super::super::forward::unserved;
-use super::super::guide_friction::Sliding;
-use super::cycles::{Cycle, Cycles};
+use super::super::angle_model::AngleModel;
+use super::super::options::Options;
+use super::super::run_setup::RunSetup;
+use super::super::stop::unserved;
+use super::cycles::{Cycle, Cycles, one_cycle};
 use crate::engine::WorkLimit;
 use crate::engine::angle::{CycleMap, FixedPoint, NoCycle, fixed_point};
 use crate::engine::energy::NotApplicable;
 use crate::error::Error;
-use crate::mechanism::{Equation, Limits};
 use crate::numeric::angle::Angle;
 use crate::numeric::root;
 use crate::plan::cycle_over_angle;
@@ -32,7 +33,6 @@ pub(super) struct Extreme {
     pub omega: f64,
 }
 
-/// A periodic motion.
 pub(super) struct Found {
     pub start: Angle,
     pub cycle: Cycle,
@@ -64,69 +64,64 @@ impl Found {
     pub fn omega(&self, turned: f64) -> f64 {
         self.cycle.omega(self.start, turned)
     }
+
+    /// The crank angle there.
+    pub fn angle(&self, turned: f64) -> Angle {
+        self.start.plus(self.cycle.speed.signum() * turned)
+    }
+}
+
+/// The periodic motion that a scene's start approaches from a speed (rad/s).
+pub(super) fn find(scene: &Scene, speed: f64, limit: WorkLimit<'_>) -> Result<Found, Error> {
+    search(scene, speed, limit, FIRST_LOG_STEP, false)
+}
+
+/// A second computation, to compare with, of a motion that begins with about this speed, rad/s.
+pub(super) fn again(scene: &Scene, speed: f64, limit: WorkLimit<'_>) -> Result<Found, Error> {
+    search(scene, speed, limit, STEP_BESIDE, true)
+}
+
+fn search(
+    scene: &Scene,
+    speed: f64,
+    limit: WorkLimit<'_>,
+    step: f64,
+    other: bool,
+) -> Result<Found, Error> {
+    // What has none was refused.
+    let turns = cycle_over_angle(scene).unwrap_or(1);
+    let scene = one_cycle(scene, speed, turns, other);
+    let options = Options {
+        max_evaluations: limit.evaluations,
+        stop: limit.stop.cloned(),
+        events_kept: 0,
+        ..Options::default()
+    };
+    let task = RunSetup::new(&scene, &options, 0)?;
+    if task.inertia_vanishes() {
+        return Err(unbounded());
+    }
+    let model = AngleModel::of(&task).with_shared_panels();
+    let mut cycles = Cycles::new(&task, &model);
+    let seeker = Seeker { task: &task, turns };
+    match (seeker.solve(&mut cycles, step), cycles.refused) {
+        (Err(_), Some(why)) => Err(why),
+        (found, _) => found,
+    }
 }
 
 /// What looks for the periodic motion of a scene.
-pub(super) struct Seeker<'a> {
-    scene: Scene,
-    equation: Equation,
-    /// Friction at the guide.
-    sliding: Option<Sliding>,
+struct Seeker<'a> {
+    task: &'a RunSetup<'a>,
     /// Turns after which the loads are the same again.
-    cycle: u32,
-    start: Angle,
-    /// rad/s
-    speed: f64,
-    limit: WorkLimit<'a>,
+    turns: u32,
 }
 
-impl<'a> Seeker<'a> {
-    /// Looks from a speed on, rad/s.
-    pub fn new(scene: &Scene, speed: f64, limit: WorkLimit<'a>) -> Seeker<'a> {
-        let equation = Equation::new(scene);
-        Seeker {
-            sliding: Sliding::new(scene, &equation),
-            equation,
-            scene: scene.clone(),
-            // What has none was refused.
-            cycle: cycle_over_angle(scene).unwrap_or(1),
-            start: Angle::from(scene.motion.angle).reduced(),
-            speed,
-            limit,
-        }
-    }
-
-    pub fn find(&self) -> Result<Found, Error> {
-        self.search(FIRST_LOG_STEP, false)
-    }
-
-    /// A second computation, to compare with.
-    pub fn again(&self) -> Result<Found, Error> {
-        self.search(STEP_BESIDE, true)
-    }
-
-    fn search(&self, step: f64, other: bool) -> Result<Found, Error> {
-        let limits = Limits::new(self.equation.linkage(), self.speed);
-        let inertia = |theta: f64| self.equation.terms(theta).inertia.m;
-        let vanishes = |theta: f64| inertia(theta) <= 1e-12 * inertia(theta + 1.0);
-        if limits.dead_centres.iter().any(|dc| vanishes(dc.theta)) {
-            return Err(unbounded());
-        }
-        let mut cycles = Cycles::new(&self.scene, self.speed, self.cycle, other, self.limit);
-        match (self.solve(&mut cycles, step), cycles.refused) {
-            (Err(_), Some(why)) => Err(why),
-            (found, _) => found,
-        }
-    }
-
-    /// Whether nothing depends on the speed.
-    fn any_speed(&self) -> bool {
-        let reads = self.equation.loads().reads();
-        !reads.has(Variable::Omega) && !reads.has(Variable::V) && self.sliding.is_none()
-    }
-
-    fn solve(&self, cycles: &mut Cycles, step: f64) -> Result<Found, Error> {
-        if self.any_speed() {
+impl Seeker<'_> {
+    fn solve(&self, cycles: &mut Cycles<'_>, step: f64) -> Result<Found, Error> {
+        let reads = self.task.equation().loads().reads();
+        let by_speed = reads.has(Variable::Omega) || reads.has(Variable::V);
+        if !by_speed && self.task.maker.sliding.is_none() {
             let cycle = cycles.cycle(cycles.first()).map_err(not_turned)?;
             if cycle.gain.abs() > NO_GAIN.max(cycles.noise()) * cycle.largest {
                 let (what, load) = match cycle.gain > 0.0 {
@@ -151,8 +146,8 @@ impl<'a> Seeker<'a> {
     /// From a cycle, which is a fixed point found within some noise of the gain, or begins with any speed.
     fn found(&self, cycle: Cycle, fixed: Option<(FixedPoint, f64)>) -> Result<Found, Error> {
         let mut found = Found {
-            start: self.start,
-            turns: f64::from(self.cycle),
+            start: self.task.start(),
+            turns: f64::from(self.turns),
             extremes: [Extreme {
                 turned: 0.0,
                 omega: cycle.speed,
@@ -178,25 +173,16 @@ impl<'a> Seeker<'a> {
         if known { Ok(found) } else { Err(unbounded()) }
     }
 
-    /// θ̈, rad/s².
-    fn acceleration(&self, angle: Angle, omega: f64) -> f64 {
-        match &self.sliding {
-            // Not at the start of a motion, where the guide is what it will be.
-            Some(sliding) => sliding.state(f64::MIN_POSITIVE, angle, omega).0,
-            None => self.equation.acceleration(0.0, angle, omega),
-        }
-    }
-
     /// The largest sign·|speed|: of the angles of a fine grid, then where the acceleration vanishes beside it.
     fn extreme(&self, found: &Found, sign: f64) -> Extreme {
         let (sense, whole) = (found.cycle.speed.signum(), found.way());
-        let grid = self.equation.linkage().turn_grid(1f64.to_radians());
-        let since = |theta: &f64| (sense * (theta - self.start.rest)).rem_euclid(TAU);
+        let grid = self.task.equation().linkage().turn_grid(1f64.to_radians());
+        let since = |theta: &f64| (sense * (theta - found.start.rest)).rem_euclid(TAU);
         let again = |turn: u32| {
             let before = f64::from(turn) * TAU;
             grid.iter().map(move |theta| since(theta) + before)
         };
-        let mut ways: Vec<f64> = (0..self.cycle).flat_map(again).collect();
+        let mut ways: Vec<f64> = (0..self.turns).flat_map(again).collect();
         ways.push(0.0);
         ways.sort_by(f64::total_cmp);
         ways.dedup();
@@ -216,8 +202,12 @@ impl<'a> Seeker<'a> {
         };
         let slope = |way: f64| {
             let way = way.rem_euclid(whole);
-            let angle = self.start.plus(sense * way);
-            self.acceleration(angle, found.omega(way))
+            // Not at the start of a motion, where the guide is what it will be.
+            let forward = |omega| {
+                let maker = &self.task.maker;
+                maker.forward(f64::MIN_POSITIVE, found.angle(way), omega).0
+            };
+            forward(found.omega(way))
         };
         let way = root::bracketed(slope, before, after)
             .filter(|way| value(*way) > value(ways[best]))

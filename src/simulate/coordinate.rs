@@ -1,23 +1,50 @@
-//! The coordinate of the curve as rows and speeds see it.
+//! The coordinate along which steps in time are computed, as rows and events see it: the crank angle, or that of the
+//! configuration curve.
 
-use super::super::recorder::Coordinate;
-use super::super::row::Row;
+use super::row::Row;
+use super::row_maker::RowMaker;
 use super::stick_slip::{InPhase, Phase};
-use crate::engine::Motion;
 use crate::engine::step::Step;
+use crate::engine::{Counted, Motion};
 use crate::mechanism::{CurveEquation, Reactor};
 use crate::numeric::angle::Angle;
-use crate::numeric::root;
 
-/// A step is looked at in this many pieces.
-const PIECES: usize = 8;
+pub(super) trait Coordinate {
+    /// The equation of motion, by which steps are refined.
+    fn motion(&self) -> &dyn Motion;
 
-/// The coordinate of the curve in one phase.
-pub(in crate::simulate) struct AlongCurve<'a> {
+    /// Crank angle and speed (rad/s) at a time of a step, s.
+    fn crank(&self, step: &Step, t: f64) -> (Angle, f64);
+
+    /// The row of a time (s), an angle of the coordinate and its rate (rad/s).
+    fn row(&self, t: f64, angle: Angle, speed: f64) -> Row;
+}
+
+/// The crank angle.
+pub(super) struct Crank<'a> {
+    pub maker: &'a RowMaker,
+    pub motion: &'a Counted<'a>,
+}
+
+impl Coordinate for Crank<'_> {
+    fn motion(&self) -> &dyn Motion {
+        self.motion
+    }
+
+    fn crank(&self, step: &Step, t: f64) -> (Angle, f64) {
+        let (theta, speed) = step.at(t);
+        (step.angle(theta), speed)
+    }
+
+    fn row(&self, t: f64, angle: Angle, speed: f64) -> Row {
+        self.maker.row(t, angle, speed, None)
+    }
+}
+
+/// The coordinate of the configuration curve in one phase.
+pub(super) struct AlongCurve<'a> {
     motion: InPhase<'a>,
     reactor: Option<&'a Reactor>,
-    /// Crank angle of the start.
-    start: Angle,
 }
 
 impl<'a> AlongCurve<'a> {
@@ -25,12 +52,10 @@ impl<'a> AlongCurve<'a> {
         equation: &'a CurveEquation,
         phase: Phase,
         reactor: Option<&'a Reactor>,
-        start: Angle,
     ) -> AlongCurve<'a> {
         AlongCurve {
             motion: InPhase { equation, phase },
             reactor,
-            start,
         }
     }
 
@@ -48,31 +73,11 @@ impl Coordinate for AlongCurve<'_> {
         &self.motion
     }
 
-    fn turned(&self, step: &Step, t: f64) -> f64 {
-        let angle = step.angle(step.at(t).0);
+    fn crank(&self, step: &Step, t: f64) -> (Angle, f64) {
+        let (q, speed) = step.at(t);
         let curve = self.motion.equation.curve();
-        curve.crank_angle(angle).minus(self.start)
-    }
-
-    fn time_of(&self, step: &Step, turned: f64, [from, to]: [f64; 2]) -> Option<f64> {
-        root::bracketed(|t| self.turned(step, t) - turned, from, to)
-    }
-
-    fn turning_times(&self, step: &Step) -> Vec<f64> {
-        let time = |piece: usize| match piece {
-            PIECES => step.end.t,
-            _ => step.start.t + step.length() * piece as f64 / PIECES as f64,
-        };
-        let speed = |t: f64| {
-            let (q, speed) = step.at(t);
-            self.motion.equation.curve().place(q).dtheta * speed
-        };
-        let turns = |i: usize| {
-            let (from, to) = (time(i), time(i + 1));
-            let turns = speed(from) * speed(to) < 0.0;
-            turns.then(|| root::bracketed(speed, from, to))?
-        };
-        (0..PIECES).filter_map(turns).collect()
+        let angle = curve.crank_angle(step.angle(q));
+        (angle, curve.place(q).dtheta * speed)
     }
 
     fn row(&self, t: f64, angle: Angle, speed: f64) -> Row {
@@ -86,7 +91,6 @@ impl Coordinate for AlongCurve<'_> {
             reactor.on_curve(&place, speed, acceleration, force, touch.normal)
         });
         Row {
-            clearance: None,
             t,
             theta: curve.crank_angle(angle).radians(),
             omega: place.dtheta * speed,
@@ -97,6 +101,7 @@ impl Coordinate for AlongCurve<'_> {
             phi: place.phi(),
             reactions,
             driving_torque: None,
+            clearance: None,
         }
     }
 }

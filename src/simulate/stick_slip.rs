@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use super::super::guide_friction::BESIDE;
+use super::guide_friction::BESIDE;
 use crate::engine::Motion;
 use crate::engine::event_functions::EventFunction;
 use crate::engine::events::ROUNDED;
@@ -19,23 +19,19 @@ pub(super) const TURNED: usize = 3;
 pub(super) const NORMAL: usize = 4;
 pub(super) const CLEAR: usize = 5;
 pub(super) const CRANK: usize = 6;
-/// How many they are.
 pub(super) const QUANTITIES: usize = 7;
 
-/// Signs of the watched quantities.
 pub(super) type Signs = [f64; QUANTITIES];
 
 /// How the slider touches its guide.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::simulate) enum Phase {
-    /// The slider slides.
+pub(super) enum Phase {
     Sliding {
         /// −μ sgn(v) sgn(N), zero without friction.
         c: f64,
         /// What dry loads oppose, if there are any.
         against: Sense,
     },
-    /// The slider sticks.
     Sticking,
 }
 

@@ -1,0 +1,202 @@
+//! Largest joint forces of a run.
+//!
+//! The dense motion is looked at in rows that are close enough to show what geometry, loads and motion make, then by
+//! Brent's method beside those at which a force may be largest.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use super::driving_torque::Drive;
+use super::result::{FORCES, Peak, Peaks, Summary};
+use super::simulation::Simulation;
+use crate::mechanism::{Linkage, Reactions};
+use crate::numeric::maximum;
+use crate::scene::{Scene, Variable};
+
+/// Most rows of a search, and most steps that are kept for it.
+pub(super) const MOST_ROWS: usize = 400_000;
+/// Rows are close enough where every second of them shows the largest values to this part.
+const PART: f64 = 0.02;
+/// Most tops of a force that are looked at closely.
+const MOST_TOPS: usize = 8;
+/// Part of the distance of two rows within which the place of a maximum is known.
+const LEFT: f64 = 1e-9;
+
+/// The largest forces of a finished run; none where it is too long to be looked through, or a force has no value.
+pub(super) fn search(scene: &Scene, run: &Simulation) -> Option<Peaks> {
+    let mut way = Way::of(scene, run, MOST_ROWS)?;
+    loop {
+        let sizes = way.places.iter().map(|at| (way.sizes)(*at));
+        let sizes = sizes.collect::<Option<Vec<_>>>()?;
+        if !sizes.as_flattened().iter().all(|size| size.is_finite()) {
+            return None;
+        }
+        let is_resolved = |k: usize| {
+            let [all, half] = [1, 2].map(|stride| largest(&sizes, k, stride));
+            all - half <= PART * all
+        };
+        if (0..FORCES).all(is_resolved) {
+            let peak = |k| peak(&way, run, k, &sizes);
+            return Some(Peaks::new(std::array::from_fn(peak)));
+        }
+        if 2 * way.places.len() > MOST_ROWS {
+            return None;
+        }
+        way.places = halved(&way.places);
+    }
+}
+
+/// The largest size of a force on every `stride`-th row.
+fn largest(sizes: &[[f64; FORCES]], force: usize, stride: usize) -> f64 {
+    let rows = sizes.iter().step_by(stride);
+    rows.fold(0.0, |largest, row| largest.max(row[force]))
+}
+
+/// Places with one more between each two.
+fn halved(places: &[f64]) -> Vec<f64> {
+    let between = places.windows(2);
+    let between = between.flat_map(|pair| [pair[0], 0.5 * (pair[0] + pair[1])]);
+    between.chain(places.last().copied()).collect()
+}
+
+/// A force where it is largest: beside the rows that are no smaller than their neighbours, nor than the largest by more than
+/// rows may miss.
+fn peak(way: &Way, run: &Simulation, k: usize, sizes: &[[f64; FORCES]]) -> Peak {
+    let size = |at: f64| (way.sizes)(at).map_or(f64::NEG_INFINITY, |sizes| sizes[k]);
+    let last = sizes.len() - 1;
+    let beside = |row: usize| [row.saturating_sub(1), row, (row + 1).min(last)];
+    let least = (1.0 - 2.0 * PART) * largest(sizes, k, 1);
+    let is_top = |row: &usize| {
+        let [before, here, after] = beside(*row).map(|row| sizes[row][k]);
+        here >= least.max(before).max(after)
+    };
+    let mut tops: Vec<usize> = (0..=last).filter(is_top).collect();
+    tops.sort_by(|a, b| sizes[*b][k].total_cmp(&sizes[*a][k]));
+    tops.truncate(MOST_TOPS);
+    let ((at, value), width) = tops
+        .into_iter()
+        .map(|row| {
+            let known = beside(row).map(|row| (way.places[row], sizes[row][k]));
+            (maximum::beside(size, known), known[2].0 - known[0].0)
+        })
+        .reduce(|best, found| if found.0.1 > best.0.1 { found } else { best })
+        .unwrap_or_default();
+    let (first, last) = (way.places[0], way.places[last]);
+    let beside = [-LEFT, LEFT].map(|left| size((at + left * width).clamp(first, last)));
+    let t = (way.time)(at).clamp(0.0, run.summary.last.t_s);
+    Peak {
+        value_n: value,
+        t_s: t,
+        theta_rad: run.at(t).map_or(0.0, |(theta, _)| theta),
+        added_n: (beside[0].max(beside[1]) - value).max(0.0),
+    }
+}
+
+/// Least rows over time.
+const LEAST_ROWS: f64 = 720.0;
+
+/// A run along a parameter.
+struct Way<'a> {
+    /// Values of the parameter, in order.
+    pub places: Vec<f64>,
+    /// Sizes of the forces there.
+    pub sizes: Box<dyn Fn(f64) -> Option<[f64; FORCES]> + 'a>,
+    /// The time there, s.
+    pub time: Box<dyn Fn(f64) -> f64 + 'a>,
+}
+
+impl<'a> Way<'a> {
+    /// Over the crank angle if the motion is a function of it, else over time.
+    pub fn of(scene: &Scene, run: &'a Simulation, most: usize) -> Option<Way<'a>> {
+        let way = at_constant_speed(run).or_else(|| over_orbit(run));
+        way.or_else(|| over_time(scene, run, most))
+    }
+}
+
+/// One turn if all are the same, else the whole run; as close as geometry and loads ask for.
+fn at_constant_speed(run: &Simulation) -> Option<Way<'_>> {
+    let (start, speed) = run.trajectory.as_ref()?.as_uniform()?;
+    let maker = run.dense.maker.as_ref()?;
+    let drive = Drive {
+        equation: &maker.equation,
+        maker,
+        start,
+        speed,
+        end: run.summary.last.t_s,
+    };
+    let (places, whole) = drive.places().ok()?;
+    let turn = TAU / speed.abs();
+    let reactions = move |t: f64| maker.reactions(t, start.plus(speed * t), speed, Some(0.0));
+    Some(Way {
+        places,
+        sizes: Box::new(move |t| reactions(t).as_ref().map(sizes)),
+        time: Box::new(move |t| if whole { t.rem_euclid(turn) } else { t }),
+    })
+}
+
+/// The points of the series of which the motion is made.
+fn over_orbit(run: &Simulation) -> Option<Way<'_>> {
+    let orbit = run.trajectory.as_ref()?.as_orbit()?;
+    let end = run.summary.last.t_s;
+    let maker = run.dense.maker.as_ref()?;
+    // The time of a place takes longer than all else.
+    let timed = maker.equation.loads().reads().has(Variable::T);
+    let reactions = move |at: f64| {
+        let (angle, speed) = orbit.state_at_place(at)?;
+        let t = if timed { orbit.time_of_place(at)? } else { 0.0 };
+        maker.reactions(t, angle, speed, None)
+    };
+    Some(Way {
+        places: orbit.places(end)?,
+        sizes: Box::new(move |at| reactions(at).as_ref().map(sizes)),
+        time: Box::new(move |at| orbit.time_of_place(at).unwrap_or(end)),
+    })
+}
+
+/// Rows at equal times: the crank turns by a degree at most between two of them.
+fn over_time<'a>(scene: &Scene, run: &'a Simulation, most: usize) -> Option<Way<'a>> {
+    let end = run.summary.last.t_s;
+    let period = run.trajectory.as_ref()?.period();
+    let span = period.map_or(end, |period| period.min(end));
+    let step = first_step(scene, &run.summary);
+    let rows = (span / step).ceil();
+    let place = |index: usize| (index as f64 * step).min(span);
+    (rows <= most as f64).then(|| Way {
+        places: (0..=rows as usize).map(place).collect(),
+        sizes: Box::new(move |t| run.row(t)?.reactions.as_ref().map(sizes)),
+        time: Box::new(|t| t),
+    })
+}
+
+/// Time between the rows, s: the crank turns by a degree at most, and by less where the run has narrow peaks.
+fn first_step(scene: &Scene, summary: &Summary) -> f64 {
+    let fastest = summary.omega_min.abs().max(summary.omega_max.abs());
+    let way = fastest * summary.last.t_s;
+    let narrow = narrowest(&Linkage::new(&scene.geometry), scene.motion.angle, way);
+    let angle = (PI / 180.0).min(0.1 * narrow);
+    summary.last.t_s / (way / angle).max(LEAST_ROWS)
+}
+
+/// Least width in the crank angle, rad, of the peaks on a way (rad) from an angle. Rods that are hardly long enough make
+/// some of the width sqrt((l − |e ± r|)/r) where the crank stands normal to the guide; away from there nothing is narrower
+/// than the distance from it.
+fn narrowest(linkage: &Linkage, angle: f64, way: f64) -> f64 {
+    let Linkage { r, l, e, .. } = *linkage;
+    let width = |side: f64| {
+        let apart = (angle - side * FRAC_PI_2).rem_euclid(TAU);
+        let distance = apart.min(TAU - apart) - way;
+        ((l - (e + side * r).abs()) / r).abs().sqrt().max(distance)
+    };
+    width(1.0).min(width(-1.0))
+}
+
+/// Sizes of the forces, N, in the order of [`Peaks`].
+pub(super) fn sizes(forces: &Reactions) -> [f64; FORCES] {
+    let size = |[x, y]: [f64; 2]| (x * x + y * y).sqrt();
+    [
+        size(forces.crank_bearing),
+        size(forces.crank_pin),
+        size(forces.wrist_pin),
+        forces.guide.abs(),
+        size(forces.shaking),
+    ]
+}
