@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::panel::{Panel, Tried, Uncertain};
-use super::piece::{HALF_TURN, Piece, SAME_ANGLE, Turning, missing, next_end};
+use super::piece::{Piece, SAME_ANGLE, Turning, missing, next_end};
 use super::segment::{After, MOST_PANELS, Segment};
 use super::turn_closure::Return;
 use super::{NotApplicable, Profile};
@@ -99,7 +99,7 @@ impl Segment {
             kinetic: begin.kinetic,
             largest: begin.kinetic,
             off: begin.off,
-            length: HALF_TURN,
+            length: TAU,
             ahead: None,
             turns: 0.0,
         };
@@ -246,7 +246,8 @@ impl Builder<'_> {
         panel.turns = self.begin.direction * self.turns;
         self.kinetic = panel.kinetic_at_end;
         self.largest = self.largest.max(self.kinetic);
-        self.length = 2.0 * piece.span().abs();
+        // A corner may have cut it shorter.
+        self.length = self.length.max(2.0 * piece.span().abs());
         self.leg.push(panel);
         if piece.turning == Turning::AtEnd {
             self.leg.after = After::TurnsBack;
