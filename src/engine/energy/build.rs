@@ -1,8 +1,8 @@
 //! Panels, one after the other, until a motion turns back, repeats or is long enough.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
-use super::panel::{Panel, Tried, Uncertain};
+use super::panel::{DEGREE, Panel, Tried, Uncertain};
 use super::piece::{Piece, SAME_ANGLE, Turning, missing, next_end};
 use super::segment::{After, MOST_PANELS, Segment};
 use super::turn_closure::Return;
@@ -71,6 +71,8 @@ struct Builder<'a> {
     off: f64,
     /// Length of the next panel at most, rad.
     length: f64,
+    /// Larger half axis of the Bernstein ellipse around [−1, 1] in which panels are to be analytic.
+    ellipse: f64,
     ahead: Option<Ahead>,
     turns: f64,
 }
@@ -100,6 +102,7 @@ impl Segment {
             largest: begin.kinetic,
             off: begin.off,
             length: TAU,
+            ellipse: ellipse(tolerance),
             ahead: None,
             turns: 0.0,
         };
@@ -121,6 +124,13 @@ impl Segment {
         }
         Ok(builder.leg)
     }
+}
+
+/// The larger half axis of the Bernstein ellipse in which a function is analytic whose series decays to a tail (Trefethen,
+/// theorem 8.1).
+fn ellipse(tail: f64) -> f64 {
+    let rho = tail.powf(-1.0 / (DEGREE as f64 - 1.0));
+    0.5 * (rho + 1.0 / rho)
 }
 
 impl Builder<'_> {
@@ -159,9 +169,22 @@ impl Builder<'_> {
         Ok(())
     }
 
+    /// The longest panel whose ellipse reaches the nearest branch point, rad: the distances of a point on it from the ends of the
+    /// panel add up to the length times its size.
+    fn analytic(&self) -> f64 {
+        let size = self.ellipse;
+        let longest = |[angle, height]: [f64; 2]| {
+            let ahead = (self.begin.direction * (angle - self.at) + PI).rem_euclid(TAU) - PI;
+            2.0 * (size * ahead.hypot(height) - ahead) / (size * size - 1.0)
+        };
+        let [a, b] = self.profile.branch_points().map(longest);
+        a.min(b)
+    }
+
     fn piece(&self) -> Piece {
         let direction = self.begin.direction;
-        let mut to = next_end(self.profile.corners(), self.at, direction, self.length);
+        let length = self.length.min(self.analytic());
+        let mut to = next_end(self.profile.corners(), self.at, direction, length);
         to = self.profile.corner_between(self.at, to).unwrap_or(to);
         if self.gain.is_some() && direction * (to - self.whole_turn) > -SAME_ANGLE {
             to = self.whole_turn;
