@@ -7,6 +7,7 @@ use super::piece::{Piece, SAME_ANGLE, Turning, missing, next_end};
 use super::segment::{After, MOST_PANELS, Segment};
 use super::turn_closure::Return;
 use super::{NotApplicable, Profile};
+use crate::numeric::chebyshev::ROUNDING;
 
 /// Where a leg begins.
 #[derive(Clone, Copy, Debug)]
@@ -102,7 +103,7 @@ impl Segment {
             largest: begin.kinetic,
             off: begin.off,
             length: TAU,
-            ellipse: ellipse(tolerance),
+            ellipse: ellipse(ROUNDING),
             ahead: None,
             turns: 0.0,
         };
