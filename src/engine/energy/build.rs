@@ -43,11 +43,9 @@ const SEEN_UNITS: f64 = 2.0;
 
 /// What is better than a panel.
 enum Better {
-    /// Nothing.
     None,
     /// One that ends at this turning point.
     Turning(Ahead),
-    /// A shorter one.
     Shorter,
 }
 
@@ -57,9 +55,8 @@ struct Builder<'a> {
     begin: Begin,
     /// The start, a turn later, rad.
     whole_turn: f64,
-    /// Kinetic energy that each turn gains, if it is the same in each, J.
+    /// Kinetic energy that each turn gains, if it is the same in each, and how far it may be off, J.
     gain: Option<f64>,
-    /// How far that may be off, J.
     gain_error: f64,
     home: Option<Return<'a>>,
     leg: Segment,
