@@ -4,6 +4,8 @@
 //! slider by one and leaves the guide, virtual work gives the normal force
 //! N = A q̈ + B q̇² + V_n − Q_n with A = Σ m p_n·p' + I ψ_n ψ', B = Σ m p_n·p'' + I ψ_n ψ''.
 
+use std::sync::OnceLock;
+
 use super::friction::{Free, Touch};
 use super::way::Way;
 use super::{Curve, Equation, LoadValue, Loads, Place, Sense};
@@ -15,7 +17,7 @@ use crate::scene::{Friction, Instant, Scene};
 pub struct CurveEquation {
     equation: Equation,
     curve: Curve,
-    vanishing: bool,
+    vanishing: OnceLock<bool>,
     friction: Option<Friction>,
 }
 
@@ -57,15 +59,12 @@ impl CurveTerms {
 impl CurveEquation {
     /// The equation of a scene on the curve.
     pub fn new(scene: &Scene, curve: Curve) -> CurveEquation {
-        let mut equation = CurveEquation {
+        CurveEquation {
             equation: Equation::new(scene),
             curve,
-            vanishing: false,
+            vanishing: OnceLock::new(),
             friction: scene.reduced().friction,
-        };
-        let mut places = curve.limits().into_iter().chain(curve.dead_centres());
-        equation.vanishing = places.any(|q| equation.vanishes_at(q));
-        equation
+        }
     }
 
     /// The curve.
@@ -116,7 +115,11 @@ impl CurveEquation {
 
     /// Whether the inertia vanishes at a limit or a dead centre.
     pub fn vanishes_somewhere(&self) -> bool {
-        self.vanishing
+        let curve = &self.curve;
+        let mut places = curve.limits().into_iter().chain(curve.dead_centres());
+        *self
+            .vanishing
+            .get_or_init(|| places.any(|q| self.vanishes_at(q)))
     }
 
     /// The state of motion as loads see it.

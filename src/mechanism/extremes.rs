@@ -84,13 +84,19 @@ fn pair(
 }
 
 impl Linkage {
-    /// Crank angles of one turn, rad, at most `step` apart and close enough to show all that the geometry makes: x and φ
-    /// are analytic in θ but for branch points at ±90° ± i arcosh((l ∓ e)/r), where the rod would stand normal to the
-    /// guide, and vary on the scale of the distance from them.
+    /// Where x and φ, analytic in θ otherwise, have branch points, for the rod would stand normal to the guide: ±90° ±
+    /// i arcosh((l ∓ e)/r). Angle and distance from it, rad.
+    pub fn branch_points(&self) -> [[f64; 2]; 2] {
+        let width = |height: f64| 2.0 * (0.5 * height / self.r).max(LEAST_MISS).sqrt().asinh();
+        let (below, above) = (width(self.below[0]), width(self.above[0]));
+        [[-FRAC_PI_2, below], [FRAC_PI_2, above]]
+    }
+
+    /// Crank angles of one turn, rad, at most `step` apart and close enough to show all that the geometry makes: it varies
+    /// on the scale of the distance from the branch points.
     pub fn turn_grid(&self, step: f64) -> Vec<f64> {
-        let heights = [self.below[0], self.above[0], self.below[0]];
-        let widths =
-            heights.map(|height| 2.0 * (0.5 * height / self.r).max(LEAST_MISS).sqrt().asinh());
+        let [[_, below], [_, above]] = self.branch_points();
+        let widths = [below, above, below];
         let distance = |theta: f64| {
             let squared = |k: usize| {
                 let along = theta - FRAC_PI_2 * (2.0 * k as f64 - 1.0);

@@ -1,12 +1,13 @@
 //! Panels, one after the other, until a motion turns back, repeats or is long enough.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
-use super::panel::{Panel, Tried, Uncertain};
-use super::piece::{HALF_TURN, Piece, SAME_ANGLE, Turning, missing, next_end};
+use super::panel::{DEGREE, Panel, Tried, Uncertain};
+use super::piece::{Piece, SAME_ANGLE, Turning, missing, next_end};
 use super::segment::{After, MOST_PANELS, Segment};
 use super::turn_closure::Return;
 use super::{NotApplicable, Profile};
+use crate::numeric::chebyshev::ROUNDING;
 
 /// Where a leg begins.
 #[derive(Clone, Copy, Debug)]
@@ -42,11 +43,9 @@ const SEEN_UNITS: f64 = 2.0;
 
 /// What is better than a panel.
 enum Better {
-    /// Nothing.
     None,
     /// One that ends at this turning point.
     Turning(Ahead),
-    /// A shorter one.
     Shorter,
 }
 
@@ -56,9 +55,8 @@ struct Builder<'a> {
     begin: Begin,
     /// The start, a turn later, rad.
     whole_turn: f64,
-    /// Kinetic energy that each turn gains, if it is the same in each, J.
+    /// Kinetic energy that each turn gains, if it is the same in each, and how far it may be off, J.
     gain: Option<f64>,
-    /// How far that may be off, J.
     gain_error: f64,
     home: Option<Return<'a>>,
     leg: Segment,
@@ -71,6 +69,8 @@ struct Builder<'a> {
     off: f64,
     /// Length of the next panel at most, rad.
     length: f64,
+    /// Larger half axis of the Bernstein ellipse around [−1, 1] in which panels are to be analytic.
+    ellipse: f64,
     ahead: Option<Ahead>,
     turns: f64,
 }
@@ -99,7 +99,8 @@ impl Segment {
             kinetic: begin.kinetic,
             largest: begin.kinetic,
             off: begin.off,
-            length: HALF_TURN,
+            length: TAU,
+            ellipse: ellipse(ROUNDING),
             ahead: None,
             turns: 0.0,
         };
@@ -121,6 +122,13 @@ impl Segment {
         }
         Ok(builder.leg)
     }
+}
+
+/// The larger half axis of the Bernstein ellipse in which a function is analytic whose series decays to a tail (Trefethen,
+/// theorem 8.1).
+fn ellipse(tail: f64) -> f64 {
+    let rho = tail.powf(-1.0 / (DEGREE as f64 - 1.0));
+    0.5 * (rho + 1.0 / rho)
 }
 
 impl Builder<'_> {
@@ -159,9 +167,22 @@ impl Builder<'_> {
         Ok(())
     }
 
+    /// The longest panel whose ellipse reaches the nearest branch point, rad: the distances of a point on it from the ends of the
+    /// panel add up to the length times its size.
+    fn analytic(&self) -> f64 {
+        let size = self.ellipse;
+        let longest = |[angle, height]: [f64; 2]| {
+            let ahead = (self.begin.direction * (angle - self.at) + PI).rem_euclid(TAU) - PI;
+            2.0 * (size * ahead.hypot(height) - ahead) / (size * size - 1.0)
+        };
+        let [a, b] = self.profile.branch_points().map(longest);
+        a.min(b)
+    }
+
     fn piece(&self) -> Piece {
         let direction = self.begin.direction;
-        let mut to = next_end(self.profile.corners(), self.at, direction, self.length);
+        let length = self.length.min(self.analytic());
+        let mut to = next_end(self.profile.corners(), self.at, direction, length);
         to = self.profile.corner_between(self.at, to).unwrap_or(to);
         if self.gain.is_some() && direction * (to - self.whole_turn) > -SAME_ANGLE {
             to = self.whole_turn;
@@ -246,7 +267,8 @@ impl Builder<'_> {
         panel.turns = self.begin.direction * self.turns;
         self.kinetic = panel.kinetic_at_end;
         self.largest = self.largest.max(self.kinetic);
-        self.length = 2.0 * piece.span().abs();
+        // A corner may have cut it shorter.
+        self.length = self.length.max(2.0 * piece.span().abs());
         self.leg.push(panel);
         if piece.turning == Turning::AtEnd {
             self.leg.after = After::TurnsBack;

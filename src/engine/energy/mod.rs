@@ -42,6 +42,9 @@ pub trait Profile {
     /// Angles in [0, 2π), in rising order, at which panels must end in each turn.
     fn corners(&self) -> &[f64];
 
+    /// Branch points of inertia and force as functions of a complex angle: angle and distance from it, rad.
+    fn branch_points(&self) -> [[f64; 2]; 2];
+
     /// The nearest angle after `from` and before `to`, in either direction, at which a panel must end beside them.
     fn corner_between(&self, from: f64, to: f64) -> Option<f64>;
 

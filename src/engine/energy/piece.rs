@@ -1,6 +1,6 @@
 //! A piece of the crank angle and the variable x in [−1, 1] on it.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use crate::numeric::angle::TAU_REST;
 use crate::numeric::exact::two_sum;
@@ -110,9 +110,6 @@ impl Piece {
 /// Angles that differ by less are the same, rad: some hundred roundings of a sum of turns.
 pub(in crate::engine) const SAME_ANGLE: f64 = 1e-12;
 
-/// The first guess of a panel's length, rad.
-pub(in crate::engine) const HALF_TURN: f64 = PI + 1e-9;
-
 /// What the floats for the ends of a turn lack of it, rad.
 pub(super) fn missing(start: f64, direction: f64) -> f64 {
     direction * two_sum(start, direction * TAU).1 + TAU_REST
@@ -121,7 +118,7 @@ pub(super) fn missing(start: f64, direction: f64) -> f64 {
 /// The end of a panel that begins at `at`: its length, or the next corner before; corners are in rising order.
 pub(super) fn next_end(corners: &[f64], at: f64, direction: f64, length: f64) -> f64 {
     let turn = (at / TAU).floor() * TAU;
-    let mut end = at + direction * length.min(HALF_TURN);
+    let mut end = at + direction * length.min(TAU);
     let near = SAME_ANGLE * at.abs().max(1.0);
     for shift in [-TAU, 0.0, TAU] {
         let place = |corner: &f64| corner + turn + shift;

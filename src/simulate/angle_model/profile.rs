@@ -45,6 +45,10 @@ impl Profile for AngleModel<'_> {
         &self.corners
     }
 
+    fn branch_points(&self) -> [[f64; 2]; 2] {
+        self.equation.linkage().branch_points()
+    }
+
     fn corner_between(&self, from: f64, to: f64) -> Option<f64> {
         // The same corner again, off by rounding, is not a next one.
         let apart = (to - from).signum() * 1e-12 * from.abs().max(1.0);
