@@ -7,9 +7,6 @@ use super::{Source, after_word, name, sources};
 /// Files of a circle that can be read as one.
 const MOST_IN_CIRCLE: usize = 4;
 
-/// Larger circles that are still there, by folder and number of files. The list may only shrink.
-const STILL_LARGER: &[(&str, usize)] = &[("engine/energy", 14)];
-
 /// The paths of a tree of imports, `a/b` and `a/c` of `a::{b, c as d}`, and what follows it.
 fn tree(text: &str) -> (Vec<String>, &str) {
     let mut paths = Vec::new();
@@ -166,35 +163,12 @@ fn circles(graph: &Graph) -> BTreeSet<Vec<&String>> {
     circles.filter(|circle: &Vec<_>| circle.len() > 1).collect()
 }
 
-/// The folder that all files of a circle are in.
-fn folder(circle: &[&String]) -> String {
-    let mut parts: Vec<&str> = circle[0].split('/').collect();
-    while !parts.is_empty() {
-        let folder = parts.join("/");
-        let inside = |file: &&String| **file == folder || file.starts_with(&format!("{folder}/"));
-        if circle.iter().all(inside) {
-            return folder;
-        }
-        parts.pop();
-    }
-    String::new()
-}
-
 #[test]
 fn files_import_in_one_direction() {
     let imports = Imports::of(&sources()).of_files();
-    let mut wrong = Vec::new();
-    let mut gone = STILL_LARGER.to_vec();
-    for circle in circles(&imports) {
-        let (folder, size) = (folder(&circle), circle.len());
-        let known = STILL_LARGER.iter().find(|(known, _)| *known == folder);
-        gone.retain(|(known, _)| *known != folder || size <= MOST_IN_CIRCLE);
-        if size > known.map_or(MOST_IN_CIRCLE, |(_, most)| *most) || folder.is_empty() {
-            wrong.push(format!("{size} in `{folder}`: {circle:?}"));
-        }
-    }
+    let mut wrong = circles(&imports);
+    wrong.retain(|circle| circle.len() > MOST_IN_CIRCLE);
     assert!(wrong.is_empty(), "circles of files: {wrong:#?}");
-    assert!(gone.is_empty(), "to be taken off the list: {gone:?}");
 }
 
 #[test]

@@ -4,9 +4,9 @@ use std::f64::consts::{PI, TAU};
 
 use super::panel::{DEGREE, Panel, Tried, Uncertain};
 use super::piece::{Piece, SAME_ANGLE, Turning, missing, next_end};
+use super::profile::{NotApplicable, Profile};
 use super::segment::{After, MOST_PANELS, Segment};
 use super::turn_closure::Return;
-use super::{NotApplicable, Profile};
 use crate::numeric::chebyshev::ROUNDING;
 
 /// Where a leg begins.

@@ -7,9 +7,9 @@ use super::build::Begin;
 use super::euler_maclaurin::Cell;
 use super::interpolated_turns::Mark;
 use super::one_turn::OneTurn;
+use super::profile::{NotApplicable, Profile};
 use super::segment::{After, Segment};
 use super::turns::{Map, Recent, Turns};
-use super::{NotApplicable, Profile};
 
 /// Turns after the last cell that are computed one by one.
 const LAST_TURNS: f64 = 256.0;

@@ -1,9 +1,7 @@
-//! Smallest and largest speeds, and when a motion turns back.
+//! Smallest and largest speeds on panels.
 
-use super::Orbit;
 use super::panel::Panel;
 use super::piece::{Piece, Turning};
-use super::segment::After;
 use crate::numeric::chebyshev::{Rule, Values};
 use crate::numeric::root;
 
@@ -61,47 +59,6 @@ impl Panel {
     }
 }
 
-impl Orbit {
-    /// Smallest and largest speed until a time, with sign.
-    pub fn speed_range(&self, until: f64) -> (f64, f64) {
-        if until == 0.0 {
-            return (self.speed, self.speed);
-        }
-        let with_sign = |(low, high): (f64, f64), direction: f64| {
-            if direction > 0.0 {
-                (low, high)
-            } else {
-                (-high, -low)
-            }
-        };
-        let mut range = with_sign(self.forward.speed_range(0.0, until), self.direction);
-        let mut widen = |part: (f64, f64), direction: f64| {
-            let (low, high) = with_sign(part, direction);
-            range = (range.0.min(low), range.1.max(high));
-        };
-        let there = self.forward.duration.0;
-        if let Some(later) = self.later.as_ref().filter(|_| until > there) {
-            widen(later.speed_range(until), self.direction);
-        }
-        if self.forward.after != After::TurnsBack || until <= there {
-            return range;
-        }
-        // The way back is the way there, from its end.
-        let back = (2.0 * there - until).max(0.0);
-        widen(self.forward.speed_range(back, there), -self.direction);
-        if let Some(leg) = self.backward.as_ref().filter(|_| until > 2.0 * there) {
-            let since = until - 2.0 * there;
-            widen(leg.speed_range(0.0, since), -self.direction);
-            let end = leg.duration.0;
-            if leg.after == After::TurnsBack && since > end {
-                let back = (2.0 * end - since).max(0.0);
-                widen(leg.speed_range(back, end), self.direction);
-            }
-        }
-        range
-    }
-}
-
 /// Slowest and fastest of the points, from dt/dx there.
 pub(super) fn extremes(piece: &Piece, rule: &Rule, slopes: &Values) -> [Extreme; 2] {
     let half = 0.5 * piece.span().abs();
@@ -153,34 +110,4 @@ pub(super) fn extreme(panels: &[&Panel], sign: f64) -> f64 {
         }
     }
     best
-}
-
-impl Orbit {
-    /// Times (s) of the turning points in a period, or in all of a motion that does not repeat; a start at rest is one at the
-    /// end of the period.
-    fn turnings(&self) -> Vec<f64> {
-        let mut found = Vec::new();
-        let there = self.forward.duration.0;
-        if self.forward.after == After::TurnsBack {
-            found.push(there);
-            found.extend(self.from_rest.then_some(2.0 * there));
-        }
-        let back = self.backward.as_ref();
-        let back = back.filter(|back| back.after == After::TurnsBack);
-        found.extend(back.map(|back| 2.0 * there + back.duration.0));
-        found
-    }
-
-    /// When it turns back, until a time.
-    pub fn turning_times(&self, until: f64) -> Vec<f64> {
-        let once = self.turnings();
-        let Some((period, _)) = self.period().filter(|_| !once.is_empty()) else {
-            return once.into_iter().filter(|t| *t <= until).collect();
-        };
-        let rounds = (until / period).ceil() as u64;
-        (0..=rounds)
-            .flat_map(|round| once.iter().map(move |t| t + round as f64 * period))
-            .filter(|t| *t <= until)
-            .collect()
-    }
 }

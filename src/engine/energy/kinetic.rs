@@ -1,8 +1,8 @@
 //! The kinetic energy on a piece, from the force, and what rounding makes of its series.
 
-use super::NotApplicable;
 use super::panel::Tried;
 use super::piece::{Piece, SAME_ANGLE, Turning};
+use super::profile::NotApplicable;
 use crate::numeric::chebyshev::{Rule, Series, Values};
 use crate::numeric::{gauss, root};
 

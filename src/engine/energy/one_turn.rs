@@ -1,9 +1,9 @@
 //! One turn at any kinetic energy: what depends on the position alone is tabulated once.
 
-use super::Profile;
 use super::build::Begin;
 use super::panel::{DEGREE, Panel};
 use super::piece::{Piece, missing};
+use super::profile::Profile;
 use super::segment::{After, Segment};
 use crate::numeric::chebyshev::{ROUNDING, Rule, Values};
 use crate::numeric::exact::two_sum;

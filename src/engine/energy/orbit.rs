@@ -6,9 +6,9 @@ use super::build::Begin;
 use super::equal_gains::Course;
 use super::error_bound::off_by_place;
 use super::kinetic::at_start;
+use super::profile::{NotApplicable, Profile};
 use super::segment::{After, Segment};
 use super::turns::Turns;
-use super::{NotApplicable, Profile};
 use crate::numeric::angle::Angle;
 use crate::numeric::exact::two_sum;
 

@@ -4,8 +4,8 @@ use super::extreme::{Extreme, extremes};
 use super::kinetic::{Energy, Noise};
 
 use super::piece::{Piece, Turning};
+use super::profile::{NotApplicable, Profile};
 use super::time_sensitivity::TimeSensitivity;
-use super::{NotApplicable, Profile};
 use crate::numeric::chebyshev::{self, Rule, Series, Values};
 
 /// Degree of the series: half a turn of a usual engine is right to rounding.

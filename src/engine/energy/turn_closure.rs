@@ -3,7 +3,7 @@
 //! Where forces do no work in a turn, the kinetic energy there is that of the start. Next to an unstable rest,
 //! where little of it is left, a short integral from there keeps the digits that the sum over the turn has lost.
 
-use super::Profile;
+use super::profile::Profile;
 use crate::numeric::{gauss, root};
 
 /// The end of a whole turn.
