@@ -91,6 +91,18 @@ impl Equation {
         &self.linkage
     }
 
+    /// Branch points of its terms as functions of a complex angle: those of the linkage, angle and distance from it, rad; infinitely
+    /// far where the crank moves alone.
+    pub fn branch_points(&self) -> [[f64; 2]; 2] {
+        let alone = !self.has_rod && self.slider_mass == 0.0 && self.loads.are_none();
+        let points = self.linkage.branch_points();
+        if alone {
+            points.map(|[angle, _]| [angle, f64::INFINITY])
+        } else {
+            points
+        }
+    }
+
     /// The loads.
     pub fn loads(&self) -> &Loads {
         &self.loads

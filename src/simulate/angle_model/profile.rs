@@ -46,7 +46,7 @@ impl Profile for AngleModel<'_> {
     }
 
     fn branch_points(&self) -> [[f64; 2]; 2] {
-        self.equation.linkage().branch_points()
+        self.equation.branch_points()
     }
 
     fn corner_between(&self, from: f64, to: f64) -> Option<f64> {
