@@ -8,6 +8,9 @@ use crate::numeric::maximum::largest_to;
 /// Rows that are multiplied by a matrix at once.
 pub(super) const ROWS_AT_ONCE: usize = 128;
 
+/// Columns of the information that are filled at once.
+const BLOCK: usize = 64;
+
 /// Largest order of the periodic process.
 const ORDERS: i32 = 3;
 
@@ -37,7 +40,7 @@ impl Spectrum {
     }
 }
 
-/// Normal equations of the coefficients: Σ EᵀE/S and −Σ Eᵀe/S.
+/// Normal equations of the coefficients: Σ EᵀE/S, of which the lower triangle is kept, and −Σ Eᵀe/S.
 #[derive(Clone, Debug)]
 pub(super) struct Regression {
     information: DMatrix<f64>,
@@ -67,11 +70,16 @@ impl Regression {
         }
     }
 
-    /// Multiplies the rows that wait.
+    /// Multiplies the rows that wait: the lower triangle, block by block.
     pub fn multiply(&mut self) {
         let count = self.score.len();
         let rows = DMatrix::from_column_slice(count, self.rows.len() / count, &self.rows);
-        self.information.gemm(1.0, &rows, &rows.transpose(), 1.0);
+        for first in (0..count).step_by(BLOCK) {
+            let (size, left) = (BLOCK.min(count - first), count - first);
+            let mut block = self.information.view_mut((first, first), (left, size));
+            let right = rows.rows(first, size).transpose();
+            block.gemm(1.0, &rows.rows(first, left), &right, 1.0);
+        }
         self.rows.clear();
     }
 

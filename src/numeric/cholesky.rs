@@ -5,20 +5,21 @@ use nalgebra::{Cholesky, DMatrix, Dyn};
 /// Columns of a block.
 const BLOCK: usize = 48;
 
-/// A = L Lᵀ of a symmetric matrix; none where it is not positive definite.
+/// A = L Lᵀ of a symmetric matrix given by its lower triangle; none where it is not positive definite.
 pub(crate) fn cholesky(mut a: DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
     let order = a.nrows();
     for first in (0..order).step_by(BLOCK) {
         let size = BLOCK.min(order - first);
-        let (next, left) = (first + size, order - first - size);
-        let mut corner = a.view_mut((first, first), (size, size));
-        let lower = Cholesky::new(corner.clone_owned())?.l();
-        corner.copy_from(&lower);
+        let (left, below) = (order - first, order - first - size);
+        let (known, mut rest) = a.columns_range_pair_mut(..first, first..);
+        let mut block = rest.view_mut((first, 0), (left, size));
+        let beside = known.rows(first, size).transpose();
+        block.gemm(-1.0, &known.rows(first, left), &beside, 1.0);
+        let lower = Cholesky::new(block.rows(0, size).into_owned())?.l();
+        block.rows_mut(0, size).copy_from(&lower);
         let inverse = lower.solve_lower_triangular(&DMatrix::identity(size, size))?;
-        let below = a.view((next, first), (left, size)) * inverse.transpose();
-        a.view_mut((next, first), (left, size)).copy_from(&below);
-        let mut rest = a.view_mut((next, next), (left, left));
-        rest.gemm(-1.0, &below, &below.transpose(), 1.0);
+        let under = block.rows(size, below) * inverse.transpose();
+        block.rows_mut(size, below).copy_from(&under);
     }
     Some(Cholesky::pack_dirty(a))
 }
