@@ -3,12 +3,10 @@
 use super::Driven;
 use super::panel::{FIRST_DEGREE, Fineness, SHORTEST_PANEL, Station};
 use crate::engine::energy::NotApplicable;
+use crate::engine::energy::piece::HALF_TURN;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule};
-use std::f64::consts::{PI, TAU};
-
-/// The longest panel, rad.
-const HALF_TURN: f64 = PI + 1e-9;
+use std::f64::consts::TAU;
 
 /// Panels of one cycle between the corners.
 pub(super) fn stations<D: Driven>(

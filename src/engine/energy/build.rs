@@ -1,13 +1,12 @@
 //! Panels, one after the other, until a motion turns back, repeats or is long enough.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
-use super::panel::{DEGREE, Panel, Tried, Uncertain};
-use super::piece::{Piece, SAME_ANGLE, Turning, missing, next_end};
+use super::panel::{Panel, Tried, Uncertain};
+use super::piece::{HALF_TURN, Piece, SAME_ANGLE, Turning, longest_analytic, missing, next_end};
 use super::profile::{NotApplicable, Profile};
 use super::segment::{After, MOST_PANELS, Segment};
 use super::turn_closure::Return;
-use crate::numeric::chebyshev::ROUNDING;
 
 /// Where a leg begins.
 #[derive(Clone, Copy, Debug)]
@@ -69,8 +68,8 @@ struct Builder<'a> {
     off: f64,
     /// Length of the next panel at most, rad.
     length: f64,
-    /// Larger half axis of the Bernstein ellipse around [−1, 1] in which panels are to be analytic.
-    ellipse: f64,
+    /// Whether panels are no longer than the branch points allow: once a longer one has failed.
+    is_cut: bool,
     ahead: Option<Ahead>,
     turns: f64,
 }
@@ -99,8 +98,8 @@ impl Segment {
             kinetic: begin.kinetic,
             largest: begin.kinetic,
             off: begin.off,
-            length: TAU,
-            ellipse: ellipse(ROUNDING),
+            length: HALF_TURN,
+            is_cut: false,
             ahead: None,
             turns: 0.0,
         };
@@ -122,13 +121,6 @@ impl Segment {
         }
         Ok(builder.leg)
     }
-}
-
-/// The larger half axis of the Bernstein ellipse in which a function is analytic whose series decays to a tail (Trefethen,
-/// theorem 8.1).
-fn ellipse(tail: f64) -> f64 {
-    let rho = tail.powf(-1.0 / (DEGREE as f64 - 1.0));
-    0.5 * (rho + 1.0 / rho)
 }
 
 impl Builder<'_> {
@@ -162,26 +154,29 @@ impl Builder<'_> {
                 });
             }
             _ if short => return Err(NotApplicable::NotFinite),
-            _ => self.length = 0.5 * piece.span().abs(),
+            _ => self.shorten(piece.span().abs()),
         }
         Ok(())
     }
 
-    /// The longest panel whose ellipse reaches the nearest branch point, rad: the distances of a point on it from the ends of the
-    /// panel add up to the length times its size.
+    /// After a panel of this length, rad, that was not resolved: as long as the branch points allow, or half of it.
+    fn shorten(&mut self, span: f64) {
+        if std::mem::replace(&mut self.is_cut, true) || self.analytic() >= span {
+            self.length = 0.5 * span;
+        }
+    }
+
     fn analytic(&self) -> f64 {
-        let size = self.ellipse;
-        let longest = |[angle, height]: [f64; 2]| {
-            let ahead = (self.begin.direction * (angle - self.at) + PI).rem_euclid(TAU) - PI;
-            2.0 * (size * ahead.hypot(height) - ahead) / (size * size - 1.0)
-        };
-        let [a, b] = self.profile.branch_points().map(longest);
-        a.min(b)
+        let direction = self.begin.direction;
+        longest_analytic(self.at, direction, self.profile.branch_points())
     }
 
     fn piece(&self) -> Piece {
         let direction = self.begin.direction;
-        let length = self.length.min(self.analytic());
+        let length = match self.is_cut {
+            true => self.length.min(self.analytic()),
+            false => self.length,
+        };
         let mut to = next_end(self.profile.corners(), self.at, direction, length);
         to = self.profile.corner_between(self.at, to).unwrap_or(to);
         if self.gain.is_some() && direction * (to - self.whole_turn) > -SAME_ANGLE {

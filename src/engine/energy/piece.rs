@@ -1,9 +1,28 @@
 //! A piece of the crank angle and the variable x in [−1, 1] on it.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use crate::numeric::angle::TAU_REST;
+use crate::numeric::chebyshev::{MAX_DEGREE, ROUNDING};
 use crate::numeric::exact::two_sum;
+
+/// Length of the panels that are tried first, rad: two make a turn.
+pub(in crate::engine) const HALF_TURN: f64 = PI + 1e-9;
+
+/// The longest panel from an angle (rad) in a direction, ±1, whose series decays to rounding, rad, by the branch points of what it
+/// expands, angle and distance from it: a series decays like ρ⁻ⁿ for the sum of the half axes ρ of the Bernstein ellipse around
+/// [−1, 1] that reaches the nearest one (Trefethen, Approximation Theory and Approximation Practice, 2013, theorem 8.1).
+pub(super) fn longest_analytic(at: f64, direction: f64, branch_points: [[f64; 2]; 2]) -> f64 {
+    let rho = ROUNDING.powf(-1.0 / (MAX_DEGREE as f64 - 1.0));
+    let size = 0.5 * (rho + 1.0 / rho);
+    // The distances of a point on the ellipse from the ends of the panel add up to the length times its larger half axis.
+    let longest = |[angle, height]: [f64; 2]| {
+        let ahead = (direction * (angle - at) + PI).rem_euclid(TAU) - PI;
+        2.0 * (size * ahead.hypot(height) - ahead) / (size * size - 1.0)
+    };
+    let [a, b] = branch_points.map(longest);
+    a.min(b)
+}
 
 /// Which end of a panel is a turning point, where dt/dθ is infinite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
