@@ -25,7 +25,7 @@ const SHARE_OVER_ANGLE: f64 = 1e-2;
 const CUT_BY_FRICTION: f64 = 0.03;
 /// of the energy engine, and at this at the latest, for all digits but the last ones.
 const SHARE_OF_ENERGY: f64 = 0.1;
-const MOST_TAIL: f64 = 1e-13;
+const MOST_TAIL: f64 = 1e-14;
 
 impl Pass<'_, '_> {
     /// The whole run from its energy.
