@@ -15,7 +15,7 @@ const BLOCK: usize = 64;
 const ORDERS: i32 = 3;
 
 /// To what ln s of a spectrum is sought.
-const WIDTH: f64 = 0.2;
+const SPECTRUM_WIDTH: f64 = 0.2;
 
 /// Variances of the coefficients.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,7 +104,7 @@ impl Regression {
                 self.solved(with(log))
                     .map_or(f64::NEG_INFINITY, |found| likelihood(&found))
             };
-            let (log, value) = largest_to(value, [low.ln(), high.ln()], WIDTH);
+            let (log, value) = largest_to(value, [low.ln(), high.ln()], SPECTRUM_WIDTH);
             (value, with(log))
         };
         let orders = (1..=ORDERS).map(of_order);

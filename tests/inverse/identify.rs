@@ -58,6 +58,17 @@ fn run_down(inertia: f64, c: f64, d: f64, w: f64) -> impl Fn(f64) -> f64 {
     }
 }
 
+/// Counts the bands of viscous and dry friction that hold the true values, and asks that each is narrower than a part of its value.
+fn count_inside(motion: &Measurement, truths: [f64; 2], widest: f64, inside: &mut [usize; 2]) {
+    let keys = ["torque[1].coefficient", "torque[2].value"];
+    let found = identified(&flywheel(VISCOUS_AND_DRY, 0.02), &keys, motion).expect("told");
+    for (k, truth) in truths.into_iter().enumerate() {
+        let one = &found.values[k];
+        inside[k] += usize::from((one.value - truth).abs() < one.half_band);
+        assert!(one.half_band < widest * truth, "{one:?}");
+    }
+}
+
 #[test]
 fn friction_of_a_run_down_lies_within_its_band() {
     let (c, d) = (0.0055, 0.13);
@@ -101,13 +112,7 @@ fn correlated_noise_leaves_friction_within_its_band() {
         });
         let values = noisy.collect();
         let motion = Measurement::new(Measured::Theta, times, values).expect("a measurement");
-        let keys = ["torque[1].coefficient", "torque[2].value"];
-        let found = identified(&flywheel(VISCOUS_AND_DRY, 0.02), &keys, &motion).expect("told");
-        for (k, truth) in [c, d].into_iter().enumerate() {
-            let one = &found.values[k];
-            inside[k] += usize::from((one.value - truth).abs() < one.half_band);
-            assert!(one.half_band < 0.6 * truth, "{one:?}");
-        }
+        count_inside(&motion, [c, d], 0.6, &mut inside);
     }
     // 19 of 20 are expected; fewer than 16 are one chance in 400.
     assert!(inside.iter().all(|count| *count >= 16), "{inside:?}");
@@ -124,13 +129,7 @@ fn codes_of_a_coarse_encoder_tell_friction_within_its_band() {
         let code = |t: &f64| step * (theta(*t) / step).floor();
         let values = times.iter().map(code).collect();
         let motion = Measurement::new(Measured::Theta, times, values).expect("a measurement");
-        let keys = ["torque[1].coefficient", "torque[2].value"];
-        let found = identified(&flywheel(VISCOUS_AND_DRY, 0.02), &keys, &motion).expect("told");
-        for (k, truth) in [c, d].into_iter().enumerate() {
-            let one = &found.values[k];
-            inside[k] += usize::from((one.value - truth).abs() < one.half_band);
-            assert!(one.half_band < 0.3 * truth, "{one:?}");
-        }
+        count_inside(&motion, [c, d], 0.3, &mut inside);
     }
     // As above.
     assert!(inside.iter().all(|count| *count >= 34), "{inside:?}");

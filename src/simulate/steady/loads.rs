@@ -100,9 +100,13 @@ fn work(cuts: &[f64], torque: &Torque<'_>, relative: f64, found: &Found) -> f64 
     let force = |turned: f64| sense * torque(found.angle(turned), found.omega(turned));
     let piece = |ends: &[f64]| {
         let [from, to] = [ends[0], ends[1]];
-        let (angle, speed) = (found.angle(from), found.omega(from));
-        let open = torque(angle, speed * (1.0 + relative)) - torque(angle, speed);
-        let tolerance = (1e-15 * found.cycle.largest).max(open.abs() * (to - from));
+        let open = |turned: f64| {
+            let (angle, speed) = (found.angle(turned), found.omega(turned));
+            (torque(angle, speed * (1.0 + relative)) - torque(angle, speed)).abs()
+        };
+        // A load may be steep on a part of the piece alone.
+        let open = open(from).min(open(0.5 * (from + to))).min(open(to));
+        let tolerance = (1e-15 * found.cycle.largest).max(open * (to - from));
         gauss::adaptive(&force, from, to, tolerance)
     };
     cuts.windows(2).map(piece).sum()
