@@ -12,7 +12,7 @@ use friction::friction_at;
 use crate::error::Error;
 use crate::mechanism::{Equation, single};
 use crate::plan::{Method, Plan};
-use crate::scene::{Instant as State, RodModel, Scene};
+use crate::scene::{Instant as State, LoadOf, RodModel, Scene};
 
 /// What `explain` shows.
 #[derive(Clone, Debug, Serialize)]
@@ -118,27 +118,23 @@ fn terms_at(scene: &Scene, equation: &Equation, theta: f64) -> Result<TermsAt, E
         v: pose.dx * omega,
     };
     let mut loads = Vec::new();
-    for (name, list, arm) in [
-        ("torque", &scene.torques, 1.0),
-        ("force", &scene.forces, pose.dx),
-    ] {
-        for (i, load) in list.iter().enumerate() {
-            let value = single(load, name == "force", &now);
-            let name = format!("{name}[{}]: {load}", i + 1);
-            if !value.is_finite() {
-                return Err(Error::refused(
-                    format!(
-                        "{name}: it has no finite value at theta = {theta} rad, omega = {omega} rad/s, t = 0"
-                    ),
-                    "give another angle, or check the range of its table or the domain of its formula",
-                ));
-            }
-            loads.push(LoadAt {
-                name,
-                value,
-                q_nm: value * arm,
-            });
+    for of in scene.loads() {
+        let value = single(of.load, of.on_slider, &now);
+        let name = format!("{}: {}", of.key(), of.load);
+        if !value.is_finite() {
+            return Err(Error::refused(
+                format!(
+                    "{name}: it has no finite value at theta = {theta} rad, omega = {omega} rad/s, t = 0"
+                ),
+                "give another angle, or check the range of its table or the domain of its formula",
+            ));
         }
+        let arm = if of.on_slider { pose.dx } else { 1.0 };
+        loads.push(LoadAt {
+            name,
+            value,
+            q_nm: value * arm,
+        });
     }
     let (alpha, friction) = match friction_at(scene, equation, theta)? {
         Some((alpha, friction)) => (alpha, Some(friction)),
@@ -239,12 +235,10 @@ fn written_out(scene: &Scene) -> Vec<String> {
         }
         _ => lines.push("V = 0".to_owned()),
     }
-    let mut work: Vec<String> = scene
-        .torques
-        .iter()
-        .map(|load| format!("[{load}]"))
-        .collect();
-    work.extend(scene.forces.iter().map(|load| format!("[{load}] x'")));
+    let arm = |of: &LoadOf<'_>| if of.on_slider { " x'" } else { "" };
+    let work = scene.loads();
+    let work = work.map(|of| format!("[{}]{}", of.load, arm(&of)));
+    let work: Vec<String> = work.collect();
     lines.push(format!("Q = {}", joined(&work)));
     lines.push(format!("r = {r}, l = {l}, e = {e}, s = {s:+}"));
     lines

@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::forces::ForceAnalysis;
 use super::turning_moment::{TurningMoment, areas};
 use crate::mechanism::Limits;
+use crate::numeric::fourier;
 use crate::scene::{Load, Scene};
 
 /// Diagrams of a cycle.
@@ -73,12 +74,6 @@ pub struct Balance {
     /// Largest with it, N.
     pub largest_left_n: f64,
 }
-
-/// Highest order.
-const HIGHEST: u32 = 12;
-
-/// Samples of a turn: the rectangle rule is exact for orders up to this less the highest.
-const SAMPLES: u32 = 2048;
 
 impl ForceAnalysis {
     /// The diagrams of the cycle, with a counterweight for this part of the reciprocating mass; none of a crank that cannot
@@ -150,7 +145,8 @@ impl ForceAnalysis {
 
     /// Shaking force, shaking moment and torque at equal steps of the cycle.
     fn samples(&self) -> Vec<[f64; 4]> {
-        let count = self.cycle_turns * SAMPLES;
+        // Close enough to show the largest force too.
+        let count = self.cycle_turns * 2 * fourier::SAMPLES;
         let at = |k: u32| self.whole() * f64::from(k) / f64::from(count);
         let row = |k: u32| {
             let row = self.row(at(k));
@@ -164,7 +160,7 @@ impl ForceAnalysis {
         let turns = self.cycle_turns;
         let order = |k: u32| {
             let [x, y, moment, torque] =
-                coefficients(samples, k).map(|[cos, sin]| 2.0 * cos.hypot(sin));
+                fourier::coefficients(samples, k).map(|[cos, sin]| 2.0 * cos.hypot(sin));
             Order {
                 order: f64::from(k) / f64::from(turns),
                 shaking_x_n: x,
@@ -173,11 +169,11 @@ impl ForceAnalysis {
                 torque_nm: torque,
             }
         };
-        (1..=HIGHEST * turns).map(order).collect()
+        (1..=fourier::HIGHEST * turns).map(order).collect()
     }
 
     fn balance(&self, samples: &[[f64; 4]], part: f64) -> Balance {
-        let [[xc, xs], [yc, ys], ..] = coefficients(samples, self.cycle_turns);
+        let [[xc, xs], [yc, ys], ..] = fourier::coefficients(samples, self.cycle_turns);
         // x + iy = forward e^{iθ} + backward e^{-iθ}.
         let forward = [xc + ys, yc - xs];
         let backward = [xc - ys, yc + xs];
@@ -209,18 +205,4 @@ impl ForceAnalysis {
             largest_left_n: largest(counter),
         }
     }
-}
-
-/// Means of the columns times cosine and sine of what repeats k times in the cycle.
-fn coefficients(samples: &[[f64; 4]], k: u32) -> [[f64; 2]; 4] {
-    let count = samples.len() as f64;
-    let mut sums = [[0.0, 0.0]; 4];
-    for (index, sample) in samples.iter().enumerate() {
-        let (sin, cos) = (TAU * f64::from(k) * index as f64 / count).sin_cos();
-        for ([even, odd], value) in sums.iter_mut().zip(sample) {
-            *even += value * cos / count;
-            *odd += value * sin / count;
-        }
-    }
-    sums
 }

@@ -3,7 +3,7 @@
 use super::nonlinear_loads::NonlinearLoads;
 use super::{LoadValue, Pose, Sense};
 use crate::numeric::angle::Angle;
-use crate::scene::{Instant, Load, Scene, Variables};
+use crate::scene::{Instant, Load, LoadOf, Scene, Variables};
 
 /// All loads of a scene. Those with a potential (constant torque and force, springs) are kept apart from
 /// those whose work must be integrated.
@@ -32,8 +32,10 @@ impl Loads {
             on_slider: !scene.forces.is_empty(),
             ..Loads::default()
         };
-        let torques = scene.torques.iter().map(|load| (load, false));
-        for (load, on_slider) in torques.chain(scene.forces.iter().map(|load| (load, true))) {
+        for LoadOf {
+            load, on_slider, ..
+        } in scene.loads()
+        {
             loads.reads = loads.reads.or(load.reads(on_slider));
             match load {
                 Load::Viscous(coefficient) => *loads.damping.on(on_slider) += coefficient,

@@ -84,21 +84,13 @@ const SAMPLED: &str = "a closure is seen at the nodes of panels and steps alone,
 
 /// The loads of a scene that are not zero, numbered as they stand there.
 pub(super) fn named(scene: &Scene) -> impl Iterator<Item = Named<'_>> {
-    let lists = [("torque", &scene.torques), ("force", &scene.forces)];
-    let all = lists.into_iter().flat_map(|(list, loads)| {
-        let numbered = loads.iter().enumerate();
-        numbered.map(move |(i, load)| (list, i + 1, load))
-    });
-    all.filter(|(_, _, load)| !load.is_zero())
-        .map(|(list, number, load)| {
-            let on_slider = list == "force";
-            Named {
-                name: format!("{list}[{number}] ({load})"),
-                load,
-                repeats: load.repeats(on_slider),
-                on_slider,
-            }
-        })
+    let loads = scene.loads().filter(|of| !of.load.is_zero());
+    loads.map(|of| Named {
+        name: format!("{} ({})", of.key(), of.load),
+        load: of.load,
+        repeats: of.load.repeats(of.on_slider),
+        on_slider: of.on_slider,
+    })
 }
 
 impl LoadPeriod {

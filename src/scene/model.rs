@@ -49,10 +49,22 @@ impl Scene {
         Check { problems, places }.result()
     }
 
+    /// Its torques, then its forces.
+    pub fn loads(&self) -> impl Iterator<Item = LoadOf<'_>> {
+        let lists = [(&self.torques, false), (&self.forces, true)];
+        lists.into_iter().flat_map(|(list, on_slider)| {
+            (1..).zip(list).map(move |(number, load)| LoadOf {
+                load,
+                on_slider,
+                number,
+            })
+        })
+    }
+
     /// The files of the tables of its loads.
     pub fn table_files(&self) -> impl Iterator<Item = &Path> {
-        let loads = self.torques.iter().chain(&self.forces);
-        loads.filter_map(Load::table).filter_map(Table::file)
+        let tables = self.loads().filter_map(|of| of.load.table());
+        tables.filter_map(Table::file)
     }
 
     /// The scene without what has no strength: zero masses, zero loads, zero gravity.
@@ -71,6 +83,24 @@ impl Scene {
             .filter(|f| f.coefficient != 0.0 || f.static_coefficient != 0.0);
         scene.clearance = scene.clearance.filter(|c| c.radial != 0.0);
         scene
+    }
+}
+
+/// A load of a scene.
+#[derive(Clone, Copy, Debug)]
+pub struct LoadOf<'a> {
+    /// What it is.
+    pub load: &'a Load,
+    /// Whether it acts on the slider; else on the crank.
+    pub on_slider: bool,
+    number: usize,
+}
+
+impl LoadOf<'_> {
+    /// Its name in scene files, as `torque[1]`.
+    pub fn key(&self) -> String {
+        let list = if self.on_slider { "force" } else { "torque" };
+        format!("{list}[{}]", self.number)
     }
 }
 

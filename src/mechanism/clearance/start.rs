@@ -65,8 +65,7 @@ impl LooseMechanism {
             slider_mass,
             per_slider_mass: 1.0 / slider_mass,
             gravity,
-            loads: (!scene.torques.is_empty() || !scene.forces.is_empty())
-                .then(|| Loads::new(scene)),
+            loads: scene.loads().next().map(|_| Loads::new(scene)),
             turns: Angle::from(scene.motion.angle).reduced().turns,
             clearance,
             bearing: clearance.bearing_radius.unwrap_or(0.0),

@@ -2,7 +2,7 @@
 
 use crate::mechanism::{Bodies, Class, Curve, Linkage, LooseMechanism};
 use crate::numeric::angle::Angle;
-use crate::scene::{ContactLaw, Load, MotionKind, Problem, RodModel, Scene};
+use crate::scene::{ContactLaw, Load, LoadOf, MotionKind, Problem, RodModel, Scene};
 
 /// Of a scene from which parts without strength were taken out.
 pub fn problems(scene: &Scene, linkage: &Linkage) -> Vec<Problem> {
@@ -66,16 +66,14 @@ fn free(scene: &Scene, linkage: &Linkage, list: &mut Vec<Problem>) {
 
 /// With clearance: loads that oppose motion.
 fn dry(scene: &Scene, list: &mut Vec<Problem>) {
-    for (name, loads) in [("torque", &scene.torques), ("force", &scene.forces)] {
-        let dry = |load: &Load| matches!(load, Load::Dry(_));
-        for (i, _) in loads.iter().enumerate().filter(|(_, load)| dry(load)) {
-            list.push(Problem::new(
-                &format!("{name}[{}].kind", i + 1),
-                "a load of kind \"dry\" together with clearance in a joint is not modelled",
-                "use kind = \"viscous\", or take [clearance] out of the scene",
-            ));
-        }
-    }
+    let dry = |of: &LoadOf<'_>| matches!(of.load, Load::Dry(_));
+    list.extend(scene.loads().filter(dry).map(|of| {
+        Problem::new(
+            &format!("{}.kind", of.key()),
+            "a load of kind \"dry\" together with clearance in a joint is not modelled",
+            "use kind = \"viscous\", or take [clearance] out of the scene",
+        )
+    }));
 }
 
 /// With clearance: lengths at which joints with play decide nothing, and a prescribed motion that the rod cannot follow.

@@ -57,8 +57,7 @@ fn widest_turn(scene: &Scene, linkage: &Linkage) -> Option<f64> {
 
 /// Whether a crank at rest starts in a balance of forces that lasts. Friction may hold it too, which a run tells.
 fn is_balanced(scene: &Scene, linkage: &Linkage) -> bool {
-    let dry = |load: &Load| matches!(load, Load::Dry(_));
-    let dry = scene.torques.iter().chain(&scene.forces).any(dry);
+    let dry = scene.loads().any(|of| matches!(of.load, Load::Dry(_)));
     if scene.friction.is_some() || scene.clearance.is_some() || dry {
         return false;
     }

@@ -65,15 +65,10 @@ fn vanishes(equation: &CurveEquation, q: f64) -> bool {
 
 /// Loads that have no value at the start.
 fn loads(scene: &Scene, now: &Instant, list: &mut Vec<Problem>) {
-    for (name, on_slider, loads) in [
-        ("torque", false, &scene.torques),
-        ("force", true, &scene.forces),
-    ] {
-        for (i, load) in loads.iter().enumerate() {
-            let value = single(load, on_slider, now);
-            if !value.is_finite() {
-                list.push(no_value(&format!("{name}[{}]", i + 1), load, value, now));
-            }
+    for of in scene.loads() {
+        let value = single(of.load, of.on_slider, now);
+        if !value.is_finite() {
+            list.push(no_value(&of.key(), of.load, value, now));
         }
     }
 }

@@ -14,7 +14,7 @@ use super::{
 use crate::numeric::exact::sum3;
 
 /// Local error targets below this cannot be met in double precision.
-const LEAST_TOLERANCE: f64 = 1e-14;
+pub(crate) const LEAST_TOLERANCE: f64 = 1e-14;
 
 /// More output rows than this, some hundred gigabytes, are a slip of the unit.
 pub(crate) const MOST_ROWS: f64 = 1e9;
@@ -62,13 +62,8 @@ pub(super) fn problems(scene: &Scene, list: &mut Check) {
         list.not_negative("gravity.acceleration", gravity.acceleration, "m/s2");
         list.finite("gravity.direction", gravity.direction);
     }
-    for (name, on_slider, loads) in [
-        ("torque", false, &scene.torques),
-        ("force", true, &scene.forces),
-    ] {
-        for (i, load) in loads.iter().enumerate() {
-            loads::load(list, &format!("{name}[{}]", i + 1), on_slider, load);
-        }
+    for of in scene.loads() {
+        loads::load(list, &of.key(), of.on_slider, of.load);
     }
     if let Some(friction) = &scene.friction {
         self::friction(list, friction);

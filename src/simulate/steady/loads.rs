@@ -9,7 +9,7 @@ use super::{Both, MARGIN};
 use crate::mechanism::{Equation, Limits, Linkage, single};
 use crate::numeric::angle::Angle;
 use crate::numeric::gauss;
-use crate::scene::{Instant, Load, Scene};
+use crate::scene::{Instant, Load, LoadOf, Scene};
 
 /// Pieces of a turn beside those that dead centres and tables make.
 const PIECES: u32 = 16;
@@ -34,13 +34,10 @@ pub(super) fn works(scene: &Scene, both: &Both) -> Vec<LoadWork> {
             torque_nm: over(found.cycle.speed.signum() * found.way()),
         });
     };
-    for (list, loads) in [("torque", &scene.torques), ("force", &scene.forces)] {
-        for (i, load) in loads.iter().enumerate() {
-            let on_slider = list == "force";
-            let torque =
-                |angle: Angle, omega: f64| crank_torque(linkage, load, on_slider, angle, omega);
-            add(format!("{list}[{}]: {load}", i + 1), Some(load), &torque);
-        }
+    for of in scene.loads() {
+        let torque = |angle: Angle, omega: f64| crank_torque(linkage, &of, angle, omega);
+        let name = format!("{}: {}", of.key(), of.load);
+        add(name, Some(of.load), &torque);
     }
     let equation = Equation::new(scene);
     if let Some(sliding) = Sliding::new(scene, &equation) {
@@ -58,7 +55,7 @@ pub(super) fn works(scene: &Scene, both: &Both) -> Vec<LoadWork> {
 type Torque<'a> = dyn Fn(Angle, f64) -> f64 + 'a;
 
 /// The crank torque that a load amounts to, N m.
-fn crank_torque(linkage: &Linkage, load: &Load, on_slider: bool, angle: Angle, omega: f64) -> f64 {
+fn crank_torque(linkage: &Linkage, of: &LoadOf<'_>, angle: Angle, omega: f64) -> f64 {
     let pose = linkage.pose(angle.rest);
     let now = Instant {
         t: 0.0,
@@ -67,8 +64,8 @@ fn crank_torque(linkage: &Linkage, load: &Load, on_slider: bool, angle: Angle, o
         x: pose.x,
         v: pose.dx * omega,
     };
-    let arm = if on_slider { pose.dx } else { 1.0 };
-    arm * single(load, on_slider, &now)
+    let arm = if of.on_slider { pose.dx } else { 1.0 };
+    arm * single(of.load, of.on_slider, &now)
 }
 
 /// Where the crank has turned to (rad) at the corners of a load and the dead centres of a period, and between them.

@@ -13,16 +13,12 @@ use super::error_estimate::MARGIN;
 use crate::engine::WorkLimit;
 use crate::error::Error;
 use crate::mechanism::{Class, Limits, Linkage};
+use crate::numeric::fourier;
 use crate::numeric::stop::Stop;
 use crate::plan::Cycle;
 use crate::scene::{MotionKind, Scene};
 use periodic_orbit::{Found, find};
 pub use result::{Estimated, Flywheel, LoadWork, SpeedExtreme, SpeedOrder, SteadyState};
-
-/// Highest order of the speed that is shown, per turn.
-const HIGHEST_ORDER: f64 = 12.0;
-/// Samples of a turn: the rectangle rule is exact for orders up to this less the highest.
-const SAMPLES: f64 = 1024.0;
 
 /// What is asked for.
 #[derive(Clone, Debug, PartialEq)]
@@ -259,36 +255,29 @@ impl Both {
 
     /// Amplitudes of the Fourier series of the speed over the crank angle of a cycle.
     fn orders(&self) -> Vec<SpeedOrder> {
-        let turns = self.found.turns;
-        let count = (SAMPLES * turns) as u32;
-        let speeds = [&self.found, &self.check].map(|motion| {
-            let step = motion.way() / f64::from(count);
-            let speed = |k: u32| motion.omega(f64::from(k) * step);
-            (0..count).map(speed).collect::<Vec<f64>>()
-        });
+        let turns = self.found.turns as u32;
+        let count = fourier::SAMPLES * turns;
+        let speed = |k: u32| {
+            [&self.found, &self.check].map(|f| f.omega(f64::from(k) * f.way() / f64::from(count)))
+        };
+        let speeds: Vec<[f64; 2]> = (0..count).map(speed).collect();
+        let every_other: Vec<[f64; 2]> = speeds.iter().step_by(2).copied().collect();
+        let amplitudes = |speeds: &[[f64; 2]], k: u32| {
+            fourier::coefficients(speeds, k).map(|[cos, sin]| 2.0 * cos.hypot(sin))
+        };
         let rounding = self.relative * self.found.cycle.speed.abs();
         let order = |k: u32| {
-            let [value, other] = speeds.each_ref().map(|samples| amplitude(samples, k));
+            let [value, other] = amplitudes(&speeds, k);
+            // Corners of the speed fold higher orders onto it.
+            let folded = (value - amplitudes(&every_other, k)[0]).abs();
             SpeedOrder {
-                order: f64::from(k) / turns,
+                order: f64::from(k) / f64::from(turns),
                 amplitude_rad_per_s: Estimated {
                     value,
-                    error: MARGIN * (value - other).abs() + rounding,
+                    error: MARGIN * (value - other).abs() + folded + rounding,
                 },
             }
         };
-        (1..=(HIGHEST_ORDER * turns) as u32).map(order).collect()
+        (1..=fourier::HIGHEST * turns).map(order).collect()
     }
-}
-
-/// Amplitude of what repeats k times in the samples.
-fn amplitude(samples: &[f64], k: u32) -> f64 {
-    let count = samples.len() as f64;
-    let (mut even, mut odd) = (0.0, 0.0);
-    for (index, sample) in samples.iter().enumerate() {
-        let (sin, cos) = (TAU * f64::from(k) * index as f64 / count).sin_cos();
-        even += sample * cos;
-        odd += sample * sin;
-    }
-    2.0 * even.hypot(odd) / count
 }

@@ -1,0 +1,22 @@
+//! Fourier coefficients of a cycle from equal steps of it.
+
+use std::f64::consts::TAU;
+
+/// Highest order that is shown, per turn.
+pub const HIGHEST: u32 = 12;
+/// Samples of a turn: the rectangle rule is exact for orders up to this less the highest.
+pub const SAMPLES: u32 = 1024;
+
+/// Means of the columns times cosine and sine of what repeats k times in the cycle.
+pub fn coefficients<const N: usize>(samples: &[[f64; N]], k: u32) -> [[f64; 2]; N] {
+    let count = samples.len() as f64;
+    let mut sums = [[0.0, 0.0]; N];
+    for (index, sample) in samples.iter().enumerate() {
+        let (sin, cos) = (TAU * f64::from(k) * index as f64 / count).sin_cos();
+        for ([even, odd], value) in sums.iter_mut().zip(sample) {
+            *even += value * cos / count;
+            *odd += value * sin / count;
+        }
+    }
+    sums
+}
