@@ -3,6 +3,7 @@
 use super::{Motion, NODES};
 use crate::numeric::angle::Angle;
 use crate::numeric::exact::SUM_ROUNDING;
+use crate::numeric::interpolate::quintic;
 use crate::numeric::root;
 
 /// The state at one end of a step.
@@ -193,17 +194,8 @@ impl Step {
             // The angles say nothing about so short a way.
             0.5 * (v0 + v1) + (c0 - c1) / 6.0
         };
-        let rise = travel - v0 - c0;
-        let slope = v1 - v0 - 2.0 * c0;
-        let bend = 2.0 * (c1 - c0);
-        let k3 = 10.0 * rise - 4.0 * slope + 0.5 * bend;
-        let k4 = -15.0 * rise + 7.0 * slope - bend;
-        let k5 = 6.0 * rise - 3.0 * slope + 0.5 * bend;
-        [
-            a.theta + s * (v0 + s * (c0 + s * (k3 + s * (k4 + s * k5)))),
-            v0 + s * (2.0 * c0 + s * (3.0 * k3 + s * (4.0 * k4 + s * 5.0 * k5))),
-            2.0 * c0 + s * (6.0 * k3 + s * (12.0 * k4 + s * 20.0 * k5)),
-        ]
+        let [way, rate, bend] = quintic([v0, c0], [v1, c1], travel, s);
+        [a.theta + way, rate, bend]
     }
 
     /// The added terms s³(1−s)³(b0 + b1 σ + b2 σ²), σ = 2s − 1: value and derivatives.

@@ -48,6 +48,14 @@ pub fn beside(f: impl FnMut(f64) -> f64, known: [(f64, f64); 3]) -> (f64, f64) {
     if between.1 > here.1 { between } else { here }
 }
 
+/// Where a function is largest beside the best of the places at which it is known, in order, and its value there.
+pub fn beside_best(f: impl FnMut(f64) -> f64, known: &[(f64, f64)]) -> (f64, f64) {
+    let best = (0..known.len()).max_by(|i, j| known[*i].1.total_cmp(&known[*j].1));
+    let best = best.unwrap_or(0);
+    let after = (best + 1).min(known.len() - 1);
+    beside(f, [best.saturating_sub(1), best, after].map(|i| known[i]))
+}
+
 /// From the best three points, the best one first, and the size of the step before last.
 fn brent(
     mut f: impl FnMut(f64) -> f64,

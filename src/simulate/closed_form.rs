@@ -6,8 +6,9 @@ use std::time::Instant;
 use super::balance::Balance;
 use super::driving_torque::Drive;
 use super::outcome::{Estimate, Outcome};
+use super::passages;
 use super::recorder::Recorder;
-use super::result::{ErrorEstimate, Event};
+use super::result::ErrorEstimate;
 use super::row::{Row, RowSink};
 use super::row_writer::Part;
 use super::run_setup::RunSetup;
@@ -63,7 +64,7 @@ pub(super) fn run<'a>(
     recorder.rows(&mut part);
     // The limit itself has no finite velocity.
     let mut record = recorder.finish(|| blocked.is_none().then(|| part.row(end)))?;
-    (record.events, record.events_total) = events(task, end);
+    (record.events, record.events_total) = passages::at_constant_speed(task, end);
     let stopped = blocked.map(|_| match equation.linkage().unlocked(friction(task)) {
         Some(_) => Why::Locked,
         None => Why::DrivenToLimit,
@@ -126,34 +127,6 @@ fn time_to_limit(task: &RunSetup<'_>, start: Angle, speed: f64) -> Option<f64> {
     let done = (start.rest - from).rem_euclid(TAU);
     let left = if speed > 0.0 { to - from - done } else { done };
     (speed != 0.0).then(|| left / speed.abs())
-}
-
-/// Passages of the dead centres until a time (s): the first ones, in order, and how many there are.
-pub(super) fn events(task: &RunSetup<'_>, end: f64) -> (Vec<Event>, u64) {
-    let (start, speed) = (task.start(), task.speed);
-    if speed == 0.0 {
-        return (Vec::new(), 0);
-    }
-    let dead_centres = task.limits.dead_centres.iter();
-    let ahead = |theta: f64| match (speed.signum() * (theta - start.rest)).rem_euclid(TAU) {
-        0.0 => TAU,
-        ahead => ahead,
-    };
-    let mut first: Vec<f64> = dead_centres.map(|dc| ahead(dc.theta)).collect();
-    first.sort_by(f64::total_cmp);
-    let turned = speed.abs() * end;
-    let passages = |ahead: &f64| ((turned - ahead) / TAU + 1.0).floor().max(0.0);
-    let total = first.iter().map(passages).sum::<f64>() as u64;
-    let event = |ahead: f64| Event {
-        kind: "dead-centre",
-        t_s: ahead / speed.abs(),
-        theta_rad: start.plus(speed.signum() * ahead).radians(),
-        omega_rad_per_s: speed,
-    };
-    let kept = total.min(task.options.events_kept as u64) as usize;
-    let again =
-        (0u32..).flat_map(|turn| first.iter().map(move |ahead| ahead + f64::from(turn) * TAU));
-    (again.take(kept).map(event).collect(), total)
 }
 
 struct Uniform<'a> {

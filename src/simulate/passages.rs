@@ -21,38 +21,64 @@ pub(super) struct Stretch<'a> {
     pub task: &'a RunSetup<'a>,
 }
 
-/// What is as near to a dead centre as this is at it, rad; far from zero angles are rounded more than that.
-const AT_DEAD_CENTRE: f64 = 1e-12;
+/// What is as near to a dead centre as this is at it, rad: far from zero angles are rounded more.
+fn near(way: f64) -> f64 {
+    (8.0 * f64::EPSILON * way).max(1e-12)
+}
+
+/// How far (rad) each dead centre is ahead of an angle in a direction: in (0, 2π], for the angle itself is not passed.
+fn ahead(task: &RunSetup<'_>, of: Angle, direction: f64) -> Vec<(f64, f64)> {
+    let dead_centres = task.limits.dead_centres.iter();
+    let mut all: Vec<(f64, f64)> = dead_centres
+        .map(|dead_centre| {
+            let ahead = (direction * (dead_centre.theta - of.rest)).rem_euclid(TAU);
+            let here = ahead <= near(of.rest.abs());
+            (if here { TAU } else { ahead }, dead_centre.theta)
+        })
+        .collect();
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    all
+}
+
+/// The dead centres that a crank passes on a way (rad) from an angle without turning back, with how far each is: the first
+/// ones, at most `kept`, and how many there are.
+fn on_way(
+    task: &RunSetup<'_>,
+    (from, direction): (Angle, f64),
+    way: f64,
+    kept: usize,
+) -> (Vec<(f64, f64)>, u64) {
+    let way = (way + near(from.rest.abs())) * (1.0 + 4.0 * f64::EPSILON);
+    let first = ahead(task, from, direction);
+    let count = |(ahead, _): &(f64, f64)| ((way - ahead) / TAU + 1.0).floor().max(0.0) as u64;
+    let turns = (0u32..).map(|turn| f64::from(turn) * TAU);
+    let marks = turns.flat_map(|before| first.iter().map(move |(ahead, dc)| (before + ahead, *dc)));
+    let passed = marks.take_while(|(ahead, _)| *ahead <= way).take(kept);
+    (passed.collect(), first.iter().map(count).sum())
+}
+
+/// Passages of the dead centres at constant speed until a time (s): the first ones, in order, and how many there are.
+pub(super) fn at_constant_speed(task: &RunSetup<'_>, end: f64) -> (Vec<Event>, u64) {
+    let (start, speed) = (task.start(), task.speed);
+    if speed == 0.0 {
+        return (Vec::new(), 0);
+    }
+    let (way, kept) = (speed.abs() * end, task.options.events_kept);
+    let (passed, total) = on_way(task, (start, speed.signum()), way, kept);
+    let event = |(ahead, dead_centre): (f64, f64)| {
+        let way = speed.signum() * ahead;
+        Passage::new((way / speed).min(end), start, way, dead_centre, speed).event()
+    };
+    (passed.into_iter().map(event).collect(), total)
+}
 
 impl Stretch<'_> {
-    /// What of a way (rad) is rounding.
-    fn near(way: f64) -> f64 {
-        AT_DEAD_CENTRE.max(8.0 * f64::EPSILON * way)
-    }
-
-    /// How far (rad) each dead centre is ahead of an angle in a direction: in (0, 2π], for the angle itself is not passed.
-    fn ahead(&self, of: Angle, direction: f64) -> Vec<(f64, f64)> {
-        let dead_centres = self.task.limits.dead_centres.iter();
-        let mut all: Vec<(f64, f64)> = dead_centres
-            .map(|dead_centre| {
-                let ahead = (direction * (dead_centre.theta - of.rest)).rem_euclid(TAU);
-                let here = ahead <= Stretch::near(of.rest.abs());
-                (if here { TAU } else { ahead }, dead_centre.theta)
-            })
-            .collect();
-        all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        all
-    }
-
     /// Dead centres of a motion that does not turn back until a time (s): the first ones, at most `kept`.
     fn one_way(&self, until: f64, kept: usize) -> Vec<Passage> {
         let (orbit, start) = (self.orbit, self.orbit.start());
-        let (first, way) = (self.ahead(start, orbit.direction()), self.way(until));
-        let turns = (0u32..).map(|turn| f64::from(turn) * TAU);
-        let marks =
-            turns.flat_map(|before| first.iter().map(move |(ahead, dc)| (before + ahead, *dc)));
-        let passages = marks.take_while(|(ahead, _)| *ahead <= way).take(kept);
-        let passages = passages.map(|(ahead, dead_centre)| {
+        let from = (start, orbit.direction());
+        let (passed, _) = on_way(self.task, from, self.way(until), kept);
+        let passages = passed.into_iter().map(|(ahead, dead_centre)| {
             let known = orbit.passage(ahead).filter(|(t, _)| *t <= until);
             let (t, speed) = known.unwrap_or_else(|| (until, orbit.state(until).1));
             let way = orbit.direction() * ahead;
@@ -63,17 +89,7 @@ impl Stretch<'_> {
 
     /// How far a motion that does not turn back has come at a time (s), rad.
     fn way(&self, t: f64) -> f64 {
-        let start = self.orbit.start();
-        let way = self.orbit.state(t).0.minus(start).abs() + Stretch::near(start.rest.abs());
-        way * (1.0 + 4.0 * f64::EPSILON)
-    }
-
-    /// How many dead centres it passes: each once in a turn.
-    fn one_way_count(&self) -> u64 {
-        let way = self.way(self.end);
-        let first = self.ahead(self.orbit.start(), self.orbit.direction());
-        let count = |(ahead, _): &(f64, f64)| ((way - ahead) / TAU + 1.0).floor().max(0.0) as u64;
-        first.iter().map(count).sum()
+        self.orbit.state(t).0.minus(self.orbit.start()).abs()
     }
 
     /// Dead centres and turning points of a motion to and fro until a time (s), in its own time.
@@ -87,9 +103,11 @@ impl Stretch<'_> {
             let turns_back = i < turnings.len();
             let [begin, end] = [from, to].map(|t| orbit.state(t).0);
             let (direction, span) = (end.minus(begin).signum(), end.minus(begin).abs());
-            let near = Stretch::near(span);
-            let last = if turns_back { span - near } else { span + near };
-            for (ahead, dead_centre) in self.ahead(begin, direction) {
+            let last = match turns_back {
+                true => span - near(span),
+                false => span + near(span),
+            };
+            for (ahead, dead_centre) in ahead(self.task, begin, direction) {
                 let mut ahead = ahead;
                 while ahead <= last {
                     let beyond = |t: f64| orbit.state(t).0.minus(begin).abs() - ahead;
@@ -135,20 +153,20 @@ impl Stretch<'_> {
         let total = if turns_back {
             once.iter().map(rounds).sum()
         } else {
-            self.one_way_count()
+            let from = (orbit.start(), orbit.direction());
+            on_way(self.task, from, self.way(self.end), 0).1
         };
         let turns = if turns_back { 0.0 } else { orbit.direction() };
         let most = total.min(kept as u64) * u64::from(!once.is_empty());
         let again = (0u64..).map(|round| round as f64).flat_map(|round| {
-            once.iter().map(move |passage| Event {
-                kind: passage.kind,
-                t_s: self.begin + (round.mul_add(period, passage.t) + round * low).min(self.end),
-                theta_rad: Angle {
-                    turns: passage.angle.turns + round * turns,
-                    ..passage.angle
-                }
-                .radians(),
-                omega_rad_per_s: passage.speed,
+            once.iter().map(move |passage| {
+                let t = round.mul_add(period, passage.t) + round * low;
+                let again = Passage {
+                    t: self.begin + t.min(self.end),
+                    angle: Angle::new(passage.angle.turns + round * turns, passage.angle.rest),
+                    ..*passage
+                };
+                again.event()
             })
         });
         (again.take(most as usize).collect(), total)
@@ -175,6 +193,15 @@ impl Passage {
             t,
             angle,
             speed,
+        }
+    }
+
+    fn event(&self) -> Event {
+        Event {
+            kind: self.kind,
+            t_s: self.t,
+            theta_rad: self.angle.radians(),
+            omega_rad_per_s: self.speed,
         }
     }
 }
@@ -213,6 +240,6 @@ impl Part for Stretch<'_> {
 pub(super) fn is_dead_centre(task: &RunSetup<'_>, theta: f64) -> bool {
     task.limits.dead_centres.iter().any(|dead_centre| {
         let apart = (theta - dead_centre.theta).rem_euclid(TAU);
-        apart.min(TAU - apart) < 1e-12
+        apart.min(TAU - apart) <= near(theta.abs())
     })
 }

@@ -82,6 +82,11 @@ impl<'a> RunSetup<'a> {
         Angle::from(self.scene.motion.angle).reduced()
     }
 
+    /// The whole angle of a crank angle (rad) beside the turns of the start.
+    pub fn angle(&self, theta: f64) -> Angle {
+        Angle::new(self.start().turns, theta)
+    }
+
     /// Whether the crank turns right round.
     pub fn turns_fully(&self) -> bool {
         self.limits.class == Class::RotatingCrank

@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use super::super::balance::Balance;
-use super::super::closed_form;
 use super::super::error_estimate::MARGIN;
 use super::super::outcome::{Estimate, Outcome};
+use super::super::passages;
 use super::super::recorder::Record as Recorded;
 use super::super::result::{ErrorEstimate, Peaks};
 use super::super::simulation::Simulation;
@@ -21,9 +21,6 @@ use crate::mechanism::LooseState;
 use crate::plan::Engine;
 use crate::scene::Joint;
 use crate::trajectory::Trajectory;
-
-/// Two journals at the same place: this part of the clearance apart.
-const SAME_PLACE: f64 = 0.01;
 
 impl<const N: usize> Run<'_, N> {
     pub(super) fn concluded(&self, done: Done<'_, N>, stopped: Option<Why>) -> Simulation {
@@ -60,7 +57,7 @@ impl<const N: usize> Run<'_, N> {
         if N == DRIVEN {
             self.add_dead_centres(&mut record, last.t);
         }
-        let theta = self.angle(&last).radians();
+        let theta = self.task.angle(last.theta).radians();
         let estimate = match N {
             DRIVEN => Some((2.0 * f64::EPSILON * theta.abs(), 0.0)),
             _ => error(|s| s.theta, 1.0 + theta.abs())
@@ -74,7 +71,7 @@ impl<const N: usize> Run<'_, N> {
             engine: Engine::Contact,
             at: Start {
                 t: last.t,
-                angle: self.angle(&last),
+                angle: self.task.angle(last.theta),
                 speed: last.omega,
             },
             turned: last.theta - self.start.theta,
@@ -109,7 +106,7 @@ impl<const N: usize> Run<'_, N> {
 
     /// Until when the journal's path is that of the tighter run, and what both runs say of the time after.
     fn horizon(&self, seen: &Seen, tighter: &Tighter, end: &LooseState) -> Horizon {
-        let distance = SAME_PLACE * self.mechanism.clearance().radial;
+        let distance = 0.01 * self.mechanism.clearance().radial;
         let parted = seen.record.agrees_until(&tighter.record, distance);
         let t = parted.unwrap_or(end.t);
         let statistics = |record: &Record| {
@@ -211,7 +208,7 @@ impl<const N: usize> Run<'_, N> {
 
     /// Adds the dead centres of a crank at constant speed to the impacts and separations, in the order of time.
     fn add_dead_centres(&self, record: &mut Recorded, end: f64) {
-        let (passages, count) = closed_form::events(self.task, end);
+        let (passages, count) = passages::at_constant_speed(self.task, end);
         record.events.extend(passages);
         record.events_total += count;
         record.events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));

@@ -11,7 +11,6 @@ use crate::engine::contact::{Phase, Stretch};
 use crate::engine::events::{self, Crossing};
 use crate::engine::step::{Node, Step};
 use crate::mechanism::LooseState;
-use crate::numeric::angle::Angle;
 use crate::numeric::root;
 
 pub(super) struct Seen {
@@ -91,7 +90,7 @@ impl<'a, const N: usize> Follow<'a, N> {
     }
 
     fn event(&mut self, kind: &'static str, t: f64, theta: f64, omega: f64) {
-        let theta_rad = self.angle(theta).radians();
+        let theta_rad = self.task.angle(theta).radians();
         if let Some(recorder) = &mut self.recorder {
             recorder.event(|| Event {
                 kind,
@@ -99,13 +98,6 @@ impl<'a, const N: usize> Follow<'a, N> {
                 theta_rad,
                 omega_rad_per_s: omega,
             });
-        }
-    }
-
-    pub(super) fn angle(&self, theta: f64) -> Angle {
-        Angle {
-            turns: self.task.start().turns,
-            rest: theta,
         }
     }
 
@@ -206,11 +198,7 @@ impl<const N: usize> LooseRows<'_, N> {
         let s = linked.as_ref().unwrap_or(s);
         let rates = mechanism.rates(s, touch(phase, None));
         let maker = &self.task.maker;
-        let angle = Angle {
-            turns: self.task.start().turns,
-            rest: s.theta,
-        };
-        let ideal = maker.row(s.t, angle, s.omega, Some(rates.alpha));
+        let ideal = maker.row(s.t, self.task.angle(s.theta), s.omega, Some(rates.alpha));
         Row {
             x: s.x,
             v: s.v,

@@ -26,7 +26,6 @@ use crate::engine::contact::{self, Ended, Finish, Settings, Stretch};
 use crate::engine::time::{FAR, Start};
 use crate::error::Error;
 use crate::mechanism::{LooseMechanism, LooseState};
-use crate::numeric::angle::Angle;
 use crate::scene::{ContactLaw, Extent, Instant as State, Load, MotionKind};
 use follow::{Follow, Seen};
 use motion::{DRIVEN, FREE, Loose};
@@ -197,7 +196,7 @@ impl<'a, const N: usize> Run<'a, N> {
                 Some(load) => Why::NoValue {
                     asked: Start {
                         t: last.t,
-                        angle: self.angle(last),
+                        angle: self.task.angle(last.theta),
                         speed: last.omega,
                     },
                     load: Some(load.clone()),
@@ -212,7 +211,7 @@ impl<'a, const N: usize> Run<'a, N> {
         let dt = 64.0 * f64::EPSILON * last.t.max(f64::MIN_POSITIVE);
         let at = |dt: f64| State {
             t: last.t + dt,
-            theta: self.angle(last).radians() + last.omega * dt,
+            theta: self.task.angle(last.theta).radians() + last.omega * dt,
             omega: last.omega,
             x: last.x + last.v * dt,
             v: last.v,
@@ -220,13 +219,6 @@ impl<'a, const N: usize> Run<'a, N> {
         let loads = self.task.equation().loads();
         let found = loads.without_value(&at(0.0));
         found.or_else(|| loads.without_value(&at(dt)))
-    }
-
-    fn angle(&self, s: &LooseState) -> Angle {
-        Angle {
-            turns: self.task.start().turns,
-            rest: s.theta,
-        }
     }
 }
 

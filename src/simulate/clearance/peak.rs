@@ -4,11 +4,10 @@ use super::super::joint_force_maxima::sizes;
 use super::super::result::{FORCES, Peak};
 use super::follow::Follow;
 use super::motion::touch;
+use crate::engine::PIECES;
 use crate::engine::contact::{Phase, Stretch};
 use crate::numeric::maximum;
 
-/// A step is looked at in so many pieces.
-const PIECES: usize = 4;
 /// A force this near to the largest so far may be larger between the places that are looked at.
 const NEAR_LARGEST: f64 = 0.9;
 
@@ -39,31 +38,25 @@ impl<const N: usize> Follow<'_, N> {
             PIECES => end,
             _ => start + (end - start) * i as f64 / PIECES as f64,
         });
-        let found = places.map(|t| self.sizes(&stretch.at(t), phase));
+        let found = places.map(|t| (t, self.sizes(&stretch.at(t), phase)));
         let mut peaks = self.seen.peaks.unwrap_or_default();
         for (k, peak) in peaks.iter_mut().enumerate() {
-            let best = (0..=PIECES).max_by(|i, j| found[*i][k].total_cmp(&found[*j][k]));
-            let best = best.unwrap_or(0);
-            let mut top = (found[best][k], places[best]);
-            if top.0 <= NEAR_LARGEST * peak.value_n {
+            let known = found.map(|(t, sizes)| (t, sizes[k]));
+            let seen = known
+                .iter()
+                .fold(0.0, |seen: f64, (_, size)| seen.max(*size));
+            if seen <= NEAR_LARGEST * peak.value_n {
                 continue;
             }
-            let (from, to) = (
-                places[best.saturating_sub(1)],
-                places[(best + 1).min(PIECES)],
-            );
             let size = |t: f64| self.sizes(&stretch.at(t), phase)[k];
-            let (t, value) = maximum::largest(size, from, to);
-            if value > top.0 {
-                top = (value, t);
-            }
-            if top.0 > peak.value_n {
-                let theta = self.model.state(&stretch.at(top.1)).theta;
+            let (t, value) = maximum::beside_best(size, &known);
+            if value > peak.value_n {
+                let theta = self.model.state(&stretch.at(t)).theta;
                 *peak = Peak {
-                    value_n: top.0,
-                    t_s: top.1,
-                    theta_rad: self.angle(theta).radians(),
-                    added_n: (top.0 - found[best][k]).max(0.0),
+                    value_n: value,
+                    t_s: t,
+                    theta_rad: self.task.angle(theta).radians(),
+                    added_n: value - seen,
                 };
             }
         }

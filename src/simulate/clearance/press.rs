@@ -2,8 +2,9 @@
 
 use super::follow::Follow;
 use super::motion::touch;
-use super::record::{Tally, quintic};
+use super::record::Tally;
 use crate::engine::contact::{Phase, Sample, Stretch};
+use crate::numeric::interpolate::quintic;
 use crate::numeric::maximum;
 
 /// A step with a large force is looked at in so many places.
@@ -31,11 +32,17 @@ impl<const N: usize> Follow<'_, N> {
     /// Of the first `h` seconds of a step.
     fn pressed(&self, stretch: &mut Stretch<'_, N>, approach: f64, h: f64) -> Tally {
         let (length, begin) = (stretch.length(), stretch.start[0]);
-        let end = |s: &Sample<N>| [s.depth, s.depth_rate, s.depth_acceleration];
-        let (from, to) = (end(&stretch.before), end(&stretch.after));
+        let (before, after) = (&stretch.before, &stretch.after);
+        let end = |s: &Sample<N>| {
+            let bend = 0.5 * length * length * s.depth_acceleration;
+            [length * s.depth_rate, bend]
+        };
+        let (from, to, deeper) = (end(before), end(after), after.depth - before.depth);
+        let begun = before.depth;
         let law = self.model.mechanism.force();
         let at = |u: f64| {
-            let (depth, rate) = quintic(from, to, length, u);
+            let [deeper, rate, _] = quintic(from, to, deeper, u);
+            let (depth, rate) = (begun + deeper, rate / length);
             let force = law.elastic(depth.max(0.0)) * law.factor(rate, approach).max(0.0);
             (force, depth)
         };
@@ -45,12 +52,10 @@ impl<const N: usize> Follow<'_, N> {
         tally.deepest = first.1.max(middle.1).max(last.1);
         // A peak between is looked for only where it would count.
         if 1.05 * tally.peak > self.seen.total.peak {
-            let place = |i: u32| part * f64::from(i) / f64::from(PLACES);
+            let places = (0..=PLACES).map(|i| part * f64::from(i) / f64::from(PLACES));
             let top = |value: &dyn Fn(f64) -> f64| {
-                let higher = |a: &u32, b: &u32| value(place(*a)).total_cmp(&value(place(*b)));
-                let best = (0..=PLACES).max_by(higher).unwrap_or(0);
-                let (from, to) = (place(best.saturating_sub(1)), place((best + 1).min(PLACES)));
-                maximum::largest(value, from, to)
+                let known: Vec<_> = places.clone().map(|u| (u, value(u))).collect();
+                maximum::beside_best(value, &known)
             };
             let (u, force) = top(&|u| at(u).0);
             // The quintic finds the place; the force there is that of the motion.

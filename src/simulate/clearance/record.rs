@@ -153,24 +153,6 @@ impl Record {
     }
 }
 
-/// The quintic through value, rate and second derivative at both ends of a step of length h, at u in [0, 1]:
-/// value and rate.
-pub(super) fn quintic(start: [f64; 3], end: [f64; 3], h: f64, u: f64) -> (f64, f64) {
-    let ([y0, d0, s0], [y1, d1, s1]) = (start, end);
-    let (v0, v1) = (h * d0, h * d1);
-    let (c0, c1) = (0.5 * h * h * s0, 0.5 * h * h * s1);
-    let rise = y1 - y0 - v0 - c0;
-    let slope = v1 - v0 - 2.0 * c0;
-    let bend = 2.0 * (c1 - c0);
-    let k3 = 10.0 * rise - 4.0 * slope + 0.5 * bend;
-    let k4 = -15.0 * rise + 7.0 * slope - bend;
-    let k5 = 6.0 * rise - 3.0 * slope + 0.5 * bend;
-    (
-        y0 + u * (v0 + u * (c0 + u * (k3 + u * (k4 + u * k5)))),
-        (v0 + u * (2.0 * c0 + u * (3.0 * k3 + u * (4.0 * k4 + u * 5.0 * k5)))) / h,
-    )
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
