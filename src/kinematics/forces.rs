@@ -191,7 +191,7 @@ impl ForceAnalysis {
         let seam = [0.0, whole]
             .into_iter()
             .filter(|_| (from..to).contains(&whole));
-        let grid = self.linkage().turn_grid(1f64.to_radians());
+        let grid = self.linkage().turn_grid(false);
         let inside = (-1..=i64::from(self.cycle_turns) + 1)
             .flat_map(|turn| grid.iter().map(move |theta| theta + turn as f64 * TAU))
             .filter(|theta| (from..=to).contains(theta));

@@ -3,6 +3,7 @@
 use super::lagrange::forward;
 use super::load::instant;
 use super::{Equation, Inertia, LoadValue, Normal, Terms};
+use crate::numeric::LANES;
 use crate::numeric::angle::Angle;
 use crate::numeric::trigonometry::sin_cos;
 
@@ -129,7 +130,6 @@ impl Equation {
         count: usize,
         beside: impl Fn(&Terms) -> T,
     ) -> (Positions<N>, [T; N]) {
-        const LANES: usize = 4;
         let (mut all, mut of_all) = (Positions::ZERO, [T::default(); N]);
         for begin in (0..count).step_by(LANES) {
             let some: [f64; LANES] = std::array::from_fn(|i| theta[(begin + i).min(N - 1)]);

@@ -34,7 +34,7 @@ impl Extremes {
         if Class::of(linkage) != Class::RotatingCrank {
             return None;
         }
-        let poses = poses(linkage, &linkage.turn_grid(LARGEST_STEP));
+        let poses = poses(linkage, &linkage.turn_grid(true));
         let (velocity_min, velocity_max) = pair(linkage, &poses, |p| p.dx, |_, p| p.d2x)?;
         let (acceleration_min, acceleration_max) = pair(
             linkage,
@@ -87,14 +87,17 @@ impl Linkage {
     /// Where x and φ, analytic in θ otherwise, have branch points, for the rod would stand normal to the guide: ±90° ±
     /// i arcosh((l ∓ e)/r). Angle and distance from it, rad.
     pub fn branch_points(&self) -> [[f64; 2]; 2] {
-        let width = |height: f64| 2.0 * (0.5 * height / self.r).max(LEAST_MISS).sqrt().asinh();
+        // The rod misses the normal by rounding at least.
+        let width = |height: f64| 2.0 * (0.5 * height / self.r).max(f64::EPSILON).sqrt().asinh();
         let (below, above) = (width(self.below[0]), width(self.above[0]));
         [[-FRAC_PI_2, below], [FRAC_PI_2, above]]
     }
 
-    /// Crank angles of one turn, rad, at most `step` apart and close enough to show all that the geometry makes: it varies
-    /// on the scale of the distance from the branch points.
-    pub fn turn_grid(&self, step: f64) -> Vec<f64> {
+    /// Crank angles of one turn, rad, close enough to show all that the geometry makes: it varies on the scale of the distance
+    /// from the branch points. At most a degree apart, or what is between the extremes of what is `smooth`, which geometry and
+    /// mass alone make.
+    pub fn turn_grid(&self, smooth: bool) -> Vec<f64> {
+        let step = if smooth { 0.0625 } else { 1f64.to_radians() };
         let [[_, below], [_, above]] = self.branch_points();
         let widths = [below, above, below];
         let distance = |theta: f64| {
@@ -119,11 +122,7 @@ impl Linkage {
     }
 }
 
-/// Largest step between the extremes of x' and of x'', rad.
-const LARGEST_STEP: f64 = 0.0625;
 /// Where the turn is cut, rad: an angle at which nothing is extreme for a reason of symmetry.
 const SEAM: f64 = -1.7;
 /// Step as a part of the distance from the nearest branch point.
 const STEP_BY_DISTANCE: f64 = 0.125;
-/// Least part of the crank length by which the rod is taken to miss the normal: that of rounding.
-const LEAST_MISS: f64 = f64::EPSILON;

@@ -25,3 +25,6 @@ pub mod root;
 pub mod stop;
 pub mod student;
 pub mod trigonometry;
+
+/// Values that are computed side by side, and sums that are kept apart.
+pub const LANES: usize = 4;

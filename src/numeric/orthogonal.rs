@@ -3,8 +3,8 @@
 //! The three-term recurrence of Forsythe (J. SIAM 5 (1957) 74) makes the columns of Q in the QR
 //! factorization of the matrix of powers, one after the other, in time and memory linear in the points.
 
-use super::parallel;
 use super::real::Real;
+use super::{LANES, parallel};
 
 /// Coefficients over orthonormal polynomials q_j of s = (t − middle)/half:
 /// norm_{j+1} q_{j+1} = (s − centre_j) q_j − norm_j q_{j−1}, q_0 = 1/norm_0.
@@ -98,9 +98,6 @@ fn summed<T: Real, P: Send>(
     let add = |[a, b]: [T; 2], [c, d]: [T; 2]| [a + c, b + d];
     parts.into_iter().fold([T::from(0.0); 2], add)
 }
-
-/// Sums that are formed side by side.
-const LANES: usize = 4;
 
 fn total<T: Real>([a, b, c, d]: [T; LANES]) -> T {
     (a + b) + (c + d)

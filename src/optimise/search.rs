@@ -17,9 +17,6 @@ pub(super) const EXPLORED: u64 = 64;
 /// Most local searches.
 const STARTS: usize = 16;
 
-/// First steps of a local search from the exploration, in parts of the ranges.
-const FIRST_STEP: f64 = 0.1;
-
 /// Half widths of the sweeps round the best, in parts of the ranges.
 const HALF_WIDTHS: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
@@ -50,7 +47,7 @@ pub(super) fn run(judge: &mut Judge, seed: u64) -> Result<Found, Error> {
         .fold(f64::NEG_INFINITY, f64::max);
     let judge = &*judge;
     let starts = parallel::map(starts(&sorted).into_iter(), |from| {
-        search(judge, from, FIRST_STEP, worst)
+        search(judge, from, HALF_WIDTHS[0], worst)
     });
     judge.stop.reach(0.7);
     let ends = starts.iter().map(|start| start.end.clone());

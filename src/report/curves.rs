@@ -170,7 +170,7 @@ fn band(table: &Table, curve: &Curve, factor: f64) -> Option<Vec<[f64; 2]>> {
 pub(super) const SPACING: f64 = PI / 360.0;
 
 /// Points that a curve needs; more are thinned out.
-const CURVE_POINTS: usize = 4000;
+pub(super) const CURVE_POINTS: usize = 4000;
 
 /// A curve through so few points that a picture stays small; the extremes of each piece are kept.
 fn outlined(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {

@@ -5,10 +5,9 @@ use std::fmt::Display;
 use super::number::with_unit;
 use super::{Places, Problem, Problems};
 
-/// Largest value, SI: an energy, the product of five values, has one in double precision, too.
+/// Largest value, SI: an energy, the product of five values, has one in double precision, too, and that of the least
+/// positive values, its reciprocal, does not vanish.
 const LARGEST: f64 = 1e50;
-/// Least value that has to be positive, SI: such a product does not vanish.
-const LEAST_POSITIVE: f64 = 1.0 / LARGEST;
 
 /// The problems found so far.
 pub(super) struct Check<'a> {
@@ -52,7 +51,7 @@ impl Check<'_> {
         } else if value <= 0.0 {
             let what = format!("{} is not positive", with_unit(value, unit));
             self.add(field, what, "give a value above zero");
-        } else if value < LEAST_POSITIVE {
+        } else if value < 1.0 / LARGEST {
             let what = format!("{value:e} is too small to be computed with");
             self.add(field, what, "give a value above 1e-50 in SI units");
         }

@@ -45,5 +45,5 @@ pub use problem::{Problem, Problems};
 pub use table::{Interpolation, Table, calibration_points};
 #[cfg(feature = "cli")]
 pub use table::{LoadTable, load_table};
-pub(crate) use validate::MOST_ROWS;
+pub(crate) use validate::{LEAST_TOLERANCE, MOST_ROWS};
 pub use variable::{Instant, Variable, Variables};

@@ -25,8 +25,6 @@ pub(super) struct Drive<'a> {
 
 /// Turns of a run whose loads do not repeat that are looked at.
 const MOST_TURNS: f64 = 100.0;
-/// Largest step between the extremes of a torque that geometry and mass alone make, rad.
-const SMOOTH: f64 = 0.0625;
 
 impl Drive<'_> {
     fn torque(&self, t: f64) -> f64 {
@@ -129,8 +127,7 @@ impl Drive<'_> {
     /// Crank angles of a turn, close enough to show what the loads make.
     fn grid(&self) -> Vec<f64> {
         let smooth = self.equation.loads().are_linear() && self.maker.guide.is_none();
-        let step = if smooth { SMOOTH } else { 1f64.to_radians() };
-        self.equation.linkage().turn_grid(step)
+        self.equation.linkage().turn_grid(smooth)
     }
 
     /// Times at which the crank is at an angle of the grid until it has turned so far (rad), and the ends.

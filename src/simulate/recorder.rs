@@ -13,6 +13,7 @@ use super::run_setup::RunSetup;
 use super::schedule::Schedule;
 use super::simulation::{Spell, lengthen};
 use super::stick_slip::Phase;
+use crate::engine::PIECES;
 use crate::engine::step::Step;
 use crate::error::Error;
 use crate::numeric::angle::Angle;
@@ -232,9 +233,6 @@ struct InStep<'a> {
     start: Angle,
 }
 
-/// A step is looked at in this many pieces for where the crank turns back.
-const PIECES: u32 = 8;
-
 impl Part for InStep<'_> {
     fn times(&self) -> [f64; 2] {
         [self.step.start.t, self.until]
@@ -251,12 +249,12 @@ impl Part for InStep<'_> {
 
     fn turning_times(&mut self) -> Vec<f64> {
         let step = &*self.step;
-        let time = |piece: u32| match piece {
+        let time = |piece: usize| match piece {
             PIECES => step.end.t,
-            _ => step.start.t + step.length() * f64::from(piece) / f64::from(PIECES),
+            _ => step.start.t + step.length() * piece as f64 / PIECES as f64,
         };
         let speed = |t: f64| self.along.crank(step, t).1;
-        let turns = |i: u32| {
+        let turns = |i: usize| {
             let (from, to) = (time(i), time(i + 1));
             let turns = speed(from) * speed(to) < 0.0;
             turns.then(|| root::bracketed(speed, from, to))?

@@ -120,7 +120,7 @@ pub fn statics(scene: &Scene, options: &StaticsOptions) -> Result<StaticAnalysis
     let equation = statics.equation();
     let without_value =
         |theta: f64| linkage.pose(theta).exists() && !equation.load(0.0, theta, 0.0).is_finite();
-    let grid = linkage.turn_grid(1f64.to_radians()).into_iter();
+    let grid = linkage.turn_grid(false).into_iter();
     if grid.map(|theta| theta.rem_euclid(TAU)).any(without_value) {
         warnings.push(
             "a load has no finite value at some crank angles, outside its table or the domain of its formula: their rows are left empty"
@@ -195,11 +195,7 @@ impl StaticAnalysis {
     /// Least magnitudes of a value over the turn from 0 to 360 degrees; loads need not be the same in the next one.
     fn least_of(&self, value: impl Fn(&Balance) -> Option<f64>) -> Vec<Located> {
         let value = |theta: f64| value(&self.balance(theta.rem_euclid(TAU))).unwrap_or(f64::NAN);
-        let mut grid = self
-            .statics
-            .equation()
-            .linkage()
-            .turn_grid(1f64.to_radians());
+        let mut grid = self.statics.equation().linkage().turn_grid(false);
         grid.push(grid[0] + TAU + (grid[1] - grid[0]));
         let size: Vec<f64> = grid.iter().map(|theta| value(*theta).abs()).collect();
         let mut found: Vec<Located> = (1..grid.len() - 1)

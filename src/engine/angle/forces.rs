@@ -2,11 +2,9 @@
 
 use super::Driven;
 use super::panel::{Start, Station};
+use crate::numeric::LANES;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 use crate::numeric::enclosure::Interval;
-
-/// Points at which loads are evaluated together.
-const LANES: usize = 4;
 
 /// Forces at the points of a panel, N m.
 #[derive(Clone)]

@@ -6,10 +6,8 @@ use std::sync::OnceLock;
 
 use super::transform::{HALF, Half, Matrices};
 use super::{MAX_DEGREE, Series, Values};
+use crate::numeric::LANES;
 use crate::numeric::exact::two_sum;
-
-/// Sums that are kept apart; all degrees are multiples of it.
-const LANES: usize = 4;
 
 /// The Lobatto points x₀ = −1, …, x_n = 1 of a degree n and what belongs to them.
 pub struct Rule {

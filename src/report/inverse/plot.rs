@@ -2,11 +2,9 @@
 
 use crate::error::Error;
 use crate::inverse::{AsPrinted, Inverse, InverseRow};
+use crate::report::curves::CURVE_POINTS;
 use crate::report::key_values::rounded;
 use crate::report::{Axis, Figure, Shape, Sheet};
-
-/// Points of a curve that a figure shows.
-const CURVE_POINTS: usize = 2000;
 
 /// Samples that are drawn over the fit, so that both are seen.
 const SAMPLES_DRAWN: usize = 100;

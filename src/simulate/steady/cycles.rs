@@ -13,12 +13,8 @@ use crate::engine::energy::NotApplicable;
 use crate::error::Error;
 use crate::numeric::angle::Angle;
 use crate::numeric::root;
-use crate::scene::{Extent, Scene};
+use crate::scene::{Extent, LEAST_TOLERANCE, Scene};
 use crate::trajectory::Trajectory;
-
-/// Local error target, and that of another computation to compare with.
-const TOLERANCE: f64 = 1e-14;
-const OTHER: f64 = 1e-13;
 
 pub(super) struct Cycle {
     pub trajectory: Trajectory,
@@ -70,7 +66,10 @@ pub(super) fn one_cycle(scene: &Scene, speed: f64, turns: u32, other: bool) -> S
     scene.motion.speed = speed;
     scene.run.extent = Some(Extent::Revolutions(turns.into()));
     scene.run.output_every = None;
-    scene.run.tolerance = if other { OTHER } else { TOLERANCE };
+    scene.run.tolerance = match other {
+        true => 10.0 * LEAST_TOLERANCE,
+        false => LEAST_TOLERANCE,
+    };
     scene
 }
 

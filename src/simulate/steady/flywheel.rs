@@ -11,8 +11,6 @@ use crate::scene::{Crank, Scene};
 
 /// Largest inertia that is tried, in units of that of the mechanism.
 const LARGEST_INERTIA: f64 = 1e12;
-/// Halvings towards an inertia with which the crank stops.
-const HALVINGS: u32 = 40;
 
 /// Finds the flywheel with which the steady state, of this speed (rad/s) at its start, has the `wanted` coefficient of
 /// fluctuation: more inertia than the crank's own if its own coefficient is larger, else less.
@@ -110,7 +108,8 @@ fn lighter(scene: &Scene, wanted: f64, excess: &Excess<'_>) -> Result<(f64, f64)
     let most = crank.inertia - crank.mass * (crank.cg.powi(2) + crank.cg_lateral.powi(2));
     let (mut kept, mut stops, mut tried) = (0.0, -most, -most);
     let mut largest = excess(0.0)?;
-    for _ in 0..HALVINGS {
+    // Halvings towards an inertia with which the crank stops, to its last digit.
+    for _ in 0..f64::MANTISSA_DIGITS {
         match excess(tried) {
             Ok(excess) if excess >= 0.0 => return Ok((tried, kept)),
             Ok(excess) => {

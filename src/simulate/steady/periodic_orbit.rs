@@ -176,7 +176,7 @@ impl Seeker<'_> {
     /// The largest sign·|speed|: of the angles of a fine grid, then where the acceleration vanishes beside it.
     fn extreme(&self, found: &Found, sign: f64) -> Extreme {
         let (sense, whole) = (found.cycle.speed.signum(), found.way());
-        let grid = self.task.equation().linkage().turn_grid(1f64.to_radians());
+        let grid = self.task.equation().linkage().turn_grid(false);
         let since = |theta: &f64| (sense * (theta - found.start.rest)).rem_euclid(TAU);
         let again = |turn: u32| {
             let before = f64::from(turn) * TAU;
