@@ -10,6 +10,7 @@ use ode_solvers::dop_shared::IntegrationError;
 use ode_solvers::{Dop853, Dopri5, OutputType, SVector, System};
 
 use super::Motion;
+use super::run_in_time::Finish;
 use super::step::{Node, Step};
 use crate::numeric::angle::Angle;
 
@@ -40,19 +41,6 @@ impl Method {
     }
 }
 
-/// How one call ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Ended {
-    /// At the end of the time it was given.
-    AtEnd,
-    /// Where the observer wanted it to end.
-    Stopped,
-    /// The work limit is reached.
-    WorkLimit,
-    /// The step size became too small for the time to move on.
-    StepTooSmall,
-}
-
 /// What a call is given.
 pub struct Call<'a> {
     /// The motion.
@@ -78,7 +66,7 @@ pub struct Call<'a> {
 }
 
 /// One call of the method.
-pub fn integrate(call: Call<'_>) -> Ended {
+pub fn integrate(call: Call<'_>) -> Finish {
     match (call.motion.has_power(), call.motion.depends_on_time()) {
         (false, false) => run::<2>(call, None, None),
         (false, true) => run::<3>(call, None, Some(2)),
@@ -87,10 +75,10 @@ pub fn integrate(call: Call<'_>) -> Ended {
     }
 }
 
-fn run<const N: usize>(call: Call<'_>, work: Option<usize>, clock: Option<usize>) -> Ended {
+fn run<const N: usize>(call: Call<'_>, work: Option<usize>, clock: Option<usize>) -> Finish {
     let length = call.t_end - call.start.t;
     if length <= 0.0 {
-        return Ended::AtEnd;
+        return Finish::AtEnd;
     }
     let mut state = SVector::<f64, N>::zeros();
     state[0] = call.start.theta;
@@ -147,10 +135,10 @@ fn run<const N: usize>(call: Call<'_>, work: Option<usize>, clock: Option<usize>
         .integrate(),
     };
     match result {
-        Ok(_) if stopped.get() => Ended::Stopped,
-        Ok(_) => Ended::AtEnd,
-        Err(IntegrationError::MaxNumStepReached { .. }) => Ended::WorkLimit,
-        Err(_) => Ended::StepTooSmall,
+        Ok(_) if stopped.get() => Finish::Stopped,
+        Ok(_) => Finish::AtEnd,
+        Err(IntegrationError::MaxNumStepReached { .. }) => Finish::WorkLimit,
+        Err(_) => Finish::StepTooSmall,
     }
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::collocation;
 use super::runge_kutta;
-use super::runge_kutta::{Call, Ended};
+use super::runge_kutta::Call;
 use super::sight::hides;
 use super::step::{Node, Step};
 use super::work_forecast::WorkForecast;
@@ -109,11 +109,11 @@ fn in_calls(
         steps += in_call as u64;
         let finish = match ended {
             _ if rejected.is_some() => None,
-            Ended::WorkLimit => Some(Finish::WorkLimit),
-            Ended::StepTooSmall => Some(Finish::StepTooSmall),
-            Ended::Stopped if ended_by_sink => Some(Finish::Stopped),
-            Ended::AtEnd | Ended::Stopped if last.end.t >= settings.t_end => Some(Finish::AtEnd),
-            Ended::AtEnd | Ended::Stopped => None,
+            Finish::Stopped if ended_by_sink => Some(Finish::Stopped),
+            Finish::AtEnd | Finish::Stopped => {
+                (last.end.t >= settings.t_end).then_some(Finish::AtEnd)
+            }
+            ended => Some(ended),
         };
         if let Some(finish) = finish {
             return (finish, last, steps);

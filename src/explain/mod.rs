@@ -12,7 +12,7 @@ use friction::friction_at;
 use crate::error::Error;
 use crate::mechanism::{Equation, single};
 use crate::plan::{Method, Plan};
-use crate::scene::{Instant as State, LoadOf, RodModel, Scene};
+use crate::scene::{LoadOf, RodModel, Scene};
 
 /// What `explain` shows.
 #[derive(Clone, Debug, Serialize)]
@@ -110,13 +110,7 @@ fn terms_at(scene: &Scene, equation: &Equation, theta: f64) -> Result<TermsAt, E
             "give an angle that `kinematics` shows as reachable",
         ));
     }
-    let now = State {
-        t: 0.0,
-        theta,
-        omega,
-        x: pose.x,
-        v: pose.dx * omega,
-    };
+    let now = pose.instant(0.0, theta, omega);
     let mut loads = Vec::new();
     for of in scene.loads() {
         let value = single(of.load, of.on_slider, &now);

@@ -7,9 +7,6 @@ use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{Interval, Reach};
 use crate::numeric::exact::SUM_ROUNDING;
 
-/// Of the range of a load no ellipse around it is asked for.
-const SOME_ELLIPSE: f64 = 2.0;
-
 /// The mechanism at rest at a coordinate q.
 pub struct AtRest<'a> {
     equation: &'a CurveEquation,
@@ -84,7 +81,8 @@ impl AtRest<'_> {
             torque: terms.place.dtheta,
             force: terms.place.dx,
         };
-        let detail = loads.detail(&seen, arms, SOME_ELLIPSE);
+        // Of the range of a load no ellipse around it is asked for: any serves.
+        let detail = loads.detail(&seen, arms, 2.0);
         let (arm, x_n) = (terms.place.dx.abs(), terms.x_n.abs());
         // What changes Q by one changes the torque by one at most and the force by 1/x'.
         let most = 1.0 + mu_static * (arm * terms.theta_n.abs() + 2.0 * x_n);

@@ -207,8 +207,7 @@ impl Loads {
         omega: f64,
         pose: &Pose,
     ) -> LoadValue {
-        let now = instant(t, theta, omega, [pose.x, pose.dx]);
-        self.without_potential_beside(self.of_time(t), &now)
+        self.without_potential_beside(self.of_time(t), &pose.instant(t, theta, omega))
     }
 
     /// Torque and force of the loads that depend on time (s) alone.
@@ -276,6 +275,13 @@ impl Loads {
     pub fn potential(&self, theta: f64, x: f64) -> f64 {
         let LoadValue { torque, force } = self.constant;
         -torque * theta - force * x + 0.5 * self.stiffness * x * x
+    }
+}
+
+impl Pose {
+    /// What loads see of a motion through it, at a time (s), crank angle (rad) and speed (rad/s).
+    pub fn instant(&self, t: f64, theta: impl Into<Angle>, omega: f64) -> Instant {
+        instant(t, theta, omega, [self.x, self.dx])
     }
 }
 

@@ -19,12 +19,11 @@ pub struct Closure {
 impl Linkage {
     /// Solves r cos θ − l cos θ₃ − x = 0, e + r sin θ − l sin θ₃ = 0 (Gupta (2), (3)) for θ₃ and x from a
     /// guess, until the norm of the two is at most `tolerance` (m). Either branch can be what it finds; none where the
-    /// Jacobian is singular, the rod being guessed normal to the guide, or the steps allowed do not lead there.
+    /// Jacobian is singular, the rod being guessed normal to the guide, or a hundred steps do not lead there.
     pub fn close_loop(&self, theta: f64, guess: (f64, f64), tolerance: f64) -> Option<Closure> {
-        const MOST_STEPS: u32 = 100;
         let Linkage { r, l, e, .. } = *self;
         let (mut theta3, mut x) = guess;
-        for iterations in 0..=MOST_STEPS {
+        for iterations in 0..=100 {
             let (sin3, cos3) = theta3.sin_cos();
             let f1 = r * theta.cos() - l * cos3 - x;
             let f2 = e + r * theta.sin() - l * sin3;

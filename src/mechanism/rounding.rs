@@ -12,13 +12,7 @@ impl Equation {
         let theta = theta.into();
         let terms = self.terms(theta.rest);
         let pose = &terms.pose;
-        let now = Instant {
-            t,
-            theta: theta.radians(),
-            omega,
-            x: pose.x,
-            v: pose.dx * omega,
-        };
+        let now = pose.instant(t, theta, omega);
         let change = f64::EPSILON.cbrt();
         let place = pose.x.abs() + self.linkage().r;
         let moved = Instant {

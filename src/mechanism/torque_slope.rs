@@ -2,7 +2,7 @@
 
 use super::{Bodies, Body, Length, Link, Linkage, Path, Pose, PoseSlope, single};
 use crate::error::Error;
-use crate::scene::{Instant, Load, RodModel, Scene, Variables};
+use crate::scene::{Load, RodModel, Scene, Variables};
 
 /// The bodies and loads whose torque changes with the lengths; masses, moments of inertia and centres of
 /// gravity stay where they are, measured from the crank pivot and the crank pin.
@@ -97,13 +97,7 @@ impl TorqueSlope {
             -body.mass * (self.gravity[0] * change.dp[0] + self.gravity[1] * change.dp[1])
         });
         let inertia: f64 = moving.chain(heavy).sum();
-        let now = Instant {
-            t: theta / omega,
-            theta,
-            omega,
-            x: pose.x,
-            v: pose.dx * omega,
-        };
+        let now = pose.instant(theta / omega, theta, omega);
         let others: f64 = self
             .others
             .iter()

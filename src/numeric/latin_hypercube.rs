@@ -23,13 +23,12 @@ impl LatinHypercube {
     /// A permutation of the samples: a Feistel network over the least power of four that holds them, walked along its
     /// cycle until it is back among them (Black and Rogaway, CT-RSA 2002).
     fn permuted(&self, key: u64, sample: u64) -> u64 {
-        /// Rounds from which a network is a random permutation (Luby and Rackoff).
-        const ROUNDS: u64 = 4;
         let half = (u64::BITS - (self.count - 1).leading_zeros()).div_ceil(2);
         let low = (1u64 << half) - 1;
         let mut at = sample;
         loop {
-            for round in 0..ROUNDS {
+            // From four rounds on a network is a random permutation (Luby and Rackoff).
+            for round in 0..4 {
                 let (left, right) = (at >> half, at & low);
                 at = right << half | (left ^ mixed(key ^ mixed(right << 2 | round))) & low;
             }

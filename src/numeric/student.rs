@@ -26,8 +26,7 @@ pub fn half_band(freedom: f64) -> f64 {
 
 /// The point from that of the normal distribution, by powers of 1/freedom (Abramowitz and Stegun, 26.7.5).
 fn expanded(freedom: f64) -> f64 {
-    const NORMAL: f64 = 1.959_963_984_540_054;
-    let x = NORMAL;
+    let x: f64 = 1.959_963_984_540_054;
     let (x3, x5, x7, x9) = (x.powi(3), x.powi(5), x.powi(7), x.powi(9));
     let g1 = (x3 + x) / 4.0;
     let g2 = (5.0 * x5 + 16.0 * x3 + 3.0 * x) / 96.0;

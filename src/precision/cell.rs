@@ -12,9 +12,6 @@ use crate::simulate::NoRows;
 use crate::simulate::Summary;
 use crate::simulate::{Options, simulate_rows};
 
-/// The reference must be this much better than what it measures.
-const BETTER: f64 = 100.0;
-
 /// The tolerance of methods that others are measured against.
 const TIGHTEST: f64 = 1e-13;
 
@@ -200,7 +197,8 @@ fn unlike(summary: &Summary, reference: Option<&Reference>) -> Option<String> {
 /// Distance from a reference; with the reference's own error, if that is not much smaller.
 fn error(value: f64, reference: DoubleDouble, reference_error: f64) -> (f64, bool) {
     let distance = (reference - value).value().abs();
-    if BETTER * reference_error > distance {
+    // The reference must be a hundred times better than what it measures.
+    if 100.0 * reference_error > distance {
         (distance + reference_error, true)
     } else {
         (distance, false)

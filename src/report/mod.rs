@@ -3,7 +3,6 @@
 //! A [`Report`] describes a result once: what there is to say of it, its rows, and what is seen of these. Text, CSV file,
 //! picture and page follow.
 
-mod calibration;
 mod compare;
 mod csv;
 mod curves;
@@ -31,11 +30,9 @@ mod run;
 mod sketch;
 mod statics;
 mod sweep;
-mod synthesis;
 mod table;
 mod text;
 
-pub use calibration::calibration;
 pub use compare::{Comparison, Motion};
 pub use curves::View;
 pub use diagrams::Diagram;
@@ -57,10 +54,10 @@ pub use reproduce::{ReproductionSummary, file_name, reproduction, reproduction_c
 pub use reproduce::{drawing_csv, drawing_svg};
 pub use rows::{Preview, RowColumns, RowWriter};
 pub use sketch::{Pose, Sketch, animation};
-pub use statics::StaticsReport;
+pub use statics::{StaticsReport, calibration};
 pub use sweep::{
     FrontDesign, MOST_ON_PAGE, Spread, SweepAsked, SweepExtreme, SweepRange, SweepSummary,
     SweepWriter, VariedKey, merge, sweep_page, sweep_text,
 };
-pub use synthesis::{synthesis, synthesis_scene};
 pub use table::{Cells, Table};
+pub use text::{synthesis, synthesis_scene};

@@ -42,10 +42,9 @@ fn shown(column: &str, value: Option<f64>) -> String {
 }
 
 fn varied(one: &OptimumValue) -> String {
-    /// The files have all digits.
-    const DIGITS: usize = 9;
     let [low, high] = one.bounds.map(six);
-    let value = format!("{} {}", rounded(one.value, DIGITS), one.unit);
+    // The files have all digits.
+    let value = format!("{} {}", rounded(one.value, 9), one.unit);
     let value = value.trim_end();
     match one.at_bound {
         Some(bound) => format!("{value}, the {bound} bound ({low} to {high})"),

@@ -226,12 +226,11 @@ fn steady_state(facts: &mut Facts, steady: &SteadyState) {
 
 /// The largest orders that are beyond their errors.
 fn speed_orders(orders: &[SpeedOrder]) -> Option<String> {
-    const ORDERS_SHOWN: usize = 3;
     let amplitude = |order: &SpeedOrder| order.amplitude_rad_per_s.value;
     let known = |order: &&SpeedOrder| amplitude(order) > order.amplitude_rad_per_s.error;
     let mut largest: Vec<_> = orders.iter().filter(known).collect();
     largest.sort_by(|one, other| amplitude(other).total_cmp(&amplitude(one)));
-    let words = largest.iter().take(ORDERS_SHOWN).map(|order| {
+    let words = largest.iter().take(3).map(|order| {
         let amplitude = estimated(order.amplitude_rad_per_s, "rad/s");
         format!("{} a turn {amplitude}", order.order)
     });

@@ -1,12 +1,12 @@
-//! Static equilibrium.
+//! Static equilibrium, and the calibration of a force sensor.
 
 use super::curves::SPACING;
-use super::key_values::{Facts, aligned, fact, given};
+use super::key_values::{Facts, aligned, fact, given, six, with_error};
 use super::text::{NAMES, extreme, place};
 use super::{Look, Report, Table, View};
 use crate::error::Error;
 use crate::scene::Scene;
-use crate::statics::{StaticAnalysis, StaticsRow};
+use crate::statics::{Calibration, StaticAnalysis, StaticsRow};
 
 /// Static equilibrium over one turn.
 #[derive(Clone, Copy)]
@@ -123,4 +123,28 @@ fn cells(row: &StaticsRow) -> [f64; 9] {
         row.velocity_ratio,
         row.crank_pin_angle,
     ]
+}
+
+/// The line, its statistics, and the forces of the readings.
+pub fn calibration(result: &Calibration) -> String {
+    let mut facts = Facts::of("");
+    let fit = &result.fit;
+    let shown = |value: f64, se: Option<f64>| match se {
+        Some(se) => with_error(value, se, ""),
+        None => six(value),
+    };
+    facts.add("points", fit.points);
+    let slope = shown(fit.slope, fit.slope_se);
+    fact!(facts, "slope", "{slope} per N");
+    facts.add("intercept", shown(fit.intercept, fit.intercept_se));
+    if let Some(r_squared) = fit.r_squared {
+        facts.add("R squared", given(r_squared));
+    }
+    for measured in &result.forces {
+        let force = shown(measured.force_n, measured.force_se_n);
+        let reading = given(measured.reading);
+        fact!(facts, "force", "{force} N for a reading of {reading}");
+    }
+    facts.warnings(&result.warnings);
+    facts.lines(12)
 }

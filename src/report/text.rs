@@ -1,7 +1,7 @@
 //! Positions, extremes and what the lengths give, in words.
 
-use super::key_values::{Facts, degrees, fact, six};
-use crate::kinematics::{Kinematics, Located, NamedPosition};
+use super::key_values::{Facts, degrees, fact, given, six};
+use crate::kinematics::{Kinematics, Located, NamedPosition, Synthesis};
 
 /// Characters of the longest name of a position.
 pub(super) const NAMES: usize = 24;
@@ -69,4 +69,27 @@ pub(super) fn kinematics(result: &Kinematics) -> Facts {
     }
     facts.warnings(&result.warnings);
     facts
+}
+
+/// The lengths, and one turn of them.
+pub fn synthesis(found: &Synthesis) -> String {
+    let mut facts = kinematics(&found.turn);
+    for (name, value) in lengths(found) {
+        fact!(facts, name, "{} m", given(value));
+    }
+    facts.lines(22)
+}
+
+/// A scene of these lengths.
+pub fn synthesis_scene(found: &Synthesis) -> String {
+    let lines = lengths(found).map(|(name, value)| format!("{name} = \"{value} m\"\n"));
+    format!("[geometry]\n{}", lines.concat())
+}
+
+fn lengths(found: &Synthesis) -> [(&'static str, f64); 3] {
+    [
+        ("crank", found.crank_m),
+        ("rod", found.rod_m),
+        ("offset", found.offset_m),
+    ]
 }

@@ -15,9 +15,8 @@ const FILES: Files = Files {
     figures: include_str!("../../data/papers/gupta-figures.csv"),
 };
 
-/// Initial guess of the script: 180 degrees and 40 mm, and its tolerance of 1e-6 mm.
+/// Initial guess of the script: 180 degrees and 40 mm.
 const GUESS: (f64, f64) = (PI, 0.04);
-const TOLERANCE: f64 = 1e-9;
 
 /// The six quantities of the script, `script_` before them, and ours, `closed_`: its rod points from the slider to the crank
 /// pin.
@@ -34,7 +33,8 @@ impl Script {
     fn computed(&self, theta: f64) -> [f64; 6] {
         let Linkage { r, l, .. } = self.linkage;
         let speed = self.speed;
-        let Some(found) = self.linkage.close_loop(theta, GUESS, TOLERANCE) else {
+        // The tolerance of the script is 1e-6 mm.
+        let Some(found) = self.linkage.close_loop(theta, GUESS, 1e-9) else {
             return [f64::NAN; 6];
         };
         let (sin3, cos3) = found.theta3.sin_cos();

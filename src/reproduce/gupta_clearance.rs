@@ -15,8 +15,6 @@ use crate::simulate::{Options, Row, simulate_rows};
 const SPEEDS: [f64; 3] = [400.0, 300.0, 30.0];
 /// Turns before the one that is shown, in which the journal comes to the wall.
 const BEFORE: f64 = 1.0;
-/// Part of the stroke that a figure shows as very little, %: about the width of its lines.
-const VERY_LITTLE: f64 = 1.0;
 
 fn scene(speed: f64) -> Scene {
     let mut scene = Scene::new(0.14, 0.31)
@@ -67,7 +65,8 @@ pub(super) fn entries() -> Result<Vec<Entry>, Error> {
             true => off,
             false => most.max(off.abs()),
         });
-        let printed = Printed::between(words, [0.0, VERY_LITTLE]);
+        // Of the stroke, about the width of the lines of a figure.
+        let printed = Printed::between(words, [0.0, 1.0]);
         Entry {
             place: "2.3, figure 14".to_owned(),
             what,

@@ -27,10 +27,7 @@ impl Balance {
     pub fn of_crank(task: &RunSetup<'_>, at: &Start, work: f64, largest_kinetic: f64) -> Balance {
         let equation = task.equation();
         let start = task.start();
-        let turned = Angle {
-            turns: at.angle.turns - start.turns,
-            rest: at.angle.rest,
-        };
+        let turned = Angle::new(at.angle.turns - start.turns, at.angle.rest);
         let begin =
             equation.kinetic_energy(start.rest, task.speed) + equation.potential_energy(start.rest);
         let last =

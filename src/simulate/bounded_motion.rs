@@ -8,12 +8,6 @@ use crate::scene::{Extent, Variable};
 /// A turning point counts as further out from this part of the swing on: far more than a run in time is off.
 const FURTHER: f64 = 1e-3;
 
-/// Turning points without a further one after which a swing is taken to stay as it is. Friction brings most swings to
-/// rest, which says more, and loads in time may push the crank later: both are waited for.
-const ENOUGH: u64 = 50;
-const ENOUGH_WITH_FRICTION: u64 = 200;
-const ENOUGH_IN_TIME: u64 = 10_000;
-
 /// The turning points of a run that ends after a number of turns.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Swing {
@@ -22,7 +16,7 @@ pub(super) struct Swing {
     /// Turning points since one led further out, and before it.
     since: u64,
     before: u64,
-    /// Turning points that are waited for at least.
+    /// Turning points without a further one after which the swing is taken to stay as it is.
     enough: u64,
     turns: f64,
 }
@@ -34,11 +28,12 @@ impl Swing {
             return None;
         };
         let loads = task.equation().loads();
+        // Friction brings most swings to rest, which says more, and loads in time may push the crank later: both are waited for.
         let enough = match task.scene.reduced().friction {
             _ if task.one_way => 0,
-            _ if loads.reads().has(Variable::T) => ENOUGH_IN_TIME,
-            None if !loads.are_dry() => ENOUGH,
-            _ => ENOUGH_WITH_FRICTION,
+            _ if loads.reads().has(Variable::T) => 10_000,
+            None if !loads.are_dry() => 50,
+            _ => 200,
         };
         Some(Swing {
             reach: [start; 2],

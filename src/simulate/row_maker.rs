@@ -7,7 +7,7 @@ use super::row::Row;
 use crate::engine::time::Start;
 use crate::mechanism::{CurveEquation, Equation, Pose, Reactions, Reactor};
 use crate::numeric::angle::Angle;
-use crate::scene::{Instant, Load};
+use crate::scene::Load;
 
 #[derive(Clone, Debug)]
 pub(super) struct RowMaker {
@@ -24,13 +24,7 @@ impl RowMaker {
     /// The load without a finite value at a state, if there is one.
     pub fn without_value(&self, at: Start) -> Option<Load> {
         let pose = self.equation.linkage().pose(at.angle.rest);
-        let now = Instant {
-            t: at.t,
-            theta: at.angle.radians(),
-            omega: at.speed,
-            x: pose.x,
-            v: pose.dx * at.speed,
-        };
+        let now = pose.instant(at.t, at.angle, at.speed);
         self.equation.loads().without_value(&now).cloned()
     }
 

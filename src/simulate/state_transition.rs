@@ -242,7 +242,7 @@ mod tests {
     /// starts to both sides of the step's.
     #[test]
     fn transitions_are_those_of_runs_from_starts_beside() {
-        const ASIDE: f64 = 1e-4;
+        let aside = 1e-4;
         for (push, angle, speed) in [(0.0, 2.0, 0.0), (0.0, 0.3, 9.0), (1.5, 1.0, -0.5)] {
             let equation = pendulum(push);
             let motion = Forward(&equation);
@@ -262,10 +262,10 @@ mod tests {
                         last.end.omega,
                     ]
                 };
-                for (column, part) in [[ASIDE, 0.0], [0.0, ASIDE]].into_iter().enumerate() {
+                for (column, part) in [[aside, 0.0], [0.0, aside]].into_iter().enumerate() {
                     let (more, less) = (end(part), end(part.map(|part| -part)));
                     for row in 0..2 {
-                        let exact = (more[row] - less[row]) / (2.0 * ASIDE);
+                        let exact = (more[row] - less[row]) / (2.0 * aside);
                         let off = (found[row][column] - exact).abs();
                         assert!(off < 1e-4, "{step:?}: {found:?}, not {exact}");
                     }

@@ -150,15 +150,16 @@ impl EventFunction<QUANTITIES> for Quantities<'_> {
         let turned = self.turning.map_or(1.0, |(start, limit)| {
             limit - curve.crank_angle(angle).minus(start).abs()
         });
-        let mut values = [0.0; QUANTITIES];
-        values[SPEED] = speed;
-        values[DEAD_CENTRE] = place.dx;
-        values[LIMIT] = place.rod_cos;
-        values[TURNED] = turned;
-        values[NORMAL] = normal;
-        values[CLEAR] = clear;
-        values[CRANK] = place.dtheta;
-        values
+        // In the order of their indices.
+        [
+            speed,
+            place.dx,
+            place.rod_cos,
+            turned,
+            normal,
+            clear,
+            place.dtheta,
+        ]
     }
 }
 

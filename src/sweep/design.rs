@@ -9,9 +9,6 @@ use crate::numeric::stop::Stop;
 use crate::scene::{Scene, VariedValue};
 use crate::simulate::{NoRows, Options, SteadyState, Summary, simulate_rows, steady_state};
 
-/// Part of the first order that the counterweight of the diagrams balances: the usual half.
-const BALANCED: f64 = 0.5;
-
 /// How far a design could be computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -93,7 +90,8 @@ impl Design {
         }
         if options.diagrams {
             match forces(scene) {
-                Ok(analysis) => self.diagrams = analysis.diagrams(scene, BALANCED),
+                // The usual half of the first order is balanced.
+                Ok(analysis) => self.diagrams = analysis.diagrams(scene, 0.5),
                 Err(error) => self.fail(Outcome::Refused, &error),
             }
         }

@@ -2,7 +2,6 @@
 
 use super::super::step::Step;
 use super::super::{Motion, NODES};
-use super::series::rounding;
 use super::state::State;
 use super::step::Collocation;
 use crate::numeric::gauss::legendre_series;
@@ -88,8 +87,15 @@ impl Collocation<'_> {
         angle.max(speed) / self.tolerance
     }
 
+    /// Rounding of the accelerations of a step. They are those of rounded angles, and steep where the position is near to a
+    /// limit.
     pub(super) fn rounding(&self, state: &State, h: f64, coefficients: &[f64; NODES]) -> f64 {
-        rounding(state, h, coefficients) + self.by_time
+        let size = coefficients.iter().map(|c| c.abs()).sum::<f64>();
+        let variation = size - coefficients[0].abs();
+        let travel = h * state.omega.abs() + 0.5 * h * h * size;
+        let steepness = 2.0 * variation / travel.max(f64::MIN_POSITIVE);
+        let of_angles = 4.0 * (1.0 + state.theta.abs()) * steepness;
+        f64::EPSILON * (8.0 * size + of_angles) + self.by_time
     }
 
     /// A step that does not hold, with what the rounding of its times does to the acceleration: no shorter step mends it.

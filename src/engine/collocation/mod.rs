@@ -7,7 +7,6 @@
 
 mod attempt;
 mod newton;
-mod series;
 mod state;
 mod step;
 mod tableau;

@@ -6,7 +6,6 @@ use super::super::time::Settings;
 use super::super::{Batch, Counted, Motion, NODES};
 use super::attempt::{Accepted, Failed, Try};
 use super::newton::Newton;
-use super::series::dot;
 use super::state::State;
 use super::tableau::Tableau;
 use crate::numeric::gauss::legendre_series;
@@ -272,4 +271,8 @@ impl<'a> Collocation<'a> {
         let alpha = self.motion.acceleration(next.t, next.angle(), next.omega);
         (step, next.reduced(), alpha)
     }
+}
+
+fn dot(a: &[f64; NODES], b: &[f64; NODES]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

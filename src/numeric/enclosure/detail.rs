@@ -93,9 +93,8 @@ impl Detail {
 /// Sizes of the ellipses in which so many nodes leave less than this part. A function that grows slowly, as one with a
 /// singularity nearby may, is shown by the smaller one, an entire one rather by the larger.
 pub fn ellipses(nodes: usize, part: f64) -> [f64; 2] {
-    /// What the bound is more than the change of the function on the piece.
-    const GROWTH: f64 = 100.0;
-    let smaller = (part / GROWTH).powf(-1.0 / nodes as f64);
+    // The bound is a hundred times the change of the function on the piece.
+    let smaller = (part / 100.0).powf(-1.0 / nodes as f64);
     [smaller, smaller * smaller]
 }
 

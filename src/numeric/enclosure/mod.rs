@@ -224,10 +224,9 @@ impl Enclosed {
 
     /// Powers.
     pub fn power(self, exponent: Enclosed) -> Enclosed {
-        /// Higher powers go by the logarithm.
-        const HIGHEST_POWER: f64 = 64.0;
         let Interval { low, high } = exponent.real;
-        if low == high && low == low.trunc() && low.abs() <= HIGHEST_POWER {
+        // Higher powers go by the logarithm.
+        if low == high && low == low.trunc() && low.abs() <= 64.0 {
             let whole = self.to_the(low.abs() as u32);
             return if low < 0.0 { whole.reciprocal() } else { whole };
         }

@@ -119,10 +119,7 @@ impl<'a> AngleModel<'a> {
 
     /// The whole angle.
     fn angle(&self, theta: f64) -> Angle {
-        Angle {
-            turns: self.turns,
-            rest: theta,
-        }
+        Angle::new(self.turns, theta)
     }
 
     fn count(&self, positions: usize) {
@@ -163,13 +160,7 @@ impl Driven for AngleModel<'_> {
             table.inertia[i] = at.m[i];
             let (stored, placed) = (
                 loads.with_potential_at(x),
-                loads.of_place(
-                    Angle {
-                        turns,
-                        rest: *angle,
-                    },
-                    x,
-                ),
+                loads.of_place(Angle::new(turns, *angle), x),
             );
             table.force[i] = stored.over(dx) - at.dv[i];
             table.push[i] = placed.over(dx);

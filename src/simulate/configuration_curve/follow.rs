@@ -81,6 +81,16 @@ impl Follow<'_> {
     }
 }
 
+/// The event that the change of a quantity is, if it is one.
+fn event(index: usize) -> Option<&'static str> {
+    match index {
+        SPEED => Some("turning-point"),
+        DEAD_CENTRE => Some("dead-centre"),
+        LIMIT => Some("limit"),
+        _ => None,
+    }
+}
+
 impl Run<'_, '_> {
     fn begin(&mut self) {
         let speed = self.now.speed;
@@ -141,14 +151,10 @@ impl Run<'_, '_> {
     }
 
     fn report(&mut self, index: usize, t: f64) {
-        let kind = match index {
-            SPEED => "turning-point",
-            DEAD_CENTRE => "dead-centre",
-            LIMIT => "limit",
-            _ => return,
-        };
-        let speed = if index == SPEED { 0.0 } else { self.now.speed };
-        self.observer.event(kind, t, self.now.angle, speed);
+        if let Some(kind) = event(index) {
+            let Start { angle, speed, .. } = self.now;
+            self.observer.event(kind, t, angle, speed);
+        }
     }
 
     /// One piece of sliding, up to the next change of friction.
@@ -197,15 +203,10 @@ impl Run<'_, '_> {
                 }
                 signs[change.index] = -signs[change.index];
                 let from_rest = change.index == SPEED && step.start.omega == 0.0;
-                if from_rest || change.index == CRANK {
-                    continue;
+                if let Some(kind) = event(change.index).filter(|_| !from_rest) {
+                    let speed = if change.index == SPEED { 0.0 } else { speed };
+                    observer.event(kind, change.t, step.angle(theta), speed);
                 }
-                let (kind, speed) = match change.index {
-                    SPEED => ("turning-point", 0.0),
-                    DEAD_CENTRE => ("dead-centre", speed),
-                    _ => ("limit", speed),
-                };
-                observer.event(kind, change.t, step.angle(theta), speed);
             }
             stopped = observer.step(&step, Some(phase));
             vanished = vanishing && equation.vanishes_at(step.end.theta);

@@ -11,12 +11,8 @@ use crate::engine::energy::Orbit;
 use crate::engine::time::Start;
 use crate::numeric::angle::Angle;
 
-/// Relative error of times by rounding, of the angle engine;
+/// Relative error of times by rounding, of the angle engine.
 pub(super) const TIME_ROUNDING: f64 = 2.5 * f64::EPSILON;
-/// of the energy engine, by rounding of the positions and of the kinetic energy at the start,
-const ROUNDING_BY_ENERGY: f64 = f64::EPSILON;
-/// and where the crank comes to rest, next to which the time hangs on the force: a difference, which is rounded more.
-const ROUNDING_AT_REST: f64 = 4.0 * f64::EPSILON;
 
 /// Times of a run at which its rows are judged.
 const LOOKED_AT: u32 = 64;
@@ -75,12 +71,10 @@ pub(super) fn by_energy(
 /// Error of a state by that of its time, and by the rounding of its place and of energies.
 fn rounded(task: &RunSetup<'_>, (orbit, t): (&Orbit, f64), state: (Angle, f64)) -> ErrorEstimate {
     let rests = task.speed == 0.0 || orbit.turns_back();
-    let rounding = if rests {
-        ROUNDING_AT_REST
-    } else {
-        ROUNDING_BY_ENERGY
-    };
-    let late = orbit.time_error(t) + rounding * t;
+    // Positions and the kinetic energy at the start are rounded. Where the crank comes to rest the time hangs on the force: a
+    // difference, which is rounded more.
+    let roundings = if rests { 4.0 } else { 1.0 };
+    let late = orbit.time_error(t) + roundings * f64::EPSILON * t;
     let place = orbit
         .rounding(t)
         .map_or(PLACE_ROUNDING, |place| place.min(PLACE_ROUNDING));

@@ -9,7 +9,7 @@ use super::{Both, MARGIN};
 use crate::mechanism::{Equation, Limits, Linkage, single};
 use crate::numeric::angle::Angle;
 use crate::numeric::gauss;
-use crate::scene::{Instant, Load, LoadOf, Scene};
+use crate::scene::{Load, LoadOf, Scene};
 
 /// Pieces of a turn beside those that dead centres and tables make.
 const PIECES: u32 = 16;
@@ -57,15 +57,8 @@ type Torque<'a> = dyn Fn(Angle, f64) -> f64 + 'a;
 /// The crank torque that a load amounts to, N m.
 fn crank_torque(linkage: &Linkage, of: &LoadOf<'_>, angle: Angle, omega: f64) -> f64 {
     let pose = linkage.pose(angle.rest);
-    let now = Instant {
-        t: 0.0,
-        theta: angle.radians(),
-        omega,
-        x: pose.x,
-        v: pose.dx * omega,
-    };
     let arm = if of.on_slider { pose.dx } else { 1.0 };
-    arm * single(of.load, of.on_slider, &now)
+    arm * single(of.load, of.on_slider, &pose.instant(0.0, angle, omega))
 }
 
 /// Where the crank has turned to (rad) at the corners of a load and the dead centres of a period, and between them.
