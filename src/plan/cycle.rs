@@ -1,11 +1,14 @@
 //! After how many turns all loads of a scene are the same again.
 
+use std::fmt;
+
 use serde::Serialize;
 
+use super::terms::shown;
 use crate::scene::{Load, Period, Repeats, Scene, Variable, Variables};
 
 /// The cycle of a scene: the least common multiple of the periods of its loads, in whole turns.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Cycle {
     /// Whole turns; none if the loads do not repeat.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -18,15 +21,33 @@ pub struct Cycle {
 }
 
 /// One load over the crank angle.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct LoadPeriod {
     /// As `torque[1]`, with what it is.
-    pub name: String,
-    /// Period in words, or why there is none.
-    pub repeats: String,
+    #[serde(serialize_with = "shown")]
+    pub name: LoadName,
+    /// Its period, or why there is none.
+    #[serde(serialize_with = "shown")]
+    pub repeats: LoadRepeats,
     /// What is not known of it between the nodes of panels and steps, if anything.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub between_nodes: Option<&'static str>,
+}
+
+/// A load by its place in the scene, shown with what it is.
+#[derive(Clone, Debug)]
+pub struct LoadName {
+    list: &'static str,
+    /// From 1.
+    number: usize,
+    load: Load,
+}
+
+/// How a load repeats, in words when it is shown.
+#[derive(Clone, Copy, Debug)]
+pub struct LoadRepeats {
+    over_angle: Repeats,
+    reads_time: bool,
 }
 
 impl Cycle {
@@ -35,7 +56,7 @@ impl Cycle {
         let named: Vec<Named> = named(scene).collect();
         let mut turns = over_angle(scene);
         for load in named.iter().filter(|load| load.reads_time()) {
-            turns = turns.and(Err(format!("{} {OF_TIME}", load.name)));
+            turns = turns.and(Err(format!("{load} {OF_TIME}")));
         }
         Cycle {
             turns: turns.as_ref().ok().copied(),
@@ -51,7 +72,7 @@ pub(crate) fn over_angle(scene: &Scene) -> Result<u32, String> {
     for load in named(scene) {
         cycle = cycle.with(load.repeats);
         if let Repeats::Never(why) = cycle {
-            return Err(format!("{} does not repeat: {why}", load.name));
+            return Err(format!("{load} does not repeat: {why}"));
         }
     }
     Ok(match cycle {
@@ -62,7 +83,9 @@ pub(crate) fn over_angle(scene: &Scene) -> Result<u32, String> {
 
 /// A load with what the plan needs of it.
 pub(super) struct Named<'a> {
-    pub name: String,
+    list: &'static str,
+    /// From 1.
+    number: usize,
     pub load: &'a Load,
     repeats: Repeats,
     on_slider: bool,
@@ -93,7 +116,8 @@ pub(super) fn named(scene: &Scene) -> impl Iterator<Item = Named<'_>> {
         .map(|(list, number, load)| {
             let on_slider = list == "force";
             Named {
-                name: format!("{list}[{number}] ({load})"),
+                list,
+                number,
                 load,
                 repeats: load.repeats(on_slider),
                 on_slider,
@@ -101,18 +125,42 @@ pub(super) fn named(scene: &Scene) -> impl Iterator<Item = Named<'_>> {
         })
 }
 
+impl fmt::Display for Named<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}[{}] ({})", self.list, self.number, self.load)
+    }
+}
+
+impl fmt::Display for LoadName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}[{}] ({})", self.list, self.number, self.load)
+    }
+}
+
+impl fmt::Display for LoadRepeats {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.over_angle {
+            _ if self.reads_time => write!(f, "not: it {OF_TIME}"),
+            Repeats::Always => f.write_str("at every angle"),
+            Repeats::After(Period::TURN) => f.write_str("each turn"),
+            Repeats::After(period) => write!(f, "after {period}"),
+            Repeats::Never(why) => write!(f, "not: {why}"),
+        }
+    }
+}
+
 impl LoadPeriod {
     fn of(load: &Named<'_>) -> LoadPeriod {
-        let repeats = match load.repeats {
-            _ if load.reads_time() => format!("not: it {OF_TIME}"),
-            Repeats::Always => "at every angle".to_owned(),
-            Repeats::After(period) if period == Period::TURN => "each turn".to_owned(),
-            Repeats::After(period) => format!("after {period}"),
-            Repeats::Never(why) => format!("not: {why}"),
-        };
         LoadPeriod {
-            name: load.name.clone(),
-            repeats,
+            name: LoadName {
+                list: load.list,
+                number: load.number,
+                load: load.load.clone(),
+            },
+            repeats: LoadRepeats {
+                over_angle: load.repeats,
+                reads_time: load.reads_time(),
+            },
             between_nodes: load.load.is_only_sampled().then_some(SAMPLED),
         }
     }
