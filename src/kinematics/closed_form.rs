@@ -104,6 +104,11 @@ pub struct KinematicsRow {
 /// ```
 pub fn kinematics(scene: &Scene) -> Result<Kinematics, Error> {
     scene.check()?;
+    Ok(of_checked(scene))
+}
+
+/// Closed-form kinematics of a scene whose values are possible.
+pub(crate) fn of_checked(scene: &Scene) -> Kinematics {
     let linkage = Linkage::new(&scene.geometry);
     let speed = scene.motion.speed;
     let limits = Limits::new(&linkage, speed);
@@ -136,7 +141,7 @@ pub fn kinematics(scene: &Scene) -> Result<Kinematics, Error> {
                 .to_owned(),
         );
     }
-    Ok(Kinematics {
+    Kinematics {
         scene: scene.title.clone().unwrap_or_default(),
         class: limits.class.name(),
         stroke_m: limits.stroke,
@@ -162,7 +167,7 @@ pub fn kinematics(scene: &Scene) -> Result<Kinematics, Error> {
         reach_rad: limits.reach,
         warnings,
         linkage,
-    })
+    }
 }
 
 impl Kinematics {

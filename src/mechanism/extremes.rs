@@ -34,14 +34,15 @@ impl Extremes {
         if Class::of(linkage) != Class::RotatingCrank {
             return None;
         }
-        let poses = poses(linkage, &linkage.turn_grid(true));
-        let (velocity_min, velocity_max) = pair(linkage, &poses, |p| p.dx, |_, p| p.d2x)?;
-        let (acceleration_min, acceleration_max) = pair(
-            linkage,
-            &poses,
-            |p| p.d2x,
-            |linkage, p| linkage.third_derivatives(p).1,
-        )?;
+        let grid = linkage.turn_grid(true);
+        let slopes = slopes(linkage, &grid);
+        let turns = |k: usize| {
+            let slope = |theta: f64| derivatives(linkage, &pose(linkage, theta))[k + 1];
+            let value = |theta: f64| derivatives(linkage, &pose(linkage, theta))[k];
+            range(&grid, |i| slopes[i][k], slope, value)
+        };
+        let (velocity_min, velocity_max) = turns(0)?;
+        let (acceleration_min, acceleration_max) = turns(1)?;
         Some(Extremes {
             velocity_max,
             velocity_min,
@@ -51,36 +52,60 @@ impl Extremes {
     }
 }
 
-/// Poses at crank angles, rad: sines and cosines of some angles at a time.
-fn poses(linkage: &Linkage, grid: &[f64]) -> Vec<(f64, Pose)> {
-    let some = grid.chunks(8).flat_map(|some| {
-        let angles: [f64; 8] = std::array::from_fn(|i| some[i.min(some.len() - 1)]);
-        let (sin, cos) = sin_cos(&angles);
-        (0..some.len()).map(move |i| (angles[i], linkage.pose_at(sin[i], cos[i])))
-    });
-    some.collect()
+/// The first three derivatives of x at a position.
+fn derivatives(linkage: &Linkage, pose: &Pose) -> [f64; 3] {
+    [pose.dx, pose.d2x, linkage.third_derivatives(pose).1]
 }
 
-/// Smallest and largest `value` over a turn, from the roots of its derivative between these poses.
-fn pair(
-    linkage: &Linkage,
-    poses: &[(f64, Pose)],
-    value: impl Fn(&Pose) -> f64,
-    derivative: impl Fn(&Linkage, &Pose) -> f64,
+fn pose(linkage: &Linkage, theta: f64) -> Pose {
+    let ([sin], [cos]) = sin_cos(&[theta]);
+    linkage.pose_at(sin, cos)
+}
+
+/// The second and third derivative of x at crank angles, rad: sines and cosines of some angles at a time.
+fn slopes(linkage: &Linkage, grid: &[f64]) -> Vec<[f64; 2]> {
+    let mut slopes = Vec::with_capacity(grid.len());
+    for some in grid.chunks(8) {
+        let angles: [f64; 8] = std::array::from_fn(|i| some[i.min(some.len() - 1)]);
+        let (sin, cos) = sin_cos(&angles);
+        for i in 0..some.len() {
+            let [_, d2x, d3x] = derivatives(linkage, &linkage.pose_at(sin[i], cos[i]));
+            slopes.push([d2x, d3x]);
+        }
+    }
+    slopes
+}
+
+/// Smallest and largest value over a turn, from the roots of its slope between the angles of a grid, at which it is
+/// known.
+fn range(
+    grid: &[f64],
+    at: impl Fn(usize) -> f64,
+    slope: impl Fn(f64) -> f64,
+    value: impl Fn(f64) -> f64,
 ) -> Option<(Extreme, Extreme)> {
-    let slope = |theta: f64| derivative(linkage, &linkage.pose(theta));
-    let slopes: Vec<f64> = poses.iter().map(|(_, p)| derivative(linkage, p)).collect();
-    let between = poses.windows(2).zip(slopes.windows(2));
-    let mut found: Vec<Extreme> = between
-        .filter(|(_, slopes)| slopes[0].signum() != slopes[1].signum() || slopes.contains(&0.0))
-        .filter_map(|(poses, _)| root::bracketed(slope, poses[0].0, poses[1].0))
-        .map(|theta| Extreme {
-            value: value(&linkage.pose(theta)),
+    let mut found: Option<(Extreme, Extreme)> = None;
+    for i in 1..grid.len() {
+        let (before, after) = (at(i - 1), at(i));
+        if before.signum() == after.signum() && before != 0.0 && after != 0.0 {
+            continue;
+        }
+        let Some(theta) = root::bracketed(&slope, grid[i - 1], grid[i]) else {
+            continue;
+        };
+        let here = Extreme {
+            value: value(theta),
             theta: theta.rem_euclid(TAU) % TAU,
-        })
-        .collect();
-    found.sort_by(|a, b| a.value.total_cmp(&b.value));
-    Some((*found.first()?, *found.last()?))
+        };
+        let (low, high) = found.get_or_insert((here, here));
+        if here.value < low.value {
+            *low = here;
+        }
+        if here.value >= high.value {
+            *high = here;
+        }
+    }
+    found
 }
 
 impl Linkage {

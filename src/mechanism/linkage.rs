@@ -149,6 +149,7 @@ impl Linkage {
     }
 
     /// The position at the crank angle of this sine and cosine.
+    #[inline]
     pub fn pose_at(&self, sin: f64, cos: f64) -> Pose {
         let Linkage { r, .. } = *self;
         let (up, down) = (&self.above, &self.below);
@@ -199,6 +200,7 @@ impl Linkage {
     }
 
     /// φ''' and x''' (m/rad³) at a position.
+    #[inline]
     pub fn third_derivatives(&self, pose: &Pose) -> (f64, f64) {
         let u = self.l * pose.sin_phi;
         let w = self.l * pose.cos_phi;

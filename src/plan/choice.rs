@@ -169,18 +169,17 @@ fn over_angle(method: Method, scene: &Scene, class: Class) -> Result<Choice, Err
         )),
         (Method::Energy, Some(what)) => Err(cannot_serve(method, &what, WITHOUT_ENERGY)),
         _ => match why_not_angle(scene, class) {
-            None => {
-                let piecewise = match rubs {
-                    true => ", with Coulomb friction piece by piece between its changes",
-                    false => "",
-                };
-                Ok(Choice::of(
-                    Engine::Angle,
-                    format!(
-                        "the crank turns: its energy and the time over the crank angle{piecewise}; where it comes near to rest, integration in time takes over"
-                    ),
-                ))
-            }
+            None => Ok(Choice::of(
+                Engine::Angle,
+                match rubs {
+                    true => {
+                        "the crank turns: its energy and the time over the crank angle, with Coulomb friction piece by piece between its changes; where it comes near to rest, integration in time takes over"
+                    }
+                    false => {
+                        "the crank turns: its energy and the time over the crank angle; where it comes near to rest, integration in time takes over"
+                    }
+                },
+            )),
             Some(why) if method == Method::Angle => {
                 Err(cannot_serve(method, &format!("{scene_is}: {why}"), IN_TIME))
             }
@@ -204,12 +203,8 @@ fn why_not_energy(scene: &Scene) -> Option<String> {
     let more = named(scene).find_map(|load| {
         let reads = load.reads();
         let depends = reads.or(position) != position;
-        depends.then(|| {
-            format!(
-                "{} depends on {reads}, and its work on more than the position",
-                load.name
-            )
-        })
+        depends
+            .then(|| format!("{load} depends on {reads}, and its work on more than the position"))
     });
     more.or_else(|| why_corners(scene))
 }
@@ -246,8 +241,8 @@ fn jams(scene: &Scene) -> bool {
 /// The first load whose corners are not known as crank angles, and why.
 fn why_corners(scene: &Scene) -> Option<String> {
     named(scene).find_map(|load| {
-        let why = why_rough(load.load)?;
-        Some(format!("{} {why}", load.name))
+        let why = why_rough(load.of.load)?;
+        Some(format!("{load} {why}"))
     })
 }
 

@@ -1,11 +1,14 @@
 //! After how many turns all loads of a scene are the same again.
 
+use std::fmt;
+
 use serde::Serialize;
 
-use crate::scene::{Load, Period, Repeats, Scene, Variable, Variables};
+use super::terms::shown;
+use crate::scene::{Load, LoadKey, LoadOf, Period, Repeats, Scene, Variable, Variables};
 
 /// The cycle of a scene: the least common multiple of the periods of its loads, in whole turns.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Cycle {
     /// Whole turns; none if the loads do not repeat.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -18,15 +21,31 @@ pub struct Cycle {
 }
 
 /// One load over the crank angle.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct LoadPeriod {
     /// As `torque[1]`, with what it is.
-    pub name: String,
-    /// Period in words, or why there is none.
-    pub repeats: String,
+    #[serde(serialize_with = "shown")]
+    pub name: LoadName,
+    /// Its period, or why there is none.
+    #[serde(serialize_with = "shown")]
+    pub repeats: LoadRepeats,
     /// What is not known of it between the nodes of panels and steps, if anything.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub between_nodes: Option<&'static str>,
+}
+
+/// A load by its place in the scene, shown with what it is.
+#[derive(Clone, Debug)]
+pub struct LoadName {
+    key: LoadKey,
+    load: Load,
+}
+
+/// How a load repeats, in words when it is shown.
+#[derive(Clone, Copy, Debug)]
+pub struct LoadRepeats {
+    over_angle: Repeats,
+    reads_time: bool,
 }
 
 impl Cycle {
@@ -35,7 +54,7 @@ impl Cycle {
         let named: Vec<Named> = named(scene).collect();
         let mut turns = over_angle(scene);
         for load in named.iter().filter(|load| load.reads_time()) {
-            turns = turns.and(Err(format!("{} {OF_TIME}", load.name)));
+            turns = turns.and(Err(format!("{load} {OF_TIME}")));
         }
         Cycle {
             turns: turns.as_ref().ok().copied(),
@@ -51,7 +70,7 @@ pub(crate) fn over_angle(scene: &Scene) -> Result<u32, String> {
     for load in named(scene) {
         cycle = cycle.with(load.repeats);
         if let Repeats::Never(why) = cycle {
-            return Err(format!("{} does not repeat: {why}", load.name));
+            return Err(format!("{load} does not repeat: {why}"));
         }
     }
     Ok(match cycle {
@@ -62,16 +81,14 @@ pub(crate) fn over_angle(scene: &Scene) -> Result<u32, String> {
 
 /// A load with what the plan needs of it.
 pub(super) struct Named<'a> {
-    pub name: String,
-    pub load: &'a Load,
+    pub of: LoadOf<'a>,
     repeats: Repeats,
-    on_slider: bool,
 }
 
 impl Named<'_> {
     /// The variables it depends on.
     pub fn reads(&self) -> Variables {
-        self.load.reads(self.on_slider)
+        self.of.load.reads(self.of.on_slider)
     }
 
     fn reads_time(&self) -> bool {
@@ -86,26 +103,47 @@ const SAMPLED: &str = "a closure is seen at the nodes of panels and steps alone,
 pub(super) fn named(scene: &Scene) -> impl Iterator<Item = Named<'_>> {
     let loads = scene.loads().filter(|of| !of.load.is_zero());
     loads.map(|of| Named {
-        name: format!("{} ({})", of.key(), of.load),
-        load: of.load,
         repeats: of.load.repeats(of.on_slider),
-        on_slider: of.on_slider,
+        of,
     })
+}
+
+impl fmt::Display for Named<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ({})", self.of.key(), self.of.load)
+    }
+}
+
+impl fmt::Display for LoadName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ({})", self.key, self.load)
+    }
+}
+
+impl fmt::Display for LoadRepeats {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.over_angle {
+            _ if self.reads_time => write!(f, "not: it {OF_TIME}"),
+            Repeats::Always => f.write_str("at every angle"),
+            Repeats::After(Period::TURN) => f.write_str("each turn"),
+            Repeats::After(period) => write!(f, "after {period}"),
+            Repeats::Never(why) => write!(f, "not: {why}"),
+        }
+    }
 }
 
 impl LoadPeriod {
     fn of(load: &Named<'_>) -> LoadPeriod {
-        let repeats = match load.repeats {
-            _ if load.reads_time() => format!("not: it {OF_TIME}"),
-            Repeats::Always => "at every angle".to_owned(),
-            Repeats::After(period) if period == Period::TURN => "each turn".to_owned(),
-            Repeats::After(period) => format!("after {period}"),
-            Repeats::Never(why) => format!("not: {why}"),
-        };
         LoadPeriod {
-            name: load.name.clone(),
-            repeats,
-            between_nodes: load.load.is_only_sampled().then_some(SAMPLED),
+            name: LoadName {
+                key: load.of.key(),
+                load: load.of.load.clone(),
+            },
+            repeats: LoadRepeats {
+                over_angle: load.repeats,
+                reads_time: load.reads_time(),
+            },
+            between_nodes: load.of.load.is_only_sampled().then_some(SAMPLED),
         }
     }
 }

@@ -15,9 +15,10 @@ use choice::{after, choose};
 pub(crate) use cycle::over_angle as cycle_over_angle;
 pub use cycle::{Cycle, LoadPeriod};
 pub use method::Method;
-use refusal::not_modelled;
 pub use refusal::refuse;
+use refusal::{modelled, not_modelled};
 use terms::terms;
+pub use terms::{Term, TermName, TermReason};
 
 use crate::error::Error;
 use crate::mechanism::{Class, Curve, Linkage, Loads};
@@ -76,15 +77,6 @@ impl Stepper {
     }
 }
 
-/// One term that is modelled or left out.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Term {
-    /// What it is.
-    pub name: Cow<'static, str>,
-    /// Why it is kept or left out.
-    pub reason: Cow<'static, str>,
-}
-
 /// An engine that may take over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Candidate {
@@ -95,7 +87,7 @@ pub struct Candidate {
 }
 
 /// What will be computed, and how.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Plan {
     /// The engine.
     pub engine: Engine,
@@ -127,17 +119,20 @@ impl Plan {
     /// serve the scene, with the reason.
     pub fn new(scene: &Scene, method: Method) -> Result<Plan, Error> {
         scene.check()?;
-        let modelled = not_modelled(&scene.reduced(), &Linkage::new(&scene.geometry));
-        scene.refused(modelled)?;
-        Plan::of_modelled(scene, method)
+        let reduced = scene.reduced();
+        scene.refused(not_modelled(&reduced, &Linkage::new(&scene.geometry)))?;
+        Plan::of_modelled(scene, reduced, method)
     }
 
-    /// Plans a scene that [`refuse`] has let pass.
+    /// Plans a scene whose motion can be modelled, begun and ended.
     ///
     /// # Errors
-    /// [`Error::Refused`] for a method that cannot serve the scene, with the reason.
-    pub(crate) fn of_modelled(scene: &Scene, method: Method) -> Result<Plan, Error> {
-        let reduced = scene.reduced();
+    /// Those of [`refuse`] and of [`Plan::new`].
+    pub(crate) fn of_run(scene: &Scene, method: Method) -> Result<Plan, Error> {
+        Plan::of_modelled(scene, modelled(scene)?, method)
+    }
+
+    fn of_modelled(scene: &Scene, reduced: Scene, method: Method) -> Result<Plan, Error> {
         let linkage = Linkage::new(&scene.geometry);
         let loads = Loads::new(&reduced);
         let choice = choose(method, &loads, &reduced)?;

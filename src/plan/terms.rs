@@ -1,11 +1,106 @@
-//! Which terms of the equation are modelled, which are not, and why.
+//! Which terms of the equation are modelled, which are not, and why; in words when they are shown.
 
-use std::borrow::Cow;
+use std::fmt;
 
-use super::Term;
-use crate::scene::{Joint, RodModel, Scene};
+use serde::Serialize;
 
-type Text = Cow<'static, str>;
+use crate::scene::{Clearance, Friction, Joint, Load, RodModel, Scene, Variables};
+
+/// One term that is modelled or left out.
+#[derive(Clone, Debug, Serialize)]
+pub struct Term {
+    /// What it is.
+    #[serde(serialize_with = "shown")]
+    pub name: TermName,
+    /// Why it is kept or left out.
+    #[serde(serialize_with = "shown")]
+    pub reason: TermReason,
+}
+
+/// What a term is, like `gravity` or `torque[1]`.
+#[derive(Clone, Copy, Debug)]
+pub struct TermName {
+    word: &'static str,
+    /// From 1, for one of a list.
+    number: Option<usize>,
+}
+
+/// Why a term is kept or left out: what of the scene makes it.
+#[derive(Clone, Debug)]
+pub enum TermReason {
+    /// It is not in the scene.
+    Absent,
+    /// Its strength is zero.
+    Zero,
+    /// Inertia of the crank about O, kg m².
+    Crank(f64),
+    /// Mass (kg) and model of the rod.
+    Rod(f64, RodModel),
+    /// Mass of the slider, kg.
+    Slider(f64),
+    /// Gravity along x and y, m/s².
+    Gravity([f64; 2]),
+    /// A load of zero strength.
+    NoLoad(Load),
+    /// A load and what it depends on.
+    Load(Load, Variables),
+    /// Friction of the guide.
+    Friction(Friction),
+    /// Clearance of a joint.
+    Clearance(Clearance),
+}
+
+/// As text, in JSON.
+pub(super) fn shown<S: serde::Serializer>(
+    what: &impl fmt::Display,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(what)
+}
+
+impl fmt::Display for TermName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.number {
+            Some(number) => write!(f, "{}[{number}]", self.word),
+            None => f.write_str(self.word),
+        }
+    }
+}
+
+impl fmt::Display for TermReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            TermReason::Absent => f.write_str("not in the scene"),
+            TermReason::Zero => f.write_str("its strength is zero"),
+            TermReason::Crank(inertia) => write!(f, "{inertia} kg m2 about O"),
+            TermReason::Rod(mass, model) => {
+                let what = match model {
+                    RodModel::Rigid => "rigid body: translation and spin",
+                    RodModel::TwoMass => "two masses at the pins",
+                    RodModel::SpinOnly => "spin only, as printed by Duarte et al.",
+                    RodModel::Massless => "massless",
+                };
+                write!(f, "{mass} kg, {what}")
+            }
+            TermReason::Slider(mass) => write!(f, "{mass} kg"),
+            TermReason::Gravity([gx, gy]) => write!(f, "({gx}, {gy}) m/s2"),
+            TermReason::NoLoad(load) => write!(f, "{load}: {}", TermReason::Zero),
+            TermReason::Load(load, reads) => write!(f, "{load}; depends on {reads}"),
+            TermReason::Friction(friction) => {
+                let (kinetic, held) = (friction.coefficient, friction.static_coefficient);
+                write!(f, "at the guide, coefficient {kinetic}, static {held}")
+            }
+            TermReason::Clearance(clearance) => {
+                let joint = match clearance.joint {
+                    Joint::CrankPin => "crank pin",
+                    Joint::WristPin => "wrist pin",
+                };
+                let (radial, law) = (clearance.radial, clearance.law.name());
+                write!(f, "{radial} m at the {joint}, contact law {law}")
+            }
+        }
+    }
+}
 
 #[derive(Default)]
 struct Notes {
@@ -14,92 +109,56 @@ struct Notes {
 }
 
 impl Notes {
-    fn keep(&mut self, name: impl Into<Text>, reason: impl Into<Text>) {
-        let (name, reason) = (name.into(), reason.into());
-        self.kept.push(Term { name, reason });
-    }
-
-    fn leave_out(&mut self, name: impl Into<Text>, reason: impl Into<Text>) {
-        let (name, reason) = (name.into(), reason.into());
-        self.left_out.push(Term { name, reason });
-    }
-}
-
-fn absent(given: bool) -> &'static str {
-    if given {
-        "its strength is zero"
-    } else {
-        "not in the scene"
+    /// A part of the scene: why it is kept, if it is; whether it is in the scene.
+    fn take(&mut self, word: &'static str, kept: Option<TermReason>, is_given: bool) {
+        let absent = match is_given {
+            true => TermReason::Zero,
+            false => TermReason::Absent,
+        };
+        let (list, reason) = match kept {
+            Some(reason) => (&mut self.kept, reason),
+            None => (&mut self.left_out, absent),
+        };
+        let name = TermName { word, number: None };
+        list.push(Term { name, reason });
     }
 }
 
 /// Terms kept, terms left out.
 pub(super) fn terms(scene: &Scene, reduced: &Scene) -> (Vec<Term>, Vec<Term>) {
     let mut notes = Notes::default();
-    match &reduced.crank {
-        Some(crank) => notes.keep("crank inertia", format!("{} kg m2 about O", crank.inertia)),
-        None => notes.leave_out("crank inertia", absent(scene.crank.is_some())),
-    }
-    match &reduced.rod {
-        Some(rod) => {
-            let what = match rod.model {
-                RodModel::Rigid => "rigid body: translation and spin",
-                RodModel::TwoMass => "two masses at the pins",
-                RodModel::SpinOnly => "spin only, as printed by Duarte et al.",
-                RodModel::Massless => "massless",
-            };
-            notes.keep("connecting rod inertia", format!("{} kg, {what}", rod.mass));
-        }
-        None => notes.leave_out("connecting rod inertia", absent(scene.rod.is_some())),
-    }
-    match &reduced.slider {
-        Some(slider) => notes.keep("slider inertia", format!("{} kg", slider.mass)),
-        None => notes.leave_out("slider inertia", absent(scene.slider.is_some())),
-    }
-    match &reduced.gravity {
-        Some(gravity) => {
-            let [gx, gy] = gravity.vector();
-            notes.keep("gravity", format!("({gx}, {gy}) m/s2"));
-        }
-        None => notes.leave_out("gravity", absent(scene.gravity.is_some())),
-    }
-    for (name, loads) in [("torque", &scene.torques), ("force", &scene.forces)] {
+    let kept = reduced.crank.map(|crank| TermReason::Crank(crank.inertia));
+    notes.take("crank inertia", kept, scene.crank.is_some());
+    let kept = reduced.rod.map(|rod| TermReason::Rod(rod.mass, rod.model));
+    notes.take("connecting rod inertia", kept, scene.rod.is_some());
+    let kept = reduced.slider.map(|slider| TermReason::Slider(slider.mass));
+    notes.take("slider inertia", kept, scene.slider.is_some());
+    let kept = reduced
+        .gravity
+        .map(|gravity| TermReason::Gravity(gravity.vector()));
+    notes.take("gravity", kept, scene.gravity.is_some());
+    for (word, loads) in [("torque", &scene.torques), ("force", &scene.forces)] {
         if loads.is_empty() {
-            notes.leave_out(name, absent(false));
+            notes.take(word, None, false);
         }
         for (i, load) in loads.iter().enumerate() {
-            let label = format!("{name}[{}]", i + 1);
-            if load.is_zero() {
-                notes.leave_out(label, format!("{load}: {}", absent(true)));
-            } else {
-                let reads = load.reads(name == "force");
-                notes.keep(label, format!("{load}; depends on {reads}"));
-            }
-        }
-    }
-    match &reduced.friction {
-        Some(friction) => notes.keep(
-            "Coulomb friction",
-            format!(
-                "at the guide, coefficient {}, static {}",
-                friction.coefficient, friction.static_coefficient
-            ),
-        ),
-        None => notes.leave_out("Coulomb friction", absent(scene.friction.is_some())),
-    }
-    match &reduced.clearance {
-        Some(clearance) => {
-            let joint = match clearance.joint {
-                Joint::CrankPin => "crank pin",
-                Joint::WristPin => "wrist pin",
+            let (list, reason) = match load.is_zero() {
+                true => (&mut notes.left_out, TermReason::NoLoad(load.clone())),
+                false => {
+                    let reads = load.reads(word == "force");
+                    (&mut notes.kept, TermReason::Load(load.clone(), reads))
+                }
             };
-            let (radial, law) = (clearance.radial, clearance.law.name());
-            notes.keep(
-                "joint clearance",
-                format!("{radial} m at the {joint}, contact law {law}"),
-            );
+            let name = TermName {
+                word,
+                number: Some(i + 1),
+            };
+            list.push(Term { name, reason });
         }
-        None => notes.leave_out("joint clearance", absent(scene.clearance.is_some())),
     }
+    let kept = reduced.friction.map(TermReason::Friction);
+    notes.take("Coulomb friction", kept, scene.friction.is_some());
+    let kept = reduced.clearance.map(TermReason::Clearance);
+    notes.take("joint clearance", kept, scene.clearance.is_some());
     (notes.kept, notes.left_out)
 }

@@ -22,7 +22,7 @@ pub fn explanation(result: &Explanation) -> String {
     ] {
         let mut facts = Facts::of("");
         for term in terms {
-            facts.add(format_args!("  {}", term.name), &term.reason);
+            facts.add(format_args!("  {}", term.name), term.reason.to_string());
         }
         let _ = write!(text, "{title}\n{}", facts.lines(NAMES));
     }

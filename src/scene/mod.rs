@@ -36,7 +36,7 @@ pub use file::{Assigned, Draft, NumberKey, Varied, VariedValue, printable, schem
 pub(crate) use file::{DUARTE, nearest};
 pub use load::Load;
 pub use measurement::{Beside, BesideColumn, DUARTE_MOTION, Measured, Measurement, Reading};
-pub use model::{LoadOf, Scene, UncertainValue};
+pub use model::{LoadKey, LoadOf, Scene, UncertainValue};
 pub use motion::{Every, Extent, Motion, MotionKind, Run};
 pub use parts::{Branch, Friction, Geometry, Gravity};
 pub use period::{Period, Repeats, WhyNot};

@@ -1,5 +1,6 @@
 //! A scene and its values.
 
+use std::fmt;
 use std::path::Path;
 
 use super::check::Check;
@@ -96,11 +97,27 @@ pub struct LoadOf<'a> {
     number: usize,
 }
 
+/// Name of a load in scene files, shown as `torque[1]`.
+#[derive(Clone, Copy, Debug)]
+pub struct LoadKey {
+    on_slider: bool,
+    number: usize,
+}
+
 impl LoadOf<'_> {
-    /// Its name in scene files, as `torque[1]`.
-    pub fn key(&self) -> String {
+    /// Its name in scene files.
+    pub fn key(&self) -> LoadKey {
+        LoadKey {
+            on_slider: self.on_slider,
+            number: self.number,
+        }
+    }
+}
+
+impl fmt::Display for LoadKey {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let list = if self.on_slider { "force" } else { "torque" };
-        format!("{list}[{}]", self.number)
+        write!(f, "{list}[{}]", self.number)
     }
 }
 

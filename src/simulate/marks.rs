@@ -15,8 +15,8 @@ const WANTED: Wanted = Wanted {
 /// Angles, rad, found where they were asked for.
 pub(super) struct Marks<'a> {
     equation: &'a Equation,
-    /// The energy of the start, and the work of its forces over a radian, J: what is little beside it is nothing.
-    unit: f64,
+    /// Angle and speed (rad/s) of the start.
+    start: (Angle, f64),
     /// The last interval that was looked at, and what was found there.
     last: RefCell<(Interval, Vec<f64>)>,
 }
@@ -27,8 +27,7 @@ impl<'a> Marks<'a> {
         let nowhere = Interval::new(f64::INFINITY, f64::NEG_INFINITY);
         Marks {
             equation,
-            unit: equation.kinetic_energy(start.rest, speed)
-                + equation.size_of_terms(0.0, start, speed),
+            start: (start, speed),
             last: RefCell::new((nowhere, Vec::new())),
         }
     }
@@ -40,7 +39,11 @@ impl<'a> Marks<'a> {
             return Vec::new();
         }
         let detail = |angle, ellipse| loads.detail_of_place(linkage, angle, ellipse);
-        partition(detail, Interval::new(low, high), WANTED, self.unit)
+        let (start, speed) = self.start;
+        // The energy of the start, and the work of its forces over a radian, J: what is little beside it is nothing.
+        let unit = self.equation.kinetic_energy(start.rest, speed)
+            + self.equation.size_of_terms(0.0, start, speed);
+        partition(detail, Interval::new(low, high), WANTED, unit)
     }
 
     /// The first after `from` on the way to `to`, in either direction.

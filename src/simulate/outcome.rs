@@ -58,12 +58,14 @@ impl Estimate {
 impl Outcome {
     /// With speeds that are shown as infinite where the inertia vanishes, at the dead centres of a crank without inertia.
     pub fn with_bounded_speeds(mut self, task: &RunSetup<'_>) -> Outcome {
-        if !task.inertia_vanishes() {
-            return self;
-        }
         let usual = task.speed.abs().max(self.at.speed.abs());
         let is_bounded = |speed: f64| speed.abs() < 1e6 * usual;
         let (low, high) = self.record.speed;
+        let mut at_events = self.record.events.iter().map(|event| event.omega_rad_per_s);
+        let are_bounded = is_bounded(low) && is_bounded(high) && at_events.all(is_bounded);
+        if are_bounded || !task.inertia_vanishes() {
+            return self;
+        }
         let shown = |speed: f64| match is_bounded(speed) {
             true => speed,
             false => speed * f64::INFINITY,

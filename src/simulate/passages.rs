@@ -140,10 +140,10 @@ impl Stretch<'_> {
         let (orbit, turns_back) = (self.orbit, self.orbit.turns_back());
         let repeats = orbit.period().filter(|(period, _)| *period < self.end);
         let (period, low) = repeats.unwrap_or((self.end, 0.0));
-        let once = if turns_back {
-            self.to_and_fro(period)
-        } else {
-            self.one_way(period, kept)
+        let once = match (turns_back, kept) {
+            (true, _) => self.to_and_fro(period),
+            (false, 0) => Vec::new(),
+            (false, _) => self.one_way(period, kept),
         };
         let over = self.end * (1.0 + 1e-14);
         let rounds = |passage: &Passage| match repeats {

@@ -12,7 +12,7 @@ use crate::engine::time::{self, Settings, Start};
 use crate::error::Error;
 use crate::mechanism::{Class, Curve, CurveEquation, Equation, Limits, Reactor};
 use crate::numeric::angle::Angle;
-use crate::plan::{self, Plan, Stepper};
+use crate::plan::{Plan, Stepper};
 use crate::scene::{Extent, MotionKind, Scene};
 
 /// A scene with all that its engine needs.
@@ -38,8 +38,7 @@ impl<'a> RunSetup<'a> {
     /// # Errors
     /// [`Error::Scene`] for impossible values, [`Error::Refused`] for what cannot be computed.
     pub fn new(scene: &'a Scene, options: &'a Options, kept: usize) -> Result<RunSetup<'a>, Error> {
-        plan::refuse(scene)?;
-        let plan = Plan::of_modelled(scene, options.method)?;
+        let plan = Plan::of_run(scene, options.method)?;
         let equation = Equation::new(scene);
         let (sliding, guide) = match scene.motion.kind {
             MotionKind::Free => (Sliding::new(scene, &equation), None),

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::SweepOptions;
 use crate::error::Error;
-use crate::kinematics::{Diagrams, Kinematics, forces, kinematics};
+use crate::kinematics::{self, Diagrams, Kinematics, forces};
 use crate::numeric::stop::Stop;
 use crate::scene::{Scene, VariedValue};
 use crate::simulate::{NoRows, Options, SteadyState, Summary, simulate_rows, steady_state};
@@ -80,14 +80,11 @@ impl Design {
         design
     }
 
+    /// Of a scene whose values are possible.
     fn compute(&mut self, scene: &Scene, options: &SweepOptions) {
-        match kinematics(scene) {
-            Ok(turn) => {
-                self.notes.extend(turn.warnings.iter().cloned());
-                self.kinematics = Some(turn);
-            }
-            Err(error) => return self.fail(Outcome::Impossible, &error),
-        }
+        let turn = kinematics::of_checked(scene);
+        self.notes.extend(turn.warnings.iter().cloned());
+        self.kinematics = Some(turn);
         if options.diagrams {
             match forces(scene) {
                 // The usual half of the first order is balanced.

@@ -15,6 +15,11 @@ use crate::scene::{Problems, Scene};
 /// [`Problems`] with all that is wrong with its values; if nothing is, with all that keeps its motion from being modelled,
 /// begun or ended.
 pub fn refuse(scene: &Scene) -> Result<(), Problems> {
+    modelled(scene).map(drop)
+}
+
+/// The scene without parts that have no strength, unless it is refused.
+pub(super) fn modelled(scene: &Scene) -> Result<Scene, Problems> {
     scene.check()?;
     let reduced = scene.reduced();
     let linkage = Linkage::new(&scene.geometry);
@@ -25,5 +30,6 @@ pub fn refuse(scene: &Scene) -> Result<(), Problems> {
     }
     let starts = list.is_empty();
     run::problems(&reduced, &linkage, starts, &mut list);
-    scene.refused(list)
+    scene.refused(list)?;
+    Ok(reduced)
 }

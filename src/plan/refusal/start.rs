@@ -68,7 +68,7 @@ fn loads(scene: &Scene, now: &Instant, list: &mut Vec<Problem>) {
     for of in scene.loads() {
         let value = single(of.load, of.on_slider, now);
         if !value.is_finite() {
-            list.push(no_value(&of.key(), of.load, value, now));
+            list.push(no_value(&of.key().to_string(), of.load, value, now));
         }
     }
 }

@@ -2,7 +2,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use super::keys::SECTIONS;
 use super::loads::keys_fit;
+use super::part::Part;
 use super::read::{Contents, Values};
 use super::{bodies, loads};
 use crate::scene::check::Check;
@@ -15,9 +17,11 @@ use crate::scene::{
 /// problem; a scene with problems is not handed out.
 pub(super) fn scene(check: &mut Check, contents: Contents) -> Scene {
     let tables = &contents.tables;
-    tables.iter().for_each(|values| required(check, values));
-    let find = |name: &str| tables.iter().find(|values| values.section.name == name);
-    let geometry = find("geometry");
+    let unknown = tables.iter().filter(|values| values.part.get().is_none());
+    unknown.for_each(|values| required(check, values));
+    let geometry = tables
+        .iter()
+        .find(|values| values.section.name == "geometry");
     if geometry.is_none() && check.sound(["geometry"]) {
         let help = "add [geometry] with crank = \"47 mm\" and rod = \"155.83 mm\"";
         check.add("geometry", "the scene has no [geometry]", help);
@@ -32,37 +36,43 @@ pub(super) fn scene(check: &mut Check, contents: Contents) -> Scene {
     if geometry.and_then(|values| values.text("branch")) == Some("left") {
         scene.geometry.branch = Branch::Left;
     }
-    scene.crank = find("crank").map(|values| bodies::crank(check, values));
-    scene.rod = find("rod").map(|values| bodies::rod(check, values, scene.geometry.rod));
-    scene.slider = find("slider").map(|values| bodies::slider(check, values));
-    scene.gravity = find("gravity").and_then(|values| gravity(values));
-    for values in tables {
-        let list = match values.section.name {
-            "torque" => &mut scene.torques,
-            "force" => &mut scene.forces,
-            _ => continue,
-        };
-        let known = values.load.get().cloned();
-        let load = known.or_else(|| loads::load(check, values));
-        // A load that could not be read keeps its place: problems of the others count the loads.
-        let mut load = load.unwrap_or(Load::Constant(0.0));
-        if check.problems.is_empty() {
-            values.load.get_or_init(|| load.clone());
+    // Problems are told in the order of the sections.
+    for section in SECTIONS {
+        let of_section = tables
+            .iter()
+            .filter(|values| values.section.name == section.name);
+        for values in of_section {
+            let known = values.part.get().cloned();
+            let part = known.unwrap_or_else(|| part(check, values, scene.geometry.rod));
+            part.enter(&mut scene);
         }
-        if let Load::Gas { towards_crank, .. } = &mut load {
-            *towards_crank = -scene.geometry.branch.sign();
-        }
-        list.push(load);
-    }
-    scene.friction = find("friction").and_then(|values| friction(values));
-    scene.clearance = find("clearance").and_then(|values| clearance(values));
-    if let Some(values) = find("motion") {
-        scene.motion = motion(check, values);
-    }
-    if let Some(values) = find("run") {
-        scene.run = run(check, values);
     }
     scene
+}
+
+/// The part of a table, beside a rod of this length, m.
+fn part(check: &mut Check, values: &Values, rod: f64) -> Part {
+    // A load that could not be read keeps its place: problems of the others count the loads.
+    let load = |check: &mut Check| loads::load(check, values).unwrap_or(Load::Constant(0.0));
+    let part = match values.section.name {
+        "crank" => Part::Crank(bodies::crank(check, values)),
+        "rod" => Part::Rod(bodies::rod(check, values, rod)),
+        "slider" => Part::Slider(bodies::slider(check, values)),
+        "gravity" => Part::Gravity(gravity(values)),
+        "torque" => Part::Torque(load(check)),
+        "force" => Part::Force(load(check)),
+        "friction" => Part::Friction(friction(values)),
+        "clearance" => Part::Clearance(clearance(values)),
+        "motion" => Part::Motion(motion(check, values)),
+        "run" => Part::Run(run(check, values)),
+        _ => Part::Geometry,
+    };
+    // The centre of gravity of a box is that of the rod's length.
+    let is_alone = !matches!(part, Part::Rod(_)) || values.has("cg");
+    if is_alone && check.problems.is_empty() {
+        values.part.get_or_init(|| part.clone());
+    }
+    part
 }
 
 /// Keys that every table of the section has.

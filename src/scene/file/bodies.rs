@@ -28,9 +28,10 @@ fn solid(check: &mut Check, values: &Values) -> Solid {
         return solid;
     }
     for key in BOX {
-        let what = format!("`{key}` is missing for the mass from density and box");
-        let help = "give density, length, width and depth";
-        check.missing(values, key, what, help);
+        check.missing(values, key, || {
+            let what = format!("`{key}` is missing for the mass from density and box");
+            [what, "give density, length, width and depth".to_owned()]
+        });
         if let Some(value) = values.number(key).filter(|value| *value <= 0.0) {
             let what = format!("`{key}` is {}, which is not positive", show(value));
             check.add(values.field(key), what, "give the size of a real body");
@@ -65,9 +66,10 @@ impl Solid {
     fn needs_mass(&self, check: &mut Check, values: &Values, keys: &[&str], why: &str) {
         let is_given = |key: &&str| values.number(key).is_some_and(|value| value != 0.0);
         if self.mass.is_none() && !self.boxed && (keys.is_empty() || keys.iter().any(is_given)) {
-            let what = format!("`mass` is missing{why}");
-            let help = "add mass = \"0.5 kg\", or density, length, width and depth";
-            check.missing(values, "mass", what, help);
+            check.missing(values, "mass", || {
+                let help = "add mass = \"0.5 kg\", or density, length, width and depth";
+                [format!("`mass` is missing{why}"), help.to_owned()]
+            });
         }
     }
 
@@ -75,8 +77,10 @@ impl Solid {
     fn needs(&self, check: &mut Check, values: &Values, body: &str, key: &str, help: &str) {
         let mass = self.mass.unwrap_or(0.0);
         if mass != 0.0 && !self.boxed {
-            let what = format!("the {body} has a mass of {} kg but no `{key}`", show(mass));
-            check.missing(values, key, what, help);
+            check.missing(values, key, || {
+                let what = format!("the {body} has a mass of {} kg but no `{key}`", show(mass));
+                [what, help.to_owned()]
+            });
         }
     }
 

@@ -56,8 +56,10 @@ pub(super) fn keys_fit(check: &mut Check, values: &Values, kind: &str) -> Option
         .iter()
         .filter(|key| required.contains(&key.name))
     {
-        let what = format!("`{}` is missing for kind \"{}\"", key.name, kind.name);
-        check.missing(values, key.name, what, format!("add {}", key.example()));
+        check.missing(values, key.name, || {
+            let what = format!("`{}` is missing for kind \"{}\"", key.name, kind.name);
+            [what, format!("add {}", key.example())]
+        });
     }
     required.iter().all(|name| values.has(name)).then_some(())
 }
@@ -74,8 +76,13 @@ fn magnitude(check: &mut Check, values: &Values, quantity: Quantity) -> Option<L
     let [value, file] = ["value", "file"].map(|key| values.has(key));
     if value != file {
         if file {
-            let what = "`of` is missing: what the magnitude is a table of";
-            check.missing(values, "of", what, "add of = \"theta\"");
+            check.missing(values, "of", || {
+                [
+                    "`of` is missing: what the magnitude is a table of",
+                    "add of = \"theta\"",
+                ]
+                .map(str::to_owned)
+            });
             let of = Variable::named(values.text("of")?)?;
             return table(check, values, of, quantity).map(Load::Table);
         }

@@ -9,10 +9,12 @@ mod draft;
 mod key_path;
 mod keys;
 mod loads;
+mod part;
 mod read;
 mod render;
 mod scene;
 mod schema;
+mod spread;
 mod value;
 mod varied;
 

@@ -9,18 +9,19 @@ use toml::de::{DeTable, DeValue};
 use super::VariedValue;
 use super::key_path::KeyPath;
 use super::keys::{self, Key, Kind, Section};
+use super::part::Part;
 use super::value::{self, Value};
 use crate::scene::check::Check;
 use crate::scene::places::Spans;
 use crate::scene::unit::Uncertain;
-use crate::scene::{Every, Load, Problem};
+use crate::scene::{Every, Problem};
 
 /// The values of one table that could be read, by key.
 #[derive(Clone, Debug)]
 pub(super) struct Values {
     pub section: &'static Section,
-    /// The load of the table, once it is known.
-    pub load: OnceLock<Load>,
+    /// What the table makes of the scene, once it is known to have no problem and depend on no other table.
+    pub part: OnceLock<Part>,
     path: String,
     entries: BTreeMap<&'static str, Value>,
 }
@@ -29,7 +30,7 @@ impl Values {
     pub fn new(section: &'static Section, path: String) -> Values {
         Values {
             section,
-            load: OnceLock::new(),
+            part: OnceLock::new(),
             path,
             entries: BTreeMap::new(),
         }
@@ -37,7 +38,7 @@ impl Values {
 
     /// Puts a value in place of the one of a key, or beside the others; none for one that could not be read.
     pub fn set(&mut self, key: &'static Key, value: Option<Value>) {
-        self.load = OnceLock::new();
+        self.part = OnceLock::new();
         match value {
             Some(value) => self.entries.insert(key.name, value),
             None => self.entries.remove(key.name),
@@ -229,15 +230,15 @@ impl Contents {
 }
 
 impl Check<'_> {
-    /// A problem with a key that is needed, unless it is there or already has one.
+    /// A problem with a key that is needed, what is wrong and what would be right, unless it is there or already has one.
     pub(super) fn missing(
         &mut self,
         values: &Values,
         key: &str,
-        what: impl Into<String>,
-        help: impl Into<String>,
+        problem: impl FnOnce() -> [String; 2],
     ) {
         if !self.met(values, key) {
+            let [what, help] = problem();
             self.add(values.field(key), what, help);
         }
     }

@@ -7,11 +7,9 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::key_path::KeyPath;
 use super::keys::{Key, Kind};
+use super::spread::Spread;
 use super::value;
-use crate::scene::unit::{self, PLUS_MINUS, Quantity, Uncertain};
-
-/// Most values of one key.
-const MOST_VALUES: usize = 1_000_000;
+use crate::scene::unit::{PLUS_MINUS, Quantity, Uncertain};
 
 /// A key of a scene and the values it takes, read from texts like `geometry.offset=0mm:20mm:41`.
 ///
@@ -55,6 +53,7 @@ pub struct VariedValue {
 #[derive(Clone, Debug)]
 enum Values {
     Listed(Vec<VariedValue>),
+    Spread(Spread),
     /// Evenly between two numbers, SI.
     Uniform([f64; 2]),
     /// With a mean and a standard deviation, SI.
@@ -67,20 +66,21 @@ impl Varied {
     pub fn len(&self) -> usize {
         match &self.values {
             Values::Listed(list) => list.len(),
+            Values::Spread(spread) => spread.len(),
             Values::Uniform(_) | Values::Normal(_) => 1,
         }
     }
 
     /// Whether the values are random.
     pub fn is_distribution(&self) -> bool {
-        !matches!(self.values, Values::Listed(_))
+        matches!(self.values, Values::Uniform(_) | Values::Normal(_))
     }
 
     /// The bounds of an even distribution, in SI units and radians.
     pub fn bounds(&self) -> Option<[f64; 2]> {
         match self.values {
             Values::Uniform(bounds) => Some(bounds),
-            Values::Listed(_) | Values::Normal(_) => None,
+            _ => None,
         }
     }
 
@@ -115,6 +115,7 @@ impl Varied {
     pub fn value(&self, index: usize) -> VariedValue {
         match &self.values {
             Values::Listed(list) => list[index].clone(),
+            Values::Spread(spread) => VariedValue::in_spread(spread, index),
             Values::Uniform(_) | Values::Normal(_) => self.quantile(0.5),
         }
     }
@@ -122,7 +123,9 @@ impl Varied {
     /// The value below which a part `p` of a distribution lies, with 0 < p < 1; listed values are equally likely.
     pub fn quantile(&self, p: f64) -> VariedValue {
         let number = match &self.values {
-            Values::Listed(list) => return list[(p * list.len() as f64) as usize].clone(),
+            Values::Listed(_) | Values::Spread(_) => {
+                return self.value((p * self.len() as f64) as usize);
+            }
             Values::Uniform([low, high]) => low + p * (high - low),
             Values::Normal(normal) => normal.inverse_cdf(p),
         };
@@ -131,6 +134,16 @@ impl Varied {
 }
 
 impl VariedValue {
+    fn in_spread(spread: &Spread, index: usize) -> VariedValue {
+        let (text, number) = spread.value(index);
+        VariedValue { text, number }
+    }
+
+    fn read(key: &Key, text: String) -> Result<VariedValue, String> {
+        let number = number(key, &text)?.map(|number| number.value);
+        Ok(VariedValue { text, number })
+    }
+
     /// A number in SI units and radians.
     pub(super) fn of(number: f64, unit: &str) -> VariedValue {
         VariedValue {
@@ -159,6 +172,7 @@ impl FromStr for Varied {
         let values = read(path.key, values)?;
         let has_numbers = match &values {
             Values::Listed(list) => list.iter().all(|value| value.number.is_some()),
+            Values::Spread(spread) => spread.value(0).1.is_some(),
             Values::Uniform(_) | Values::Normal(_) => true,
         };
         Ok(Varied {
@@ -193,20 +207,20 @@ fn read(key: &Key, text: &str) -> Result<Values, String> {
                 false => Err(format!("`{low}` is not less than `{high}`")),
             };
         }
-        ([from, to, count], _) => spread(from, to, count, false)?,
-        ([from, to, count, "log"], _) => spread(from, to, count, true)?,
+        ([from, to, count], _) => {
+            return Spread::new(key, [from, to], count, false).map(Values::Spread);
+        }
+        ([from, to, count, "log"], _) => {
+            return Spread::new(key, [from, to], count, true).map(Values::Spread);
+        }
         _ => {
             return Err(format!(
                 "`{text}` is no range; write first, last and count, like 0mm:20mm:41 or 1mm:100mm:7:log"
             ));
         }
     };
-    let value = |text: String| {
-        let number = number(key, &text)?.map(|number| number.value);
-        Ok(VariedValue { text, number })
-    };
-    let values: Result<_, String> = texts.into_iter().map(value).collect();
-    Ok(Values::Listed(values?))
+    let values = texts.into_iter().map(|text| VariedValue::read(key, text));
+    Ok(Values::Listed(values.collect::<Result<_, _>>()?))
 }
 
 /// The quantity that a text is, if the key takes one.
@@ -226,49 +240,4 @@ fn listed(text: &str) -> Vec<String> {
         c == ',' && depth == 0
     });
     parts.map(|part| part.trim().to_owned()).collect()
-}
-
-/// Values from the first to the last, in the unit in which these are written.
-fn spread(from: &str, to: &str, written: &str, logarithmic: bool) -> Result<Vec<String>, String> {
-    let count = written
-        .parse()
-        .ok()
-        .filter(|count| (1..=MOST_VALUES).contains(count));
-    let count = count
-        .ok_or_else(|| format!("`{written}` is not a number of values from 1 to {MOST_VALUES}"))?;
-    let ((first, unit), (last, last_unit)) = (split(from)?, split(to)?);
-    if !unit.is_empty() && unit != last_unit {
-        return Err(format!(
-            "`{from}` and `{to}` have different units; write both in one"
-        ));
-    }
-    if count == 1 && first != last {
-        return Err(format!("one value cannot be both `{from}` and `{to}`"));
-    }
-    if logarithmic && first * last <= 0.0 {
-        return Err(format!(
-            "`{from}` to `{to}` has no even spread in the logarithm; both must have one sign"
-        ));
-    }
-    let end = count - 1;
-    let at = |i: usize| match i {
-        0 => first,
-        i if i == end => last,
-        i if logarithmic => first * (last / first).powf(i as f64 / end as f64),
-        // Divided last, so that decimal steps stay decimal.
-        i => first + (last - first) * i as f64 / end as f64,
-    };
-    let text = |i| format!("{} {last_unit}", at(i)).trim_end().to_owned();
-    Ok((0..count).map(text).collect())
-}
-
-/// A number and its unit.
-fn split(text: &str) -> Result<(f64, &str), String> {
-    let (digits, unit) = unit::split(text)?;
-    let number = digits
-        .parse()
-        .ok()
-        .filter(|number: &f64| number.is_finite());
-    let number = number.ok_or_else(|| format!("`{text}` is not a finite number"))?;
-    Ok((number, unit))
 }

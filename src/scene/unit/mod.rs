@@ -111,6 +111,25 @@ pub fn uncertain(text: &str, quantity: Quantity) -> Result<Uncertain, UnitError>
     Ok(found)
 }
 
+/// A unit of a quantity, for many numbers.
+#[cfg(feature = "cli")]
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scale(Factor);
+
+#[cfg(feature = "cli")]
+impl Scale {
+    /// None if the unit is not one of this quantity.
+    pub fn new(unit: &str, quantity: Quantity) -> Option<Scale> {
+        let factor = grammar::unit_factor(unit).ok()?;
+        factor.of(quantity).map(Scale)
+    }
+
+    /// The value of these digits in SI units and radians.
+    pub fn value(self, digits: &str) -> Option<f64> {
+        self.0.apply(digits)
+    }
+}
+
 /// Reads `text` as a time (s) or an angle (rad); a bare 0 is a time.
 #[cfg(feature = "cli")]
 pub(super) fn time_or_angle(text: &str) -> Result<Every, UnitError> {
@@ -153,9 +172,19 @@ impl Measured<'_> {
         if self.unit.is_empty() && self.value == 0.0 || quantity.accepts(self.factor.dimension) {
             return Some(self.value);
         }
-        let turning = quantity == Quantity::AngularSpeed;
-        let factor = self.factor.revolutions().filter(|_| turning)?;
-        factor.apply(&self.digits)
+        self.factor.of(quantity)?.apply(&self.digits)
+    }
+}
+
+impl Factor {
+    /// As a factor of this quantity: a plain 1/min of an angular speed counts turns.
+    fn of(self, quantity: Quantity) -> Option<Factor> {
+        match quantity.accepts(self.dimension) {
+            true => Some(self),
+            false => self
+                .revolutions()
+                .filter(|_| quantity == Quantity::AngularSpeed),
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 pub(super) type Dimension = [i8; 4];
 
 /// numerator/denominator · 10^ten · pi^pi, times metre, kilogram, second, radian to `dimension`.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Factor {
     numerator: f64,
     denominator: f64,

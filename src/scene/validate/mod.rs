@@ -63,7 +63,7 @@ pub(super) fn problems(scene: &Scene, list: &mut Check) {
         list.finite("gravity.direction", gravity.direction);
     }
     for of in scene.loads() {
-        loads::load(list, &of.key(), of.on_slider, of.load);
+        loads::load(list, &of.key().to_string(), of.on_slider, of.load);
     }
     if let Some(friction) = &scene.friction {
         self::friction(list, friction);

@@ -1,0 +1,43 @@
+//! What one table of a scene file makes of the scene.
+
+use crate::scene::{Clearance, Crank, Friction, Gravity, Load, Motion, Rod, Run, Scene, Slider};
+
+/// What one table makes of a scene.
+#[derive(Clone, Debug)]
+pub(super) enum Part {
+    /// It is entered before all others.
+    Geometry,
+    Crank(Crank),
+    Rod(Rod),
+    Slider(Slider),
+    Gravity(Option<Gravity>),
+    Torque(Load),
+    Force(Load),
+    Friction(Option<Friction>),
+    Clearance(Option<Clearance>),
+    Motion(Motion),
+    Run(Run),
+}
+
+impl Part {
+    pub fn enter(self, scene: &mut Scene) {
+        match self {
+            Part::Geometry => {}
+            Part::Crank(crank) => scene.crank = Some(crank),
+            Part::Rod(rod) => scene.rod = Some(rod),
+            Part::Slider(slider) => scene.slider = Some(slider),
+            Part::Gravity(gravity) => scene.gravity = gravity,
+            Part::Torque(load) => scene.torques.push(load),
+            Part::Force(mut load) => {
+                if let Load::Gas { towards_crank, .. } = &mut load {
+                    *towards_crank = -scene.geometry.branch.sign();
+                }
+                scene.forces.push(load);
+            }
+            Part::Friction(friction) => scene.friction = friction,
+            Part::Clearance(clearance) => scene.clearance = clearance,
+            Part::Motion(motion) => scene.motion = motion,
+            Part::Run(run) => scene.run = run,
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! Evenly spread values of a key, each made when it is asked for.
+
+use super::keys::{Key, Kind};
+use super::value;
+use crate::scene::unit::{self, Scale};
+
+/// Most values of one key.
+const MOST_VALUES: usize = 1_000_000;
+
+/// Values from the first to the last, in the unit in which these are written.
+#[derive(Clone, Debug)]
+pub(super) struct Spread {
+    ends: [f64; 2],
+    unit: String,
+    count: usize,
+    logarithmic: bool,
+    /// Of the unit, if the key takes a quantity.
+    scale: Option<Scale>,
+}
+
+impl Spread {
+    /// From first value, last value and count as they are written; evenly in the values or in their logarithm.
+    pub fn new(
+        key: &Key,
+        [from, to]: [&str; 2],
+        count: &str,
+        logarithmic: bool,
+    ) -> Result<Spread, String> {
+        let counted = count.parse().ok();
+        let counted = counted.filter(|count| (1..=MOST_VALUES).contains(count));
+        let count = counted.ok_or_else(|| {
+            format!("`{count}` is not a number of values from 1 to {MOST_VALUES}")
+        })?;
+        let ((first, unit), (last, last_unit)) = (split(from)?, split(to)?);
+        if !unit.is_empty() && unit != last_unit {
+            return Err(format!(
+                "`{from}` and `{to}` have different units; write both in one"
+            ));
+        }
+        if count == 1 && first != last {
+            return Err(format!("one value cannot be both `{from}` and `{to}`"));
+        }
+        if logarithmic && first * last <= 0.0 {
+            return Err(format!(
+                "`{from}` to `{to}` has no even spread in the logarithm; both must have one sign"
+            ));
+        }
+        let spread = Spread {
+            ends: [first, last],
+            unit: last_unit.to_owned(),
+            count,
+            logarithmic,
+            scale: match key.kind {
+                Kind::Of(quantity) | Kind::Formula(quantity) => Scale::new(last_unit, quantity),
+                _ => None,
+            },
+        };
+        // Values rise or fall steadily: what is wrong with one of them is wrong with one of these.
+        for index in [0, 1, count.saturating_sub(2), count - 1] {
+            let text = spread.value(index.min(count - 1)).0;
+            value::read_text(key, &text).map_err(|error| error.to_string())?;
+        }
+        Ok(spread)
+    }
+
+    /// Number of values, at least one.
+    pub fn len(&self) -> usize {
+        self.count
+    }
+
+    /// A value as a scene file has it, and in SI units and radians if it is a quantity.
+    ///
+    /// # Panics
+    /// If there is no value of this index.
+    pub fn value(&self, index: usize) -> (String, Option<f64>) {
+        let ([first, last], end) = (self.ends, self.count - 1);
+        assert!(index <= end, "value {index} of {}", self.count);
+        let part = |whole: f64| whole * index as f64 / end as f64;
+        let value = match index {
+            0 => first,
+            _ if index == end => last,
+            _ if self.logarithmic => first * (last / first).powf(part(1.0)),
+            // Divided last, so that decimal steps stay decimal.
+            _ => first + part(last - first),
+        };
+        let mut text = value.to_string();
+        let number = self.scale.and_then(|scale| scale.value(&text));
+        if !self.unit.is_empty() {
+            text.push(' ');
+            text.push_str(&self.unit);
+        }
+        (text, number)
+    }
+}
+
+/// A number and its unit.
+fn split(text: &str) -> Result<(f64, &str), String> {
+    let (digits, unit) = unit::split(text)?;
+    let number = digits
+        .parse()
+        .ok()
+        .filter(|number: &f64| number.is_finite());
+    let number = number.ok_or_else(|| format!("`{text}` is not a finite number"))?;
+    Ok((number, unit))
+}
