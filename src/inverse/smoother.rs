@@ -165,10 +165,12 @@ impl Problem<'_> {
                     noise = linear.with_drift(noise);
                 }
                 let has_shape = prior.follows_speed || prior.cycle > 0 && prior.order == 1;
-                if iteration == 1 && has_shape {
+                // Where stretches of another intensity are known, the prior is as rough as they are.
+                let is_alike = iteration == 1 && self.agility.0.is_empty();
+                if is_alike && has_shape {
                     let with = |corner| Noise { corner, ..noise };
                     noise = linear.as_strong_as_allowed(&noise, noise.corner, ONE_ERROR, with);
-                } else if iteration == 1 && prior.order >= 2 {
+                } else if is_alike && prior.order >= 2 {
                     let with = |level| Noise { level, ..noise };
                     noise = linear.as_strong_as_allowed(&noise, noise.level, TWO_ERRORS, with);
                 }
