@@ -108,12 +108,15 @@ impl Problem<'_> {
         }
     }
 
+    /// Whether samples with this noise were computed.
+    pub fn is_computed(&self, noise: &Noise) -> bool {
+        noise.sigma < COMPUTED * self.record.sensor.size()
+    }
+
     /// Priors about a path, the likeliest first. The order of each unknown rises as long as its likelihood does.
     pub fn tried(&self, kinematic: &Smoothed, correlated: &[Autoregression]) -> Vec<Candidate> {
-        let size = self.record.sensor.size();
-        let is_computed = |noise: &Noise| noise.sigma < COMPUTED * size;
         // What repeats is noise that comes down: of what was computed there is none.
-        let turns = match is_computed(&kinematic.noise) {
+        let turns = match self.is_computed(&kinematic.noise) {
             true => 0.0,
             false => self.turns(kinematic),
         };
@@ -126,7 +129,7 @@ impl Problem<'_> {
                     .last()
                     .map_or(f64::NEG_INFINITY, |c| c.noise.likelihood);
                 let rises = next.noise.likelihood > before;
-                let is_computed = is_computed(&next.noise);
+                let is_computed = self.is_computed(&next.noise);
                 tried.push(next);
                 if !rises || is_computed && prior.order == 2 {
                     break;

@@ -208,7 +208,7 @@ impl Problem<'_> {
     }
 
     /// Means and weights of the normal distributions in the place of the codes.
-    fn sites(&self) -> (Vec<f64>, Vec<f64>) {
+    pub fn sites(&self) -> (Vec<f64>, Vec<f64>) {
         (self.record.values.clone(), self.record.weights.clone())
     }
 }

@@ -66,9 +66,9 @@ pub(super) trait Companion<const N: usize> {
     #[inline(always)]
     fn updated(&mut self, _node: usize, _sample: &Sample<N>, _found: &Innovation<N>) {}
 
-    /// The smoother is back at a node.
+    /// The smoother is back at a node, from the next one, of which the filter predicted and the smoother found these.
     #[inline(always)]
-    fn returned(&mut self, _node: usize, _way: &Return<N>) {}
+    fn returned(&mut self, _node: usize, _way: &Return<N>, _next: [&Gaussian<N>; 2]) {}
 }
 
 /// How the smoother comes from a node to the one before: x(k) = Φ⁻¹ (x(k+1) − c − QW (x(k+1) − x̂)).
@@ -248,8 +248,8 @@ pub(super) fn smooth<const N: usize>(
             inverse: model.inverse(node),
             share: shares(&predicted.covariance, &step.noise),
         };
+        companion.returned(node, &way, [&predicted, &now]);
         now = earlier(&step, &way, &predicted, &now);
-        companion.returned(node, &way);
     }
     path[0] = now;
     (path, innovations)

@@ -164,6 +164,7 @@ impl Motion<'_> {
             defect,
             lever,
             tilt,
+            agility: 1.0,
         }
     }
 }
@@ -202,6 +203,8 @@ pub(super) struct Linearised {
     pub lever: f64,
     /// What g adds to u, per time.
     pub tilt: f64,
+    /// Intensity of the noise of the process beside the usual one.
+    pub agility: f64,
 }
 
 #[cfg(test)]

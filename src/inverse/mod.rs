@@ -27,6 +27,7 @@
 //! }
 //! ```
 
+mod agility;
 mod alignment;
 mod all_samples;
 mod as_printed;

@@ -1,4 +1,4 @@
-//! The noise that makes samples likeliest, and the strongest that they allow: searches over one frequency after the other.
+//! The noise that makes samples likeliest: searches over one frequency after the other.
 
 use super::likelihood::Linear;
 use super::maximum::{better, climb};
@@ -47,42 +47,6 @@ impl Linear<'_> {
             || self.maximised(highest.exp(), None),
             |best| self.improved(best),
         )
-    }
-
-    /// The strongest noise, over a frequency of at least `low`, by which ln of the likelihood falls no more than `allowed` below the
-    /// largest: by n²/2 for n standard errors. A prior that is too smooth, or has a shape of its own, has a band that does not hold
-    /// what is less smooth or of another shape.
-    pub fn as_strong_as_allowed(
-        &self,
-        noise: &Noise,
-        mut low: f64,
-        allowed: f64,
-        with: impl Fn(f64) -> Noise,
-    ) -> Noise {
-        let mut best = noise.likelihood;
-        let (mut found, mut high) = (*noise, f64::INFINITY);
-        let mut frequency = noise.corner.max(FIRST * low);
-        for _ in 0..LEVELS {
-            let next = self.evaluated(with(frequency));
-            best = best.max(next.likelihood);
-            let fall = best - next.likelihood;
-            if fall > allowed {
-                high = frequency;
-            } else {
-                (found, low) = (next, frequency);
-                if fall >= 0.5 * allowed {
-                    break;
-                }
-            }
-            // The fall grows like the density of the noise, by the sixth power of the frequency.
-            let next = frequency * (0.75 * allowed / fall.max(1e-3)).powf(1.0 / 6.0);
-            frequency = match next > low && next < high {
-                true => next.min(2.0 * frequency),
-                false if low > 0.0 => (low * high).sqrt(),
-                false => 0.5 * high,
-            };
-        }
-        found
     }
 
     /// The likeliest noise of g beside that of u: a loss that is not in proportion to the speed.
@@ -137,10 +101,6 @@ impl Linear<'_> {
         best
     }
 }
-
-/// First factor of the frequency, and most evaluations, in the search for that noise.
-const FIRST: f64 = 1.2;
-const LEVELS: usize = 12;
 
 /// Most rounds of the search over one parameter after the other.
 const CORRELATION_ROUNDS: usize = 8;

@@ -29,13 +29,15 @@ pub(super) fn weights(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> 
             let estimate = problem.at(smoothed, record.times[i]);
             let (residual, shown) = record.sensor.residual(record.values[i], estimate.state[0]);
             // Of a sample that counts, part of its error is in the path.
-            let leverage = record.weights[i] * shown.slope * shown.slope * estimate.covariance[0]
-                / (sigma * sigma);
+            let variance = shown.slope * shown.slope * estimate.covariance[0] / (sigma * sigma);
+            let leverage = record.weights[i] * variance;
             // The path goes where such a sample is, right or wrong.
             if leverage > TIED {
                 return 0.0;
             }
-            residual / (sigma * (1.0 - leverage).sqrt())
+            // By what all others say of it.
+            let left = 1.0 - leverage;
+            residual / (sigma * left * (1.0 + variance / left).sqrt())
         })
         .collect();
     let told = standardised.iter().filter(|r| **r != 0.0);

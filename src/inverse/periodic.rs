@@ -233,7 +233,7 @@ impl<const N: usize> Companion<N> for Sensitivities<'_, N> {
         self.shifts[node] = shift / found.variance.sqrt();
     }
 
-    fn returned(&mut self, node: usize, way: &Return<N>) {
+    fn returned(&mut self, node: usize, way: &Return<N>, _: [&Gaussian<N>; 2]) {
         let columns = &mut self.columns;
         let (count, size) = (columns.errors.len(), columns.of.len());
         let off = &mut self.list[(node + 1) * size..][..size];

@@ -11,7 +11,7 @@ use super::periodic::{Increments, Sensitivities};
 use super::prior::Prior;
 use super::record::Record;
 use super::regression::Posterior;
-use super::scales::{Noise, Scales};
+use super::scales::{Agility, Noise, Scales};
 use super::smoother::Smoothed;
 use super::state_space::Deviations;
 use crate::mechanism::Equation;
@@ -30,6 +30,8 @@ pub(super) struct Problem<'a> {
     pub record: Record<'a>,
     pub grid: Grid,
     pub equation: &'a Equation,
+    /// How strong the noise of the process is along the record.
+    pub agility: Agility,
     /// A request to stop: what is smoothed then is of no use.
     pub stop: Option<&'a Stop>,
 }
@@ -87,7 +89,12 @@ impl<'a> Problem<'a> {
         let rates: Vec<Rates> = pairs.map(|(t, state)| motion.rates(*t, state)).collect();
         let steps = (0..states.len() - 1).map(|k| {
             let ends = [&states[k], &states[k + 1]];
-            motion.linearised([times[k], times[k + 1]], ends, [&rates[k], &rates[k + 1]])
+            let ends =
+                motion.linearised([times[k], times[k + 1]], ends, [&rates[k], &rates[k + 1]]);
+            Linearised {
+                agility: self.agility.at(0.5 * (times[k] + times[k + 1])),
+                ..ends
+            }
         });
         let steps: Vec<Linearised> = steps.collect();
         let increments = match motion.prior.cycle {

@@ -3,11 +3,12 @@
 use super::branch_tracking::CrankAngles;
 use super::grid::{Grid, Path};
 use super::measurement_model::{Scale, Sensor};
-use super::prior::KINEMATIC;
+use super::prior::{KINEMATIC, Prior};
 use super::problem::Problem;
 use super::quantised::Codes;
 use super::record::Record;
 use super::record::SensorBeside;
+use super::scales::Agility;
 use super::smoother::Smoothed;
 use super::{first_path, outliers};
 use crate::mechanism::Equation;
@@ -75,6 +76,7 @@ pub(super) fn problem<'a>(
         record,
         grid,
         equation,
+        agility: Agility::default(),
         stop,
     }
 }
@@ -159,6 +161,33 @@ fn without_outliers<'a>(
         }
     }
     (problem, kinematic)
+}
+
+/// The likeliest smoothed motion, by the samples that are not far off by its own prior: a force that jumps takes samples
+/// where a motion without mechanics does not expect them.
+pub(super) fn likeliest(
+    problem: &mut Problem<'_>,
+    kinematic: Smoothed,
+) -> (Smoothed, Vec<(Prior, f64)>) {
+    let mut found = problem.likeliest_of_agile(&kinematic);
+    for _ in 0..OUTLIER_ROUNDS {
+        let before = problem.record.weights.clone();
+        // The weights of codes are what they are worth.
+        if problem.record.codes.is_some() || before.iter().all(|weight| *weight == 1.0) {
+            break;
+        }
+        let Some(weights) = outliers::weights(problem, &found.0, 0.0) else {
+            break;
+        };
+        if outliers::alike(&before, &weights) {
+            break;
+        }
+        problem.record.weights = weights;
+        let path = problem.path_of(KINEMATIC, &found.0, problem.all());
+        let kinematic = problem.kinematic(path, found.0.noise.sigma);
+        found = problem.likeliest_of_agile(&kinematic);
+    }
+    found
 }
 
 pub(super) fn first_path(problem: &Problem<'_>, angles: &CrankAngles<'_>) -> Path {

@@ -109,3 +109,25 @@ impl Autoregression {
         })
     }
 }
+
+/// A stretch of the record and the factor of the intensity of its noise.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Span {
+    /// s
+    pub from: f64,
+    /// s
+    pub to: f64,
+    pub factor: f64,
+}
+
+/// How strong the noise of the process is along a record, beside its usual intensity.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Agility(pub Vec<Span>);
+
+impl Agility {
+    /// The factor of the intensity at a time.
+    pub fn at(&self, t: f64) -> f64 {
+        let spans = self.0.iter().filter(|span| span.from < t && t < span.to);
+        spans.map(|span| span.factor).product()
+    }
+}

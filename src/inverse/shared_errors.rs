@@ -118,6 +118,7 @@ impl Source {
             record: self.record(record),
             grid: problem.grid.clone(),
             equation: &self.equation,
+            agility: problem.agility.clone(),
             stop: problem.stop,
         };
         let mut path = smoothed.path(!record.is_linear());

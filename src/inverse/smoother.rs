@@ -33,10 +33,6 @@ impl Smoothed {
     }
 }
 
-/// Falls of ln of the likelihood at one and at two standard errors of a parameter.
-const ONE_ERROR: f64 = 0.5;
-const TWO_ERRORS: f64 = 2.0;
-
 /// Most iterations of Gauss and Newton.
 pub(super) const ITERATIONS: usize = 12;
 
@@ -164,19 +160,11 @@ impl Problem<'_> {
                 if prior.follows_speed {
                     noise = linear.with_drift(noise);
                 }
-                let has_shape = prior.follows_speed || prior.cycle > 0 && prior.order == 1;
-                if iteration == 1 && has_shape {
-                    let with = |corner| Noise { corner, ..noise };
-                    noise = linear.as_strong_as_allowed(&noise, noise.corner, ONE_ERROR, with);
-                } else if iteration == 1 && prior.order >= 2 {
-                    let with = |level| Noise { level, ..noise };
-                    noise = linear.as_strong_as_allowed(&noise, noise.level, TWO_ERRORS, with);
-                }
             }
             let estimates = self.smoothed(&motion, &path, scales, &noise);
             let change = path.moved(&estimates);
             (result.noise, result.estimates) = (noise, estimates);
-            // The noise of the second iteration has in it what makes the band hold.
+            // The second iteration looks for the noise again.
             if change < PATH_AT_REST && iteration > 0 {
                 result.settled = true;
                 break;

@@ -58,8 +58,7 @@ impl Deviations<'_> {
             offset[i] = step.defect[i];
         }
         self.integrate(step, step.h, &mut transition);
-        let mut noise = [[0.0; N]; N];
-        self.add_noise(step, &mut noise);
+        let mut noise = self.process_noise(node);
         if let Some(Autoregression { decay, white }) = self.correlated {
             transition[N - 1][N - 1] = (-decay * step.h).exp();
             noise[N - 1][N - 1] = (1.0 - white) * -(-2.0 * decay * step.h).exp_m1();
@@ -69,6 +68,14 @@ impl Deviations<'_> {
             offset,
             noise,
         }
+    }
+
+    /// Covariance of the noise of the process in a step.
+    #[inline(always)]
+    pub fn process_noise<const N: usize>(&self, node: usize) -> Matrix<N> {
+        let mut noise = [[0.0; N]; N];
+        self.add_noise(&self.steps[node], &mut noise);
+        noise
     }
 
     /// Φ⁻¹ = [[B⁻¹, −B⁻¹ C T⁻¹], [0, T⁻¹]] of Φ = [[B, C], [0, T]].
@@ -154,27 +161,33 @@ impl Deviations<'_> {
     fn add_noise<const N: usize>(&self, step: &Linearised, noise: &mut Matrix<N>) {
         let (h, b, tilt) = (step.h, step.lever, step.tilt);
         let (h2, h3) = (h * h / 2.0, h * h * h / 6.0);
+        let time = h * step.agility;
         let of_level = [b * h2, b * h, 1.0];
         match self.prior.order {
-            1 => add(noise, [0, 1, 2], &of_level, h * (self.noise + self.level)),
+            1 => add(
+                noise,
+                [0, 1, 2],
+                &of_level,
+                time * (self.noise + self.level),
+            ),
             2 => add(
                 noise,
                 [0, 1, 2, 3],
                 &[b * h3, b * h2, h, 1.0],
-                h * self.noise,
+                time * self.noise,
             ),
             _ => {
                 let response = [b * h3 * h / 4.0, b * h3, h2, h, 1.0];
-                add(noise, [0, 1, 2, 3, 4], &response, h * self.noise);
+                add(noise, [0, 1, 2, 3, 4], &response, time * self.noise);
             }
         }
         if self.prior.order > 1 && self.level > 0.0 {
-            add(noise, [0, 1, 2], &of_level, h * self.level);
+            add(noise, [0, 1, 2], &of_level, time * self.level);
         }
         if self.drift > 0.0 {
             let states = [0, 1, 2, 2 + self.prior.order];
             let response = [b * tilt * h3, b * tilt * h2, tilt * h, 1.0];
-            add(noise, states, &response, h * self.drift);
+            add(noise, states, &response, time * self.drift);
         }
     }
 }
@@ -222,6 +235,7 @@ mod tests {
             top: exponential(0.3, -2.0, 0.7, 1.7),
             lever: 1.7,
             tilt: 0.7,
+            agility: 1.0,
             ..Linearised::default()
         };
         let model = Deviations {

@@ -99,6 +99,25 @@ const MOTIONS: [Motion; 5] = [
     },
 ];
 
+const STOP_AND_GO: Motion = Motion {
+    name: "stop and go",
+    start: [0.7, 0.0],
+    end: 3.0,
+    rows: 1000,
+    torque: |t, theta, omega| needed([theta, omega, moved(t)]),
+};
+
+/// θ̈ of moves by a cycloidal law, with stays at rest between them.
+fn moved(t: f64) -> f64 {
+    let moves = [(0.2, 0.5, 2.4), (1.0, 0.3, -1.1), (1.6, 0.9, 7.0)];
+    let of = |(begin, lasts, way): &(f64, f64, f64)| {
+        let part = (t - begin) / lasts;
+        let now = (0.0..1.0).contains(&part);
+        f64::from(u8::from(now)) * way * TAU / lasts.powi(2) * (TAU * part).sin()
+    };
+    moves.iter().map(of).sum()
+}
+
 /// Times and crank angles of a motion with the torque that acts.
 struct Truth {
     t: Vec<f64>,
@@ -305,6 +324,31 @@ fn crank_angles_of_many_kinds() {
     assert!(failures.is_empty(), "{failures}");
     assert!(mean(&logs).exp() < 0.85, "{report}");
     assert!((0.92..0.995).contains(&mean(&shares)), "{report}");
+}
+
+/// Moves with stays between them: the intensity of the noise of the process is not the same everywhere.
+#[test]
+fn moves_and_stays_have_intensities_of_their_own() {
+    let sensors = [
+        Sensor::Angle(1e-4),
+        Sensor::Angle(1e-3),
+        Sensor::Gap(1e-3),
+        Sensor::Correlated(1e-3),
+        Sensor::Encoder(1024.0),
+    ];
+    let mut random = Random(0x2468_ace0_1357_9bdf);
+    let truth = STOP_AND_GO.run();
+    for sensor in sensors {
+        let record = measure(&truth, sensor, &mut random);
+        let found = found(&STOP_AND_GO, &record, 1.0);
+        let [error, covered] = judge(&truth, &record, &found);
+        let ratio = error / plain(&truth, &record, &record.sound);
+        println!("{sensor:?}: {ratio:.2} of white snap, covered {covered:.3}");
+        assert!(
+            ratio < 1.3 && covered > 0.85,
+            "{sensor:?}: {ratio:.2}, {covered:.3}"
+        );
+    }
 }
 
 /// A polynomial of many turns follows no such motion, and says so.

@@ -1,0 +1,269 @@
+//! Stretches of the record in which the noise of the process is stronger or weaker than elsewhere: a machine that stands still
+//! between its moves, a force that jumps. Each stretch and its factor are three parameters more, and are taken where they make
+//! the samples likelier than these cost (Schwarz 1978; as in circular binary segmentation: Olshen et al., Biostatistics 5 (2004)
+//! 557). The scores of the intensity of each step, by which they are found, are by-products of the smoother (Koopman and
+//! Shephard, Biometrika 79 (1992) 823).
+
+use std::ops::Range;
+
+use super::kalman::{self, Companion, Gaussian, Return};
+use super::likelihood::{Linear, Stretch};
+use super::matrix::{Matrix, diagonal, product, shares, sum, times};
+use super::maximum::ENOUGH_RISE;
+use super::prior::Prior;
+use super::problem::Problem;
+use super::scales::{Agility, Noise, Span};
+use super::smoother::Smoothed;
+use super::state_space::Deviations;
+use crate::numeric::maximum::largest_to;
+
+/// Parameters of a stretch: its begin, its end, its factor.
+const PARAMETERS: f64 = 3.0;
+
+/// ln of the largest factor, and to what it is sought.
+const LARGEST: f64 = 25.0;
+const WIDTH: f64 = 0.3;
+
+/// Derivative of ln of the likelihood by ln of the intensity of a step, and its variance.
+#[derive(Clone, Copy, Debug, Default)]
+struct Score {
+    slope: f64,
+    information: f64,
+}
+
+/// The scores of all steps.
+struct Scores<'a> {
+    model: &'a Deviations<'a>,
+    per_variance: f64,
+    list: Vec<Score>,
+}
+
+impl<const N: usize> Companion<N> for Scores<'_> {
+    /// ½ (rᵀ Q r − tr QN) for r = W (x − x̂) and its variance N = W (P̂ − P) W.
+    fn returned(&mut self, node: usize, _: &Return<N>, [predicted, found]: [&Gaussian<N>; 2]) {
+        let noise = self.model.process_noise::<N>(node);
+        let precision = shares(&predicted.covariance, &diagonal([1.0; N]));
+        let off = sum(found.mean, predicted.mean.map(|value| -value));
+        let r = times(&precision, &off);
+        let told: Matrix<N> = std::array::from_fn(|i| {
+            std::array::from_fn(|j| predicted.covariance[i][j] - found.covariance[i][j])
+        });
+        let share = product(&noise, &product(&precision, &product(&told, &precision)));
+        let noisy = times(&noise, &r);
+        let square: f64 = r.iter().zip(noisy).map(|(a, b)| a * b).sum();
+        let trace: f64 = (0..N).map(|k| share[k][k]).sum();
+        let both = product(&share, &share);
+        self.list[node] = Score {
+            slope: 0.5 * (square * self.per_variance - trace),
+            information: 0.5 * (0..N).map(|k| both[k][k]).sum::<f64>(),
+        };
+    }
+}
+
+fn scores<const N: usize>(model: &Deviations<'_>, sigma: f64) -> Vec<Score> {
+    let mut scores = Scores {
+        model,
+        per_variance: 1.0 / (sigma * sigma),
+        list: vec![Score::default(); model.steps.len()],
+    };
+    kalman::smooth::<N>(model, &mut scores);
+    scores.list
+}
+
+/// The steps whose intensity is furthest from the usual, whether it is higher, and by how much ln of the likelihood may rise: of
+/// all stretches that last a power of two steps.
+fn furthest(scores: &[Score]) -> (Range<usize>, bool, f64) {
+    let mut sums = vec![[0.0; 2]];
+    for score in scores {
+        let [slope, information] = sums[sums.len() - 1];
+        sums.push([slope + score.slope, information + score.information]);
+    }
+    let mut best = (0..0, false, 0.0);
+    let lengths = std::iter::successors(Some(1), |length| Some(2 * length));
+    for length in lengths.take_while(|length| 2 * length <= scores.len()) {
+        for (first, pair) in sums.windows(length + 1).enumerate() {
+            let [slope, information] = [0, 1].map(|k| pair[length][k] - pair[0][k]);
+            let rise = 0.5 * slope * slope / information;
+            if rise > best.2 {
+                best = (first..first + length, slope > 0.0, rise);
+            }
+        }
+    }
+    best
+}
+
+impl Problem<'_> {
+    /// What stretches of a prior beside these cost.
+    fn cost(&self, agility: &Agility) -> f64 {
+        PARAMETERS * agility.0.len() as f64 * 0.5 * (self.record.times.len() as f64).ln()
+    }
+
+    /// The stretches in which the noise of a prior is of another intensity.
+    fn agility_of(&self, found: &Smoothed) -> Agility {
+        let mut agility = Agility::default();
+        let motion = self.motion(found.prior);
+        let path = found.path(!self.record.is_linear());
+        let mut stretches = self.stretches(&motion, &path, found.noise.sigma);
+        let cost = 0.5 * PARAMETERS * (self.record.times.len() as f64).ln();
+        let evaluated = |stretch: &Stretch, noise: Noise| {
+            let stretches = std::slice::from_ref(stretch);
+            let linear = Linear {
+                stretches,
+                prior: found.prior,
+                scales: found.scales,
+            };
+            linear.evaluated(noise)
+        };
+        let [stretch] = &mut stretches[..] else {
+            return agility;
+        };
+        let mut noise = evaluated(stretch, found.noise);
+        while agility.0.len() < self.record.times.len() / 10 {
+            let linear = Linear {
+                stretches: std::slice::from_ref(stretch),
+                prior: found.prior,
+                scales: found.scales,
+            };
+            noise = linear.improved(noise);
+            let model = linear.deviations(stretch, &noise);
+            let scores = match model.dimension() {
+                3 => scores::<3>(&model, noise.sigma),
+                4 => scores::<4>(&model, noise.sigma),
+                5 => scores::<5>(&model, noise.sigma),
+                _ => scores::<6>(&model, noise.sigma),
+            };
+            let (steps, is_higher, rise) = furthest(&scores);
+            if rise < cost {
+                break;
+            }
+            let with = |log: f64| {
+                let mut other = stretch.clone();
+                let sign = if is_higher { log } else { -log };
+                let among = &mut other.steps[steps.clone()];
+                among.iter_mut().for_each(|step| step.agility *= sign.exp());
+                other
+            };
+            let likelihood = |log: f64| evaluated(&with(log), noise).likelihood;
+            let (log, likelihood) = largest_to(likelihood, [0.0, LARGEST], WIDTH);
+            if likelihood - noise.likelihood < cost {
+                break;
+            }
+            let other = with(log);
+            noise = evaluated(&other, noise);
+            let times = [steps.start, steps.end].map(|node| self.grid.times[node]);
+            agility.0.push(Span {
+                from: times[0],
+                to: times[1],
+                factor: other.steps[steps.start].agility / stretch.steps[steps.start].agility,
+            });
+            *stretch = other;
+        }
+        agility
+    }
+
+    /// The likeliest smoothed motion, by stretches of another intensity as long as these make the samples likelier.
+    pub fn likeliest_of_agile(&mut self, kinematic: &Smoothed) -> (Smoothed, Vec<(Prior, f64)>) {
+        let mut best = self.likeliest_of_all(kinematic);
+        // What repeats, what was computed, and stretches that stand for a long record have none.
+        while best.0.prior.cycle == 0
+            && !self.is_computed(&best.0.noise)
+            && self.sampled() == self.all()
+        {
+            let sites = self.sites();
+            let before = std::mem::take(&mut self.agility);
+            self.agility = self.agility_of(&best.0);
+            if !self.agility.0.is_empty() {
+                let cost = self.cost(&self.agility) - self.cost(&before);
+                let next = self.likeliest_of_all(kinematic);
+                let rise = next.0.noise.likelihood - best.0.noise.likelihood - cost;
+                if rise > ENOUGH_RISE {
+                    best = next;
+                    continue;
+                }
+            }
+            self.agility = before;
+            (self.record.values, self.record.weights) = sites;
+            break;
+        }
+        best
+    }
+
+    fn likeliest_of_all(&mut self, kinematic: &Smoothed) -> (Smoothed, Vec<(Prior, f64)>) {
+        match self.record.codes {
+            Some(codes) => self.likeliest_of_codes(codes, kinematic.clone()),
+            None => self.likeliest(kinematic.clone()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::inverse::linearised::{Linearised, exponential};
+    use crate::inverse::periodic::Increments;
+    use crate::inverse::prior::TORQUE;
+    use crate::inverse::state_space::Observed;
+
+    /// ln of the likelihood, σ = 1, of samples about a path of steps with these intensities.
+    fn model<'a>(
+        steps: &'a [Linearised],
+        increments: &'a Increments,
+        observed: &'a [Observed],
+    ) -> Deviations<'a> {
+        Deviations {
+            steps,
+            increments,
+            observed,
+            prior: TORQUE,
+            noise: 3.0,
+            level: 0.0,
+            drift: 0.0,
+            correlated: None,
+            spread: [10.0; 5],
+        }
+    }
+
+    /// The slope is that of the likelihood, by differences whose error is 1e-6 of it.
+    #[test]
+    fn scores_are_the_slopes_of_the_likelihood() {
+        let step = Linearised {
+            h: 0.3,
+            top: exponential(0.3, -2.0, 0.7, 1.7),
+            lever: 1.7,
+            agility: 1.0,
+            ..Linearised::default()
+        };
+        let mut steps = vec![step; 20];
+        let sample = |k: usize| Observed {
+            residual: (3.0 * (k * k) as f64).sin() + 0.02 * (k * k) as f64,
+            slope: 1.0,
+            variance: 1.0,
+        };
+        let observed: Vec<Observed> = (0..21).map(sample).collect();
+        let increments = Increments::default();
+        let found = scores::<3>(&model(&steps, &increments, &observed), 1.0);
+        for k in [0, 7, 19] {
+            let mut at = |log: f64| {
+                steps[k].agility = log.exp();
+                let evidence = kalman::evidence::<3>(&model(&steps, &increments, &observed));
+                steps[k].agility = 1.0;
+                -0.5 * (evidence.squares + evidence.log_variances)
+            };
+            let slope = (at(1e-3) - at(-1e-3)) / 2e-3;
+            let off = (found[k].slope - slope).abs();
+            assert!(off < 1e-5 * slope.abs().max(0.01), "{k}: {slope}");
+        }
+    }
+
+    #[test]
+    fn the_furthest_steps_are_those_of_another_intensity() {
+        let score = |k: usize| Score {
+            slope: if (40..44).contains(&k) { 3.0 } else { -0.1 },
+            information: 0.5,
+        };
+        let list: Vec<Score> = (0..100).map(score).collect();
+        let (steps, is_higher, rise) = furthest(&list);
+        assert!(steps == (40..44) && is_higher);
+        assert!((rise - 36.0).abs() < 1e-9);
+    }
+}
