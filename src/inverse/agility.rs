@@ -216,7 +216,6 @@ mod tests {
             observed,
             prior: TORQUE,
             noise: 3.0,
-            level: 0.0,
             drift: 0.0,
             correlated: None,
             spread: [10.0; 5],

@@ -40,19 +40,16 @@ impl Linear<'_> {
 
     /// The linear model of one stretch.
     pub fn deviations<'a>(&self, stretch: &'a Stretch, noise: &Noise) -> Deviations<'a> {
-        let level = self.scales.density(noise.level, 1);
-        let (level, drift) = match self.prior.follows_speed {
-            true => (0.0, level / self.scales.speed.powi(2)),
-            false => (level, 0.0),
-        };
         Deviations {
             steps: &stretch.steps,
             increments: &stretch.increments,
             observed: &stretch.observed,
             prior: self.prior,
             noise: self.scales.density(noise.corner, self.prior.order),
-            level,
-            drift,
+            drift: match self.prior.follows_speed {
+                true => self.scales.density(noise.drift, 1) / self.scales.speed.powi(2),
+                false => 0.0,
+            },
             correlated: noise.correlated,
             spread: self.spread(),
         }

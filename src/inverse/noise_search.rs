@@ -52,10 +52,10 @@ impl Linear<'_> {
     /// The likeliest noise of g beside that of u: a loss that is not in proportion to the speed.
     pub fn with_drift(&self, mut noise: Noise) -> Noise {
         for _ in 0..2 {
-            let level = noise.level.max(noise.corner);
-            let first = self.evaluated(Noise { level, ..noise });
-            let by_level = |level| self.evaluated(Noise { level, ..noise });
-            noise = better(noise, self.over(level, first, by_level));
+            let drift = noise.drift.max(noise.corner);
+            let first = self.evaluated(Noise { drift, ..noise });
+            let by_drift = |drift| self.evaluated(Noise { drift, ..noise });
+            noise = better(noise, self.over(drift, first, by_drift));
             noise = better(noise, self.improved(noise));
         }
         noise

@@ -30,9 +30,9 @@ pub(super) struct Noise {
     /// Corner frequency of the smoother, rad/s: the noise of the process is q = ω_c^(2D) σ² h/(lever² slope²) for D
     /// integrations from the white noise to θ.
     pub corner: f64,
-    /// Corner frequency of a smoother of order one whose noise u has in it as well, rad/s; 0 without. Where u follows the
-    /// speed, such noise is in g, over the spread of the speed.
-    pub level: f64,
+    /// Corner frequency of a smoother of order one whose noise is in g, over the spread of the speed, where u follows the
+    /// speed, rad/s; 0 without.
+    pub drift: f64,
     /// Variances of the harmonics of what repeats.
     pub spectrum: Option<Spectrum>,
     /// First-order autoregression of the samples' noise.
@@ -48,7 +48,7 @@ impl Noise {
     pub fn white(corner: f64) -> Noise {
         Noise {
             corner,
-            level: 0.0,
+            drift: 0.0,
             spectrum: None,
             correlated: None,
             sigma: 1.0,

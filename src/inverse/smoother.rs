@@ -154,8 +154,8 @@ impl Problem<'_> {
                     scales,
                 };
                 if iteration == 1 {
-                    let level = 0.0;
-                    noise = linear.renewed(Noise { level, ..noise });
+                    let drift = 0.0;
+                    noise = linear.renewed(Noise { drift, ..noise });
                 }
                 if prior.follows_speed {
                     noise = linear.with_drift(noise);

@@ -30,8 +30,6 @@ pub(super) struct Deviations<'a> {
     pub prior: Prior,
     /// Spectral density of the process noise over σ².
     pub noise: f64,
-    /// Spectral density of white noise that u itself follows beside it, over σ².
-    pub level: f64,
     /// Spectral density of the white noise that g follows, over σ².
     pub drift: f64,
     pub correlated: Option<Autoregression>,
@@ -162,27 +160,14 @@ impl Deviations<'_> {
         let (h, b, tilt) = (step.h, step.lever, step.tilt);
         let (h2, h3) = (h * h / 2.0, h * h * h / 6.0);
         let time = h * step.agility;
-        let of_level = [b * h2, b * h, 1.0];
+        let density = time * self.noise;
         match self.prior.order {
-            1 => add(
-                noise,
-                [0, 1, 2],
-                &of_level,
-                time * (self.noise + self.level),
-            ),
-            2 => add(
-                noise,
-                [0, 1, 2, 3],
-                &[b * h3, b * h2, h, 1.0],
-                time * self.noise,
-            ),
+            1 => add(noise, [0, 1, 2], &[b * h2, b * h, 1.0], density),
+            2 => add(noise, [0, 1, 2, 3], &[b * h3, b * h2, h, 1.0], density),
             _ => {
                 let response = [b * h3 * h / 4.0, b * h3, h2, h, 1.0];
-                add(noise, [0, 1, 2, 3, 4], &response, time * self.noise);
+                add(noise, [0, 1, 2, 3, 4], &response, density);
             }
-        }
-        if self.prior.order > 1 && self.level > 0.0 {
-            add(noise, [0, 1, 2], &of_level, time * self.level);
         }
         if self.drift > 0.0 {
             let states = [0, 1, 2, 2 + self.prior.order];
@@ -244,7 +229,6 @@ mod tests {
             observed: &[],
             prior: Prior::new(Unknown::Torque, 2),
             noise: 1.0,
-            level: 0.5,
             drift: 0.0,
             correlated: Some(Autoregression {
                 decay: 2.0,
