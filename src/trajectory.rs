@@ -10,7 +10,7 @@ use crate::numeric::angle::Angle;
 /// A dense trajectory; the same type from every engine.
 #[derive(Clone, Debug)]
 pub struct Trajectory {
-    motion: Motion,
+    motion: Stored,
     begin: f64,
     end: f64,
     view: Option<View>,
@@ -29,7 +29,7 @@ impl fmt::Debug for View {
 }
 
 #[derive(Clone, Debug)]
-enum Motion {
+enum Stored {
     Uniform {
         angle: Angle,
         speed: f64,
@@ -41,7 +41,7 @@ enum Motion {
 }
 
 impl Trajectory {
-    fn new(motion: Motion, begin: f64, end: f64) -> Trajectory {
+    fn new(motion: Stored, begin: f64, end: f64) -> Trajectory {
         Trajectory {
             motion,
             begin,
@@ -52,18 +52,18 @@ impl Trajectory {
 
     /// Constant speed (rad/s) from `angle` at t = 0 until `end`, s.
     pub fn uniform(angle: Angle, speed: f64, end: f64) -> Trajectory {
-        Trajectory::new(Motion::Uniform { angle, speed }, 0.0, end)
+        Trajectory::new(Stored::Uniform { angle, speed }, 0.0, end)
     }
 
     /// A motion over the crank angle, whose own time begins at `begin`, until `end`, s.
     pub fn orbit(orbit: Orbit, begin: f64, end: f64) -> Trajectory {
-        Trajectory::new(Motion::Orbit(Box::new(orbit)), begin, end)
+        Trajectory::new(Stored::Orbit(Box::new(orbit)), begin, end)
     }
 
     /// Refined steps, each beginning where the one before ends, until `end`, s.
     pub fn from_steps(steps: Vec<Step>, end: f64) -> Trajectory {
         let begin = steps.first().map_or(end, |step| step.start.t);
-        Trajectory::new(Motion::Steps(steps), begin, end)
+        Trajectory::new(Stored::Steps(steps), begin, end)
     }
 
     /// Pieces of the crank angle, each beginning where the one before ends.
@@ -78,7 +78,7 @@ impl Trajectory {
     pub fn joined(pieces: Vec<Trajectory>) -> Trajectory {
         let begin = pieces.first().map_or(0.0, |piece| piece.begin);
         let end = pieces.last().map_or(0.0, |piece| piece.end);
-        Trajectory::new(Motion::Pieces(pieces), begin, end)
+        Trajectory::new(Stored::Pieces(pieces), begin, end)
     }
 
     /// Steps of another coordinate, from which `view` gives crank angle and speed.
@@ -104,7 +104,7 @@ impl Trajectory {
     /// The time after which a motion over the crank angle repeats, s, if it does.
     pub(crate) fn period(&self) -> Option<f64> {
         match &self.motion {
-            Motion::Orbit(orbit) => orbit.period().map(|(period, _)| period),
+            Stored::Orbit(orbit) => orbit.period().map(|(period, _)| period),
             _ => None,
         }
     }
@@ -112,7 +112,7 @@ impl Trajectory {
     /// Start (at t = 0) and speed (rad/s) of a constant one.
     pub(crate) fn as_uniform(&self) -> Option<(Angle, f64)> {
         match self.motion {
-            Motion::Uniform { angle, speed } => Some((angle, speed)),
+            Stored::Uniform { angle, speed } => Some((angle, speed)),
             _ => None,
         }
     }
@@ -120,7 +120,7 @@ impl Trajectory {
     /// The motion over the crank angle that makes all of it, if one does.
     pub(crate) fn as_orbit(&self) -> Option<&Orbit> {
         match &self.motion {
-            Motion::Orbit(orbit) if self.view.is_none() && self.begin == 0.0 => Some(orbit),
+            Stored::Orbit(orbit) if self.view.is_none() && self.begin == 0.0 => Some(orbit),
             _ => None,
         }
     }
@@ -132,13 +132,13 @@ impl Trajectory {
             return None;
         }
         match &self.motion {
-            Motion::Uniform { angle, speed } => Some((angle.plus(speed * t), *speed)),
-            Motion::Orbit(orbit) => Some(orbit.state(t - self.begin)),
-            Motion::Pieces(pieces) => {
+            Stored::Uniform { angle, speed } => Some((angle.plus(speed * t), *speed)),
+            Stored::Orbit(orbit) => Some(orbit.state(t - self.begin)),
+            Stored::Pieces(pieces) => {
                 let after = pieces.partition_point(|piece| piece.end < t);
                 pieces.get(after)?.coordinate(t)
             }
-            Motion::Steps(steps) => {
+            Stored::Steps(steps) => {
                 let after = steps.partition_point(|step| step.end.t < t);
                 let step = steps.get(after)?;
                 let (theta, omega) = step.at(t);

@@ -79,7 +79,7 @@ pub fn changes<const N: usize>(
 }
 
 /// Whether a quantity has jumped where the step starts.
-fn has_jumped<const N: usize>(looks: &[Look<N>], index: usize, sign: f64) -> bool {
+fn has_jumped<const N: usize>(looks: &[EventValues<N>], index: usize, sign: f64) -> bool {
     let values = looks.iter().map(|look| look.values[index].abs());
     let largest = values.fold(0.0, f64::max);
     looks[0].values[index] * sign < -SUM_ROUNDING * largest
@@ -87,7 +87,7 @@ fn has_jumped<const N: usize>(looks: &[Look<N>], index: usize, sign: f64) -> boo
 
 /// Times and values of one quantity, and those of the lowest points of its dips between them.
 fn with_dips<const N: usize>(
-    looks: &[Look<N>],
+    looks: &[EventValues<N>],
     index: usize,
     value: impl Fn(f64) -> f64,
 ) -> Vec<(f64, f64)> {
@@ -108,7 +108,7 @@ fn with_dips<const N: usize>(
 }
 
 /// Whether a quantity of one sign may have the other for a while between three times.
-fn may_dip<const N: usize>(three: &[Look<N>], index: usize) -> bool {
+fn may_dip<const N: usize>(three: &[EventValues<N>], index: usize) -> bool {
     let values = [0, 1, 2].map(|i| three[i].values[index] * three[1].values[index].signum());
     values.iter().all(|value| *value >= 0.0) && dip::may_dip([0, 1, 2].map(|i| three[i].t), values)
 }
@@ -133,14 +133,14 @@ fn left_early(value: impl Fn(f64) -> f64, from: f64, to: f64, inside: bool) -> f
 }
 
 /// The quantities at a time.
-struct Look<const N: usize> {
+struct EventValues<const N: usize> {
     t: f64,
     values: [f64; N],
 }
 
-fn look<const N: usize>(step: &Step, watched: &dyn EventFunction<N>, t: f64) -> Look<N> {
+fn look<const N: usize>(step: &Step, watched: &dyn EventFunction<N>, t: f64) -> EventValues<N> {
     let (theta, omega) = step.at(t);
-    Look {
+    EventValues {
         t,
         values: watched.values(t, step.angle(theta), omega),
     }
@@ -159,7 +159,7 @@ fn sampled<const N: usize>(
     step: &Step,
     watched: &dyn EventFunction<N>,
     pieces: usize,
-) -> Vec<Look<N>> {
+) -> Vec<EventValues<N>> {
     (0..=pieces)
         .map(|i| look(step, watched, time(step, i, pieces)))
         .collect()

@@ -51,13 +51,13 @@ fn turning_brackets(step: &Step, mut bracket: impl FnMut(f64, f64)) {
     if w0 * w1 > 0.0 && w0.abs().min(w1.abs()) > 2.0 * change {
         return;
     }
-    let mut before = Turn::at(step, step.start.t);
+    let mut before = SpeedAt::at(step, step.start.t);
     for i in 1..=PIECES {
         let t = match i {
             PIECES => step.end.t,
             _ => step.start.t + step.length() * i as f64 / PIECES as f64,
         };
-        let after = Turn::at(step, t);
+        let after = SpeedAt::at(step, t);
         // A speed that comes nearer to zero at first, and then leaves again.
         let dips = before.approach < 0.0 && after.approach > 0.0 || before.speed == 0.0;
         let lowest = if dips {
@@ -67,7 +67,7 @@ fn turning_brackets(step: &Step, mut bracket: impl FnMut(f64, f64)) {
         };
         // From rest a speed may be rounding first.
         let lowest = lowest
-            .map(|t| Turn::at(step, t))
+            .map(|t| SpeedAt::at(step, t))
             .filter(|turn| turn.speed.abs() > SUM_ROUNDING * w0.abs().max(w1.abs()));
         let mut from = before;
         for to in [lowest, Some(after)].into_iter().flatten() {
@@ -82,16 +82,16 @@ fn turning_brackets(step: &Step, mut bracket: impl FnMut(f64, f64)) {
 
 /// Speed at a time, and how fast its size grows.
 #[derive(Clone, Copy)]
-struct Turn {
+struct SpeedAt {
     t: f64,
     speed: f64,
     approach: f64,
 }
 
-impl Turn {
-    fn at(step: &Step, t: f64) -> Turn {
+impl SpeedAt {
+    fn at(step: &Step, t: f64) -> SpeedAt {
         let speed = step.at(t).1;
-        Turn {
+        SpeedAt {
             t,
             speed,
             approach: speed * step.acceleration_at(t),

@@ -11,7 +11,7 @@ pub enum Method {
     /// Gauss collocation of order 24 by sweeps.
     Picard,
     /// One of ode_solvers.
-    Library(runge_kutta::Method),
+    Library(runge_kutta::RungeKutta),
 }
 
 /// How to integrate.

@@ -16,27 +16,27 @@ use crate::numeric::angle::Angle;
 
 /// The methods.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Method {
+pub enum RungeKutta {
     /// Dormand and Prince, order 8(5,3).
     Dop853,
     /// Dormand and Prince, order 5(4).
     Dopri5,
 }
 
-impl Method {
+impl RungeKutta {
     /// Evaluations in a step that is tried.
     pub fn evaluations_in_a_step(self) -> u64 {
         match self {
-            Method::Dop853 => 12,
-            Method::Dopri5 => 6,
+            RungeKutta::Dop853 => 12,
+            RungeKutta::Dopri5 => 6,
         }
     }
 
     /// The order of its steps.
     pub fn order(self) -> usize {
         match self {
-            Method::Dop853 => 8,
-            Method::Dopri5 => 5,
+            RungeKutta::Dop853 => 8,
+            RungeKutta::Dopri5 => 5,
         }
     }
 }
@@ -46,7 +46,7 @@ pub struct Call<'a> {
     /// The motion.
     pub motion: &'a dyn Motion,
     /// The method.
-    pub method: Method,
+    pub method: RungeKutta,
     /// Relative and absolute.
     pub tolerance: f64,
     /// Whole turns beside the start's angle.
@@ -95,7 +95,7 @@ fn run<const N: usize>(call: Call<'_>, work: Option<usize>, clock: Option<usize>
         stopped: &stopped,
     };
     let result = match method {
-        Method::Dop853 => Dop853::from_param(
+        RungeKutta::Dop853 => Dop853::from_param(
             system,
             0.0,
             length,
@@ -114,7 +114,7 @@ fn run<const N: usize>(call: Call<'_>, work: Option<usize>, clock: Option<usize>
             OutputType::Sparse,
         )
         .integrate(),
-        Method::Dopri5 => Dopri5::from_param(
+        RungeKutta::Dopri5 => Dopri5::from_param(
             system,
             0.0,
             length,

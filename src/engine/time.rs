@@ -57,7 +57,7 @@ fn in_calls(
     motion: &Counted<'_>,
     start: Start,
     settings: &Settings<'_>,
-    method: runge_kutta::Method,
+    method: runge_kutta::RungeKutta,
     sink: &mut dyn FnMut(&Step) -> bool,
 ) -> (Finish, Step, u64) {
     let mut angle = start.angle.reduced();
@@ -140,7 +140,7 @@ impl Rejected {
     fn of(
         motion: &Counted<'_>,
         step: &Step,
-        method: runge_kutta::Method,
+        method: runge_kutta::RungeKutta,
         tolerance: f64,
     ) -> Option<Rejected> {
         let travel = (step.end.theta - step.start.theta).abs();

@@ -27,18 +27,18 @@ pub(super) fn sensors<'a>(sensor: Sensor<'a>, measurement: &Measurement) -> Vec<
         return list;
     }
     let dead_centres = Limits::new(sensor.linkage, 0.0).dead_centres;
-    let mut found: Vec<Turn> = Vec::new();
+    let mut found: Vec<StrokeEnd> = Vec::new();
     for dead_centre in dead_centres {
         let bend = sensor.linkage.pose(dead_centre.theta).d2x;
         let turn = turning_point(measurement, -bend.signum(), sensor.linkage.r);
-        found.extend(turn.map(|[shown, error]| Turn {
+        found.extend(turn.map(|[shown, error]| StrokeEnd {
             at: dead_centre.x,
             shown,
             error,
         }));
     }
     found.retain(|turn| (turn.shown - turn.at).abs() < OFF * sensor.linkage.r);
-    if !found.iter().any(Turn::is_off) {
+    if !found.iter().any(StrokeEnd::is_off) {
         return list;
     }
     let mut scales: Vec<Scale> = Vec::new();
@@ -57,7 +57,7 @@ pub(super) fn sensors<'a>(sensor: Sensor<'a>, measurement: &Measurement) -> Vec<
 
 /// A turning point of the slider next to a dead centre.
 #[derive(Clone, Copy, Debug)]
-struct Turn {
+struct StrokeEnd {
     /// The dead centre, m.
     at: f64,
     /// What is shown where the slider turns back, m.
@@ -66,7 +66,7 @@ struct Turn {
     error: f64,
 }
 
-impl Turn {
+impl StrokeEnd {
     fn is_off(&self) -> bool {
         (self.shown - self.at).abs() > ERRORS_OFF * self.error
     }

@@ -26,19 +26,19 @@ pub struct Body {
     /// Centre of gravity along the link from the end that it begins at, m.
     pub along: f64,
     /// Centre of gravity to the left of that, m.
-    pub left: f64,
+    pub lateral: f64,
     /// Moment of inertia about the centre of gravity, kg m²; of a crank about O.
     pub inertia: f64,
 }
 
 impl Body {
     /// A point mass on a link.
-    fn point(on: Link, mass: f64, along: f64, left: f64) -> Body {
+    fn point(on: Link, mass: f64, along: f64, lateral: f64) -> Body {
         Body {
             on,
             mass,
             along,
-            left,
+            lateral,
             inertia: 0.0,
         }
     }
@@ -62,8 +62,8 @@ impl Body {
     /// Centre of gravity from the end that its link begins at, m, for the direction of the link (a unit vector).
     pub(super) fn arm(&self, [cos, sin]: [f64; 2]) -> [f64; 2] {
         [
-            self.along * cos - self.left * sin,
-            self.along * sin + self.left * cos,
+            self.along * cos - self.lateral * sin,
+            self.along * sin + self.lateral * cos,
         ]
     }
 }
@@ -83,11 +83,11 @@ pub struct Path {
 
 impl Path {
     /// Path of a point at (along, left) of the crank.
-    pub fn on_crank(pose: &Pose, along: f64, left: f64) -> Path {
+    pub fn on_crank(pose: &Pose, along: f64, lateral: f64) -> Path {
         let (sin, cos) = (pose.sin, pose.cos);
         Path {
-            dp: [-along * sin - left * cos, along * cos - left * sin],
-            d2p: [-along * cos + left * sin, -along * sin - left * cos],
+            dp: [-along * sin - lateral * cos, along * cos - lateral * sin],
+            d2p: [-along * cos + lateral * sin, -along * sin - lateral * cos],
             dpsi: 1.0,
             d2psi: 0.0,
         }
@@ -96,11 +96,11 @@ impl Path {
     /// Path of a point at (along, left) of the rod: A plus the point in the rod's axes
     /// d = (s cos φ, −sin φ), n = (sin φ, s cos φ), which turn by ψ' = −s φ'.
     #[inline(always)]
-    pub fn on_rod(linkage: &Linkage, pose: &Pose, along: f64, left: f64) -> Path {
+    pub fn on_rod(linkage: &Linkage, pose: &Pose, along: f64, lateral: f64) -> Path {
         let s = linkage.s;
         let (dx, dy) = (s * pose.cos_phi, -pose.sin_phi);
         // The point from A, and the same turned by 90 degrees.
-        let (gx, gy) = (along * dx - left * dy, along * dy + left * dx);
+        let (gx, gy) = (along * dx - lateral * dy, along * dy + lateral * dx);
         let (dpsi, d2psi) = (-s * pose.dphi, -s * pose.d2phi);
         let (ax, ay) = (linkage.r * pose.cos, linkage.r * pose.sin);
         let squared = dpsi * dpsi;
@@ -146,9 +146,9 @@ pub struct Bodies {
     /// Constant part of M: crank inertia about O and masses fixed to the crank, kg m².
     pub crank_inertia: f64,
     /// Bodies whose part of M depends on the crank angle.
-    pub moving: Vec<Body>,
+    pub inertias: Vec<Body>,
     /// Bodies on which gravity acts.
-    pub heavy: Vec<Body>,
+    pub weights: Vec<Body>,
 }
 
 impl Bodies {
@@ -161,7 +161,7 @@ impl Bodies {
             bodies.crank_inertia = crank.inertia;
             if crank.mass != 0.0 {
                 let body = Body::point(Link::Crank, crank.mass, crank.cg, crank.cg_lateral);
-                bodies.heavy.push(body);
+                bodies.weights.push(body);
             }
         }
         if let Some(rod) = &scene.rod {
@@ -169,39 +169,39 @@ impl Bodies {
                 RodModel::Massless => {}
                 RodModel::Rigid => {
                     let body = Body::rod(scene);
-                    bodies.moving.extend(body);
-                    bodies.heavy.extend(body);
+                    bodies.inertias.extend(body);
+                    bodies.weights.extend(body);
                 }
                 RodModel::TwoMass => {
                     let at_wrist_pin = rod.mass * rod.cg / scene.geometry.rod;
                     let at_crank_pin = rod.mass - at_wrist_pin;
                     bodies.crank_inertia += at_crank_pin * r * r;
                     let body = Body::point(Link::Crank, at_crank_pin, r, 0.0);
-                    bodies.heavy.push(body);
+                    bodies.weights.push(body);
                     slider_mass += at_wrist_pin;
                 }
                 RodModel::SpinOnly => {
-                    bodies.moving.push(Body {
+                    bodies.inertias.push(Body {
                         inertia: rod.inertia,
                         ..Body::default()
                     });
                     let along = scene.geometry.rod + rod.cg;
                     let body = Body::point(Link::Crank, rod.mass, along, 0.0);
-                    bodies.heavy.push(body);
+                    bodies.weights.push(body);
                 }
             }
         }
         if slider_mass != 0.0 {
             let slider = Body::point(Link::Slider, slider_mass, 0.0, 0.0);
-            bodies.moving.push(slider);
-            bodies.heavy.push(slider);
+            bodies.inertias.push(slider);
+            bodies.weights.push(slider);
         }
         bodies
     }
 
     /// Whether anything resists acceleration, in some position.
     pub fn have_inertia(&self) -> bool {
-        let mut moving = self.moving.iter();
-        self.crank_inertia != 0.0 || moving.any(|body| body.mass != 0.0 || body.inertia != 0.0)
+        let mut inertias = self.inertias.iter();
+        self.crank_inertia != 0.0 || inertias.any(|body| body.mass != 0.0 || body.inertia != 0.0)
     }
 }

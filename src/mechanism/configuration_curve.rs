@@ -15,7 +15,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::linkage::SAME_LENGTHS;
 use super::rocker::Rocker;
-use super::{Class, Limits, Linkage, Place};
+use super::{Class, CurvePose, Limits, Linkage};
 use crate::numeric::angle::Angle;
 use crate::scene::Branch;
 
@@ -134,10 +134,10 @@ impl Curve {
     }
 
     /// The position at coordinate q, rad.
-    pub fn place(&self, q: f64) -> Place {
+    pub fn place(&self, q: f64) -> CurvePose {
         match &self.chart {
-            Chart::Crank => Place::of(&self.linkage, &self.linkage.pose(q)),
-            Chart::Rod(swapped) => Place::of(swapped, &swapped.pose(q)).exchanged(),
+            Chart::Crank => CurvePose::of(&self.linkage, &self.linkage.pose(q)),
+            Chart::Rod(swapped) => CurvePose::of(swapped, &swapped.pose(q)).exchanged(),
             Chart::Rocker(rocker) => rocker.place(&self.linkage, q),
         }
     }

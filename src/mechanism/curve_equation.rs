@@ -6,9 +6,9 @@
 
 use std::sync::OnceLock;
 
-use super::friction::{Free, Touch};
-use super::way::Way;
-use super::{Curve, Equation, LoadValue, Loads, Place, Sense};
+use super::friction::{Free, GuideForces};
+use super::virtual_displacement::VirtualDisplacement;
+use super::{Curve, CurvePose, Equation, LoadValue, Loads, Sense};
 use crate::numeric::angle::Angle;
 use crate::scene::{Friction, Instant, Scene};
 
@@ -25,7 +25,7 @@ pub struct CurveEquation {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurveTerms {
     /// The position.
-    pub place: Place,
+    pub place: CurvePose,
     /// M, kg m²
     pub m: f64,
     /// ½ M', kg m²
@@ -89,12 +89,15 @@ impl CurveEquation {
         let rod = &self.equation.rod;
         let path = place.path(linkage, rod);
         let turn = [place.dtheta, place.d2theta];
-        let [along, bend] = Way::along(turn, &path, [place.dx, place.d2x]);
+        let [along, bend] = VirtualDisplacement::along(turn, &path, [place.dx, place.d2x]);
         let pin = [linkage.r * place.cos, linkage.r * place.sin];
         let axis = [place.rod_cos, -place.rod_sin];
-        let aside = Way::aside(pin, axis.map(|part| linkage.l * part), rod.arm(axis));
-        let inertia = |a: &Way, b: &Way| self.equation.inertia_over(a, b);
-        let lift = |way: &Way| self.equation.weight_over([place.cos, place.sin], way);
+        let aside =
+            VirtualDisplacement::aside(pin, axis.map(|part| linkage.l * part), rod.arm(axis));
+        let inertia =
+            |a: &VirtualDisplacement, b: &VirtualDisplacement| self.equation.inertia_over(a, b);
+        let lift =
+            |way: &VirtualDisplacement| self.equation.weight_over([place.cos, place.sin], way);
         CurveTerms {
             m: inertia(&along, &along),
             half_dm: inertia(&along, &bend),
@@ -123,7 +126,7 @@ impl CurveEquation {
     }
 
     /// The state of motion as loads see it.
-    pub fn instant(&self, place: &Place, t: f64, q: Angle, speed: f64) -> Instant {
+    pub fn instant(&self, place: &CurvePose, t: f64, q: Angle, speed: f64) -> Instant {
         Instant {
             t,
             theta: self.curve.crank_angle(q).radians(),
@@ -134,7 +137,7 @@ impl CurveEquation {
     }
 
     /// Torque and force of the loads, without friction; dry ones against this speed.
-    pub fn load(&self, place: &Place, t: f64, q: Angle, speed: f64) -> LoadValue {
+    pub fn load(&self, place: &CurvePose, t: f64, q: Angle, speed: f64) -> LoadValue {
         self.equation.loads().at(&self.instant(place, t, q, speed))
     }
 
@@ -142,19 +145,19 @@ impl CurveEquation {
     pub fn load_beside(
         &self,
         dry: LoadValue,
-        place: &Place,
+        place: &CurvePose,
         t: f64,
         q: Angle,
         speed: f64,
     ) -> LoadValue {
-        let spent = self
+        let non_conservative = self
             .equation
             .loads()
-            .spent(&self.instant(place, t, q, speed));
+            .non_conservative(&self.instant(place, t, q, speed));
         self.equation
             .loads()
             .with_potential_at(place.x)
-            .plus(spent)
+            .plus(non_conservative)
             .plus(dry)
     }
 
@@ -183,11 +186,15 @@ impl CurveEquation {
     /// Motion without friction and without the dry loads.
     pub(super) fn without_dry(&self, terms: &CurveTerms, t: f64, q: Angle, speed: f64) -> Free {
         let place = &terms.place;
-        let spent = self
+        let non_conservative = self
             .equation
             .loads()
-            .spent(&self.instant(place, t, q, speed));
-        let load = self.equation.loads().with_potential_at(place.x).plus(spent);
+            .non_conservative(&self.instant(place, t, q, speed));
+        let load = self
+            .equation
+            .loads()
+            .with_potential_at(place.x)
+            .plus(non_conservative);
         let squared = speed * speed;
         let pull = terms.along(load) - terms.dv;
         let acceleration = (pull - terms.half_dm * squared) / terms.m;
@@ -201,13 +208,13 @@ impl CurveEquation {
             held,
             x_n: terms.x_n,
             dx: place.dx,
-            power: terms.along(spent) * speed,
+            power: terms.along(non_conservative) * speed,
         }
     }
 
     /// Normal and friction force of a motion whose acceleration (rad/s² of the coordinate) is kept up by a drive
     /// of the crank; none where the guide locks itself.
-    pub fn driven(&self, t: f64, q: Angle, speed: f64, acceleration: f64) -> Option<Touch> {
+    pub fn driven(&self, t: f64, q: Angle, speed: f64, acceleration: f64) -> Option<GuideForces> {
         let terms = self.across(q.rest);
         let load = self.load(&terms.place, t, q, speed);
         let place = &terms.place;
@@ -220,7 +227,7 @@ impl CurveEquation {
             + (terms.dv_n - share * terms.dv)
             - load.force * slope;
         let mu = self.friction.map_or(0.0, |friction| friction.coefficient);
-        Touch::sliding(without, -slope, mu, place.dx * speed)
+        GuideForces::sliding(without, -slope, mu, place.dx * speed)
     }
 
     /// Kinetic energy, J.

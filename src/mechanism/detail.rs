@@ -1,13 +1,13 @@
 //! What loads do between the nodes of a panel or a step.
 
 use super::nonlinear_loads::NonlinearLoads;
-use super::{Arms, CurveEquation, CurveTerms, Linkage, Loads, Seen};
+use super::{Arms, CurveEquation, CurveTerms, EnclosedState, Linkage, Loads};
 use crate::numeric::enclosure::{Detail, Enclosed, Interval, Reach};
 use crate::scene::{Load, Variable, Variables};
 
 /// A piece of a motion as the loads see it, and the ellipse around it.
 struct Around<'a> {
-    seen: &'a Seen,
+    seen: &'a EnclosedState,
     ellipse: f64,
 }
 
@@ -112,7 +112,7 @@ impl Loads {
     }
 
     /// What the loads do on a piece of a motion, and in an ellipse of this size around it, each times its arm.
-    pub fn detail(&self, seen: &Seen, arms: Arms, ellipse: f64) -> Detail {
+    pub fn detail(&self, seen: &EnclosedState, arms: Arms, ellipse: f64) -> Detail {
         let classes = [&self.placed, &self.timed, &self.mixed, &self.dry];
         Self::detail_of(&classes, seen, arms, ellipse)
     }
@@ -130,11 +130,16 @@ impl Loads {
     }
 
     /// Detail of the loads that depend on speed or time.
-    pub fn detail_of_state(&self, seen: &Seen, arms: Arms, ellipse: f64) -> Detail {
+    pub fn detail_of_state(&self, seen: &EnclosedState, arms: Arms, ellipse: f64) -> Detail {
         Self::detail_of(&[&self.timed, &self.mixed], seen, arms, ellipse)
     }
 
-    fn detail_of(classes: &[&NonlinearLoads], seen: &Seen, arms: Arms, ellipse: f64) -> Detail {
+    fn detail_of(
+        classes: &[&NonlinearLoads],
+        seen: &EnclosedState,
+        arms: Arms,
+        ellipse: f64,
+    ) -> Detail {
         let around = Around { seen, ellipse };
         let details = classes.iter().map(|loads| around.loads(loads, arms));
         details.fold(Detail::NONE, Detail::plus)

@@ -35,7 +35,7 @@ pub struct Free {
 
 /// Forces of the guide on the slider.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Touch {
+pub struct GuideForces {
     /// Along +y, N.
     pub normal: f64,
     /// Along +x, N.
@@ -55,7 +55,7 @@ pub enum Jam {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FromRest {
     /// The mechanism stays at rest.
-    Hold(Touch),
+    Hold(GuideForces),
     /// The coordinate begins to move in this direction, ±1.
     Move(f64),
     /// Rigid bodies do not say.
@@ -64,14 +64,14 @@ pub enum FromRest {
 
 impl Free {
     /// q̈ and the forces while the slider slides, for c = −μ sgn(v) sgn(N).
-    pub fn sliding(&self, c: f64) -> (f64, Touch) {
+    pub fn sliding(&self, c: f64) -> (f64, GuideForces) {
         // Without friction κ need not be a number.
         let [kappa, gain] = if c == 0.0 {
             [0.0; 2]
         } else {
             [self.kappa, self.gain]
         };
-        let touch = Touch::rubbing(self.normal, kappa, c);
+        let touch = GuideForces::rubbing(self.normal, kappa, c);
         (self.acceleration + gain * touch.friction, touch)
     }
 
@@ -106,14 +106,14 @@ impl Free {
 
     /// The forces that keep the mechanism at rest, from the equations with q̇ = q̈ = 0; none at a dead centre
     /// where something pulls, as no force along the guide is felt there.
-    pub fn holding(&self) -> Option<Touch> {
+    pub fn holding(&self) -> Option<GuideForces> {
         let friction = if self.pull == 0.0 {
             0.0
         } else {
             -self.pull / self.dx
         };
         let normal = self.held - friction * self.x_n;
-        (friction.is_finite() && normal.is_finite()).then_some(Touch { normal, friction })
+        (friction.is_finite() && normal.is_finite()).then_some(GuideForces { normal, friction })
     }
 
     /// What the static band leaves, N: μs |N| less the friction that rest needs; negative: it cannot rest.
@@ -140,11 +140,11 @@ impl Free {
     }
 }
 
-impl Touch {
+impl GuideForces {
     /// N = N_free/(1 − c κ) and F = c N.
-    pub(super) fn rubbing(free: f64, kappa: f64, c: f64) -> Touch {
+    pub(super) fn rubbing(free: f64, kappa: f64, c: f64) -> GuideForces {
         let normal = free / (1.0 - c * kappa);
-        Touch {
+        GuideForces {
             normal,
             friction: c * normal,
         }
@@ -152,8 +152,8 @@ impl Touch {
 
     /// The forces on a slider with the velocity v, from the normal force without friction (N) and κ; none where rigid bodies
     /// jam, μ |κ| ≥ 1. With κ = −tan Φ, what a drive of the crank keeps up.
-    pub(super) fn sliding(free: f64, kappa: f64, mu: f64, v: f64) -> Option<Touch> {
+    pub(super) fn sliding(free: f64, kappa: f64, mu: f64, v: f64) -> Option<GuideForces> {
         let c = -mu * sign(v) * free.signum();
-        (c == 0.0 || mu * kappa.abs() < 1.0).then(|| Touch::rubbing(free, kappa, c))
+        (c == 0.0 || mu * kappa.abs() < 1.0).then(|| GuideForces::rubbing(free, kappa, c))
     }
 }

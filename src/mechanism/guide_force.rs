@@ -1,6 +1,6 @@
 //! The normal force at the guide of a crank that turns, and what friction adds to the force that drives the crank.
 
-use super::way::Way;
+use super::virtual_displacement::VirtualDisplacement;
 use super::{CurveTerms, Equation, Path, Terms};
 
 /// The normal force as it would be without friction: N = place + torque·τ + force·F + square·ω², with the loads
@@ -39,10 +39,10 @@ impl Equation {
     pub(super) fn normal_without_cases(&self, terms: &Terms) -> Normal {
         let Terms { pose, inertia, dv } = terms;
         let (linkage, rod) = (self.linkage(), &self.rod);
-        let path = Path::on_rod(linkage, pose, rod.along, rod.left);
-        let [along, bend] = Way::along([1.0, 0.0], &path, [pose.dx, pose.d2x]);
+        let path = Path::on_rod(linkage, pose, rod.along, rod.lateral);
+        let [along, bend] = VirtualDisplacement::along([1.0, 0.0], &path, [pose.dx, pose.d2x]);
         let axis = [linkage.s * pose.cos_phi, -pose.sin_phi];
-        let aside = Way::aside(
+        let aside = VirtualDisplacement::aside(
             [linkage.r * pose.cos, linkage.r * pose.sin],
             axis.map(|part| linkage.l * part),
             rod.arm(axis),

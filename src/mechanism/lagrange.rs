@@ -73,11 +73,11 @@ impl Equation {
             rod: Body::default(),
             has_rod: false,
             slider_mass: 0.0,
-            weight: Weight::of(&bodies.heavy, gravity),
-            has_weight: gravity != [0.0; 2] && !bodies.heavy.is_empty(),
+            weight: Weight::of(&bodies.weights, gravity),
+            has_weight: gravity != [0.0; 2] && !bodies.weights.is_empty(),
             loads: Loads::new(&scene),
         };
-        for body in &bodies.moving {
+        for body in &bodies.inertias {
             match body.on {
                 Link::Slider => equation.slider_mass += body.mass,
                 _ => (equation.rod, equation.has_rod) = (*body, true),
@@ -134,7 +134,7 @@ impl Equation {
         let mut path = Path::default();
         if has_rod {
             let rod = &self.rod;
-            path = Path::on_rod(&self.linkage, &pose, rod.along, rod.left);
+            path = Path::on_rod(&self.linkage, &pose, rod.along, rod.lateral);
             inertia.add(rod.mass, rod.inertia, &path);
         }
         if self.slider_mass != 0.0 {
@@ -152,7 +152,7 @@ impl Equation {
     }
 
     /// θ̈ in rad/s² at time t (s), crank angle θ (rad, unwrapped) and speed θ̇ (rad/s). Not finite where the
-    /// mechanism has no such position, a load no value, or the inertia vanishes: see [`Self::obstacle`].
+    /// mechanism has no such position, a load no value, or the inertia vanishes: see [`Self::singularity`].
     pub fn acceleration(&self, t: f64, theta: impl Into<Angle>, omega: f64) -> f64 {
         self.acceleration_and_power(t, theta, omega).0
     }
@@ -166,10 +166,10 @@ impl Equation {
     ) -> (f64, f64) {
         let theta = theta.into();
         let Terms { pose, inertia, dv } = self.terms(theta.rest);
-        let spent = self.loads.without_potential(t, theta, omega, &pose);
-        let load = self.loads.with_potential_at(pose.x).plus(spent);
+        let non_conservative = self.loads.without_potential(t, theta, omega, &pose);
+        let load = self.loads.with_potential_at(pose.x).plus(non_conservative);
         let alpha = forward(&inertia, dv, load.over(pose.dx), omega);
-        (alpha, spent.over(pose.dx) * omega)
+        (alpha, non_conservative.over(pose.dx) * omega)
     }
 
     /// Backward: the generalized force Q (N m) that goes with a motion.
@@ -233,14 +233,14 @@ pub(super) fn forward(inertia: &Inertia, dv: f64, q: f64, omega: f64) -> f64 {
 
 impl Weight {
     /// V' = −Σ m g·p', the points of the crank summed to one sine and one cosine.
-    fn of(heavy: &[Body], [gx, gy]: [f64; 2]) -> Weight {
+    fn of(weights: &[Body], [gx, gy]: [f64; 2]) -> Weight {
         let mut weight = Weight::default();
-        for body in heavy {
-            let (mass, along, left) = (body.mass, body.along, body.left);
+        for body in weights {
+            let (mass, along, lateral) = (body.mass, body.along, body.lateral);
             match body.on {
                 Link::Crank => {
-                    weight.sine += mass * (gx * along + gy * left);
-                    weight.cosine += mass * (gx * left - gy * along);
+                    weight.sine += mass * (gx * along + gy * lateral);
+                    weight.cosine += mass * (gx * lateral - gy * along);
                 }
                 Link::Rod => weight.rod = [mass * gx, mass * gy],
                 Link::Slider => {

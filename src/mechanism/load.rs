@@ -187,8 +187,8 @@ impl Loads {
 
     /// Torque and force of all loads together.
     pub fn value(&self, t: f64, theta: impl Into<Angle>, omega: f64, pose: &Pose) -> LoadValue {
-        let spent = self.without_potential(t, theta, omega, pose);
-        self.with_potential_at(pose.x).plus(spent)
+        let non_conservative = self.without_potential(t, theta, omega, pose);
+        self.with_potential_at(pose.x).plus(non_conservative)
     }
 
     /// Loads with a potential at slider position x, m.
@@ -260,15 +260,15 @@ impl Loads {
     }
 
     /// Torque and force of the loads whose work must be integrated, without dry ones.
-    pub(super) fn spent(&self, now: &Instant) -> LoadValue {
+    pub(super) fn non_conservative(&self, now: &Instant) -> LoadValue {
         let called = [&self.placed, &self.timed, &self.mixed].map(|loads| loads.value(now));
         called.into_iter().fold(self.damped(now), LoadValue::plus)
     }
 
     /// Torque and force of all loads together, also for a slider whose motion is not that of the ideal joints.
     pub fn at(&self, now: &Instant) -> LoadValue {
-        let spent = self.spent(now).plus(self.dry.value(now));
-        self.with_potential_at(now.x).plus(spent)
+        let non_conservative = self.non_conservative(now).plus(self.dry.value(now));
+        self.with_potential_at(now.x).plus(non_conservative)
     }
 
     /// Potential of the loads that have one, J, from crank angle (from any fixed start) and position.

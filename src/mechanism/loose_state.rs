@@ -1,6 +1,6 @@
 //! The state of a mechanism with a loose joint, and what follows from it.
 
-use super::Touch;
+use super::GuideForces;
 
 /// Position and velocity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -36,7 +36,7 @@ pub struct LooseRates {
     /// Power lost in the contact and by friction at the guide, W.
     pub lost: f64,
     /// What the guide does to the slider; found where it has friction only.
-    pub guide: Touch,
+    pub guide: GuideForces,
     /// Normal force, N: what the bearing's wall pushes the journal with.
     pub normal: f64,
     /// Force of the loose joint on the rod, friction included, N.

@@ -1,6 +1,8 @@
 //! Joint and guide forces by Newton and Euler, body by body, from the motion.
 
-use super::{Body, Equation, Link, Linkage, LoadValue, LooseRates, LooseState, Path, Place, Pose};
+use super::{
+    Body, CurvePose, Equation, Link, Linkage, LoadValue, LooseRates, LooseState, Path, Pose,
+};
 use crate::error::Error;
 use crate::numeric::angle::Angle;
 use crate::scene::{Joint, Scene};
@@ -82,7 +84,7 @@ impl Reactor {
                 on: Link::Crank,
                 mass: crank.mass,
                 along: crank.cg,
-                left: crank.cg_lateral,
+                lateral: crank.cg_lateral,
                 inertia: crank.inertia,
             },
             rod: Body::rod(scene).ok_or_else(|| {
@@ -97,7 +99,7 @@ impl Reactor {
 
     /// The forces for a motion (θ̇ in rad/s, θ̈ in rad/s²) under the loads of the scene.
     pub fn reactions(&self, pose: &Pose, omega: f64, alpha: f64, load: &LoadValue) -> Reactions {
-        let place = Place::of(&self.linkage, pose);
+        let place = CurvePose::of(&self.linkage, pose);
         let motion = self.accelerations(&place, omega, alpha);
         self.forces(&motion, &Known::Load(load.force))
     }
@@ -106,7 +108,7 @@ impl Reactor {
     /// force on the slider along the guide, friction included, and the normal force of the guide, N.
     pub fn on_curve(
         &self,
-        place: &Place,
+        place: &CurvePose,
         speed: f64,
         acceleration: f64,
         force: f64,
@@ -152,7 +154,7 @@ impl Reactor {
         self.forces(&motion, &known)
     }
 
-    fn accelerations(&self, place: &Place, speed: f64, acceleration: f64) -> Accelerations {
+    fn accelerations(&self, place: &CurvePose, speed: f64, acceleration: f64) -> Accelerations {
         let squared = speed * speed;
         let (crank, rod) = (
             place.path(&self.linkage, &self.crank),
@@ -219,7 +221,7 @@ impl Reactor {
 
     /// The inertia forces of a motion (θ̇ in rad/s, θ̈ in rad/s²).
     pub fn inertia_forces(&self, pose: &Pose, omega: f64, alpha: f64) -> InertiaForces {
-        let motion = self.accelerations(&Place::of(&self.linkage, pose), omega, alpha);
+        let motion = self.accelerations(&CurvePose::of(&self.linkage, pose), omega, alpha);
         InertiaForces {
             crank: motion.crank.map(|a| -self.crank.mass * a),
             rod: motion.rod.map(|a| -self.rod.mass * a),

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::{Class, Linkage, Place};
+use super::{Class, CurvePose, Linkage};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::Interval;
 use crate::numeric::exact::sum3;
@@ -103,7 +103,7 @@ impl Rocker {
         self.rod.rest == 0.0
     }
 
-    pub fn place(&self, linkage: &Linkage, q: f64) -> Place {
+    pub fn place(&self, linkage: &Linkage, q: f64) -> CurvePose {
         let (sin_q, cos_q) = q.sin_cos();
         let Rocker { mirror, fold, .. } = *self;
         let crank = self.crank.double(sin_q, cos_q);
@@ -117,7 +117,7 @@ impl Rocker {
         let (drod, d2rod) = (mirror * fold * rod.d1, -mirror * fold * rod.d2);
         let (y, rod_y) = (r * sin, l * rod_sin);
         let (x, rod_x) = (r * cos, l * rod_cos);
-        Place {
+        CurvePose {
             sin,
             cos,
             dtheta,

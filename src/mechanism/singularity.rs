@@ -18,7 +18,7 @@ pub enum Singularity {
 
 impl Equation {
     /// Why there is no finite acceleration here, if there is none.
-    pub fn obstacle(&self, t: f64, theta: impl Into<Angle>, omega: f64) -> Option<Singularity> {
+    pub fn singularity(&self, t: f64, theta: impl Into<Angle>, omega: f64) -> Option<Singularity> {
         let theta = theta.into();
         let terms = self.terms(theta.rest);
         if !terms.pose.exists() {

@@ -9,8 +9,8 @@ use crate::scene::{Load, RodModel, Scene, Variables};
 #[derive(Clone, Debug)]
 pub struct TorqueSlope {
     linkage: Linkage,
-    moving: Vec<Body>,
-    heavy: Vec<Body>,
+    inertias: Vec<Body>,
+    weights: Vec<Body>,
     gravity: [f64; 2],
     force: f64,
     stiffness: f64,
@@ -34,8 +34,8 @@ impl TorqueSlope {
         let bodies = Bodies::new(&scene);
         let mut found = TorqueSlope {
             linkage: Linkage::new(&scene.geometry),
-            moving: bodies.moving,
-            heavy: bodies.heavy,
+            inertias: bodies.inertias,
+            weights: bodies.weights,
             gravity: scene.gravity.map_or([0.0; 2], |gravity| gravity.vector()),
             force: 0.0,
             stiffness: 0.0,
@@ -48,8 +48,8 @@ impl TorqueSlope {
             Some(rod) if rod.model == RodModel::TwoMass => {
                 // Its mass at the crank pin moves with the pin, and is not fixed to the crank.
                 let on_crank = |body: &Body| body.on == Link::Crank;
-                if let Some(last) = found.heavy.iter().rposition(on_crank) {
-                    let at_crank_pin = found.heavy.remove(last).mass;
+                if let Some(last) = found.weights.iter().rposition(on_crank) {
+                    let at_crank_pin = found.weights.remove(last).mass;
                     found.two_mass = Some([rod.mass, rod.cg, at_crank_pin]);
                 }
             }
@@ -84,7 +84,7 @@ impl TorqueSlope {
         let pose = &self.linkage.pose(theta);
         let slope = self.linkage.slope(pose, length);
         let squared = omega * omega;
-        let moving = self.moving.iter().map(|body| {
+        let inertias = self.inertias.iter().map(|body| {
             let (mass, inertia) = (body.mass, body.inertia);
             let [path, change] = self.paths(body, pose, &slope);
             let bilinear = |a: &Path, b: &Path| {
@@ -92,11 +92,11 @@ impl TorqueSlope {
             };
             squared * (bilinear(&change, &path) + bilinear(&path, &change))
         });
-        let heavy = self.heavy.iter().map(|body| {
+        let weights = self.weights.iter().map(|body| {
             let [_, change] = self.paths(body, pose, &slope);
             -body.mass * (self.gravity[0] * change.dp[0] + self.gravity[1] * change.dp[1])
         });
-        let inertia: f64 = moving.chain(heavy).sum();
+        let inertia: f64 = inertias.chain(weights).sum();
         let now = pose.instant(theta / omega, theta, omega);
         let others: f64 = self
             .others
@@ -110,14 +110,17 @@ impl TorqueSlope {
 
     /// The path of a body, and its change with the length.
     fn paths(&self, body: &Body, pose: &Pose, slope: &PoseSlope) -> [Path; 2] {
-        let (along, left) = (body.along, body.left);
+        let (along, lateral) = (body.along, body.lateral);
         match body.on {
-            Link::Crank => [Path::on_crank(pose, along, left), Path::default()],
+            Link::Crank => [Path::on_crank(pose, along, lateral), Path::default()],
             Link::Rod => {
-                let path = Path::on_rod(&self.linkage, pose, along, left);
+                let path = Path::on_rod(&self.linkage, pose, along, lateral);
                 let pin = Path::on_crank(pose, slope.crank, 0.0);
                 let part = |pin: [f64; 2], [x, y]: [f64; 2]| {
-                    [pin[0] + along * x - left * y, pin[1] + along * y + left * x]
+                    [
+                        pin[0] + along * x - lateral * y,
+                        pin[1] + along * y + lateral * x,
+                    ]
                 };
                 let s = self.linkage.s;
                 let change = Path {

@@ -25,7 +25,7 @@ pub(super) struct Searched {
 }
 
 /// The designs of a search: the last one, of which goal and limits are asked one after the other, and the best.
-struct Seen {
+struct Incumbent {
     last: Judged,
     best: Judged,
     designs: u64,
@@ -35,7 +35,7 @@ struct Seen {
 pub(super) fn search(judge: &Judge, from: Judged, step: f64, worst: f64) -> Searched {
     let start = from.at.clone();
     let keys = start.len();
-    let seen = RefCell::new(Seen {
+    let seen = RefCell::new(Incumbent {
         last: from.clone(),
         best: from,
         designs: 0,
@@ -73,7 +73,7 @@ pub(super) fn search(judge: &Judge, from: Judged, step: f64, worst: f64) -> Sear
         RhoBeg::All(step),
         Some(tolerances),
     );
-    let Seen { best, designs, .. } = seen.into_inner();
+    let Incumbent { best, designs, .. } = seen.into_inner();
     Searched {
         from: start,
         end: best,

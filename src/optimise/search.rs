@@ -24,7 +24,7 @@ const HALF_WIDTHS: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 const IMPROVEMENTS: u32 = 30;
 
 /// What was found.
-pub(super) struct Found {
+pub(super) struct Optimum {
     pub best: Judged,
     pub starts: Vec<Searched>,
     pub proof: Proof,
@@ -36,7 +36,7 @@ pub(super) struct Found {
 ///
 /// # Errors
 /// [`Error::Refused`] if no design has the figures; [`Error::Interrupted`] before there is any.
-pub(super) fn run(judge: &mut Judge, seed: u64) -> Result<Found, Error> {
+pub(super) fn run(judge: &mut Judge, seed: u64) -> Result<Optimum, Error> {
     let sample = explore(judge)?;
     judge.stop.reach(0.2);
     let mut sorted = judge.calibrate(sample);
@@ -55,7 +55,7 @@ pub(super) fn run(judge: &mut Judge, seed: u64) -> Result<Found, Error> {
     let mut best = best.ok_or(Error::Interrupted)?;
     let proof = prove(judge, seed, &mut best, worst);
     let resolution = judge.resolution(&best);
-    Ok(Found {
+    Ok(Optimum {
         best,
         starts,
         proof,

@@ -77,7 +77,7 @@ pub(super) fn closed_form(scene: &Scene, t_end: f64) -> Reference {
 pub(super) type Identity = (Engine, Option<Stepper>);
 
 /// One method at one tolerance.
-pub(super) struct Cell {
+pub(super) struct MethodRun {
     scene: Scene,
     method: Method,
     options: PrecisionOptions,
@@ -85,13 +85,13 @@ pub(super) struct Cell {
     walls: Vec<f64>,
 }
 
-impl Cell {
+impl MethodRun {
     pub(super) fn new(
         scene: &Scene,
         method: Method,
         tolerance: f64,
         options: &PrecisionOptions,
-    ) -> Result<Cell, Error> {
+    ) -> Result<MethodRun, Error> {
         let mut scene = scene.clone();
         scene.run.tolerance = tolerance;
         scene.check()?;
@@ -99,7 +99,7 @@ impl Cell {
             Ok(summary) => Ok(summary),
             Err(refused) => Err(first_line(&refused)),
         };
-        Ok(Cell {
+        Ok(MethodRun {
             scene,
             method,
             options: options.clone(),
@@ -207,7 +207,7 @@ fn error(value: f64, reference: DoubleDouble, reference_error: f64) -> (f64, boo
 
 /// Times all cells in turns, so that a disturbance of the machine meets all of them. `ends`: the equations end before
 /// the run.
-pub(super) fn time(cells: &mut [Cell], ends: bool, options: &PrecisionOptions) {
+pub(super) fn time(cells: &mut [MethodRun], ends: bool, options: &PrecisionOptions) {
     let begun = Instant::now();
     for round in 0..options.repeats.max(1) {
         if round > 0 && begun.elapsed().as_secs_f64() > options.most_s {

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::numeric::double_double::DoubleDouble;
 use crate::plan::{Engine, Method, Plan};
 use crate::scene::{Extent, Places, Scene};
-use cell::{Cell, closed_form, run, tight_runs, time};
+use cell::{MethodRun, closed_form, run, tight_runs, time};
 
 /// What is asked of a comparison.
 #[derive(Clone, Debug, PartialEq)]
@@ -209,7 +209,7 @@ pub fn precision_against(
             continue;
         }
         for &tolerance in &options.tolerances {
-            cells.push(Cell::new(&scene, method, tolerance, options)?);
+            cells.push(MethodRun::new(&scene, method, tolerance, options)?);
         }
     }
     let common = find(&scene, t_end, options.max_evaluations)

@@ -12,57 +12,57 @@ const PIECE: usize = 1 << 12;
 
 /// A cell of a row.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Cell {
+pub(super) enum CsvCell {
     Number(f64),
     Text(String),
 }
 
-impl Cell {
+impl CsvCell {
     /// No value.
-    pub const EMPTY: Cell = Cell::Text(String::new());
+    pub const EMPTY: CsvCell = CsvCell::Text(String::new());
 
     /// From a CSV file.
-    pub fn read(text: &str) -> Cell {
+    pub fn read(text: &str) -> CsvCell {
         let number = text.parse();
-        number.map_or_else(|_| Cell::Text(text.to_owned()), Cell::Number)
+        number.map_or_else(|_| CsvCell::Text(text.to_owned()), CsvCell::Number)
     }
 
     /// The number, if there is a finite one.
     pub fn number(&self) -> Option<f64> {
         match self {
-            Cell::Number(number) => Some(*number).filter(|number| number.is_finite()),
-            Cell::Text(_) => None,
+            CsvCell::Number(number) => Some(*number).filter(|number| number.is_finite()),
+            CsvCell::Text(_) => None,
         }
     }
 
     /// In a CSV file, without quotes.
     pub fn text(&self) -> Cow<'_, str> {
         match self {
-            Cell::Number(value) => {
+            CsvCell::Number(value) => {
                 let mut text = Vec::new();
                 number(*value, &mut text);
                 String::from_utf8(text).unwrap_or_default().into()
             }
-            Cell::Text(text) => text.into(),
+            CsvCell::Text(text) => text.into(),
         }
     }
 }
 
-impl From<f64> for Cell {
-    fn from(value: f64) -> Cell {
-        Cell::Number(value)
+impl From<f64> for CsvCell {
+    fn from(value: f64) -> CsvCell {
+        CsvCell::Number(value)
     }
 }
 
-impl From<Option<f64>> for Cell {
-    fn from(value: Option<f64>) -> Cell {
-        value.map_or(Cell::EMPTY, Cell::Number)
+impl From<Option<f64>> for CsvCell {
+    fn from(value: Option<f64>) -> CsvCell {
+        value.map_or(CsvCell::EMPTY, CsvCell::Number)
     }
 }
 
-impl From<&str> for Cell {
-    fn from(text: &str) -> Cell {
-        Cell::Text(text.to_owned())
+impl From<&str> for CsvCell {
+    fn from(text: &str) -> CsvCell {
+        CsvCell::Text(text.to_owned())
     }
 }
 
@@ -96,18 +96,18 @@ pub(super) fn line(values: impl IntoIterator<Item = f64>, text: &mut Vec<u8>) {
 }
 
 /// Appends a line of cells, in quotes where a text needs them.
-pub(super) fn cells<'a>(cells: impl IntoIterator<Item = &'a Cell>, text: &mut Vec<u8>) {
+pub(super) fn cells<'a>(cells: impl IntoIterator<Item = &'a CsvCell>, text: &mut Vec<u8>) {
     joined(cells, text, |cell, text| match cell {
-        Cell::Number(value) => number(*value, text),
-        Cell::Text(value) if value.contains([',', '"', '\n', '\r']) => {
+        CsvCell::Number(value) => number(*value, text),
+        CsvCell::Text(value) if value.contains([',', '"', '\n', '\r']) => {
             text.extend(format!("\"{}\"", value.replace('"', "\"\"")).as_bytes());
         }
-        Cell::Text(value) => text.extend(value.as_bytes()),
+        CsvCell::Text(value) => text.extend(value.as_bytes()),
     });
 }
 
 /// A header and rows of cells.
-pub(super) fn text(header: &[&str], rows: impl IntoIterator<Item = Vec<Cell>>) -> String {
+pub(super) fn text(header: &[&str], rows: impl IntoIterator<Item = Vec<CsvCell>>) -> String {
     let mut text = format!("{}\n", header.join(",")).into_bytes();
     rows.into_iter().for_each(|row| cells(&row, &mut text));
     String::from_utf8(text).unwrap_or_default()
@@ -136,8 +136,11 @@ pub(super) fn write_all<Row: Sync>(
 }
 
 /// One line of CSV as cells.
-pub(super) fn read(line: &str) -> Result<Vec<Cell>, Error> {
-    Ok(texts(line)?.iter().map(|text| Cell::read(text)).collect())
+pub(super) fn read(line: &str) -> Result<Vec<CsvCell>, Error> {
+    Ok(texts(line)?
+        .iter()
+        .map(|text| CsvCell::read(text))
+        .collect())
 }
 
 /// One line of CSV as the texts of its cells.

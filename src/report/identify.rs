@@ -1,7 +1,7 @@
 //! Identified values as text and CSV.
 
 use super::Output;
-use super::csv::{self, Cell};
+use super::csv::{self, CsvCell};
 use super::key_values::{Facts, digits, fact, rounded, six};
 use crate::error::Error;
 use crate::inverse::identify::Identification;
@@ -71,8 +71,11 @@ pub fn identification_csv(result: &Identification, output: Output) -> Result<(),
         "half_band",
     ];
     let rows = result.values.iter().map(|one| {
-        let numbers = [one.start, one.value, one.standard_error, one.half_band].map(Cell::from);
-        let words = [Cell::from(&*one.key), Cell::from(&*one.unit.to_string())];
+        let numbers = [one.start, one.value, one.standard_error, one.half_band].map(CsvCell::from);
+        let words = [
+            CsvCell::from(&*one.key),
+            CsvCell::from(&*one.unit.to_string()),
+        ];
         words.into_iter().chain(numbers).collect()
     });
     output.text(&csv::text(&header, rows))

@@ -1,6 +1,6 @@
 //! The best design as text, its searches as CSV.
 
-use super::csv::{self, Cell};
+use super::csv::{self, CsvCell};
 use super::key_values::{Facts, fact, rounded, six};
 use super::quantity::Quantity;
 use crate::optimise::{AGREEMENT, Optimum, OptimumValue, Proof, SubjectMet};
@@ -104,11 +104,11 @@ pub fn starts_csv(found: &Optimum) -> String {
     let rows = found.starts.iter().zip(1u32..).map(|(start, number)| {
         let [meets, agrees] = [start.meets_subjects, start.agrees].map(u8::from);
         let values = start.from.iter().chain(&start.to);
-        let mut cells = vec![Cell::from(f64::from(number))];
-        cells.extend(values.map(|value| Cell::from(*value)));
+        let mut cells = vec![CsvCell::from(f64::from(number))];
+        cells.extend(values.map(|value| CsvCell::from(*value)));
         cells.push(start.value.into());
-        cells.extend([meets, agrees].map(|flag| Cell::from(f64::from(flag))));
-        cells.push(Cell::from(start.designs as f64));
+        cells.extend([meets, agrees].map(|flag| CsvCell::from(f64::from(flag))));
+        cells.push(CsvCell::from(start.designs as f64));
         cells
     });
     let header: Vec<&str> = header.iter().map(String::as_str).collect();

@@ -1,6 +1,6 @@
 //! The comparison of methods: CSV, text and figure.
 
-use super::csv::{self, Cell};
+use super::csv::{self, CsvCell};
 use super::figure::{Axis, Figure, Shape, Sheet};
 use super::key_values::{Facts, aligned, fact, six};
 use super::look::{Look, Scatter};
@@ -28,13 +28,13 @@ pub fn precision_csv(scenes: &[Precision]) -> String {
     csv::text(&COLUMNS, cells(scenes))
 }
 
-fn cells(scenes: &[Precision]) -> impl Iterator<Item = Vec<Cell>> {
-    let count = |value: Option<u64>| Cell::from(value.map(|value| value as f64));
+fn cells(scenes: &[Precision]) -> impl Iterator<Item = Vec<CsvCell>> {
+    let count = |value: Option<u64>| CsvCell::from(value.map(|value| value as f64));
     scenes.iter().flat_map(move |scene| {
         scene.rows.iter().map(move |row| {
             vec![
-                Cell::from(&*printable(&scene.scene)),
-                Cell::from(&*row.method),
+                CsvCell::from(&*printable(&scene.scene)),
+                CsvCell::from(&*row.method),
                 row.tolerance.into(),
                 row.error_theta_rad.into(),
                 row.error_omega_rad_per_s.into(),

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::csv::{self, Cell};
+use super::csv::{self, CsvCell};
 use super::key_values::{aligned, rounded};
 use super::{Axis, Figure, Sheet};
 use crate::error::Error;
@@ -131,8 +131,12 @@ pub fn drawing_csv(drawing: &Drawing) -> String {
         let names = [&*plot.x, &*plot.y, &*series.label];
         let points = series.points.iter();
         points.map(move |(x, y)| {
-            let numbers = [*x, *y].map(Cell::from);
-            names.map(Cell::from).into_iter().chain(numbers).collect()
+            let numbers = [*x, *y].map(CsvCell::from);
+            names
+                .map(CsvCell::from)
+                .into_iter()
+                .chain(numbers)
+                .collect()
         })
     });
     csv::text(&["x_axis", "y_axis", "series", "x", "y"], rows)

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::Output;
-use super::csv::{self, Cell};
+use super::csv::{self, CsvCell};
 use super::quantity::Quantity;
 use crate::error::Error;
 
@@ -67,8 +67,8 @@ impl Table {
     }
 
     /// Rows of cells: numbers where all cells of a column are, in one unit.
-    pub(super) fn of_rows<N: AsRef<str> + Sync>(header: &[N], rows: &[Vec<Cell>]) -> Table {
-        static NONE: Cell = Cell::EMPTY;
+    pub(super) fn of_rows<N: AsRef<str> + Sync>(header: &[N], rows: &[Vec<CsvCell>]) -> Table {
+        static NONE: CsvCell = CsvCell::EMPTY;
         let column = |(i, name): (usize, &N)| Column {
             name: name.as_ref().to_owned(),
             cells: Cells::of(rows.iter().map(|row| row.get(i).unwrap_or(&NONE))),
@@ -117,13 +117,13 @@ impl Cells {
         }
     }
 
-    fn of<'a>(cells: impl Iterator<Item = &'a Cell> + Clone) -> Cells {
-        let known = |cell: &Cell| matches!(cell, Cell::Number(_)) || *cell == Cell::EMPTY;
+    fn of<'a>(cells: impl Iterator<Item = &'a CsvCell> + Clone) -> Cells {
+        let known = |cell: &CsvCell| matches!(cell, CsvCell::Number(_)) || *cell == CsvCell::EMPTY;
         if cells.clone().all(known) {
             let numbers = cells.map(|cell| cell.number().unwrap_or(f64::NAN));
             return Cells::Numbers(numbers.collect(), None);
         }
-        let texts: Vec<Cow<'_, str>> = cells.map(Cell::text).collect();
+        let texts: Vec<Cow<'_, str>> = cells.map(CsvCell::text).collect();
         let given = || texts.iter().filter(|text| !text.is_empty());
         let mut units = given().map(|text| number_and_unit(text).map(|(_, unit)| unit));
         let unit = units.next().flatten();

@@ -10,7 +10,7 @@ use super::passages;
 use super::recorder::Recorder;
 use super::result::ErrorEstimate;
 use super::row::{Row, RowSink};
-use super::row_writer::Part;
+use super::row_writer::RowSource;
 use super::run_setup::RunSetup;
 use super::schedule::Schedule;
 use super::simulation::Simulation;
@@ -134,7 +134,7 @@ struct Uniform<'a> {
     end: f64,
 }
 
-impl Part for Uniform<'_> {
+impl RowSource for Uniform<'_> {
     fn times(&self) -> [f64; 2] {
         [0.0, self.end]
     }

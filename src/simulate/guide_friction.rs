@@ -3,7 +3,9 @@
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use crate::engine::angle::{State, Table};
-use crate::mechanism::{Arms, Curve, CurveEquation, Equation, LoadValue, Loads, Normal, Touch};
+use crate::mechanism::{
+    Arms, Curve, CurveEquation, Equation, GuideForces, LoadValue, Loads, Normal,
+};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::Interval;
 use crate::scene::{Instant, Scene};
@@ -159,9 +161,9 @@ impl Sliding {
     }
 
     /// θ̈ (rad/s²) and the forces of the guide; none at rest.
-    pub fn state(&self, t: f64, angle: Angle, omega: f64) -> (f64, Touch) {
+    pub fn state(&self, t: f64, angle: Angle, omega: f64) -> (f64, GuideForces) {
         if omega == 0.0 {
-            return (0.0, Touch::default());
+            return (0.0, GuideForces::default());
         }
         let free = self.equation.free(t, angle, omega);
         let crank = self.equation.curve().linkage().r;

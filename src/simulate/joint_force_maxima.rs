@@ -23,7 +23,7 @@ const LEFT: f64 = 1e-9;
 
 /// The largest forces of a finished run; none where it is too long to be looked through, or a force has no value.
 pub(super) fn search(scene: &Scene, run: &Simulation) -> Option<Peaks> {
-    let mut way = Way::of(scene, run, MOST_ROWS)?;
+    let mut way = AlongRun::of(scene, run, MOST_ROWS)?;
     loop {
         let sizes = way.places.iter().map(|at| (way.sizes)(*at));
         let sizes = sizes.collect::<Option<Vec<_>>>()?;
@@ -60,7 +60,7 @@ fn halved(places: &[f64]) -> Vec<f64> {
 
 /// A force where it is largest: beside the rows that are no smaller than their neighbours, nor than the largest by more than
 /// rows may miss.
-fn peak(way: &Way, run: &Simulation, k: usize, sizes: &[[f64; FORCES]]) -> Peak {
+fn peak(way: &AlongRun, run: &Simulation, k: usize, sizes: &[[f64; FORCES]]) -> Peak {
     let size = |at: f64| (way.sizes)(at).map_or(f64::NEG_INFINITY, |sizes| sizes[k]);
     let last = sizes.len() - 1;
     let beside = |row: usize| [row.saturating_sub(1), row, (row + 1).min(last)];
@@ -95,7 +95,7 @@ fn peak(way: &Way, run: &Simulation, k: usize, sizes: &[[f64; FORCES]]) -> Peak 
 const LEAST_ROWS: f64 = 720.0;
 
 /// A run along a parameter.
-struct Way<'a> {
+struct AlongRun<'a> {
     /// Values of the parameter, in order.
     pub places: Vec<f64>,
     /// Sizes of the forces there.
@@ -104,16 +104,16 @@ struct Way<'a> {
     pub time: Box<dyn Fn(f64) -> f64 + 'a>,
 }
 
-impl<'a> Way<'a> {
+impl<'a> AlongRun<'a> {
     /// Over the crank angle if the motion is a function of it, else over time.
-    pub fn of(scene: &Scene, run: &'a Simulation, most: usize) -> Option<Way<'a>> {
+    pub fn of(scene: &Scene, run: &'a Simulation, most: usize) -> Option<AlongRun<'a>> {
         let way = at_constant_speed(run).or_else(|| over_orbit(run));
         way.or_else(|| over_time(scene, run, most))
     }
 }
 
 /// One turn if all are the same, else the whole run; as close as geometry and loads ask for.
-fn at_constant_speed(run: &Simulation) -> Option<Way<'_>> {
+fn at_constant_speed(run: &Simulation) -> Option<AlongRun<'_>> {
     let (start, speed) = run.trajectory.as_ref()?.as_uniform()?;
     let maker = run.dense.maker.as_ref()?;
     let drive = Drive {
@@ -126,7 +126,7 @@ fn at_constant_speed(run: &Simulation) -> Option<Way<'_>> {
     let (places, whole) = drive.places().ok()?;
     let turn = TAU / speed.abs();
     let reactions = move |t: f64| maker.reactions(t, start.plus(speed * t), speed, Some(0.0));
-    Some(Way {
+    Some(AlongRun {
         places,
         sizes: Box::new(move |t| reactions(t).as_ref().map(sizes)),
         time: Box::new(move |t| if whole { t.rem_euclid(turn) } else { t }),
@@ -134,7 +134,7 @@ fn at_constant_speed(run: &Simulation) -> Option<Way<'_>> {
 }
 
 /// The points of the series of which the motion is made.
-fn over_orbit(run: &Simulation) -> Option<Way<'_>> {
+fn over_orbit(run: &Simulation) -> Option<AlongRun<'_>> {
     let orbit = run.trajectory.as_ref()?.as_orbit()?;
     let end = run.summary.last.t_s;
     let maker = run.dense.maker.as_ref()?;
@@ -145,7 +145,7 @@ fn over_orbit(run: &Simulation) -> Option<Way<'_>> {
         let t = if timed { orbit.time_of_place(at)? } else { 0.0 };
         maker.reactions(t, angle, speed, None)
     };
-    Some(Way {
+    Some(AlongRun {
         places: orbit.places(end)?,
         sizes: Box::new(move |at| reactions(at).as_ref().map(sizes)),
         time: Box::new(move |at| orbit.time_of_place(at).unwrap_or(end)),
@@ -153,14 +153,14 @@ fn over_orbit(run: &Simulation) -> Option<Way<'_>> {
 }
 
 /// Rows at equal times: the crank turns by a degree at most between two of them.
-fn over_time<'a>(scene: &Scene, run: &'a Simulation, most: usize) -> Option<Way<'a>> {
+fn over_time<'a>(scene: &Scene, run: &'a Simulation, most: usize) -> Option<AlongRun<'a>> {
     let end = run.summary.last.t_s;
     let period = run.trajectory.as_ref()?.period();
     let span = period.map_or(end, |period| period.min(end));
     let step = first_step(scene, &run.summary);
     let rows = (span / step).ceil();
     let place = |index: usize| (index as f64 * step).min(span);
-    (rows <= most as f64).then(|| Way {
+    (rows <= most as f64).then(|| AlongRun {
         places: (0..=rows as usize).map(place).collect(),
         sizes: Box::new(move |t| run.row(t)?.reactions.as_ref().map(sizes)),
         time: Box::new(|t| t),

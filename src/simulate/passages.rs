@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::result::Event;
 use super::row::Row;
-use super::row_writer::Part;
+use super::row_writer::RowSource;
 use super::run_setup::RunSetup;
 use crate::engine::energy::Orbit;
 use crate::numeric::angle::Angle;
@@ -206,7 +206,7 @@ impl Passage {
     }
 }
 
-impl Part for Stretch<'_> {
+impl RowSource for Stretch<'_> {
     fn times(&self) -> [f64; 2] {
         [self.begin, self.begin + self.end]
     }

@@ -8,7 +8,7 @@ use super::coordinate::Coordinate;
 use super::passages::Stretch;
 use super::result::{Event, Piece};
 use super::row::{Row, RowSink};
-use super::row_writer::{Part, RowWriter};
+use super::row_writer::{RowSource, RowWriter};
 use super::run_setup::RunSetup;
 use super::schedule::Schedule;
 use super::simulation::{Spell, lengthen};
@@ -140,7 +140,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// Writes the rows of a part of the motion. True if that failed, which ends the run.
-    pub fn rows(&mut self, part: &mut dyn Part) -> bool {
+    pub fn rows(&mut self, part: &mut dyn RowSource) -> bool {
         let failed = self.writer.write(part).err();
         self.error = self.error.take().or(failed);
         self.error.is_some()
@@ -233,7 +233,7 @@ struct InStep<'a> {
     start: Angle,
 }
 
-impl Part for InStep<'_> {
+impl RowSource for InStep<'_> {
     fn times(&self) -> [f64; 2] {
         [self.step.start.t, self.until]
     }

@@ -7,7 +7,7 @@ use super::schedule::{Schedule, passed, refuse_rows};
 use crate::error::Error;
 
 /// A part of a motion that is known between two times, as rows see it.
-pub(super) trait Part {
+pub(super) trait RowSource {
     /// First and last time, s.
     fn times(&self) -> [f64; 2];
 
@@ -61,7 +61,7 @@ impl<'a> RowWriter<'a> {
     }
 
     /// The rows that are due in a part of the motion, which follows the one before.
-    pub fn write(&mut self, part: &mut dyn Part) -> Result<(), Error> {
+    pub fn write(&mut self, part: &mut dyn RowSource) -> Result<(), Error> {
         if !self.rows.wants_rows() {
             return Ok(());
         }
@@ -106,7 +106,7 @@ impl<'a> RowWriter<'a> {
         self.rows.row(&due)
     }
 
-    fn at_times(&mut self, part: &mut dyn Part) -> Result<(), Error> {
+    fn at_times(&mut self, part: &mut dyn RowSource) -> Result<(), Error> {
         let [_, until] = part.times();
         while let Some(t) = self.schedule.time(self.next).filter(|t| *t <= until) {
             self.put(part.row(t))?;
@@ -116,7 +116,7 @@ impl<'a> RowWriter<'a> {
     }
 
     /// States inside a part and at its end.
-    fn inside(&mut self, part: &mut dyn Part) -> Result<(), Error> {
+    fn inside(&mut self, part: &mut dyn RowSource) -> Result<(), Error> {
         let [from, until] = part.times();
         (1..=PLACES).try_for_each(|k| {
             let t = from + (until - from) * f64::from(k) / f64::from(PLACES);
@@ -124,7 +124,7 @@ impl<'a> RowWriter<'a> {
         })
     }
 
-    fn at_angles(&mut self, part: &mut dyn Part, spacing: f64) -> Result<(), Error> {
+    fn at_angles(&mut self, part: &mut dyn RowSource, spacing: f64) -> Result<(), Error> {
         let [mut from, until] = part.times();
         refuse_rows((part.turned(until) / spacing).abs(), until)?;
         if self.next == 0 {

@@ -122,8 +122,8 @@ impl<'a> RunSetup<'a> {
         let unit = 0.5 * inertia * self.speed.powi(2).max(1.0);
         Settings {
             method: match self.plan.stepper {
-                Some(Stepper::Dop853) => time::Method::Library(runge_kutta::Method::Dop853),
-                Some(Stepper::Dopri5) => time::Method::Library(runge_kutta::Method::Dopri5),
+                Some(Stepper::Dop853) => time::Method::Library(runge_kutta::RungeKutta::Dop853),
+                Some(Stepper::Dopri5) => time::Method::Library(runge_kutta::RungeKutta::Dopri5),
                 _ => time::Method::Picard,
             },
             tolerance: self.scene.run.tolerance,

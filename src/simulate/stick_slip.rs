@@ -6,7 +6,7 @@ use super::guide_friction::BESIDE;
 use crate::engine::Motion;
 use crate::engine::event_functions::EventFunction;
 use crate::engine::events::ROUNDED;
-use crate::mechanism::{CurveEquation, LoadValue, Place, Sense, Touch};
+use crate::mechanism::{CurveEquation, CurvePose, GuideForces, LoadValue, Sense};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{Detail, Reach};
 use crate::scene::Variable;
@@ -54,7 +54,7 @@ pub(super) struct InPhase<'a> {
 
 impl InPhase<'_> {
     /// Acceleration (rad/s² of the coordinate), forces of the guide, and power (W) of all that has no potential.
-    pub fn state(&self, t: f64, angle: Angle, speed: f64) -> (f64, Touch, f64) {
+    pub fn state(&self, t: f64, angle: Angle, speed: f64) -> (f64, GuideForces, f64) {
         match self.phase {
             Phase::Sliding { c, against } => {
                 let free = self.equation.free_against(t, angle, speed, against);
@@ -70,7 +70,7 @@ impl InPhase<'_> {
     }
 
     /// Torque and force of the loads at a position.
-    pub fn load(&self, place: &Place, t: f64, angle: Angle, speed: f64) -> LoadValue {
+    pub fn load(&self, place: &CurvePose, t: f64, angle: Angle, speed: f64) -> LoadValue {
         let equation = self.equation;
         let dry = match self.phase {
             Phase::Sliding { against, .. } => {

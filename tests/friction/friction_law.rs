@@ -285,10 +285,10 @@ fn the_curve_closes_and_is_smooth() {
                     }
                     let h = 1e-4;
                     let (a, b) = (curve.place(q - h), curve.place(q + h));
-                    let turn = |p: &slider_crank::mechanism::Place| {
+                    let turn = |p: &slider_crank::mechanism::CurvePose| {
                         [p.sin, p.cos, p.rod_sin, p.rod_cos, p.x]
                     };
-                    let rate = |p: &slider_crank::mechanism::Place| {
+                    let rate = |p: &slider_crank::mechanism::CurvePose| {
                         [
                             p.cos * p.dtheta,
                             -p.sin * p.dtheta,
@@ -297,7 +297,7 @@ fn the_curve_closes_and_is_smooth() {
                             p.dx,
                         ]
                     };
-                    let second = |p: &slider_crank::mechanism::Place| {
+                    let second = |p: &slider_crank::mechanism::CurvePose| {
                         [
                             p.cos * p.d2theta - p.sin * p.dtheta * p.dtheta,
                             -p.sin * p.d2theta - p.cos * p.dtheta * p.dtheta,

@@ -143,7 +143,7 @@ fn slope(f: impl Fn(f64) -> f64, h: f64) -> f64 {
 #[test]
 fn an_obstacle_says_why_there_is_no_acceleration() {
     let slider_alone = Scene::new(0.1, 0.3).slider(Slider { mass: 1.0 });
-    let obstacle = |scene: &Scene, theta: f64| Equation::new(scene).obstacle(0.0, theta, 1.0);
+    let obstacle = |scene: &Scene, theta: f64| Equation::new(scene).singularity(0.0, theta, 1.0);
     assert_eq!(obstacle(&slider_alone, 0.0), Some(Singularity::NoInertia));
     assert_eq!(obstacle(&slider_alone, 0.1), None);
     let short_rod = Scene {

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use super::Table;
-use super::panel::Station;
+use super::panel::PanelTable;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
 use crate::numeric::enclosure::{Detail, Reach};
@@ -71,7 +71,7 @@ pub trait Driven {
 
 /// The panels of a run, for the next one from the same angle in the same direction: what depends on the position is tabulated,
 /// and the next run sets out from its profiles.
-pub struct Panels<P>(pub(super) Vec<Station<P>>);
+pub struct Panels<P>(pub(super) Vec<PanelTable<P>>);
 
 impl<P> Default for Panels<P> {
     fn default() -> Panels<P> {

@@ -1,7 +1,7 @@
 //! The forces at the points of a panel.
 
 use super::Driven;
-use super::panel::{Start, Station};
+use super::panel::{PanelStart, PanelTable};
 use crate::numeric::LANES;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 use crate::numeric::enclosure::Interval;
@@ -33,8 +33,8 @@ impl Forces {
     pub fn evaluate<D: Driven>(
         &mut self,
         driven: &D,
-        station: &Station<D::Place>,
-        start: Start,
+        station: &PanelTable<D::Place>,
+        start: PanelStart,
         kinetic: &Values,
     ) -> Option<()> {
         let count = station.rule.degree() + 1;
@@ -76,7 +76,12 @@ impl Forces {
     }
 
     /// Takes the speeds at the points from the kinetic energy there, J.
-    pub fn take_speeds<P: Copy>(&mut self, station: &Station<P>, start: Start, all: &Values) {
+    pub fn take_speeds<P: Copy>(
+        &mut self,
+        station: &PanelTable<P>,
+        start: PanelStart,
+        all: &Values,
+    ) {
         let count = station.rule.degree() + 1;
         let (kinetic, mobility) = (&all[..count], &station.mobility[..count]);
         let speeds = &mut self.speeds[..count];
@@ -97,7 +102,7 @@ impl Forces {
     }
 
     /// |dt/dx| at the points.
-    pub fn fill_slopes<P: Copy>(&self, station: &Station<P>, slopes: &mut Values) -> Option<()> {
+    pub fn fill_slopes<P: Copy>(&self, station: &PanelTable<P>, slopes: &mut Values) -> Option<()> {
         let half = station.half();
         let (filled, rest) = slopes.split_at_mut(station.rule.degree() + 1);
         rest.fill(0.0);
@@ -118,8 +123,8 @@ impl Forces {
     fn drive<D: Driven, const N: usize>(
         &mut self,
         driven: &D,
-        station: &Station<D::Place>,
-        start: Start,
+        station: &PanelTable<D::Place>,
+        start: PanelStart,
         first: usize,
     ) {
         let state = |j| station.state(start.turns, j, start.t + self.times[j], self.speeds[j]);
@@ -134,7 +139,7 @@ impl Forces {
     }
 
     /// Derivatives of the forces of the table with respect to the kinetic energy at the points, 1/rad.
-    pub fn rates_of_table<P: Copy>(&self, station: &Station<P>) -> Values {
+    pub fn rates_of_table<P: Copy>(&self, station: &PanelTable<P>) -> Values {
         let count = station.rule.degree() + 1;
         let (table, speeds) = (&station.table, &self.speeds[..count]);
         let mut rates = [0.0; MAX_DEGREE + 1];
@@ -154,8 +159,8 @@ impl Forces {
     pub fn rates<D: Driven>(
         &self,
         driven: &D,
-        station: &Station<D::Place>,
-        start: Start,
+        station: &PanelTable<D::Place>,
+        start: PanelStart,
     ) -> Values {
         let mut rates = self.rates_of_table(station);
         if !driven.is_driven() {

@@ -3,7 +3,7 @@
 use super::super::energy::piece::SAME_ANGLE;
 use super::super::energy::segment::Segment;
 use super::super::energy::{Orbit, panel::Panel};
-use super::panel::Station;
+use super::panel::PanelTable;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 
@@ -31,7 +31,7 @@ impl<'a> Guide<'a> {
     /// kinetic energy at the start of the panel. None beyond its end, and where there is none.
     pub(super) fn kinetic<P: Copy>(
         &mut self,
-        station: &Station<P>,
+        station: &PanelTable<P>,
         turns: f64,
         start: f64,
     ) -> Option<Values> {

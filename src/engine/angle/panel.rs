@@ -9,7 +9,7 @@ use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Values, largest};
 
 /// The state at the start of a panel.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Start {
+pub(super) struct PanelStart {
     /// s
     pub t: f64,
     /// J
@@ -22,7 +22,7 @@ pub(super) struct Start {
 
 /// A panel with what depends on the position alone: the same in each cycle.
 #[derive(Clone)]
-pub(super) struct Station<P> {
+pub(super) struct PanelTable<P> {
     /// Whole turns beside the angles of the piece, in the first cycle.
     pub turns: f64,
     pub piece: Piece,
@@ -79,7 +79,7 @@ pub(super) const SLOW_FACTOR: f64 = 0.3;
 /// Degree of the series that are tried first.
 pub(super) const FIRST_DEGREE: usize = 24;
 
-impl<P: Copy> Station<P> {
+impl<P: Copy> PanelTable<P> {
     /// The panel from one angle to another; its degree is the least that resolves inertia and forces, after one
     /// that is tried first.
     pub fn new<D: Driven<Place = P>>(
@@ -89,8 +89,8 @@ impl<P: Copy> Station<P> {
         side: f64,
         fine: Fineness,
         first: usize,
-    ) -> Result<Station<P>, NotApplicable> {
-        let mut station = Station::empty(turns, ends, Rule::of(first), side);
+    ) -> Result<PanelTable<P>, NotApplicable> {
+        let mut station = PanelTable::empty(turns, ends, Rule::of(first), side);
         station.tabulate(driven)?;
         station.resolve(driven, fine, MAX_DEGREE)?;
         Ok(station)
@@ -125,8 +125,13 @@ impl<P: Copy> Station<P> {
         }
     }
 
-    pub fn empty(turns: f64, [from, to]: [f64; 2], rule: &'static Rule, side: f64) -> Station<P> {
-        Station {
+    pub fn empty(
+        turns: f64,
+        [from, to]: [f64; 2],
+        rule: &'static Rule,
+        side: f64,
+    ) -> PanelTable<P> {
+        PanelTable {
             turns,
             piece: Piece::between(from, to, Turning::Nowhere),
             rule,
@@ -154,12 +159,12 @@ impl<P: Copy> Station<P> {
         index: usize,
         known: Option<&Rest>,
         fine: Fineness,
-    ) -> Result<Station<P>, NotApplicable> {
+    ) -> Result<PanelTable<P>, NotApplicable> {
         let ends = [from, self.piece.to];
         let mut station = match known {
-            None => Station::new(driven, self.turns, ends, -self.side, fine, FIRST_DEGREE)?,
+            None => PanelTable::new(driven, self.turns, ends, -self.side, fine, FIRST_DEGREE)?,
             Some(known) => {
-                let mut station = Station::empty(self.turns, ends, known.rule, -self.side);
+                let mut station = PanelTable::empty(self.turns, ends, known.rule, -self.side);
                 station.past.remember(&known.kinetic);
                 station.tabulate(driven)?;
                 station
@@ -249,14 +254,15 @@ impl<P: Copy> Station<P> {
         driven: &D,
         share: f64,
         fine: Fineness,
-    ) -> Result<Option<[Station<P>; 2]>, NotApplicable> {
+    ) -> Result<Option<[PanelTable<P>; 2]>, NotApplicable> {
         let Piece { from, to, .. } = self.piece;
         if (to - from).abs() < SHORTEST_PANEL * from.abs().max(1.0) {
             return Ok(None);
         }
         let middle = from + share * (to - from);
-        let part =
-            |ends: [f64; 2]| Station::new(driven, self.turns, ends, self.side, fine, FIRST_DEGREE);
+        let part = |ends: [f64; 2]| {
+            PanelTable::new(driven, self.turns, ends, self.side, fine, FIRST_DEGREE)
+        };
         Ok(Some([part([from, middle])?, part([middle, to])?]))
     }
 

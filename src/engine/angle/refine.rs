@@ -1,7 +1,7 @@
 //! Panels that were not solved: another degree, or cut; and what is left of one after a change of the switch.
 
 use super::Driven;
-use super::panel::{Fineness, Station};
+use super::panel::{Fineness, PanelTable};
 use super::stepper::PanelStepper;
 use super::sweep::Unsolved;
 use crate::engine::energy::NotApplicable;
@@ -72,11 +72,11 @@ impl<D: Driven> PanelStepper<'_, D> {
 /// Cuts some of the panels at a part of them, as far as they are long enough.
 fn cut<D: Driven>(
     driven: &D,
-    stations: Vec<Station<D::Place>>,
+    stations: Vec<PanelTable<D::Place>>,
     share: f64,
     fine: Fineness,
-    which: impl Fn(&Station<D::Place>) -> bool,
-) -> Result<Vec<Station<D::Place>>, NotApplicable> {
+    which: impl Fn(&PanelTable<D::Place>) -> bool,
+) -> Result<Vec<PanelTable<D::Place>>, NotApplicable> {
     let mut all = Vec::with_capacity(2 * stations.len());
     for station in stations {
         let parts = which(&station).then(|| station.parts(driven, share, fine));
@@ -90,7 +90,7 @@ fn cut<D: Driven>(
 
 impl<D: Driven> PanelStepper<'_, D> {
     /// What is left of the next panel from an angle on.
-    pub(super) fn rest(&self, from: f64) -> Result<Station<D::Place>, NotApplicable> {
+    pub(super) fn rest(&self, from: f64) -> Result<PanelTable<D::Place>, NotApplicable> {
         let whole = &self.stations[self.next];
         let station = self.parts.last().unwrap_or(whole);
         let index = station.is_rest.map_or(0, |index| index + 1);
@@ -99,7 +99,7 @@ impl<D: Driven> PanelStepper<'_, D> {
 
     /// Keeps what was found on a rest for the next turn.
     pub(super) fn remember_rest(&mut self) {
-        if let Some((index, rest)) = self.parts.last().and_then(Station::as_rest) {
+        if let Some((index, rest)) = self.parts.last().and_then(PanelTable::as_rest) {
             let rests = &mut self.stations[self.next].rests;
             if index < rests.len() {
                 rests[index] = rest;

@@ -1,10 +1,10 @@
 //! Whether the points of a panel show the loads on it.
 
-use super::panel::{Fineness, Start, Station};
+use super::panel::{Fineness, PanelStart, PanelTable};
 use super::swept::Swept;
 use super::{Driven, State, Table};
 use crate::engine::events::ROUNDED;
-use crate::engine::sight::{Look, Way, hidden};
+use crate::engine::sight::{Interpolant, NodeCriterion, hidden};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Series, largest};
 use crate::numeric::enclosure::{Detail, Interval, Reach, ellipses};
@@ -13,8 +13,8 @@ use crate::numeric::exact::SUM_ROUNDING;
 /// The motion on a panel that was solved.
 struct OnPanel<'a, D: Driven> {
     driven: &'a D,
-    station: &'a Station<D::Place>,
-    start: Start,
+    station: &'a PanelTable<D::Place>,
+    start: PanelStart,
     swept: &'a Swept,
     /// Time since its start over x.
     time: Series,
@@ -27,8 +27,8 @@ struct OnPanel<'a, D: Driven> {
 /// Where a solved panel has to end for its points to show the loads, as part of it; none if they do.
 pub(super) fn hides<D: Driven>(
     driven: &D,
-    station: &Station<D::Place>,
-    start: Start,
+    station: &PanelTable<D::Place>,
+    start: PanelStart,
     fine: Fineness,
     swept: &Swept,
 ) -> Option<f64> {
@@ -52,7 +52,7 @@ pub(super) fn hides<D: Driven>(
     };
     let forces = largest(&swept.forces.spent[..=degree]).max(station.largest_force);
     let rounding = SUM_ROUNDING * forces;
-    let look = Look {
+    let look = NodeCriterion {
         nodes: degree,
         ellipses: ellipses(degree, fine.tail),
         allowed: rounding.max(fine.tail * start.kinetic / station.half().abs()),
@@ -65,9 +65,9 @@ pub(super) fn hides<D: Driven>(
 /// Whether some speeds show the loads at all speeds between them (rad/s), at each point of a panel.
 pub(super) fn at_speeds<D: Driven>(
     driven: &D,
-    station: &Station<D::Place>,
+    station: &PanelTable<D::Place>,
     speed: Interval,
-    look: Look,
+    look: NodeCriterion,
 ) -> bool {
     let points = &station.rule.points()[..=station.rule.degree()];
     points.iter().all(|x| {
@@ -95,7 +95,7 @@ impl<D: Driven> OnPanel<'_, D> {
     }
 }
 
-impl<D: Driven> Way for OnPanel<'_, D> {
+impl<D: Driven> Interpolant for OnPanel<'_, D> {
     fn detail(&self, from: f64, to: f64, ellipse: f64) -> Detail {
         let slope = &self.swept.slope;
         let [about, steep] = self.varies;

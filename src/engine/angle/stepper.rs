@@ -6,7 +6,7 @@ use super::super::energy::panel::Panel;
 use super::super::energy::piece::Piece;
 use super::errors::{Errors, uncertain};
 use super::guide::Guide;
-use super::panel::{Fineness, Start, Station};
+use super::panel::{Fineness, PanelStart, PanelTable};
 use super::seen::hides;
 use super::sweep::{SETTLED, Tails, sweep};
 use super::swept::{Spent, Swept};
@@ -23,9 +23,9 @@ pub(super) struct PanelStepper<'a, D: Driven> {
     pub(super) driven: &'a D,
     pub(super) fine: Fineness,
     direction: f64,
-    pub(super) stations: Vec<Station<D::Place>>,
+    pub(super) stations: Vec<PanelTable<D::Place>>,
     /// Parts of a panel that was too long this time, the next one last.
-    pub(super) parts: Vec<Station<D::Place>>,
+    pub(super) parts: Vec<PanelTable<D::Place>>,
     pub(super) next: usize,
     /// The motion on the last panel.
     pub(super) swept: Swept,
@@ -166,7 +166,7 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
             if self.limit.is_reached(self.spent()) {
                 return Err(NotApplicable::WorkLimit);
             }
-            let start = Start {
+            let start = PanelStart {
                 t: self.begin + self.t.0,
                 kinetic: self.kinetic,
                 turns: self.start.turns + self.turns,
@@ -231,7 +231,7 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
     /// Takes a guess of the kinetic energy at the points of the next panel: that of the guide, whose error the sweeps are to
     /// show, or that of the last turns. A panel beyond a change of the switch is solved as if there was none, which the guide
     /// does not know.
-    fn guess(&mut self, start: Start) -> Tails {
+    fn guess(&mut self, start: PanelStart) -> Tails {
         let station = self.parts.last().unwrap_or(&self.stations[self.next]);
         let smooth = station.table.switch.is_none();
         let guide = self.guide.as_mut().filter(|_| smooth);
@@ -251,7 +251,7 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
     }
 
     /// Takes a panel over a piece of the next station, and what is left of it for this turn.
-    fn pass(&mut self, piece: Piece, rest: Option<Station<D::Place>>) -> Done {
+    fn pass(&mut self, piece: Piece, rest: Option<PanelTable<D::Place>>) -> Done {
         let swept = &self.swept;
         let station = self.parts.last().unwrap_or(&self.stations[self.next]);
         let rule = station.rule;

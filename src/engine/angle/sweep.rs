@@ -1,7 +1,7 @@
 //! The collocation on one panel: K' = F(θ) + L(θ, ω, t), t' = 1/ω at the points of the panel.
 
 use super::Driven;
-use super::panel::{SLOW_FACTOR, Start, Station};
+use super::panel::{PanelStart, PanelTable, SLOW_FACTOR};
 use super::swept::Swept;
 use crate::numeric::chebyshev::{Rule, Values, largest};
 use crate::numeric::exact::SUM_ROUNDING;
@@ -37,8 +37,8 @@ pub(super) struct Tails {
 /// Solves a panel from a guess of the kinetic energy at its points, which is in `swept`.
 pub(super) fn sweep<D: Driven>(
     driven: &D,
-    station: &mut Station<D::Place>,
-    start: Start,
+    station: &mut PanelTable<D::Place>,
+    start: PanelStart,
     tails: Tails,
     swept: &mut Swept,
 ) -> Result<(), Unsolved> {
@@ -130,8 +130,8 @@ impl Swept {
     fn evaluate<D: Driven>(
         &mut self,
         driven: &D,
-        station: &Station<D::Place>,
-        start: Start,
+        station: &PanelTable<D::Place>,
+        start: PanelStart,
     ) -> Result<(), Unsolved> {
         self.evaluations += station.rule.degree() as u64 + 1;
         let known = self.forces.evaluate(driven, station, start, &self.kinetic);
@@ -142,8 +142,8 @@ impl Swept {
     fn take_undamped<D: Driven>(
         &mut self,
         driven: &D,
-        station: &Station<D::Place>,
-        start: Start,
+        station: &PanelTable<D::Place>,
+        start: PanelStart,
         tails: Tails,
     ) -> Result<(), Unsolved> {
         self.kinetic = station.undamped(start.kinetic);
@@ -156,7 +156,7 @@ impl Swept {
     }
 
     /// What a sweep changes.
-    fn change<P: Copy>(&self, station: &Station<P>, start: Start) -> Values {
+    fn change<P: Copy>(&self, station: &PanelTable<P>, start: PanelStart) -> Values {
         let half = station.half();
         let mut change = station.rule.integrals(&self.forces.total);
         for (change, kinetic) in change.iter_mut().zip(&self.kinetic) {
@@ -168,7 +168,7 @@ impl Swept {
     /// Turns what a sweep would change into what makes the panel right to first order for the forces of the table (Newton's method
     /// in function space, Kantorovich): δ = ρ + E ∫ r ρ/E with r = ∂F/∂K and the integrating factor E = exp ∫ r. False, and no
     /// change, where E is too steep for its series: that of exp(c x) decays beyond degree c.
-    fn linearise<P: Copy>(&self, station: &Station<P>, change: &mut Values) -> bool {
+    fn linearise<P: Copy>(&self, station: &PanelTable<P>, change: &mut Values) -> bool {
         let (count, half) = (station.rule.degree() + 1, station.half());
         let mut rates = self.forces.rates_of_table(station);
         let mut factor = station.rule.integrals(&rates);
@@ -189,8 +189,8 @@ impl Swept {
     /// Checks that the series are resolved, at the speeds of the last evaluation.
     fn finish<P: Copy>(
         &mut self,
-        station: &Station<P>,
-        start: Start,
+        station: &PanelTable<P>,
+        start: PanelStart,
         tail: f64,
     ) -> Result<(), Unsolved> {
         let (rule, half) = (station.rule, station.half());
@@ -213,8 +213,8 @@ impl Swept {
     /// Whether the last terms of the forces are too large for their series to end there; they may be less by a part.
     fn forces_are_left_out<P: Copy>(
         &self,
-        station: &Station<P>,
-        start: Start,
+        station: &PanelTable<P>,
+        start: PanelStart,
         tail: f64,
         uncertain: f64,
     ) -> bool {
@@ -230,7 +230,7 @@ impl Swept {
 }
 
 /// What the rounding of its angles does to the series on a panel, as part of them.
-fn noise_of_angle<P: Copy>(station: &Station<P>) -> f64 {
+fn noise_of_angle<P: Copy>(station: &PanelTable<P>) -> f64 {
     8.0 * f64::EPSILON * (1.0 + station.piece.from.abs() / station.half().abs())
 }
 

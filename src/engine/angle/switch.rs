@@ -1,6 +1,6 @@
 //! Where the switch changes its sign on a panel, and with it the form of the forces.
 
-use super::panel::{SHORTEST_PANEL, Start, Station};
+use super::panel::{PanelStart, PanelTable, SHORTEST_PANEL};
 use super::swept::Swept;
 use super::{Driven, Switch};
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values, largest};
@@ -23,8 +23,8 @@ pub(super) enum Side {
 /// Looks at the switch on a panel that was solved for one side of it.
 pub(super) fn side<D: Driven>(
     driven: &D,
-    station: &Station<D::Place>,
-    start: Start,
+    station: &PanelTable<D::Place>,
+    start: PanelStart,
     swept: &Swept,
 ) -> Side {
     let Some(switch) = &station.table.switch else {
@@ -49,8 +49,8 @@ pub(super) fn side<D: Driven>(
 /// a transient of the wrong side, which is harder to resolve than the motion.
 pub(super) fn begins_beyond<D: Driven>(
     driven: &D,
-    station: &Station<D::Place>,
-    start: Start,
+    station: &PanelTable<D::Place>,
+    start: PanelStart,
 ) -> bool {
     let Some(switch) = &station.table.switch else {
         return false;
@@ -72,7 +72,7 @@ pub(super) fn begins_beyond<D: Driven>(
 
 impl Swept {
     /// Ends it at a part of the panel.
-    pub fn end_at(&mut self, rule: &Rule, start: Start, share: f64) {
+    pub fn end_at(&mut self, rule: &Rule, start: PanelStart, share: f64) {
         let inside = rule.values(|x| share * (1.0 + x) - 1.0);
         self.slopes = self.slope.values(&inside).map(|slope| share * slope);
         self.slopes[rule.degree() + 1..].fill(0.0);
@@ -87,8 +87,8 @@ impl Swept {
 fn values<D: Driven>(
     driven: &D,
     switch: &Switch,
-    station: &Station<D::Place>,
-    start: Start,
+    station: &PanelTable<D::Place>,
+    start: PanelStart,
     swept: &Swept,
 ) -> (Values, f64) {
     let count = station.rule.degree() + 1;
@@ -122,7 +122,7 @@ fn values<D: Driven>(
 }
 
 /// The first place at which values fall below zero, by more than `noise`; −1 if they begin there.
-fn first_below<P: Copy>(station: &Station<P>, values: &Values, noise: f64) -> Option<f64> {
+fn first_below<P: Copy>(station: &PanelTable<P>, values: &Values, noise: f64) -> Option<f64> {
     let points = station.rule.points();
     if values[0] < -noise.max(SHORTEST_PANEL * largest(values)) {
         return Some(-1.0);

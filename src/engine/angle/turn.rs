@@ -1,7 +1,7 @@
 //! The panels of one cycle.
 
 use super::Driven;
-use super::panel::{FIRST_DEGREE, Fineness, SHORTEST_PANEL, Station};
+use super::panel::{FIRST_DEGREE, Fineness, PanelTable, SHORTEST_PANEL};
 use crate::engine::energy::NotApplicable;
 use crate::engine::energy::piece::HALF_TURN;
 use crate::numeric::angle::Angle;
@@ -14,7 +14,7 @@ pub(super) fn stations<D: Driven>(
     start: Angle,
     fine: Fineness,
     cuts: &[f64],
-) -> Result<Vec<Station<D::Place>>, NotApplicable> {
+) -> Result<Vec<PanelTable<D::Place>>, NotApplicable> {
     let (few, all) = (driven.corners(), driven.corners_if_light());
     if few.len() < all.len() {
         // Beyond this degree more panels are no more work.
@@ -34,9 +34,9 @@ fn between<D: Driven>(
     fine: Fineness,
     cuts: &[f64],
     most: usize,
-) -> Result<Option<Vec<Station<D::Place>>>, NotApplicable> {
+) -> Result<Option<Vec<PanelTable<D::Place>>>, NotApplicable> {
     let direction = fine.speed.signum();
-    let mut list: Vec<Station<D::Place>> = Vec::with_capacity(8);
+    let mut list: Vec<PanelTable<D::Place>> = Vec::with_capacity(8);
     let cycle = f64::from(driven.cycle());
     // Where the corners count from; the turns of one that is a single turn do not matter.
     let phase = start.turns.rem_euclid(cycle) * TAU + start.rest;
@@ -65,7 +65,7 @@ fn between<D: Driven>(
                 let ends = [from, until].map(|ahead| start.rest + direction * ahead);
                 // Neighbours are alike.
                 let degree = list.last().map_or(FIRST_DEGREE, |last| last.rule.degree());
-                let mut station = Station::empty(turns, ends, Rule::of(degree), 1.0);
+                let mut station = PanelTable::empty(turns, ends, Rule::of(degree), 1.0);
                 station.tabulate(driven)?;
                 if !station.resolve(driven, fine, most)? && most < MAX_DEGREE {
                     return Ok(None);

@@ -1,9 +1,9 @@
 //! The motion on a panel without damping and without driven loads: K' = b K + F is linear, with the integrating factor exp ∫ b.
 
-use super::panel::Station;
+use super::panel::PanelTable;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 
-impl<P: Copy> Station<P> {
+impl<P: Copy> PanelTable<P> {
     /// The motion of the forces of the position alone, and of that of the switch: K = growth·(K₀ + work).
     pub(super) fn fill_work(&mut self) {
         let (half, count) = (self.half(), self.rule.degree() + 1);

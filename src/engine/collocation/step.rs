@@ -1,6 +1,6 @@
 //! One step: sweeps until the motion stays, then its error and the next length.
 
-use super::super::sight::{Hidden, Look, OnStep, hidden};
+use super::super::sight::{Hidden, NodeCriterion, OnStep, hidden};
 use super::super::step::{Step, TERMS};
 use super::super::time::Settings;
 use super::super::{Batch, Counted, Motion, NODES};
@@ -233,9 +233,9 @@ impl<'a> Collocation<'a> {
         let term = self.tolerance * (1.0 + state.omega.abs()) * (2 * NODES) as f64 / h;
         let allowed = term.max(self.rounding(state, h, coefficients));
         let (times, part) = ([state.t, state.t + h], LEFT_BY_SWEEPS * self.tolerance);
-        let look = Look {
+        let look = NodeCriterion {
             compares: true,
-            ..Look::at_step(times, NODES, part, allowed)
+            ..NodeCriterion::at_step(times, NODES, part, allowed)
         };
         let way = OnStep {
             motion: self.motion,

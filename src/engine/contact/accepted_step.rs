@@ -6,7 +6,7 @@ use super::{Contact, Finish, Phase, Sample};
 use crate::numeric::root;
 
 /// A part of the motion in one phase.
-pub struct Stretch<'a, const N: usize> {
+pub struct AcceptedStep<'a, const N: usize> {
     /// The phase.
     pub phase: Phase,
     /// State at its beginning; the first number is the time, s.
@@ -22,7 +22,7 @@ pub struct Stretch<'a, const N: usize> {
     pub(super) dense: Option<Dense<N>>,
 }
 
-impl<const N: usize> Stretch<'_, N> {
+impl<const N: usize> AcceptedStep<'_, N> {
     /// Length, s.
     pub fn length(&self) -> f64 {
         self.end[0] - self.start[0]
@@ -92,7 +92,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         end: [f64; N],
         then: Sample<N>,
     ) -> Halt {
-        let mut stretch = Stretch {
+        let mut stretch = AcceptedStep {
             phase: self.phase,
             start: self.y,
             end,

@@ -2,10 +2,10 @@
 //! show the loads.
 
 use super::run::{Halt, Runner};
-use super::{Contact, Finish, Stretch};
+use super::{AcceptedStep, Contact, Finish};
 use crate::engine::PIECES;
-use crate::engine::runge_kutta::Method;
-use crate::engine::sight::{Look, Way, hidden};
+use crate::engine::runge_kutta::RungeKutta;
+use crate::engine::sight::{Interpolant, NodeCriterion, hidden};
 use crate::numeric::enclosure::{Detail, Interval};
 use crate::numeric::root;
 
@@ -43,7 +43,7 @@ struct Break<const N: usize> {
 
 impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     /// Refuses a step that goes beyond a change: the next one ends there.
-    pub(super) fn stop_at_break(&mut self, stretch: &mut Stretch<'_, N>) -> Halt {
+    pub(super) fn stop_at_break(&mut self, stretch: &mut AcceptedStep<'_, N>) -> Halt {
         if self.breaks.due.is_some() {
             return Ok(());
         }
@@ -55,7 +55,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         Err(Finish::Broken)
     }
 
-    fn first_break(&self, stretch: &mut Stretch<'_, N>) -> Option<Break<N>> {
+    fn first_break(&self, stretch: &mut AcceptedStep<'_, N>) -> Option<Break<N>> {
         let (model, near, phase) = (self.model, self.near, self.phase);
         let breaks = |y: &[f64; N]| model.breaks(&near, phase, y);
         let (start, h) = (stretch.start[0], stretch.length());
@@ -114,7 +114,7 @@ struct OnStep<'a, M: Contact<N>, const N: usize> {
     first: &'a [f64; N],
 }
 
-impl<M: Contact<N>, const N: usize> Way for OnStep<'_, M, N> {
+impl<M: Contact<N>, const N: usize> Interpolant for OnStep<'_, M, N> {
     /// The parabola from the start with its rates to the end; off it is less than its own bend.
     fn detail(&self, from: f64, to: f64, ellipse: f64) -> Detail {
         let h = self.end[0] - self.start[0];
@@ -138,8 +138,8 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         let h = end[0] - self.y[0];
         let tolerance = self.settings.tolerance;
         // A method of some order is worth as many nodes.
-        let nodes = Method::Dop853.order();
-        let look = Look::at_step([self.y[0], end[0]], nodes, tolerance, tolerance / h);
+        let nodes = RungeKutta::Dop853.order();
+        let look = NodeCriterion::at_step([self.y[0], end[0]], nodes, tolerance, tolerance / h);
         let way = OnStep {
             model: self.model,
             start: &self.y,

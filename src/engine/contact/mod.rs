@@ -17,8 +17,8 @@ mod step;
 use super::WorkLimit;
 use crate::numeric::enclosure::{Detail, Interval};
 
-pub use accepted_step::Stretch;
-pub use run::{Ended, Finish, run};
+pub use accepted_step::AcceptedStep;
+pub use run::{ContactEnd, Finish, run};
 
 /// What the motion is doing.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use super::discontinuities::Breaks;
 use super::step::Stages;
-use super::{Contact, Phase, Sample, Settings, Stretch};
+use super::{AcceptedStep, Contact, Phase, Sample, Settings};
 
 /// Most relative error of the force that is put down to rounding of the depth.
 const MAX_FORCE_DOUBT: f64 = 1e-6;
@@ -24,7 +24,7 @@ pub enum Finish {
 
 /// The end of a run.
 #[derive(Clone, Copy, Debug)]
-pub struct Ended<const N: usize> {
+pub struct ContactEnd<const N: usize> {
     /// How.
     pub finish: Finish,
     /// Last state.
@@ -38,7 +38,7 @@ pub struct Ended<const N: usize> {
 }
 
 /// Takes each accepted step; true ends the run.
-pub(super) type Follower<'a, const N: usize> = &'a mut dyn FnMut(&mut Stretch<'_, N>) -> bool;
+pub(super) type Follower<'a, const N: usize> = &'a mut dyn FnMut(&mut AcceptedStep<'_, N>) -> bool;
 
 pub(super) struct Runner<'a, M: Contact<N>, const N: usize> {
     pub model: &'a M,
@@ -72,8 +72,8 @@ pub fn run<M: Contact<N>, const N: usize>(
     start: [f64; N],
     linked: bool,
     settings: Settings<'_>,
-    follower: &mut dyn FnMut(&mut Stretch<'_, N>) -> bool,
-) -> Ended<N> {
+    follower: &mut dyn FnMut(&mut AcceptedStep<'_, N>) -> bool,
+) -> ContactEnd<N> {
     let (sizes, counted) = model.sizes();
     let mut runner = Runner {
         model,
@@ -96,7 +96,7 @@ pub fn run<M: Contact<N>, const N: usize>(
         Ok(()) => Finish::AtEnd,
         Err(finish) => finish,
     };
-    Ended {
+    ContactEnd {
         finish,
         last: runner.y,
         phase: runner.phase,

@@ -58,7 +58,7 @@ struct Builder<'a> {
     gain: Option<f64>,
     gain_error: f64,
     home: Option<Return<'a>>,
-    leg: Segment,
+    segment: Segment,
     /// Where the next panel begins, rad.
     at: f64,
     /// Kinetic energy there, and the largest so far, J.
@@ -93,7 +93,7 @@ impl Segment {
             gain: work.map(|(work, _)| begin.direction * work),
             gain_error: work.map_or(0.0, |(_, error)| error),
             home: Return::new(profile, whole_turn, begin.kinetic),
-            leg: Segment::open(),
+            segment: Segment::open(),
             at: begin.start,
             kinetic: begin.kinetic,
             largest: begin.kinetic,
@@ -104,14 +104,14 @@ impl Segment {
             turns: 0.0,
         };
         let mut attempts = 0;
-        while builder.leg.after == After::Ends
-            && (builder.leg.len() == 0 || builder.leg.duration.0 <= until)
+        while builder.segment.after == After::Ends
+            && (builder.segment.len() == 0 || builder.segment.duration.0 <= until)
         {
             attempts += 1;
             if attempts > MOST_PANELS {
                 return Err(NotApplicable::TooLong);
             }
-            if builder.leg.len() > 0 && profile.is_spent() {
+            if builder.segment.len() > 0 && profile.is_spent() {
                 break;
             }
             builder.panel(tolerance)?;
@@ -119,7 +119,7 @@ impl Segment {
                 builder.turn(until, most_turns);
             }
         }
-        Ok(builder.leg)
+        Ok(builder.segment)
     }
 }
 
@@ -264,27 +264,27 @@ impl Builder<'_> {
         self.largest = self.largest.max(self.kinetic);
         // A corner may have cut it shorter.
         self.length = self.length.max(2.0 * piece.span().abs());
-        self.leg.push(panel);
+        self.segment.push(panel);
         if piece.turning == Turning::AtEnd {
-            self.leg.after = After::TurnsBack;
+            self.segment.after = After::TurnsBack;
         }
     }
 
     /// Whether a turn is complete after which the same forces follow.
     fn is_home(&self) -> bool {
-        self.gain.is_some() && self.at == self.whole_turn && self.leg.after == After::Ends
+        self.gain.is_some() && self.at == self.whole_turn && self.segment.after == After::Ends
     }
 
     fn turn(&mut self, until: f64, most_turns: f64) {
         let Begin {
             start, direction, ..
         } = self.begin;
-        self.leg.complete(missing(start, direction));
+        self.segment.complete(missing(start, direction));
         self.turns += 1.0;
         if self.profile.repeats() {
-            self.leg.after = After::Repeats;
-        } else if self.turns >= most_turns && self.leg.duration.0 <= until {
-            self.leg.after = After::GoesOn;
+            self.segment.after = After::Repeats;
+        } else if self.turns >= most_turns && self.segment.duration.0 <= until {
+            self.segment.after = After::GoesOn;
         } else {
             self.at = start;
             self.off = self.turns.mul_add(self.gain_error, self.begin.off);

@@ -4,7 +4,7 @@
 //! energy K₀ + nW. A million turns are a few dozen cells of the energy.
 
 use super::build::Begin;
-use super::euler_maclaurin::Cell;
+use super::euler_maclaurin::EulerMaclaurinCell;
 use super::interpolated_turns::Mark;
 use super::one_turn::OneTurn;
 use super::profile::{NotApplicable, Profile};
@@ -20,7 +20,7 @@ const WIDEST: f64 = 1.5;
 const NARROWEST: f64 = 1e-3;
 
 /// Where the turns begin, and what each gains.
-pub(super) struct Course<'a> {
+pub(super) struct EqualGains<'a> {
     pub profile: &'a dyn Profile,
     /// rad
     pub start: f64,
@@ -38,7 +38,7 @@ pub(super) struct Course<'a> {
     pub tolerance: f64,
 }
 
-impl Course<'_> {
+impl EqualGains<'_> {
     fn kinetic_after(&self, turns: f64) -> f64 {
         turns.mul_add(self.gain, self.kinetic)
     }
@@ -83,7 +83,7 @@ impl Course<'_> {
             let whole = if passed { count + 1.0 } else { count };
             error += cell.error(whole, self.off_after(mark.turns + whole));
             let end = cell.mark(count);
-            last = passed.then(|| cell.leg(end.kinetic));
+            last = passed.then(|| cell.segment(end.kinetic));
             marks.push(mark);
             mark = if passed {
                 end
@@ -94,7 +94,7 @@ impl Course<'_> {
             cells.push(cell);
         }
         let last = match last {
-            Some(leg) => leg,
+            Some(segment) => segment,
             None => {
                 let begin = Begin {
                     start: self.start,
@@ -103,12 +103,13 @@ impl Course<'_> {
                     off: self.off_after(mark.turns),
                 };
                 let left = mark.until(until);
-                let leg = Segment::build(self.profile, begin, left, self.tolerance, LAST_TURNS)?;
-                if leg.after != After::Ends || cells.is_empty() {
+                let segment =
+                    Segment::build(self.profile, begin, left, self.tolerance, LAST_TURNS)?;
+                if segment.after != After::Ends || cells.is_empty() {
                     return Ok(None);
                 }
-                error += leg.error;
-                leg
+                error += segment.error;
+                segment
             }
         };
         marks.push(mark);
@@ -127,19 +128,19 @@ impl Course<'_> {
     }
 
     /// The cell that begins with a turn; none if the crank is too near to rest.
-    fn cell(&self, first: Mark) -> Option<Cell> {
+    fn cell(&self, first: Mark) -> Option<EulerMaclaurinCell> {
         let here = self.one_turn(first.kinetic)?;
         let least = here.least(first.kinetic);
         let mut share = 1.0;
         while share > NARROWEST && least > 0.0 {
             let made = if self.gain >= 0.0 {
                 let width = share * WIDEST * least;
-                Cell::new(first, first.kinetic, width, self.gain, here.clone())
+                EulerMaclaurinCell::new(first, first.kinetic, width, self.gain, here.clone())
             } else {
                 // As wide seen from its other end.
                 let width = share * least * WIDEST / (1.0 + WIDEST);
                 self.one_turn(first.kinetic - width).and_then(|turn| {
-                    Cell::new(first, first.kinetic - width, width, self.gain, turn)
+                    EulerMaclaurinCell::new(first, first.kinetic - width, width, self.gain, turn)
                 })
             };
             if made.is_some() {

@@ -23,10 +23,10 @@ impl Orbit {
     pub fn time_error(&self, until: f64) -> f64 {
         let (back, later) = (self.backward.as_ref(), self.later.as_ref());
         let error = self.forward.error
-            + back.map_or(0.0, |leg| leg.error)
+            + back.map_or(0.0, |segment| segment.error)
             + later.map_or(0.0, |later| later.error);
         let duration = later.map_or(self.forward.duration.0, |later| later.end())
-            + back.map_or(0.0, |leg| leg.duration.0);
+            + back.map_or(0.0, |segment| segment.duration.0);
         let left_out = match self.panel_at(until) {
             Some((panel, _)) => panel.left_out(),
             None => self.forward.left_out,
@@ -86,6 +86,6 @@ impl Orbit {
 }
 
 /// The panel of a leg that is run through to and fro, and the time since its begin, s.
-fn to_and_fro(leg: &Segment, since: f64) -> Option<(&Panel, f64)> {
-    leg.panel_at(since.min(2.0 * leg.duration.0 - since))
+fn to_and_fro(segment: &Segment, since: f64) -> Option<(&Panel, f64)> {
+    segment.panel_at(since.min(2.0 * segment.duration.0 - since))
 }

@@ -16,7 +16,7 @@ const SMALL_STEP: f64 = 1.0 / 64.0;
 
 /// Turns over a range of the kinetic energy at their start, x in [−1, 1].
 #[derive(Clone, Debug)]
-pub(in crate::engine) struct Cell {
+pub(in crate::engine) struct EulerMaclaurinCell {
     pub first: Mark,
     /// Turns until the next cell.
     pub count: f64,
@@ -54,10 +54,16 @@ fn correction(difference: &Series, h: f64) -> Series {
     Series::blend(terms.into_iter())
 }
 
-impl Cell {
+impl EulerMaclaurinCell {
     /// The cell of this width from the energy `low` on (J), from whose series T follows to rounding; none if it does not, or
     /// it holds no turn.
-    pub fn new(first: Mark, low: f64, width: f64, gain: f64, turn: OneTurn) -> Option<Cell> {
+    pub fn new(
+        first: Mark,
+        low: f64,
+        width: f64,
+        gain: f64,
+        turn: OneTurn,
+    ) -> Option<EulerMaclaurinCell> {
         let (half, rule) = (0.5 * width, Rule::of(DEGREE));
         let middle = low + half;
         let usual = turn.duration(middle);
@@ -66,7 +72,7 @@ impl Cell {
         let tail = difference.tail() * (difference.largest() / usual);
         let step = gain / half;
         let count = (2.0 / step.abs()).floor();
-        (tail <= SUM_ROUNDING && count >= 1.0).then(|| Cell {
+        (tail <= SUM_ROUNDING && count >= 1.0).then(|| EulerMaclaurinCell {
             first,
             count,
             step,
@@ -150,8 +156,8 @@ impl Cell {
     }
 
     /// The motion of a turn that begins with a kinetic energy, J.
-    pub fn leg(&self, kinetic: f64) -> Segment {
-        self.turn.leg(kinetic)
+    pub fn segment(&self, kinetic: f64) -> Segment {
+        self.turn.segment(kinetic)
     }
 
     /// The start of the turn after so many of the cell.

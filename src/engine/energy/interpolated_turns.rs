@@ -61,7 +61,7 @@ pub(in crate::engine) struct Cell {
     middle: f64,
     half: f64,
     rule: &'static Rule,
-    legs: Vec<Segment>,
+    segments: Vec<Segment>,
     duration: Series,
     gain: Series,
     work: Series,
@@ -85,7 +85,7 @@ impl Cell {
             duration: series(|turn| turn.duration),
             gain: series(|turn| turn.gain),
             work: series(|turn| turn.work),
-            legs: turns.into_iter().map(|(leg, _)| leg).collect(),
+            segments: turns.into_iter().map(|(segment, _)| segment).collect(),
         }
     }
 
@@ -109,9 +109,9 @@ impl Cell {
         }
     }
 
-    fn leg(&self, kinetic: f64) -> Segment {
+    fn segment(&self, kinetic: f64) -> Segment {
         let x = (kinetic - self.middle) / self.half;
-        Segment::blend(&self.legs, &self.rule.shares(x)[..self.legs.len()])
+        Segment::blend(&self.segments, &self.rule.shares(x)[..self.segments.len()])
     }
 }
 
@@ -134,8 +134,8 @@ impl Interpolated {
     }
 
     /// The motion of that turn; no panels where no cell covers the energy.
-    pub fn leg(&self, kinetic: f64) -> Segment {
+    pub fn segment(&self, kinetic: f64) -> Segment {
         let cell = self.cell(kinetic);
-        cell.map_or_else(Segment::open, |cell| cell.leg(kinetic))
+        cell.map_or_else(Segment::open, |cell| cell.segment(kinetic))
     }
 }

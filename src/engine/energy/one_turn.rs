@@ -38,13 +38,13 @@ impl OneTurn {
             off: 0.0,
         };
         // What series leave out adds up over the turns.
-        let leg = Segment::build(profile, begin, until, ROUNDING, 1.0).ok()?;
-        if leg.after != After::GoesOn {
+        let segment = Segment::build(profile, begin, until, ROUNDING, 1.0).ok()?;
+        if segment.after != After::GoesOn {
             return None;
         }
         let rule = Rule::of(DEGREE);
         let mut done = 0.0;
-        let stations = leg.pieces().map(|piece| {
+        let stations = segment.pieces().map(|piece| {
             let (mut inertia, mut force) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
             let angles = rule.values(|x| piece.angle(x));
             profile.tabulate(&angles, DEGREE + 1, &mut inertia, &mut force);
@@ -60,7 +60,7 @@ impl OneTurn {
         Some(OneTurn {
             stations: stations.collect(),
             missing: missing(start, direction),
-            error: leg.error / leg.duration.0,
+            error: segment.error / segment.duration.0,
         })
     }
 
@@ -92,12 +92,12 @@ impl OneTurn {
     }
 
     /// Motion of the turn at a kinetic energy, J.
-    pub fn leg(&self, kinetic: f64) -> Segment {
-        let mut leg = Segment::open();
+    pub fn segment(&self, kinetic: f64) -> Segment {
+        let mut segment = Segment::open();
         for station in &self.stations {
-            leg.push(station.panel(kinetic));
+            segment.push(station.panel(kinetic));
         }
-        leg
+        segment
     }
 }
 

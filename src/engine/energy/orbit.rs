@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::build::Begin;
-use super::equal_gains::Course;
+use super::equal_gains::EqualGains;
 use super::error_bound::off_by_place;
 use super::kinetic::at_start;
 use super::profile::{NotApplicable, Profile};
@@ -62,7 +62,7 @@ impl Orbit {
             let beside = profile.inertia_and_force(theta + apart).0;
             off = off.hypot(off_by_place(theta, kinetic, [inertia, beside], apart));
         }
-        let leg = |direction: f64, until: f64, most_turns: f64| {
+        let segment = |direction: f64, until: f64, most_turns: f64| {
             let begin = Begin {
                 start: theta,
                 direction,
@@ -71,10 +71,10 @@ impl Orbit {
             };
             Segment::build(profile, begin, until, tolerance, most_turns)
         };
-        let mut forward = leg(direction, until, FIRST_TURNS)?;
+        let mut forward = segment(direction, until, FIRST_TURNS)?;
         let mut later = None;
         if let (After::GoesOn, Some((work, gain_error))) = (forward.after, profile.work_of_turn()) {
-            let course = Course {
+            let course = EqualGains {
                 profile,
                 start: theta,
                 direction,
@@ -86,14 +86,14 @@ impl Orbit {
             };
             later = course.turns(FIRST_TURNS, forward.duration, until)?;
             if later.is_none() && !profile.is_spent() {
-                forward = leg(direction, until, f64::INFINITY)?;
+                forward = segment(direction, until, f64::INFINITY)?;
             }
         }
         let there = forward.duration.0;
         let turns_back = forward.after == After::TurnsBack;
         let backward = if turns_back && kinetic != 0.0 && 2.0 * there < until {
             let left = until - 2.0 * there;
-            Some(leg(-direction, left, f64::INFINITY)?)
+            Some(segment(-direction, left, f64::INFINITY)?)
         } else {
             None
         };
@@ -110,14 +110,14 @@ impl Orbit {
     }
 
     /// A motion in one direction that does not repeat.
-    pub(in crate::engine) fn one_way(start: Angle, speed: f64, leg: Segment) -> Orbit {
+    pub(in crate::engine) fn one_way(start: Angle, speed: f64, segment: Segment) -> Orbit {
         Orbit {
             start,
             direction: speed.signum(),
             speed,
             from_rest: false,
             off: 0.0,
-            forward: leg,
+            forward: segment,
             backward: None,
             later: None,
         }
@@ -127,12 +127,12 @@ impl Orbit {
     pub(in crate::engine) fn of_turns(
         start: Angle,
         speed: f64,
-        leg: Segment,
+        segment: Segment,
         later: Turns,
     ) -> Orbit {
         Orbit {
             later: Some(Box::new(later)),
-            ..Orbit::one_way(start, speed, leg)
+            ..Orbit::one_way(start, speed, segment)
         }
     }
 
@@ -217,8 +217,8 @@ impl Orbit {
         if t <= there || self.forward.after != After::TurnsBack {
             return self.forward.state(t);
         }
-        let mirrored = |leg: &Segment, t: f64| {
-            let (angle, speed) = leg.state(t);
+        let mirrored = |segment: &Segment, t: f64| {
+            let (angle, speed) = segment.state(t);
             (angle, -speed)
         };
         if t <= 2.0 * there {

@@ -12,24 +12,26 @@ impl Orbit {
     /// come: those of the points of the series. A turn that repeats has one more before it and after it. None if not all
     /// states lie on one leg.
     pub fn places(&self, until: f64) -> Option<Vec<f64>> {
-        let leg = &self.forward;
-        let covers = until <= leg.duration.0 || self.rotates() || self.turns_back();
+        let segment = &self.forward;
+        let covers = until <= segment.duration.0 || self.rotates() || self.turns_back();
         if !covers || self.backward.is_some() || self.later.is_some() {
             return None;
         }
-        let whole = self.rotates() && until >= leg.duration.0;
-        let last = match leg.panel_at(until) {
+        let whole = self.rotates() && until >= segment.duration.0;
+        let last = match segment.panel_at(until) {
             Some((panel, after)) if !whole && after < panel.duration.0 => {
-                leg.index_at(until) as f64 + 0.5 * (1.0 + panel.position(after))
+                segment.index_at(until) as f64 + 0.5 * (1.0 + panel.position(after))
             }
-            _ => leg.len() as f64,
+            _ => segment.len() as f64,
         };
         let of_panel = |index: usize| {
-            let count = leg.panel(index).map_or(0, |(panel, _)| panel.rule.degree());
+            let count = segment
+                .panel(index)
+                .map_or(0, |(panel, _)| panel.rule.degree());
             let x = move |j: usize| -(PI * j as f64 / count as f64).cos();
             (0..count).map(move |j| index as f64 + 0.5 * (1.0 + x(j)))
         };
-        let inside = (0..leg.len()).flat_map(of_panel);
+        let inside = (0..segment.len()).flat_map(of_panel);
         let mut places: Vec<f64> = inside.take_while(|at| *at < last).chain([last]).collect();
         if let (true, &[_, second, .., before, last]) = (whole, &places[..]) {
             places.insert(0, before - last);

@@ -70,16 +70,17 @@ impl Segment {
     }
 
     /// Legs with the same panels, blended by shares whose sum is one.
-    pub fn blend(legs: &[Segment], shares: &[f64]) -> Segment {
-        let mut leg = Segment::open();
-        for index in 0..legs.first().map_or(0, Segment::len) {
-            let parts = legs.iter().zip(shares);
-            let panel = Panel::blend(parts.map(|(leg, share)| (&leg.panels[index], *share)));
+    pub fn blend(segments: &[Segment], shares: &[f64]) -> Segment {
+        let mut segment = Segment::open();
+        for index in 0..segments.first().map_or(0, Segment::len) {
+            let parts = segments.iter().zip(shares);
+            let panel =
+                Panel::blend(parts.map(|(segment, share)| (&segment.panels[index], *share)));
             if let Some(panel) = panel {
-                leg.push(panel);
+                segment.push(panel);
             }
         }
-        leg
+        segment
     }
 
     pub fn push(&mut self, panel: Panel) {

@@ -31,13 +31,13 @@ impl Orbit {
         // The way back is the way there, from its end.
         let back = (2.0 * there - until).max(0.0);
         widen(self.forward.speed_range(back, there), -self.direction);
-        if let Some(leg) = self.backward.as_ref().filter(|_| until > 2.0 * there) {
+        if let Some(segment) = self.backward.as_ref().filter(|_| until > 2.0 * there) {
             let since = until - 2.0 * there;
-            widen(leg.speed_range(0.0, since), -self.direction);
-            let end = leg.duration.0;
-            if leg.after == After::TurnsBack && since > end {
+            widen(segment.speed_range(0.0, since), -self.direction);
+            let end = segment.duration.0;
+            if segment.after == After::TurnsBack && since > end {
                 let back = (2.0 * end - since).max(0.0);
-                widen(leg.speed_range(back, end), self.direction);
+                widen(segment.speed_range(back, end), self.direction);
             }
         }
         range

@@ -14,7 +14,7 @@ pub(in crate::engine) enum Map {
     /// Each follows from the energy of the one before, by interpolation.
     Interpolated(Interpolated),
     /// Each gains the same energy; a cell begins at each mark but the last.
-    Gaining(Vec<euler_maclaurin::Cell>),
+    Gaining(Vec<euler_maclaurin::EulerMaclaurinCell>),
 }
 
 /// Many turns in one direction.
@@ -42,8 +42,8 @@ impl Recent {
             known.turns.to_bits() == mark.turns.to_bits()
                 && known.kinetic.to_bits() == mark.kinetic.to_bits()
         });
-        let (_, leg) = recent.insert(known.unwrap_or_else(|| (*mark, Arc::new(new()))));
-        Arc::clone(leg)
+        let (_, segment) = recent.insert(known.unwrap_or_else(|| (*mark, Arc::new(new()))));
+        Arc::clone(segment)
     }
 }
 
@@ -130,17 +130,17 @@ impl Turns {
         if mark.turns >= self.last_mark().turns {
             return of(&self.last);
         }
-        let leg = || match &self.map {
-            Map::Gaining(cells) => cells[self.index(Goal::Turns(mark.turns))].leg(mark.kinetic),
-            Map::Interpolated(map) => map.leg(mark.kinetic),
+        let segment = || match &self.map {
+            Map::Gaining(cells) => cells[self.index(Goal::Turns(mark.turns))].segment(mark.kinetic),
+            Map::Interpolated(map) => map.segment(mark.kinetic),
         };
-        of(&self.recent.or_new(mark, leg))
+        of(&self.recent.or_new(mark, segment))
     }
 
     /// Angle from the start of the run's first turn, and speed.
     pub fn state(&self, t: f64, direction: f64) -> (Angle, f64) {
         let mark = self.find(Goal::Time(t));
-        let (angle, speed) = self.on_leg(&mark, |leg| leg.state(mark.until(t)));
+        let (angle, speed) = self.on_leg(&mark, |segment| segment.state(mark.until(t)));
         let angle = Angle::new(angle.turns + direction * mark.turns, angle.rest);
         (angle, speed)
     }
@@ -151,7 +151,7 @@ impl Turns {
         let mark = self.find(Goal::Turns(whole));
         let ahead = radians - mark.turns * TAU;
         let angle = Angle::from(rest + direction * ahead);
-        let (after, speed) = self.on_leg(&mark, |leg| leg.at(angle))?;
+        let (after, speed) = self.on_leg(&mark, |segment| segment.at(angle))?;
         Some((mark.t.0 + (mark.t.1 + after), speed))
     }
 
@@ -160,7 +160,7 @@ impl Turns {
         let last = self.find(Goal::Time(until));
         let by_energy = |a: &&Mark, b: &&Mark| a.kinetic.total_cmp(&b.kinetic);
         let whole = || self.marks.iter().filter(|mark| mark.turns < last.turns);
-        let mut range = self.on_leg(&last, |leg| leg.speed_range(0.0, last.until(until)));
+        let mut range = self.on_leg(&last, |segment| segment.speed_range(0.0, last.until(until)));
         let first = whole().next().copied();
         // The energies of the turns rise or fall, but not all turns have marks.
         let cycle = match &self.map {
@@ -177,7 +177,7 @@ impl Turns {
             before_last,
         ];
         for mark in marks.into_iter().flatten() {
-            let (low, high) = self.on_leg(&mark, |leg| leg.speed_range(0.0, f64::INFINITY));
+            let (low, high) = self.on_leg(&mark, |segment| segment.speed_range(0.0, f64::INFINITY));
             range = (range.0.min(low), range.1.max(high));
         }
         range

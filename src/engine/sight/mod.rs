@@ -9,7 +9,7 @@ use crate::numeric::enclosure::{Detail, ellipses, shown};
 pub use steps::{OnStep, hides};
 
 /// The motion on a panel or a step, over its part from 0 to 1.
-pub trait Way {
+pub trait Interpolant {
     /// What the force does between two parts of it, and in an ellipse of this size around that.
     fn detail(&self, from: f64, to: f64, ellipse: f64) -> Detail;
 
@@ -26,7 +26,7 @@ pub trait Way {
 
 /// How a panel or a step is looked at.
 #[derive(Clone, Copy, Debug)]
-pub struct Look {
+pub struct NodeCriterion {
     /// Number of nodes.
     pub nodes: usize,
     /// Sizes of the ellipses that they need.
@@ -50,10 +50,10 @@ const MOST_PIECES: usize = 400;
 /// Ends that are left out where a corner is at an end, off by what its place is off.
 const END_PARTS: [f64; 2] = [9.5367431640625e-7, 9.094947017729282e-13];
 
-impl Look {
+impl NodeCriterion {
     /// At a step from one time to another (s), which ends no closer to its start than some roundings of the time.
-    pub fn at_step([from, to]: [f64; 2], nodes: usize, part: f64, allowed: f64) -> Look {
-        Look {
+    pub fn at_step([from, to]: [f64; 2], nodes: usize, part: f64, allowed: f64) -> NodeCriterion {
+        NodeCriterion {
             nodes,
             ellipses: ellipses(nodes, part),
             allowed,
@@ -73,16 +73,16 @@ pub struct Hidden {
 }
 
 /// Where a panel or a step has to end so that its nodes show the forces; none if they do.
-pub fn hidden(way: &impl Way, look: Look) -> Option<Hidden> {
+pub fn hidden(way: &impl Interpolant, look: NodeCriterion) -> Option<Hidden> {
     if look.nodes_on(way, 0.0, 1.0).1.is_some() {
         return None;
     }
     Search::new(look).run(way)
 }
 
-impl Look {
+impl NodeCriterion {
     /// What the force does on a piece, and how many nodes show it, where its own are enough.
-    fn nodes_on(&self, way: &impl Way, from: f64, to: f64) -> (Detail, Option<usize>) {
+    fn nodes_on(&self, way: &impl Interpolant, from: f64, to: f64) -> (Detail, Option<usize>) {
         self.nodes_for(|ellipse| way.detail(from, to, ellipse))
     }
 
@@ -96,7 +96,7 @@ impl Look {
     }
 
     /// The part at an end that may be left out for a corner there.
-    fn end(&self, way: &impl Way, piece: fn(f64) -> [f64; 2]) -> f64 {
+    fn end(&self, way: &impl Interpolant, piece: fn(f64) -> [f64; 2]) -> f64 {
         let little = |end: &f64| {
             let [from, to] = piece(*end);
             let detail = way.detail(from, to, self.ellipses[0]);
@@ -117,7 +117,7 @@ fn size(missed: f64) -> f64 {
 
 /// What was found from the start of a panel on.
 struct Search {
-    look: Look,
+    look: NodeCriterion,
     /// What is looked at: all but corners at the ends.
     whole: [f64; 2],
     /// Integral of what the nodes miss, before the first corner and behind it.
@@ -129,7 +129,7 @@ struct Search {
 }
 
 impl Search {
-    fn new(look: Look) -> Search {
+    fn new(look: NodeCriterion) -> Search {
         Search {
             look,
             whole: [0.0, 1.0],
@@ -141,7 +141,7 @@ impl Search {
     }
 
     /// Halves the panel until each piece is shown by as many nodes as the panel has, and compares there.
-    fn run(mut self, way: &impl Way) -> Option<Hidden> {
+    fn run(mut self, way: &impl Interpolant) -> Option<Hidden> {
         let mut left = [[0.0; 2]; HALVINGS as usize + 2];
         let begin = self.look.end(way, |end| [0.0, end]);
         let end = self.look.end(way, |end| [1.0 - end, 1.0]);
@@ -181,7 +181,7 @@ impl Search {
     }
 
     /// Where a piece is divided: beside a corner that is known, or in the middle.
-    fn divided(&mut self, way: &impl Way, from: f64, to: f64) -> [f64; 2] {
+    fn divided(&mut self, way: &impl Interpolant, from: f64, to: f64) -> [f64; 2] {
         let least = self.look.least;
         let inside = |at: &f64| at - least > from && at + least < to;
         let Some(at) = way.corner(from, to).filter(inside) else {
@@ -227,7 +227,7 @@ impl Search {
         }
     }
 
-    fn compare(&mut self, way: &impl Way, [from, to]: [f64; 2], nodes: usize) {
+    fn compare(&mut self, way: &impl Interpolant, [from, to]: [f64; 2], nodes: usize) {
         if self.is_missed {
             return;
         }

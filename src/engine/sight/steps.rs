@@ -1,6 +1,6 @@
 //! Loads between the nodes of a step in time.
 
-use super::{Hidden, Look, Way, hidden};
+use super::{Hidden, Interpolant, NodeCriterion, hidden};
 use crate::engine::step::Step;
 use crate::engine::{Counted, Motion, NODES};
 use crate::numeric::enclosure::{Detail, Interval, Reach};
@@ -24,7 +24,7 @@ pub fn hides(motion: &Counted<'_>, step: &Step, order: usize, tolerance: f64) ->
     }
     let (h, nodes) = (step.length(), None);
     let allowed = tolerance * (1.0 + step.start.omega.abs()) / h;
-    let look = Look::at_step([step.start.t, step.end.t], order, tolerance, allowed);
+    let look = NodeCriterion::at_step([step.start.t, step.end.t], order, tolerance, allowed);
     let way = OnStep {
         motion,
         step,
@@ -40,7 +40,7 @@ impl OnStep<'_> {
     }
 }
 
-impl Way for OnStep<'_> {
+impl Interpolant for OnStep<'_> {
     fn detail(&self, from: f64, to: f64, ellipse: f64) -> Detail {
         let step = self.step;
         let [begin, end] = [from, to].map(|at| self.time(at));

@@ -2,7 +2,7 @@
 
 use super::rubbing::Rubbing;
 use super::{Action, Frame, LooseMechanism, cross, dot};
-use crate::mechanism::{LoadValue, LooseRates, LooseState, Touch};
+use crate::mechanism::{GuideForces, LoadValue, LooseRates, LooseState};
 use crate::numeric::angle::Angle;
 use crate::scene::{Instant, Joint};
 
@@ -164,7 +164,7 @@ impl LooseMechanism {
             }
             Rubbing::Sticks => {
                 let spin_rate = moment / self.rod_inertia;
-                rates.guide = Touch {
+                rates.guide = GuideForces {
                     normal: normal(spin_rate),
                     friction: coupling * spin_rate - along,
                 };
@@ -198,7 +198,7 @@ impl LooseMechanism {
             }
             Rubbing::Sticks => {
                 let friction = -(along + self.slider_mass * gx);
-                rates.guide = Touch { normal, friction };
+                rates.guide = GuideForces { normal, friction };
                 0.0
             }
         };

@@ -106,12 +106,12 @@ impl LooseMechanism {
     fn frame_from(&self, s: &LooseState, crank: (f64, f64), rod: (f64, f64)) -> Frame {
         let ((sin, cos), (dy, dx)) = (crank, rod);
         let a = [self.r * cos, self.r * sin];
-        let [along, left] = self.rod_centre;
+        let [along, lateral] = self.rod_centre;
         let side = self.side;
         Frame {
             crank_pin: a,
             axis: [dx, dy],
-            centre: [along * dx - left * dy, along * dy + left * dx],
+            centre: [along * dx - lateral * dy, along * dy + lateral * dx],
             offset: [
                 side * (a[0] - s.x + self.l * dx),
                 side * (a[1] + self.e + self.l * dy),

@@ -1,7 +1,7 @@
 //! Coulomb friction of the slider in its guide while a joint is loose.
 
 use super::{JointTouch, LooseMechanism};
-use crate::mechanism::{LooseState, Touch};
+use crate::mechanism::{GuideForces, LooseState};
 use crate::numeric::exact::SUM_ROUNDING;
 
 /// How the slider rubs in its guide.
@@ -47,7 +47,7 @@ impl LooseMechanism {
         most * (1.0 + SUM_ROUNDING) - forces.friction.abs() * (1.0 - SUM_ROUNDING)
     }
 
-    fn held(&self, s: &LooseState, touch: JointTouch) -> Touch {
+    fn held(&self, s: &LooseState, touch: JointTouch) -> GuideForces {
         self.rates_in(s, &self.frame(s), touch, Rubbing::Sticks)
             .guide
     }
@@ -72,9 +72,9 @@ impl LooseMechanism {
     }
 
     /// The guide's forces on a slider that slides. Not numbers where rigid bodies jam.
-    pub(super) fn sliding(&self, direction: f64, free: f64, kappa: f64) -> Touch {
+    pub(super) fn sliding(&self, direction: f64, free: f64, kappa: f64) -> GuideForces {
         let mu = self.guide.map_or(0.0, |guide| guide.coefficient);
-        Touch::sliding(free, kappa, mu, direction).unwrap_or(Touch {
+        GuideForces::sliding(free, kappa, mu, direction).unwrap_or(GuideForces {
             normal: f64::NAN,
             friction: f64::NAN,
         })

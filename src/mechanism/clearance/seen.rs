@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::rubbing::Rubbing;
 use super::{Action, LooseMechanism};
-use crate::mechanism::{Arms, LoadValue, LooseState, Seen};
+use crate::mechanism::{Arms, EnclosedState, LoadValue, LooseState};
 use crate::numeric::enclosure::{Detail, Interval};
 use crate::scene::Joint;
 
@@ -30,7 +30,7 @@ impl LooseMechanism {
             return Detail::NONE;
         };
         let between = |of: fn(&LooseState) -> f64| Interval::between(of(low), of(high));
-        let seen = Seen {
+        let seen = EnclosedState {
             t: between(|s| s.t),
             theta: between(|s| s.theta) + Interval::point(self.turns * TAU),
             omega: between(|s| s.omega),

@@ -32,7 +32,7 @@ impl LooseMechanism {
             Joint::CrankPin => rod.along - scene.geometry.rod,
             Joint::WristPin => rod.along,
         };
-        let squared = rod_along * rod_along + rod.left * rod.left;
+        let squared = rod_along * rod_along + rod.lateral * rod.lateral;
         let rod_inertia = rod.inertia + rod.mass * squared;
         let force = match clearance.law {
             ContactLaw::MasslessLink => Ok(NormalForce::default()),
@@ -45,7 +45,7 @@ impl LooseMechanism {
         let slider_mass = scene.slider.map_or(0.0, |slider| slider.mass);
         let [gx, gy] = gravity;
         let per_r = crank.mass / scene.geometry.crank;
-        let (along, left) = (per_r * crank.cg, per_r * crank.cg_lateral);
+        let (along, lateral) = (per_r * crank.cg, per_r * crank.cg_lateral);
         let mechanism = LooseMechanism {
             joint: clearance.joint,
             side: match clearance.joint {
@@ -57,9 +57,9 @@ impl LooseMechanism {
             e: scene.geometry.offset,
             driven,
             crank_inertia: crank.inertia,
-            crank_weight: [along * gy - left * gx, left * gy + along * gx],
+            crank_weight: [along * gy - lateral * gx, lateral * gy + along * gx],
             rod_mass: rod.mass,
-            rod_centre: [rod_along, rod.left],
+            rod_centre: [rod_along, rod.lateral],
             rod_inertia,
             per_rod_inertia: 1.0 / rod_inertia,
             slider_mass,

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::error::Error;
-use crate::report::csv::Cell;
+use crate::report::csv::CsvCell;
 use crate::report::quantity::split;
 use crate::report::rows::{cells, header};
 use crate::report::table::Table;
@@ -90,9 +90,9 @@ fn own_rows(file: &Path) -> Option<Table> {
     if names.first().is_none_or(|first| first != TIME) || names.len() < 2 || !known {
         return None;
     }
-    let rows: Result<Vec<Vec<Cell>>, _> = reader
+    let rows: Result<Vec<Vec<CsvCell>>, _> = reader
         .records()
-        .map(|row| row.map(|row| row.iter().map(Cell::read).collect()))
+        .map(|row| row.map(|row| row.iter().map(CsvCell::read).collect()))
         .collect();
     let table = Table::of_rows(&names, &rows.ok()?);
     names

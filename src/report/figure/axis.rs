@@ -16,7 +16,7 @@ const PARTS_OF_TURN: [f64; 8] = [10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0, 720
 
 /// How values are spread over an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum Spacing {
     Linear,
     /// Linear, read at parts of a turn.
     Degrees,
@@ -24,14 +24,14 @@ enum Kind {
     Log,
 }
 
-impl Kind {
+impl Spacing {
     /// The value that is spread evenly; not a number if there is none.
     fn coordinate(self, value: f64) -> f64 {
         match self {
             _ if value.abs() > LARGEST => f64::NAN,
-            Kind::Log if value > 0.0 => value.log10(),
-            Kind::Log => f64::NAN,
-            Kind::Linear | Kind::Degrees => value,
+            Spacing::Log if value > 0.0 => value.log10(),
+            Spacing::Log => f64::NAN,
+            Spacing::Linear | Spacing::Degrees => value,
         }
     }
 }
@@ -42,12 +42,12 @@ pub struct Axis {
     pub(in crate::report) label: String,
     /// Where there is no room for the label.
     short: String,
-    kind: Kind,
+    kind: Spacing,
     range: Option<(f64, f64)>,
 }
 
 impl Axis {
-    fn new(label: impl Into<String>, kind: Kind) -> Axis {
+    fn new(label: impl Into<String>, kind: Spacing) -> Axis {
         Axis {
             label: label.into(),
             short: String::new(),
@@ -58,17 +58,17 @@ impl Axis {
 
     /// A linear axis; the label names the quantity and its unit.
     pub fn linear(label: impl Into<String>) -> Axis {
-        Axis::new(label, Kind::Linear)
+        Axis::new(label, Spacing::Linear)
     }
 
     /// A linear axis of angles in degrees, with ticks at parts of a turn; the label names the angle and its unit.
     pub fn degrees(label: impl Into<String>) -> Axis {
-        Axis::new(label, Kind::Degrees)
+        Axis::new(label, Spacing::Degrees)
     }
 
     /// A logarithmic axis; the label names the quantity and its unit.
     pub fn log(label: impl Into<String>) -> Axis {
-        Axis::new(label, Kind::Log)
+        Axis::new(label, Spacing::Log)
     }
 
     /// With a shorter label, for where there is no room for the other.
@@ -111,7 +111,7 @@ pub(super) struct Tick {
 
 /// An axis with the limits of its coordinate.
 pub(super) struct Scale {
-    kind: Kind,
+    kind: Spacing,
     low: f64,
     high: f64,
 }
@@ -133,8 +133,8 @@ impl Scale {
                 });
             let margin = match kind {
                 _ if low > high => return (0.0, 1.0),
-                Kind::Log if high - low < 0.1 => 0.5,
-                Kind::Linear if high - low <= CONSTANT * low.abs().max(high.abs()) => {
+                Spacing::Log if high - low < 0.1 => 0.5,
+                Spacing::Linear if high - low <= CONSTANT * low.abs().max(high.abs()) => {
                     if low == 0.0 { 1.0 } else { 0.1 * low.abs() }
                 }
                 _ => FREE_SHARE * (high - low),
@@ -163,7 +163,7 @@ impl Scale {
 
     /// Where a value lies, brought inside the limits; what a logarithmic axis cannot reach is at its start.
     pub fn clamped(&self, value: f64) -> f64 {
-        if self.kind == Kind::Log && value <= 0.0 {
+        if self.kind == Spacing::Log && value <= 0.0 {
             return 0.0;
         }
         self.position(value).clamp(0.0, 1.0)
@@ -171,7 +171,7 @@ impl Scale {
 
     /// At most `most` ticks.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
-        if self.kind != Kind::Log {
+        if self.kind != Spacing::Log {
             return self.even(self.low, self.high, most);
         }
         let parts = self.decades(1, &[1, 2, 5]);
@@ -208,7 +208,7 @@ impl Scale {
         let least = (high - low) / most.max(1) as f64;
         let of_turn = PARTS_OF_TURN.into_iter().find(|part| *part >= least);
         let step = of_turn
-            .filter(|_| self.kind == Kind::Degrees && least > 5.0)
+            .filter(|_| self.kind == Spacing::Degrees && least > 5.0)
             .unwrap_or_else(|| round_step(least));
         let digits = |value: f64| value.abs().max(f64::MIN_POSITIVE).log10().floor() as i32;
         let size = digits(low.abs().max(high.abs()));

@@ -11,7 +11,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use super::csv::{self, Cell};
+use super::csv::{self, CsvCell};
 use super::decimate::Thinned;
 use super::output::{Output, is_standard_output, is_stream};
 use super::table::Table;
@@ -40,7 +40,7 @@ pub struct SweepWriter<'a> {
     /// Rows that were there already.
     kept: usize,
     /// Rows that are kept.
-    shown: Option<Thinned<Vec<Cell>>>,
+    shown: Option<Thinned<Vec<CsvCell>>>,
 }
 
 /// What is summed up beside the ranges.
@@ -84,7 +84,7 @@ impl<'a> SweepWriter<'a> {
             asked.percentiles || sweep.sample().is_some(),
             &asked.goals,
         )?;
-        let names: Vec<Cell> = header.iter().map(|name| Cell::from(&**name)).collect();
+        let names: Vec<CsvCell> = header.iter().map(|name| CsvCell::from(&**name)).collect();
         let header = if part == 1 { line(&names) } else { Vec::new() };
         let range = sweep.part(part, parts)?;
         let mut kept = 0;
@@ -190,27 +190,27 @@ fn header(sweep: &Sweep) -> Vec<String> {
     all.chain(["notes".to_owned()]).collect()
 }
 
-fn cells_of(sweep: &Sweep, design: &Design) -> Vec<Cell> {
-    let mut cells = vec![Cell::from((design.index + 1) as f64)];
+fn cells_of(sweep: &Sweep, design: &Design) -> Vec<CsvCell> {
+    let mut cells = vec![CsvCell::from((design.index + 1) as f64)];
     for (varied, value) in sweep.varied().iter().zip(&design.values) {
         let number = value.number.filter(|_| varied.has_numbers());
-        cells.push(number.map_or_else(|| Cell::from(&*printable(&value.text)), Cell::from));
+        cells.push(number.map_or_else(|| CsvCell::from(&*printable(&value.text)), CsvCell::from));
     }
     cells.push(design.outcome.name().into());
     let figures = sweep.figures().iter();
     cells.extend(figures.map(|figure| match figure.cell(design) {
         sweep::Cell::Number(number) => number.into(),
         sweep::Cell::Word(word) => word.into(),
-        sweep::Cell::Empty => Cell::EMPTY,
+        sweep::Cell::Empty => CsvCell::EMPTY,
     }));
     // A row is a line.
     let notes = design.notes.join("; ").replace(['\n', '\r'], " ");
-    cells.push(Cell::from(&*printable(&notes)));
+    cells.push(CsvCell::from(&*printable(&notes)));
     cells
 }
 
 /// Cells as one line of CSV.
-fn line(cells: &[Cell]) -> Vec<u8> {
+fn line(cells: &[CsvCell]) -> Vec<u8> {
     let mut text = Vec::new();
     csv::cells(cells, &mut text);
     text

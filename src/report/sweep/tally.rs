@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::super::csv::Cell;
+use super::super::csv::CsvCell;
 use super::ranges::{FrontDesign, Spread, SweepExtreme, SweepRange, SweepSummary, VariedKey};
 use crate::error::Error;
 use crate::sweep::{Goal, Member, ParetoFront, Sweep};
@@ -67,9 +67,9 @@ impl Tally {
     }
 
     /// Takes the cells of a row.
-    pub fn take(&mut self, cells: &[Cell]) {
-        let design = cells.first().and_then(Cell::number);
-        let status = cells.get(self.before - 1).map(Cell::text);
+    pub fn take(&mut self, cells: &[CsvCell]) {
+        let design = cells.first().and_then(CsvCell::number);
+        let status = cells.get(self.before - 1).map(CsvCell::text);
         let (Some(design), Some(status)) = (design, status) else {
             return;
         };

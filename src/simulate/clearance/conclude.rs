@@ -11,7 +11,7 @@ use super::super::result::{ErrorEstimate, Peaks};
 use super::super::simulation::Simulation;
 use super::super::stop::Why;
 use super::super::warning::Warning;
-use super::follow::{Seen, phi};
+use super::follow::{Followed, phi};
 use super::motion::{DRIVEN, FREE};
 use super::record::Record;
 use super::result::{Beyond, ClearanceSummary, Horizon, LooseFinal};
@@ -105,7 +105,7 @@ impl<const N: usize> Run<'_, N> {
     }
 
     /// Until when the journal's path is that of the tighter run, and what both runs say of the time after.
-    fn horizon(&self, seen: &Seen, tighter: &Tighter, end: &LooseState) -> Horizon {
+    fn horizon(&self, seen: &Followed, tighter: &Tighter, end: &LooseState) -> Horizon {
         let distance = 0.01 * self.mechanism.clearance().radial;
         let parted = seen.record.agrees_until(&tighter.record, distance);
         let t = parted.unwrap_or(end.t);
@@ -132,7 +132,7 @@ impl<const N: usize> Run<'_, N> {
     /// deepest one of depth δ and force F, the energy 2Fδ/5 stopped the free bodies of mass m, v = √(4Fδ/5m), and sent
     /// them back about as fast; the force is off by 3/2 of what the depth is, relatively, and so is 2v, until the
     /// next impact sets them right.
-    fn struck(&self, seen: &Seen, gap: f64, t: f64) -> f64 {
+    fn struck(&self, seen: &Followed, gap: f64, t: f64) -> f64 {
         let scene = &self.task.scene;
         let slider = scene.slider.map_or(0.0, |slider| slider.mass);
         let mass = match self.mechanism.clearance().joint {
@@ -149,7 +149,7 @@ impl<const N: usize> Run<'_, N> {
 
     fn summary(
         &self,
-        seen: &Seen,
+        seen: &Followed,
         [work, lost]: [f64; 2],
         last: &LooseState,
         error: impl Fn(fn(&LooseState) -> f64, f64) -> Option<f64>,
@@ -186,7 +186,12 @@ impl<const N: usize> Run<'_, N> {
         }
     }
 
-    fn warnings(&self, summary: &ClearanceSummary, seen: &Seen, compared: bool) -> Vec<Warning> {
+    fn warnings(
+        &self,
+        summary: &ClearanceSummary,
+        seen: &Followed,
+        compared: bool,
+    ) -> Vec<Warning> {
         let unknown = self.task.options.estimate && !compared;
         let parted = summary.horizon.filter(|horizon| !horizon.whole_run);
         let deepest = seen.total.deepest;

@@ -3,17 +3,17 @@
 use super::super::recorder::Recorder;
 use super::super::result::{Event, FORCES, Peak};
 use super::super::row::{LooseRow, Row};
-use super::super::row_writer::Part;
+use super::super::row_writer::RowSource;
 use super::super::run_setup::RunSetup;
 use super::motion::{Loose, touch};
 use super::record::{Record, Tally};
-use crate::engine::contact::{Phase, Stretch};
+use crate::engine::contact::{AcceptedStep, Phase};
 use crate::engine::events::{self, Crossing};
 use crate::engine::step::{Node, Step};
 use crate::mechanism::LooseState;
 use crate::numeric::root;
 
-pub(super) struct Seen {
+pub(super) struct Followed {
     pub record: Record,
     pub total: Tally,
     pub separations: u64,
@@ -25,9 +25,9 @@ pub(super) struct Seen {
     sticking: bool,
 }
 
-impl Seen {
-    pub fn new(width: f64, energy: f64) -> Seen {
-        Seen {
+impl Followed {
+    pub fn new(width: f64, energy: f64) -> Followed {
+        Followed {
             record: Record::new(width),
             total: Tally::default(),
             separations: 0,
@@ -47,12 +47,12 @@ pub(super) struct Follow<'a, const N: usize> {
     pub dead_centres: Vec<f64>,
     /// None for the run that another one is compared with.
     pub recorder: Option<Recorder<'a>>,
-    pub seen: Seen,
+    pub seen: Followed,
 }
 
 impl<'a, const N: usize> Follow<'a, N> {
     /// Takes a stretch; true ends the run.
-    pub fn take(&mut self, stretch: &mut Stretch<'_, N>) -> bool {
+    pub fn take(&mut self, stretch: &mut AcceptedStep<'_, N>) -> bool {
         self.follow_phase(stretch);
         self.follow_guide(stretch);
         if N == super::motion::FREE {
@@ -78,7 +78,7 @@ impl<'a, const N: usize> Follow<'a, N> {
     }
 
     /// The last time (s) of a stretch that belongs to the run.
-    pub(super) fn until(&self, stretch: &Stretch<'_, N>) -> f64 {
+    pub(super) fn until(&self, stretch: &AcceptedStep<'_, N>) -> f64 {
         self.seen.ends_at.map_or(stretch.end[0], |s| s.t)
     }
 
@@ -101,7 +101,7 @@ impl<'a, const N: usize> Follow<'a, N> {
         }
     }
 
-    fn follow_phase(&mut self, stretch: &Stretch<'_, N>) {
+    fn follow_phase(&mut self, stretch: &AcceptedStep<'_, N>) {
         let s = self.model.state(&stretch.start);
         let kind = match (self.seen.phase, stretch.phase) {
             (Phase::Flight, Phase::Contact { .. }) => {
@@ -127,7 +127,7 @@ impl<'a, const N: usize> Follow<'a, N> {
     }
 
     /// Where friction holds the slider and lets it go; a slider that is held has no velocity at all.
-    fn follow_guide(&mut self, stretch: &Stretch<'_, N>) {
+    fn follow_guide(&mut self, stretch: &AcceptedStep<'_, N>) {
         let (from, to) = (
             self.model.state(&stretch.start),
             self.model.state(&stretch.end),
@@ -141,7 +141,7 @@ impl<'a, const N: usize> Follow<'a, N> {
     }
 
     /// Dead centres, turning points, extreme speeds and the turn limit of a crank that moves by itself.
-    fn follow_crank(&mut self, stretch: &mut Stretch<'_, N>) {
+    fn follow_crank(&mut self, stretch: &mut AcceptedStep<'_, N>) {
         let node = |s: LooseState, alpha: f64| Node {
             t: s.t,
             theta: s.theta,
@@ -221,13 +221,13 @@ impl<const N: usize> LooseRows<'_, N> {
 
 /// A stretch until a time in it.
 struct InStretch<'s, 'y, 'a, const N: usize> {
-    stretch: &'s mut Stretch<'y, N>,
+    stretch: &'s mut AcceptedStep<'y, N>,
     /// s
     until: f64,
     loose: LooseRows<'a, N>,
 }
 
-impl<const N: usize> Part for InStretch<'_, '_, '_, N> {
+impl<const N: usize> RowSource for InStretch<'_, '_, '_, N> {
     fn times(&self) -> [f64; 2] {
         [self.stretch.start[0], self.until]
     }

@@ -22,12 +22,12 @@ use super::run_setup::RunSetup;
 use super::schedule::Schedule;
 use super::simulation::Simulation;
 use super::stop::Why;
-use crate::engine::contact::{self, Ended, Finish, Settings, Stretch};
+use crate::engine::contact::{self, AcceptedStep, ContactEnd, Finish, Settings};
 use crate::engine::time::{FAR, Start};
 use crate::error::Error;
 use crate::mechanism::{LooseMechanism, LooseState};
 use crate::scene::{ContactLaw, Extent, Instant as State, Load, MotionKind};
-use follow::{Follow, Seen};
+use follow::{Follow, Followed};
 use motion::{DRIVEN, FREE, Loose};
 use record::Record;
 
@@ -127,7 +127,7 @@ impl<'a, const N: usize> Run<'a, N> {
             task: self.task,
             dead_centres: dead_centres.map(|dc| dc.theta).collect(),
             recorder,
-            seen: Seen::new(width, self.mechanism.energy(&self.start).abs()),
+            seen: Followed::new(width, self.mechanism.energy(&self.start).abs()),
         }
     }
 
@@ -159,8 +159,8 @@ impl<'a, const N: usize> Run<'a, N> {
         model: &Loose<'_, N>,
         tolerance: f64,
         t_end: f64,
-        follower: &mut dyn FnMut(&mut Stretch<'_, N>) -> bool,
-    ) -> Ended<N> {
+        follower: &mut dyn FnMut(&mut AcceptedStep<'_, N>) -> bool,
+    ) -> ContactEnd<N> {
         let settings = Settings {
             tolerance,
             t_end,
@@ -186,7 +186,7 @@ impl<'a, const N: usize> Run<'a, N> {
         })
     }
 
-    fn stopped(&self, ended: &Ended<N>, last: &LooseState) -> Option<Why> {
+    fn stopped(&self, ended: &ContactEnd<N>, last: &LooseState) -> Option<Why> {
         match (ended.finish, self.task.extent) {
             (Finish::AtEnd, Extent::Revolutions(turns)) if last.t >= FAR => Some(Why::Turns(turns)),
             (Finish::AtEnd | Finish::Stopped | Finish::Broken, _) => None,
@@ -224,8 +224,8 @@ impl<'a, const N: usize> Run<'a, N> {
 
 struct Done<'a, const N: usize> {
     model: &'a Loose<'a, N>,
-    ended: Ended<N>,
-    seen: Seen,
+    ended: ContactEnd<N>,
+    seen: Followed,
     record: Recorded,
     last: LooseState,
     tighter: Option<Tighter>,

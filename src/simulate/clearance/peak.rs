@@ -5,7 +5,7 @@ use super::super::result::{FORCES, Peak};
 use super::follow::Follow;
 use super::motion::touch;
 use crate::engine::PIECES;
-use crate::engine::contact::{Phase, Stretch};
+use crate::engine::contact::{AcceptedStep, Phase};
 use crate::numeric::maximum;
 
 /// A force this near to the largest so far may be larger between the places that are looked at.
@@ -27,7 +27,7 @@ impl<const N: usize> Follow<'_, N> {
     }
 
     /// The largest sizes so far: at the places, then between the neighbours of one that may be larger.
-    pub(super) fn follow_forces(&mut self, stretch: &mut Stretch<'_, N>) {
+    pub(super) fn follow_forces(&mut self, stretch: &mut AcceptedStep<'_, N>) {
         if !self.task.options.reactions || self.recorder.is_none() {
             return;
         }

@@ -3,7 +3,7 @@
 use super::follow::Follow;
 use super::motion::touch;
 use super::record::Tally;
-use crate::engine::contact::{Phase, Sample, Stretch};
+use crate::engine::contact::{AcceptedStep, Phase, Sample};
 use crate::numeric::interpolate::quintic;
 use crate::numeric::maximum;
 
@@ -12,7 +12,7 @@ const PLACES: u32 = 32;
 
 impl<const N: usize> Follow<'_, N> {
     /// Time, impulse and peak of the contact force, by Simpson's rule along the depth's quintic.
-    pub(super) fn follow_contact(&mut self, stretch: &mut Stretch<'_, N>) {
+    pub(super) fn follow_contact(&mut self, stretch: &mut AcceptedStep<'_, N>) {
         let begin = stretch.start[0];
         let end = self.until(stretch);
         let h = end - begin;
@@ -30,7 +30,7 @@ impl<const N: usize> Follow<'_, N> {
     }
 
     /// Of the first `h` seconds of a step.
-    fn pressed(&self, stretch: &mut Stretch<'_, N>, approach: f64, h: f64) -> Tally {
+    fn pressed(&self, stretch: &mut AcceptedStep<'_, N>, approach: f64, h: f64) -> Tally {
         let (length, begin) = (stretch.length(), stretch.start[0]);
         let (before, after) = (&stretch.before, &stretch.after);
         let end = |s: &Sample<N>| {
@@ -70,7 +70,7 @@ impl<const N: usize> Follow<'_, N> {
         tally
     }
 
-    fn linked(&self, stretch: &mut Stretch<'_, N>, h: f64) -> Tally {
+    fn linked(&self, stretch: &mut AcceptedStep<'_, N>, h: f64) -> Tally {
         let t = stretch.start[0];
         let force = [0.0, 0.5, 1.0].map(|u| {
             let s = self.model.state(&stretch.at(t + u * h));

@@ -40,7 +40,7 @@ pub(super) fn reason(course: &Course<'_>, arrived: &Arrived) -> Option<Why> {
 fn singular(task: &RunSetup<'_>, arrived: &Arrived) -> Why {
     let equation = task.equation();
     let at = arrived.impossible.unwrap_or(arrived.now);
-    match equation.obstacle(at.t, at.angle, at.speed) {
+    match equation.singularity(at.t, at.angle, at.speed) {
         Some(Singularity::Blocked) => Why::AtLimit,
         Some(Singularity::Load) => no_value(task, at),
         Some(Singularity::NoInertia) => Why::NoInertia,

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::super::guide_friction::Sliding;
-use super::periodic_orbit::Found;
+use super::periodic_orbit::PeriodicOrbit;
 use super::result::{Estimated, LoadWork};
 use super::{Both, MARGIN};
 use crate::mechanism::{Equation, Limits, Linkage, single};
@@ -62,7 +62,7 @@ fn crank_torque(linkage: &Linkage, of: &LoadOf<'_>, angle: Angle, omega: f64) ->
 }
 
 /// Where the crank has turned to (rad) at the corners of a load and the dead centres of a period, and between them.
-fn cuts(load: Option<&Load>, linkage: &Linkage, found: &Found) -> Vec<f64> {
+fn cuts(load: Option<&Load>, linkage: &Linkage, found: &PeriodicOrbit) -> Vec<f64> {
     let sense = found.cycle.speed.signum();
     let begin = found.start.radians();
     let end = begin + sense * found.way();
@@ -85,7 +85,7 @@ fn cuts(load: Option<&Load>, linkage: &Linkage, found: &Found) -> Vec<f64> {
 
 /// Work over a period, J. Speeds are known to a part `relative` of themselves: what that makes of the work of a piece is not
 /// resolved.
-fn work(cuts: &[f64], torque: &Torque<'_>, relative: f64, found: &Found) -> f64 {
+fn work(cuts: &[f64], torque: &Torque<'_>, relative: f64, found: &PeriodicOrbit) -> f64 {
     let sense = found.cycle.speed.signum();
     let force = |turned: f64| sense * torque(found.angle(turned), found.omega(turned));
     let piece = |ends: &[f64]| {
@@ -103,7 +103,7 @@ fn work(cuts: &[f64], torque: &Torque<'_>, relative: f64, found: &Found) -> f64 
 }
 
 /// Size of what adds up to the work, J.
-fn size(cuts: &[f64], torque: &Torque<'_>, found: &Found) -> f64 {
+fn size(cuts: &[f64], torque: &Torque<'_>, found: &PeriodicOrbit) -> f64 {
     let size = |turned: f64| torque(found.angle(turned), found.omega(turned)).abs();
     let pieces = cuts.windows(2);
     pieces

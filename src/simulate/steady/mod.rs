@@ -17,7 +17,7 @@ use crate::numeric::fourier;
 use crate::numeric::stop::Stop;
 use crate::plan::Cycle;
 use crate::scene::{MotionKind, Scene};
-use periodic_orbit::{Found, find};
+use periodic_orbit::{PeriodicOrbit, find};
 pub use result::{Estimated, Flywheel, LoadWork, SpeedExtreme, SpeedOrder, SteadyState};
 
 /// What is asked for.
@@ -136,7 +136,7 @@ fn refuse_what_has_none(scene: &Scene) -> Result<(), Error> {
 }
 
 /// The steady state in the sense of the start speed; both senses are tried for a start at rest.
-fn first(scene: &Scene, rests: bool, limit: WorkLimit<'_>) -> Result<Found, Error> {
+fn first(scene: &Scene, rests: bool, limit: WorkLimit<'_>) -> Result<PeriodicOrbit, Error> {
     if !rests {
         return find(scene, scene.motion.speed, limit);
     }
@@ -157,14 +157,18 @@ fn first(scene: &Scene, rests: bool, limit: WorkLimit<'_>) -> Result<Found, Erro
 
 /// Two computations of one periodic motion: their difference is the error.
 struct Both {
-    found: Found,
-    check: Found,
+    found: PeriodicOrbit,
+    check: PeriodicOrbit,
     /// What is left open of the speeds, relative to them: by half as much as of the energies.
     relative: f64,
 }
 
 impl Both {
-    fn with_check(scene: &Scene, found: Found, limit: WorkLimit<'_>) -> Result<Both, Error> {
+    fn with_check(
+        scene: &Scene,
+        found: PeriodicOrbit,
+        limit: WorkLimit<'_>,
+    ) -> Result<Both, Error> {
         Ok(Both {
             check: periodic_orbit::again(scene, found.cycle.speed, limit)?,
             relative: 0.5 * found.cycle.uncertain + periodic_orbit::SPEED_ROUNDING,
@@ -172,7 +176,7 @@ impl Both {
         })
     }
 
-    fn of(&self, value: impl Fn(&Found) -> f64, floor: f64) -> Estimated {
+    fn of(&self, value: impl Fn(&PeriodicOrbit) -> f64, floor: f64) -> Estimated {
         let found = value(&self.found);
         Estimated {
             value: found,
@@ -181,7 +185,7 @@ impl Both {
     }
 
     /// A speed or time.
-    fn relative(&self, value: impl Fn(&Found) -> f64) -> Estimated {
+    fn relative(&self, value: impl Fn(&PeriodicOrbit) -> f64) -> Estimated {
         let size = value(&self.found).abs();
         self.of(value, self.relative * size)
     }
@@ -192,7 +196,7 @@ impl Both {
 
     fn fluctuation(&self) -> Estimated {
         self.of(
-            Found::fluctuation,
+            PeriodicOrbit::fluctuation,
             self.relative * (2.0 + self.found.fluctuation()),
         )
     }

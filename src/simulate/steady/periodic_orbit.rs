@@ -33,7 +33,7 @@ pub(super) struct Extreme {
     pub omega: f64,
 }
 
-pub(super) struct Found {
+pub(super) struct PeriodicOrbit {
     pub start: Angle,
     pub cycle: Cycle,
     /// Turns after which it is the same again.
@@ -48,7 +48,7 @@ pub(super) struct Found {
     pub any_speed: bool,
 }
 
-impl Found {
+impl PeriodicOrbit {
     /// Coefficient of fluctuation: the range of the speed, by its mean.
     pub fn fluctuation(&self) -> f64 {
         let [slow, fast] = self.extremes;
@@ -72,12 +72,20 @@ impl Found {
 }
 
 /// The periodic motion that a scene's start approaches from a speed (rad/s).
-pub(super) fn find(scene: &Scene, speed: f64, limit: WorkLimit<'_>) -> Result<Found, Error> {
+pub(super) fn find(
+    scene: &Scene,
+    speed: f64,
+    limit: WorkLimit<'_>,
+) -> Result<PeriodicOrbit, Error> {
     search(scene, speed, limit, FIRST_LOG_STEP, false)
 }
 
 /// A second computation, to compare with, of a motion that begins with about this speed, rad/s.
-pub(super) fn again(scene: &Scene, speed: f64, limit: WorkLimit<'_>) -> Result<Found, Error> {
+pub(super) fn again(
+    scene: &Scene,
+    speed: f64,
+    limit: WorkLimit<'_>,
+) -> Result<PeriodicOrbit, Error> {
     search(scene, speed, limit, STEP_BESIDE, true)
 }
 
@@ -87,7 +95,7 @@ fn search(
     limit: WorkLimit<'_>,
     step: f64,
     other: bool,
-) -> Result<Found, Error> {
+) -> Result<PeriodicOrbit, Error> {
     // What has none was refused.
     let turns = cycle_over_angle(scene).unwrap_or(1);
     let scene = one_cycle(scene, speed, turns, other);
@@ -118,7 +126,7 @@ struct Seeker<'a> {
 }
 
 impl Seeker<'_> {
-    fn solve(&self, cycles: &mut Cycles<'_>, step: f64) -> Result<Found, Error> {
+    fn solve(&self, cycles: &mut Cycles<'_>, step: f64) -> Result<PeriodicOrbit, Error> {
         let reads = self.task.equation().loads().reads();
         let by_speed = reads.has(Variable::Omega) || reads.has(Variable::V);
         if !by_speed && self.task.maker.sliding.is_none() {
@@ -144,8 +152,12 @@ impl Seeker<'_> {
     }
 
     /// From a cycle, which is a fixed point found within some noise of the gain, or begins with any speed.
-    fn found(&self, cycle: Cycle, fixed: Option<(FixedPoint, f64)>) -> Result<Found, Error> {
-        let mut found = Found {
+    fn found(
+        &self,
+        cycle: Cycle,
+        fixed: Option<(FixedPoint, f64)>,
+    ) -> Result<PeriodicOrbit, Error> {
+        let mut found = PeriodicOrbit {
             start: self.task.start(),
             turns: f64::from(self.turns),
             extremes: [Extreme {
@@ -174,7 +186,7 @@ impl Seeker<'_> {
     }
 
     /// The largest sign·|speed|: of the angles of a fine grid, then where the acceleration vanishes beside it.
-    fn extreme(&self, found: &Found, sign: f64) -> Extreme {
+    fn extreme(&self, found: &PeriodicOrbit, sign: f64) -> Extreme {
         let (sense, whole) = (found.cycle.speed.signum(), found.way());
         let grid = self.task.equation().linkage().turn_grid(false);
         let since = |theta: &f64| (sense * (theta - found.start.rest)).rem_euclid(TAU);

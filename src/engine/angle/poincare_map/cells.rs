@@ -5,15 +5,15 @@ use std::f64::consts::TAU;
 use super::super::seen::at_speeds;
 use super::super::stepper::PanelStepper;
 use super::super::{Driven, Errors};
-use super::{DEGREE, Way};
+use super::{DEGREE, LastTurns};
 use crate::engine::energy::NotApplicable;
 use crate::engine::energy::interpolated_turns::{Cell, Turn};
 use crate::engine::energy::segment::Segment;
-use crate::engine::sight::Look;
+use crate::engine::sight::NodeCriterion;
 use crate::numeric::chebyshev::Rule;
 use crate::numeric::enclosure::{Interval, ellipses};
 
-impl<D: Driven> Way<'_, D> {
+impl<D: Driven> LastTurns<'_, D> {
     /// A cell over a range of energies.
     pub(super) fn cell(&mut self, middle: f64, half: f64) -> Result<Cell, NotApplicable> {
         let rule = Rule::of(DEGREE);
@@ -42,7 +42,7 @@ impl<D: Driven> Way<'_, D> {
         let PanelStepper {
             driven, stations, ..
         } = &self.march;
-        let look = Look {
+        let look = NodeCriterion {
             nodes: DEGREE,
             ellipses: ellipses(DEGREE, self.tail),
             allowed: self.tail * middle / TAU,

@@ -43,7 +43,7 @@ pub(super) fn run<D: Driven>(
         low: [0.0; 2],
     };
     let (errors, first) = (march.errors, march.t.0);
-    let mut way = Way {
+    let mut way = LastTurns {
         tail: resolution.tail,
         width: WIDEST,
         rises: march.gain > 0.0,
@@ -62,8 +62,8 @@ pub(super) fn run<D: Driven>(
     let kinetic = way.march.kinetic;
     let before = last.work + way.march.work;
     let short = match &ended {
-        Ended::AtGoal(_) => None,
-        Ended::Short(why) => {
+        MapEnd::AtGoal(_) => None,
+        MapEnd::Short(why) => {
             let turns = start.turns + speed.signum() * last.turns;
             let angle = way.last.last_angle(turns);
             angle.map(|angle| Short {
@@ -87,8 +87,8 @@ pub(super) fn run<D: Driven>(
         Goal::Turned(way) => orbit.time_of_turn(way).unwrap_or(last.t.0),
     };
     let work = match ended {
-        Ended::Short(_) => before,
-        Ended::AtGoal(done) => {
+        MapEnd::Short(_) => before,
+        MapEnd::AtGoal(done) => {
             let after = end - last.t.0 - last.t.1;
             before - done.work + work_until(orbit.last_leg(), after, &done.spent)
         }
@@ -109,12 +109,12 @@ pub(super) fn run<D: Driven>(
 }
 
 /// How the last turns end.
-enum Ended {
+enum MapEnd {
     AtGoal(Box<Done>),
     Short(NotApplicable),
 }
 
-struct Way<'a, D: Driven> {
+struct LastTurns<'a, D: Driven> {
     march: PanelStepper<'a, D>,
     map: Interpolated,
     marks: Vec<Mark>,
@@ -128,7 +128,7 @@ struct Way<'a, D: Driven> {
     lost: f64,
 }
 
-impl<D: Driven> Way<'_, D> {
+impl<D: Driven> LastTurns<'_, D> {
     /// The start of the turn in which the goal lies, or of a turn before which the map ends, and why it does.
     fn turn_of(&mut self, goal: Goal) -> (Mark, Option<NotApplicable>) {
         let mut mark = self.marks[0];
@@ -226,7 +226,7 @@ impl<D: Driven> Way<'_, D> {
         goal: Goal,
         start: Angle,
         map_ended: Option<NotApplicable>,
-    ) -> Result<Ended, NotApplicable> {
+    ) -> Result<MapEnd, NotApplicable> {
         self.march.restart(mark.kinetic);
         self.march.gives_up = true;
         let most = match map_ended {
@@ -242,7 +242,7 @@ impl<D: Driven> Way<'_, D> {
             let done = match self.march.panel() {
                 Ok(done) => done,
                 Err(why) if self.last.len() == 0 => return Err(why),
-                Err(why) => return Ok(Ended::Short(why)),
+                Err(why) => return Ok(MapEnd::Short(why)),
             };
             let piece = &done.panel.piece;
             let turned = (piece.to - start.rest).abs() + done.panel.turns.abs() * TAU;
@@ -253,10 +253,10 @@ impl<D: Driven> Way<'_, D> {
             };
             let all = self.march.at_cycle() && self.march.turns.abs() >= most;
             match map_ended {
-                _ if passed => return Ok(Ended::AtGoal(done.into())),
-                None if all => return Ok(Ended::AtGoal(done.into())),
+                _ if passed => return Ok(MapEnd::AtGoal(done.into())),
+                None if all => return Ok(MapEnd::AtGoal(done.into())),
                 Some(_) if all => {
-                    return Ok(Ended::Short(limited.unwrap_or(NotApplicable::TooLong)));
+                    return Ok(MapEnd::Short(limited.unwrap_or(NotApplicable::TooLong)));
                 }
                 _ => {}
             }

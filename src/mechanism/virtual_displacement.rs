@@ -3,25 +3,25 @@
 use super::{Equation, Path};
 
 /// Derivatives of θ, the rod's centre of gravity p, its direction ψ and x in one direction, or the second ones along the curve.
-pub(super) struct Way {
+pub(super) struct VirtualDisplacement {
     pub theta: f64,
     pub p: [f64; 2],
     pub psi: f64,
     pub x: f64,
 }
 
-impl Way {
+impl VirtualDisplacement {
     /// First and second derivatives along the curve.
     #[inline(always)]
-    pub(super) fn along(theta: [f64; 2], path: &Path, x: [f64; 2]) -> [Way; 2] {
+    pub(super) fn along(theta: [f64; 2], path: &Path, x: [f64; 2]) -> [VirtualDisplacement; 2] {
         [
-            Way {
+            VirtualDisplacement {
                 theta: theta[0],
                 p: path.dp,
                 psi: path.dpsi,
                 x: x[0],
             },
-            Way {
+            VirtualDisplacement {
                 theta: theta[1],
                 p: path.d2p,
                 psi: path.d2psi,
@@ -33,10 +33,10 @@ impl Way {
     /// Across the curve, from the crank, the rod and the arm of its centre of gravity: crank and slider are lifted by one off the
     /// guide, in the direction of least change of both angles.
     #[inline(always)]
-    pub(super) fn aside(crank: [f64; 2], rod: [f64; 2], arm: [f64; 2]) -> Way {
+    pub(super) fn aside(crank: [f64; 2], rod: [f64; 2], arm: [f64; 2]) -> VirtualDisplacement {
         let squared = crank[0] * crank[0] + rod[0] * rod[0];
         let (theta, psi) = (crank[0] / squared, rod[0] / squared);
-        Way {
+        VirtualDisplacement {
             theta,
             p: [
                 -theta * crank[1] - psi * arm[1],
@@ -51,7 +51,7 @@ impl Way {
 impl Equation {
     /// Σ m p_a·p_b + I ψ_a ψ_b over all bodies.
     #[inline(always)]
-    pub(super) fn inertia_over(&self, a: &Way, b: &Way) -> f64 {
+    pub(super) fn inertia_over(&self, a: &VirtualDisplacement, b: &VirtualDisplacement) -> f64 {
         let rod = &self.rod;
         let turned = rod.inertia * a.psi * b.psi;
         let moved = rod.mass * (a.p[0] * b.p[0] + a.p[1] * b.p[1]);
@@ -60,7 +60,7 @@ impl Equation {
 
     /// −Σ m g·p_a of gravity, for a slider that stays in its guide.
     #[inline(always)]
-    pub(super) fn weight_over(&self, [cos, sin]: [f64; 2], a: &Way) -> f64 {
+    pub(super) fn weight_over(&self, [cos, sin]: [f64; 2], a: &VirtualDisplacement) -> f64 {
         let weight = &self.weight;
         (weight.sine * sin + weight.cosine * cos) * a.theta
             - (weight.rod[0] * a.p[0] + weight.rod[1] * a.p[1])

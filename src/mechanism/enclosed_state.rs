@@ -9,7 +9,7 @@ use crate::numeric::enclosure::{Interval, Reach};
 
 /// Ranges of what loads depend on. Not enclosed is what no load asks for.
 #[derive(Clone, Copy, Debug)]
-pub struct Seen {
+pub struct EnclosedState {
     /// s
     pub t: Interval,
     /// Crank angle, rad, unwrapped.
@@ -33,7 +33,7 @@ pub struct Arms {
     pub force: f64,
 }
 
-impl Seen {
+impl EnclosedState {
     /// Of the generalized force over the crank angle: Q = τ + F x'.
     pub fn arms(&self) -> Arms {
         Arms {
@@ -103,14 +103,14 @@ impl Linkage {
     }
 
     /// A motion over the crank angle; positions only where loads depend on them.
-    pub fn seen(&self, reach: &Reach, by_place: bool) -> Seen {
+    pub fn seen(&self, reach: &Reach, by_place: bool) -> EnclosedState {
         let (x, dx) = if by_place {
             let places = self.enclose(reach.angle);
             (places.x, places.dx)
         } else {
             (Interval::WHOLE, Interval::WHOLE)
         };
-        Seen {
+        EnclosedState {
             t: reach.t,
             theta: reach.angle,
             omega: reach.speed,
@@ -173,12 +173,12 @@ impl Curve {
     }
 
     /// A motion over the coordinate of the curve; positions only where loads depend on them.
-    pub fn seen(&self, reach: &Reach, by_place: bool) -> Seen {
+    pub fn seen(&self, reach: &Reach, by_place: bool) -> EnclosedState {
         if self.is_crank_angle() {
             return self.linkage().seen(reach, by_place);
         }
         let places = self.enclose(reach.angle);
-        Seen {
+        EnclosedState {
             t: reach.t,
             theta: places.angle,
             omega: places.dangle * reach.speed,

@@ -4,7 +4,7 @@ use super::{Body, Link, Linkage, Path, Pose};
 
 /// A position, with two derivatives with respect to q (a dash), which like θ and Φ is an angle in rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct CurvePose {
     /// sin θ
     pub sin: f64,
     /// cos θ
@@ -29,11 +29,11 @@ pub struct Place {
     pub d2x: f64,
 }
 
-impl Place {
+impl CurvePose {
     /// The position of a linkage at a crank angle, with that as the coordinate.
-    pub(super) fn of(linkage: &Linkage, pose: &Pose) -> Place {
+    pub(super) fn of(linkage: &Linkage, pose: &Pose) -> CurvePose {
         let s = linkage.s;
-        Place {
+        CurvePose {
             sin: pose.sin,
             cos: pose.cos,
             dtheta: 1.0,
@@ -49,8 +49,8 @@ impl Place {
     }
 
     /// Crank and rod exchanged.
-    pub(super) fn exchanged(self) -> Place {
-        Place {
+    pub(super) fn exchanged(self) -> CurvePose {
+        CurvePose {
             sin: self.rod_sin,
             cos: self.rod_cos,
             dtheta: self.drod,
