@@ -33,22 +33,19 @@ impl Forces {
     pub fn evaluate<D: Driven>(
         &mut self,
         driven: &D,
-        station: &PanelTable<D::Place>,
+        panel: &PanelTable<D::Place>,
         start: PanelStart,
         kinetic: &Values,
     ) -> Option<()> {
-        let count = station.rule.degree() + 1;
+        let count = panel.rule.degree() + 1;
         self.clear_from(count);
-        self.take_speeds(station, start, kinetic);
-        let (push, damping) = (
-            &station.table.push[..count],
-            &station.table.damping[..count],
-        );
+        self.take_speeds(panel, start, kinetic);
+        let (push, damping) = (&panel.table.push[..count], &panel.table.damping[..count]);
         let (speeds, spent) = (&self.speeds[..count], &mut self.spent[..count]);
         for j in 0..count {
             spent[j] = push[j] - damping[j] * speeds[j];
         }
-        if let Some(switch) = &station.table.switch {
+        if let Some(switch) = &panel.table.switch {
             for j in 0..count {
                 spent[j] += switch.force[j] * (speeds[j] * speeds[j]);
             }
@@ -56,18 +53,18 @@ impl Forces {
         if driven.is_driven() {
             if driven.reads_time() {
                 let mut slopes = [0.0; MAX_DEGREE + 1];
-                self.fill_slopes(station, &mut slopes)?;
-                self.times = station.rule.integrals(&slopes);
+                self.fill_slopes(panel, &mut slopes)?;
+                self.times = panel.rule.integrals(&slopes);
             }
             let whole = count - count % LANES;
             for j in (0..whole).step_by(LANES) {
-                self.drive::<D, LANES>(driven, station, start, j);
+                self.drive::<D, LANES>(driven, panel, start, j);
             }
             for j in whole..count {
-                self.drive::<D, 1>(driven, station, start, j);
+                self.drive::<D, 1>(driven, panel, start, j);
             }
         }
-        let (force, spent) = (&station.table.force[..count], &self.spent[..count]);
+        let (force, spent) = (&panel.table.force[..count], &self.spent[..count]);
         let total = &mut self.total[..count];
         for j in 0..count {
             total[j] = force[j] + spent[j];
@@ -76,14 +73,9 @@ impl Forces {
     }
 
     /// Takes the speeds at the points from the kinetic energy there, J.
-    pub fn take_speeds<P: Copy>(
-        &mut self,
-        station: &PanelTable<P>,
-        start: PanelStart,
-        all: &Values,
-    ) {
-        let count = station.rule.degree() + 1;
-        let (kinetic, mobility) = (&all[..count], &station.mobility[..count]);
+    pub fn take_speeds<P: Copy>(&mut self, panel: &PanelTable<P>, start: PanelStart, all: &Values) {
+        let count = panel.rule.degree() + 1;
+        let (kinetic, mobility) = (&all[..count], &panel.mobility[..count]);
         let speeds = &mut self.speeds[..count];
         for j in 0..count {
             speeds[j] = start.direction * (kinetic[j] * mobility[j]).sqrt();
@@ -102,9 +94,9 @@ impl Forces {
     }
 
     /// |dt/dx| at the points.
-    pub fn fill_slopes<P: Copy>(&self, station: &PanelTable<P>, slopes: &mut Values) -> Option<()> {
-        let half = station.half();
-        let (filled, rest) = slopes.split_at_mut(station.rule.degree() + 1);
+    pub fn fill_slopes<P: Copy>(&self, panel: &PanelTable<P>, slopes: &mut Values) -> Option<()> {
+        let half = panel.half();
+        let (filled, rest) = slopes.split_at_mut(panel.rule.degree() + 1);
         rest.fill(0.0);
         for (slope, speed) in filled.iter_mut().zip(&self.speeds) {
             *slope = half / speed;
@@ -123,11 +115,11 @@ impl Forces {
     fn drive<D: Driven, const N: usize>(
         &mut self,
         driven: &D,
-        station: &PanelTable<D::Place>,
+        panel: &PanelTable<D::Place>,
         start: PanelStart,
         first: usize,
     ) {
-        let state = |j| station.state(start.turns, j, start.t + self.times[j], self.speeds[j]);
+        let state = |j| panel.state(start.turns, j, start.t + self.times[j], self.speeds[j]);
         let mut at = [state(first); N];
         for (i, at) in at.iter_mut().enumerate().skip(1) {
             *at = state(first + i);
@@ -139,15 +131,15 @@ impl Forces {
     }
 
     /// Derivatives of the forces of the table with respect to the kinetic energy at the points, 1/rad.
-    pub fn rates_of_table<P: Copy>(&self, station: &PanelTable<P>) -> Values {
-        let count = station.rule.degree() + 1;
-        let (table, speeds) = (&station.table, &self.speeds[..count]);
+    pub fn rates_of_table<P: Copy>(&self, panel: &PanelTable<P>) -> Values {
+        let count = panel.rule.degree() + 1;
+        let (table, speeds) = (&panel.table, &self.speeds[..count]);
         let mut rates = [0.0; MAX_DEGREE + 1];
         for j in 0..count {
             rates[j] = -table.damping[j] / (table.inertia[j] * speeds[j]);
         }
         if let Some(switch) = &table.switch {
-            let forces = switch.force.iter().zip(&station.mobility);
+            let forces = switch.force.iter().zip(&panel.mobility);
             for (rate, (force, mobility)) in rates.iter_mut().zip(forces).take(count) {
                 *rate += force * mobility;
             }
@@ -159,23 +151,23 @@ impl Forces {
     pub fn rates<D: Driven>(
         &self,
         driven: &D,
-        station: &PanelTable<D::Place>,
+        panel: &PanelTable<D::Place>,
         start: PanelStart,
     ) -> Values {
-        let mut rates = self.rates_of_table(station);
+        let mut rates = self.rates_of_table(panel);
         if !driven.is_driven() {
             return rates;
         }
         // The error of a central difference is least for this step.
         let step = f64::EPSILON.cbrt();
-        let count = station.rule.degree() + 1;
+        let count = panel.rule.degree() + 1;
         for (j, rate) in rates.iter_mut().enumerate().take(count) {
             let (speed, t) = (self.speeds[j], start.t + self.times[j]);
             let speeds = [speed * (1.0 - step), speed * (1.0 + step)];
-            let at = speeds.map(|speed| station.state(start.turns, j, t, speed));
+            let at = speeds.map(|speed| panel.state(start.turns, j, t, speed));
             let [less, more] = driven.drive(&at);
             let slope = (more - less) / (speeds[1] - speeds[0]);
-            *rate += slope / (station.table.inertia[j] * speed);
+            *rate += slope / (panel.table.inertia[j] * speed);
         }
         rates
     }

@@ -48,7 +48,7 @@ pub(super) struct PanelTable<P> {
     pub failed: bool,
     /// What was left of it after each change of the switch in the last turn.
     pub rests: Vec<Rest>,
-    /// Which of the rests of another station it is.
+    /// Which of the rests of another panel it is.
     pub is_rest: Option<usize>,
 }
 
@@ -89,11 +89,11 @@ impl<P: Copy> PanelTable<P> {
         side: f64,
         fine: Fineness,
         first: usize,
-    ) -> Result<PanelTable<P>, NotApplicable> {
-        let mut station = PanelTable::empty(turns, ends, Rule::of(first), side);
-        station.tabulate(driven)?;
-        station.resolve(driven, fine, MAX_DEGREE)?;
-        Ok(station)
+    ) -> Result<Self, NotApplicable> {
+        let mut panel = Self::empty(turns, ends, Rule::of(first), side);
+        panel.tabulate(driven)?;
+        panel.resolve(driven, fine, MAX_DEGREE)?;
+        Ok(panel)
     }
 
     /// Takes the least degree that resolves inertia and forces, or `most`; whether it does resolve them.
@@ -125,13 +125,8 @@ impl<P: Copy> PanelTable<P> {
         }
     }
 
-    pub fn empty(
-        turns: f64,
-        [from, to]: [f64; 2],
-        rule: &'static Rule,
-        side: f64,
-    ) -> PanelTable<P> {
-        PanelTable {
+    pub fn empty(turns: f64, [from, to]: [f64; 2], rule: &'static Rule, side: f64) -> Self {
+        Self {
             turns,
             piece: Piece::between(from, to, Turning::Nowhere),
             rule,
@@ -159,19 +154,19 @@ impl<P: Copy> PanelTable<P> {
         index: usize,
         known: Option<&Rest>,
         fine: Fineness,
-    ) -> Result<PanelTable<P>, NotApplicable> {
+    ) -> Result<Self, NotApplicable> {
         let ends = [from, self.piece.to];
-        let mut station = match known {
-            None => PanelTable::new(driven, self.turns, ends, -self.side, fine, FIRST_DEGREE)?,
+        let mut panel = match known {
+            None => Self::new(driven, self.turns, ends, -self.side, fine, FIRST_DEGREE)?,
             Some(known) => {
-                let mut station = PanelTable::empty(self.turns, ends, known.rule, -self.side);
-                station.past.remember(&known.kinetic);
-                station.tabulate(driven)?;
-                station
+                let mut panel = Self::empty(self.turns, ends, known.rule, -self.side);
+                panel.past.remember(&known.kinetic);
+                panel.tabulate(driven)?;
+                panel
             }
         };
-        station.is_rest = Some(index);
-        Ok(station)
+        panel.is_rest = Some(index);
+        Ok(panel)
     }
 
     /// The place as the rest of another panel.
@@ -254,15 +249,13 @@ impl<P: Copy> PanelTable<P> {
         driven: &D,
         share: f64,
         fine: Fineness,
-    ) -> Result<Option<[PanelTable<P>; 2]>, NotApplicable> {
+    ) -> Result<Option<[Self; 2]>, NotApplicable> {
         let Piece { from, to, .. } = self.piece;
         if (to - from).abs() < SHORTEST_PANEL * from.abs().max(1.0) {
             return Ok(None);
         }
         let middle = from + share * (to - from);
-        let part = |ends: [f64; 2]| {
-            PanelTable::new(driven, self.turns, ends, self.side, fine, FIRST_DEGREE)
-        };
+        let part = |ends| Self::new(driven, self.turns, ends, self.side, fine, FIRST_DEGREE);
         Ok(Some([part([from, middle])?, part([middle, to])?]))
     }
 

@@ -22,14 +22,11 @@ impl<D: Driven> PanelStepper<'_, D> {
         self.refined = true;
         let fastest = self.fastest;
         let for_now = !self.parts.is_empty();
-        let station = self
-            .parts
-            .last_mut()
-            .unwrap_or(&mut self.stations[self.next]);
-        if station.raise(self.driven)? {
+        let panel = self.parts.last_mut().unwrap_or(&mut self.panels[self.next]);
+        if panel.raise(self.driven)? {
             return Ok(());
         }
-        let half = station.half().abs();
+        let half = panel.half().abs();
         let slow = self.kinetic < NEAR_REST * fastest;
         let stops = self.gives_up
             && why == Unsolved::Stops
@@ -38,9 +35,9 @@ impl<D: Driven> PanelStepper<'_, D> {
         if stops {
             return Err(NotApplicable::TooSlow);
         }
-        let Some([first, second]) = station.parts(self.driven, 0.5, self.fine)? else {
+        let Some([first, second]) = panel.parts(self.driven, 0.5, self.fine)? else {
             // Its forces may have brought it to this energy within a small part of a radian.
-            let force = station.table.force[0] + station.table.push[0];
+            let force = panel.table.force[0] + panel.table.push[0];
             return Err(if slow || self.kinetic < NEAR_REST * force.abs() {
                 NotApplicable::TooSlow
             } else {
@@ -50,12 +47,11 @@ impl<D: Driven> PanelStepper<'_, D> {
         if for_now {
             self.parts.pop();
             self.parts.extend([second, first]);
-        } else if station.failed
-            || station.is_new() && station.largest_work() < SMALL_WORK * self.kinetic
+        } else if panel.failed || panel.is_new() && panel.largest_work() < SMALL_WORK * self.kinetic
         {
-            self.stations.splice(self.next..=self.next, [first, second]);
+            self.panels.splice(self.next..=self.next, [first, second]);
         } else {
-            station.failed = true;
+            panel.failed = true;
             self.parts.extend([second, first]);
         }
         Ok(())
@@ -63,8 +59,8 @@ impl<D: Driven> PanelStepper<'_, D> {
 
     /// Cuts every panel that failed for good.
     pub fn settle(&mut self) -> Result<(), NotApplicable> {
-        let stations = std::mem::take(&mut self.stations);
-        self.stations = cut(self.driven, stations, 0.5, self.fine, |of| of.failed)?;
+        let panels = std::mem::take(&mut self.panels);
+        self.panels = cut(self.driven, panels, 0.5, self.fine, |of| of.failed)?;
         Ok(())
     }
 }
@@ -72,17 +68,17 @@ impl<D: Driven> PanelStepper<'_, D> {
 /// Cuts some of the panels at a part of them, as far as they are long enough.
 fn cut<D: Driven>(
     driven: &D,
-    stations: Vec<PanelTable<D::Place>>,
+    panels: Vec<PanelTable<D::Place>>,
     share: f64,
     fine: Fineness,
     which: impl Fn(&PanelTable<D::Place>) -> bool,
 ) -> Result<Vec<PanelTable<D::Place>>, NotApplicable> {
-    let mut all = Vec::with_capacity(2 * stations.len());
-    for station in stations {
-        let parts = which(&station).then(|| station.parts(driven, share, fine));
+    let mut all = Vec::with_capacity(2 * panels.len());
+    for panel in panels {
+        let parts = which(&panel).then(|| panel.parts(driven, share, fine));
         match parts.transpose()?.flatten() {
             Some(parts) => all.extend(parts),
-            None => all.push(station),
+            None => all.push(panel),
         }
     }
     Ok(all)
@@ -91,16 +87,16 @@ fn cut<D: Driven>(
 impl<D: Driven> PanelStepper<'_, D> {
     /// What is left of the next panel from an angle on.
     pub(super) fn rest(&self, from: f64) -> Result<PanelTable<D::Place>, NotApplicable> {
-        let whole = &self.stations[self.next];
-        let station = self.parts.last().unwrap_or(whole);
-        let index = station.is_rest.map_or(0, |index| index + 1);
-        station.rest(self.driven, from, index, whole.rests.get(index), self.fine)
+        let whole = &self.panels[self.next];
+        let panel = self.parts.last().unwrap_or(whole);
+        let index = panel.is_rest.map_or(0, |index| index + 1);
+        panel.rest(self.driven, from, index, whole.rests.get(index), self.fine)
     }
 
     /// Keeps what was found on a rest for the next turn.
     pub(super) fn remember_rest(&mut self) {
         if let Some((index, rest)) = self.parts.last().and_then(PanelTable::as_rest) {
-            let rests = &mut self.stations[self.next].rests;
+            let rests = &mut self.panels[self.next].rests;
             if index < rests.len() {
                 rests[index] = rest;
             } else {

@@ -32,7 +32,7 @@ pub fn run<D: Driven>(
     }
     march.gives_up = true;
     let reads_time = driven.is_driven() && driven.reads_time();
-    let repeats = !reads_time && march.stations[0].table.switch.is_none();
+    let repeats = !reads_time && march.panels[0].table.switch.is_none();
     let mut forecast = forecast(&march, goal, reads_time);
     let way = f64::from(driven.cycle()) * TAU;
     let mut leg = Segment::open();

@@ -13,7 +13,7 @@ use crate::numeric::exact::SUM_ROUNDING;
 /// The motion on a panel that was solved.
 struct OnPanel<'a, D: Driven> {
     driven: &'a D,
-    station: &'a PanelTable<D::Place>,
+    panel: &'a PanelTable<D::Place>,
     start: PanelStart,
     swept: &'a Swept,
     /// Time since its start over x.
@@ -27,7 +27,7 @@ struct OnPanel<'a, D: Driven> {
 /// Where a solved panel has to end for its points to show the loads, as part of it; none if they do.
 pub(super) fn hides<D: Driven>(
     driven: &D,
-    station: &PanelTable<D::Place>,
+    panel: &PanelTable<D::Place>,
     start: PanelStart,
     fine: Fineness,
     swept: &Swept,
@@ -35,7 +35,7 @@ pub(super) fn hides<D: Driven>(
     if !driven.has_detail() {
         return None;
     }
-    let (rule, slope) = (station.rule, &swept.slope);
+    let (rule, slope) = (panel.rule, &swept.slope);
     let degree = rule.degree();
     let sum = |of: fn(f64) -> f64| {
         let terms = (1..=degree).map(|k| of(k as f64) * slope.coefficient(k).abs());
@@ -43,20 +43,20 @@ pub(super) fn hides<D: Driven>(
     };
     let way = OnPanel {
         driven,
-        station,
+        panel,
         start,
         swept,
         time: slope.integral(),
         spent: rule.series(&swept.forces.spent),
         varies: [sum(|_| 1.0), sum(|k| k * k)],
     };
-    let forces = largest(&swept.forces.spent[..=degree]).max(station.largest_force);
+    let forces = largest(&swept.forces.spent[..=degree]).max(panel.largest_force);
     let rounding = SUM_ROUNDING * forces;
     let look = NodeCriterion {
         nodes: degree,
         ellipses: ellipses(degree, fine.tail),
-        allowed: rounding.max(fine.tail * start.kinetic / station.half().abs()),
-        least: 2.0 * ROUNDED / station.half().abs(),
+        allowed: rounding.max(fine.tail * start.kinetic / panel.half().abs()),
+        least: 2.0 * ROUNDED / panel.half().abs(),
         compares: true,
     };
     hidden(&way, look).map(|hidden| hidden.at)
@@ -65,13 +65,13 @@ pub(super) fn hides<D: Driven>(
 /// Whether some speeds show the loads at all speeds between them (rad/s), at each point of a panel.
 pub(super) fn at_speeds<D: Driven>(
     driven: &D,
-    station: &PanelTable<D::Place>,
+    panel: &PanelTable<D::Place>,
     speed: Interval,
     look: NodeCriterion,
 ) -> bool {
-    let points = &station.rule.points()[..=station.rule.degree()];
+    let points = &panel.rule.points()[..=panel.rule.degree()];
     points.iter().all(|x| {
-        let angle = Angle::new(station.turns, station.piece.angle(*x));
+        let angle = Angle::new(panel.turns, panel.piece.angle(*x));
         let reach = Reach {
             t: Interval::default(),
             angle: Interval::point(angle.radians()),
@@ -83,7 +83,7 @@ pub(super) fn at_speeds<D: Driven>(
 
 impl<D: Driven> OnPanel<'_, D> {
     fn angle(&self, at: f64) -> Angle {
-        Angle::new(self.start.turns, self.station.piece.angle(2.0 * at - 1.0))
+        Angle::new(self.start.turns, self.panel.piece.angle(2.0 * at - 1.0))
     }
 
     fn time(&self, at: f64) -> f64 {
@@ -91,7 +91,7 @@ impl<D: Driven> OnPanel<'_, D> {
     }
 
     fn speed(&self, slope: f64) -> f64 {
-        self.start.direction * self.station.half().abs() / slope
+        self.start.direction * self.panel.half().abs() / slope
     }
 }
 
@@ -125,9 +125,9 @@ impl<D: Driven> Interpolant for OnPanel<'_, D> {
         let mut angles = [0.0; MAX_DEGREE + 1];
         angles[0] = self.angle(at).rest;
         // The direction of the panel is that of its angles.
-        angles[1] = self.station.piece.to;
-        let side = self.station.side;
-        let turns = self.station.turns;
+        angles[1] = self.panel.piece.to;
+        let side = self.panel.side;
+        let turns = self.panel.turns;
         self.driven.tabulate(turns, (&angles, 2), side, &mut table);
         let Some(place) = table.places.first() else {
             return 0.0;

@@ -23,7 +23,7 @@ pub(super) struct PanelStepper<'a, D: Driven> {
     pub(super) driven: &'a D,
     pub(super) fine: Fineness,
     direction: f64,
-    pub(super) stations: Vec<PanelTable<D::Place>>,
+    pub(super) panels: Vec<PanelTable<D::Place>>,
     /// Parts of a panel that was too long this time, the next one last.
     pub(super) parts: Vec<PanelTable<D::Place>>,
     pub(super) next: usize,
@@ -92,18 +92,18 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
             &[1.0]
         };
         let shared = driven.shared().filter(|_| !resolution.other);
-        let mut stations = shared.map_or_else(Vec::new, |shared| shared.take().0);
-        if stations.is_empty() {
-            stations = turn::stations(driven, start, fine, cuts)?;
+        let mut panels = shared.map_or_else(Vec::new, |shared| shared.take().0);
+        if panels.is_empty() {
+            panels = turn::panels(driven, start, fine, cuts)?;
         }
-        let kinetic = 0.5 * stations[0].table.inertia[0] * speed * speed;
+        let kinetic = 0.5 * panels[0].table.inertia[0] * speed * speed;
         if !kinetic.is_finite() {
             return Err(NotApplicable::NotFinite);
         }
         if kinetic == 0.0 {
             return Err(NotApplicable::TooSlow);
         }
-        let first = &stations[0];
+        let first = &panels[0];
         let beside = first.piece.angle(first.rule.points()[1]) - first.piece.from;
         let [here, next, ..] = first.table.inertia;
         let off = off_by_place(start.rest, kinetic, [here, next], beside);
@@ -111,7 +111,7 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
             driven,
             fine,
             direction: speed.signum(),
-            stations,
+            panels,
             parts: Vec::new(),
             next: 0,
             swept: Swept::new(),
@@ -139,7 +139,7 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
     /// Leaves the panels to the next run, if they are shared.
     pub fn leave_panels(&mut self) {
         if let Some(shared) = self.driven.shared().filter(|_| !self.other) {
-            shared.replace(Panels(std::mem::take(&mut self.stations)));
+            shared.replace(Panels(std::mem::take(&mut self.panels)));
         }
     }
 
@@ -172,26 +172,20 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
                 turns: self.start.turns + self.turns,
                 direction: self.direction,
             };
-            let station = self
-                .parts
-                .last_mut()
-                .unwrap_or(&mut self.stations[self.next]);
-            if turned_over == 0 && station.is_new() && begins_beyond(self.driven, station, start) {
-                station.turn_over(self.driven)?;
+            let panel = self.parts.last_mut().unwrap_or(&mut self.panels[self.next]);
+            if turned_over == 0 && panel.is_new() && begins_beyond(self.driven, panel, start) {
+                panel.turn_over(self.driven)?;
             }
             let tails = self.guess(start);
-            let station = self
-                .parts
-                .last_mut()
-                .unwrap_or(&mut self.stations[self.next]);
+            let panel = self.parts.last_mut().unwrap_or(&mut self.panels[self.next]);
             let swept = &mut self.swept;
-            if let Err(why) = sweep(self.driven, station, start, tails, swept) {
+            if let Err(why) = sweep(self.driven, panel, start, tails, swept) {
                 self.evaluations += self.swept.evaluations;
                 self.refine(why)?;
                 continue;
             }
-            let hidden = hides(self.driven, station, start, self.fine, swept);
-            let parts = hidden.map(|at| station.parts(self.driven, at, self.fine));
+            let hidden = hides(self.driven, panel, start, self.fine, swept);
+            let parts = hidden.map(|at| panel.parts(self.driven, at, self.fine));
             if let Some([first, second]) = parts.transpose()?.flatten() {
                 self.evaluations += self.swept.evaluations;
                 self.hid = true;
@@ -199,26 +193,26 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
                 self.parts.extend([second, first]);
                 continue;
             }
-            match side(self.driven, station, start, swept) {
+            match side(self.driven, panel, start, swept) {
                 Side::Stays => {
-                    station.remember(&swept.kinetic);
-                    let piece = station.piece;
+                    panel.remember(&swept.kinetic);
+                    let piece = panel.piece;
                     self.remember_rest();
                     return Ok(self.pass(piece, None));
                 }
                 // Once more the other way round: then it has no sign.
                 Side::Other if turned_over == 2 => {
-                    let piece = station.piece;
+                    let piece = panel.piece;
                     return Ok(self.pass(piece, None));
                 }
                 Side::Other => {
                     turned_over += 1;
-                    station.turn_over(self.driven)?;
+                    panel.turn_over(self.driven)?;
                 }
                 Side::Leaves(share) => {
-                    station.remember(&swept.kinetic);
-                    let [first, rest] = station.piece.cut(share);
-                    swept.end_at(station.rule, start, share);
+                    panel.remember(&swept.kinetic);
+                    let [first, rest] = panel.piece.cut(share);
+                    swept.end_at(panel.rule, start, share);
                     let rest = self.rest(rest.from)?;
                     self.remember_rest();
                     return Ok(self.pass(first, Some(rest)));
@@ -232,16 +226,16 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
     /// show, or that of the last turns. A panel beyond a change of the switch is solved as if there was none, which the guide
     /// does not know.
     fn guess(&mut self, start: PanelStart) -> Tails {
-        let station = self.parts.last().unwrap_or(&self.stations[self.next]);
-        let smooth = station.table.switch.is_none();
+        let panel = self.parts.last().unwrap_or(&self.panels[self.next]);
+        let smooth = panel.table.switch.is_none();
         let guide = self.guide.as_mut().filter(|_| smooth);
         let known = guide.and_then(|guide| {
-            self.swept.kinetic = guide.kinetic(station, self.turns, start.kinetic)?;
+            self.swept.kinetic = guide.kinetic(panel, self.turns, start.kinetic)?;
             Some(SETTLED * guide.tail)
         });
         if known.is_none() {
             let reads_time = self.driven.is_driven() && self.driven.reads_time();
-            station.guess(start.kinetic, reads_time, &mut self.swept.kinetic);
+            panel.guess(start.kinetic, reads_time, &mut self.swept.kinetic);
         }
         let series = self.fine.tail;
         Tails {
@@ -250,11 +244,11 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
         }
     }
 
-    /// Takes a panel over a piece of the next station, and what is left of it for this turn.
+    /// Takes a panel over a piece of the next panel, and what is left of it for this turn.
     fn pass(&mut self, piece: Piece, rest: Option<PanelTable<D::Place>>) -> Done {
         let swept = &self.swept;
-        let station = self.parts.last().unwrap_or(&self.stations[self.next]);
-        let rule = station.rule;
+        let panel = self.parts.last().unwrap_or(&self.panels[self.next]);
+        let rule = panel.rule;
         let spent = swept.spent();
         let work = spent.work(rule, piece.to - piece.from, 1.0);
         // Under steep loads the end is not the start and the gain.
@@ -270,7 +264,7 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
         self.evaluations += swept.evaluations;
         let kept = (0.5 * work.min(0.0) / self.kinetic).exp();
         let count = rule.degree() + 1;
-        let misplaced = [&station.table.force, &station.table.push]
+        let misplaced = [&panel.table.force, &panel.table.push]
             .map(|forces| uncertain(&piece, &forces[..count]));
         let noise = f64::EPSILON * (swept.gain.abs() + misplaced[0] + misplaced[1]);
         let (early, most) = swept.early(rule);
@@ -284,9 +278,9 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
         self.parts.pop();
         self.parts.extend(rest);
         if self.parts.is_empty() {
-            let turns = self.stations[self.next].turns;
+            let turns = self.panels[self.next].turns;
             self.next += 1;
-            let next = self.stations.get(self.next);
+            let next = self.panels.get(self.next);
             if next.is_none_or(|next| next.turns != turns) {
                 self.turns += self.direction;
             }

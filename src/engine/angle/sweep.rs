@@ -37,7 +37,7 @@ pub(super) struct Tails {
 /// Solves a panel from a guess of the kinetic energy at its points, which is in `swept`.
 pub(super) fn sweep<D: Driven>(
     driven: &D,
-    station: &mut PanelTable<D::Place>,
+    panel: &mut PanelTable<D::Place>,
     start: PanelStart,
     tails: Tails,
     swept: &mut Swept,
@@ -52,25 +52,24 @@ pub(super) fn sweep<D: Driven>(
     };
     swept.evaluations = 0;
     swept.share = 1.0;
-    if !is_driven && !station.damped {
-        return swept.take_undamped(driven, station, start, tails);
+    if !is_driven && !panel.damped {
+        return swept.take_undamped(driven, panel, start, tails);
     }
     let mut newton = false;
-    let linear = station.varies_with_speed();
+    let linear = panel.varies_with_speed();
     let mut before = f64::INFINITY;
     for _ in 0..MOST_SWEEPS {
-        swept.evaluate(driven, station, start)?;
-        let mut change = swept.change(station, start);
-        newton = newton || linear && !swept.linearise(station, &mut change);
+        swept.evaluate(driven, panel, start)?;
+        let mut change = swept.change(panel, start);
+        newton = newton || linear && !swept.linearise(panel, &mut change);
         if newton {
-            let rates = swept.forces.rates(driven, station, start);
-            correction(station.rule, station.half(), &rates, &mut change)
-                .ok_or(Unsolved::TooLong)?;
+            let rates = swept.forces.rates(driven, panel, start);
+            correction(panel.rule, panel.half(), &rates, &mut change).ok_or(Unsolved::TooLong)?;
             keep_positive(&swept.kinetic, &mut change);
         }
-        let largest = add(&mut swept.kinetic, &mut change, station.rule.degree() + 1)?;
+        let largest = add(&mut swept.kinetic, &mut change, panel.rule.degree() + 1)?;
         // The forces are known as well as the motion: more sweeps would not resolve them.
-        if swept.forces_are_left_out(station, start, tails.series, largest) {
+        if swept.forces_are_left_out(panel, start, tails.series, largest) {
             return Err(Unsolved::TooLong);
         }
         // What is left is smaller than the last change by the factor that was gained; Newton's method squares it, as far as the
@@ -80,27 +79,27 @@ pub(super) fn sweep<D: Driven>(
         } else if before.is_finite() {
             (largest / before).max(LEAST_FACTOR)
         } else {
-            station.factor
+            panel.factor
         };
         let at_rounding = largest < SUM_ROUNDING && largest >= SLOW_FACTOR * before;
         if newton {
             if largest * factor.min(SLOW_FACTOR) <= tails.series || at_rounding {
-                swept.evaluate(driven, station, start)?;
-                return swept.finish(station, start, tails.series);
+                swept.evaluate(driven, panel, start)?;
+                return swept.finish(panel, start, tails.series);
             }
         } else if largest * factor <= settled * tails.sweeps || at_rounding {
             if is_driven {
-                swept.forces.take_speeds(station, start, &swept.kinetic);
+                swept.forces.take_speeds(panel, start, &swept.kinetic);
             } else {
-                swept.evaluate(driven, station, start)?;
+                swept.evaluate(driven, panel, start)?;
             }
-            swept.finish(station, start, tails.series)?;
+            swept.finish(panel, start, tails.series)?;
             // The last point is the same, rounded once more; under steep loads the gain would be worse.
             swept.end = start.kinetic + swept.gain;
             return Ok(());
         } else if before.is_finite() {
-            station.factor = (largest / before).max(LEAST_FACTOR);
-            newton = station.factor > SLOW_FACTOR;
+            panel.factor = (largest / before).max(LEAST_FACTOR);
+            newton = panel.factor > SLOW_FACTOR;
         }
         before = largest;
     }
@@ -130,11 +129,11 @@ impl Swept {
     fn evaluate<D: Driven>(
         &mut self,
         driven: &D,
-        station: &PanelTable<D::Place>,
+        panel: &PanelTable<D::Place>,
         start: PanelStart,
     ) -> Result<(), Unsolved> {
-        self.evaluations += station.rule.degree() as u64 + 1;
-        let known = self.forces.evaluate(driven, station, start, &self.kinetic);
+        self.evaluations += panel.rule.degree() as u64 + 1;
+        let known = self.forces.evaluate(driven, panel, start, &self.kinetic);
         known.ok_or(Unsolved::TooLong)
     }
 
@@ -142,23 +141,23 @@ impl Swept {
     fn take_undamped<D: Driven>(
         &mut self,
         driven: &D,
-        station: &PanelTable<D::Place>,
+        panel: &PanelTable<D::Place>,
         start: PanelStart,
         tails: Tails,
     ) -> Result<(), Unsolved> {
-        self.kinetic = station.undamped(start.kinetic);
-        let points = &self.kinetic[..=station.rule.degree()];
+        self.kinetic = panel.undamped(start.kinetic);
+        let points = &self.kinetic[..=panel.rule.degree()];
         if points.iter().any(|kinetic| *kinetic <= 0.0) {
             return Err(Unsolved::Stops);
         }
-        self.evaluate(driven, station, start)?;
-        self.finish(station, start, tails.series)
+        self.evaluate(driven, panel, start)?;
+        self.finish(panel, start, tails.series)
     }
 
     /// What a sweep changes.
-    fn change<P: Copy>(&self, station: &PanelTable<P>, start: PanelStart) -> Values {
-        let half = station.half();
-        let mut change = station.rule.integrals(&self.forces.total);
+    fn change<P: Copy>(&self, panel: &PanelTable<P>, start: PanelStart) -> Values {
+        let half = panel.half();
+        let mut change = panel.rule.integrals(&self.forces.total);
         for (change, kinetic) in change.iter_mut().zip(&self.kinetic) {
             *change = start.kinetic + half * *change - kinetic;
         }
@@ -168,18 +167,18 @@ impl Swept {
     /// Turns what a sweep would change into what makes the panel right to first order for the forces of the table (Newton's method
     /// in function space, Kantorovich): δ = ρ + E ∫ r ρ/E with r = ∂F/∂K and the integrating factor E = exp ∫ r. False, and no
     /// change, where E is too steep for its series: that of exp(c x) decays beyond degree c.
-    fn linearise<P: Copy>(&self, station: &PanelTable<P>, change: &mut Values) -> bool {
-        let (count, half) = (station.rule.degree() + 1, station.half());
-        let mut rates = self.forces.rates_of_table(station);
-        let mut factor = station.rule.integrals(&rates);
-        if 0.5 * half.abs() * largest(&factor[..count]) > station.rule.degree() as f64 {
+    fn linearise<P: Copy>(&self, panel: &PanelTable<P>, change: &mut Values) -> bool {
+        let (count, half) = (panel.rule.degree() + 1, panel.half());
+        let mut rates = self.forces.rates_of_table(panel);
+        let mut factor = panel.rule.integrals(&rates);
+        if 0.5 * half.abs() * largest(&factor[..count]) > panel.rule.degree() as f64 {
             return false;
         }
         for j in 0..count {
             factor[j] = (half * factor[j]).exp();
             rates[j] *= change[j] / factor[j];
         }
-        let more = station.rule.integrals(&rates);
+        let more = panel.rule.integrals(&rates);
         for j in 0..count {
             change[j] += half * factor[j] * more[j];
         }
@@ -189,20 +188,20 @@ impl Swept {
     /// Checks that the series are resolved, at the speeds of the last evaluation.
     fn finish<P: Copy>(
         &mut self,
-        station: &PanelTable<P>,
+        panel: &PanelTable<P>,
         start: PanelStart,
         tail: f64,
     ) -> Result<(), Unsolved> {
-        let (rule, half) = (station.rule, station.half());
-        let known = self.forces.fill_slopes(station, &mut self.slopes);
+        let (rule, half) = (panel.rule, panel.half());
+        let known = self.forces.fill_slopes(panel, &mut self.slopes);
         known.ok_or(Unsolved::TooLong)?;
         self.slope = rule.series(&self.slopes);
-        let noise = noise_of_angle(station);
+        let noise = noise_of_angle(panel);
         let wanted = (REMAINDER * tail).max(tail.min(SUM_ROUNDING));
         if self.slope.tail() > wanted.max(noise) {
             return Err(Unsolved::TooLong);
         }
-        if self.forces_are_left_out(station, start, tail, 0.0) {
+        if self.forces_are_left_out(panel, start, tail, 0.0) {
             return Err(Unsolved::TooLong);
         }
         self.end = self.kinetic[rule.degree()];
@@ -213,25 +212,25 @@ impl Swept {
     /// Whether the last terms of the forces are too large for their series to end there; they may be less by a part.
     fn forces_are_left_out<P: Copy>(
         &self,
-        station: &PanelTable<P>,
+        panel: &PanelTable<P>,
         start: PanelStart,
         tail: f64,
         uncertain: f64,
     ) -> bool {
-        let (rule, half) = (station.rule, station.half());
+        let (rule, half) = (panel.rule, panel.half());
         let last = (1.0 - uncertain) * rule.last_terms(&self.forces.total);
         let largest = largest(&self.forces.total[..=rule.degree()]);
         let energy = half.abs() / start.kinetic;
         // Large forces that balance each other leave their rounding.
-        let allowed = tail + SUM_ROUNDING * station.largest_force * energy;
-        let of_angle = tail.max(noise_of_angle(station));
+        let allowed = tail + SUM_ROUNDING * panel.largest_force * energy;
+        let of_angle = tail.max(noise_of_angle(panel));
         last * energy > allowed && last > of_angle * largest && last / largest > allowed
     }
 }
 
 /// What the rounding of its angles does to the series on a panel, as part of them.
-fn noise_of_angle<P: Copy>(station: &PanelTable<P>) -> f64 {
-    8.0 * f64::EPSILON * (1.0 + station.piece.from.abs() / station.half().abs())
+fn noise_of_angle<P: Copy>(panel: &PanelTable<P>) -> f64 {
+    8.0 * f64::EPSILON * (1.0 + panel.piece.from.abs() / panel.half().abs())
 }
 
 /// Turns what a sweep would change into what makes the panel right, to first order: solves

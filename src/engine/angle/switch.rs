@@ -23,18 +23,18 @@ pub(super) enum Side {
 /// Looks at the switch on a panel that was solved for one side of it.
 pub(super) fn side<D: Driven>(
     driven: &D,
-    station: &PanelTable<D::Place>,
+    panel: &PanelTable<D::Place>,
     start: PanelStart,
     swept: &Swept,
 ) -> Side {
-    let Some(switch) = &station.table.switch else {
+    let Some(switch) = &panel.table.switch else {
         return Side::Stays;
     };
-    let (values, noise) = values(driven, switch, station, start, swept);
-    let Some(x) = first_below(station, &values, noise) else {
+    let (values, noise) = values(driven, switch, panel, start, swept);
+    let Some(x) = first_below(panel, &values, noise) else {
         return Side::Stays;
     };
-    let length = 2.0 * station.half().abs();
+    let length = 2.0 * panel.half().abs();
     let share = 0.5 * (x + 1.0);
     if share * length < SHORTEST_PANEL {
         Side::Other
@@ -49,15 +49,15 @@ pub(super) fn side<D: Driven>(
 /// a transient of the wrong side, which is harder to resolve than the motion.
 pub(super) fn begins_beyond<D: Driven>(
     driven: &D,
-    station: &PanelTable<D::Place>,
+    panel: &PanelTable<D::Place>,
     start: PanelStart,
 ) -> bool {
-    let Some(switch) = &station.table.switch else {
+    let Some(switch) = &panel.table.switch else {
         return false;
     };
-    let speed = start.direction * (start.kinetic * station.mobility[0]).sqrt();
+    let speed = start.direction * (start.kinetic * panel.mobility[0]).sqrt();
     let others = if driven.is_driven() {
-        driven.drive_switch(&station.state(start.turns, 0, start.t, speed))
+        driven.drive_switch(&panel.state(start.turns, 0, start.t, speed))
     } else {
         0.0
     };
@@ -67,7 +67,7 @@ pub(super) fn begins_beyond<D: Driven>(
         switch.square[0] * speed * speed,
         others,
     ];
-    station.side * parts.iter().sum::<f64>() < -SHORTEST_PANEL * largest(&parts)
+    panel.side * parts.iter().sum::<f64>() < -SHORTEST_PANEL * largest(&parts)
 }
 
 impl Swept {
@@ -87,11 +87,11 @@ impl Swept {
 fn values<D: Driven>(
     driven: &D,
     switch: &Switch,
-    station: &PanelTable<D::Place>,
+    panel: &PanelTable<D::Place>,
     start: PanelStart,
     swept: &Swept,
 ) -> (Values, f64) {
-    let count = station.rule.degree() + 1;
+    let count = panel.rule.degree() + 1;
     let speeds = swept.forces.speeds();
     let mut parts = [[0.0; MAX_DEGREE + 1]; 4];
     let [place, rate, square, others] = &mut parts;
@@ -103,31 +103,31 @@ fn values<D: Driven>(
     }
     if driven.is_driven() {
         let times = if driven.reads_time() {
-            station.rule.integrals(&swept.slopes)
+            panel.rule.integrals(&swept.slopes)
         } else {
             [0.0; MAX_DEGREE + 1]
         };
         for j in 0..count {
             let at = [start.t + times[j], speeds[j]];
-            others[j] = driven.drive_switch(&station.state(start.turns, j, at[0], at[1]));
+            others[j] = driven.drive_switch(&panel.state(start.turns, j, at[0], at[1]));
         }
     }
     let size = parts.each_ref().map(|part| largest(part));
     let mut values = [0.0; MAX_DEGREE + 1];
     let [place, rate, square, others] = &parts;
     for j in 0..count {
-        values[j] = station.side * (place[j] + rate[j] + square[j] + others[j]);
+        values[j] = panel.side * (place[j] + rate[j] + square[j] + others[j]);
     }
     (values, SUM_ROUNDING * largest(&size))
 }
 
 /// The first place at which values fall below zero, by more than `noise`; −1 if they begin there.
-fn first_below<P: Copy>(station: &PanelTable<P>, values: &Values, noise: f64) -> Option<f64> {
-    let points = station.rule.points();
+fn first_below<P: Copy>(panel: &PanelTable<P>, values: &Values, noise: f64) -> Option<f64> {
+    let points = panel.rule.points();
     if values[0] < -noise.max(SHORTEST_PANEL * largest(values)) {
         return Some(-1.0);
     }
-    let series = || station.rule.series(values);
+    let series = || panel.rule.series(values);
     for j in 1..points.len() {
         if values[j] < -noise {
             let root =

@@ -9,7 +9,7 @@ use crate::numeric::chebyshev::{MAX_DEGREE, Rule};
 use std::f64::consts::TAU;
 
 /// Panels of one cycle between the corners.
-pub(super) fn stations<D: Driven>(
+pub(super) fn panels<D: Driven>(
     driven: &D,
     start: Angle,
     fine: Fineness,
@@ -65,12 +65,12 @@ fn between<D: Driven>(
                 let ends = [from, until].map(|ahead| start.rest + direction * ahead);
                 // Neighbours are alike.
                 let degree = list.last().map_or(FIRST_DEGREE, |last| last.rule.degree());
-                let mut station = PanelTable::empty(turns, ends, Rule::of(degree), 1.0);
-                station.tabulate(driven)?;
-                if !station.resolve(driven, fine, most)? && most < MAX_DEGREE {
+                let mut panel = PanelTable::empty(turns, ends, Rule::of(degree), 1.0);
+                panel.tabulate(driven)?;
+                if !panel.resolve(driven, fine, most)? && most < MAX_DEGREE {
                     return Ok(None);
                 }
-                list.push(station);
+                list.push(panel);
                 from = until;
             }
         }

@@ -39,9 +39,7 @@ impl<D: Driven> LastTurns<'_, D> {
 
     /// Whether turns of so many energies show the loads at all speeds (rad/s) between them, around an energy (J).
     fn shows(&self, speeds: Interval, middle: f64) -> bool {
-        let PanelStepper {
-            driven, stations, ..
-        } = &self.march;
+        let PanelStepper { driven, panels, .. } = &self.march;
         let look = NodeCriterion {
             nodes: DEGREE,
             ellipses: ellipses(DEGREE, self.tail),
@@ -50,9 +48,9 @@ impl<D: Driven> LastTurns<'_, D> {
             compares: false,
         };
         !driven.has_detail()
-            || stations
+            || panels
                 .iter()
-                .all(|station| at_speeds(*driven, station, speeds, look))
+                .all(|panel| at_speeds(*driven, panel, speeds, look))
     }
 
     /// A turn that begins with this energy, J, and its speeds, rad/s.
