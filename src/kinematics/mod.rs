@@ -9,6 +9,7 @@ mod synthesis;
 mod turning_moment;
 
 pub use crate::mechanism::{Length, size_from_stroke};
+#[cfg(feature = "cli")]
 pub(crate) use closed_form::of_checked;
 pub use closed_form::{DeadCentre, Kinematics, KinematicsRow, Located, NamedPosition, kinematics};
 pub use diagrams::{Balance, Diagrams, Indicated, Order};
