@@ -10,7 +10,7 @@ use super::residual_tests::Whiteness;
 use super::samples::{kinematic, likeliest, record};
 use super::shared_errors::Source;
 use super::smoother::Smoothed;
-use super::summary::{CandidateSummary, FitSummary, SensorSummary};
+use super::summary::{CandidateSummary, FitSummary, IntensitySummary, SensorSummary};
 use super::{FitKind, FitSize, InverseOptions};
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
@@ -166,6 +166,11 @@ impl Fitted {
             sigma: other.sigma,
             mean_residual: other.mean,
         });
+        let intensities = problem.intensities.0.iter().map(|span| IntensitySummary {
+            from_s: record.origin + span.from,
+            to_s: record.origin + span.to,
+            factor: span.factor,
+        });
         fitted.coded = record.codes.map(|codes| codes.step);
         let list = candidates
             .iter()
@@ -189,6 +194,7 @@ impl Fitted {
             sigma,
             parameters,
             corner_hz: Some(smoothed.noise.corner / std::f64::consts::TAU),
+            intensities: intensities.collect(),
             noise_correlation_s: smoothed.noise.correlated.map(|c| 1.0 / c.decay),
             beside: beside.collect(),
             outliers: record.outliers().count(),

@@ -164,7 +164,7 @@ impl Motion<'_> {
             defect,
             lever,
             tilt,
-            agility: 1.0,
+            intensity: 1.0,
         }
     }
 }
@@ -204,7 +204,7 @@ pub(super) struct Linearised {
     /// What g adds to u, per time.
     pub tilt: f64,
     /// Intensity of the noise of the process beside the usual one.
-    pub agility: f64,
+    pub intensity: f64,
 }
 
 #[cfg(test)]

@@ -27,7 +27,6 @@
 //! }
 //! ```
 
-mod agility;
 mod alignment;
 mod all_samples;
 mod as_printed;
@@ -43,6 +42,7 @@ mod grid;
 mod guide;
 mod hypotheses;
 pub mod identify;
+mod intensities;
 mod interval;
 mod inverse_dynamics;
 mod kalman;
@@ -88,7 +88,8 @@ pub use options::{FitKind, FitSize, InverseOptions};
 pub use row::{InverseRow, Residual};
 pub use shared_errors::BudgetShare;
 pub use summary::{
-    CandidateSummary, DataSummary, FitSummary, ForceRange, InverseSummary, SensorSummary,
+    CandidateSummary, DataSummary, FitSummary, ForceRange, IntensitySummary, InverseSummary,
+    SensorSummary,
 };
 
 use self::fitted::Fitted;

@@ -11,7 +11,7 @@ use super::periodic::{Increments, Sensitivities};
 use super::prior::Prior;
 use super::record::Record;
 use super::regression::Posterior;
-use super::scales::{Agility, Noise, Scales};
+use super::scales::{Intensities, Noise, Scales};
 use super::smoother::Smoothed;
 use super::state_space::Deviations;
 use crate::mechanism::Equation;
@@ -31,7 +31,7 @@ pub(super) struct Problem<'a> {
     pub grid: Grid,
     pub equation: &'a Equation,
     /// How strong the noise of the process is along the record.
-    pub agility: Agility,
+    pub intensities: Intensities,
     /// A request to stop: what is smoothed then is of no use.
     pub stop: Option<&'a Stop>,
 }
@@ -92,7 +92,7 @@ impl<'a> Problem<'a> {
             let ends =
                 motion.linearised([times[k], times[k + 1]], ends, [&rates[k], &rates[k + 1]]);
             Linearised {
-                agility: self.agility.at(0.5 * (times[k] + times[k + 1])),
+                intensity: self.intensities.at(0.5 * (times[k] + times[k + 1])),
                 ..ends
             }
         });

@@ -8,7 +8,7 @@ use super::problem::Problem;
 use super::quantised::Codes;
 use super::record::Record;
 use super::record::SensorBeside;
-use super::scales::Agility;
+use super::scales::Intensities;
 use super::smoother::Smoothed;
 use super::{first_path, outliers};
 use crate::mechanism::Equation;
@@ -76,7 +76,7 @@ pub(super) fn problem<'a>(
         record,
         grid,
         equation,
-        agility: Agility::default(),
+        intensities: Intensities::default(),
         stop,
     }
 }
@@ -169,7 +169,7 @@ pub(super) fn likeliest(
     problem: &mut Problem<'_>,
     kinematic: Smoothed,
 ) -> (Smoothed, Vec<(Prior, f64)>) {
-    let mut found = problem.likeliest_of_agile(&kinematic);
+    let mut found = problem.likeliest_with_intensities(&kinematic);
     for _ in 0..OUTLIER_ROUNDS {
         let before = problem.record.weights.clone();
         // The weights of codes are what they are worth.
@@ -185,7 +185,7 @@ pub(super) fn likeliest(
         problem.record.weights = weights;
         let path = problem.path_of(KINEMATIC, &found.0, problem.all());
         let kinematic = problem.kinematic(path, found.0.noise.sigma);
-        found = problem.likeliest_of_agile(&kinematic);
+        found = problem.likeliest_with_intensities(&kinematic);
     }
     found
 }

@@ -122,9 +122,9 @@ pub(super) struct Span {
 
 /// How strong the noise of the process is along a record, beside its usual intensity.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Agility(pub Vec<Span>);
+pub(super) struct Intensities(pub Vec<Span>);
 
-impl Agility {
+impl Intensities {
     /// The factor of the intensity at a time.
     pub fn at(&self, t: f64) -> f64 {
         let spans = self.0.iter().filter(|span| span.from < t && t < span.to);

@@ -118,7 +118,7 @@ impl Source {
             record: self.record(record),
             grid: problem.grid.clone(),
             equation: &self.equation,
-            agility: problem.agility.clone(),
+            intensities: problem.intensities.clone(),
             stop: problem.stop,
         };
         let mut path = smoothed.path(!record.is_linear());

@@ -159,7 +159,7 @@ impl Deviations<'_> {
     fn add_noise<const N: usize>(&self, step: &Linearised, noise: &mut Matrix<N>) {
         let (h, b, tilt) = (step.h, step.lever, step.tilt);
         let (h2, h3) = (h * h / 2.0, h * h * h / 6.0);
-        let time = h * step.agility;
+        let time = h * step.intensity;
         let density = time * self.noise;
         match self.prior.order {
             1 => add(noise, [0, 1, 2], &[b * h2, b * h, 1.0], density),
@@ -220,7 +220,7 @@ mod tests {
             top: exponential(0.3, -2.0, 0.7, 1.7),
             lever: 1.7,
             tilt: 0.7,
-            agility: 1.0,
+            intensity: 1.0,
             ..Linearised::default()
         };
         let model = Deviations {

@@ -91,6 +91,8 @@ pub struct FitSummary {
     pub parameters: f64,
     /// Corner frequency of the smoother, Hz: slower variations of the acceleration are followed.
     pub corner_hz: Option<f64>,
+    /// Stretches in which the noise of the smoother's process has another intensity.
+    pub intensities: Vec<IntensitySummary>,
     /// Correlation time of the noise of the samples, s, where it is not white.
     pub noise_correlation_s: Option<f64>,
     /// Other sensors of the motion.
@@ -101,6 +103,17 @@ pub struct FitSummary {
     pub residual_lag_one: f64,
     /// Runs of one sign among them, in standard deviations from what noise has.
     pub residual_runs: f64,
+}
+
+/// A stretch of the record in which the noise of the process has another intensity: a force that jumps, a machine at rest.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct IntensitySummary {
+    /// First time, s.
+    pub from_s: f64,
+    /// Last time, s.
+    pub to_s: f64,
+    /// Intensity over the usual one.
+    pub factor: f64,
 }
 
 /// A sensor beside that of the record.

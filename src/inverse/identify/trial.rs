@@ -10,7 +10,7 @@ use super::super::measurement_model::{Scale, Sensor};
 use super::super::prior::{Prior, Unknown};
 use super::super::problem::Problem;
 use super::super::record::Record;
-use super::super::scales::{Agility, Autoregression, Noise, Scales};
+use super::super::scales::{Autoregression, Intensities, Noise, Scales};
 use super::super::state_space::Deviations;
 use super::values::FreeValue;
 use crate::error::Error;
@@ -96,7 +96,7 @@ impl<'a> Trials<'a> {
             },
             grid: self.problem.grid.clone(),
             equation: &equation,
-            agility: Agility::default(),
+            intensities: Intensities::default(),
             stop: None,
         };
         let motion = problem.motion(MISSING);

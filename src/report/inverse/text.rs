@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::super::key_values::{Facts, fact};
+use super::super::key_values::{Facts, fact, given};
 use crate::inverse::{AsPrinted, DataSummary, DeadCentreBand, FitSummary, ForceRange, Inverse};
 
 /// Lines of the whole text, those of a screen.
@@ -135,6 +135,19 @@ fn fit(facts: &mut Facts, fit: &FitSummary, data: &DataSummary) {
     );
     if let Some(condition) = fit.condition {
         fact!(facts, "  condition", "{condition:.3e}");
+    }
+    if let [first, ..] = &fit.intensities[..] {
+        let (count, from, to) = (
+            fit.intensities.len(),
+            given(first.from_s),
+            given(first.to_s),
+        );
+        let factor = first.factor;
+        fact!(
+            facts,
+            "  intensity",
+            "another in {count} stretches, first from {from} to {to} s, {factor:.1e} times the usual"
+        );
     }
     if let Some(time) = fit.noise_correlation_s {
         fact!(facts, "  noise", "correlated over {time:.3e} s");

@@ -12,7 +12,7 @@ use super::matrix::{Matrix, diagonal, product, shares, sum, times};
 use super::maximum::ENOUGH_RISE;
 use super::prior::Prior;
 use super::problem::Problem;
-use super::scales::{Agility, Noise, Span};
+use super::scales::{Intensities, Noise, Span};
 use super::smoother::Smoothed;
 use super::state_space::Deviations;
 use crate::numeric::maximum::largest_to;
@@ -94,13 +94,13 @@ fn furthest(scores: &[Score]) -> (Range<usize>, bool, f64) {
 
 impl Problem<'_> {
     /// What stretches of a prior beside these cost.
-    fn cost(&self, agility: &Agility) -> f64 {
-        PARAMETERS * agility.0.len() as f64 * 0.5 * (self.record.times.len() as f64).ln()
+    fn cost(&self, intensities: &Intensities) -> f64 {
+        PARAMETERS * intensities.0.len() as f64 * 0.5 * (self.record.times.len() as f64).ln()
     }
 
     /// The stretches in which the noise of a prior is of another intensity.
-    fn agility_of(&self, found: &Smoothed) -> Agility {
-        let mut agility = Agility::default();
+    fn intensities_of(&self, found: &Smoothed) -> Intensities {
+        let mut intensities = Intensities::default();
         let motion = self.motion(found.prior);
         let path = found.path(!self.record.is_linear());
         let mut stretches = self.stretches(&motion, &path, found.noise.sigma);
@@ -115,10 +115,10 @@ impl Problem<'_> {
             linear.evaluated(noise)
         };
         let [stretch] = &mut stretches[..] else {
-            return agility;
+            return intensities;
         };
         let mut noise = evaluated(stretch, found.noise);
-        while agility.0.len() < self.record.times.len() / 10 {
+        while intensities.0.len() < self.record.times.len() / 10 {
             let linear = Linear {
                 stretches: std::slice::from_ref(stretch),
                 prior: found.prior,
@@ -140,7 +140,9 @@ impl Problem<'_> {
                 let mut other = stretch.clone();
                 let sign = if is_higher { log } else { -log };
                 let among = &mut other.steps[steps.clone()];
-                among.iter_mut().for_each(|step| step.agility *= sign.exp());
+                among
+                    .iter_mut()
+                    .for_each(|step| step.intensity *= sign.exp());
                 other
             };
             let likelihood = |log: f64| evaluated(&with(log), noise).likelihood;
@@ -151,18 +153,21 @@ impl Problem<'_> {
             let other = with(log);
             noise = evaluated(&other, noise);
             let times = [steps.start, steps.end].map(|node| self.grid.times[node]);
-            agility.0.push(Span {
+            intensities.0.push(Span {
                 from: times[0],
                 to: times[1],
-                factor: other.steps[steps.start].agility / stretch.steps[steps.start].agility,
+                factor: other.steps[steps.start].intensity / stretch.steps[steps.start].intensity,
             });
             *stretch = other;
         }
-        agility
+        intensities
     }
 
     /// The likeliest smoothed motion, by stretches of another intensity as long as these make the samples likelier.
-    pub fn likeliest_of_agile(&mut self, kinematic: &Smoothed) -> (Smoothed, Vec<(Prior, f64)>) {
+    pub fn likeliest_with_intensities(
+        &mut self,
+        kinematic: &Smoothed,
+    ) -> (Smoothed, Vec<(Prior, f64)>) {
         let mut best = self.likeliest_of_all(kinematic);
         // What repeats, what was computed, and stretches that stand for a long record have none.
         while best.0.prior.cycle == 0
@@ -170,10 +175,10 @@ impl Problem<'_> {
             && self.sampled() == self.all()
         {
             let sites = self.sites();
-            let before = std::mem::take(&mut self.agility);
-            self.agility = self.agility_of(&best.0);
-            if !self.agility.0.is_empty() {
-                let cost = self.cost(&self.agility) - self.cost(&before);
+            let before = std::mem::take(&mut self.intensities);
+            self.intensities = self.intensities_of(&best.0);
+            if !self.intensities.0.is_empty() {
+                let cost = self.cost(&self.intensities) - self.cost(&before);
                 let next = self.likeliest_of_all(kinematic);
                 let rise = next.0.noise.likelihood - best.0.noise.likelihood - cost;
                 if rise > ENOUGH_RISE {
@@ -181,7 +186,7 @@ impl Problem<'_> {
                     continue;
                 }
             }
-            self.agility = before;
+            self.intensities = before;
             (self.record.values, self.record.weights) = sites;
             break;
         }
@@ -229,7 +234,7 @@ mod tests {
             h: 0.3,
             top: exponential(0.3, -2.0, 0.7, 1.7),
             lever: 1.7,
-            agility: 1.0,
+            intensity: 1.0,
             ..Linearised::default()
         };
         let mut steps = vec![step; 20];
@@ -243,9 +248,9 @@ mod tests {
         let found = scores::<3>(&model(&steps, &increments, &observed), 1.0);
         for k in [0, 7, 19] {
             let mut at = |log: f64| {
-                steps[k].agility = log.exp();
+                steps[k].intensity = log.exp();
                 let evidence = kalman::evidence::<3>(&model(&steps, &increments, &observed));
-                steps[k].agility = 1.0;
+                steps[k].intensity = 1.0;
                 -0.5 * (evidence.squares + evidence.log_variances)
             };
             let slope = (at(1e-3) - at(-1e-3)) / 2e-3;
