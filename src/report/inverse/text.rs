@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::super::key_values::{Facts, fact, given};
+use super::super::key_values::{Facts, fact, six};
 use crate::inverse::{AsPrinted, DataSummary, DeadCentreBand, FitSummary, ForceRange, Inverse};
 
 /// Lines of the whole text, those of a screen.
@@ -136,17 +136,16 @@ fn fit(facts: &mut Facts, fit: &FitSummary, data: &DataSummary) {
     if let Some(condition) = fit.condition {
         fact!(facts, "  condition", "{condition:.3e}");
     }
-    if let [first, ..] = &fit.intensities[..] {
-        let (count, from, to) = (
-            fit.intensities.len(),
-            given(first.from_s),
-            given(first.to_s),
-        );
-        let factor = first.factor;
+    if let [first, more @ ..] = &fit.intensities[..] {
+        let [from, to, factor] = [first.from_s, first.to_s, first.factor].map(six);
+        let more = match more.len() {
+            0 => String::new(),
+            more => format!(", and {more} more stretches with others"),
+        };
         fact!(
             facts,
             "  intensity",
-            "another in {count} stretches, first from {from} to {to} s, {factor:.1e} times the usual"
+            "of the noise of the process from {from} to {to} s {factor} times the usual{more}"
         );
     }
     if let Some(time) = fit.noise_correlation_s {
