@@ -16,7 +16,7 @@ pub(super) struct Guide {
 }
 
 /// Motion at one sample: speed, rad/s, and acceleration, rad/s², of the crank.
-pub(super) type Rates = [f64; 2];
+pub(super) type CrankRates = [f64; 2];
 
 impl Guide {
     /// The guide of a scene; none without friction.
@@ -30,7 +30,7 @@ impl Guide {
     }
 
     /// The normal force, N, with this whole force along the guide, N.
-    fn normal(&self, pose: &Pose, [omega, alpha]: Rates, along: f64) -> f64 {
+    fn normal(&self, pose: &Pose, [omega, alpha]: CrankRates, along: f64) -> f64 {
         let load = LoadValue {
             torque: 0.0,
             force: along,
@@ -39,13 +39,13 @@ impl Guide {
     }
 
     /// The friction, N, on a slider that moves in `direction` (±1), for a whole force along the guide, N, itself included.
-    pub fn friction(&self, pose: &Pose, motion: Rates, direction: f64, along: f64) -> f64 {
+    pub fn friction(&self, pose: &Pose, motion: CrankRates, direction: f64, along: f64) -> f64 {
         -self.mu * direction * self.normal(pose, motion, along).abs()
     }
 
     /// The friction, N, beside this force on the slider, N, where a torque on the crank drives it. Not a number where
     /// the guide locks itself, and no torque does.
-    pub fn driven(&self, pose: &Pose, motion: Rates, direction: f64, force: f64) -> f64 {
+    pub fn driven(&self, pose: &Pose, motion: CrankRates, direction: f64, force: f64) -> f64 {
         let without = self.normal(pose, motion, force);
         let slope = self.normal(pose, motion, force + 1.0) - without;
         if self.mu * slope.abs() >= 1.0 {

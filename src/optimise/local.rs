@@ -4,11 +4,13 @@ use std::cell::RefCell;
 
 use cobyla::{RhoBeg, StopTols, minimize};
 
-use super::GAIN;
 use super::judge::{Judge, Judged};
 
 /// Searches end where steps are this small a part of the ranges.
 const LAST_STEP: f64 = 1e-10;
+
+/// Limits are kept by this part of their spread, so that ends of a search meet them despite its last step.
+const KEPT_FROM_LIMITS: f64 = 1e-9;
 
 /// Most designs of a search for each key, which COBYLA without a curved valley needs a few dozen of.
 const DESIGNS: usize = 300;
@@ -54,8 +56,7 @@ pub(super) fn search(judge: &Judge, from: Judged, step: f64, worst: f64) -> Sear
     let goal = |at: &[f64], _: &mut ()| judge.aim(&look(at), worst);
     let limit = |subject| {
         let look = &look;
-        // Kept by a little, so that ends of a search meet them despite its last step.
-        move |at: &[f64], _: &mut ()| judge.margin(&look(at), subject) - GAIN
+        move |at: &[f64], _: &mut ()| judge.margin(&look(at), subject) - KEPT_FROM_LIMITS
     };
     let limits: Vec<_> = (0..judge.asked.subjects.len()).map(limit).collect();
     let tolerances = StopTols {

@@ -202,7 +202,7 @@ fn bounds(varied: &[Varied]) -> Result<Vec<[f64; 2]>, Error> {
 }
 
 /// What was found, in the units of the keys.
-fn report(judge: &Judge, bounds: &[[f64; 2]], found: search::Optimum) -> Optimum {
+fn report(judge: &Judge, bounds: &[[f64; 2]], found: search::SearchResult) -> Optimum {
     let (asked, varied) = (judge.asked, judge.sweep.varied());
     let best = &found.best;
     // With what there is to say of the errors of its motion.

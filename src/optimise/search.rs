@@ -17,6 +17,9 @@ pub(super) const EXPLORED: u64 = 64;
 /// Most local searches.
 const STARTS: usize = 16;
 
+/// First steps of a local search from the exploration, in parts of the ranges.
+const FIRST_STEP: f64 = 0.1;
+
 /// Half widths of the sweeps round the best, in parts of the ranges.
 const HALF_WIDTHS: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
@@ -24,7 +27,7 @@ const HALF_WIDTHS: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 const IMPROVEMENTS: u32 = 30;
 
 /// What was found.
-pub(super) struct Optimum {
+pub(super) struct SearchResult {
     pub best: Judged,
     pub starts: Vec<Searched>,
     pub proof: Proof,
@@ -36,7 +39,7 @@ pub(super) struct Optimum {
 ///
 /// # Errors
 /// [`Error::Refused`] if no design has the figures; [`Error::Interrupted`] before there is any.
-pub(super) fn run(judge: &mut Judge, seed: u64) -> Result<Optimum, Error> {
+pub(super) fn run(judge: &mut Judge, seed: u64) -> Result<SearchResult, Error> {
     let sample = explore(judge)?;
     judge.stop.reach(0.2);
     let mut sorted = judge.calibrate(sample);
@@ -47,7 +50,7 @@ pub(super) fn run(judge: &mut Judge, seed: u64) -> Result<Optimum, Error> {
         .fold(f64::NEG_INFINITY, f64::max);
     let judge = &*judge;
     let starts = parallel::map(starts(&sorted).into_iter(), |from| {
-        search(judge, from, HALF_WIDTHS[0], worst)
+        search(judge, from, FIRST_STEP, worst)
     });
     judge.stop.reach(0.7);
     let ends = starts.iter().map(|start| start.end.clone());
@@ -55,7 +58,7 @@ pub(super) fn run(judge: &mut Judge, seed: u64) -> Result<Optimum, Error> {
     let mut best = best.ok_or(Error::Interrupted)?;
     let proof = prove(judge, seed, &mut best, worst);
     let resolution = judge.resolution(&best);
-    Ok(Optimum {
+    Ok(SearchResult {
         best,
         starts,
         proof,

@@ -10,9 +10,8 @@ const LONGEST_CYCLE: u32 = 120;
 /// denominator less often than this.
 const CHANCE: f64 = 1e-3;
 
-/// Relative rounding of a number that was computed from exact ones in a few steps, and of the constants of a formula, which may
-/// be quotients and products of a few others.
-pub(super) const ROUNDED: f64 = 16.0 * f64::EPSILON;
+/// Relative rounding of a number that was computed from exact ones in a few steps.
+const ROUNDED: f64 = 4.0 * f64::EPSILON;
 
 /// A positive rational number of turns of the crank, in lowest terms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -13,7 +13,7 @@ pub(super) use words::escaped;
 
 /// What is drawn of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Style {
+enum SeriesStyle {
     Line,
     Dashed,
     Points,
@@ -26,7 +26,7 @@ enum Style {
 #[derive(Clone, Debug, PartialEq)]
 struct Series {
     label: String,
-    look: Style,
+    look: SeriesStyle,
     points: Vec<(f64, f64, f64)>,
     /// Number of the colour and the marker: one for each label.
     colour: usize,
@@ -84,42 +84,46 @@ impl Figure {
 
     /// A line through points (x, y), broken where y is not a number.
     pub fn line(self, label: impl Into<String>, points: Vec<(f64, f64)>) -> Figure {
-        self.with(label, Style::Line, points)
+        self.with(label, SeriesStyle::Line, points)
     }
 
     /// A dashed line through points (x, y), broken where y is not a number.
     pub fn dashed(self, label: impl Into<String>, points: Vec<(f64, f64)>) -> Figure {
-        self.with(label, Style::Dashed, points)
+        self.with(label, SeriesStyle::Dashed, points)
     }
 
     /// Points (x, y).
     pub fn points(self, label: impl Into<String>, points: Vec<(f64, f64)>) -> Figure {
-        self.with(label, Style::Points, points)
+        self.with(label, SeriesStyle::Points, points)
     }
 
     /// Points (x, y) joined by a line, broken where y is not a number.
     pub fn line_with_points(self, label: impl Into<String>, points: Vec<(f64, f64)>) -> Figure {
-        self.with(label, Style::LineWithPoints, points)
+        self.with(label, SeriesStyle::LineWithPoints, points)
     }
 
     /// A vertical line at `x`. Its label stands in the legend, once for all marks with the same label.
     pub fn vertical_mark(self, x: f64, label: impl Into<String>) -> Figure {
-        self.with(label, Style::VerticalMark, vec![(x, f64::NAN)])
+        self.with(label, SeriesStyle::VerticalMark, vec![(x, f64::NAN)])
     }
 
-    fn with(self, label: impl Into<String>, look: Style, points: Vec<(f64, f64)>) -> Figure {
+    fn with(self, label: impl Into<String>, look: SeriesStyle, points: Vec<(f64, f64)>) -> Figure {
         let points = points.into_iter().map(|(x, y)| (x, y, y));
         self.push(label.into(), look, points.collect())
     }
 
     /// The area between `low` and `high` of points (x, low, high).
     pub fn band(self, label: impl Into<String>, points: Vec<(f64, f64, f64)>) -> Figure {
-        self.push(label.into(), Style::Band, points)
+        self.push(label.into(), SeriesStyle::Band, points)
     }
 
-    fn push(mut self, label: String, look: Style, points: Vec<(f64, f64, f64)>) -> Figure {
+    fn push(mut self, label: String, look: SeriesStyle, points: Vec<(f64, f64, f64)>) -> Figure {
         let next = |numbers: &mut dyn Iterator<Item = usize>| numbers.max().map_or(0, |n| n + 1);
-        let coloured = || self.series.iter().filter(|s| s.look != Style::VerticalMark);
+        let coloured = || {
+            self.series
+                .iter()
+                .filter(|s| s.look != SeriesStyle::VerticalMark)
+        };
         let known = coloured().find(|s| !label.is_empty() && s.label == label);
         let colour = known.map_or_else(|| next(&mut coloured().map(|s| s.colour)), |s| s.colour);
         let alike = || self.series.iter().filter(|s| s.look == look);
@@ -147,7 +151,7 @@ impl Figure {
     fn values(&self, of: impl Fn((f64, f64, f64)) -> [f64; 2]) -> impl Iterator<Item = f64> {
         let seen = |series: &Series, (x, low, high): (f64, f64, f64)| {
             let shown = self.y.shows(low) || self.y.shows(high);
-            self.x.shows(x) && (shown || series.look == Style::VerticalMark)
+            self.x.shows(x) && (shown || series.look == SeriesStyle::VerticalMark)
         };
         let all = self.series.iter();
         let points = all.flat_map(move |series| {

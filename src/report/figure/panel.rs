@@ -4,7 +4,7 @@ use super::axis::{Scale, Tick};
 use super::clip::{Place, inside, pieces};
 use super::svg::{SAMPLE, Svg};
 use super::words::{TEXT, TITLE, fitted, line_height, width, wrapped};
-use super::{Figure, Series, Style};
+use super::{Figure, Series, SeriesStyle};
 
 /// Free space at the edges, pixels.
 const EDGE_SPACE: f64 = 10.0;
@@ -185,7 +185,7 @@ fn draw(
     let points = series.points.iter();
     let positions = points.map(|&(a, b, _)| (x.position(a), y.position(b)));
     match (layer, series.look) {
-        (0, Style::Band) => {
+        (0, SeriesStyle::Band) => {
             let edges: Vec<_> = series
                 .points
                 .iter()
@@ -199,11 +199,11 @@ fn draw(
                 svg.band(low.chain(high).collect(), series.colour());
             }
         }
-        (0, Style::VerticalMark) => {
+        (0, SeriesStyle::VerticalMark) => {
             let marks = positions.map(|(x, _)| x).filter(|x| inside((*x, 0.0)));
             marks.for_each(|x| svg.curve([place((x, 0.0)), place((x, 1.0))], series));
         }
-        (1, Style::Line | Style::Dashed | Style::LineWithPoints) => {
+        (1, SeriesStyle::Line | SeriesStyle::Dashed | SeriesStyle::LineWithPoints) => {
             for piece in pieces(&positions.collect::<Vec<_>>()) {
                 match piece[..] {
                     // A line through one point cannot be seen.
@@ -212,7 +212,7 @@ fn draw(
                 }
             }
         }
-        (2, Style::Points | Style::LineWithPoints) => positions
+        (2, SeriesStyle::Points | SeriesStyle::LineWithPoints) => positions
             .filter(|at| inside(*at))
             .for_each(|at| svg.marker(place(at), series)),
         _ => {}

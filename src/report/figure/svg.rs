@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::clip::Place;
 use super::words::{escaped, line_height};
-use super::{Series, Style};
+use super::{Series, SeriesStyle};
 
 /// Width of the sample of a series in the legend, pixels.
 pub(super) const SAMPLE: f64 = 30.0;
@@ -89,9 +89,9 @@ impl Svg {
 
     pub fn curve(&mut self, places: impl IntoIterator<Item = Place>, series: &Series) {
         let dashes = match series.look {
-            Style::Dashed => STROKES[STROKES.len() - 1 - series.stroke % (STROKES.len() - 1)],
-            Style::VerticalMark => STROKES[STROKES.len() - 1],
-            Style::Line => STROKES[series.stroke % STROKES.len()],
+            SeriesStyle::Dashed => STROKES[STROKES.len() - 1 - series.stroke % (STROKES.len() - 1)],
+            SeriesStyle::VerticalMark => STROKES[STROKES.len() - 1],
+            SeriesStyle::Line => STROKES[series.stroke % STROKES.len()],
             _ => STROKES[0],
         };
         let colour = series.colour();
@@ -122,15 +122,15 @@ impl Svg {
     pub fn sample(&mut self, (x, y): Place, series: &Series) {
         let end = x + SAMPLE;
         match series.look {
-            Style::Band => {
+            SeriesStyle::Band => {
                 let (low, high) = (y + 5.0, y - 5.0);
                 let corners = vec![(x, high), (end, high), (end, low), (x, low)];
                 self.band(corners, series.colour());
             }
-            Style::Points => self.marker((x + 0.5 * SAMPLE, y), series),
+            SeriesStyle::Points => self.marker((x + 0.5 * SAMPLE, y), series),
             look => {
                 self.curve([(x, y), (end, y)], series);
-                if look == Style::LineWithPoints {
+                if look == SeriesStyle::LineWithPoints {
                     self.marker((x + 0.5 * SAMPLE, y), series);
                 }
             }
@@ -141,7 +141,7 @@ impl Svg {
 impl Series {
     pub(super) fn colour(&self) -> &'static str {
         match self.look {
-            Style::VerticalMark => GREY,
+            SeriesStyle::VerticalMark => GREY,
             _ => COLOURS[self.colour % COLOURS.len()],
         }
     }

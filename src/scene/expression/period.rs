@@ -8,7 +8,10 @@ use std::f64::consts::{PI, TAU};
 use super::Expression;
 use super::operand::{FUNCTIONS_1, FUNCTIONS_2, Op, Operand};
 use crate::scene::Variable;
-use crate::scene::period::{Period, ROUNDED, Repeats, WhyNot};
+use crate::scene::period::{Period, Repeats, WhyNot};
+
+/// Relative rounding of the constants of a formula, which may be quotients and products of a few others.
+const ROUNDED: f64 = 16.0 * f64::EPSILON;
 
 /// slope·theta plus what repeats.
 #[derive(Clone, Copy, Debug)]
