@@ -67,29 +67,24 @@ impl Motion for Forward<'_> {
 
 /// Where rounding takes over from the decay of the coefficients of a series, as part of the largest.
 pub(super) const LEAST_TAIL: f64 = 4e-15;
-/// The second run of the estimate is so much tighter that its own error does not count, whatever the first
-/// one's happens to be: at the order of collocation two more digits take a fifth more evaluations.
-pub(super) const MUCH_TIGHTER: f64 = 1e4;
-/// A short run is far better than a loose tolerance: the second one is never looser than at the default tolerance.
-const LOOSEST: f64 = 1e-10 / MUCH_TIGHTER;
-/// The second run of a loose joint, and where collocation does not get to the end, is so much tighter.
+/// Tolerance of the second run of an estimate by collocation. Rounding inside the steps takes over below it: a tenth of it
+/// takes up to four times as many evaluations for the same stated errors.
+const TIGHTEST: f64 = 1e-14;
+/// Ratio of the tolerances of the two runs, where the second one integrates by another method than collocation.
 pub(super) const TIGHTER: f64 = 50.0;
-/// What is stated is larger than the distance of the two runs by this, for the error of the second.
-pub(super) const MARGIN: f64 = 1.5;
-/// Where rounding inside a step takes over.
-pub(super) const TIGHTEST: f64 = 1e-15;
-
-/// The method of the run again is tighter than this only by so much, for rounding inside the steps takes over, and they would
-/// collapse.
-const TIGHTEST_AGAIN: f64 = 1e-13;
+/// Least ratio of the two tolerances, near rounding.
 const A_LITTLE: f64 = 5.0;
+/// Least tolerance of a second run by another method than collocation: below it the steps would collapse.
+const TIGHTEST_AGAIN: f64 = 1e-13;
+/// Stated error over the distance of the two runs, for the error of the second one.
+pub(super) const MARGIN: f64 = 1.5;
 
-/// Tolerance of a second run that is so much tighter that its own error does not count.
+/// Tolerance of a second run by collocation, whose own error does not count.
 pub(super) fn much_tighter(tolerance: f64) -> f64 {
-    (tolerance / MUCH_TIGHTER).clamp(TIGHTEST, LOOSEST)
+    TIGHTEST.min(tolerance / A_LITTLE)
 }
 
-/// Tolerance of the method of the run again.
+/// Tolerance of a second run by the method of the first.
 pub(super) fn tighter(tolerance: f64) -> f64 {
     (tolerance / TIGHTER).max(TIGHTEST_AGAIN.min(tolerance / A_LITTLE))
 }

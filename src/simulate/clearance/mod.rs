@@ -14,7 +14,7 @@ use std::time::Instant;
 pub use result::{Beyond, ClearanceSummary, ContactStatistics, Horizon, LooseFinal};
 
 use super::closed_form;
-use super::error_estimate::{TIGHTER, TIGHTEST};
+use super::error_estimate::TIGHTER;
 use super::recorder::{Record as Recorded, Recorder};
 use super::result::Cost;
 use super::row::RowSink;
@@ -174,7 +174,7 @@ impl<'a, const N: usize> Run<'a, N> {
     fn tighter(&self, model: &Loose<'_, N>, t_end: f64) -> Option<Tighter> {
         let begun = Instant::now();
         let mut follow = self.follow(model, None);
-        let tolerance = (self.task.scene.run.tolerance / TIGHTER).max(TIGHTEST);
+        let tolerance = (self.task.scene.run.tolerance / TIGHTER).max(4.0 * f64::EPSILON);
         let ended = self.go(model, tolerance, t_end, &mut |s| follow.take(s));
         (ended.finish == Finish::AtEnd).then(|| Tighter {
             last: model.state(&ended.last),
