@@ -117,7 +117,7 @@ impl fmt::Display for Period {
     }
 }
 
-/// Period of a load over the crank angle, all other variables of the load being equal.
+/// Periodicity of a load over the crank angle, all other variables of the load being equal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Repeats {
     /// The load does not depend on the crank angle.
@@ -129,7 +129,7 @@ pub enum Repeats {
 }
 
 impl Repeats {
-    /// Returns the period of a load that depends on both.
+    /// Returns the periodicity of a load that depends on both.
     pub(crate) fn with(self, other: Repeats) -> Repeats {
         match (self, other) {
             (Repeats::Never(why), _) | (_, Repeats::Never(why)) => Repeats::Never(why),
