@@ -12,7 +12,7 @@ type LoadFunction = Arc<dyn Fn(&Instant) -> f64 + Send + Sync>;
 pub enum Load {
     /// Constant torque, N m, or force, N.
     Constant(f64),
-    /// −coefficient·omega (N m s/rad) on the crank, −coefficient·v (N s/m) on the slider.
+    /// Viscous load −coefficient·omega (coefficient in N m s/rad) on the crank, −coefficient·v (N s/m) on the slider.
     Viscous(f64),
     /// Motor line: torque that falls linearly from `stall` at rest to zero at `no_load_speed`, and on below zero.
     Motor {
@@ -44,7 +44,7 @@ pub enum Load {
     /// Dry friction of a magnitude, N m or N, from another load: opposes the motion of the body it acts on; at rest it
     /// holds while all else stays below the magnitude. A magnitude over omega or v reads |omega| or |v|.
     Dry(Box<Load>),
-    /// A formula.
+    /// Formula of time and state.
     Expression(Expression),
     /// Closure, with a statement of what it reads.
     Function {

@@ -28,9 +28,9 @@ pub struct Scene {
     pub torques: Vec<Load>,
     /// Forces on the slider; they add up.
     pub forces: Vec<Load>,
-    /// Coulomb friction at the slider guide.
+    /// Coulomb friction at the slider guide; `None`: no friction.
     pub friction: Option<Friction>,
-    /// Clearance at one joint.
+    /// Clearance at one joint; `None`: ideal joints.
     pub clearance: Option<Clearance>,
     /// Initial or prescribed crank motion.
     pub motion: Motion,

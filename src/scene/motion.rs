@@ -47,9 +47,9 @@ impl Default for Run {
 /// End of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Extent {
-    /// After this time, s.
+    /// Duration of the run, s.
     Duration(f64),
-    /// After this many turns of the crank, either way.
+    /// Crank rotation of the run, turns, in either direction.
     Revolutions(f64),
 }
 

@@ -51,7 +51,7 @@ impl Measured {
 /// Content of a column beside time and motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Beside {
-    /// Another measured quantity of the motion.
+    /// Quantity of the motion measured by another sensor.
     Sensor(Measured),
     /// Known torque on the crank, N m.
     Torque,

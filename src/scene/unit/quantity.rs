@@ -5,41 +5,41 @@ use super::symbol::Dimension;
 /// Physical quantity of a value in a scene file, which determines the units it may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// m
+    /// SI unit m.
     Length,
-    /// kg
+    /// SI unit kg.
     Mass,
-    /// kg m²
+    /// SI unit kg m².
     Inertia,
-    /// rad
+    /// SI unit rad.
     Angle,
-    /// rad/s
+    /// SI unit rad/s.
     AngularSpeed,
-    /// m/s²
+    /// SI unit m/s².
     Acceleration,
-    /// s
+    /// SI unit s.
     Time,
-    /// N
+    /// SI unit N.
     Force,
-    /// N m
+    /// SI unit N m.
     Torque,
-    /// N m s/rad
+    /// SI unit N m s/rad.
     RotaryDamping,
-    /// N s/m
+    /// SI unit N s/m.
     LinearDamping,
-    /// N/m
+    /// SI unit N/m.
     Stiffness,
-    /// Pa
+    /// SI unit Pa.
     Pressure,
-    /// kg/m³
+    /// SI unit kg/m³.
     Density,
-    /// m/s
+    /// SI unit m/s.
     Velocity,
-    /// J
+    /// SI unit J.
     Energy,
-    /// W
+    /// SI unit W.
     Power,
-    /// no dimension
+    /// Number without dimension.
     Number,
 }
 
