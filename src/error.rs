@@ -1,4 +1,4 @@
-//! What can go wrong, with value and place; printed in one place, by `main`.
+//! Errors of the library, with value and place; printed in one place, by `main`.
 
 use std::path::PathBuf;
 
@@ -27,21 +27,21 @@ pub enum Error {
         /// The system's reason.
         source: std::io::Error,
     },
-    /// Somebody asked to stop.
+    /// Stop by request.
     #[error("interrupted")]
     Interrupted,
-    /// The scene cannot be computed the way it is asked for.
+    /// The scene cannot be computed in the requested way.
     #[error("{what}\nhelp: {help}")]
     Refused {
-        /// What is asked for and why it cannot be.
+        /// Request and the reason of the refusal.
         what: String,
-        /// What to do instead.
+        /// Alternative for the user.
         help: String,
     },
 }
 
 impl Error {
-    /// A refusal with its reason and what to do instead.
+    /// Creates a refusal with its reason and an alternative.
     pub fn refused(what: impl Into<String>, help: impl Into<String>) -> Error {
         Error::Refused {
             what: what.into(),
@@ -49,7 +49,7 @@ impl Error {
         }
     }
 
-    /// A refusal with what else is known, each on a line of its own.
+    /// Adds notes to a refusal, each on a line of its own; other errors stay unchanged.
     pub fn with_notes(self, notes: &[String]) -> Error {
         match self {
             Error::Refused { what, mut help } => {
@@ -63,7 +63,7 @@ impl Error {
         }
     }
 
-    /// Exit status of the program: 2 for what the user must change, 1 for the rest.
+    /// Returns the exit status of the program: 2 for what the user must change, 1 for the rest.
     pub fn exit_status(&self) -> u8 {
         match self {
             Error::Write { .. } | Error::Interrupted => 1,
@@ -71,7 +71,7 @@ impl Error {
         }
     }
 
-    /// Whether the reader of our output went away, which is no error.
+    /// Whether the reader of the output closed the pipe, which is no error.
     pub fn is_broken_pipe(&self) -> bool {
         matches!(self, Error::Write { source, .. } if source.kind() == std::io::ErrorKind::BrokenPipe)
     }

@@ -8,12 +8,12 @@
 //! ```
 //!
 //! M θ̈ + ½ M' θ̇² + V' = Q, with every term built from the kinetic and potential energy of the bodies
-//! and the virtual work of the loads. Each question is a module: what [`simulate::simulate`] or
-//! [`kinematics::kinematics`] do, the commands of the program do too.
+//! and the virtual work of the loads. Each question is a module with a function, like [`simulate::simulate`] or
+//! [`kinematics::kinematics`], which a command of the program calls.
 //!
 //! # Example
 //!
-//! An engine with a load of code, simulated for half a second:
+//! An engine with a load given as a closure, simulated for half a second:
 //!
 //! ```
 //! use slider_crank::scene::{Crank, Load, Scene, Slider, Variables};
@@ -38,19 +38,19 @@
 //!
 //! # Where to begin
 //!
-//! - A scene comes from code, as above, from a text ([`scene::Scene::parse`]) or from a file
-//!   ([`scene::Scene::load`]).
-//! - [`simulate::simulate`] keeps the dense motion; [`simulate::simulate_rows`] hands on its rows, in memory that does not
-//!   grow with the run.
-//! - [`kinematics::kinematics`], [`kinematics::forces`] and [`statics::statics`] look at one turn of the crank.
+//! - A scene comes from code, as above, from text ([`scene::Scene::parse`]) or from a file ([`scene::Scene::load`]).
+//! - [`simulate::simulate`] keeps the dense motion; [`simulate::simulate_rows`] passes its rows on, in memory that
+//!   does not grow with the run.
+//! - [`kinematics::kinematics`], [`kinematics::forces`] and [`statics::statics`] tabulate one turn of the crank.
 //! - [`inverse::inverse`] takes measured samples, from arrays ([`scene::Measurement::new`]) or from a file
 //!   ([`scene::Measurement::load`]).
-//! - [`sweep::Sweep`] computes many designs, [`optimise::optimise`] looks for the best one; [`explain::explain`] shows the equation, its terms and the plan.
+//! - [`sweep::Sweep`] computes many designs, [`optimise::optimise`] searches for the best one;
+//!   [`explain::explain`] shows the equation, its terms and the plan.
 //!
-//! Without the default feature `cli` the library has neither the program nor scene files, sweeps and reports; scenes are
-//! then written in Rust.
+//! Without the default feature `cli` the library has no program, scene files, sweeps, optimisation, reproduced papers
+//! and reports; scenes are then written in Rust.
 //!
-//! Everything is SI and radians, f64; conventions are those of [`mechanism::Linkage`].
+//! All values are f64 in SI units and radians; [`mechanism::Linkage`] states the sign conventions.
 
 #[cfg(feature = "cli")]
 #[doc(hidden)]

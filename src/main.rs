@@ -1,4 +1,4 @@
-//! The program `slider-crank`: reads its arguments, calls the library, prints what went wrong.
+//! Program `slider-crank`: reads its arguments, calls the library, prints errors.
 
 use std::process::ExitCode;
 

@@ -1,4 +1,4 @@
-//! The motion of a finished run: crank angle and speed at any time inside it.
+//! Trajectory of a finished run: crank angle and speed at any time within it, from the dense output of the engines.
 
 use std::fmt;
 use std::sync::Arc;
@@ -7,7 +7,7 @@ use crate::engine::energy::Orbit;
 use crate::engine::step::Step;
 use crate::numeric::angle::Angle;
 
-/// A dense trajectory; the same type from every engine.
+/// Dense trajectory, one type for all engines.
 #[derive(Clone, Debug)]
 pub struct Trajectory {
     motion: Stored,
@@ -18,7 +18,7 @@ pub struct Trajectory {
 
 type CrankOf = dyn Fn(Angle, f64) -> (Angle, f64) + Send + Sync;
 
-/// Crank angle and speed from those of another coordinate.
+/// Map of angle and speed of another coordinate to those of the crank.
 #[derive(Clone)]
 struct View(Arc<CrankOf>);
 
@@ -36,7 +36,7 @@ enum Stored {
     },
     Orbit(Box<Orbit>),
     Steps(Vec<Step>),
-    /// Each begins where the one before ends.
+    /// Consecutive pieces; each begins where the one before ends.
     Pieces(Vec<Trajectory>),
 }
 
@@ -50,23 +50,23 @@ impl Trajectory {
         }
     }
 
-    /// Constant speed (rad/s) from `angle` at t = 0 until `end`, s.
+    /// Creates a motion at constant speed (rad/s) from `angle` at t = 0 until `end`, s.
     pub fn uniform(angle: Angle, speed: f64, end: f64) -> Trajectory {
         Trajectory::new(Stored::Uniform { angle, speed }, 0.0, end)
     }
 
-    /// A motion over the crank angle, whose own time begins at `begin`, until `end`, s.
+    /// Creates a trajectory from a motion over the crank angle that begins at time `begin`, until `end`, s.
     pub fn orbit(orbit: Orbit, begin: f64, end: f64) -> Trajectory {
         Trajectory::new(Stored::Orbit(Box::new(orbit)), begin, end)
     }
 
-    /// Refined steps, each beginning where the one before ends, until `end`, s.
+    /// Creates a trajectory from refined steps, each beginning where the one before ends, until `end`, s.
     pub fn from_steps(steps: Vec<Step>, end: f64) -> Trajectory {
         let begin = steps.first().map_or(end, |step| step.start.t);
         Trajectory::new(Stored::Steps(steps), begin, end)
     }
 
-    /// Pieces of the crank angle, each beginning where the one before ends.
+    /// Joins pieces in the crank angle, each beginning where the one before ends.
     ///
     /// ```
     /// use slider_crank::numeric::angle::Angle;
@@ -81,18 +81,18 @@ impl Trajectory {
         Trajectory::new(Stored::Pieces(pieces), begin, end)
     }
 
-    /// Steps of another coordinate, from which `view` gives crank angle and speed.
+    /// Maps a trajectory of another coordinate to the crank; `view` gives crank angle and speed.
     pub fn seen_as(mut self, view: Arc<CrankOf>) -> Trajectory {
         self.view = Some(View(view));
         self
     }
 
-    /// Last time, s; the first of a whole run is 0.
+    /// Returns the last time, s; a whole run begins at 0.
     pub fn end(&self) -> f64 {
         self.end
     }
 
-    /// Crank angle, as turns and rest, and speed (rad/s) at time `t` (s); none outside the run.
+    /// Returns the crank angle, as turns and rest, and speed (rad/s) at time `t` (s); none outside the run.
     pub fn state(&self, t: f64) -> Option<(Angle, f64)> {
         let (angle, speed) = self.coordinate(t)?;
         Some(match &self.view {
@@ -101,7 +101,7 @@ impl Trajectory {
         })
     }
 
-    /// The time after which a motion over the crank angle repeats, s, if it does.
+    /// Returns the period, s, of a motion over the crank angle, if it repeats.
     pub(crate) fn period(&self) -> Option<f64> {
         match &self.motion {
             Stored::Orbit(orbit) => orbit.period().map(|(period, _)| period),
@@ -109,7 +109,7 @@ impl Trajectory {
         }
     }
 
-    /// Start (at t = 0) and speed (rad/s) of a constant one.
+    /// Returns the angle at t = 0 and the speed (rad/s) of a motion at constant speed; none for others.
     pub(crate) fn as_uniform(&self) -> Option<(Angle, f64)> {
         match self.motion {
             Stored::Uniform { angle, speed } => Some((angle, speed)),
@@ -117,7 +117,7 @@ impl Trajectory {
         }
     }
 
-    /// The motion over the crank angle that makes all of it, if one does.
+    /// Returns the motion over the crank angle if it is the whole trajectory.
     pub(crate) fn as_orbit(&self) -> Option<&Orbit> {
         match &self.motion {
             Stored::Orbit(orbit) if self.view.is_none() && self.begin == 0.0 => Some(orbit),
@@ -125,8 +125,8 @@ impl Trajectory {
         }
     }
 
-    /// The coordinate that was integrated, an angle as turns and rest, and its rate (rad/s) at time `t` (s): the crank
-    /// angle, or the coordinate of the configuration curve.
+    /// Returns the integrated coordinate (crank angle or coordinate of the configuration curve), an angle as turns and
+    /// rest, and its rate (rad/s) at time `t` (s); none outside the run.
     pub(crate) fn coordinate(&self, t: f64) -> Option<(Angle, f64)> {
         if !(self.begin..=self.end).contains(&t) {
             return None;
@@ -147,7 +147,7 @@ impl Trajectory {
         }
     }
 
-    /// Unwrapped crank angle (rad) and speed (rad/s) at time `t` (s); none outside the run.
+    /// Returns the unwrapped crank angle (rad) and speed (rad/s) at time `t` (s); none outside the run.
     pub fn at(&self, t: f64) -> Option<(f64, f64)> {
         let (angle, speed) = self.state(t)?;
         Some((angle.radians(), speed))

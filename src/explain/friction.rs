@@ -1,4 +1,4 @@
-//! What friction at the guide and dry loads do at one crank angle.
+//! Acceleration, friction force and holding torque at one crank angle of a scene with friction or dry loads.
 
 use serde::Serialize;
 
@@ -7,18 +7,18 @@ use crate::mechanism::{Curve, CurveEquation, Equation, FromRest, Sense, Statics}
 use crate::numeric::angle::Angle;
 use crate::scene::Scene;
 
-/// Friction at the guide.
+/// Friction force at the guide and range of the holding torque.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct FrictionAt {
-    /// Force on the slider along +x as it moves or is held by friction alone, N; none where the guide jams
+    /// Friction force on the slider along +x, sliding or held by friction alone, N; none where the guide jams
     pub force_n: Option<f64>,
-    /// Least torque that keeps the crank at this speed, beside the loads, N m; none where the guide locks itself
+    /// Least crank torque beside the loads that keeps the speed, N m; none where the guide locks itself
     pub holding_min_nm: Option<f64>,
-    /// Greatest; the same as the least unless the crank is at rest
+    /// Greatest crank torque beside the loads that keeps the speed, N m; equal to the least unless at rest
     pub holding_max_nm: Option<f64>,
 }
 
-/// θ̈ and the holding torque with friction or dry loads, for a scene that has them.
+/// Returns θ̈ (none where the guide jams) and the friction values; nothing for a scene without friction and dry loads.
 pub(super) fn friction_at(
     scene: &Scene,
     equation: &Equation,

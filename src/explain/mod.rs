@@ -1,4 +1,4 @@
-//! The plan, the equation with the scene's numbers, and its terms at one crank angle.
+//! Takes a scene, returns its plan, its equation with numbers, and the terms of the equation at one crank angle.
 
 mod friction;
 
@@ -14,59 +14,59 @@ use crate::mechanism::{Equation, single};
 use crate::plan::{Method, Plan};
 use crate::scene::{LoadOf, RodModel, Scene};
 
-/// What `explain` shows.
+/// Result of [`explain`].
 #[derive(Clone, Debug, Serialize)]
 pub struct Explanation {
     /// Title of the scene.
     pub scene: String,
-    /// What is computed, and how.
+    /// Engines, coordinate, events and terms.
     pub plan: Plan,
-    /// The equation with the scene's numbers, SI and radians, a line each.
+    /// Lines of the equation with the scene's numbers, SI and radians.
     pub equation: Vec<String>,
     /// Sign conventions.
     pub conventions: Vec<&'static str>,
     /// Measured time of one evaluation of the equation, ns.
     pub evaluation_ns: f64,
-    /// Terms at the angle that was asked for.
+    /// Terms at the requested crank angle, if one was requested.
     pub at: Option<TermsAt>,
 }
 
-/// Every term of the equation at one crank angle, speed and time of the scene's start.
+/// Terms of the equation at one crank angle, at the initial speed of the scene and t = 0.
 #[derive(Clone, Debug, Serialize)]
 pub struct TermsAt {
-    /// rad
+    /// Crank angle, rad
     pub theta_rad: f64,
     /// Crank speed at which loads are evaluated, rad/s
     pub omega_rad_per_s: f64,
-    /// x, m
+    /// Slider position x, m
     pub x_m: f64,
-    /// x', m/rad
+    /// Derivative x' = dx/dθ, m/rad
     pub dx_m_per_rad: f64,
-    /// M, kg m²
+    /// Effective inertia M, kg m²
     pub m_kg_m2: f64,
-    /// ½ M', kg m²/rad
+    /// Half the derivative of the effective inertia, ½ M', kg m²/rad
     pub half_dm_kg_m2_per_rad: f64,
-    /// V', N m
+    /// Derivative V' of the potential energy, N m
     pub dv_nm: f64,
-    /// Each load: name, torque or force, and its part of Q.
+    /// Loads with their parts of Q.
     pub loads: Vec<LoadAt>,
-    /// Q, N m
+    /// Generalized force Q of the loads, N m
     pub q_nm: f64,
-    /// θ̈ that follows, with friction, rad/s²; none where the inertia vanishes or the guide jams
+    /// Angular acceleration θ̈ with friction, rad/s²; none where the inertia vanishes or the guide jams
     pub alpha_rad_per_s2: Option<f64>,
-    /// Torque that would keep the crank at this speed, beside the loads and without friction, N m
+    /// Crank torque beside the loads that keeps this speed without friction, N m
     pub holding_torque_nm: f64,
-    /// What friction at the guide makes of it; none without friction.
+    /// Effect of friction at the guide and of dry loads; none without both.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction: Option<FrictionAt>,
 }
 
-/// One load.
+/// Value of one load and its part of Q.
 #[derive(Clone, Debug, Serialize)]
 pub struct LoadAt {
-    /// As `torque[1]`, with what it is.
+    /// Key, like `torque[1]`, and description.
     pub name: String,
-    /// N m or N
+    /// Torque, N m, or force, N
     pub value: f64,
     /// Part of Q, N m
     pub q_nm: f64,
@@ -80,10 +80,10 @@ const CONVENTIONS: [&str; 5] = [
     "a dash is d/dtheta, a dot d/dt",
 ];
 
-/// Explains a scene; `at` is a crank angle, rad.
+/// Explains a scene; `at` is a crank angle, rad, for the terms.
 ///
 /// # Errors
-/// As [`Plan::new`]; [`Error::Refused`] for an angle the mechanism has not, or at which a load has no value.
+/// Errors of [`Plan::new`]; [`Error::Refused`] for an angle out of reach, or at which a load has no value.
 pub fn explain(scene: &Scene, method: Method, at: Option<f64>) -> Result<Explanation, Error> {
     let plan = Plan::new(scene, method)?;
     let equation = Equation::new(scene);
@@ -150,7 +150,7 @@ fn terms_at(scene: &Scene, equation: &Equation, theta: f64) -> Result<TermsAt, E
     })
 }
 
-/// The shortest of a few rounds over angles of a turn.
+/// Measures the time of one evaluation, ns: the shortest of 7 rounds over angles of a turn.
 fn evaluation_ns(equation: &Equation, speed: f64) -> f64 {
     const COUNT: u32 = 2000;
     (0..7)
@@ -159,7 +159,7 @@ fn evaluation_ns(equation: &Equation, speed: f64) -> f64 {
             let mut theta = 0.1;
             for _ in 0..COUNT {
                 let alpha = equation.acceleration(0.0, theta, speed);
-                // The next angle waits for this result, as in an integration.
+                // The next angle depends on this result, as in an integration.
                 theta =
                     0.1 + 0.003 * f64::from(alpha > 0.0) + if theta > 6.0 { 0.0 } else { theta };
             }
@@ -169,7 +169,7 @@ fn evaluation_ns(equation: &Equation, speed: f64) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// The equation, its parts with numbers; parts that the scene does not have do not appear.
+/// Returns the equation and its parts with numbers, without parts that the scene does not have.
 fn written_out(scene: &Scene) -> Vec<String> {
     let geometry = &scene.geometry;
     let (r, l, e, s) = (
@@ -238,7 +238,7 @@ fn written_out(scene: &Scene) -> Vec<String> {
     lines
 }
 
-/// A computed value in as many digits as people type, without the noise of rounding.
+/// Rounds a computed value to 12 significant digits, which removes rounding noise.
 fn short(value: f64) -> f64 {
     let shown = format!("{value:.11e}");
     shown.parse().unwrap_or(value)

@@ -1,4 +1,4 @@
-//! Which engine computes a motion, and why.
+//! Selects the engine of a motion from clearance, prescribed speed, class, loads and start, with the reason.
 
 use std::borrow::Cow;
 use std::f64::consts::TAU;
@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::mechanism::{Class, Curve, CurveEquation, Linkage, Loads};
 use crate::scene::{Load, MotionKind, Scene, Variable, Variables};
 
-/// An engine with its reason.
+/// First engine of a plan, with its stepper and the reason.
 pub(super) struct Choice {
     pub engine: Engine,
     pub stepper: Option<Stepper>,
@@ -17,7 +17,7 @@ pub(super) struct Choice {
 }
 
 impl Choice {
-    /// An engine that has no stepper.
+    /// Creates the choice of an engine without a stepper.
     fn of(engine: Engine, reason: impl Into<Cow<'static, str>>) -> Choice {
         Choice {
             engine,
@@ -26,7 +26,7 @@ impl Choice {
         }
     }
 
-    /// The time engine.
+    /// Creates the choice of the time engine.
     fn in_time(stepper: Stepper, reason: impl Into<Cow<'static, str>>) -> Choice {
         Choice {
             engine: Engine::Time,
@@ -36,7 +36,7 @@ impl Choice {
     }
 }
 
-/// What takes over where an engine that is chosen cannot go on, or not begin, in this order.
+/// Returns the engines that take over where the chosen engine cannot start or continue, in this order.
 pub(super) fn after(
     choice: &Choice,
     method: Method,
@@ -66,7 +66,7 @@ pub(super) fn after(
 const IN_TIME: &str = "use --method auto, time, dop853 or dopri5";
 const WITHOUT_ENERGY: &str = "use --method auto, angle, time, dop853 or dopri5";
 
-/// The first engine that serves a scene without parts of zero strength, or the one that is asked for.
+/// Selects the first engine that serves a scene without parts of zero strength, or the engine that `method` asks for.
 pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Choice, Error> {
     if scene.clearance.is_some() {
         return for_all(
@@ -116,7 +116,7 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Cho
             "the lengths of a change point, which it passes onto the other branch",
             IN_TIME,
         ),
-        // Loads that oppose motion turn round with the crank and with the slider.
+        // Dry loads change sign where the crank or the slider reverses.
         _ if loads.are_dry() => for_all(
             method,
             &[Method::Auto],
@@ -131,7 +131,7 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Cho
     }
 }
 
-/// The one engine that there is for a scene, for these methods.
+/// Returns `choice`, the only engine that serves the scene, if `method` is one of `methods`; otherwise refuses.
 fn for_all(
     method: Method,
     methods: &[Method],
@@ -149,7 +149,7 @@ fn cannot_serve(method: Method, what: &str, help: &str) -> Error {
     Error::refused(format!("method {method} cannot serve {what}"), help)
 }
 
-/// The energy, else the crank angle, else the time as the independent variable.
+/// Selects the energy integral, else the crank angle, else the time as the independent variable.
 fn over_angle(method: Method, scene: &Scene, class: Class) -> Result<Choice, Error> {
     let rubs = scene.friction.is_some();
     let (without_energy, scene_is) = match rubs {
@@ -197,7 +197,7 @@ fn over_angle(method: Method, scene: &Scene, class: Class) -> Result<Choice, Err
     }
 }
 
-/// What keeps omega from following from the position: a load that depends on more, or one whose corners are not known.
+/// Returns why omega does not follow from the position: a load depends on more, or its corners are not known.
 fn why_not_energy(scene: &Scene) -> Option<String> {
     let position = Variables::THETA.or(Variables::X);
     let more = named(scene).find_map(|load| {
@@ -209,8 +209,8 @@ fn why_not_energy(scene: &Scene) -> Option<String> {
     more.or_else(|| why_corners(scene))
 }
 
-/// What keeps the crank angle from being the independent variable from the start: a crank at rest, a load whose corners
-/// are not known, or one without a cycle that could be tabulated; with friction also limits, and a guide that jams.
+/// Returns why the crank angle cannot be the independent variable from the start: the crank is at rest, a load has
+/// unknown corners or no cycle to tabulate; with friction also: the crank cannot turn fully, or the guide jams.
 fn why_not_angle(scene: &Scene, class: Class) -> Option<String> {
     let rubs = scene.friction.is_some();
     if rubs && class != Class::RotatingCrank {
@@ -224,10 +224,10 @@ fn why_not_angle(scene: &Scene, class: Class) -> Option<String> {
     why.or_else(|| (rubs && self::jams(scene)).then(jams))
 }
 
-/// Angles of a turn at which the guide is looked at.
+/// Number of equally spaced crank angles of a turn at which `jams` tests the guide.
 const ANGLES_OF_TURN: u32 = 64;
 
-/// Whether rigid bodies jam at one of some angles of the turn.
+/// Whether rigid bodies jam (μ |κ| ≥ 1) at one of `ANGLES_OF_TURN` crank angles.
 fn jams(scene: &Scene) -> bool {
     let linkage = Linkage::new(&scene.geometry);
     let guide = CurveEquation::new(scene, Curve::on_crank(&linkage));
@@ -238,7 +238,7 @@ fn jams(scene: &Scene) -> bool {
     (0..ANGLES_OF_TURN).any(|i| guide.across(theta(i)).normal().grip(mu).is_none())
 }
 
-/// The first load whose corners are not known as crank angles, and why.
+/// Returns the first load whose corners are not known as crank angles, and why.
 fn why_corners(scene: &Scene) -> Option<String> {
     named(scene).find_map(|load| {
         let why = why_rough(load.of.load)?;
@@ -246,7 +246,7 @@ fn why_corners(scene: &Scene) -> Option<String> {
     })
 }
 
-/// Why the corners of a load are not known as crank angles.
+/// Returns why the corners of a load are not known as crank angles.
 fn why_rough(load: &Load) -> Option<String> {
     match load {
         Load::Table(table) if table.of() != Variable::Theta => Some(format!(

@@ -1,4 +1,4 @@
-//! After how many turns all loads of a scene are the same again.
+//! Cycle of the loads: the least common multiple of their periods over the crank angle, in whole turns.
 
 use std::fmt;
 
@@ -10,38 +10,38 @@ use crate::scene::{Load, LoadKey, LoadOf, Period, Repeats, Scene, Variable, Vari
 /// The cycle of a scene: the least common multiple of the periods of its loads, in whole turns.
 #[derive(Clone, Debug, Serialize)]
 pub struct Cycle {
-    /// Whole turns; none if the loads do not repeat.
+    /// Length in whole turns; none if the loads do not repeat.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turns: Option<u32>,
-    /// Why they do not.
+    /// Why the loads do not repeat; none if they do.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub why_not: Option<String>,
-    /// Each load.
+    /// Period of each load.
     pub loads: Vec<LoadPeriod>,
 }
 
-/// One load over the crank angle.
+/// Period of one load over the crank angle.
 #[derive(Clone, Debug, Serialize)]
 pub struct LoadPeriod {
-    /// As `torque[1]`, with what it is.
+    /// Key, like `torque[1]`, and description of the load.
     #[serde(serialize_with = "shown")]
     pub name: LoadName,
-    /// Its period, or why there is none.
+    /// Period of the load, or why there is none.
     #[serde(serialize_with = "shown")]
     pub repeats: LoadRepeats,
-    /// What is not known of it between the nodes of panels and steps, if anything.
+    /// Warning that the load is not known between the nodes of panels and steps, if it is not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub between_nodes: Option<&'static str>,
 }
 
-/// A load by its place in the scene, shown with what it is.
+/// Key of a load in the scene, displayed with the load's description.
 #[derive(Clone, Debug)]
 pub struct LoadName {
     key: LoadKey,
     load: Load,
 }
 
-/// How a load repeats, in words when it is shown.
+/// Period of a load over the crank angle and whether it reads the time; displayed in words.
 #[derive(Clone, Copy, Debug)]
 pub struct LoadRepeats {
     over_angle: Repeats,
@@ -49,7 +49,7 @@ pub struct LoadRepeats {
 }
 
 impl Cycle {
-    /// The cycle of a scene; loads that depend on the time have none.
+    /// Computes the cycle of a scene; loads that depend on the time have none.
     pub fn of(scene: &Scene) -> Cycle {
         let named: Vec<Named> = named(scene).collect();
         let mut turns = over_angle(scene);
@@ -64,7 +64,7 @@ impl Cycle {
     }
 }
 
-/// The cycle of a scene as far as its loads depend on the crank angle, at equal times, or which load has none and why.
+/// Computes the cycle of a scene at fixed time, in whole turns; else names the load that does not repeat, and why.
 pub(crate) fn over_angle(scene: &Scene) -> Result<u32, String> {
     let mut cycle = Repeats::Always;
     for load in named(scene) {
@@ -79,14 +79,14 @@ pub(crate) fn over_angle(scene: &Scene) -> Result<u32, String> {
     })
 }
 
-/// A load with what the plan needs of it.
+/// Load with its period over the crank angle.
 pub(super) struct Named<'a> {
     pub of: LoadOf<'a>,
     repeats: Repeats,
 }
 
 impl Named<'_> {
-    /// The variables it depends on.
+    /// Returns the variables the load depends on.
     pub fn reads(&self) -> Variables {
         self.of.load.reads(self.of.on_slider)
     }
@@ -99,7 +99,7 @@ impl Named<'_> {
 const OF_TIME: &str = "depends on the time t";
 const SAMPLED: &str = "a closure is seen at the nodes of panels and steps alone, which is no guarantee: state its finest scale";
 
-/// The loads of a scene that are not zero, numbered as they stand there.
+/// Returns the loads of a scene that are not zero, with their numbers in the scene.
 pub(super) fn named(scene: &Scene) -> impl Iterator<Item = Named<'_>> {
     let loads = scene.loads().filter(|of| !of.load.is_zero());
     loads.map(|of| Named {

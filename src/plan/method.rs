@@ -1,29 +1,29 @@
-//! The method the user asks for.
+//! Method of integration that the user requests.
 
 use std::fmt;
 use std::str::FromStr;
 
-/// What the user asks for.
+/// Requested method of integration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
-    /// Whatever the plan finds best.
+    /// Engine selected by the plan.
     #[default]
     Auto,
-    /// Prescribed motion, no integration.
+    /// Prescribed motion, without integration.
     ClosedForm,
     /// Energy integral.
     Energy,
     /// Crank angle as the independent variable.
     Angle,
-    /// Integration in time with the default method.
+    /// Integration in time with the default stepper.
     Time,
-    /// Integration in time with Dop853 of ode_solvers, from which only the ends of steps are taken.
+    /// Integration in time with Dop853 of ode_solvers, of which only the states at the ends of steps are used.
     ///
-    /// The dense output of ode_solvers 0.6 is not to be trusted: it hands out states that belong to another time than it
-    /// says, extrapolates its last point, and fails where time runs backwards or is negative. Between the ends of steps
-    /// this program interpolates itself, and nothing controls that error.
+    /// The dense output of ode_solvers 0.6 is unreliable: it returns states of another time than stated, extrapolates
+    /// its last point, and fails for negative or decreasing time. Between the ends of steps this program interpolates
+    /// itself, without control of that error.
     Dop853,
-    /// Integration in time with Dopri5 of ode_solvers, as [`Method::Dop853`].
+    /// Integration in time with Dopri5 of ode_solvers; dense output as for [`Method::Dop853`].
     Dopri5,
 }
 
@@ -38,7 +38,7 @@ impl Method {
         ("dopri5", Method::Dopri5),
     ];
 
-    /// Every method, [`Method::Auto`] first.
+    /// Iterates over all methods, [`Method::Auto`] first.
     pub fn each() -> impl Iterator<Item = Method> {
         Method::ALL.into_iter().map(|(_, method)| method)
     }

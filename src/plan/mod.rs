@@ -1,5 +1,5 @@
-//! The plan: what a scene needs and which engine computes it. The one place where a scene becomes terms,
-//! coordinate, events and engine; `explain` prints it.
+//! Plan: takes a scene, returns the engine and its successors in order, the terms, coordinate, state and events, by
+//! decision rules with reasons. The only place that decides them; `explain` prints it.
 
 mod choice;
 mod cycle;
@@ -25,24 +25,24 @@ use crate::mechanism::{Class, Curve, Linkage, Loads};
 use crate::numeric::angle::Angle;
 use crate::scene::{MotionKind, Scene, Variable};
 
-/// What computes the motion.
+/// Engine that computes a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Engine {
-    /// Prescribed motion; the equation is read backwards.
+    /// Prescribed crank speed: the equation gives the driving torque, without integration.
     ClosedForm,
-    /// The energy integral: loads that depend on the position alone.
+    /// Energy integral, for loads that depend on the position alone.
     Energy,
-    /// The crank angle as the independent variable: loads that depend on speed and time too.
+    /// Crank angle as the independent variable, for loads that may also depend on speed and time.
     Angle,
     /// Integration in time.
     Time,
-    /// Flight and contact in a loose joint, in time.
+    /// Integration in time of flight and contact in a joint with clearance.
     Contact,
 }
 
 impl Engine {
-    /// Name in outputs.
+    /// Returns the name in outputs.
     pub fn name(self) -> &'static str {
         match self {
             Engine::ClosedForm => "closed-form",
@@ -54,11 +54,11 @@ impl Engine {
     }
 }
 
-/// The stepper of the time engine.
+/// One-step method of the time engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stepper {
-    /// Gauss collocation with 12 nodes (order 24), solved by Picard sweeps.
+    /// Gauss collocation with 12 nodes (order 24), solved by Picard iteration.
     Picard,
     /// Dormand and Prince, order 8(5,3), of ode_solvers.
     Dop853,
@@ -67,7 +67,7 @@ pub enum Stepper {
 }
 
 impl Stepper {
-    /// Name in words.
+    /// Returns the name in words.
     pub fn name(self) -> &'static str {
         match self {
             Stepper::Picard => "Gauss collocation of order 24, by Picard sweeps",
@@ -77,37 +77,37 @@ impl Stepper {
     }
 }
 
-/// An engine that may take over.
+/// Engine that may take over from the first one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Candidate {
     /// The engine.
     pub engine: Engine,
-    /// When it does.
+    /// Condition under which the engine takes over.
     pub reason: &'static str,
 }
 
-/// What will be computed, and how.
+/// Engines, coordinate, state, load cycle, events and terms of a scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct Plan {
-    /// The engine.
+    /// First engine.
     pub engine: Engine,
-    /// Why this engine.
+    /// Reason for the first engine.
     pub reason: Cow<'static, str>,
-    /// What takes over where that engine cannot go on, in this order; which engines computed a run is told by its pieces.
+    /// Engines that may take over where another cannot go on, in this order; the pieces of a run tell which did.
     pub then: Vec<Candidate>,
-    /// The stepper, if the engine has one.
+    /// Stepper of the first engine, if it has one.
     pub stepper: Option<Stepper>,
-    /// The coordinate of the motion.
+    /// Coordinate of the motion, in words.
     pub coordinate: &'static str,
-    /// What is integrated, in this order; empty: nothing.
+    /// Integrated quantities, in this order; empty: none.
     pub state: Vec<&'static str>,
-    /// After how many turns the loads are the same again.
+    /// Cycle of the loads over the crank angle.
     pub cycle: Cycle,
-    /// What is looked for during the run.
+    /// Kinds of events that are located during the run.
     pub events: Vec<&'static str>,
-    /// Terms of the equation.
+    /// Terms of the equation that are modelled.
     pub kept: Vec<Term>,
-    /// Terms that are not modelled.
+    /// Terms of the equation that are not modelled.
     pub left_out: Vec<Term>,
 }
 
@@ -124,10 +124,10 @@ impl Plan {
         Plan::of_modelled(scene, reduced, method)
     }
 
-    /// Plans a scene whose motion can be modelled, begun and ended.
+    /// Plans the run of a scene, after the checks of [`refuse`].
     ///
     /// # Errors
-    /// Those of [`refuse`] and of [`Plan::new`].
+    /// Errors of [`refuse`] and of [`Plan::new`].
     pub(crate) fn of_run(scene: &Scene, method: Method) -> Result<Plan, Error> {
         Plan::of_modelled(scene, modelled(scene)?, method)
     }
@@ -162,7 +162,7 @@ fn is_prescribed(scene: &Scene) -> bool {
     scene.motion.kind == MotionKind::ConstantSpeed
 }
 
-/// Whether the crank meets limits of its motion, or a change point.
+/// Whether the crank has limits or a change point.
 fn is_limited(scene: &Scene) -> bool {
     Class::of(&Linkage::new(&scene.geometry)) != Class::RotatingCrank
 }

@@ -1,4 +1,4 @@
-//! Which terms of the equation are modelled, which are not, and why; in words when they are shown.
+//! Terms of the equation that a scene keeps or leaves out, with the reasons, displayed in words.
 
 use std::fmt;
 
@@ -6,31 +6,31 @@ use serde::Serialize;
 
 use crate::scene::{Clearance, Friction, Joint, Load, RodModel, Scene, Variables};
 
-/// One term that is modelled or left out.
+/// Term of the equation, modelled or left out.
 #[derive(Clone, Debug, Serialize)]
 pub struct Term {
-    /// What it is.
+    /// Name of the term.
     #[serde(serialize_with = "shown")]
     pub name: TermName,
-    /// Why it is kept or left out.
+    /// Why the term is kept or left out.
     #[serde(serialize_with = "shown")]
     pub reason: TermReason,
 }
 
-/// What a term is, like `gravity` or `torque[1]`.
+/// Name of a term, like `gravity` or `torque[1]`.
 #[derive(Clone, Copy, Debug)]
 pub struct TermName {
     word: &'static str,
-    /// From 1, for one of a list.
+    /// Number in a list of loads, from 1; none outside a list.
     number: Option<usize>,
 }
 
-/// Why a term is kept or left out: what of the scene makes it.
+/// Reason to keep or leave out a term: the part of the scene that makes it.
 #[derive(Clone, Debug)]
 pub enum TermReason {
-    /// It is not in the scene.
+    /// The part is not in the scene.
     Absent,
-    /// Its strength is zero.
+    /// The strength of the part is zero.
     Zero,
     /// Inertia of the crank about O, kg m².
     Crank(f64),
@@ -40,9 +40,9 @@ pub enum TermReason {
     Slider(f64),
     /// Gravity along x and y, m/s².
     Gravity([f64; 2]),
-    /// A load of zero strength.
+    /// Load of zero strength.
     NoLoad(Load),
-    /// A load and what it depends on.
+    /// Load and the variables it depends on.
     Load(Load, Variables),
     /// Friction of the guide.
     Friction(Friction),
@@ -50,7 +50,7 @@ pub enum TermReason {
     Clearance(Clearance),
 }
 
-/// As text, in JSON.
+/// Serializes a value as its displayed text.
 pub(super) fn shown<S: serde::Serializer>(
     what: &impl fmt::Display,
     serializer: S,
@@ -109,7 +109,7 @@ struct Notes {
 }
 
 impl Notes {
-    /// A part of the scene: why it is kept, if it is; whether it is in the scene.
+    /// Lists a part as kept, with the reason; else as left out: of zero strength if `is_given`, otherwise absent.
     fn take(&mut self, word: &'static str, kept: Option<TermReason>, is_given: bool) {
         let absent = match is_given {
             true => TermReason::Zero,
@@ -124,7 +124,7 @@ impl Notes {
     }
 }
 
-/// Terms kept, terms left out.
+/// Returns the terms kept and the terms left out; `reduced` is `scene` without parts of zero strength.
 pub(super) fn terms(scene: &Scene, reduced: &Scene) -> (Vec<Term>, Vec<Term>) {
     let mut notes = Notes::default();
     let kept = reduced.crank.map(|crank| TermReason::Crank(crank.inertia));

@@ -3,11 +3,11 @@
 /// Mass properties of the crank.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Crank {
-    /// kg
+    /// Mass, kg.
     pub mass: f64,
-    /// Centre of gravity from O along the crank, m.
+    /// Distance of the centre of gravity from O along the crank, m.
     pub cg: f64,
-    /// Centre of gravity to the left of O→A, m.
+    /// Distance of the centre of gravity to the left of O→A, m.
     pub cg_lateral: f64,
     /// Moment of inertia about O, kg m².
     pub inertia: f64,
@@ -16,22 +16,22 @@ pub struct Crank {
 /// Mass properties of the connecting rod.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rod {
-    /// How its mass is modelled.
+    /// Model of the mass distribution.
     pub model: RodModel,
-    /// kg
+    /// Mass, kg.
     pub mass: f64,
-    /// Centre of gravity from the crank pin along the rod, m.
+    /// Distance of the centre of gravity from the crank pin along the rod, m.
     pub cg: f64,
-    /// Centre of gravity to the left of A→P, m.
+    /// Distance of the centre of gravity to the left of A→P, m.
     pub cg_lateral: f64,
     /// Moment of inertia about the point `inertia_about`, kg m².
     pub inertia: f64,
-    /// Where the inertia is taken.
+    /// Reference point of `inertia`.
     pub inertia_about: InertiaAbout,
 }
 
 impl Rod {
-    /// Moment of inertia about the centre of gravity, kg m² (parallel axis theorem).
+    /// Returns the moment of inertia about the centre of gravity, kg m² (parallel axis theorem).
     pub fn central_inertia(&self) -> f64 {
         match self.inertia_about {
             InertiaAbout::Cg => self.inertia,
@@ -52,13 +52,13 @@ pub enum InertiaAbout {
     CrankPin,
 }
 
-/// How the mass of the connecting rod is modelled.
+/// Model of the mass of the connecting rod.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RodModel {
     /// A rigid body.
     #[default]
     Rigid,
-    /// Two point masses at the pins with the same centre of gravity (Obaseki & Alfred (31)-(36)).
+    /// Two point masses at the pins that keep the centre of gravity (Obaseki & Alfred (31)-(36)).
     TwoMass,
     /// Spin energy only, and the potential as printed (Duarte et al. (7), (8)).
     SpinOnly,
@@ -69,6 +69,6 @@ pub enum RodModel {
 /// Mass of the slider.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Slider {
-    /// kg
+    /// Mass, kg.
     pub mass: f64,
 }

@@ -1,4 +1,4 @@
-//! Scenes built in code.
+//! Builder methods for scenes in code.
 
 use super::{
     Branch, Crank, Every, Extent, Geometry, Gravity, Load, Motion, MotionKind, Places, Rod, Run,
@@ -6,8 +6,8 @@ use super::{
 };
 
 impl Scene {
-    /// A mechanism of crank length `crank`, rod length `rod` (m) and no offset, right branch, massless,
-    /// at rest at zero angle: the start for scenes built in code.
+    /// Creates a mechanism of crank length `crank`, rod length `rod` (m) and no offset, right branch, massless, at rest
+    /// at zero angle: the base of scenes in code.
     ///
     /// ```
     /// use slider_crank::scene::{Crank, Load, Scene, Slider};
@@ -55,25 +55,25 @@ impl Scene {
         self
     }
 
-    /// Gives the crank mass properties.
+    /// Sets the mass properties of the crank.
     pub fn crank(mut self, crank: Crank) -> Scene {
         self.crank = Some(crank);
         self
     }
 
-    /// Gives the rod mass properties.
+    /// Sets the mass properties of the rod.
     pub fn rod(mut self, rod: Rod) -> Scene {
         self.rod = Some(rod);
         self
     }
 
-    /// Gives the slider mass.
+    /// Sets the mass of the slider.
     pub fn slider(mut self, slider: Slider) -> Scene {
         self.slider = Some(slider);
         self
     }
 
-    /// Adds gravity.
+    /// Sets the gravity field.
     pub fn gravity(mut self, gravity: Gravity) -> Scene {
         self.gravity = Some(gravity);
         self
@@ -91,7 +91,7 @@ impl Scene {
         self
     }
 
-    /// Sets the initial crank angle (rad) and speed (rad/s); the equation decides the motion.
+    /// Sets the initial crank angle (rad) and speed (rad/s) of a free motion.
     pub fn start(mut self, angle: f64, speed: f64) -> Scene {
         self.motion = Motion {
             kind: MotionKind::Free,
@@ -123,7 +123,7 @@ impl Scene {
         self
     }
 
-    /// Sets the distance of the output rows.
+    /// Sets the spacing of the output rows.
     pub fn output_every(mut self, every: Every) -> Scene {
         self.run.output_every = Some(every);
         self

@@ -1,15 +1,15 @@
-//! The list that reading and checking a scene write to.
+//! Collects the problems that reading and checking a scene find.
 
 use std::fmt::Display;
 
 use super::number::with_unit;
 use super::{Places, Problem, Problems};
 
-/// Largest value, SI: an energy, the product of five values, has one in double precision, too, and that of the least
-/// positive values, its reciprocal, does not vanish.
+/// Largest magnitude of a value, SI; the reciprocal is the least positive one. The product of five such values, an
+/// energy, neither overflows nor vanishes in double precision.
 const LARGEST: f64 = 1e50;
 
-/// The problems found so far.
+/// Problems found, and the places of the scene's keys.
 pub(super) struct Check<'a> {
     pub problems: Vec<Problem>,
     pub places: &'a Places,
@@ -21,7 +21,7 @@ impl Check<'_> {
         self.problems.push(problem);
     }
 
-    /// What was found, with its places.
+    /// Returns the problems found, with their places, as the error.
     pub fn result(self) -> Result<(), Problems> {
         match self.problems {
             list if list.is_empty() => Ok(()),
@@ -29,7 +29,7 @@ impl Check<'_> {
         }
     }
 
-    /// Whether none of these fields has a problem yet.
+    /// Whether none of these fields has a problem.
     pub fn sound<const N: usize>(&self, fields: [&str; N]) -> bool {
         let mut named = self.problems.iter().map(|problem| problem.field.as_str());
         !named.any(|field| fields.contains(&field))

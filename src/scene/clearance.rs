@@ -1,39 +1,39 @@
-//! Clearance at a revolute joint, and the law of the contact in it.
+//! Clearance at a revolute joint, and its contact law.
 
 /// Radial clearance at one revolute joint. The rod carries the bearing; the pin is the journal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clearance {
-    /// The joint.
+    /// Joint that has the clearance.
     pub joint: Joint,
     /// Radial clearance, m: radius of the bearing minus radius of the journal.
     pub radial: f64,
-    /// m
+    /// Bearing radius, m.
     pub bearing_radius: Option<f64>,
-    /// Pa, of both materials
+    /// Young's modulus of both materials, Pa.
     pub young_modulus: Option<f64>,
-    /// dimensionless, of both materials
+    /// Poisson's ratio of both materials, dimensionless.
     pub poisson_ratio: Option<f64>,
-    /// dimensionless, 0 to 1
+    /// Coefficient of restitution, dimensionless, 0 to 1.
     pub restitution: Option<f64>,
     /// Coefficient of friction in the contact; `None`: no friction.
     pub friction: Option<f64>,
-    /// Law of the normal force.
+    /// Law of the normal contact force.
     pub law: ContactLaw,
-    /// Sliding speed, m/s, up to which friction grows linearly; beyond it is Coulomb's.
+    /// Sliding speed, m/s, up to which friction grows linearly; Coulomb friction beyond.
     pub friction_threshold: f64,
-    /// Least approach speed, m/s, by which a contact law divides.
+    /// Least approach speed, m/s, in the divisor of a contact law; slower contacts count as beginning with this speed.
     pub least_approach_speed: f64,
-    /// Distance of the journal's centre from the bearing's at the start, m; `None`: 0, or for
+    /// Initial distance of the journal's centre from the bearing's, m; `None`: 0, or for
     /// [`ContactLaw::MasslessLink`] the radial clearance.
     pub eccentricity: Option<f64>,
-    /// Direction from the bearing's centre to the journal's at the start, rad from +x; `None`: the
-    /// direction in which the ideal joint would be loaded.
+    /// Initial direction from the bearing's centre to the journal's, rad from +x; `None`: the direction in which the
+    /// ideal joint would be loaded.
     pub eccentricity_angle: Option<f64>,
 }
 
 impl Clearance {
-    /// A radial clearance (m) at a joint, with the law of Lankarani and Nikravesh and no values for the
-    /// contact yet.
+    /// Creates a radial clearance (m) at a joint, with the law of Lankarani and Nikravesh and without values for the
+    /// contact.
     ///
     /// ```
     /// use slider_crank::scene::{Clearance, Joint};
@@ -72,14 +72,14 @@ impl Clearance {
 /// A revolute joint of the connecting rod.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Joint {
-    /// A
+    /// Joint A of crank and rod.
     CrankPin,
-    /// P
+    /// Joint P of rod and slider.
     WristPin,
 }
 
-/// Law of the normal force F = K δ^1.5 (1 + D δ̇/δ̇₀): δ the penetration, δ̇₀ the speed with which the
-/// contact began. The laws differ in how D follows from the restitution.
+/// Law of the normal contact force F = K δ^1.5 (1 + D δ̇/δ̇₀), with the penetration δ and its rate δ̇₀ at the beginning
+/// of the contact. The laws differ in how D follows from the coefficient of restitution e.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ContactLaw {
     /// Lankarani and Nikravesh, J. Mech. Design 112 (1990) 369: D = 3(1 − e²)/4, for e near 1.
@@ -91,9 +91,9 @@ pub enum ContactLaw {
     Flores,
     /// Gonthier, McPhee, Lange and Piedbœuf, Multibody Syst. Dyn. 11 (2004) 209: D = (1 − e²)/e.
     Gonthier,
-    /// Hertz: D = 0, no loss whatever the restitution.
+    /// Hertz: D = 0, no energy loss at any restitution.
     Hertz,
-    /// Journal and bearing always in contact, at the distance of the radial clearance.
+    /// Massless link: journal and bearing always in contact, their centres at the distance of the radial clearance.
     MasslessLink,
 }
 
@@ -108,7 +108,7 @@ impl ContactLaw {
         ("massless-link", ContactLaw::MasslessLink),
     ];
 
-    /// Name in scene files.
+    /// Returns the name in scene files.
     pub fn name(self) -> &'static str {
         let own = Self::ALL.iter().find(|(_, law)| *law == self);
         own.map_or("", |(name, _)| name)

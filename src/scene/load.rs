@@ -1,4 +1,4 @@
-//! Loads: what a torque on the crank or a force on the slider depends on, and its value.
+//! Loads: torques on the crank and forces on the slider, the variables they depend on and their periods.
 
 use std::fmt;
 use std::sync::Arc;
@@ -10,58 +10,58 @@ type LoadFunction = Arc<dyn Fn(&Instant) -> f64 + Send + Sync>;
 /// A torque on the crank (N m, counter-clockwise) or a force on the slider (N, along +x).
 #[derive(Clone)]
 pub enum Load {
-    /// Always the same.
+    /// Constant torque, N m, or force, N.
     Constant(f64),
-    /// −coefficient·omega (N m s/rad) on the crank, −coefficient·v (N s/m) on the slider.
+    /// Viscous load −coefficient·omega (coefficient in N m s/rad) on the crank, −coefficient·v (N s/m) on the slider.
     Viscous(f64),
-    /// Torque that falls linearly from `stall` at rest to zero at `no_load_speed`, and on below zero.
+    /// Motor line: torque that falls linearly from `stall` at rest to zero at `no_load_speed`, and on below zero.
     Motor {
-        /// N m
+        /// Torque at rest, N m
         stall: f64,
-        /// rad/s, of the sign of `stall`
+        /// Speed of zero torque, rad/s, of the sign of `stall`
         no_load_speed: f64,
     },
-    /// Force −stiffness·(x − rest).
+    /// Spring force −stiffness·(x − rest).
     Spring {
-        /// N/m
+        /// Stiffness, N/m
         stiffness: f64,
-        /// slider position of zero force, m
+        /// Slider position of zero force, m
         rest: f64,
     },
-    /// Interpolated values.
+    /// Values interpolated over one variable.
     Table(Table),
-    /// Gas force (p − ambient)·area towards the crank, pressure from a table.
+    /// Gas force (p − ambient)·area towards the crank, with the pressure p from a table.
     Gas {
-        /// pressure in Pa over the crank angle
+        /// Pressure, Pa, over the crank angle
         pressure: Table,
-        /// Pa
+        /// Ambient pressure, Pa
         ambient: f64,
-        /// m²
+        /// Piston area, m²
         area: f64,
-        /// −1 on the right branch, +1 on the left: the sign of a force towards the crank.
+        /// Sign of a force towards the crank: −1 on the right branch, +1 on the left.
         towards_crank: f64,
     },
-    /// Dry friction: it opposes the motion of what it acts on with the magnitude that another load gives, N m or N. At rest
-    /// it holds as long as all else stays below the magnitude. One over omega or v is over their size.
+    /// Dry friction of a magnitude, N m or N, from another load: opposes the motion of the body it acts on; at rest it
+    /// holds while all else stays below the magnitude. A magnitude over omega or v reads |omega| or |v|.
     Dry(Box<Load>),
-    /// A formula.
+    /// Formula of time and state.
     Expression(Expression),
-    /// A function of code; what it reads must be said.
+    /// Closure, with a statement of what it reads.
     Function {
         /// The variables the function depends on.
         reads: Variables,
-        /// The function.
+        /// The closure.
         function: LoadFunction,
-        /// After how much of a turn it is the same again, as far as it depends on the crank angle; none: it does not
-        /// repeat.
+        /// Stated period over the crank angle, all other variables being equal; none: a closure that reads the crank
+        /// angle is taken not to repeat.
         period: Option<Period>,
-        /// The finest scales that are stated, each a variable and a length in its SI unit or rad.
+        /// Stated finest scales, each a variable and a length in its SI unit or rad.
         scales: Vec<(Variable, f64)>,
     },
 }
 
 impl Load {
-    /// A load from a closure.
+    /// Creates a load from a closure.
     ///
     /// ```
     /// use slider_crank::scene::{Load, Variables};
@@ -79,7 +79,7 @@ impl Load {
         }
     }
 
-    /// A load that opposes motion with a constant magnitude, N m or N.
+    /// Creates a dry load of constant magnitude, N m or N.
     ///
     /// ```
     /// use slider_crank::scene::{Crank, Load, Scene};
@@ -99,8 +99,8 @@ impl Load {
         Load::Dry(Box::new(Load::Constant(magnitude)))
     }
 
-    /// Says of a load from a closure after how much of a turn it is the same again; a closure that reads the crank angle
-    /// and does not say it is not taken to repeat. Other loads know their period.
+    /// States the period over the crank angle of a load from a closure. A closure that reads the crank angle and states
+    /// no period is taken not to repeat. Other loads know their period and stay as they are.
     ///
     /// ```
     /// use slider_crank::scene::{Load, Period, Variables};
@@ -113,10 +113,10 @@ impl Load {
         self
     }
 
-    /// States of a load from a closure that nothing it does over a variable is narrower than `scale`, in SI units or rad:
-    /// no panel and no step of an engine goes further. A closure that states nothing is known at the nodes of panels and
-    /// steps alone, and a pulse between them is not seen. A scale that is not positive states nothing; other loads are
-    /// enclosed and need none.
+    /// States the finest scale of a load from a closure over a variable, in SI units or rad: no feature of the load is
+    /// narrower than `scale`, and no panel and no step of an engine is longer. A closure without a stated scale is
+    /// known only at the nodes of panels and steps, which miss a pulse between them. A scale that is not positive
+    /// states nothing; other loads are enclosed and need none.
     ///
     /// ```
     /// use slider_crank::scene::{Load, Variable, Variables};
@@ -132,7 +132,7 @@ impl Load {
         self
     }
 
-    /// Whether it is a closure that states no finest scale over a variable that it reads.
+    /// Whether the load is a closure that states no finest scale over a variable that it reads.
     pub fn is_only_sampled(&self) -> bool {
         match self {
             Load::Function { reads, scales, .. } => {
@@ -146,7 +146,7 @@ impl Load {
         }
     }
 
-    /// Whether it is the same again after some turns of the crank, time and crank speed being the same.
+    /// Returns the period of the load over the crank angle, at equal time and crank speed.
     pub fn repeats(&self, on_slider: bool) -> Repeats {
         let of_position = match self {
             Load::Table(table)
@@ -174,7 +174,7 @@ impl Load {
         })
     }
 
-    /// The word for it in scene files.
+    /// Returns the name of the kind in scene files.
     pub fn kind(&self) -> &'static str {
         match self {
             Load::Constant(_) => "constant",
@@ -189,7 +189,7 @@ impl Load {
         }
     }
 
-    /// The variables it depends on, as a torque (`on_slider` false) or as a force.
+    /// Returns the variables the load depends on, as a torque (`on_slider` false) or as a force.
     pub fn reads(&self, on_slider: bool) -> Variables {
         match self {
             Load::Constant(_) => Variables::NONE,
@@ -205,7 +205,7 @@ impl Load {
         }
     }
 
-    /// The table it is made of, if it is.
+    /// Returns the table of the load, if the load has one.
     pub(super) fn table(&self) -> Option<&Table> {
         match self {
             Load::Table(table)
@@ -217,12 +217,12 @@ impl Load {
         }
     }
 
-    /// Whether its values are those of a table.
+    /// Whether the load takes its values from a table.
     pub fn is_tabulated(&self) -> bool {
         self.table().is_some()
     }
 
-    /// Whether it is zero always; such a load is not modelled at all.
+    /// Whether the load is known to be always zero, which leaves it out of the model.
     pub fn is_zero(&self) -> bool {
         match self {
             Load::Constant(value) => *value == 0.0,
@@ -237,7 +237,7 @@ impl Load {
         }
     }
 
-    /// The value, N m or N, of a load that depends on nothing.
+    /// Returns the value, N m or N, of a load that depends on no variable; none for other loads.
     pub fn fixed(&self) -> Option<f64> {
         match self {
             Load::Constant(value) => Some(*value),

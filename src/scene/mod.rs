@@ -1,7 +1,7 @@
-//! What the user wrote: a scene as plain data, SI and radians, absent parts `None`.
+//! Scenes: takes files or code, returns plain data in SI units and radians, absent parts `None`.
 //!
 //! A scene comes from a file ([`Scene::load`]) or from code ([`Scene::new`] and the methods that add
-//! parts). Either way [`Scene::check`] says all that is wrong with it.
+//! parts). [`Scene::check`] returns all problems of either.
 
 mod body;
 mod builder;

@@ -1,4 +1,4 @@
-//! A scene and its values.
+//! Scene, its loads and its uncertain values.
 
 use std::fmt;
 use std::path::Path;
@@ -12,7 +12,7 @@ use super::{
 /// A complete scene.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// What the scene is, in a line.
+    /// Title, one line.
     pub title: Option<String>,
     /// The lengths of the mechanism.
     pub geometry: Geometry,
@@ -28,29 +28,29 @@ pub struct Scene {
     pub torques: Vec<Load>,
     /// Forces on the slider; they add up.
     pub forces: Vec<Load>,
-    /// Coulomb friction at the slider guide.
+    /// Coulomb friction at the slider guide; `None`: no friction.
     pub friction: Option<Friction>,
-    /// Clearance at one joint.
+    /// Clearance at one joint; `None`: ideal joints.
     pub clearance: Option<Clearance>,
     /// Initial or prescribed crank motion.
     pub motion: Motion,
-    /// How long, how fine, how exact.
+    /// Extent, output rows and accuracy of the run.
     pub run: Run,
-    /// Where its keys stand, if it comes from a file.
+    /// Places of the keys in the scene file; none for a scene from code.
     pub places: Places,
 }
 
 impl Scene {
-    /// What is wrong, with the places of the file the scene comes from.
+    /// Returns problems, with their places in the file of the scene, as the error.
     ///
     /// # Errors
-    /// [`Problems`] if there is anything.
+    /// [`Problems`] unless the list is empty.
     pub fn refused(&self, problems: Vec<Problem>) -> Result<(), Problems> {
         let places = &self.places;
         Check { problems, places }.result()
     }
 
-    /// Its torques, then its forces.
+    /// Iterates over the torques, then the forces.
     pub fn loads(&self) -> impl Iterator<Item = LoadOf<'_>> {
         let lists = [(&self.torques, false), (&self.forces, true)];
         lists.into_iter().flat_map(|(list, on_slider)| {
@@ -62,13 +62,13 @@ impl Scene {
         })
     }
 
-    /// The files of the tables of its loads.
+    /// Iterates over the files of the load tables.
     pub fn table_files(&self) -> impl Iterator<Item = &Path> {
         let tables = self.loads().filter_map(|of| of.load.table());
         tables.filter_map(Table::file)
     }
 
-    /// The scene without what has no strength: zero masses, zero loads, zero gravity.
+    /// Returns the scene without parts of zero strength: masses, gravity, loads, friction and clearance.
     pub fn reduced(&self) -> Scene {
         let mut scene = self.clone();
         scene.crank = scene.crank.filter(|c| c.inertia != 0.0 || c.mass != 0.0);
@@ -87,12 +87,12 @@ impl Scene {
     }
 }
 
-/// A load of a scene.
+/// Load of a scene, with its place.
 #[derive(Clone, Copy, Debug)]
 pub struct LoadOf<'a> {
-    /// What it is.
+    /// The load.
     pub load: &'a Load,
-    /// Whether it acts on the slider; else on the crank.
+    /// Whether the load acts on the slider; otherwise on the crank.
     pub on_slider: bool,
     number: usize,
 }
@@ -105,7 +105,7 @@ pub struct LoadKey {
 }
 
 impl LoadOf<'_> {
-    /// Its name in scene files.
+    /// Returns the name of the load in scene files.
     pub fn key(&self) -> LoadKey {
         LoadKey {
             on_slider: self.on_slider,
@@ -121,11 +121,11 @@ impl fmt::Display for LoadKey {
     }
 }
 
-/// A value of a scene with its standard error.
+/// Scene with one of its values moved by the standard error.
 #[derive(Clone, Debug)]
 pub struct UncertainValue {
-    /// Name, as `geometry.rod`.
+    /// Name of the value, as `geometry.rod`.
     pub key: String,
-    /// The scene with the value a standard error higher, or lower where it cannot be higher.
+    /// Scene with the value one standard error higher, or lower where the higher one is impossible.
     pub moved: Scene,
 }

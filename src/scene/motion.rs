@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 /// Initial or prescribed motion of the crank.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion {
-    /// Whether the loads or the scene decide the motion.
+    /// Free or prescribed motion.
     pub kind: MotionKind,
     /// Initial crank angle, rad.
     pub angle: f64,
@@ -13,22 +13,22 @@ pub struct Motion {
     pub speed: f64,
 }
 
-/// Who decides the crank's motion.
+/// Kind of crank motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MotionKind {
-    /// The equation of motion.
+    /// Motion by the equation of motion.
     #[default]
     Free,
-    /// The scene: constant speed.
+    /// Constant speed, prescribed by the scene.
     ConstantSpeed,
 }
 
 /// Extent, output and accuracy of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
-    /// When the run ends; `None`: not said.
+    /// End of the run; `None`: not given.
     pub extent: Option<Extent>,
-    /// Distance of the output rows; `None`: 500 rows over the run.
+    /// Spacing of the output rows; `None`: 500 rows over the run.
     pub output_every: Option<Every>,
     /// Local error target, relative and absolute.
     pub tolerance: f64,
@@ -44,17 +44,17 @@ impl Default for Run {
     }
 }
 
-/// When a run ends.
+/// End of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Extent {
-    /// After this time, s.
+    /// Duration of the run, s.
     Duration(f64),
-    /// After this many turns of the crank, either way.
+    /// Crank rotation of the run, turns, in either direction.
     Revolutions(f64),
 }
 
 impl Extent {
-    /// The angle by which the crank turns, rad, if that ends the run.
+    /// Returns the crank rotation that ends the run, rad; none for a duration.
     pub fn angle(self) -> Option<f64> {
         match self {
             Extent::Duration(_) => None,
@@ -63,11 +63,11 @@ impl Extent {
     }
 }
 
-/// Distance of output rows.
+/// Spacing of output rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Every {
-    /// s
+    /// Time, s.
     Time(f64),
-    /// rad of the crank
+    /// Crank angle, rad.
     Angle(f64),
 }

@@ -1,6 +1,6 @@
-//! Numbers: where they end in a text, and how messages show them.
+//! Numbers: their length in a text, and their form in messages.
 
-/// Length of the number without sign that begins the text: digits and points, then an exponent.
+/// Returns the length, bytes, of the unsigned number that begins the text: digits and points, then an exponent.
 pub(super) fn length(text: &str) -> usize {
     let mantissa = text
         .bytes()
@@ -18,25 +18,25 @@ pub(super) fn length(text: &str) -> usize {
     }
 }
 
-/// The typographic minus sign, into which editors and web pages turn a hyphen.
+/// Typographic minus sign, which editors and web pages put in place of a hyphen.
 pub(super) const MINUS: char = '\u{2212}';
 
-/// The text with every minus sign as programs write it.
+/// Returns the text with hyphens in place of typographic minus signs.
 pub(super) fn plain(text: &str) -> String {
     text.replace(MINUS, "-")
 }
 
-/// A stated value: as many digits as people type, without the noise of rounding.
+/// Formats a stated value with 12 significant digits, which hides rounding noise.
 pub(super) fn show(value: f64) -> String {
     rounded(value, 12)
 }
 
-/// A value with its unit, if it has one.
+/// Formats a value with its unit, if it has one.
 pub(super) fn with_unit(value: f64, unit: &str) -> String {
     format!("{} {unit}", show(value)).trim_end().to_owned()
 }
 
-/// Two values that differ, with the digits that show it.
+/// Formats two values that differ with enough digits to show it.
 pub(super) fn apart(a: f64, b: f64) -> (String, String) {
     (6..=17)
         .map(|digits| (rounded(a, digits), rounded(b, digits)))
@@ -44,12 +44,12 @@ pub(super) fn apart(a: f64, b: f64) -> (String, String) {
         .unwrap_or_else(|| (show(a), show(b)))
 }
 
-/// A computed value, to six digits.
+/// Formats a computed value with six significant digits.
 pub(super) fn computed(value: f64) -> String {
     rounded(value, 6)
 }
 
-/// `1 row`, `2 rows`.
+/// Formats a count with its noun: `1 row`, `2 rows`.
 pub(super) fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }

@@ -9,22 +9,22 @@ pub struct Geometry {
     pub rod: f64,
     /// Offset e, m: the slider moves along y = −e.
     pub offset: f64,
-    /// On which side of the crank pin the slider is assembled.
+    /// Side of the crank pin on which the slider is assembled.
     pub branch: Branch,
 }
 
 /// Assembly branch: the sign s in x = r cos θ + s l cos φ.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Branch {
-    /// s = +1
+    /// Right branch, s = +1.
     #[default]
     Right,
-    /// s = −1
+    /// Left branch, s = −1.
     Left,
 }
 
 impl Branch {
-    /// +1 or −1.
+    /// Returns the sign s, +1 or −1.
     pub fn sign(self) -> f64 {
         match self {
             Branch::Right => 1.0,
@@ -36,14 +36,14 @@ impl Branch {
 /// A uniform gravity field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gravity {
-    /// m/s²
+    /// Strength, m/s².
     pub acceleration: f64,
     /// Angle of the gravity vector from +x, rad; −π/2 is down.
     pub direction: f64,
 }
 
 impl Gravity {
-    /// 9.80665 m/s² along −y.
+    /// Returns standard gravity, 9.80665 m/s² along −y.
     pub fn standard() -> Gravity {
         Gravity {
             acceleration: 9.80665,
@@ -51,7 +51,7 @@ impl Gravity {
         }
     }
 
-    /// The gravity vector, m/s²; exact for the four directions of the axes.
+    /// Returns the gravity vector, m/s²; exact for the four directions of the axes.
     pub fn vector(&self) -> [f64; 2] {
         let quarter = self.direction / std::f64::consts::FRAC_PI_2;
         let (sin, cos) = if quarter == quarter.round() && quarter.abs() < 1e9 {
@@ -67,8 +67,8 @@ impl Gravity {
 /// Coulomb friction at the slider guide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction {
-    /// Kinetic coefficient.
+    /// Kinetic coefficient, dimensionless.
     pub coefficient: f64,
-    /// Static coefficient.
+    /// Static coefficient, dimensionless.
     pub static_coefficient: f64,
 }

@@ -1,19 +1,19 @@
-//! After how many turns of the crank a load is the same again.
+//! Periods of loads over the crank angle, as rational numbers of turns.
 
 use std::f64::consts::TAU;
 use std::fmt;
 
-/// A cycle is not longer than this, turns: it is tabulated as a whole. It is a multiple of all numbers up to six.
+/// Longest cycle, turns, because a cycle is tabulated as a whole; a multiple of all numbers up to six.
 const LONGEST_CYCLE: u32 = 120;
 
-/// A number is taken for a fraction if a chance number of as many digits would be as near to a fraction of so small a
-/// denominator less often than this.
+/// Largest probability that a random number of as many digits is as near to a fraction of so small a denominator; a
+/// number with a larger one is not taken for a fraction.
 const CHANCE: f64 = 1e-3;
 
-/// Relative rounding of a number that was computed from exact ones in a few steps.
+/// Relative rounding error of a number that was computed from exact ones in a few steps.
 const ROUNDED: f64 = 4.0 * f64::EPSILON;
 
-/// A positive rational number of turns of the crank, in lowest terms.
+/// Positive rational number of turns of the crank, in lowest terms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Period {
     turns: u32,
@@ -21,15 +21,15 @@ pub struct Period {
 }
 
 impl Period {
-    /// One turn.
+    /// Period of one turn.
     pub const TURN: Period = Period { turns: 1, parts: 1 };
 
-    /// Whole turns; none for zero, and for more than a cycle may have.
+    /// Returns a period of whole turns; none for zero, and for more than a cycle may have.
     pub fn turns(turns: u32) -> Option<Period> {
         Period::fraction(turns, 1)
     }
 
-    /// `turns`/`parts` of a turn; none for zero, and for more whole turns than a cycle may have.
+    /// Returns a period of `turns`/`parts` of a turn; none for zero, and for more whole turns than a cycle may have.
     ///
     /// ```
     /// use slider_crank::scene::Period;
@@ -48,17 +48,17 @@ impl Period {
         (period.turns <= LONGEST_CYCLE).then_some(period)
     }
 
-    /// The least whole number of turns that holds it without a rest.
+    /// Returns the least whole number of turns that is a multiple of the period.
     pub fn whole_turns(self) -> u32 {
         self.turns
     }
 
-    /// Length of the period, rad.
+    /// Returns the length of the period, rad.
     pub fn radians(self) -> f64 {
         f64::from(self.turns) * TAU / f64::from(self.parts)
     }
 
-    /// The fraction that a number of turns stands for, which may be off by a part `relative` of it.
+    /// Returns the fraction that a number of turns, known to the relative error `relative`, stands for.
     pub(super) fn near(turns: f64, relative: f64) -> Result<Period, WhyNot> {
         if !(turns.is_finite() && turns > 0.0) {
             return Err(WhyNot::Incommensurable);
@@ -67,7 +67,7 @@ impl Period {
         let Some([whole, parts]) = simplest(turns - off, turns + off) else {
             return Err(WhyNot::Incommensurable);
         };
-        // Fractions of no larger denominator in a turn, and the part of it that is as near to one of them.
+        // Bound of the number of fractions in a turn with at most this denominator; times `2 off`, the share near one.
         let fractions = 0.5 * parts * (parts + 1.0);
         if whole < 1.0 || 2.0 * off * fractions > CHANCE {
             return Err(WhyNot::Incommensurable);
@@ -81,18 +81,18 @@ impl Period {
         }
     }
 
-    /// The fraction of a turn that an angle (rad) is but for rounding.
+    /// Returns the fraction of a turn that equals an angle (rad) up to rounding.
     pub(super) fn of_angle(angle: f64) -> Result<Period, WhyNot> {
         Period::near(angle / TAU, ROUNDED)
     }
 
-    /// Period of an angle as it was written, rounded or cut off at its last digit: as calculators show a turn, it is
-    /// 6.283185307 rad.
+    /// Returns the period of an angle (rad) as written, rounded or cut off at its last digit, like a turn on a
+    /// calculator, 6.283185307 rad.
     pub(super) fn as_written(angle: f64) -> Result<Period, WhyNot> {
         Period::near(angle / TAU, (last_unit(angle) / angle).max(ROUNDED))
     }
 
-    /// The shortest time after which both are the same again.
+    /// Returns the least common multiple of two periods.
     fn with(self, other: Period) -> Result<Period, WhyNot> {
         let [a, b] = [self.turns, other.turns].map(u64::from);
         let turns = a / gcd(a, b) * b;
@@ -117,19 +117,19 @@ impl fmt::Display for Period {
     }
 }
 
-/// Whether a load is the same again after some turns of the crank, all else that it depends on being the same.
+/// Periodicity of a load over the crank angle, all other variables of the load being equal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Repeats {
     /// The load does not depend on the crank angle.
     Always,
-    /// The load repeats after this.
+    /// The load repeats after this period.
     After(Period),
     /// The load is not known to repeat.
     Never(WhyNot),
 }
 
 impl Repeats {
-    /// Of what depends on both.
+    /// Returns the periodicity of a load that depends on both.
     pub(crate) fn with(self, other: Repeats) -> Repeats {
         match (self, other) {
             (Repeats::Never(why), _) | (_, Repeats::Never(why)) => Repeats::Never(why),
@@ -148,18 +148,18 @@ impl From<Result<Period, WhyNot>> for Repeats {
     }
 }
 
-/// Why a load over the crank angle does not repeat.
+/// Reason why a load over the crank angle does not repeat.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum WhyNot {
-    /// A table without a period.
+    /// The table has no period.
     NoPeriod,
-    /// A function of code that states no period.
+    /// The closure states no period.
     Unstated,
-    /// A formula with the angle outside of all that repeats.
+    /// The formula has the angle outside of periodic functions.
     Outside,
-    /// The periods and the turn have no common multiple that the digits tell.
+    /// The period is no fraction of a turn to the precision of its digits.
     Incommensurable,
-    /// The load repeats after so many turns, which are more than a cycle may have.
+    /// The load repeats after this number of turns, more than a cycle may have.
     TooLong(f64),
 }
 
@@ -179,7 +179,7 @@ impl fmt::Display for WhyNot {
     }
 }
 
-/// A unit of the last digit with which a number is written at its shortest.
+/// Returns a unit of the last digit in the shortest decimal form of a number.
 fn last_unit(value: f64) -> f64 {
     let text = format!("{value:e}");
     let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
@@ -188,11 +188,11 @@ fn last_unit(value: f64) -> f64 {
     10f64.powi(exponent - decimals as i32)
 }
 
-/// The fraction of the least denominator between two positive numbers, by their continued fractions; none if it is
-/// beyond whole numbers of floats.
+/// Returns the fraction of the least denominator between two positive numbers, by their continued fractions; none if
+/// its numerator or denominator reaches 2^52.
 fn simplest(low: f64, high: f64) -> Option<[f64; 2]> {
     let (mut low, mut high) = (low, high);
-    // Of a continued fraction: the last two convergents.
+    // Last two convergents of the continued fraction.
     let (mut before, mut last) = ([0.0, 1.0], [1.0, 0.0]);
     loop {
         let whole = low.ceil();
@@ -210,7 +210,7 @@ fn simplest(low: f64, high: f64) -> Option<[f64; 2]> {
     }
 }
 
-/// The greatest common divisor.
+/// Returns the greatest common divisor.
 fn gcd(a: u64, b: u64) -> u64 {
     if b == 0 { a } else { gcd(b, a % b) }
 }

@@ -1,4 +1,4 @@
-//! Where the keys of a scene stand in the file it comes from.
+//! Places of the keys of a scene in the file it comes from.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -8,10 +8,10 @@ use std::sync::Arc;
 
 use super::{Problem, Problems};
 
-/// Bytes of the file, by key or table.
+/// Byte ranges in the file, by key or table.
 pub(super) type Spans = BTreeMap<String, Range<usize>>;
 
-/// The places of a scene's keys; none of a scene from code.
+/// Places of a scene's keys; none for a scene from code.
 #[derive(Clone, Default)]
 pub struct Places(pub(super) Option<Arc<Source>>);
 
@@ -22,14 +22,14 @@ pub(super) struct Source {
 }
 
 impl Places {
-    /// The text of the file, and where the value of a key stands in it.
+    /// Returns the text of the file, and the byte range of the value of a key.
     #[cfg(feature = "cli")]
     pub(super) fn of(&self, field: &str) -> Option<(&str, Range<usize>)> {
         let source = self.0.as_ref()?;
         Some((&source.text, source.spans.get(field)?.clone()))
     }
 
-    /// Problems of the scene, each with the place of its key, or of the table the key belongs to.
+    /// Returns problems of the scene, each with the place of its key, or of the table the key belongs to.
     pub(super) fn problems(&self, mut list: Vec<Problem>) -> Problems {
         let Some(source) = &self.0 else {
             return Problems::in_code(list);

@@ -1,24 +1,24 @@
-//! What is wrong with a scene, and its display with the line of the file.
+//! Problems of scenes and data files, and their display with the line of the file.
 
 use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// One thing that is wrong.
+/// One fault of a scene or of data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
-    /// The key it is about, as `geometry.rod` or `torque[1].value`.
+    /// Key at fault, as `geometry.rod` or `torque[1].value`.
     pub field: String,
-    /// Bytes of the file it is about.
+    /// Byte range in the file, if known.
     pub span: Option<Range<usize>>,
-    /// What is wrong, with the value.
+    /// Fault, with the value.
     pub what: String,
-    /// What would be right.
+    /// Remedy.
     pub help: String,
 }
 
 impl Problem {
-    /// A problem with a value, its place not yet known.
+    /// Creates a problem with a value, without a place.
     pub fn new(field: &str, what: impl Into<String>, help: impl Into<String>) -> Problem {
         Problem {
             field: field.to_owned(),
@@ -28,14 +28,14 @@ impl Problem {
         }
     }
 
-    /// A problem with these bytes of its file.
+    /// Returns the problem with its byte range in the file.
     pub(super) fn at(self, span: impl Into<Option<Range<usize>>>) -> Problem {
         let span = span.into();
         Problem { span, ..self }
     }
 }
 
-/// All problems of one scene.
+/// All problems of one scene or data file.
 #[derive(Clone, Debug)]
 pub struct Problems {
     pub(super) file: Option<PathBuf>,
@@ -56,7 +56,7 @@ impl Problems {
         }
     }
 
-    /// Problems of what does not come from a file.
+    /// Creates the problems of data from code.
     pub fn in_code(list: Vec<Problem>) -> Problems {
         Problems {
             file: None,
@@ -65,12 +65,12 @@ impl Problems {
         }
     }
 
-    /// The problems, in the order of the file.
+    /// Returns the problems, in the order of the file.
     pub fn list(&self) -> &[Problem] {
         &self.list
     }
 
-    /// Line and column, from 1, of a problem that has a place.
+    /// Returns line and column, from 1, of a problem that has a place.
     pub fn place(&self, problem: &Problem) -> Option<(usize, usize)> {
         let start = problem.span.as_ref()?.start.min(self.source.len());
         let before = self.source.get(..start)?;
@@ -80,7 +80,7 @@ impl Problems {
     }
 }
 
-/// The span widened to whole characters of the source, as the renderer needs it.
+/// Widens a span to whole characters of the source, which the renderer requires.
 fn whole_characters(source: &str, span: Range<usize>) -> Range<usize> {
     let boundary = |at: &usize| source.is_char_boundary(*at);
     let length = source.len();

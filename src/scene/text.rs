@@ -1,10 +1,10 @@
-//! Files of text: scenes, tables, data.
+//! Reads and decodes text files: scenes, tables, data.
 
 use std::path::Path;
 
 use crate::error::Error;
 
-/// How files begin that are no plain text, and what they are.
+/// First bytes of files that are not plain text, and what these files are.
 const NO_TEXT: [(&[u8], &str); 4] = [
     (&[0xff, 0xfe], "UTF-16 text"),
     (&[0xfe, 0xff], "UTF-16 text"),
@@ -15,7 +15,7 @@ const NO_TEXT: [(&[u8], &str); 4] = [
     (&[0x1f, 0x8b], "compressed"),
 ];
 
-/// What a file holds; `-` is standard input.
+/// Reads the bytes of a file; `-` is standard input.
 pub(super) fn bytes(file: &Path) -> Result<Vec<u8>, Error> {
     let read = if file == Path::new("-") {
         let mut bytes = Vec::new();
@@ -29,7 +29,7 @@ pub(super) fn bytes(file: &Path) -> Result<Vec<u8>, Error> {
     })
 }
 
-/// The text that a file holds, or where it stops being one.
+/// Decodes UTF-8 text; the error names the first byte that is no text.
 pub(super) fn decoded(bytes: Vec<u8>) -> Result<String, String> {
     if let Some((_, kind)) = NO_TEXT.iter().find(|(start, _)| bytes.starts_with(start)) {
         return Err(format!("the file is {kind}"));
@@ -53,8 +53,8 @@ pub(super) fn decoded(bytes: Vec<u8>) -> Result<String, String> {
     })
 }
 
-/// The text that a file of data holds, and its encoding where that is not UTF-8: UTF-16 is told by its mark or its zero bytes, and
-/// what is neither is Windows-1252, whose digits and letters without accents are those of all others.
+/// Decodes a data file and names its encoding unless it is UTF-8. UTF-16 shows by its byte order mark or zero bytes;
+/// all else is read as Windows-1252, which shares digits and unaccented letters with other encodings.
 pub(super) fn decoded_from_any(bytes: Vec<u8>) -> Result<(String, Option<&'static str>), String> {
     let join: Option<fn([u8; 2]) -> u16> = match bytes[..] {
         [0xfe, 0xff, ..] | [0, 1..=255, 0, 1..=255, ..] => Some(u16::from_be_bytes),
@@ -85,10 +85,10 @@ pub(super) fn decoded_from_any(bytes: Vec<u8>) -> Result<(String, Option<&'stati
     Ok((bytes.iter().map(letter).collect(), Some("Windows-1252")))
 }
 
-/// The characters of bytes 0x80 to 0x9f; those that are not in use as replacement characters.
+/// Characters of the Windows-1252 bytes 0x80 to 0x9f; replacement characters for unused ones.
 const WINDOWS_1252: &str = "€\u{fffd}‚ƒ„…†‡ˆ‰Š‹Œ\u{fffd}Ž\u{fffd}\u{fffd}‘’“”•–—˜™š›œ\u{fffd}žŸ";
 
-/// A text whose lines end with line feeds, as those of old systems with carriage returns alone do not.
+/// Returns a text with line feeds for carriage returns if lines end with these alone, as on old systems.
 pub(super) fn with_line_feeds(text: String) -> String {
     if !text.contains('\n') && text.contains('\r') {
         text.replace('\r', "\n")

@@ -1,21 +1,21 @@
-//! What loads can depend on.
+//! Variables on which loads can depend.
 
 use std::fmt;
 
 use super::unit::Quantity;
 
-/// The quantities a load can depend on.
+/// Variable on which a load can depend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Variable {
-    /// time, s
+    /// Time, s
     T,
-    /// crank angle, rad, unwrapped
+    /// Crank angle, rad, unwrapped
     Theta,
-    /// crank speed, rad/s
+    /// Crank speed, rad/s
     Omega,
-    /// slider position, m
+    /// Slider position, m
     X,
-    /// slider velocity, m/s
+    /// Slider velocity, m/s
     V,
 }
 
@@ -23,7 +23,7 @@ impl Variable {
     /// All variables, in the order of [`Instant`].
     pub const ALL: [Variable; 5] = [Self::T, Self::Theta, Self::Omega, Self::X, Self::V];
 
-    /// Name in expressions and scene files.
+    /// Returns the name in expressions and scene files.
     pub fn name(self) -> &'static str {
         ["t", "theta", "omega", "x", "v"][self as usize]
     }
@@ -33,13 +33,13 @@ impl Variable {
         [Time, Angle, AngularSpeed, Length, Velocity][self as usize]
     }
 
-    /// The variable with this name.
+    /// Returns the variable with this name.
     pub fn named(name: &str) -> Option<Variable> {
         Self::ALL.into_iter().find(|v| v.name() == name)
     }
 }
 
-/// A set of [`Variable`]s: what a load reads, which is how the plan knows which engine can serve it.
+/// Set of the [`Variable`]s that a load reads, from which the plan knows the engines that can serve it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Variables(u8);
 
@@ -56,15 +56,15 @@ impl Variables {
     pub const X: Variables = Variables(8);
     /// Slider velocity.
     pub const V: Variables = Variables(16);
-    /// Everything.
+    /// All variables.
     pub const ALL: Variables = Variables(31);
 
-    /// The set with one more variable.
+    /// Returns the set with one more variable.
     pub fn with(self, variable: Variable) -> Variables {
         Variables(self.0 | 1 << variable as u8)
     }
 
-    /// Union.
+    /// Returns the union.
     pub const fn or(self, other: Variables) -> Variables {
         Variables(self.0 | other.0)
     }
@@ -74,7 +74,7 @@ impl Variables {
         self.0 & (1 << variable as u8) != 0
     }
 
-    /// Whether nothing of the two sets is common.
+    /// Whether the two sets have no variable in common.
     pub const fn disjoint(self, other: Variables) -> bool {
         self.0 & other.0 == 0
     }
@@ -91,23 +91,23 @@ impl fmt::Display for Variables {
     }
 }
 
-/// The arguments of a load: time and state of the mechanism, SI and radians.
+/// Arguments of a load: time and state of the mechanism, SI and radians.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Instant {
-    /// time, s
+    /// Time, s
     pub t: f64,
-    /// crank angle, rad, unwrapped
+    /// Crank angle, rad, unwrapped
     pub theta: f64,
-    /// crank speed, rad/s
+    /// Crank speed, rad/s
     pub omega: f64,
-    /// slider position, m
+    /// Slider position, m
     pub x: f64,
-    /// slider velocity, m/s
+    /// Slider velocity, m/s
     pub v: f64,
 }
 
 impl Instant {
-    /// The value of one variable.
+    /// Returns the value of one variable.
     pub fn get(&self, variable: Variable) -> f64 {
         match variable {
             Variable::T => self.t,

@@ -1,4 +1,4 @@
-//! What cannot be simulated, though each value of the scene is possible: the one place that decides it.
+//! Takes a scene of possible values, returns all that keeps its motion from being modelled, started or ended.
 
 mod model;
 mod run;
@@ -9,22 +9,22 @@ pub(super) use model::problems as not_modelled;
 use crate::mechanism::Linkage;
 use crate::scene::{Problems, Scene};
 
-/// Refuses a scene that has no simulation, whatever the method.
+/// Refuses a scene that no method can simulate.
 ///
 /// # Errors
-/// [`Problems`] with all that is wrong with its values; if nothing is, with all that keeps its motion from being modelled,
-/// begun or ended.
+/// [`Problems`] of the values; if all values are possible, [`Problems`] that keep the motion from being modelled,
+/// started or ended.
 pub fn refuse(scene: &Scene) -> Result<(), Problems> {
     modelled(scene).map(drop)
 }
 
-/// The scene without parts that have no strength, unless it is refused.
+/// Returns the scene without parts of zero strength, unless the scene is refused.
 pub(super) fn modelled(scene: &Scene) -> Result<Scene, Problems> {
     scene.check()?;
     let reduced = scene.reduced();
     let linkage = Linkage::new(&scene.geometry);
     let mut list = model::problems(&reduced, &linkage);
-    // Without a model there is no start to be looked at.
+    // Only a scene with a model has a start to check.
     if list.is_empty() {
         start::problems(scene, &reduced, &mut list);
     }

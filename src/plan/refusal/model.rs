@@ -1,10 +1,10 @@
-//! Parts that do not go together, and mechanisms whose loads decide no motion.
+//! Checks of the model: combinations of parts that are not modelled, and mechanisms whose motion is undetermined.
 
 use crate::mechanism::{Bodies, Class, Curve, Linkage, LooseMechanism};
 use crate::numeric::angle::Angle;
 use crate::scene::{ContactLaw, Load, LoadOf, MotionKind, Problem, RodModel, Scene};
 
-/// Of a scene from which parts without strength were taken out.
+/// Returns the problems of a scene without parts of zero strength.
 pub fn problems(scene: &Scene, linkage: &Linkage) -> Vec<Problem> {
     let mut list = Vec::new();
     friction(scene, &mut list);
@@ -64,7 +64,7 @@ fn free(scene: &Scene, linkage: &Linkage, list: &mut Vec<Problem>) {
     }
 }
 
-/// With clearance: loads that oppose motion.
+/// Rejects dry loads in a scene with clearance.
 fn dry(scene: &Scene, list: &mut Vec<Problem>) {
     let dry = |of: &LoadOf<'_>| matches!(of.load, Load::Dry(_));
     list.extend(scene.loads().filter(dry).map(|of| {
@@ -76,7 +76,7 @@ fn dry(scene: &Scene, list: &mut Vec<Problem>) {
     }));
 }
 
-/// With clearance: lengths at which joints with play decide nothing, and a prescribed motion that the rod cannot follow.
+/// Rejects, with clearance, a change point, and constant speed if even `slack` (m) lets the crank not turn fully.
 fn loose(scene: &Scene, slack: f64, linkage: &Linkage, list: &mut Vec<Problem>) {
     if Class::of(linkage) == Class::ChangePoint {
         list.push(Problem::new(

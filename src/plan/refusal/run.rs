@@ -1,4 +1,4 @@
-//! Runs without an end, or with one that the crank never reaches.
+//! Checks of the extent of a run: absent, or in revolutions that the crank never completes.
 
 use std::f64::consts::TAU;
 
@@ -6,7 +6,7 @@ use crate::mechanism::{Curve, CurveEquation, Limits, Linkage};
 use crate::numeric::angle::Angle;
 use crate::scene::{Extent, Load, MotionKind, Problem, Scene, Variable};
 
-/// Of a scene without parts of no strength; `starts`: its motion begins.
+/// Adds problems of the extent; `scene` has no parts of zero strength, `starts` is true if its start has no problem.
 pub(super) fn problems(scene: &Scene, linkage: &Linkage, starts: bool, list: &mut Vec<Problem>) {
     let turns = match scene.run.extent {
         None => {
@@ -42,7 +42,7 @@ pub(super) fn problems(scene: &Scene, linkage: &Linkage, starts: bool, list: &mu
     }
 }
 
-/// How far a crank between limits turns, rad; none if it turns fully, or is driven into its limit.
+/// Returns the largest crank rotation between limits, rad; none if the crank turns fully or is driven into its limit.
 fn widest_turn(scene: &Scene, linkage: &Linkage) -> Option<f64> {
     let reach = match (scene.clearance, scene.motion.kind) {
         (Some(clearance), _) => {
@@ -55,7 +55,7 @@ fn widest_turn(scene: &Scene, linkage: &Linkage) -> Option<f64> {
     widths.reduce(f64::max)
 }
 
-/// Whether a crank at rest starts in a balance of forces that lasts. Friction may hold it too, which a run tells.
+/// Whether a crank at rest starts in lasting equilibrium. False with friction or clearance, where only a run can tell.
 fn is_balanced(scene: &Scene, linkage: &Linkage) -> bool {
     let dry = scene.loads().any(|of| matches!(of.load, Load::Dry(_)));
     if scene.friction.is_some() || scene.clearance.is_some() || dry {

@@ -1,13 +1,13 @@
-//! Starts from which no motion begins.
+//! Checks of the start: reachable position, possible speed, finite loads, non-zero inertia.
 
 use crate::mechanism::{Class, Curve, CurveEquation, Limits, Linkage, LooseMechanism, single};
 use crate::numeric::angle::Angle;
 use crate::scene::{Clearance, Instant, Load, MotionKind, Problem, Scene};
 
-/// A crank that turns so much slower than the coordinate has no speed, but for rounding.
+/// Least |dθ/dq| of a crank that can have a speed at the start; rounding alone makes smaller ones differ from zero.
 const NO_SPEED: f64 = 1e-12;
 
-/// Of a scene that is modelled; `reduced` is without parts that have no strength.
+/// Adds problems of the start of a modelled scene; `reduced` has no parts of zero strength.
 pub(super) fn problems(scene: &Scene, reduced: &Scene, list: &mut Vec<Problem>) {
     let linkage = Linkage::new(&scene.geometry);
     match (reduced.clearance, scene.motion.kind) {
@@ -56,14 +56,14 @@ fn free(scene: &Scene, linkage: &Linkage, list: &mut Vec<Problem>) {
     }
 }
 
-/// Whether M vanishes at coordinate `q` (rad): it is so small there that rounding `q` makes more of it.
+/// Whether M vanishes at coordinate `q` (rad): not a normal number, or below half its mean at `q` ± rounding.
 fn vanishes(equation: &CurveEquation, q: f64) -> bool {
     let m = |q: f64| equation.across(q).m;
     let rounding = 4.0 * f64::EPSILON * q.abs().max(1.0);
     !m(q).is_normal() || m(q) < 0.25 * (m(q - rounding) + m(q + rounding))
 }
 
-/// Loads that have no value at the start.
+/// Adds a problem for each load without a finite value at the start.
 fn loads(scene: &Scene, now: &Instant, list: &mut Vec<Problem>) {
     for of in scene.loads() {
         let value = single(of.load, of.on_slider, now);
@@ -135,7 +135,7 @@ fn loose(scene: &Scene, reduced: &Scene, clearance: Clearance, list: &mut Vec<Pr
     }
 }
 
-/// At a prescribed speed, which passes no limit and no position in which the guide locks itself.
+/// Rejects a start at constant speed at a limit, at a change point or where the guide locks itself.
 fn driven(scene: &Scene, linkage: &Linkage, list: &mut Vec<Problem>) {
     let mu = scene.friction.map_or(0.0, |friction| friction.coefficient);
     let theta = Angle::from(scene.motion.angle).reduced();

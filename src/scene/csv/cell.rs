@@ -1,10 +1,10 @@
-//! Numbers of cells, and what is wrong with cells that are none.
+//! Parses the numbers of cells, and says what is wrong with cells that hold none.
 
 use std::borrow::Cow;
 
 use crate::scene::number;
 
-/// A number with a decimal point; none of a cell with a point where numbers have decimal commas.
+/// Returns a number with a decimal point; none for a cell with a point where numbers have decimal commas.
 pub(in crate::scene) fn with_point(cell: &str, decimal_comma: bool) -> Option<Cow<'_, str>> {
     match decimal_comma {
         false => Some(Cow::Borrowed(cell)),
@@ -13,13 +13,13 @@ pub(in crate::scene) fn with_point(cell: &str, decimal_comma: bool) -> Option<Co
     }
 }
 
-/// What is wrong with a cell, and what would be right.
+/// Fault of a cell, and its remedy.
 pub(in crate::scene) struct NotANumber {
     pub what: String,
     pub help: &'static str,
 }
 
-/// The finite number of a cell.
+/// Parses the finite number of a cell.
 pub(in crate::scene) fn parse(cell: &str, decimal_comma: bool) -> Result<f64, NotANumber> {
     let value = with_point(cell, decimal_comma).and_then(|text| {
         let plain = |_| number::plain(&text).parse::<f64>();

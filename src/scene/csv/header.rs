@@ -6,16 +6,16 @@ use crate::scene::unit::{self, Quantity};
 /// A header split into the name and the unit of its column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(in crate::scene) struct Header {
-    /// What the column holds, in lower case.
+    /// Name of the column, in lower case.
     pub name: String,
     /// Unit as written, empty if there is none.
     pub unit: String,
 }
 
-/// Names of columns that may be written with a letter.
+/// Greek letters that stand for column names.
 const GREEK: [(&str, &str); 3] = [("θ", "theta"), ("γ", "gamma"), ("ω", "omega")];
 
-/// Splits a column header.
+/// Splits a column header into name and unit.
 pub(in crate::scene) fn split(text: &str) -> Header {
     let text = text.trim().trim_start_matches('\u{feff}');
     for (open, close) in [('[', ']'), ('(', ')')] {
@@ -55,13 +55,13 @@ fn header(name: &str, unit: &str) -> Header {
     }
 }
 
-/// A unit without the brackets about it.
+/// Returns a unit without the brackets around it.
 pub(in crate::scene) fn bare(unit: &str) -> &str {
     unit.trim_matches(['[', ']', '(', ')', ' '])
 }
 
 impl Header {
-    /// The unit of the column, which must hold `quantity`.
+    /// Returns the column of the header, whose unit must be one of `quantity`.
     pub(in crate::scene) fn column(self, quantity: Quantity) -> Result<Column, String> {
         if self.unit.is_empty() {
             return Err(format!(

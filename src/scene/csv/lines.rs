@@ -1,27 +1,27 @@
-//! The rows of a data file: lines that are neither blank nor comments, and their cells.
+//! Rows of a data file: lines that are neither blank nor comments, and their cells.
 
 use std::ops::Range;
 
-/// How the lines of a data file are divided.
+/// Division of a data file into rows and cells.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::scene) struct Dialect {
-    /// What separates the cells of a line.
+    /// Separator of the cells of a line.
     pub delimiter: char,
-    /// The byte at which the rows, header included, begin.
+    /// Byte at which the rows, header included, begin.
     pub start: usize,
 }
 
-/// What spreadsheets write where a formula has no value. At the beginning of a line it looks like a comment.
+/// Texts that spreadsheets write where a formula has no value. At the beginning of a line they look like a comment.
 const NO_VALUE: [&str; 4] = ["#N/A", "#VALUE!", "#DIV/0!", "#NUM!"];
 
-/// What is wrong with a value that goes on over the end of its line.
+/// Fault of a value that continues over the end of its line.
 pub(in crate::scene) const OPEN_QUOTE: &str = "a quote is not closed on its line";
 pub(in crate::scene) const CLOSE_QUOTE: &str =
     "write numbers without quotes, and each row on a line of its own";
 
 impl Dialect {
-    /// The dialect of a text of which some lines are skipped: a line `sep=;` says the delimiter; else it is a semicolon or a
-    /// tab if the first row has one, or a comma.
+    /// Determines the dialect of a text whose first `skip` lines do not count: a line `sep=;` states the delimiter;
+    /// else it is a semicolon or a tab if the first row has one, or a comma.
     pub fn of(text: &str, skip: usize) -> Dialect {
         let mark = text.len() - text.trim_start_matches('\u{feff}').len();
         let skipped: usize = text.split_inclusive('\n').take(skip).map(str::len).sum();
@@ -46,12 +46,12 @@ impl Dialect {
         dialect
     }
 
-    /// The rows of a whole text.
+    /// Iterates over the rows of a whole text.
     pub fn rows(self, text: &str) -> impl Iterator<Item = &str> {
         self.rows_of(text.get(self.start..).unwrap_or_default())
     }
 
-    /// The rows of a part of a text.
+    /// Iterates over the rows of a part of a text.
     pub fn rows_of(self, part: &str) -> impl Iterator<Item = &str> {
         let lines = part
             .split_inclusive('\n')
@@ -64,7 +64,7 @@ impl Dialect {
             .all(|c| c == self.delimiter || c.is_whitespace())
     }
 
-    /// Whether a line begins with `%`, with `#` but not as `#N/A` of a spreadsheet, or with a semicolon that separates no cells.
+    /// Whether a line begins with `%`, with `#` other than in `#N/A` and the like, or with `;` that separates no cells.
     pub fn is_comment(self, line: &str) -> bool {
         let line = line.trim_start();
         let first = line.split(self.delimiter).next().unwrap_or_default();
@@ -75,18 +75,18 @@ impl Dialect {
         }
     }
 
-    /// The first quote of a row in which one is not closed.
+    /// Returns the first quote of a row with an odd number of quotes.
     pub fn open_quote(row: &str) -> Option<&str> {
         let at = row.find('"')?;
         (row.matches('"').count() % 2 == 1).then(|| &row[at..=at])
     }
 
-    /// The cells of a row.
+    /// Returns the cells of a row.
     pub fn list(self, row: &str) -> Vec<&str> {
         self.cells(row).collect()
     }
 
-    /// The cells of a row without the blanks and quotes about them; a delimiter between quotes separates none.
+    /// Iterates over the cells of a row without blanks and quotes around them; quoted delimiters separate none.
     pub fn cells(self, row: &str) -> impl Iterator<Item = &str> {
         let mut quoted = false;
         let separates = move |c: char| {
@@ -103,13 +103,13 @@ impl Dialect {
     }
 }
 
-/// The bytes of a text that a part of it has.
+/// Returns the byte range of `part`, a slice of `text`, in `text`.
 pub(in crate::scene) fn span(text: &str, part: &str) -> Range<usize> {
     let start = (part.as_ptr() as usize).saturating_sub(text.as_ptr() as usize);
     start.min(text.len())..(start + part.len()).min(text.len())
 }
 
-/// The number, from 1, of the line of a text that a part of it stands in.
+/// Returns the number, from 1, of the line of `text` in which its slice `part` begins.
 pub(in crate::scene) fn line_number(text: &str, part: &str) -> usize {
     text[..span(text, part).start].matches('\n').count() + 1
 }

@@ -1,4 +1,4 @@
-//! Text of data files: how lines divide into cells, what headers say, and the numbers of cells.
+//! Text of data files: takes lines, returns cells, headers with units, and the numbers of cells.
 
 pub(super) mod cell;
 pub(super) mod header;
@@ -6,7 +6,7 @@ pub(super) mod lines;
 
 use super::number::with_unit;
 
-/// The unit in which the numbers of a column stand.
+/// Unit of the numbers in a column.
 #[derive(Clone, Debug)]
 pub(super) struct Column {
     /// SI value of one unit.
@@ -15,7 +15,7 @@ pub(super) struct Column {
 }
 
 impl Column {
-    /// A column whose numbers are SI values.
+    /// Creates a column whose numbers are SI values.
     pub fn si(unit: &str) -> Column {
         Column {
             factor: 1.0,
@@ -23,7 +23,7 @@ impl Column {
         }
     }
 
-    /// A value in SI as it stands in the column.
+    /// Formats an SI value in the unit of the column.
     pub fn shown(&self, value: f64) -> String {
         with_unit(value / self.factor, &self.unit)
     }

@@ -1,6 +1,6 @@
-//! Loads written as expressions of t, theta, omega, x and v, in SI.
+//! Formulas of t, theta, omega, x and v, in SI: compiles a text to postfix order and evaluates it on a stack.
 //!
-//! The usual mathematical reading: `-x^2` is −(x²), `2^3^2` is 2⁹, `1e-3` is a number.
+//! Usual mathematical precedence: `-x^2` is −(x²), `2^3^2` is 2⁹; `1e-3` is a number.
 
 mod operand;
 mod parser;
@@ -13,12 +13,12 @@ use crate::numeric::enclosure::Enclosed;
 use operand::{FUNCTIONS_1, FUNCTIONS_2, JUMPING, Op, Operand};
 use parser::Parser;
 
-/// Values on the stack of one evaluation; deeper expressions are refused when they are read.
+/// Depth of the evaluation stack, in values; deeper expressions are refused when they are read.
 const STACK: usize = 32;
 
 const TOO_DEEP: &str = "the expression is nested too deeply; simplify it";
 
-/// An expression, compiled to postfix order; evaluation allocates nothing.
+/// Expression compiled to postfix order; evaluation allocates nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
     text: String,
@@ -27,14 +27,14 @@ pub struct Expression {
     jumps: bool,
 }
 
-/// What is wrong in an expression, and where.
+/// First fault of an expression, and its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExpressionError {
     /// Byte offset in the text.
     pub at: usize,
-    /// What is wrong.
+    /// Fault, in words.
     pub what: String,
-    /// What would be right.
+    /// Remedy, in words.
     pub help: String,
 }
 
@@ -49,10 +49,10 @@ impl ExpressionError {
 }
 
 impl Expression {
-    /// Reads an expression.
+    /// Parses an expression.
     ///
     /// # Errors
-    /// [`ExpressionError`]: the first thing that is wrong, and where.
+    /// [`ExpressionError`] of the first fault.
     ///
     /// ```
     /// use slider_crank::scene::{Expression, Instant};
@@ -64,10 +64,10 @@ impl Expression {
         Expression::parse_with(text, &|_| None)
     }
 
-    /// Reads an expression in which names stand for other expressions.
+    /// Parses an expression in which names stand for other expressions, given by `symbols`.
     ///
     /// # Errors
-    /// As [`Self::parse`].
+    /// The errors of [`Self::parse`].
     pub(crate) fn parse_with(
         text: &str,
         symbols: &dyn Fn(&str) -> Option<Expression>,
@@ -102,7 +102,7 @@ impl Expression {
         })
     }
 
-    /// A number.
+    /// Creates the expression of a number.
     #[cfg(feature = "cli")]
     pub(crate) fn constant(value: f64) -> Expression {
         Expression {
@@ -113,22 +113,22 @@ impl Expression {
         }
     }
 
-    /// The variables that occur in it.
+    /// Returns the variables that occur in the expression.
     pub fn reads(&self) -> Variables {
         self.reads
     }
 
-    /// Whether a function occurs in it whose values jump.
+    /// Whether a function with jumps occurs in the expression: floor, sign, step or mod.
     pub fn jumps(&self) -> bool {
         self.jumps
     }
 
-    /// Value at an instant, in SI; not finite outside the domain of its functions.
+    /// Returns the value at an instant, in SI; not finite outside the domain of its functions.
     pub fn value(&self, now: &Instant) -> f64 {
         self.values(&[*now])[0]
     }
 
-    /// Values at some instants, each as by itself, in SI.
+    /// Returns the values at `N` instants, in SI, each equal to [`Self::value`] at its instant.
     pub fn values<const N: usize>(&self, now: &[Instant; N]) -> [f64; N] {
         self.evaluate(|variable| {
             let mut values = [0.0; N];
@@ -137,12 +137,12 @@ impl Expression {
         })
     }
 
-    /// All values where the variables have these.
+    /// Encloses all values of the expression for enclosures `of` the variables.
     pub fn enclose(&self, of: impl Fn(Variable) -> Enclosed) -> Enclosed {
         self.evaluate(of)
     }
 
-    /// The stack machine, over numbers, enclosures of them, or what is known of a part.
+    /// Runs the stack machine over numbers, over enclosures, or over periods of subexpressions.
     fn evaluate<N: Operand>(&self, of: impl Fn(Variable) -> N) -> N {
         let mut stack = [N::constant(0.0); STACK];
         let mut top = 0;

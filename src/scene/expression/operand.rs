@@ -1,9 +1,9 @@
-//! The operations of formulas, on numbers and on enclosures of them.
+//! Operations of formulas, on numbers and on enclosures.
 
 use crate::numeric::enclosure::Enclosed;
 use crate::scene::Variable;
 
-/// A step of an evaluation in postfix order; functions by their places in the lists.
+/// Operation of an evaluation in postfix order; `Call1` and `Call2` hold indices of `FUNCTIONS_1` and `FUNCTIONS_2`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Op {
     Number(f64),
@@ -18,7 +18,7 @@ pub(super) enum Op {
     Call2(usize),
 }
 
-/// Name, value, and enclosure of the values.
+/// Name of a function, its value, and the enclosure of its values.
 type Function1 = (&'static str, fn(f64) -> f64, fn(Enclosed) -> Enclosed);
 type Function2 = (
     &'static str,
@@ -65,7 +65,7 @@ fn step(a: f64) -> f64 {
     }
 }
 
-/// A value of two numbers, which is none where one of them is none.
+/// Returns the value of a function of two numbers; NaN if one of them is NaN.
 fn both(a: f64, b: f64, of: fn(f64, f64) -> f64) -> f64 {
     if a.is_nan() || b.is_nan() {
         f64::NAN
@@ -74,22 +74,22 @@ fn both(a: f64, b: f64, of: fn(f64, f64) -> f64) -> f64 {
     }
 }
 
-/// Functions whose values jump.
+/// Names of the functions with jumps.
 pub(super) const JUMPING: [&str; 4] = ["floor", "sign", "step", "mod"];
 
-/// What a formula can be evaluated with.
+/// Number type in which a formula can be evaluated.
 pub(super) trait Operand: Copy {
-    /// A number of the formula.
+    /// Returns the value of a number in the formula.
     fn constant(value: f64) -> Self;
     fn negated(self) -> Self;
-    /// Value of a function of one argument, by its place in the list.
+    /// Returns the value of a function of one argument, by its index in `FUNCTIONS_1`.
     fn called(self, function: usize) -> Self;
 
-    /// Value of an operation with a second operand.
+    /// Returns the value of an operation with a second operand.
     fn with(self, op: Op, other: Self) -> Self;
 }
 
-/// Numbers at some instants.
+/// Numbers at `N` instants.
 impl<const N: usize> Operand for [f64; N] {
     fn constant(value: f64) -> [f64; N] {
         [value; N]
@@ -143,7 +143,7 @@ impl Operand for Enclosed {
     }
 }
 
-/// An operation on each of some numbers.
+/// Applies an operation to each pair of numbers.
 #[inline(always)]
 fn each<const N: usize>(mut a: [f64; N], b: [f64; N], of: impl Fn(f64, f64) -> f64) -> [f64; N] {
     for i in 0..N {

@@ -1,11 +1,11 @@
-//! From the text of an expression to its operations, by recursive descent.
+//! Recursive-descent parser: takes the text of an expression, returns its operations in postfix order.
 
 use super::operand::{FUNCTIONS_1, FUNCTIONS_2, Op};
 use super::{Expression, ExpressionError, STACK, TOO_DEEP};
 use crate::scene::Variable;
 use crate::scene::number;
 
-/// Reads a text from left to right; `at` is a byte offset.
+/// Parser of a text from left to right; `at` is a byte offset.
 pub(super) struct Parser<'a> {
     text: &'a str,
     at: usize,
@@ -14,11 +14,11 @@ pub(super) struct Parser<'a> {
     symbols: &'a Symbols<'a>,
 }
 
-/// What a name stands for.
+/// Lookup of the expression that a name stands for.
 pub(super) type Symbols<'a> = dyn Fn(&str) -> Option<Expression> + 'a;
 
 impl<'a> Parser<'a> {
-    /// The operations of an expression in postfix order.
+    /// Parses an expression into operations in postfix order.
     pub(super) fn parse(
         text: &'a str,
         symbols: &'a Symbols<'a>,
@@ -42,7 +42,7 @@ impl<'a> Parser<'a> {
         ExpressionError::new(self.at, what)
     }
 
-    /// The error of a character that cannot follow a value.
+    /// Creates the error of a character that cannot follow a value.
     fn after_value(&self, found: char) -> ExpressionError {
         if is_in_name(found) || matches!(found, '(' | '.') {
             self.error("an operator such as + - * / ^ is missing here")
@@ -103,7 +103,7 @@ impl<'a> Parser<'a> {
         self.chain(&[('*', Op::Multiply), ('/', Op::Divide)], Parser::signed)
     }
 
-    /// Operands with operators of one precedence between them, from left to right.
+    /// Parses operands with operators of one precedence between them, from left to right.
     fn chain(
         &mut self,
         operators: &[(char, Op)],

@@ -1,7 +1,7 @@
-//! After how many turns a formula is the same again, as its syntax tree proves it.
+//! Period of a formula over the crank angle, proved by its syntax tree.
 //!
-//! Each part of a formula is slope·theta plus what repeats. Waves and remainders of such a part repeat if the slope times
-//! the period is a multiple of theirs; all else only repeats without a slope.
+//! Each subexpression is slope·theta plus a periodic rest. A sine, cosine, tangent or remainder of it has the least
+//! common multiple of the rest's period and (its own)/slope; all else is periodic only without a slope.
 
 use std::f64::consts::{PI, TAU};
 
@@ -10,20 +10,20 @@ use super::operand::{FUNCTIONS_1, FUNCTIONS_2, Op, Operand};
 use crate::scene::Variable;
 use crate::scene::period::{Period, Repeats, WhyNot};
 
-/// Relative rounding of the constants of a formula, which may be quotients and products of a few others.
+/// Relative rounding error of the constants of a formula, which may be quotients and products of a few others.
 const ROUNDED: f64 = 16.0 * f64::EPSILON;
 
-/// slope·theta plus what repeats.
+/// Subexpression as slope·theta plus a periodic rest.
 #[derive(Clone, Copy, Debug)]
 struct Part {
     slope: f64,
     rest: Repeats,
-    /// Of what reads no variable.
+    /// Value of a subexpression that reads no variable.
     value: Option<f64>,
 }
 
 impl Expression {
-    /// Whether it is the same again after some turns, t and omega being the same.
+    /// Returns the period of the expression over the crank angle, at equal t and omega.
     pub fn repeats(&self) -> Repeats {
         let part = self.evaluate(|variable| match variable {
             Variable::Theta => Part::new(1.0, Repeats::Always),
@@ -54,14 +54,14 @@ impl Part {
         Part::new(slope, self.rest.with(other.rest))
     }
 
-    /// What only repeats if the part does.
+    /// Returns the period of a function that repeats only if the part has no slope.
     fn repeating(self) -> Part {
         let moves = self.slope != 0.0;
         let outside = Repeats::Never(WhyNot::Outside);
         Part::new(0.0, if moves { outside } else { self.rest })
     }
 
-    /// What is the same whenever the part grows by `length`.
+    /// Returns the period of a function with the period `length` in the value of the part.
     fn wave(self, length: f64) -> Part {
         if self.slope == 0.0 {
             return self;
@@ -91,7 +91,7 @@ impl Operand for Part {
         let part = match name {
             "sin" | "cos" => self.wave(TAU),
             "tan" => self.wave(PI),
-            // It and the remainder make the part.
+            // floor(p) = p − mod(p, 1) keeps the slope of p.
             "floor" => Part::new(self.slope, self.wave(1.0).rest),
             _ => self.repeating(),
         };

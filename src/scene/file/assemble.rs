@@ -1,4 +1,4 @@
-//! Values that have been read, put together to a scene: defaults, boxes, loads.
+//! Assembles a scene from the values of its tables: defaults, boxes, loads.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -13,8 +13,8 @@ use crate::scene::{
     Scene,
 };
 
-/// The scene of these tables. What is missing or could not be read has a value that raises no further
-/// problem; a scene with problems is not handed out.
+/// Assembles the scene of these tables. A value that is missing or could not be read gets one that raises no further
+/// problem; the caller returns no scene with problems.
 pub(super) fn scene(check: &mut Check, contents: Contents) -> Scene {
     let tables = &contents.tables;
     let unknown = tables.iter().filter(|values| values.part.get().is_none());
@@ -36,7 +36,7 @@ pub(super) fn scene(check: &mut Check, contents: Contents) -> Scene {
     if geometry.and_then(|values| values.text("branch")) == Some("left") {
         scene.geometry.branch = Branch::Left;
     }
-    // Problems are told in the order of the sections.
+    // The order of the sections is that of the problems.
     for section in SECTIONS {
         let of_section = tables
             .iter()
@@ -50,9 +50,9 @@ pub(super) fn scene(check: &mut Check, contents: Contents) -> Scene {
     scene
 }
 
-/// The part of a table, beside a rod of this length, m.
+/// Builds the part of a table, beside a rod of length `rod`, m.
 fn part(check: &mut Check, values: &Values, rod: f64) -> Part {
-    // A load that could not be read keeps its place: problems of the others count the loads.
+    // A load that could not be read keeps its place, because problems of the others count the loads.
     let load = |check: &mut Check| loads::load(check, values).unwrap_or(Load::Constant(0.0));
     let part = match values.section.name {
         "crank" => Part::Crank(bodies::crank(check, values)),
@@ -67,7 +67,7 @@ fn part(check: &mut Check, values: &Values, rod: f64) -> Part {
         "run" => Part::Run(run(check, values)),
         _ => Part::Geometry,
     };
-    // The centre of gravity of a box is that of the rod's length.
+    // Without `cg` a rod takes it from the rod length of another table, which may change: the part is not kept.
     let is_alone = !matches!(part, Part::Rod(_)) || values.has("cg");
     if is_alone && check.problems.is_empty() {
         values.part.get_or_init(|| part.clone());
@@ -75,7 +75,7 @@ fn part(check: &mut Check, values: &Values, rod: f64) -> Part {
     part
 }
 
-/// Keys that every table of the section has.
+/// Adds a problem for each key that every table of the section needs and this one lacks.
 fn required(check: &mut Check, values: &Values) {
     let section = values.section;
     let required = section.required.iter();

@@ -1,4 +1,4 @@
-//! Mass properties, from their own keys or from density and box.
+//! Reads mass properties from their own keys, or from density and box.
 
 use super::read::Values;
 use crate::scene::check::Check;
@@ -7,13 +7,13 @@ use crate::scene::{Crank, InertiaAbout, Rod, RodModel, Slider};
 
 const BOX: [&str; 4] = ["density", "length", "width", "depth"];
 
-/// What mass and box say of a body.
+/// Mass of a body, and the inertia of its box.
 struct Solid {
-    /// kg
+    /// Mass, kg.
     mass: Option<f64>,
     /// Moment of inertia of the box about its centre, kg m².
     box_inertia: Option<f64>,
-    /// Whether a part of the box is given, be it right or wrong.
+    /// Whether a key of the box is given, readable or not.
     boxed: bool,
 }
 
@@ -48,7 +48,7 @@ fn solid(check: &mut Check, values: &Values) -> Solid {
     solid
 }
 
-/// What is stated beside a box must be what the box gives, to one percent.
+/// Checks that a value stated beside a box is that of the box, to one percent.
 fn agree(check: &mut Check, values: &Values, key: &str, from_box: f64, unit: &str) {
     if let Some(stated) = values.number(key)
         && (stated - from_box).abs() > 0.01 * from_box.abs()
@@ -62,7 +62,7 @@ fn agree(check: &mut Check, values: &Values, key: &str, from_box: f64, unit: &st
 }
 
 impl Solid {
-    /// A body of which one of these keys is not zero has a mass.
+    /// Requires a mass if one of these keys is not zero; always, without keys.
     fn needs_mass(&self, check: &mut Check, values: &Values, keys: &[&str], why: &str) {
         let is_given = |key: &&str| values.number(key).is_some_and(|value| value != 0.0);
         if self.mass.is_none() && !self.boxed && (keys.is_empty() || keys.iter().any(is_given)) {
@@ -73,7 +73,7 @@ impl Solid {
         }
     }
 
-    /// A body with mass needs a key that a box would give.
+    /// Requires a key of a body that has a mass and no box.
     fn needs(&self, check: &mut Check, values: &Values, body: &str, key: &str, help: &str) {
         let mass = self.mass.unwrap_or(0.0);
         if mass != 0.0 && !self.boxed {
@@ -84,7 +84,7 @@ impl Solid {
         }
     }
 
-    /// The inertia that is stated, or the one of the box about a point that is `squared` (m²) from its centre.
+    /// Returns the stated inertia, or that of the box about a point at the squared distance `squared` (m²) from it.
     fn inertia(&self, check: &mut Check, values: &Values, squared: f64) -> f64 {
         let central = self.box_inertia;
         let from_box = central.map(|central| central + self.mass.unwrap_or(0.0) * squared);

@@ -1,4 +1,4 @@
-//! The text of a scene file, from which scenes with other values are made.
+//! Scene file as text, from which scenes with other values are made.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -16,10 +16,10 @@ use crate::scene::places::Source;
 use crate::scene::unit::Uncertain;
 use crate::scene::{Places, Problem, Problems, Scene, UncertainValue, text, validate};
 
-/// The engine of Duarte et al. 2018, table 1, spinning freely; the scene of commands without one.
+/// Scene file of the engine of Duarte et al. 2018, table 1, spinning freely; the default of commands without a scene.
 pub const DUARTE: &str = include_str!("../../../data/duarte-engine.toml");
 
-/// A scene file whose values may be replaced before it becomes a scene.
+/// Scene file whose values may be replaced before it becomes a scene.
 ///
 /// ```
 /// use slider_crank::scene::{Draft, Varied};
@@ -36,18 +36,18 @@ pub struct Draft {
     places: Places,
 }
 
-/// A number, in SI units and radians, for a key.
+/// Number for a key, in SI units and radians.
 #[derive(Clone, Copy, Debug)]
 pub struct Assigned {
-    /// The key.
+    /// Key of the number.
     pub key: NumberKey,
-    /// The number.
+    /// Value in SI units and radians.
     pub value: f64,
 }
 
 impl Draft {
-    /// From the text of a scene file; `file` is its name in messages and the place from which the tables it
-    /// names are found.
+    /// Reads the text of a scene file; `file` is its name in messages, and the tables it names are relative to the
+    /// folder of `file`.
     pub fn new(file: &Path, text: impl Into<String>) -> Draft {
         let text = text.into();
         let (document, errors) = DeTable::parse_recoverable(&text);
@@ -69,10 +69,10 @@ impl Draft {
         }
     }
 
-    /// Reads the text of a scene file; `-` is standard input.
+    /// Reads a scene file; `-` is standard input.
     ///
     /// # Errors
-    /// [`Error::Read`] if the file cannot be read, [`Error::Scene`] if it is no text.
+    /// [`Error::Read`] if the file cannot be read, [`Error::Scene`] if it is not UTF-8 text.
     pub fn load(file: &Path) -> Result<Draft, Error> {
         let text = text::decoded(text::bytes(file)?).map_err(|what| {
             let help = "save the scene as plain text in UTF-8";
@@ -81,29 +81,29 @@ impl Draft {
         Ok(Draft::new(file, text))
     }
 
-    /// The file of the built-in scene.
+    /// Returns the draft of the built-in scene.
     pub fn duarte() -> Draft {
         Draft::new(Path::new("duarte-engine.toml"), DUARTE)
     }
 
-    /// The text of the file.
+    /// Returns the text of the file.
     pub fn text(&self) -> &str {
         self.places.0.as_ref().map_or("", |source| &source.text)
     }
 
-    /// Whether the scene has the table that a varied key belongs to, or a place for it.
+    /// Checks that the scene has the table of a varied key, or can add it.
     ///
     /// # Errors
-    /// [`Problems`]: the scene has fewer tables of this name.
+    /// [`Problems`] if the scene has fewer tables of this name.
     pub fn takes(&self, varied: &Varied) -> Result<(), Problems> {
         let place = self.contents.clone().table(&varied.path).map(|_| ());
         place.map_err(|problem| self.places.problems(vec![problem]))
     }
 
-    /// The text with values in place of its own, or beside them; all else stays as it is written.
+    /// Returns the text with values replaced or added; all else stays as written.
     ///
     /// # Errors
-    /// [`Problems`]: the text is no TOML, or has fewer tables of a name than a key says.
+    /// [`Problems`] if the text is not TOML, or has fewer tables of a name than a key says.
     pub fn text_with<'a>(
         &self,
         values: impl IntoIterator<Item = (&'a Varied, &'a str)>,
@@ -134,18 +134,18 @@ impl Draft {
         Ok(document.to_string())
     }
 
-    /// The scene as it is written.
+    /// Returns the scene as written.
     ///
     /// # Errors
-    /// [`Problems`]: all that is wrong, with its places.
+    /// [`Problems`] of the file, with their places.
     pub fn scene(&self) -> Result<Scene, Problems> {
         self.with_values(&[], &[])
     }
 
-    /// The scene with values in place of its own, or beside them.
+    /// Returns the scene with values replaced or added.
     ///
     /// # Errors
-    /// [`Problems`]: all that is wrong with the scene that results.
+    /// [`Problems`] of the resulting scene.
     pub fn with_values(
         &self,
         varied: &[Varied],
@@ -154,10 +154,10 @@ impl Draft {
         self.with(varied.iter().map(|one| one.path).zip(values))
     }
 
-    /// The scene with numbers in place of its own.
+    /// Returns the scene with numbers replaced or added.
     ///
     /// # Errors
-    /// [`Error::Scene`]: all that is wrong with the scene that results.
+    /// [`Error::Scene`] with the problems of the resulting scene.
     pub fn with_numbers(&self, numbers: &[Assigned]) -> Result<Scene, Error> {
         let value = |one: &Assigned| VariedValue::of(one.value, one.key.unit());
         let values: Vec<VariedValue> = numbers.iter().map(value).collect();
@@ -186,10 +186,10 @@ impl Draft {
         Ok(scene)
     }
 
-    /// The number that a key has in the file, in SI units and radians.
+    /// Returns the number of a key in the file, in SI units and radians.
     ///
     /// # Errors
-    /// [`Problems`]: the scene has no such number.
+    /// [`Problems`] if the scene has no number for the key.
     pub fn number(&self, key: &NumberKey) -> Result<f64, Problems> {
         let path = key.0;
         let values = self.contents.of_section(path.section).nth(path.index);
@@ -208,10 +208,10 @@ impl Draft {
         })
     }
 
-    /// The values of the file that have a standard error, like `"155.8 +- 0.1 mm"`.
+    /// Returns the values of the file that have a standard error, like `"155.8 +- 0.1 mm"`, as scenes moved by it.
     ///
     /// # Errors
-    /// [`Error::Scene`]: the scene is impossible with the error in it, on either side.
+    /// [`Error::Scene`] if a value makes the scene impossible when moved by its error to either side.
     pub fn uncertain(&self) -> Result<Vec<UncertainValue>, Error> {
         let list = self.uncertain_keys().into_iter();
         let list = list.map(|(path, Uncertain { value, error })| {
@@ -225,7 +225,7 @@ impl Draft {
         list.collect()
     }
 
-    /// The values of the file that have a standard error, as normal distributions.
+    /// Returns the values of the file that have a standard error, as normal distributions.
     pub fn tolerances(&self) -> Vec<Varied> {
         let list = self.uncertain_keys().into_iter();
         let list = list.filter_map(|(path, Uncertain { value, error })| {

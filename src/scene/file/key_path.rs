@@ -1,4 +1,4 @@
-//! Where a value stands in a scene.
+//! Paths of the values in a scene.
 
 use std::fmt;
 use std::str::FromStr;
@@ -6,17 +6,17 @@ use std::str::FromStr;
 use super::keys::{self, Key, Kind, Section};
 use crate::scene::unit::Quantity;
 
-/// The place of a value in a scene, as `geometry.offset` or `torque[2].value`.
+/// Path of a value in a scene, as `geometry.offset` or `torque[2].value`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct KeyPath {
     pub section: &'static Section,
-    /// Which of several tables, from 0.
+    /// Index among several tables of one name, from 0.
     pub index: usize,
     pub key: &'static Key,
 }
 
 impl KeyPath {
-    /// What the key measures, if it takes a quantity.
+    /// Returns the quantity of the key, if the key takes one.
     pub fn quantity(&self) -> Option<Quantity> {
         match self.key.kind {
             Kind::Of(quantity) | Kind::Formula(quantity) => Some(quantity),
@@ -24,19 +24,19 @@ impl KeyPath {
         }
     }
 
-    /// The SI unit as scene files have it; empty for numbers and words.
+    /// Returns the SI unit in the form of scene files; empty for numbers and words.
     pub fn unit(&self) -> &'static str {
         self.quantity().map_or("", Quantity::si)
     }
 
-    /// The path as the name of a column.
+    /// Returns the path as the name of a column, as `torque_2_value`.
     pub fn column(&self) -> String {
         let name = self.to_string();
         name.replace('[', "_").replace("].", "_").replace('.', "_")
     }
 }
 
-/// The number of a table counts from 1 and may be left out where the first is meant.
+/// Parses a path; the number of a table counts from 1 and may be left out for the first.
 impl FromStr for KeyPath {
     type Err = String;
 
@@ -80,7 +80,7 @@ impl fmt::Display for KeyPath {
     }
 }
 
-/// `torque[2]` as its name and its index from 0.
+/// Splits `torque[2]` into its name and its index from 0.
 fn numbered(table: &str) -> Option<(&str, usize)> {
     let Some((name, number)) = table.split_once('[') else {
         return Some((table, 0));
@@ -89,12 +89,12 @@ fn numbered(table: &str) -> Option<(&str, usize)> {
     Some((name, number.checked_sub(1)?))
 }
 
-/// A key of a scene that takes a quantity, read from a text like `crank.inertia` or `torque[2].coefficient`.
+/// Key of a scene that takes a quantity, parsed from a text like `crank.inertia` or `torque[2].coefficient`.
 #[derive(Clone, Copy, Debug)]
 pub struct NumberKey(pub(super) KeyPath);
 
 impl NumberKey {
-    /// The SI unit as scene files have it; empty for numbers.
+    /// Returns the SI unit in the form of scene files; empty for numbers.
     pub fn unit(&self) -> &'static str {
         self.0.unit()
     }

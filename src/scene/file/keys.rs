@@ -1,38 +1,38 @@
-//! Every table and key a scene file may have: read by the reader, printed by `schema`.
+//! Tables and keys that a scene file may have: the list that the reader reads and `schema` prints.
 
 use crate::scene::unit::Quantity::{self, *};
 use Kind::{Choice, Formula, Kinds, Of, Text, TimeOrAngle};
 
-/// What a key's value may be.
+/// Kind of values that a key may have.
 #[derive(Clone, Copy, Debug)]
 pub enum Kind {
-    /// A quantity with its unit.
+    /// Quantity with its unit.
     Of(Quantity),
-    /// A time or a crank angle.
+    /// Time or crank angle.
     TimeOrAngle,
     /// One of these words.
     Choice(&'static [&'static str]),
-    /// One of these kinds of load or motion.
+    /// One of these kinds of load or motion, each with its keys.
     Kinds(&'static [KindKeys]),
-    /// A text: title, file name.
+    /// Text: title, file name.
     Text,
-    /// A quantity or, in loads of kind `expression`, a formula.
+    /// Quantity or, in loads of kind `expression`, a formula.
     Formula(Quantity),
 }
 
-/// One key.
+/// Key of a table.
 #[derive(Clone, Copy, Debug)]
 pub struct Key {
-    /// As written in the file.
+    /// Name in the file.
     pub name: &'static str,
-    /// What it holds.
+    /// Kind of its values.
     pub kind: Kind,
-    /// What it means, for the schema.
+    /// Meaning, for the schema.
     pub meaning: &'static str,
 }
 
 impl Key {
-    /// The key with a value it may have, as written in the file.
+    /// Returns the key with a possible value, as written in the file.
     pub fn example(&self) -> String {
         let value = match self.kind {
             Kind::Of(quantity) => quantity.examples().split(", ").next(),
@@ -45,28 +45,28 @@ impl Key {
     }
 }
 
-/// One table of the file.
+/// Table of the file.
 #[derive(Clone, Copy, Debug)]
 pub struct Section {
-    /// As written in the file.
+    /// Name in the file.
     pub name: &'static str,
-    /// `[[name]]`, any number of times.
+    /// Whether the file may have any number of these tables, as `[[name]]`.
     pub repeated: bool,
     /// Keys of the table.
     pub keys: &'static [Key],
-    /// Keys that must be there.
+    /// Names of the keys that must be present.
     pub required: &'static [&'static str],
-    /// What it means, for the schema.
+    /// Meaning, for the schema.
     pub meaning: &'static str,
 }
 
 impl Section {
-    /// The key with this name.
+    /// Returns the key with this name.
     pub fn key(&self, name: &str) -> Option<&'static Key> {
         self.keys.iter().find(|key| key.name == name)
     }
 
-    /// The kinds of its tables, if there are several.
+    /// Returns the kinds of tables of this section; empty if there is only one.
     pub fn kinds(&self) -> &'static [KindKeys] {
         match self.key("kind").map(|key| key.kind) {
             Some(Kinds(kinds)) => kinds,
@@ -75,14 +75,14 @@ impl Section {
     }
 }
 
-/// Keys that a table of this kind takes beside `kind`; the first `required` must be there.
+/// Keys that a table of one kind takes beside `kind`; the first `required` must be present.
 #[derive(Clone, Copy, Debug)]
 pub struct KindKeys {
-    /// As written in the file.
+    /// Name of the kind in the file.
     pub name: &'static str,
-    /// Keys it takes.
+    /// Names of the keys.
     pub keys: &'static [&'static str],
-    /// How many of them, from the first, must be there.
+    /// Number of keys, from the first, that must be present.
     pub required: usize,
 }
 
@@ -96,7 +96,7 @@ const fn kind(name: &'static str, keys: &'static [&'static str], required: usize
 
 const TABLE_KEYS: &[&str] = &["file", "of", "period", "interpolation"];
 
-/// A load that opposes motion: a constant magnitude or a table of it.
+/// Keys of a dry load: a constant magnitude or a table of it.
 const DRY_KEYS: &[&str] = &["value", "file", "of", "period", "interpolation"];
 
 /// Kinds of `[[torque]]`.
@@ -148,8 +148,8 @@ macro_rules! keys {
     };
 }
 
-/// Sections as `one` or `each` (written `[[name]]`), the name, the keys that must be there, the meaning, and the keys; a body
-/// may be a box.
+/// Sections as `one` or `each` (written `[[name]]`), the name, the required keys, the meaning, the keys, and `+ BOX`
+/// for a body that may be a box.
 macro_rules! sections {
     ($($count:ident $section:ident($($required:literal),*) $meaning:literal {
         $($name:ident: $kind:expr, $what:literal;)*
@@ -174,7 +174,7 @@ const BOX: [Key; 4] = keys! {
     depth: Of(Length), "box size normal to the plane of motion";
 };
 
-/// Every table of a scene file.
+/// Sections of a scene file.
 pub const SECTIONS: &[Section] = sections! {
     one geometry("crank", "rod") "lengths of the mechanism" {
         crank: Of(Length), "crank length r";
@@ -263,12 +263,12 @@ pub const SECTIONS: &[Section] = sections! {
     }
 };
 
-/// The section with this name.
+/// Returns the section with this name.
 pub fn section(name: &str) -> Option<&'static Section> {
     SECTIONS.iter().find(|section| section.name == name)
 }
 
-/// What would be right instead of `name`: the known name most like it, or all that `owner` has.
+/// Returns the help for an unknown `name`: the most similar known name, or all names that `owner` has.
 pub fn did_you_mean<'a>(
     name: &str,
     owner: &str,
@@ -280,7 +280,7 @@ pub fn did_you_mean<'a>(
     }
 }
 
-/// The candidate most like `name`, if any is like it at all.
+/// Returns the candidate most similar to `name`, if its Jaro-Winkler similarity is above 0.75.
 pub fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     candidates
         .map(|candidate| (strsim::jaro_winkler(name, candidate), candidate))

@@ -1,4 +1,4 @@
-//! Torques and forces.
+//! Reads torques and forces.
 
 use std::f64::consts::PI;
 use std::path::Path;
@@ -9,7 +9,7 @@ use crate::scene::number::with_unit;
 use crate::scene::unit::{self, Quantity};
 use crate::scene::{Every, Expression, Interpolation, Load, Places, Table, Variable};
 
-/// The load of one `[[torque]]` or `[[force]]`, unless it has a problem.
+/// Reads the load of one `[[torque]]` or `[[force]]`; none if it has a problem.
 pub(super) fn load(check: &mut Check, values: &Values) -> Option<Load> {
     let quantity = match values.section.name {
         "torque" => Quantity::Torque,
@@ -38,8 +38,7 @@ pub(super) fn load(check: &mut Check, values: &Values) -> Option<Load> {
     }
 }
 
-/// Whether all keys that the kind needs are there. Those that are not are reported, and those of other
-/// kinds.
+/// Reports the keys that the kind needs and the table lacks, and keys of other kinds; none if a needed key is missing.
 pub(super) fn keys_fit(check: &mut Check, values: &Values, kind: &str) -> Option<()> {
     let section = values.section;
     let kind = section.kinds().iter().find(|one| one.name == kind)?;
@@ -71,7 +70,7 @@ fn constant(check: &mut Check, values: &Values, quantity: Quantity) -> Option<Lo
     Some(Load::Constant(number.ok()?.value))
 }
 
-/// The magnitude of a load that opposes motion: a value or a table.
+/// Reads the magnitude of a dry load: a value or a table.
 fn magnitude(check: &mut Check, values: &Values, quantity: Quantity) -> Option<Load> {
     let [value, file] = ["value", "file"].map(|key| values.has(key));
     if value != file {
@@ -128,7 +127,7 @@ fn expression(check: &mut Check, values: &Values) -> Option<Load> {
     None
 }
 
-/// A gas force; the branch tells its direction.
+/// Reads a gas force, directed as on the right branch; `Part::enter` directs it by the branch.
 fn gas(check: &mut Check, values: &Values) -> Option<Load> {
     let pressure = table(check, values, Variable::Theta, Quantity::Pressure);
     let bore = values.number("bore")?;
@@ -159,13 +158,13 @@ fn table(check: &mut Check, values: &Values, of: Variable, quantity: Quantity) -
         .ok()
 }
 
-/// Where the tables that a scene names are looked for: beside it.
+/// Returns the folder in which the tables of a scene are looked for: that of the scene file.
 fn folder(places: &Places) -> &Path {
     let file = places.0.as_ref().map(|source| source.file.as_path());
     file.and_then(Path::parent).unwrap_or(Path::new(""))
 }
 
-/// The period in the unit of the table's variable.
+/// Returns the period in the SI unit of the table's variable, if it fits the variable.
 fn period(check: &mut Check, field: &str, every: Every, of: Variable) -> Option<f64> {
     let (value, shown) = match every {
         Every::Time(time) => (time, with_unit(time, "s")),

@@ -1,7 +1,7 @@
-//! Scene files: from text to a [`Scene`](super::Scene), and to scenes with other values.
+//! Scene files: takes a text, returns a [`Scene`](super::Scene), and scenes with other values.
 //!
-//! [`read`] makes the text the values of each table, by the list of all [`keys`]; [`Draft`] sets values in place of these;
-//! [`assemble`] puts a scene together.
+//! [`read`] turns the text into the values of each table, by the list of all [`keys`]; [`Draft`] replaces values;
+//! [`assemble`] builds the scene.
 
 mod assemble;
 mod bodies;

@@ -1,11 +1,11 @@
-//! What one table of a scene file makes of the scene.
+//! Part of a scene that one table of a scene file makes.
 
 use crate::scene::{Clearance, Crank, Friction, Gravity, Load, Motion, Rod, Run, Scene, Slider};
 
-/// What one table makes of a scene.
+/// Part of a scene made by one table.
 #[derive(Clone, Debug)]
 pub(super) enum Part {
-    /// It is entered before all others.
+    /// Lengths, which are entered before all other parts.
     Geometry,
     Crank(Crank),
     Rod(Rod),

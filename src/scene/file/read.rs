@@ -1,4 +1,4 @@
-//! Scene files: from TOML to the values of each table, with the place of everything that is wrong.
+//! Reads scene files: takes TOML, returns the values of each table, and the problems with their places.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -16,11 +16,11 @@ use crate::scene::places::Spans;
 use crate::scene::unit::Uncertain;
 use crate::scene::{Every, Problem};
 
-/// The values of one table that could be read, by key.
+/// Values of one table that could be read, by key.
 #[derive(Clone, Debug)]
 pub(super) struct Values {
     pub section: &'static Section,
-    /// What the table makes of the scene, once it is known to have no problem and depend on no other table.
+    /// Part of the scene made by the table, set once it is known to have no problem and to need no other table.
     pub part: OnceLock<Part>,
     path: String,
     entries: BTreeMap<&'static str, Value>,
@@ -36,7 +36,7 @@ impl Values {
         }
     }
 
-    /// Puts a value in place of the one of a key, or beside the others; none for one that could not be read.
+    /// Sets the value of a key; none, for a value that could not be read, removes it.
     pub fn set(&mut self, key: &'static Key, value: Option<Value>) {
         self.part = OnceLock::new();
         match value {
@@ -52,12 +52,12 @@ impl Values {
         }
     }
 
-    /// The quantity of a key with its standard error, also where a formula may stand.
+    /// Returns the quantity of a key with its standard error, also where a formula may stand.
     pub fn uncertain(&self, key: &Key) -> Option<Uncertain> {
         self.entries.get(key.name)?.number(key.kind)
     }
 
-    /// A text or the word of a choice.
+    /// Returns a text or the word of a choice.
     pub fn text(&self, key: &str) -> Option<&str> {
         match self.entries.get(key) {
             Some(Value::Text(text)) => Some(text),
@@ -66,7 +66,7 @@ impl Values {
         }
     }
 
-    /// A number without quotes where a quantity or a formula may stand.
+    /// Returns a number without quotes, where a quantity or a formula may stand.
     pub fn bare(&self, key: &str) -> Option<&str> {
         match self.entries.get(key) {
             Some(Value::Bare(digits)) => Some(digits),
@@ -89,19 +89,19 @@ impl Values {
         self.entries.keys().copied()
     }
 
-    /// The name of a key in problems, as `torque[1].value`.
+    /// Returns the name of a key in problems, as `torque[1].value`.
     pub fn field(&self, key: &str) -> String {
         format!("{}.{key}", self.path)
     }
 }
 
-/// What a document says, as far as it could be read.
+/// Contents of a document, as far as it could be read.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Contents {
     pub title: Option<String>,
     pub tables: Vec<Arc<Values>>,
     pub problems: Vec<Problem>,
-    /// Where keys and tables stand.
+    /// Byte ranges of keys and tables.
     pub spans: Spans,
 }
 
@@ -131,7 +131,7 @@ impl Contents {
         self.problems.push(Problem::new(field, what, help));
     }
 
-    /// The tables of one section: one, or each `[[name]]`.
+    /// Reads the tables of one section: one, or each `[[name]]`.
     fn section(&mut self, section: &'static Section, value: &DeValue<'_>) {
         let name = section.name;
         match (value, section.repeated) {
@@ -178,16 +178,16 @@ impl Contents {
         self.tables.push(Arc::new(values));
     }
 
-    /// The tables of a section.
+    /// Iterates over the tables of a section.
     pub fn of_section(&self, section: &Section) -> impl Iterator<Item = &Values> {
         let tables = self.tables.iter().map(|values| &**values);
         tables.filter(move |values| values.section.name == section.name)
     }
 
-    /// The table of a key, which is added if there is to be one only.
+    /// Returns the table of a key; adds it to a section that has one table only.
     ///
     /// # Errors
-    /// If the scene has fewer tables of this name.
+    /// [`Problem`] if the scene has fewer tables of this name.
     pub fn table(&mut self, path: &KeyPath) -> Result<&mut Values, Problem> {
         let (section, name) = (path.section, path.section.name);
         let count = self.of_section(section).count();
@@ -207,7 +207,7 @@ impl Contents {
         })
     }
 
-    /// Puts a value in place of the one in the file.
+    /// Replaces the value of a key, and the problems of the key.
     pub fn set(&mut self, check: &mut Check, path: KeyPath, value: &VariedValue) {
         let values = match self.table(&path) {
             Ok(values) => values,
@@ -230,7 +230,7 @@ impl Contents {
 }
 
 impl Check<'_> {
-    /// A problem with a key that is needed, what is wrong and what would be right, unless it is there or already has one.
+    /// Adds a problem, fault and remedy, with a required key, unless the key is present or already has one.
     pub(super) fn missing(
         &mut self,
         values: &Values,
@@ -243,13 +243,13 @@ impl Check<'_> {
         }
     }
 
-    /// Whether a key is there, even if unreadable.
+    /// Whether a key is present, even if unreadable.
     pub(super) fn met(&self, values: &Values, key: &str) -> bool {
-        // Most scenes have no problem, and thousands are read in a sweep.
+        // Shortcut for sweeps, which read thousands of scenes, most without a problem.
         values.has(key) || !self.problems.is_empty() && !self.sound([&values.field(key)])
     }
 
-    /// A problem at byte `at` of a text value.
+    /// Adds a problem at byte `at` of a text value.
     pub(super) fn add_in_text(
         &mut self,
         field: &str,
@@ -265,8 +265,8 @@ impl Check<'_> {
     }
 }
 
-/// Place of the character at byte `at` of a text whose value stands, with its quotes, at `value`. None if
-/// escapes make what is written differ from the text.
+/// Returns the place of the character at byte `at` of a text whose value, with its quotes, stands at `value`; none if
+/// escapes make the written form differ from the text.
 fn inside(source: &str, value: Range<usize>, text: &str, at: usize) -> Option<Range<usize>> {
     let end = value.end;
     let quoted = source.get(value)?;

@@ -1,4 +1,4 @@
-//! Problems as text for a terminal, with the line of the file underlined.
+//! Formats problems as text for a terminal, with the line of the file underlined.
 
 use std::borrow::Cow;
 
@@ -7,11 +7,11 @@ use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use crate::scene::number::counted;
 use crate::scene::{Problem, Problems};
 
-/// Problems that are shown; of more, the number.
+/// Largest number of problems shown; the others are counted.
 const MOST_SHOWN: usize = 20;
 
 impl Problems {
-    /// The text for a terminal, in colour or plain.
+    /// Returns the text for a terminal, in colour or plain.
     pub fn render(&self, colour: bool) -> String {
         let renderer = if colour {
             Renderer::styled()
@@ -52,10 +52,10 @@ impl Problems {
     }
 }
 
-/// Longest message, in characters: one that is longer quotes a value as long as a file.
+/// Longest message, characters; a longer one quotes a value as long as a file.
 const LONGEST_MESSAGE: usize = 300;
 
-/// A message without the middle of what it quotes, if that is very long.
+/// Cuts out the middle of a very long message.
 fn shortened(text: &str) -> Cow<'_, str> {
     let count = text.chars().count();
     if count <= LONGEST_MESSAGE {
@@ -67,8 +67,8 @@ fn shortened(text: &str) -> Cow<'_, str> {
     Cow::Owned(format!("{start} ... {end}"))
 }
 
-/// The text with control characters, and those that turn the direction of writing, as their codes: what a title or a
-/// name says is shown, never obeyed. Line feeds and tabs stay.
+/// Replaces control characters, and characters that change the direction of writing, by their codes, because a terminal
+/// would obey them. Line feeds and tabs stay.
 ///
 /// ```
 /// use slider_crank::scene::printable;

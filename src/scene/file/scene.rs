@@ -1,4 +1,4 @@
-//! Scenes from files, and the one that comes with the program.
+//! Reads scenes from files; the built-in scene.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::scene::{Problems, Scene};
 
 impl Scene {
-    /// The built-in scene: the Diesel engine of Duarte et al. 2018, table 1, in free spin.
+    /// Returns the built-in scene: the Diesel engine of Duarte et al. 2018, table 1, in free spin.
     ///
     /// ```
     /// let scene = slider_crank::scene::Scene::duarte();
@@ -19,11 +19,11 @@ impl Scene {
             .unwrap_or_else(|problems| unreachable!("the built-in scene is right: {problems}"))
     }
 
-    /// Reads a scene from the text of a file; `file` is its name in messages and the place from which
-    /// the tables it names are found.
+    /// Reads a scene from the text of a file; `file` is its name in messages, and the tables it names are relative to
+    /// the folder of `file`.
     ///
     /// # Errors
-    /// [`Problems`]: all that is wrong, with its places.
+    /// [`Problems`] of the file, with their places.
     ///
     /// ```
     /// use slider_crank::scene::Scene;

@@ -1,11 +1,11 @@
-//! JSON Schema of scene files, from the same list of keys that the reader uses.
+//! JSON Schema of scene files, built from the list of keys that the reader uses.
 
 use serde_json::{Map, Value, json};
 
 use super::keys::{Key, Kind, KindKeys, SECTIONS, Section};
 use crate::scene::unit::{self, Quantity};
 
-/// The schema, draft 2020-12.
+/// Returns the schema, draft 2020-12.
 ///
 /// ```
 /// let schema = slider_crank::scene::schema();
@@ -53,7 +53,7 @@ fn table(section: &Section) -> Value {
     }
 }
 
-/// Each kind with the keys it needs, and the units of what is a formula in another.
+/// Returns each kind with its required keys, and the units of keys that are formulas in another kind.
 fn kinds(section: &Section) -> Value {
     let kinds = section.kinds();
     kinds
@@ -76,7 +76,7 @@ fn kinds(section: &Section) -> Value {
         .collect()
 }
 
-/// The keys that a kind needs; one that opposes motion a value or a table.
+/// Returns the keys that a kind requires; for `dry` a value or a table.
 fn needed(kind: &KindKeys) -> Value {
     match kind.name {
         "dry" => json!({"anyOf": [{"required": ["value"]}, {"required": ["file", "of"]}]}),
@@ -102,7 +102,7 @@ fn property(key: &Key) -> Value {
     value
 }
 
-/// A text with a number and a unit of one of these quantities, or 0.
+/// Returns the schema of a text with a number and a unit of one of these quantities, or of 0.
 fn measured(quantities: &[Quantity]) -> Value {
     let pattern = unit::pattern(quantities);
     json!({

@@ -1,25 +1,25 @@
-//! Evenly spread values of a key, each made when it is asked for.
+//! Evenly spaced values of a key, computed on demand.
 
 use super::keys::{Key, Kind};
 use super::value;
 use crate::scene::unit::{self, Scale};
 
-/// Most values of one key.
+/// Largest number of values of one key.
 const MOST_VALUES: usize = 1_000_000;
 
-/// Values from the first to the last, in the unit in which these are written.
+/// Evenly spaced values from first to last, in the unit in which these are written.
 #[derive(Clone, Debug)]
 pub(super) struct Spread {
     ends: [f64; 2],
     unit: String,
     count: usize,
     logarithmic: bool,
-    /// Of the unit, if the key takes a quantity.
+    /// Conversion of the unit to SI, if the key takes a quantity.
     scale: Option<Scale>,
 }
 
 impl Spread {
-    /// From first value, last value and count as they are written; evenly in the values or in their logarithm.
+    /// Creates a spread from first value, last value and count as written, even in the values or in their logarithm.
     pub fn new(
         key: &Key,
         [from, to]: [&str; 2],
@@ -55,7 +55,7 @@ impl Spread {
                 _ => None,
             },
         };
-        // Values rise or fall steadily: what is wrong with one of them is wrong with one of these.
+        // Values are monotonic: a fault of any of them is a fault of one of these.
         for index in [0, 1, count.saturating_sub(2), count - 1] {
             let text = spread.value(index.min(count - 1)).0;
             value::read_text(key, &text).map_err(|error| error.to_string())?;
@@ -63,15 +63,15 @@ impl Spread {
         Ok(spread)
     }
 
-    /// Number of values, at least one.
+    /// Returns the number of values, at least one.
     pub fn len(&self) -> usize {
         self.count
     }
 
-    /// A value as a scene file has it, and in SI units and radians if it is a quantity.
+    /// Returns a value as written in a scene file, and in SI units and radians if it is a quantity.
     ///
     /// # Panics
-    /// If there is no value of this index.
+    /// If `index` is not below the number of values.
     pub fn value(&self, index: usize) -> (String, Option<f64>) {
         let ([first, last], end) = (self.ends, self.count - 1);
         assert!(index <= end, "value {index} of {}", self.count);
@@ -80,7 +80,7 @@ impl Spread {
             0 => first,
             _ if index == end => last,
             _ if self.logarithmic => first * (last / first).powf(part(1.0)),
-            // Divided last, so that decimal steps stay decimal.
+            // Division comes last, to keep decimal steps decimal.
             _ => first + part(last - first),
         };
         let mut text = value.to_string();
@@ -93,7 +93,7 @@ impl Spread {
     }
 }
 
-/// A number and its unit.
+/// Splits a text into a finite number and its unit.
 fn split(text: &str) -> Result<(f64, &str), String> {
     let (digits, unit) = unit::split(text)?;
     let number = digits

@@ -1,4 +1,4 @@
-//! One value of a scene file.
+//! Reads one value of a scene file.
 
 use toml::de::DeValue;
 
@@ -6,20 +6,20 @@ use super::keys::{self, Key, Kind};
 use crate::scene::Every;
 use crate::scene::unit::{self, Uncertain, UnitError};
 
-/// A value that has been read.
+/// Value as read from a scene file.
 #[derive(Clone, Debug)]
 pub(super) enum Value {
-    /// SI
+    /// Quantity or number, SI.
     Number(Uncertain),
     Text(String),
-    /// Digits without quotes where a quantity or a formula may stand; the kind of load decides.
+    /// Digits without quotes where a quantity or a formula may stand; the kind of load decides which.
     Bare(String),
     Choice(&'static str),
     Every(Every),
 }
 
 impl Value {
-    /// The value as a quantity, SI, if it is one.
+    /// Returns the value as a quantity, SI, if it is one.
     pub fn number(&self, kind: Kind) -> Option<Uncertain> {
         match (self, kind) {
             (Value::Number(number), _) => Some(*number),
@@ -31,7 +31,7 @@ impl Value {
     }
 }
 
-/// Reads the value of a key, or says what is wrong and what would be right.
+/// Reads the value of a key; the error has the fault and the remedy.
 pub(super) fn read(key: &Key, value: &DeValue<'_>) -> Result<Value, UnitError> {
     let wrong = |what: String| {
         let help = expected(key.kind);

@@ -1,4 +1,4 @@
-//! The values that a key takes, one after the other or at random: what a sweep varies.
+//! Values of a key that a sweep varies: a list, an even spread or a distribution.
 
 use std::fmt;
 use std::str::FromStr;
@@ -11,13 +11,13 @@ use super::spread::Spread;
 use super::value;
 use crate::scene::unit::{PLUS_MINUS, Quantity, Uncertain};
 
-/// A key of a scene and the values it takes, read from texts like `geometry.offset=0mm:20mm:41`.
+/// Key of a scene and the values it takes, parsed from texts like `geometry.offset=0mm:20mm:41`.
 ///
-/// After the key stand the first value, the last one and their number, evenly spread; with `:log` at the end
-/// they are spread evenly in their logarithm. Or the values stand one by one, with commas between them, which
-/// is the way for words and formulas. `geometry.rod=100mm:120mm` is spread evenly between two bounds at random,
-/// `geometry.rod=155.8 +- 0.1 mm` is normal with this standard deviation. Keys are those of scene files; of several
-/// torques or forces the number tells which, as in `torque[2].value`.
+/// After the key stand the first value, the last one and their number, evenly spaced; with `:log` at the end they are
+/// evenly spaced in their logarithm. Alternatively the values stand one by one, separated by commas, as words and
+/// formulas must. `geometry.rod=100mm:120mm` is uniformly distributed between two bounds,
+/// `geometry.rod=155.8 +- 0.1 mm` is normal with this standard deviation. Keys are those of scene files; a number
+/// selects one of several torques or forces, as in `torque[2].value`.
 ///
 /// ```
 /// use slider_crank::scene::Varied;
@@ -35,18 +35,18 @@ use crate::scene::unit::{PLUS_MINUS, Quantity, Uncertain};
 #[derive(Clone, Debug)]
 pub struct Varied {
     pub(super) path: KeyPath,
-    /// The values as they are written.
+    /// Values as written.
     text: String,
     values: Values,
     has_numbers: bool,
 }
 
-/// A value that a key of a scene takes.
+/// Value that a key of a scene takes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VariedValue {
-    /// As a scene file has it.
+    /// Text in the form of a scene file.
     pub text: String,
-    /// In SI units and radians; none of words, formulas and files.
+    /// Number in SI units and radians; none for words, formulas and files.
     pub number: Option<f64>,
 }
 
@@ -54,14 +54,14 @@ pub struct VariedValue {
 enum Values {
     Listed(Vec<VariedValue>),
     Spread(Spread),
-    /// Evenly between two numbers, SI.
+    /// Uniform distribution between two numbers, SI.
     Uniform([f64; 2]),
-    /// With a mean and a standard deviation, SI.
+    /// Normal distribution with mean and standard deviation, SI.
     Normal(Normal),
 }
 
 impl Varied {
-    /// Number of values that are listed; one of a distribution.
+    /// Returns the number of listed values; 1 for a distribution.
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
         match &self.values {
@@ -71,12 +71,12 @@ impl Varied {
         }
     }
 
-    /// Whether the values are random.
+    /// Whether the values are a distribution.
     pub fn is_distribution(&self) -> bool {
         matches!(self.values, Values::Uniform(_) | Values::Normal(_))
     }
 
-    /// The bounds of an even distribution, in SI units and radians.
+    /// Returns the bounds of a uniform distribution, in SI units and radians.
     pub fn bounds(&self) -> Option<[f64; 2]> {
         match self.values {
             Values::Uniform(bounds) => Some(bounds),
@@ -84,7 +84,7 @@ impl Varied {
         }
     }
 
-    /// The SI unit of the values as scene files have it; empty for numbers and words.
+    /// Returns the SI unit of the values in the form of scene files; empty for numbers and words.
     pub fn unit(&self) -> &'static str {
         self.path.unit()
     }
@@ -94,12 +94,12 @@ impl Varied {
         self.has_numbers
     }
 
-    /// The key, as `geometry.offset`.
+    /// Returns the key, as `geometry.offset`.
     pub fn key(&self) -> String {
         self.path.to_string()
     }
 
-    /// The key as the name of a column, with the SI unit of its numbers, as `geometry_offset_m`.
+    /// Returns the key as the name of a column, with the SI unit of its numbers, as `geometry_offset_m`.
     pub fn column(&self) -> String {
         let name = self.path.column();
         match self.path.quantity().map(Quantity::column) {
@@ -108,10 +108,10 @@ impl Varied {
         }
     }
 
-    /// A listed value; the median of a distribution.
+    /// Returns a listed value, or the median of a distribution.
     ///
     /// # Panics
-    /// If there is no value of this index, as slices do.
+    /// If `index` is not below the number of listed values.
     pub fn value(&self, index: usize) -> VariedValue {
         match &self.values {
             Values::Listed(list) => list[index].clone(),
@@ -120,7 +120,7 @@ impl Varied {
         }
     }
 
-    /// The value below which a part `p` of a distribution lies, with 0 < p < 1; listed values are equally likely.
+    /// Returns the `p` quantile of a distribution, 0 < p < 1; listed values are equally likely.
     pub fn quantile(&self, p: f64) -> VariedValue {
         let number = match &self.values {
             Values::Listed(_) | Values::Spread(_) => {
@@ -144,7 +144,7 @@ impl VariedValue {
         Ok(VariedValue { text, number })
     }
 
-    /// A number in SI units and radians.
+    /// Creates a value from a number in SI units and radians.
     pub(super) fn of(number: f64, unit: &str) -> VariedValue {
         VariedValue {
             text: format!("{number} {unit}").trim_end().to_owned(),
@@ -153,7 +153,7 @@ impl VariedValue {
     }
 }
 
-/// The values as they are written.
+/// Writes the values as given.
 impl fmt::Display for Varied {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.text)
@@ -184,7 +184,7 @@ impl FromStr for Varied {
     }
 }
 
-/// Reads `0mm:20mm:41`, `1:100:5:log` or `150 mm, 155.83 mm`; the distributions `0mm:20mm` or `155.8 +- 0.1 mm`.
+/// Parses `0mm:20mm:41`, `1:100:5:log`, `150 mm, 155.83 mm`, or the distributions `0mm:20mm` and `155.8 +- 0.1 mm`.
 fn read(key: &Key, text: &str) -> Result<Values, String> {
     let fields: Vec<&str> = text.split(':').map(str::trim).collect();
     let texts = match (fields.as_slice(), key.kind) {
@@ -223,7 +223,7 @@ fn read(key: &Key, text: &str) -> Result<Values, String> {
     Ok(Values::Listed(values.collect::<Result<_, _>>()?))
 }
 
-/// The quantity that a text is, if the key takes one.
+/// Reads a text as the quantity of a key, if the key takes one.
 fn number(key: &Key, text: &str) -> Result<Option<Uncertain>, String> {
     let value = value::read_text(key, text).map_err(|error| error.to_string())?;
     match text {
@@ -232,7 +232,7 @@ fn number(key: &Key, text: &str) -> Result<Option<Uncertain>, String> {
     }
 }
 
-/// The values between commas; those in brackets, as of `max(1, omega)`, do not count.
+/// Splits values at commas, except those in brackets, as in `max(1, omega)`.
 fn listed(text: &str) -> Vec<String> {
     let mut depth = 0;
     let parts = text.split(|c: char| {

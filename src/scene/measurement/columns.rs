@@ -1,4 +1,4 @@
-//! Which columns of a data file hold the time and the motion, and in which units.
+//! Finds the columns of a data file that hold time, motion and the quantities beside it, and their units.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -9,10 +9,10 @@ use crate::scene::csv::Column;
 use crate::scene::csv::header::{self, Header};
 use crate::scene::unit::{self, Quantity};
 
-/// Words of headers for the time.
+/// Header names of the time, in lower case.
 const TIME: [&str; 6] = ["t", "time", "zeit", "temps", "tiempo", "elapsed time"];
 
-/// Words of headers for what is measured, beside its name.
+/// Header names of measured quantities, beside [`Measured::name`].
 const WORDS: [(&str, Measured); 8] = [
     ("crank angle", Measured::Theta),
     ("crankangle", Measured::Theta),
@@ -24,20 +24,20 @@ const WORDS: [(&str, Measured); 8] = [
     ("position", Measured::X),
 ];
 
-/// Units, and names without a unit, of a column that counts the steps of an encoder.
+/// Units, and names without a unit, of a column of encoder counts.
 const COUNTS: [&str; 5] = ["count", "counts", "pulses", "ticks", "increments"];
 
-/// Most columns that are read of a file.
+/// Largest number of columns read from a file.
 pub(super) const MOST_COLUMNS: usize = 8;
 
 const HELP: &str = "the header names the columns with their units, as `t [s],theta [deg]`, the motion theta, gamma or x; or say which they are, by name or number: --time \"1[s]\" --motion \"2[deg]\"; lines above the header: --skip 3";
 
-/// Whether a word says that a column counts the steps of an encoder.
+/// Whether a word marks a column of encoder counts.
 pub(super) fn is_count(word: &str) -> bool {
     COUNTS.contains(&word.to_lowercase().as_str())
 }
 
-/// A column as it stands in a file.
+/// Column as it stands in a file.
 #[derive(Clone, Debug)]
 pub(super) struct Named {
     /// Position, from 0.
@@ -46,18 +46,18 @@ pub(super) struct Named {
     pub raw: String,
     /// Name in lower case and unit as written; empty if there is none.
     pub header: Header,
-    /// Bytes of its header in the file.
+    /// Byte range of its header in the file.
     pub span: Option<Range<usize>>,
 }
 
 impl Named {
-    /// Whether it holds counts of an encoder.
+    /// Whether the column holds encoder counts.
     fn is_count(&self) -> bool {
         let Header { name, unit } = &self.header;
         is_count(if unit.is_empty() { name } else { unit })
     }
 
-    /// What its name says that it holds.
+    /// Returns the quantity that the name of the column states.
     fn named(&self) -> Option<Measured> {
         let names = Measured::ALL.map(|measured| (measured.name(), measured));
         let mut words = names.iter().chain(&WORDS);
@@ -67,7 +67,7 @@ impl Named {
             .or(self.is_count().then_some(Measured::Theta))
     }
 
-    /// What its unit says that it holds: an angle may be two of them, and is that of the crank.
+    /// Returns the quantity that the unit of the column suggests; an angle, which may be theta or gamma, is theta.
     fn by_unit(&self, reading: &Reading) -> Option<Measured> {
         let has = |quantity| unit::factor(&self.header.unit, quantity).is_ok();
         if has(Quantity::Angle) || self.header.unit.is_empty() && reading.counts_per_turn.is_some()
@@ -82,7 +82,7 @@ impl Named {
         Problem::new("header", what, help).at(self.span.clone())
     }
 
-    /// The unit, which must be one of a quantity.
+    /// Returns the unit of the column, which must be one of `quantity`.
     fn column(&self, quantity: Quantity, option: &str) -> Result<Column, Problem> {
         let mut header = self.header.clone();
         if header.name.is_empty() {
@@ -96,7 +96,7 @@ impl Named {
     }
 }
 
-/// The column that an option `COL[unit]` names by header or number, with the unit of the option; without it those of a kind.
+/// Finds the column that option `COL[unit]` names by header or number, with that unit; without a name, by `is_it`.
 fn choose(
     list: &[Named],
     option: &str,
@@ -134,16 +134,16 @@ fn choose(
     }
 }
 
-/// The columns of time and motion of a data file.
+/// Columns of time and motion of a data file, and those beside them.
 #[derive(Clone, Debug)]
 pub(super) struct Columns {
     pub measured: Measured,
-    /// Positions of time, value, and the columns beside them.
+    /// Positions of time, value, and the columns beside them, from 0.
     pub at: Vec<usize>,
     pub time: Column,
     pub value: Column,
     pub beside: Vec<(Beside, Column)>,
-    /// What the reader should know.
+    /// Notes for the user.
     pub notes: Vec<String>,
 }
 
@@ -236,7 +236,7 @@ impl Columns {
     }
 }
 
-/// What a column measures, and its unit.
+/// Returns the quantity that a column measures, and its unit.
 fn motion(column: &Named, reading: &Reading) -> Result<(Measured, Column), Problem> {
     let (raw, unit) = (&column.raw, &column.header.unit);
     let measured = reading.column.or_else(|| column.named());

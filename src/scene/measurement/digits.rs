@@ -1,24 +1,24 @@
-//! How finely values are printed.
+//! Precision of printed values: decimals and significant digits.
 
-/// Most decimals and most significant digits of printed values: all have as many decimals, or larger ones have fewer and as
-/// many digits.
+/// Largest numbers of decimals and of significant digits of printed values. All values have as many decimals, or larger
+/// ones have fewer decimals and as many digits.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Digits {
     decimals: i32,
     significant: i32,
 }
 
-/// Decimals of doubles lie within this number.
+/// Bound of the number of decimals, positive or negative, up to which powers of ten are normal doubles.
 const MOST_DECIMALS: i32 = 300;
 
 impl Digits {
-    /// Decimals and digits of no value.
+    /// Decimals and digits of an empty list.
     pub const NONE: Digits = Digits {
         decimals: -MOST_DECIMALS,
         significant: 1,
     };
 
-    /// Decimals and digits of a number with a decimal point.
+    /// Returns decimals and digits of a number with a decimal point.
     pub fn of(text: &str) -> Digits {
         let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
         let after = mantissa.split_once('.').map_or(0, |(_, after)| after.len());
@@ -30,7 +30,7 @@ impl Digits {
         }
     }
 
-    /// Decimals and digits of two numbers.
+    /// Returns the larger decimals and digits of two.
     pub fn or(self, other: Digits) -> Digits {
         Digits {
             decimals: self.decimals.max(other.decimals),
@@ -38,7 +38,7 @@ impl Digits {
         }
     }
 
-    /// Root mean square of the steps to which the values are rounded: the larger one of the last decimal and of the last digit.
+    /// Returns the root mean square of the rounding steps of the values: the coarser of last decimal and last digit.
     pub fn step(self, values: &[f64]) -> f64 {
         let finest = 10f64.powi(-self.decimals);
         let square = |value: &f64| {
@@ -48,7 +48,7 @@ impl Digits {
                 .max(0);
             100f64.powi(excess)
         };
-        // A zero has no size.
+        // A zero has no order of magnitude.
         let sized = values.iter().filter(|value| **value != 0.0);
         let (count, sum) = sized.fold((0u32, 0.0), |(count, sum), value| {
             (count + 1, sum + square(value))

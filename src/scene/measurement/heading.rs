@@ -1,4 +1,4 @@
-//! What stands above the numbers of a file, or is said in its place.
+//! Heading of a data file: names and units above the numbers, or those that options give.
 
 use super::Reading;
 use super::columns::{Columns, Named, is_count};
@@ -8,25 +8,25 @@ use crate::scene::csv::lines::{CLOSE_QUOTE, Dialect, OPEN_QUOTE, span};
 use crate::scene::number::counted;
 use crate::scene::{Problem, unit};
 
-/// Where the names of columns come from.
+/// Source of the names of columns.
 #[derive(Clone, Copy, PartialEq)]
 enum NamedBy {
     Header,
     Option,
-    /// The numbers of columns alone.
+    /// Numbers of the columns, in the absence of names.
     Number,
 }
 
-/// What stands above the numbers of a file.
+/// Heading of a data file.
 pub(super) struct Heading<'a> {
     text: &'a str,
     pub names: Vec<&'a str>,
-    /// Units in a row below the names, or none.
+    /// Units in a row below the names; empty without that row.
     units: Vec<&'a str>,
     by: NamedBy,
-    /// The row of the names, or the first one.
+    /// Row of the names, or the first row.
     row: &'a str,
-    /// The byte at which the rows of numbers begin.
+    /// Byte at which the rows of numbers begin.
     pub start: usize,
 }
 
@@ -41,7 +41,7 @@ impl<'a> Heading<'a> {
             return Err(Problem::new("quote", OPEN_QUOTE, CLOSE_QUOTE).at(span(text, quote)));
         }
         let cells = dialect.list(row);
-        // In either notation: a row of numbers is no header.
+        // Either decimal mark counts: a row of numbers is no header.
         let is_number =
             |cell: &&str| cell::parse(cell, false).is_ok() || cell::parse(cell, true).is_ok();
         let number = cells.iter().copied().find(is_number);
@@ -72,7 +72,7 @@ impl<'a> Heading<'a> {
         }
     }
 
-    /// A row of names, and one of units below it where the names have none.
+    /// Reads a row of names, and a row of units below it where the names have none.
     fn in_rows(mut self, dialect: Dialect) -> Heading<'a> {
         let text = self.text;
         let mut rows = dialect.rows(text).skip(1).peekable();
@@ -91,7 +91,7 @@ impl<'a> Heading<'a> {
         self
     }
 
-    /// The header as a comment above the numbers, as numpy and MATLAB write it, or none where options say the columns.
+    /// Reads a header in a comment above the numbers (numpy, MATLAB), or goes without where options name the columns.
     fn above_numbers(
         mut self,
         number: &str,
@@ -120,7 +120,7 @@ impl<'a> Heading<'a> {
         Err(Problem::new("header", what, help).at(span(self.text, number)))
     }
 
-    /// Time and motion among the columns.
+    /// Finds the columns of time and motion.
     pub fn columns(&self, reading: &Reading) -> Result<Columns, Problem> {
         let named = |(at, raw): (usize, &&str)| {
             let Header { name, unit } = header::split(raw);
@@ -150,7 +150,7 @@ impl<'a> Heading<'a> {
         })
     }
 
-    /// How many columns there are, for messages.
+    /// Describes the number of columns, for messages.
     pub fn counted(&self) -> String {
         let who = match self.by {
             NamedBy::Header => "the header",

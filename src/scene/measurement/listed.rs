@@ -1,9 +1,9 @@
-//! Of many problems of one kind the first are listed, and the rest counted.
+//! Limits long lists of problems: lists the first of each kind and counts the rest.
 
 use crate::scene::Problem;
 use crate::scene::number::counted;
 
-/// Problems of one kind that are listed.
+/// Largest number of problems of one kind that are listed.
 pub(super) const MOST_LISTED: usize = 3;
 
 /// Problems, of which the first of each kind are listed and all are counted.
@@ -19,7 +19,7 @@ impl Listed {
         self.list(problem);
     }
 
-    /// Counts one that is like those listed.
+    /// Counts a problem like those listed.
     pub fn count_one(&mut self) {
         self.count += 1;
     }
@@ -39,7 +39,7 @@ impl Listed {
             .for_each(|problem| self.list(problem));
     }
 
-    /// The problems, at the end of the text how many there are beside those listed; none if there is no problem.
+    /// Returns the listed problems, then the number of the others at the end of the text; none if there is no problem.
     pub fn refused(self, text: &str) -> Option<Vec<Problem>> {
         let mut list = self.list;
         let rest = self.count - list.len();
@@ -52,7 +52,7 @@ impl Listed {
     }
 }
 
-/// The field without the sample, which a problem of code has in it.
+/// Returns the field without the sample, which the field of a problem in data from code contains.
 fn name(problem: &Problem) -> &str {
     problem.field.split(',').next().unwrap_or_default()
 }

@@ -1,8 +1,8 @@
-//! What is measured beside the time, and how a file of it is read.
+//! Quantities measured over time, and options for reading a file of them.
 
 use crate::scene::unit::Quantity;
 
-/// What was measured beside the time.
+/// Quantity measured over time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measured {
     /// Crank angle θ, rad.
@@ -14,10 +14,10 @@ pub enum Measured {
 }
 
 impl Measured {
-    /// All quantities; of several in one file the first is that of the record, and the others stand beside it.
+    /// All quantities; the first of several in one file is the motion, the others stand beside it.
     pub const ALL: [Measured; 3] = [Measured::Theta, Measured::Gamma, Measured::X];
 
-    /// Name in headers.
+    /// Returns the name in headers.
     pub fn name(self) -> &'static str {
         match self {
             Measured::Theta => "theta",
@@ -26,12 +26,12 @@ impl Measured {
         }
     }
 
-    /// The SI unit.
+    /// Returns the SI unit.
     pub fn unit(self) -> &'static str {
         self.quantity().si()
     }
 
-    /// What it is, in words.
+    /// Returns the quantity in words.
     pub(super) fn meaning(self) -> &'static str {
         match self {
             Measured::Theta => "the crank angle theta",
@@ -48,21 +48,21 @@ impl Measured {
     }
 }
 
-/// What a column holds beside time and motion.
+/// Content of a column beside time and motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Beside {
-    /// Another measured quantity of the motion.
+    /// Quantity of the motion measured by another sensor.
     Sensor(Measured),
-    /// A torque on the crank that is known, N m.
+    /// Known torque on the crank, N m.
     Torque,
-    /// A force on the slider that is known, N.
+    /// Known force on the slider, N.
     Force,
 }
 
 /// Values of a column beside time and motion, SI.
 #[derive(Clone, Debug)]
 pub struct BesideColumn {
-    /// What it holds.
+    /// Content of the column.
     pub beside: Beside,
     /// One value for each sample.
     pub values: Vec<f64>,
@@ -77,24 +77,24 @@ impl std::str::FromStr for Measured {
     }
 }
 
-/// How a file of measured motion is read.
+/// Options for reading a file of measured motion.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reading {
     /// Names and units of the columns of a file without header, written like a header: `"t [s],theta [deg]"`.
     pub columns: Option<String>,
-    /// The measured column, where the file has several.
+    /// Measured column, where the file has several.
     pub column: Option<Measured>,
-    /// The column of the time by its header or its number, with its unit: `2[ms]`.
+    /// Column of the time by header or number, with its unit: `2[ms]`.
     pub time: Option<String>,
-    /// The column of the motion, as that of the time.
+    /// Column of the motion, in the form of `time`.
     pub motion: Option<String>,
-    /// Columns of torques on the crank and forces on the slider that are known, as that of the time.
+    /// Columns of known torques on the crank and known forces on the slider, in the form of `time`.
     pub known: Vec<String>,
-    /// Counts of an encoder in a turn of the crank.
+    /// Encoder counts in a turn of the crank.
     pub counts_per_turn: Option<u32>,
-    /// What a slider position shows where the slider is at the crank pivot, m.
+    /// Reading of the slider position where the slider is at the crank pivot, m.
     pub x_zero: f64,
-    /// Lines above the header.
+    /// Number of lines above the header.
     pub skip: usize,
     /// Whether numbers have decimal commas; columns are then separated by semicolon or tab.
     pub decimal_comma: bool,

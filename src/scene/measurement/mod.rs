@@ -1,4 +1,4 @@
-//! Measured motion: time and crank angle, crank-pin angle or slider position, sample by sample.
+//! Measured motion: time with crank angle, crank-pin angle or slider position, sample by sample, checked.
 
 mod columns;
 mod digits;
@@ -17,15 +17,15 @@ use super::{Interpolation, Load, Problem, Problems, Scene, Table, Variable, text
 use crate::error::Error;
 pub use measured::{Beside, BesideColumn, Measured, Reading};
 
-/// The motion of Duarte et al. 2018 (11), sampled; see the comments in the file.
+/// CSV text of the motion of Duarte et al. 2018 (11), sampled; see the comments in the file.
 pub const DUARTE_MOTION: &str = include_str!("../../../data/duarte-motion.csv");
 
-/// The file that samples came from, which finds their lines and cells for messages.
+/// File of the samples, in which messages find lines and cells.
 #[derive(Clone, Debug)]
 struct Source {
     file: PathBuf,
     text: String,
-    /// Where the rows of numbers begin, and how they divide.
+    /// Beginning of the rows of numbers, and their delimiter.
     dialect: Dialect,
     /// Positions of time and value in a row, from 0.
     at: [usize; 2],
@@ -45,11 +45,11 @@ impl Source {
 pub struct Measurement {
     measured: Measured,
     times: Vec<f64>,
-    /// Times since `origin`, s, where the times themselves have lost digits.
+    /// Times since `origin`, s, where `times` have lost digits or are rounded values of even times.
     elapsed: Option<Vec<f64>>,
-    /// s
+    /// Time from which `elapsed` counts, s.
     origin: f64,
-    /// Part by which the time between samples may be off that are taken as even.
+    /// Relative uncertainty of the sampling period that replaces rounded times; 0 for other times.
     spacing: f64,
     values: Vec<f64>,
     resolution: f64,
@@ -59,10 +59,10 @@ pub struct Measurement {
 }
 
 impl Measurement {
-    /// Samples of code: times (s) that rise strictly, and values (rad, m for the slider position).
+    /// Creates samples from code: times (s) that rise strictly, and values (rad, m for the slider position).
     ///
     /// # Errors
-    /// [`Problems`]: what is wrong, with the sample, counted from 1.
+    /// [`Problems`] with the samples at fault, counted from 1.
     ///
     /// ```
     /// use slider_crank::scene::{Measured, Measurement};
@@ -81,17 +81,17 @@ impl Measurement {
         Ok(measurement)
     }
 
-    /// These samples with another column: a second sensor, or a torque or force that is known, one value for each sample, SI.
+    /// Adds a column: a second sensor, or a known torque or force, one value for each sample, SI.
     ///
     /// # Errors
-    /// [`Problems`]: other numbers of values, or values that are not finite.
+    /// [`Problems`] for another number of values, or values that are not finite.
     pub fn with(mut self, beside: Beside, values: Vec<f64>) -> Result<Measurement, Problems> {
         self.beside.push(BesideColumn { beside, values });
         self.check_beside()?;
         Ok(self)
     }
 
-    /// What was measured or is known beside the motion.
+    /// Returns the columns beside the motion: other sensors, known torques and forces.
     pub fn beside(&self) -> &[BesideColumn] {
         &self.beside
     }
@@ -102,7 +102,7 @@ impl Measurement {
         self.beside.iter().any(is_sensor)
     }
 
-    /// A scene with the torques and forces that the record knows: between the samples a straight line.
+    /// Returns a scene with the known torques and forces of the record, linear between the samples.
     pub(crate) fn known_in(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         for BesideColumn { beside, values } in &self.beside {
@@ -117,7 +117,7 @@ impl Measurement {
         scene
     }
 
-    /// Samples as they are.
+    /// Creates samples without checks.
     fn raw(measured: Measured, times: Vec<f64>, values: Vec<f64>) -> Measurement {
         Measurement {
             measured,
@@ -133,7 +133,7 @@ impl Measurement {
         }
     }
 
-    /// The motion that belongs to the built-in scene: the polynomial (11) of Duarte et al. 2018, sampled.
+    /// Returns the motion of the built-in scene: the polynomial (11) of Duarte et al. 2018, sampled.
     pub fn duarte() -> Measurement {
         let file = Path::new("duarte-motion.csv");
         Measurement::parse(file, DUARTE_MOTION.to_owned(), &Reading::default())
@@ -143,7 +143,7 @@ impl Measurement {
     /// Reads a CSV file; `-` is standard input.
     ///
     /// # Errors
-    /// [`Error::Read`] if the file cannot be read, [`Error::Scene`] with all that is wrong with it.
+    /// [`Error::Read`] if the file cannot be read, [`Error::Scene`] with all problems of its text.
     pub fn load(file: impl AsRef<Path>, reading: &Reading) -> Result<Measurement, Error> {
         let file = file.as_ref();
         let (text, encoding) = text::decoded_from_any(text::bytes(file)?).map_err(|what| {
@@ -159,7 +159,7 @@ impl Measurement {
     /// Reads the text of a CSV file; `file` is its name in messages.
     ///
     /// # Errors
-    /// [`Problems`]: all that is wrong, with lines and columns.
+    /// [`Problems`] of the text, with lines and columns.
     pub fn parse(file: &Path, text: String, reading: &Reading) -> Result<Measurement, Problems> {
         let mut measurement = read::measurement(file, text, reading)?;
         measurement.count_from_first_row();
@@ -167,64 +167,64 @@ impl Measurement {
         Ok(measurement)
     }
 
-    /// What was measured.
+    /// Returns the measured quantity.
     pub fn measured(&self) -> Measured {
         self.measured
     }
 
-    /// Times, s.
+    /// Returns the times, s.
     pub fn times(&self) -> &[f64] {
         &self.times
     }
 
-    /// Times for a fit, s: they count from [`origin`](Self::origin) where times so far from zero would lose digits.
+    /// Returns the times for a fit, s, since [`origin`](Self::origin); even times in place of their rounded values.
     pub fn elapsed(&self) -> &[f64] {
         self.elapsed.as_deref().unwrap_or(&self.times)
     }
 
-    /// The time from which times for a fit count, s: that of the first row where times lose digits, or 0.
+    /// Returns the origin of the times for a fit, s: the time of the first row where times lose digits, or 0.
     pub fn origin(&self) -> f64 {
         self.origin
     }
 
-    /// Part by which times for a fit may be stretched: that to which rounded times tell the time between even samples.
+    /// Returns the relative uncertainty of the sampling period that replaces rounded times; 0 for other times.
     pub fn time_uncertainty(&self) -> f64 {
         self.spacing
     }
 
-    /// Measured values, rad or m.
+    /// Returns the measured values, rad or m.
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// Number of samples.
+    /// Returns the number of samples.
     pub fn len(&self) -> usize {
         self.times.len()
     }
 
-    /// Whether there is no sample; never so for samples that were checked.
+    /// Whether there is no sample; false for samples that were checked.
     pub fn is_empty(&self) -> bool {
         self.times.is_empty()
     }
 
-    /// The step to which the digits of the values round them, rad or m, a root mean square where larger values have fewer
-    /// decimals; 0 for values of code.
+    /// Returns the rounding step of the printed values, rad or m, the root mean square where larger values have fewer
+    /// decimals; 0 for values from code.
     pub fn resolution(&self) -> f64 {
         self.resolution
     }
 
-    /// What the reader should know: columns not taken, gaps.
+    /// Returns notes for the user: choice of columns, encoding, gaps, replaced times, a record at rest.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
 
-    /// Name of the file, if the samples came from one.
+    /// Returns the name of the file, if the samples came from one.
     pub fn file(&self) -> Option<String> {
         let source = self.source.as_ref()?;
         Some(source.file.display().to_string())
     }
 
-    /// Where a sample (from 0) is: `line 12` of the file, or `sample 11`.
+    /// Returns the place of a sample (from 0): `line 12` of the file, or `sample 11`.
     pub fn place(&self, sample: usize) -> String {
         match &self.source {
             Some(source) => format!("line {}", line_number(&source.text, source.row(sample))),
@@ -232,7 +232,7 @@ impl Measurement {
         }
     }
 
-    /// A value in the unit of its column, with the unit.
+    /// Formats a value in the unit of its column, with the unit.
     pub fn shown(&self, value: f64) -> String {
         match &self.source {
             Some(source) => source.value.shown(value),
@@ -240,7 +240,7 @@ impl Measurement {
         }
     }
 
-    /// A problem with the time (0) or the value (1) of a sample (from 0).
+    /// Creates a problem with the time (column 0) or the value (1) of a sample (from 0).
     fn problem(&self, sample: usize, column: usize, what: String, help: String) -> Problem {
         let name = ["time", self.measured.name()][column];
         let Some(source) = &self.source else {
@@ -251,7 +251,7 @@ impl Measurement {
         Problem::new(name, what, help).at(span(&source.text, cell.unwrap_or(row)))
     }
 
-    /// Problems with the measured values of some samples (from 0): what is wrong and what would be right.
+    /// Creates problems with the measured values of samples (from 0), each with fault and remedy.
     pub fn problems(&self, list: Vec<(usize, String, String)>) -> Problems {
         let problem = |(sample, what, help)| self.problem(sample, 1, what, help);
         self.refused(list.into_iter().map(problem).collect())

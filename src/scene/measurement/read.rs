@@ -1,4 +1,4 @@
-//! Measured motion from files of text.
+//! Reads measured motion from text files.
 
 use std::path::Path;
 
@@ -14,10 +14,10 @@ use crate::scene::number::counted;
 use crate::scene::text::with_line_feeds;
 use crate::scene::{Problem, Problems};
 
-/// Bytes of a piece of text that a thread reads at a time, about.
+/// Approximate size, bytes, of the pieces of text that threads read.
 const PIECE: usize = 1 << 18;
 
-/// A file's samples, each a number, not yet checked against each other.
+/// Reads the samples of a file as numbers, not yet checked against each other.
 pub(super) fn measurement(
     file: &Path,
     text: String,
@@ -96,7 +96,7 @@ pub(super) fn measurement(
     })
 }
 
-/// The numbers of each column, how finely the values are printed, and what is wrong.
+/// Numbers of each column, precision of the printed values, and problems.
 struct Samples {
     columns: Vec<Vec<f64>>,
     digits: Digits,
@@ -113,19 +113,19 @@ impl Samples {
     }
 }
 
-/// The rows of numbers of a file.
+/// Rows of numbers of a file.
 struct Rows<'a> {
     text: &'a str,
     dialect: Dialect,
     columns: &'a Columns,
-    /// Values in a row.
+    /// Number of values in a row.
     expected: usize,
     counted: String,
     decimal_comma: bool,
 }
 
 impl Rows<'_> {
-    /// The samples of all rows, read in pieces of whole lines side by side.
+    /// Reads the samples of all rows, in pieces of whole lines in parallel.
     fn samples(&self) -> Samples {
         let mut rest = &self.text[self.dialect.start..];
         let mut all = Samples::with_room_for(rest.len() / 16, self.columns.at.len());

@@ -1,4 +1,4 @@
-//! Samples checked against each other.
+//! Checks samples against each other.
 
 use super::Measurement;
 use super::listed::{Listed, MOST_LISTED};
@@ -6,20 +6,20 @@ use crate::numeric::median::median;
 use crate::scene::number::{apart, computed, counted, show};
 use crate::scene::{Problem, Problems};
 
-/// Fewest samples of a motion.
+/// Least number of samples of a motion.
 const LEAST_ROWS: usize = 6;
 
-/// A step of time this many times the usual one is a gap.
+/// Ratio of a time step to the median one above which the step is a gap.
 const GAP: f64 = 4.5;
 
-/// Larger values, SI, leave no digits for what is computed from them.
+/// Largest magnitude of a sample, SI; larger ones leave no digits for quantities computed from them.
 const LARGEST: f64 = 1e12;
 
-/// No motion of a mechanism is over in a shorter time, s: powers of a rate of change have no range left.
+/// Shortest duration of a record, s; with shorter ones, powers of rates of change leave the range of doubles.
 const SHORTEST: f64 = 1e-12;
 
 impl Measurement {
-    /// Says what is wrong with the samples, and notes gaps between them.
+    /// Checks the samples, and notes gaps between them.
     pub(super) fn check(&mut self) -> Result<(), Problems> {
         let (times, values) = (&self.times, &self.values);
         if times.len() != values.len() {
@@ -65,7 +65,7 @@ impl Measurement {
         Ok(())
     }
 
-    /// Says what is wrong with the columns beside the motion.
+    /// Checks the columns beside the motion.
     pub(super) fn check_beside(&self) -> Result<(), Problems> {
         for column in &self.beside {
             let values = &column.values;
@@ -87,7 +87,7 @@ impl Measurement {
         Ok(())
     }
 
-    /// A time in the unit of its column.
+    /// Returns a time in the unit of its column.
     fn in_column(&self, time: f64) -> f64 {
         time / self
             .source
@@ -95,7 +95,7 @@ impl Measurement {
             .map_or(1.0, |source| source.time.factor)
     }
 
-    /// Too few samples, or times so close to each other that their unit is wrong.
+    /// Returns a problem for too few samples, or for times so close to each other that their unit must be wrong.
     fn too_short(&self) -> Option<Problem> {
         let times = self.elapsed();
         if times.len() < LEAST_ROWS {
@@ -116,7 +116,7 @@ impl Measurement {
         })
     }
 
-    /// Samples that are all equal.
+    /// Returns a note if all samples are equal.
     fn at_rest(&self) -> Option<String> {
         let first = *self.values.first()?;
         self.values.iter().all(|value| *value == first).then(|| {
@@ -128,7 +128,7 @@ impl Measurement {
         })
     }
 
-    /// Steps of time far above the usual one.
+    /// Returns a note on time steps far above the median one.
     fn gaps(&self) -> Option<String> {
         let times = self.elapsed();
         let steps: Vec<f64> = times.windows(2).map(|w| w[1] - w[0]).collect();
@@ -149,7 +149,7 @@ impl Measurement {
         ))
     }
 
-    /// Times with so many digits before the point that doubles lose those behind it.
+    /// Returns a note on times that are too far from zero for the resolution of doubles.
     fn far_from_zero(&self) -> Option<String> {
         let known = computed(self.lost()?);
         let times = self.elapsed();

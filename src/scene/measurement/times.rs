@@ -1,10 +1,10 @@
-//! Times to all their digits: since the first row where they are far from zero, even where they are those of even samples
-//! rounded to the decimals of a file.
+//! Times to full precision: counted from the first row where they are far from zero, and evenly spaced where they are
+//! even times rounded to the decimals of a file.
 
 use super::Measurement;
 use crate::scene::number::computed;
 
-/// A number as written: `digits` times ten to the power of minus `decimals`.
+/// Decimal number as written: `digits` times ten to the power of minus `decimals`.
 #[derive(Clone, Copy, Debug)]
 struct Decimal {
     digits: i128,
@@ -12,7 +12,7 @@ struct Decimal {
 }
 
 impl Decimal {
-    /// A number without exponent.
+    /// Parses a number without exponent.
     fn of(cell: &str) -> Option<Decimal> {
         let (whole, part) = cell.split_once(['.', ',']).unwrap_or((cell, ""));
         let is_plain = part.bytes().all(|byte| byte.is_ascii_digit());
@@ -23,7 +23,7 @@ impl Decimal {
         })
     }
 
-    /// What this number is above another one, rounded once.
+    /// Returns the difference of this number and another, rounded once.
     fn since(self, other: Decimal) -> Option<f64> {
         let decimals = self.decimals.max(other.decimals);
         let aligned = |number: Decimal| {
@@ -35,11 +35,11 @@ impl Decimal {
     }
 }
 
-/// Part of the usual step to which times have to be known.
+/// Largest spacing of doubles at the times, as a part of the mean time step, that needs no remedy.
 const COARSE: f64 = 1e-6;
 
 impl Measurement {
-    /// How far doubles as large as the times know them, s, if that is too little for steps as short as these.
+    /// Returns the spacing of doubles at the times, s, if it is too coarse for the mean time step.
     pub(super) fn lost(&self) -> Option<f64> {
         let times = &self.times;
         let (first, last) = (*times.first()?, *times.last()?);
@@ -56,7 +56,7 @@ impl Measurement {
         }
     }
 
-    /// Times since the first row, s, from the texts of both; none for what is not of digits alone.
+    /// Computes the times since the first row, s, from the texts of both; none if a time is not of digits alone.
     fn since_first_row(&self) -> Option<Vec<f64>> {
         let source = self.source.as_ref()?;
         let mut first = None;
@@ -68,7 +68,7 @@ impl Measurement {
         source.dialect.rows(&source.text).map(&mut since).collect()
     }
 
-    /// Takes times that are even but for rounding as even; what is to be known of it.
+    /// Replaces times that are rounded values of even times by the even times; returns the note on it.
     pub(super) fn space_evenly(&mut self) -> Option<String> {
         let times = self.elapsed();
         let even = Even::of(times)?;
@@ -87,24 +87,24 @@ impl Measurement {
     }
 }
 
-/// Part of a step of rounding by which a line through rounded times, and a gap between them, may be off.
+/// Tolerance of rounded times off a line (beyond half a step) and of gaps between them, in rounding steps.
 const OFF_LINE: f64 = 0.1;
 
-/// Rounding of doubles over the whole time above which times are not even.
+/// Least rounding step as a part of the whole time; smaller differences of gaps are the rounding of doubles.
 const ROUNDING: f64 = 1e3 * f64::EPSILON;
 
-/// Even times that were rounded, s.
+/// Even times, s, that were rounded.
 struct Even {
-    /// Time of the first sample after its rounded one.
+    /// Time of the first sample minus its rounded one.
     first: f64,
-    /// Time from sample to sample.
+    /// Sampling period.
     period: f64,
-    /// What they are rounded to.
+    /// Rounding step.
     step: f64,
 }
 
 impl Even {
-    /// The line by least squares through times of which these are the rounded ones, if they are.
+    /// Fits a line by least squares through times; none unless they are rounded values of even times.
     fn of(times: &[f64]) -> Option<Even> {
         let count = times.len() as f64;
         let gaps = || times.windows(2).map(|pair| pair[1] - pair[0]);
@@ -112,7 +112,7 @@ impl Even {
             gaps().fold(f64::INFINITY, f64::min),
             gaps().fold(0.0, f64::max),
         );
-        // Rounding makes gaps that differ by one step, which leaves the order of the samples.
+        // Rounding makes gaps that differ by one step, and keeps the order of the samples.
         let step = long - short;
         if step < ROUNDING * (times.last()? - times[0]) || step > 0.5 * short {
             return None;

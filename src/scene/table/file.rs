@@ -1,4 +1,4 @@
-//! CSV files of two columns: tables of loads, calibrations of instruments.
+//! Reads CSV files of two columns: tables of loads, calibrations of instruments.
 
 use std::path::Path;
 
@@ -18,7 +18,7 @@ use crate::scene::unit::Quantity;
 #[cfg(feature = "cli")]
 use crate::scene::{Problem, Variable};
 
-/// A text of two columns of numbers under a header, in the file of this name.
+/// Text of two columns of numbers under a header; `name` is that of the file.
 struct Pairs<'a> {
     name: &'a str,
     text: &'a str,
@@ -35,12 +35,12 @@ impl<'a> Pairs<'a> {
         }
     }
 
-    /// What is wrong with a row, after its place.
+    /// Puts the place of a row before a fault in it.
     fn at(&self, row: &str, what: &str) -> String {
         format!("{} line {}: {what}", self.name, line_number(self.text, row))
     }
 
-    /// The two cells of the header.
+    /// Returns the two cells of the header; `expected` is an example of one.
     fn header(&self, expected: &str) -> Result<[&'a str; 2], String> {
         let row = self.dialect.rows(self.text).next().unwrap_or_default();
         let what = match self.dialect.list(row)[..] {
@@ -58,7 +58,7 @@ impl<'a> Pairs<'a> {
         Err(self.at(row, &what))
     }
 
-    /// The rows below the header, each with its two numbers.
+    /// Returns the rows below the header, each with its two numbers.
     fn numbers(&self) -> Result<Vec<(&'a str, [f64; 2])>, String> {
         let rows = self.dialect.rows(self.text).skip(1);
         rows.map(|row| Ok((row, self.pair(row)?))).collect()
@@ -85,8 +85,8 @@ impl<'a> Pairs<'a> {
 
 #[cfg(feature = "cli")]
 impl Table {
-    /// Reads a CSV file with a header that names both columns and their units; problems name the key of the load that is to
-    /// be changed.
+    /// Reads a CSV file with a header that names both columns and their units; problems name the key of the load that
+    /// must change.
     pub(in crate::scene) fn read(
         file: &Path,
         of: Variable,
@@ -122,7 +122,7 @@ impl Table {
     }
 }
 
-/// Units of the two columns.
+/// Returns the units of the two columns.
 #[cfg(feature = "cli")]
 fn columns(pairs: &Pairs, of: Variable, value: Quantity) -> Result<[Column; 2], String> {
     let of_name = of.name();
@@ -138,23 +138,23 @@ fn columns(pairs: &Pairs, of: Variable, value: Quantity) -> Result<[Column; 2], 
     columns.map_err(|what| pairs.at(cells[0], &what))
 }
 
-/// A load as a table in a file of its own.
+/// Table of a load in a file of its own.
 #[cfg(feature = "cli")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadTable {
-    /// What it is a table of.
+    /// Variable of the first column.
     pub of: Variable,
-    /// What it gives, with its article.
+    /// Quantity of the second column, in words with its article.
     pub gives: &'static str,
-    /// How many rows it has.
+    /// Number of rows.
     pub rows: usize,
 }
 
-/// The table of a load in a CSV file; none if its two columns do not say that it is one: a variable, and a torque, a
+/// Reads the table of a load from a CSV file; none if its two columns do not identify one: a variable, and a torque, a
 /// force or a pressure by its unit.
 ///
 /// # Errors
-/// [`Error::Read`] if the file cannot be read, [`Error::Refused`] with what is wrong with the table.
+/// [`Error::Read`] if the file cannot be read, [`Error::Refused`] with the fault of the table.
 #[cfg(feature = "cli")]
 pub fn load_table(file: &Path) -> Result<Option<LoadTable>, Error> {
     let Ok(text) = text::decoded(text::bytes(file)?) else {
@@ -182,8 +182,7 @@ pub fn load_table(file: &Path) -> Result<Option<LoadTable>, Error> {
 /// second. The rows may stand in any order.
 ///
 /// # Errors
-/// [`Error::Read`] if the file cannot be read, [`Error::Refused`] with line and column for what is no
-/// calibration.
+/// [`Error::Read`] if the file cannot be read, [`Error::Refused`] with line and column if it is no calibration.
 pub fn calibration_points(file: &Path) -> Result<Vec<(f64, f64)>, Error> {
     let name = file.display().to_string();
     let wrong = |what: String| {

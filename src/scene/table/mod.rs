@@ -1,4 +1,4 @@
-//! Loads given by measured or designed values: two columns, interpolated.
+//! Tables of measured or designed values over one variable, interpolated.
 
 mod file;
 mod rows;
@@ -16,21 +16,21 @@ pub use file::calibration_points;
 pub use file::{LoadTable, load_table};
 use rows::Rows;
 
-/// Values over one variable, SI and radians.
+/// Interpolated values over one variable, SI and radians.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     of: Variable,
     curve: Curve,
-    /// Where it was read, unless it is of code.
+    /// File the table was read from; none for a table from code.
     file: Option<PathBuf>,
 }
 
 impl Table {
-    /// A table of code. Arguments must rise strictly; with a `period` the table repeats, and a last
-    /// point one period after the first must repeat its value.
+    /// Creates a table from code. Arguments must rise strictly; with a `period` the table repeats, and a last point one
+    /// period after the first must repeat its value.
     ///
     /// # Errors
-    /// A text that says which point is wrong, counted from 1.
+    /// Text that names the point at fault, counted from 1.
     ///
     /// ```
     /// use slider_crank::scene::{Interpolation, Table, Variable};
@@ -71,65 +71,65 @@ impl Table {
         })
     }
 
-    /// The variable it is a table of.
+    /// Returns the variable of the arguments.
     pub fn of(&self) -> Variable {
         self.of
     }
 
-    /// The file it was read from; none for a table of code.
+    /// Returns the file the table was read from; none for a table from code.
     pub fn file(&self) -> Option<&Path> {
         self.file.as_deref()
     }
 
-    /// The interpolated value, in SI; NaN outside a table that does not repeat.
+    /// Returns the interpolated value, in SI; NaN outside a table without period.
     pub fn value(&self, at: f64) -> f64 {
         self.curve.value(at)
     }
 
-    /// All its values over an interval, in SI.
+    /// Encloses all values over an interval, in SI.
     pub fn enclose(&self, over: Interval) -> Enclosed {
         self.curve.enclose(over)
     }
 
-    /// First and last argument, in SI, of a table that does not repeat.
+    /// Returns the first and last argument, in SI, of a table without period.
     pub fn range(&self) -> Option<(f64, f64)> {
         self.curve.period().is_none().then(|| self.curve.range())
     }
 
-    /// The period (rad or s) of a table that repeats.
+    /// Returns the period (rad or s), if the table has one.
     pub fn period(&self) -> Option<f64> {
         self.curve.period()
     }
 
-    /// Whether a table over the crank angle is the same again after some turns.
+    /// Returns the period of a table over the crank angle as a fraction of a turn, or why there is none.
     pub fn repeats(&self) -> Repeats {
         let period = self.curve.period().ok_or(WhyNot::NoPeriod);
         period.and_then(Period::of_angle).into()
     }
 
-    /// The arguments of the rows.
+    /// Returns the arguments of the rows.
     pub fn rows(&self) -> &[f64] {
         self.curve.points()
     }
 
-    /// The argument of the first row after `at`, periods counted; infinite if there is none.
+    /// Returns the argument of the first row after `at`, in any period; infinite if there is none.
     pub fn next_row(&self, at: f64) -> f64 {
         self.curve.next_point(at)
     }
 
-    /// The arguments of the rows between two, periods counted.
+    /// Returns the arguments of the rows strictly between two arguments, in all periods.
     pub fn rows_between(&self, low: f64, high: f64) -> Vec<f64> {
         self.curve.points_between(low, high)
     }
 
-    /// The value farthest from zero, SI.
+    /// Returns the value farthest from zero, with its sign, SI.
     pub(super) fn largest(&self) -> f64 {
         let values = self.curve.values().iter().copied();
         let farther = |most: f64, y: f64| if y.abs() > most.abs() { y } else { most };
         values.fold(0.0, farther)
     }
 
-    /// The least value, SI.
+    /// Returns the least value, SI.
     pub(super) fn least(&self) -> f64 {
         let values = self.curve.values().iter().copied();
         values.fold(f64::INFINITY, f64::min)

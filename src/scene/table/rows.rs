@@ -1,4 +1,4 @@
-//! Rows of a table, checked before a curve is laid through them.
+//! Takes the rows of a table, checks them and returns the interpolating curve.
 
 use super::Interpolation;
 use crate::numeric::interpolate::Curve;
@@ -6,25 +6,25 @@ use crate::scene::csv::Column;
 use crate::scene::number::{apart, counted, show};
 use crate::scene::{Period, Problem, Variable};
 
-/// Arguments or values that differ by less than this part of the whole count as equal: the last digit of calculators, which
-/// show 2π as 6.283185307.
+/// Relative tolerance within which arguments (of the span) or values (of the largest) count as equal: the last digit of
+/// calculators, which show 2π as 6.283185307.
 const SAME: f64 = 1e-9;
 
-/// The rows of a table that is not checked yet.
+/// Rows of a table before their check.
 pub(super) struct Rows<'a> {
     pub of: Variable,
     /// Argument and value, SI.
     pub points: Vec<(f64, f64)>,
     /// Units of argument and value.
     pub columns: [Column; 2],
-    /// What begins a message about the whole table.
+    /// Prefix of a message about the whole table.
     pub whole: String,
-    /// What begins a message about one row, counted from 0.
+    /// Prefix of a message about one row, counted from 0.
     pub place: &'a dyn Fn(usize) -> String,
 }
 
 impl Rows<'_> {
-    /// The curve through the rows.
+    /// Checks the rows and returns the curve through them.
     pub fn curve(
         mut self,
         interpolation: Interpolation,
@@ -39,7 +39,7 @@ impl Rows<'_> {
         Ok(Curve::new(x, y, interpolation, period))
     }
 
-    /// The period (rad or s), which for a table over the crank angle is the fraction of a turn that its digits tell.
+    /// Returns the period (rad or s); over the crank angle the fraction of a turn that its digits stand for, if any.
     fn in_turns(&self, period: f64) -> f64 {
         if self.of != Variable::Theta || Period::of_angle(period).is_ok() {
             return period;
@@ -70,7 +70,7 @@ impl Rows<'_> {
         Ok(())
     }
 
-    /// Takes off the last row of a table that repeats if it is the first one again.
+    /// Checks the period, and drops the last row if it repeats the first one period later.
     fn close(&mut self, period: f64) -> Result<(), Problem> {
         let [argument, value] = &self.columns;
         let (first, last) = (self.points[0], self.points[self.points.len() - 1]);
@@ -118,7 +118,7 @@ impl Rows<'_> {
     }
 }
 
-/// A problem with the columns of a table over `of`.
+/// Creates the problem of the columns of a table over `of`.
 pub(super) fn columns_error(of: Variable, what: String) -> Problem {
     let help = format!(
         "the file has two columns with units in the header, as `{} [unit],value [unit]`, and rising rows",

@@ -1,20 +1,20 @@
-//! The grammar of compound units.
+//! Grammar of compound units: takes a text, returns the factor to SI and the dimension.
 
 use super::symbol::{Factor, symbol};
 use crate::scene::number::MINUS;
 
-/// The factors of a bracket, or of the whole unit.
+/// Product of the factors in a bracket, or of the whole unit.
 struct Product<'a> {
     text: &'a str,
     total: Factor,
-    /// Whether a sign of division has been met.
+    /// Whether a division sign has occurred.
     divided: bool,
-    /// Power of this product in the one around it.
+    /// Exponent of this product in the one around it.
     power: i32,
 }
 
-/// `unit := [1 /] factor { (space | · | * | . | - | /) factor }`, `factor := symbol [^]integer | ( unit )`. A hyphen
-/// before a digit is the sign of an exponent. Brackets may be nested at will: the open ones are a list.
+/// Parses `unit := [1 /] factor { (space | · | * | . | - | /) factor }`, `factor := symbol [^]integer | ( unit )`.
+/// A hyphen before a digit is the sign of an exponent. A stack of the open brackets allows any depth.
 pub(super) fn unit_factor(text: &str) -> Result<Factor, String> {
     let begin = |text, power| Product {
         text,
@@ -64,7 +64,7 @@ pub(super) fn unit_factor(text: &str) -> Result<Factor, String> {
     }
 }
 
-/// The unit without the 1 of `1/min`.
+/// Returns the unit without the 1 of `1/min`.
 fn without_one(text: &str) -> &str {
     let after = text.strip_prefix('1').map(str::trim_start);
     after.filter(|after| after.starts_with('/')).unwrap_or(text)
@@ -88,8 +88,8 @@ fn factor_of(rest: &mut &str) -> Result<Factor, String> {
     Ok(before.times(last, power))
 }
 
-/// A symbol, or two that are written without a space, as in `kgm^2` and `Ns`: a mass or a force, and a length or a
-/// time, where that can be read in one way only. An exponent belongs to the last.
+/// Splits a name into one symbol, or two written without a space, as in `kgm^2` and `Ns`: a mass or a force, and a
+/// length or a time, where only one reading fits. An exponent belongs to the last.
 fn symbols_of(name: &str) -> Option<[Factor; 2]> {
     if let Some(only) = symbol(name) {
         return Some([Factor::ONE, only]);

@@ -1,4 +1,4 @@
-//! Quantities as people type them: a number and a unit, exact factors, checked dimension.
+//! Quantities in text: takes a number and a unit, checks the dimension, returns the SI value by exact factors.
 
 mod grammar;
 #[cfg(feature = "cli")]
@@ -16,12 +16,12 @@ pub(super) use pattern::pattern;
 pub use quantity::Quantity;
 use symbol::Factor;
 
-/// Why a text is not the quantity that was asked for.
+/// Reason why a text is not the requested quantity.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnitError {
-    /// What is wrong.
+    /// Fault, in words.
     pub what: String,
-    /// What would be right.
+    /// Remedy, in words.
     pub help: String,
 }
 
@@ -37,7 +37,7 @@ impl fmt::Display for UnitError {
 /// double nearest to 0.15583.
 ///
 /// # Errors
-/// What is wrong with number or unit, and examples of what would be right.
+/// [`UnitError`] with the fault of number or unit, and examples of the remedy.
 ///
 /// ```
 /// use slider_crank::scene::unit::{parse, Quantity};
@@ -67,10 +67,10 @@ pub fn parse(text: &str, quantity: Quantity) -> Result<f64, UnitError> {
     Err(wrong(what, quantity, true))
 }
 
-/// A value with its standard error, SI and radians.
+/// Value with its standard error, SI and radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uncertain {
-    /// The middle.
+    /// Estimated value.
     pub value: f64,
     /// Standard error, 0 if none is written.
     pub error: f64,
@@ -79,10 +79,10 @@ pub struct Uncertain {
 /// Signs between a value and its standard error.
 pub(super) const PLUS_MINUS: [&str; 3] = ["+-", "+/-", "±"];
 
-/// Reads `text` as `quantity` that may have a standard error; a unit that stands once holds for both.
+/// Reads `text` as `quantity` with an optional standard error; a unit written once holds for both.
 ///
 /// # Errors
-/// As [`parse`].
+/// The errors of [`parse`], and a negative standard error.
 ///
 /// ```
 /// use slider_crank::scene::unit::{Quantity, Uncertain, uncertain};
@@ -111,20 +111,20 @@ pub fn uncertain(text: &str, quantity: Quantity) -> Result<Uncertain, UnitError>
     Ok(found)
 }
 
-/// A unit of a quantity, for many numbers.
+/// Unit of a quantity, for the conversion of many numbers.
 #[cfg(feature = "cli")]
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scale(Factor);
 
 #[cfg(feature = "cli")]
 impl Scale {
-    /// None if the unit is not one of this quantity.
+    /// Creates a scale; none if `unit` is no unit of `quantity`.
     pub fn new(unit: &str, quantity: Quantity) -> Option<Scale> {
         let factor = grammar::unit_factor(unit).ok()?;
         factor.of(quantity).map(Scale)
     }
 
-    /// The value of these digits in SI units and radians.
+    /// Returns the value of these digits in SI units and radians.
     pub fn value(self, digits: &str) -> Option<f64> {
         self.0.apply(digits)
     }
@@ -147,7 +147,7 @@ pub(super) fn time_or_angle(text: &str) -> Result<Every, UnitError> {
     })
 }
 
-/// With the units there are, where one symbol is enough.
+/// Creates an error with examples of the quantity and, if `with_units`, the unit symbols of its dimension.
 fn wrong(what: String, quantity: Quantity, with_units: bool) -> UnitError {
     let mut help = format!("write {} like {}", quantity.name(), quantity.examples());
     let symbols: Vec<_> = symbol::symbols(quantity.dimension()).collect();
@@ -157,17 +157,17 @@ fn wrong(what: String, quantity: Quantity, with_units: bool) -> UnitError {
     UnitError { what, help }
 }
 
-/// A number with a unit.
+/// Number with a unit.
 struct Measured<'a> {
     digits: String,
-    /// SI
+    /// Value, SI.
     value: f64,
     factor: Factor,
     unit: &'a str,
 }
 
 impl Measured<'_> {
-    /// The value if it is one of this quantity, SI; zero is the same in every unit.
+    /// Returns the value, SI, if it is one of this quantity; a bare zero is one of every quantity.
     fn of(&self, quantity: Quantity) -> Option<f64> {
         if self.unit.is_empty() && self.value == 0.0 || quantity.accepts(self.factor.dimension) {
             return Some(self.value);
@@ -177,7 +177,7 @@ impl Measured<'_> {
 }
 
 impl Factor {
-    /// As a factor of this quantity: a plain 1/min of an angular speed counts turns.
+    /// Returns the factor for this quantity: 1/min as an angular speed counts turns.
     fn of(self, quantity: Quantity) -> Option<Factor> {
         match quantity.accepts(self.dimension) {
             true => Some(self),
@@ -203,18 +203,18 @@ fn measure(text: &str) -> Result<Measured<'_>, String> {
     })
 }
 
-/// Factor of a unit that stands alone, as in a column header `pressure [bar]`: SI value of one unit.
+/// Returns the SI value of one unit that stands alone, as in a column header `pressure [bar]`.
 ///
 /// # Errors
-/// As [`parse`].
+/// The errors of [`parse`].
 pub fn factor(unit: &str, quantity: Quantity) -> Result<f64, UnitError> {
     parse(&format!("1 {unit}"), quantity)
 }
 
-/// How many of one unit are one of another, both of the same kind, like 100 for `"m"` in `"cm"`.
+/// Returns the ratio of unit `of` to unit `to`, both of one dimension, like 100 for `"m"` in `"cm"`.
 ///
 /// # Errors
-/// What is wrong with a unit, in words.
+/// Fault of a unit, in words.
 pub fn ratio(of: &str, to: &str) -> Result<f64, String> {
     let [one, other] = [of, to].map(|unit| format!("1 {unit}"));
     let (one, other) = (measure(&one)?, measure(&other)?);

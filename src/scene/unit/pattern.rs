@@ -1,10 +1,10 @@
-//! Quantities as regular expressions, for programs that check a scene by its schema.
+//! Regular expressions of quantities, for programs that check a scene by its schema.
 
 use super::symbol::spellings;
 use super::{PLUS_MINUS, Quantity};
 
-/// A number and a unit of one of these quantities, or zero, and what may be its error; ECMA-262, anchored. Of quantities that have no symbol of their
-/// own, and of those that products of others give too, any product of units is let through: the reader knows its dimension.
+/// Returns the anchored ECMA-262 pattern of a number with a unit of one of these quantities, or zero, and an optional
+/// error. Compound dimensions admit any product of units, whose dimension only the reader checks.
 pub(in crate::scene) fn pattern(quantities: &[Quantity]) -> String {
     let sign = "[+\\-\u{2212}]?";
     let number = format!("{sign}(?:[0-9]+[.]?[0-9]*|[.][0-9]+)(?:[eE]{sign}[0-9]+)?");

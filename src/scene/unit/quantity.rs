@@ -1,49 +1,49 @@
-//! What the values of a scene measure.
+//! Physical quantities of the values in a scene.
 
 use super::symbol::Dimension;
 
-/// What a value of a scene file measures; fixes the units it may have.
+/// Physical quantity of a value in a scene file, which determines the units it may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// m
+    /// SI unit m.
     Length,
-    /// kg
+    /// SI unit kg.
     Mass,
-    /// kg m²
+    /// SI unit kg m².
     Inertia,
-    /// rad
+    /// SI unit rad.
     Angle,
-    /// rad/s
+    /// SI unit rad/s.
     AngularSpeed,
-    /// m/s²
+    /// SI unit m/s².
     Acceleration,
-    /// s
+    /// SI unit s.
     Time,
-    /// N
+    /// SI unit N.
     Force,
-    /// N m
+    /// SI unit N m.
     Torque,
-    /// N m s/rad
+    /// SI unit N m s/rad.
     RotaryDamping,
-    /// N s/m
+    /// SI unit N s/m.
     LinearDamping,
-    /// N/m
+    /// SI unit N/m.
     Stiffness,
-    /// Pa
+    /// SI unit Pa.
     Pressure,
-    /// kg/m³
+    /// SI unit kg/m³.
     Density,
-    /// m/s
+    /// SI unit m/s.
     Velocity,
-    /// J
+    /// SI unit J.
     Energy,
-    /// W
+    /// SI unit W.
     Power,
-    /// no dimension
+    /// Number without dimension.
     Number,
 }
 
-/// What a quantity is called, its dimension, its SI unit as scene files have it, and usual spellings.
+/// Name of a quantity, its dimension, its SI unit in scene files, and usual spellings.
 struct Facts(&'static str, Dimension, &'static str, &'static str);
 
 macro_rules! facts {
@@ -78,33 +78,33 @@ impl Quantity {
         }
     }
 
-    /// Exponents of metre, kilogram, second and radian.
+    /// Returns the exponents of metre, kilogram, second and radian.
     pub(super) fn dimension(self) -> Dimension {
         self.facts().1
     }
 
-    /// The quantity in words, with its article.
+    /// Returns the quantity in words, with its article.
     pub fn name(self) -> &'static str {
         self.facts().0
     }
 
-    /// Accepted spellings, for error messages and the schema.
+    /// Returns accepted spellings, for error messages and the schema.
     pub fn examples(self) -> &'static str {
         self.facts().3
     }
 
-    /// The unit of the first of the accepted spellings.
+    /// Returns the unit of the first accepted spelling.
     pub(in crate::scene) fn usual_unit(self) -> &'static str {
         let first = self.examples().split('"').nth(1).unwrap_or_default();
         first.split_once(' ').map_or("", |(_, unit)| unit)
     }
 
-    /// The SI unit as scene files have it; empty for numbers.
+    /// Returns the SI unit in the form of scene files; empty for numbers.
     pub(crate) fn si(self) -> &'static str {
         self.facts().2
     }
 
-    /// The SI unit as names of columns have it; empty for numbers.
+    /// Returns the SI unit in the form of column names; empty for numbers.
     #[cfg(feature = "cli")]
     pub(crate) fn column(self) -> String {
         let words = self
@@ -115,7 +115,7 @@ impl Quantity {
         words.replace('/', "_per_").replace(' ', "_")
     }
 
-    /// Radians are a dimension only where leaving them out could be a mistake:
+    /// Whether `found` is the dimension of this quantity. Radians count only where leaving them out could be a mistake:
     /// `N m s` is as good as `N m s/rad`.
     pub(super) fn accepts(self, found: Dimension) -> bool {
         let want = self.dimension();

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 /// Exponents of metre, kilogram, second and radian.
 pub(super) type Dimension = [i8; 4];
 
-/// numerator/denominator · 10^ten · pi^pi, times metre, kilogram, second, radian to `dimension`.
+/// Factor numerator/denominator · 10^ten · pi^pi to SI, times metre, kilogram, second, radian to `dimension`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Factor {
     numerator: f64,
@@ -24,7 +24,7 @@ impl Factor {
         dimension: [0; 4],
     };
 
-    /// 2π rad
+    /// One revolution, 2π rad.
     const REVOLUTION: Factor = Factor {
         numerator: 2.0,
         pi: 1,
@@ -48,8 +48,8 @@ impl Factor {
         self
     }
 
-    /// A count per minute, which of a speed counts revolutions: (rad/s)/(1/min). One per second may be meant in
-    /// radians as well.
+    /// Returns a count per minute as revolutions per minute, (rad/s)/(1/min); none for other units. One per second may
+    /// be meant in radians as well.
     pub(super) fn revolutions(self) -> Option<Factor> {
         let per_minute = self.numerator == 1.0 && self.denominator == 60.0;
         let plain = (self.ten, self.pi, self.dimension) == (0, 0, [0, 0, -1, 0]);
@@ -68,11 +68,11 @@ impl Factor {
     }
 }
 
-/// A symbol and its factor.
+/// Unit symbol and its factor.
 struct Unit {
     symbol: &'static str,
     factor: Factor,
-    /// Whether the symbol takes a prefix.
+    /// Whether the symbol takes an SI prefix.
     prefixed: bool,
 }
 
@@ -92,7 +92,7 @@ macro_rules! units {
     };
 }
 
-/// Exact factors, and whether the symbol takes a prefix.
+/// Units with exact factors, and whether the symbol takes a prefix.
 const UNITS: &[Unit] = units! {
     "m": 1.0 / 1.0, 10^0, pi^0, [1, 0, 0, 0], true;
     "g": 1.0 / 1.0, 10^-3, pi^0, [0, 1, 0, 0], true;
@@ -129,7 +129,7 @@ const UNITS: &[Unit] = units! {
     "psi": 44_482_216_152_605.0 / 64_516.0, 10^-5, pi^0, [-1, 1, -2, 0], false;
 };
 
-/// Names that people and instruments write in the place of symbols.
+/// Names that people and instruments write in place of symbols.
 const NAMES: &[(&str, &[&str])] = &[
     ("s", &["sec", "secs", "second", "seconds"]),
     ("min", &["minutes"]),
@@ -158,7 +158,7 @@ const PREFIXES: &[(&str, i32)] = &[
     ("n", -9),
 ];
 
-/// The symbols of a dimension that have no prefix.
+/// Returns the symbols of a dimension, without prefixes.
 pub(super) fn symbols(dimension: Dimension) -> impl Iterator<Item = &'static str> {
     let of_it = UNITS
         .iter()
@@ -166,7 +166,7 @@ pub(super) fn symbols(dimension: Dimension) -> impl Iterator<Item = &'static str
     of_it.map(|unit| unit.symbol)
 }
 
-/// Every spelling of the units whose dimension is one of these, as a regular expression.
+/// Returns a regular expression of every spelling of the units whose dimension satisfies `is_one`.
 #[cfg(feature = "cli")]
 pub(super) fn spellings(is_one: impl Fn(Dimension) -> bool) -> String {
     let prefixes: Vec<&str> = PREFIXES.iter().map(|prefix| prefix.0).collect();
@@ -183,7 +183,7 @@ pub(super) fn spellings(is_one: impl Fn(Dimension) -> bool) -> String {
     format!("(?:{})", all.join("|"))
 }
 
-/// The factor of a symbol or name, with a prefix or without.
+/// Returns the factor of a symbol or name, with a prefix or without.
 pub(super) fn symbol(name: &str) -> Option<Factor> {
     let find = |name: &str| {
         let named = NAMES.iter().find(|(_, names)| names.contains(&name));

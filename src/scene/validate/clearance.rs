@@ -1,4 +1,4 @@
-//! Clearances that no joint can have.
+//! Checks the values of a clearance.
 
 use crate::scene::check::Check;
 use crate::scene::number::{apart, show};
@@ -46,7 +46,7 @@ pub(super) fn clearance(list: &mut Check, clearance: &Clearance) {
     restitution(list, clearance);
 }
 
-/// The journal fits into the bearing, and lies inside it at the start.
+/// Checks that the journal fits into the bearing, and lies inside it at the start.
 fn fits(list: &mut Check, clearance: &Clearance) {
     let radial = clearance.radial;
     if let Some(bearing) = clearance.bearing_radius
@@ -89,7 +89,7 @@ fn fits(list: &mut Check, clearance: &Clearance) {
     }
 }
 
-/// A massless link has no surfaces that slide; laws that divide by the restitution.
+/// Rejects friction of a massless link, and restitution 0 under laws that divide by it.
 fn restitution(list: &mut Check, clearance: &Clearance) {
     let friction = clearance.friction.unwrap_or(0.0);
     if clearance.law == ContactLaw::MasslessLink && friction > 0.0 {

@@ -1,4 +1,4 @@
-//! Loads that cannot be, or not where they act.
+//! Checks the values of loads, and whether they can act on the crank or the slider.
 
 use crate::scene::Load;
 use crate::scene::check::Check;
@@ -61,7 +61,7 @@ pub(super) fn load(list: &mut Check, field: &str, on_slider: bool, load: &Load) 
     }
 }
 
-/// A magnitude that is none.
+/// Rejects a magnitude that is negative, or neither a constant nor a table.
 fn dry(list: &mut Check, field: &str, on_slider: bool, magnitude: &Load) {
     let key = |name: &str| format!("{field}.{name}");
     match magnitude {

@@ -1,4 +1,4 @@
-//! Values that no mechanism can have, wherever the scene comes from.
+//! Checks the values of a scene from any source; returns all that no mechanism can have.
 
 mod clearance;
 mod loads;
@@ -13,23 +13,23 @@ use super::{
 };
 use crate::numeric::exact::sum3;
 
-/// Local error targets below this cannot be met in double precision.
+/// Least local error target that can be met in double precision.
 pub(crate) const LEAST_TOLERANCE: f64 = 1e-14;
 
-/// More output rows than this, some hundred gigabytes, are a slip of the unit.
+/// Largest number of output rows; more, some hundred gigabytes, come from a wrong unit.
 pub(crate) const MOST_ROWS: f64 = 1e9;
 
-/// The limits of the crank angle are reached, also when rounding puts them outside by this part of the lengths.
+/// Rounding tolerance at the limits of the crank angle, relative to crank plus rod: a pin this far outside is inside.
 const LIMIT_ROUNDING: f64 = 1e-12;
 
-/// Larger angles, rad, are rounded by more than a hundredth of a degree.
+/// Largest initial crank angle, rad, where doubles are 0.007 degrees apart.
 const LARGEST_ANGLE: f64 = 1e12;
 
-/// What decides whether the mechanism can be assembled.
+/// Keys that decide whether the mechanism can be assembled.
 const LENGTHS: [&str; 3] = ["geometry.crank", "geometry.rod", "geometry.offset"];
 
 impl Scene {
-    /// All that is wrong with the scene's values.
+    /// Checks all values of the scene.
     ///
     /// # Errors
     /// [`Problems`] with one entry for each impossible value.
@@ -43,8 +43,8 @@ impl Scene {
     }
 }
 
-/// Adds one problem for each impossible value. Values that have a problem already are not compared with
-/// others: what follows from a problem is none of its own.
+/// Adds one problem for each impossible value. A value with a problem is not compared with others, which would report
+/// the fault twice.
 pub(super) fn problems(scene: &Scene, list: &mut Check) {
     geometry(list, &scene.geometry);
     if let Some(crank) = &scene.crank {
@@ -80,7 +80,7 @@ fn geometry(list: &mut Check, geometry: &Geometry) {
     list.positive("geometry.rod", geometry.rod, "m");
     list.finite("geometry.offset", geometry.offset);
     let (r, l, e) = (geometry.crank, geometry.rod, geometry.offset);
-    // Rounded once, after the difference: crank plus rod may be rounded up to the offset.
+    // A single rounding, after the difference: crank plus rod may round up to the offset.
     let reach = sum3(r, l, -e.abs());
     if reach < 0.0 && list.sound(LENGTHS) {
         let larger = if e.abs() > r + l {
@@ -108,7 +108,7 @@ fn square(cg: [f64; 2]) -> f64 {
     cg[0] * cg[0] + cg[1] * cg[1]
 }
 
-/// The moment of inertia of a body about a point, against the `least` that its centre of gravity allows.
+/// Checks the moment of inertia of a body about a point against the `least` that its centre of gravity allows, kg m².
 fn inertia(list: &mut Check, body: &str, about: &str, inertia: f64, least: f64) {
     const KEYS: [&str; 8] = [
         "mass",
@@ -186,8 +186,8 @@ fn friction(list: &mut Check, friction: &Friction) {
     }
 }
 
-/// Output rows of a run, as far as the scene tells; of rows over the crank angle at least those of one turn, and at
-/// constant speed of all.
+/// Returns the output rows of a run, as far as the scene determines them: rows over the crank angle of at least one
+/// turn, at constant speed of the whole run; 0 if it does not.
 fn rows(run: &Run, motion: &Motion) -> f64 {
     match (run.output_every, run.extent) {
         (Some(Every::Angle(step)), Some(Extent::Duration(duration)))
@@ -229,8 +229,8 @@ fn run(list: &mut Check, run: &Run, motion: &Motion) {
     }
 }
 
-/// The crank angle at the start: its place in the turn is to be known, and the rod must reach the guide. A scene that
-/// says nothing of its motion has no start: its kinematics can be asked for all the same.
+/// Checks the crank angle at the start: rounding must leave its place in the turn, and the rod must reach the guide. A
+/// scene without motion has no start, but has kinematics.
 fn start(list: &mut Check, geometry: &Geometry, motion: &Motion) {
     let angle = motion.angle;
     list.finite("motion.speed", motion.speed);
@@ -267,7 +267,7 @@ fn start(list: &mut Check, geometry: &Geometry, motion: &Motion) {
     );
 }
 
-/// The angles with |e + r sin θ| ≤ l, in degrees.
+/// Returns the crank angles with |e + r sin θ| ≤ l, in degrees.
 fn ranges(geometry: &Geometry) -> Vec<[f64; 2]> {
     let Geometry {
         crank, rod, offset, ..
