@@ -152,7 +152,7 @@ impl Sweep {
         sweep
     }
 
-    /// Returns the designs of part `part` of `parts`, counted from 1: consecutive parts, their sizes equal to one design.
+    /// Returns the designs of part `part` of `parts`, counted from 1: consecutive parts of sizes equal to one design.
     ///
     /// # Errors
     /// [`Error::Refused`] if there is no such part.
