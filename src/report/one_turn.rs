@@ -120,7 +120,7 @@ impl Report for TurnReport<'_> {
         table
     }
 
-    /// Returns the plot of the slider motion, also with changed lengths, and of the driving torque, exact and first-order.
+    /// Returns the plot of slider motion, also with changed lengths, and driving torque, exact and first-order.
     fn look(&self) -> Look<'_> {
         let show: &[&str] = match self.moves() {
             true => &[
