@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::scene::Scene;
 use crate::simulate::{Energies, Row, Summary};
 
-/// Rows for a figure, at most [`ROWS_KEPT`]; thinning keeps the largest contact forces.
+/// Rows for a figure, at most 100 000; thinning keeps the largest contact forces.
 #[derive(Debug)]
 pub struct PlotRows {
     view: View,

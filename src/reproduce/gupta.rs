@@ -1,5 +1,5 @@
-//! Gupta: offset slider-crank in a multibody program and by Newton-Raphson, equations (1)-(11). This module computes the
-//! values without formula: loop closure by the paper's script, and inertias of bodies.
+//! Gupta: offset slider-crank in a multibody program and by Newton-Raphson, equations (1)-(11). This module computes
+//! the values without formula: loop closure by the paper's script, and inertias of bodies.
 
 use std::f64::consts::{PI, TAU};
 
