@@ -31,7 +31,7 @@ impl PlotRows {
         }
     }
 
-    /// Takes a row.
+    /// Takes a row, and keeps it if its block has no row of larger contact force.
     ///
     /// # Errors
     /// [`Error::Refused`] at the first row if it lacks columns of the view.
@@ -96,7 +96,7 @@ impl Report for RunReport<'_> {
     /// Returns the rows with kinetic, potential and total energy, and the deviation of the slider from ideal joints.
     fn table(&self) -> Table {
         let mut rows = self.rows().to_vec();
-        // The state at the end of a step may arrive before rows within the step.
+        // States inside a step arrive after all rows due in the step, out of order in time.
         rows.sort_by(|one, other| one.t.total_cmp(&other.t));
         let energies = Energies::of(self.scene);
         let mut table = Table::new(&rows.first().map_or(String::new(), columns));

@@ -20,7 +20,7 @@ pub struct ReproductionSummary<'a> {
 }
 
 impl<'a> ReproductionSummary<'a> {
-    /// Counts the verdicts.
+    /// Counts the verdicts of a reproduction.
     pub fn new(result: &'a Reproduction) -> ReproductionSummary<'a> {
         let count = |verdict: Verdict| {
             let same = |entry: &&Entry| entry.verdict == verdict;

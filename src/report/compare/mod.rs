@@ -19,7 +19,7 @@ use motion::TIME;
 pub struct Comparison {
     /// Names of the scenes or files of the motions, in order.
     pub motions: Vec<String>,
-    /// Number of times.
+    /// Number of compared times.
     pub rows: usize,
     /// Differences of each motion from the first, by column.
     pub differences: Vec<Difference>,
