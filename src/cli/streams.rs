@@ -13,7 +13,7 @@ use crate::scene::{DUARTE, Draft, Scene};
 /// Outcome of a command.
 pub(super) enum Outcome {
     Done,
-    /// The computation ended early, with partial results; the message says where or why.
+    /// Results are kept, but incomplete or not as wanted; the message says where or why.
     Incomplete(String),
 }
 
@@ -65,7 +65,7 @@ impl Streams {
     /// Loads the scene of the command: a file, or the built-in engine.
     ///
     /// # Errors
-    /// The errors of the scene; [`Error::Refused`] if a result would overwrite a table of the scene.
+    /// Errors of the scene; [`Error::Refused`] if a result would overwrite a table of the scene.
     pub fn scene(&self, file: Option<&PathBuf>) -> Result<Scene, Error> {
         let scene = scene(file)?;
         self.spare_tables(&scene)?;
