@@ -47,7 +47,7 @@ pub struct Optimum {
     pub subjects: Vec<SubjectMet>,
     /// Whether the design meets all limits; if not, it is the design with the least violation.
     pub meets_subjects: bool,
-    /// The local searches.
+    /// Local searches.
     pub starts: Vec<Start>,
     /// Sweeps round the optimum, in search of a better design.
     pub proof: Proof,
@@ -159,7 +159,7 @@ pub const GAIN: f64 = 1e-9;
 /// ```
 ///
 /// # Errors
-/// The errors of [`Sweep::new`]; [`Error::Refused`] if a key is not varied between two bounds, or no design has the figures.
+/// Errors of [`Sweep::new`]; [`Error::Refused`] if a key has no two bounds, or no design has the figures.
 pub fn optimise(
     draft: Draft,
     varied: Vec<Varied>,
