@@ -214,7 +214,7 @@ impl Sweep {
         self.design_of(index, self.values(index))
     }
 
-    /// Computes the design of these values, under an index.
+    /// Computes the design of `values`, with index `index`.
     pub fn design_of(&self, index: usize, values: Vec<VariedValue>) -> Design {
         let scene = self.scene(&values);
         Design::new(index, values, scene, &self.options)
@@ -223,7 +223,7 @@ impl Sweep {
     /// Computes designs on all cores and passes them to `take` in order, in batches.
     ///
     /// # Errors
-    /// The errors of `take`; [`Error::Interrupted`].
+    /// Errors of `take`; [`Error::Interrupted`].
     pub fn designs(
         &self,
         range: Range<usize>,
