@@ -163,13 +163,13 @@ pub fn precision(scene: &Scene, options: &PrecisionOptions) -> Result<Precision,
 #[doc(hidden)]
 pub struct Reference {
     pub what: String,
-    /// rad
+    /// Crank angle, rad.
     pub theta: DoubleDouble,
-    /// rad/s
+    /// Crank speed, rad/s.
     pub omega: DoubleDouble,
-    /// rad
+    /// Error bound of the crank angle, rad.
     pub theta_error: f64,
-    /// rad/s
+    /// Error bound of the crank speed, rad/s.
     pub omega_error: f64,
     /// Time at which the equations end, s, if before the end of the run.
     pub ends_at: Option<f64>,
@@ -184,7 +184,7 @@ pub type FindReference<'a> = dyn Fn(&Scene, f64, u64) -> Option<Reference> + 'a;
 /// Compares methods as [`precision`] does, against the reference of `find` where there is one.
 ///
 /// # Errors
-/// The errors of [`precision`].
+/// Errors of [`precision`].
 #[doc(hidden)]
 pub fn precision_against(
     scene: &Scene,
