@@ -18,11 +18,11 @@ const DERIVATIVE_STEP: f64 = 1e-3;
 /// CSV texts of a paper, by column:
 #[derive(Clone, Copy)]
 pub(super) struct Files {
-    /// symbol,formula,source: a formula uses symbols above it and the variables theta and t.
+    /// Symbols: symbol,formula,source; a formula uses symbols above it and the variables theta and t.
     pub symbols: &'static str,
-    /// place,what,unit,at,printed,range,ours,verdict,condition,conditional
+    /// Claims: place,what,unit,at,printed,range,ours,verdict,condition,conditional
     pub claims: &'static str,
-    /// figure,title,x_axis,y_axis,from,to,steps,theta,style,label,formula: theta as a formula of the abscissa t
+    /// Figures: figure,title,x_axis,y_axis,from,to,steps,theta,style,label,formula; theta as formula of the abscissa t
     pub figures: &'static str,
 }
 
