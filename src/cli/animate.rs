@@ -1,4 +1,4 @@
-//! `animate`: the mechanism to scale, in motion or at an angle.
+//! Command `animate`: draws the mechanism to scale, in motion (GIF) or at one crank angle (DXF, SVG, PNG, PDF).
 
 use std::path::PathBuf;
 
@@ -83,7 +83,7 @@ fn animate(arguments: &Arguments, scene: &Scene) -> Result<Outcome, Error> {
         )
     };
     let frames: Vec<_> = (0..count).map(frame).collect();
-    // Browsers show no frame for less than two hundredths of a second.
+    // Browsers show a frame for at least 0.02 s.
     let hundredths = (100.0 * arguments.seconds / count.max(1) as f64)
         .round()
         .max(2.0) as u16;

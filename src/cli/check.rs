@@ -1,4 +1,4 @@
-//! `check`: all that is wrong with a scene file, `simulate` would refuse of it, or is wrong with a data file.
+//! Command `check`: reports all errors of a scene file, of its plan for `simulate`, or of a data file.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! `compare`: several motions over each other.
+//! Command `compare`: reports the differences of several motions from the first.
 
 use std::path::{Path, PathBuf};
 
@@ -53,13 +53,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     Ok(Outcome::Done)
 }
 
-/// Whether a file holds rows and no scene.
+/// Whether a file is data rather than a scene, by its extension.
 fn is_data(file: &Path) -> bool {
     let ending = file.extension().and_then(|ending| ending.to_str());
     ending.is_some_and(|ending| !ending.eq_ignore_ascii_case("toml"))
 }
 
-/// Rows of a scene: at these times if the motion is known at any time, else at those of its output.
+/// Simulates a scene; returns rows at `times` if the motion can be evaluated there, else at its output times.
 fn rows(scene: &Scene, options: &Options, times: Option<&[f64]>) -> Result<Vec<Row>, Error> {
     if let Some(times) = times {
         let run: Simulation = simulate(scene, options)?;

@@ -1,4 +1,4 @@
-//! `completions`: what shells complete, and the man page.
+//! Command `completions`: writes shell completions and the man page.
 
 use clap::{Args, Command, ValueEnum};
 use clap_complete::Shell;
@@ -26,7 +26,7 @@ enum Reader {
     Man,
 }
 
-/// Writes what a shell completes of the program, or its man page.
+/// Writes the completions for a shell, or the man page.
 pub(super) fn run(arguments: &Arguments, mut program: Command) -> Result<Outcome, Error> {
     let shell = match arguments.reader {
         Reader::Bash => Shell::Bash,
@@ -45,7 +45,7 @@ pub(super) fn run(arguments: &Arguments, mut program: Command) -> Result<Outcome
     Ok(Outcome::Done)
 }
 
-/// The page of the program, then of each command.
+/// Returns the man page of the program, followed by that of each command.
 fn man(mut command: clap::Command) -> Result<String, Error> {
     let failed = |source| Error::Write {
         target: "man page".to_owned(),

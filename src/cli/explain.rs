@@ -1,4 +1,4 @@
-//! `explain`: the plan and the equation.
+//! Command `explain`: shows equation, modelled terms and plan of computation of a scene.
 
 use std::path::PathBuf;
 

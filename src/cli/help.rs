@@ -1,8 +1,8 @@
-//! Help texts: options in groups, and an example of each command.
+//! Help texts: groups of options, and examples of each command.
 
 use clap::Command;
 
-/// Groups of options, by their long names.
+/// Headings of groups of options, and long names of their options.
 const GROUPS: [(&str, &str); 4] = [
     (
         "Results",
@@ -22,7 +22,7 @@ const GROUPS: [(&str, &str); 4] = [
     ),
 ];
 
-/// Command lines that show what the commands are for.
+/// Example command lines.
 const EXAMPLES: [&str; 16] = [
     "simulate data/spring-press.toml --report press.html",
     "simulate data/duarte-engine.toml --reactions --out rows.csv",
@@ -42,7 +42,7 @@ const EXAMPLES: [&str; 16] = [
     "check data/ng.toml",
 ];
 
-/// The arguments of the program with groups and examples.
+/// Adds groups and examples to the arguments of the program.
 pub(super) fn with_groups(program: Command) -> Command {
     program.mut_subcommands(|one| {
         let own = |line: &&&str| line.split(' ').next() == Some(one.get_name());

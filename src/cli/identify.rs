@@ -1,4 +1,4 @@
-//! `identify`: values of a scene from a measured motion.
+//! Command `identify`: estimates values of a scene from a measured motion.
 
 use std::path::PathBuf;
 

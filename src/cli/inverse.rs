@@ -1,4 +1,4 @@
-//! `inverse`: slider force and crank torque from a measured motion.
+//! Command `inverse`: computes slider force and crank torque from a measured motion.
 
 use std::path::{Path, PathBuf};
 
@@ -56,7 +56,7 @@ fn kind(text: &str) -> Result<FitKind, String> {
     found.ok_or_else(|| "the fit is auto, polynomial or smoother".to_owned())
 }
 
-/// Larger degrees are a slip.
+/// Largest polynomial degree accepted; larger ones are typing errors.
 const HIGHEST: usize = 10_000;
 
 fn size(text: &str) -> Result<FitSize, String> {
@@ -70,7 +70,7 @@ fn size(text: &str) -> Result<FitSize, String> {
     }
 }
 
-/// Whether a file that holds no motion is a scene: one begins with its lengths.
+/// Whether a file is a scene: one has a table `[geometry]`.
 fn is_scene(file: &Path) -> bool {
     let text = std::fs::read_to_string(file).unwrap_or_default();
     text.lines()
@@ -116,7 +116,7 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
             "give one of them as a file",
         ));
     }
-    // First the data, whose lack tells a data file in the place of the scene.
+    // Data first: without data, a data file may stand in the place of the scene.
     let measurement = measurement(arguments)?;
     let draft = arguments
         .scene
@@ -126,7 +126,7 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
     streams.spare_tables(&scene)?;
     let options = InverseOptions {
         fit: match (arguments.fit, arguments.degree) {
-            // A degree asks for a polynomial.
+            // A given degree selects the polynomial.
             (FitKind::Auto, FitSize::Fixed(_)) => FitKind::Polynomial,
             (fit, _) => fit,
         },
@@ -142,7 +142,7 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
     let targets = arguments.outputs.open()?;
     let residuals = create(arguments.residuals.as_ref())?;
     let mean = create(arguments.mean_cycle.as_ref())?;
-    // What is odd in the data may be why it is refused.
+    // Notes on the data may explain a refusal.
     let uncertain = draft.uncertain()?;
     let mut result = inverse::inverse_of_uncertain(&scene, &uncertain, &measurement, &options)
         .map_err(|error| error.with_notes(measurement.notes()))?;

@@ -1,4 +1,4 @@
-//! `kinematics`: one turn in closed form.
+//! Command `kinematics`: computes one turn in closed form.
 
 use std::path::PathBuf;
 
@@ -104,7 +104,7 @@ fn diagram(text: &str) -> Result<Diagram, String> {
     known.ok_or_else(|| format!("known are {}", Diagram::ALL.map(Diagram::name).join(", ")))
 }
 
-/// A length and its new value.
+/// Parses a length and its new value, m.
 fn change(text: &str) -> Result<(Length, f64), String> {
     let help = "write it like \"crank=150 mm\"; the keys are crank, rod and offset";
     let (key, value) = text.split_once('=').ok_or(help)?;
@@ -115,7 +115,7 @@ fn change(text: &str) -> Result<(Length, f64), String> {
     Ok((length.ok_or(help)?, value))
 }
 
-/// An offset, of either sign.
+/// Parses an offset of either sign, m.
 fn any_length(text: &str) -> Result<f64, String> {
     quantity(text, Quantity::Length)
 }

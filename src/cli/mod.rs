@@ -1,4 +1,4 @@
-//! The commands: arguments -> question -> report. One file each.
+//! Command line: one file per command, from arguments to computation to report.
 
 mod animate;
 mod check;

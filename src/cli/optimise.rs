@@ -1,4 +1,4 @@
-//! `optimise`: the best design between bounds, subject to limits.
+//! Command `optimise`: finds the best design between bounds, subject to limits.
 
 use std::path::PathBuf;
 

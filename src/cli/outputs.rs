@@ -1,4 +1,4 @@
-//! Options that say where results go, and the one way by which they go there.
+//! Common output options of commands, and the writing of results to the chosen files.
 
 use std::path::PathBuf;
 
@@ -35,10 +35,10 @@ pub(super) struct PlotOfRows {
 }
 
 impl Plot {
-    /// Opens the picture that may be asked for.
+    /// Opens the picture, if asked for.
     ///
     /// # Errors
-    /// [`Error::Refused`] if its ending is not one of a picture; [`Error::Write`].
+    /// [`Error::Refused`] if the extension is not one of a picture; [`Error::Write`].
     pub fn open(&self) -> Result<Option<Picture>, Error> {
         check_ending(self.plot.as_ref(), &ENDINGS)?;
         self.plot.as_deref().map(Picture::create).transpose()
@@ -46,7 +46,7 @@ impl Plot {
 }
 
 impl PlotOfRows {
-    /// What the picture shows.
+    /// Returns the chosen content of the picture.
     pub fn view(&self) -> View {
         View {
             show: self.show.clone(),
@@ -73,7 +73,7 @@ pub(super) struct Outputs {
 }
 
 impl Outputs {
-    /// The streams of a command that reads these files, and writes others too.
+    /// Returns the checked streams of a command that reads the files `read` and also writes `others`.
     pub fn streams(
         &self,
         read: &[Option<&PathBuf>],
@@ -84,10 +84,10 @@ impl Outputs {
         Streams::new(read, self.out.as_ref(), &files, self.json)
     }
 
-    /// Opens all that is asked for, before the first is written.
+    /// Opens all requested outputs, before any is written.
     ///
     /// # Errors
-    /// [`Error::Refused`] if an ending says another format; [`Error::Write`].
+    /// [`Error::Refused`] if an extension means another format; [`Error::Write`].
     pub fn open(&self) -> Result<Targets, Error> {
         Ok(Targets {
             rows: create(self.out.as_ref())?,
@@ -98,7 +98,7 @@ impl Outputs {
     }
 }
 
-/// Open files of results.
+/// Open outputs of a command.
 pub(super) struct Targets {
     pub rows: Option<Output>,
     pub picture: Option<Picture>,
@@ -107,10 +107,10 @@ pub(super) struct Targets {
 }
 
 impl Targets {
-    /// Writes picture, rows and page of a result, and shows its summary.
+    /// Writes picture, rows and page of a result, and shows the summary.
     ///
     /// # Errors
-    /// [`Error::Refused`] if a column is not there; [`Error::Write`].
+    /// [`Error::Refused`] if a column is missing; [`Error::Write`].
     pub fn write(
         self,
         report: &impl Report,
@@ -125,7 +125,7 @@ impl Targets {
     }
 }
 
-/// A size in mm, like `180x120`.
+/// Parses a size in mm, like `180x120`.
 fn shape(text: &str) -> Result<Shape, String> {
     let help = "write width and height in mm, like 180x120";
     let (width, height) = text.split_once(['x', '×']).ok_or(help)?;

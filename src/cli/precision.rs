@@ -1,4 +1,4 @@
-//! `precision`: speed against error.
+//! Command `precision`: compares the methods by time and error.
 
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -64,7 +64,7 @@ impl Arguments {
         options
     }
 
-    /// Whether text goes to standard output, for nothing else does.
+    /// Whether text goes to standard output: true if no other result does.
     fn text_on_stdout(&self) -> Result<bool, Error> {
         let others = [
             is_standard(self.out.as_ref()),
@@ -123,7 +123,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     })
 }
 
-/// Compares the methods on each scene, and shows each comparison when it is there.
+/// Compares the methods on each scene, and shows each comparison once computed.
 fn compare(
     scenes: &[Scene],
     options: &PrecisionOptions,
@@ -154,7 +154,7 @@ fn compare(
     Ok(results)
 }
 
-/// The scenes of files; without any the built-in one.
+/// Loads the scenes of files; without files, the built-in one.
 fn scenes(files: &[PathBuf]) -> Result<Vec<Scene>, Error> {
     match files {
         [] => Ok(vec![scene(None)?]),
@@ -162,7 +162,7 @@ fn scenes(files: &[PathBuf]) -> Result<Vec<Scene>, Error> {
     }
 }
 
-/// All scene files that are named; of a folder those called `*.toml`, by their names.
+/// Returns all named scene files; for a folder its files `*.toml`, sorted.
 fn scene_files(named: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
     let files = named.iter().map(|path| match path.is_dir() {
         true => files_of(path),
@@ -189,7 +189,7 @@ fn files_of(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     Ok(files)
 }
 
-/// The scene of a file; one without a title is called like the file.
+/// Loads a scene; the file name replaces a missing title.
 fn titled(file: &PathBuf) -> Result<Scene, Error> {
     let mut scene = scene(Some(file))?;
     let name = file

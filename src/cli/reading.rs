@@ -1,4 +1,4 @@
-//! How a file of measured motion is read.
+//! Options for reading a file of measured motion.
 
 use clap::Args;
 

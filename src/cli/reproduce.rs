@@ -1,4 +1,4 @@
-//! `reproduce`: the numbers and figures of the four papers beside ours.
+//! Command `reproduce`: recomputes the numbers and figures of the four papers.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! `schema`: JSON Schema of scene files.
+//! Command `schema`: prints the JSON Schema of scene files.
 
 use clap::Args;
 

@@ -1,4 +1,4 @@
-//! `simulate`: forward motion.
+//! Command `simulate`: computes the forward motion of a scene.
 
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -55,29 +55,28 @@ pub(super) struct Arguments {
     max_events: usize,
 }
 
-/// Time in which an engine that is asked to stop ends by itself, with its summary; rows of motions that were computed
-/// before may go on for longer.
+/// Grace period after a request to stop, in which an engine ends with a summary; longer output of rows of a computed
+/// motion is cut off.
 const GRACE: Duration = Duration::from_millis(500);
 
-/// Rows to a file, to a preview, or both.
+/// Sink of the rows of a run: file, preview and plot.
 struct Rows<'a> {
     stop: &'a Stop,
-    /// When the request to stop was seen.
+    /// Time at which the request to stop was first seen.
     seen: Option<Instant>,
     /// Time of the last row, s.
     t: f64,
     writer: Option<RowWriter>,
     preview: Option<Preview>,
-    /// Whether rows are kept for a picture or a page.
+    /// Whether a picture or a page needs rows.
     plots: bool,
     plot: PlotRows,
-    /// Whether a joint is loose.
+    /// Whether the scene has a loose joint.
     loose: bool,
 }
 
 impl Rows<'_> {
-    /// # Errors
-    /// [`Error::Interrupted`].
+    /// Returns [`Error::Interrupted`] if a request to stop is older than [`GRACE`].
     fn check_stop(&mut self) -> Result<(), Error> {
         if !self.stop.is_requested() {
             return Ok(());
@@ -146,7 +145,7 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
     let mut scene = streams.scene(read)?;
     let origin = origin(read);
     if let Some(tolerance) = arguments.tolerance {
-        // It has no place in the file.
+        // Checked on a scene of its own: an error must not point into the file.
         Scene::new(1.0, 2.0).tolerance(tolerance).check()?;
         scene.run.tolerance = tolerance;
     }

@@ -1,4 +1,4 @@
-//! `statics`: slider force against crank torque at rest.
+//! Command `statics`: computes static equilibrium of slider force and crank torque, and calibrations of force sensors.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! What a command reads and where its results go.
+//! Input and output files of a command: checks for conflicts, opening, and writing.
 
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -10,14 +10,14 @@ use crate::error::Error;
 use crate::report::{self, Origin, Output, Picture};
 use crate::scene::{DUARTE, Draft, Scene};
 
-/// Whether the computation was completed.
+/// Outcome of a command.
 pub(super) enum Outcome {
     Done,
-    /// What was computed is kept; the message says up to where.
+    /// Results are kept, but incomplete or not as wanted; the message says where or why.
     Incomplete(String),
 }
 
-/// The files and streams of a command, checked before anything is computed.
+/// Files and streams of a command, checked before any computation.
 pub(super) struct Streams {
     rows_on_stdout: bool,
     json: bool,
@@ -25,10 +25,10 @@ pub(super) struct Streams {
 }
 
 impl Streams {
-    /// Rows go to `rows`, a JSON summary to standard output if `json`, what else is written to `files`.
+    /// Checks the outputs: rows to `rows`, a JSON summary to standard output if `json`, other results to `files`.
     ///
     /// # Errors
-    /// [`Error::Refused`] if two results would go to one place, or a result onto something that is read.
+    /// [`Error::Refused`] if two results have one target, or a result would overwrite an input.
     pub fn new(
         read: &[Option<&PathBuf>],
         rows: Option<&PathBuf>,
@@ -62,20 +62,20 @@ impl Streams {
         })
     }
 
-    /// The scene of the command: a file, or the built-in engine.
+    /// Loads the scene of the command: a file, or the built-in engine.
     ///
     /// # Errors
-    /// What is wrong with it; [`Error::Refused`] if a result would go onto a table that it reads.
+    /// Errors of the scene; [`Error::Refused`] if a result would overwrite a table of the scene.
     pub fn scene(&self, file: Option<&PathBuf>) -> Result<Scene, Error> {
         let scene = scene(file)?;
         self.spare_tables(&scene)?;
         Ok(scene)
     }
 
-    /// The text of a scene: a file, or the built-in engine.
+    /// Loads the text of a scene: a file, or the built-in engine.
     ///
     /// # Errors
-    /// [`Error::Read`]; [`Error::Refused`] if a result would go onto a table that it reads.
+    /// [`Error::Read`]; [`Error::Refused`] if a result would overwrite a table of the scene.
     pub fn draft(&self, file: Option<&PathBuf>) -> Result<Draft, Error> {
         let draft = file.map_or_else(|| Ok(Draft::duarte()), |file| Draft::load(file))?;
         if let Ok(scene) = draft.scene() {
@@ -84,18 +84,17 @@ impl Streams {
         Ok(draft)
     }
 
-    /// Refuses results that would go onto a table that a scene reads.
+    /// Refuses results that would overwrite a table of a scene.
     pub fn spare_tables(&self, scene: &Scene) -> Result<(), Error> {
         check_files(&scene.table_files().collect::<Vec<_>>(), &self.written)
     }
 
-    /// Whether a summary for the reader goes to standard output.
+    /// Whether a text summary goes to standard output.
     pub fn text_on_stdout(&self) -> bool {
         !(self.json || self.rows_on_stdout)
     }
 
-    /// Shows a result: as JSON if that is asked for, else as text, on the standard error stream if the rows
-    /// have the standard output.
+    /// Shows a result: as JSON if asked for, else as text, on standard error if the rows go to standard output.
     pub fn show(
         &self,
         result: &impl Serialize,
@@ -112,7 +111,7 @@ impl Streams {
     }
 }
 
-/// Refuses to write two results to one file, or one onto a file that is read.
+/// Refuses two results with one file, and a result that would overwrite an input.
 pub(super) fn check_files(read: &[&Path], written: &[PathBuf]) -> Result<(), Error> {
     for (index, path) in written.iter().enumerate() {
         let (shown, here) = (path.display(), place(path));
@@ -135,7 +134,7 @@ pub(super) fn check_files(read: &[&Path], written: &[PathBuf]) -> Result<(), Err
     Ok(())
 }
 
-/// The one name of a file that may not exist yet.
+/// Returns the canonical path of a file that may not exist yet.
 fn place(path: &Path) -> PathBuf {
     let folder = path
         .parent()
@@ -145,7 +144,7 @@ fn place(path: &Path) -> PathBuf {
     std::fs::canonicalize(path).unwrap_or_else(|_| new().unwrap_or_else(|| path.to_owned()))
 }
 
-/// Refuses a name whose ending promises another format than is written.
+/// Refuses a path whose extension is not among the formats `written`.
 pub(super) fn check_ending(path: Option<&PathBuf>, written: &[&str]) -> Result<(), Error> {
     let Some((path, ending)) = path.and_then(|path| Some((path, path.extension()?))) else {
         return Ok(());
@@ -171,12 +170,12 @@ pub(super) fn is_standard(path: Option<&PathBuf>) -> bool {
     path.is_some_and(|path| report::is_standard_output(path))
 }
 
-/// Opens an output that may be asked for, `-` for standard output.
+/// Opens an optional output, `-` for standard output.
 pub(super) fn create(path: Option<&PathBuf>) -> Result<Option<Output>, Error> {
     path.map(|path| Output::create(path)).transpose()
 }
 
-/// Writes a text to an output that may be asked for.
+/// Writes a text to an optional output.
 pub(super) fn fill(
     output: Option<Output>,
     text: impl FnOnce() -> Result<String, Error>,
@@ -184,7 +183,7 @@ pub(super) fn fill(
     output.map_or(Ok(()), |output| output.text(&text()?))
 }
 
-/// Draws a figure, given as SVG, to a picture that may be asked for.
+/// Draws a figure, given as SVG, to an optional picture.
 pub(super) fn draw(
     picture: Option<Picture>,
     svg: impl FnOnce() -> Result<String, Error>,
@@ -192,16 +191,16 @@ pub(super) fn draw(
     picture.map_or(Ok(()), |picture| picture.draw(&svg()?))
 }
 
-/// Opens a page that may be asked for.
+/// Opens an optional page.
 ///
 /// # Errors
-/// [`Error::Refused`] if its ending is not one of a page; [`Error::Write`].
+/// [`Error::Refused`] if the extension is not one of a page; [`Error::Write`].
 pub(super) fn page(path: Option<&PathBuf>) -> Result<Option<Output>, Error> {
     check_ending(path, &["html", "htm"])?;
     create(path)
 }
 
-/// The scene of a command: a file, or the built-in engine.
+/// Loads the scene of a command: a file, or the built-in engine.
 pub(super) fn scene(file: Option<&PathBuf>) -> Result<Scene, Error> {
     match file {
         Some(file) => Scene::load(file),
@@ -209,7 +208,7 @@ pub(super) fn scene(file: Option<&PathBuf>) -> Result<Scene, Error> {
     }
 }
 
-/// Where a result comes from: the text of its scene, as far as it can be read again, and the command.
+/// Returns the origin of a result: text of the scene, if readable a second time, and command.
 pub(super) fn origin(file: Option<&PathBuf>) -> Origin {
     Origin {
         scene: match file {
@@ -221,7 +220,7 @@ pub(super) fn origin(file: Option<&PathBuf>) -> Origin {
     }
 }
 
-/// The command of this process as a shell reads it.
+/// Returns the command line of this process, quoted for a shell.
 pub(super) fn command_line() -> String {
     let quoted = |argument: String| {
         let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+@%".contains(c);

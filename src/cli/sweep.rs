@@ -1,4 +1,4 @@
-//! `sweep`: key figures of many designs.
+//! Command `sweep`: computes key figures of many designs.
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -100,7 +100,7 @@ impl Arguments {
         least.chain(self.most.iter().map(goal(true))).collect()
     }
 
-    /// Computes what the named figures and goals take, or what the scene and the other options say.
+    /// Returns the named figures and those of the goals; empty without named figures, which selects the default ones.
     fn figures(&self) -> Vec<Figure> {
         let mut figures = self.figures.clone();
         if !figures.is_empty() {

@@ -1,4 +1,4 @@
-//! `synthesis`: lengths for a wanted stroke and time ratio.
+//! Command `synthesis`: finds the lengths for a wanted stroke and time ratio.
 
 use std::path::PathBuf;
 

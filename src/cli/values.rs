@@ -1,4 +1,4 @@
-//! Values of options.
+//! Parsers of option values with units, to SI units and radians.
 
 use crate::error::Error;
 use crate::scene::unit::{self, Quantity};
@@ -25,7 +25,7 @@ pub(super) fn positive_angle(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Refuses a crank angle between rows (rad) so small that it is a slip of the unit.
+/// Refuses a crank angle between rows (rad) that gives more than 1e8 rows per turn, a likely error of the unit.
 pub(super) fn check_rows_of_turn(every: f64) -> Result<(), Error> {
     const MOST_ROWS: f64 = 1e8;
     if std::f64::consts::TAU / every > MOST_ROWS {

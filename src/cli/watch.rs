@@ -1,4 +1,4 @@
-//! Whoever waits for a computation: what is said, its progress on a terminal, and Ctrl-C.
+//! Terminal output of a running command: messages, progress bar, and interruption by Ctrl-C.
 
 use std::io::{IsTerminal, Write};
 use std::process;
@@ -13,11 +13,11 @@ use crate::report::Output;
 use crate::scene::printable;
 use crate::simulate::Stop;
 
-/// A computation is said to be under way after this time, s.
+/// Time after which the progress of a computation is shown.
 const PATIENCE: Duration = Duration::from_secs(1);
 const BETWEEN_LOOKS: Duration = Duration::from_millis(100);
 
-/// What is on the terminal.
+/// State of the progress display.
 static SHOWN: Mutex<Shown> = Mutex::new(Shown {
     is_over: false,
     designs: None,
@@ -25,15 +25,15 @@ static SHOWN: Mutex<Shown> = Mutex::new(Shown {
 });
 
 struct Shown {
-    /// Whether nothing is to be shown any more.
+    /// Whether the display has ended.
     is_over: bool,
-    /// Number of designs of a sweep.
+    /// Number of designs of a sweep; none for other computations.
     designs: Option<u64>,
     bar: Option<ProgressBar>,
 }
 
-/// Watches the command of this process: shows how far it is, and hands it a request to stop when the user interrupts it.
-/// A command that does not take such requests, or a user who repeats it, ends the process.
+/// Starts the progress display and the handler of interrupts, and returns the request to stop that an interrupt sets.
+/// A second interrupt, or any if the command takes no requests, ends the process.
 pub(super) fn start(takes_requests: bool) -> Stop {
     let stop = Stop::default();
     let request = stop.clone();
@@ -45,7 +45,7 @@ pub(super) fn start(takes_requests: bool) -> Stop {
         }
         request.request();
     };
-    // Without a handler the system ends the process, which loses what it has.
+    // If the handler cannot be set, an interrupt ends the process without results.
     let _ = ctrlc::set_handler(interrupted);
     if std::io::stderr().is_terminal() {
         let stop = stop.clone();
@@ -59,12 +59,12 @@ pub(super) fn start(takes_requests: bool) -> Stop {
     stop
 }
 
-/// Says that the progress is that of so many designs.
+/// Sets the number of designs of which progress is shown.
 pub(super) fn of_designs(count: usize) {
     shown(|shown| shown.designs = Some(count as u64));
 }
 
-/// Takes the progress off the terminal for good: a result follows.
+/// Ends the progress display, before a result.
 pub(super) fn clear() {
     shown(|shown| {
         shown.is_over = true;
@@ -78,9 +78,9 @@ fn shown<T>(with: impl FnOnce(&mut Shown) -> T) -> T {
     with(&mut SHOWN.lock().unwrap_or_else(PoisonError::into_inner))
 }
 
-/// Shows how far it is; false if nothing is to be shown any more.
+/// Shows the progress; false if the display has ended.
 fn show(stop: &Stop) -> bool {
-    /// Parts of a run that are told apart.
+    /// Resolution of the progress of a run.
     const PARTS: u64 = 1000;
     shown(|shown| {
         if shown.is_over {
@@ -111,12 +111,12 @@ fn show(stop: &Stop) -> bool {
     })
 }
 
-/// The one place that talks to the user beside the results.
+/// Prints a message to standard error.
 pub(super) fn say(message: &str) {
     say_styled(&printable(message));
 }
 
-/// Prints a text with colours, whose parts are printable.
+/// Prints a coloured text, already printable, to standard error.
 pub(super) fn say_styled(message: &str) {
     clear();
     let _ = writeln!(std::io::stderr(), "{message}");

@@ -1,4 +1,4 @@
-//! How good a design is.
+//! Computes designs of the unit box and ranks them by Deb's rules, by goal and by scaled margins of the limits.
 
 use std::cmp::Ordering;
 use std::f64::consts::TAU;
@@ -9,39 +9,39 @@ use crate::numeric::stop::Stop;
 use crate::scene::VariedValue;
 use crate::sweep::{Goal, Outcome, Source, Sweep};
 
-/// Judges designs, which are points of the unit box: 0 is the low bound of a key, 1 the high one.
+/// Objective and constraints over the unit box: coordinate 0 is the lower bound of a key, 1 the upper one.
 pub(super) struct Judge<'a> {
     pub sweep: &'a Sweep,
     pub asked: &'a Asked,
     pub stop: &'a Stop,
-    /// Number of designs so far.
+    /// Number of designs computed.
     pub computed: AtomicU64,
-    /// What the goal ranges over in the sample, by which it is made comparable: the middle half, which outliers do not stretch.
+    /// Scale of the goal: its interquartile range in the sample, on which outliers have little influence.
     goal_scale: f64,
-    /// What each limited figure ranges over.
+    /// Scale of each limited figure: its interquartile range in the sample.
     scales: Vec<f64>,
 }
 
-/// A design with its verdict.
+/// A design with its goal and its violation of the limits.
 #[derive(Clone, Debug)]
 pub(super) struct Judged {
-    /// In the unit box.
+    /// Point of the unit box, one coordinate per key.
     pub at: Vec<f64>,
-    /// The goal, less is better; none if the design could not be computed or has no such figure.
+    /// Goal, to be minimised (sign reversed for a maximum); none if the design or a figure could not be computed.
     pub aim: Option<f64>,
-    /// How far it is on the right side of each limit, in the unit of the figure; empty like `aim`.
+    /// Margin to each limit, positive if met, in the unit of the figure; empty without goal and limited figures.
     pub margins: Vec<f64>,
-    /// The largest violation of a limit, scaled; infinite for a design without figures.
+    /// Largest scaled violation of a limit, 0 if all are met; infinite for a design without goal.
     pub violation: f64,
 }
 
 impl Judged {
-    /// The figure that is to be least or most.
+    /// Returns the goal figure with its own sign.
     pub fn value(&self, goal: Goal) -> Option<f64> {
         self.aim.map(|aim| if goal.most { -aim } else { aim })
     }
 
-    /// Deb's rules: better ones first.
+    /// Orders by Deb's rules, better designs first: by violation, then by goal.
     pub fn order(&self, other: &Judged) -> Ordering {
         let aim = |one: &Judged| one.aim.unwrap_or(f64::INFINITY);
         let violation = self.violation.total_cmp(&other.violation);
@@ -66,7 +66,7 @@ impl<'a> Judge<'a> {
         varied.map(|(one, at)| one.quantile(*at)).collect()
     }
 
-    /// Computes a design, unless somebody asked to stop.
+    /// Computes and ranks a design; returns one without figures after a request to stop.
     pub fn judge(&self, at: Vec<f64>) -> Judged {
         if self.stop.is_requested() {
             return self.verdict(at, None, Vec::new());
@@ -102,7 +102,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Takes the scales from a sample, and judges it again by them.
+    /// Sets the scales from a sample and ranks the sample again with them.
     pub fn calibrate(&mut self, sample: Vec<Judged>) -> Vec<Judged> {
         let of = |value: &dyn Fn(&Judged) -> f64| {
             let computed = sample.iter().filter(|one| one.aim.is_some());
@@ -117,32 +117,32 @@ impl<'a> Judge<'a> {
         again.collect()
     }
 
-    /// Scaled goal; `worst` for a design that has none.
+    /// Returns the scaled goal, `worst` for a design without goal.
     pub fn aim(&self, one: &Judged, worst: f64) -> f64 {
         one.aim.map_or(worst, |aim| aim / self.goal_scale)
     }
 
-    /// Scaled distance from a limit, positive on the right side; a whole spread on the wrong one for a design without figures.
+    /// Returns the scaled margin to a limit, positive if met; -1, a violation by one scale, without figures.
     pub fn margin(&self, one: &Judged, subject: usize) -> f64 {
         let margin = one.margins.get(subject).copied();
         margin.map_or(-1.0, |margin| margin / self.scales[subject])
     }
 
-    /// Whether a figure lies on a limit, as closely as searches agree.
+    /// Whether a figure equals its limit to [`AGREEMENT`] of its scale.
     pub fn is_active(&self, subject: usize, value: f64) -> bool {
         let margin = self.asked.subjects[subject].margin(value);
         margin.abs() <= AGREEMENT * self.scales[subject]
     }
 
-    /// Whether two designs are equally good.
+    /// Whether goals (scaled) and violations of two designs agree to [`AGREEMENT`].
     pub fn agree(&self, one: &Judged, other: &Judged) -> bool {
         let aims = one.aim.zip(other.aim);
         let near = aims.is_some_and(|(a, b)| (a - b).abs() <= AGREEMENT * self.goal_scale);
         near && (one.violation - other.violation).abs() <= AGREEMENT
     }
 
-    /// The difference of the goal below which designs are not told apart: the error of the motion, relative to its fastest
-    /// speed and its way, as that of the goal; at least [`GAIN`] of the spread.
+    /// Returns the least significant difference of the goal: |goal| times the relative error of the motion (speed error
+    /// to fastest speed, angle error to angle travelled) or of the steady fluctuation; at least [`GAIN`] of the scale.
     pub fn resolution(&self, one: &Judged) -> f64 {
         let aim = one.aim.map_or(0.0, f64::abs);
         let least = GAIN * self.goal_scale;
@@ -166,7 +166,7 @@ impl<'a> Judge<'a> {
         errors.fold(least, f64::max)
     }
 
-    /// Whether one is better than another by more than the resolution.
+    /// Whether `one` beats `other`: by more than `resolution` in goal at equal violation, else [`GAIN`] in violation.
     pub fn improves(&self, one: &Judged, other: &Judged, resolution: f64) -> bool {
         if one.order(other) != Ordering::Less {
             return false;
@@ -178,7 +178,7 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// The distance of the quartiles; that of the ends or 1 where they are equal.
+/// Returns the interquartile range; the full range if that is zero, 1 if both are zero or not finite.
 fn middle_half(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     let Some(last) = values.len().checked_sub(1) else {

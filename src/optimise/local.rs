@@ -1,4 +1,4 @@
-//! A local search.
+//! Local search from a start design by COBYLA: linear approximations in a trust region, without derivatives.
 
 use std::cell::RefCell;
 
@@ -6,34 +6,34 @@ use cobyla::{RhoBeg, StopTols, minimize};
 
 use super::judge::{Judge, Judged};
 
-/// Searches end where steps are this small a part of the ranges.
+/// Final trust-region radius of a search, in parts of the ranges between the bounds.
 const LAST_STEP: f64 = 1e-10;
 
-/// Limits are kept by this part of their spread, so that ends of a search meet them despite its last step.
+/// Safety margin to each limit, in scales of the figure: ten times `LAST_STEP`, for ends of searches to meet limits.
 const KEPT_FROM_LIMITS: f64 = 1e-9;
 
-/// Most designs of a search for each key, which COBYLA without a curved valley needs a few dozen of.
+/// Maximum number of designs of a search per key; COBYLA needs a few dozen where no valley is curved.
 const DESIGNS: usize = 300;
 
-/// A search that is over.
+/// Result of one local search.
 #[derive(Clone, Debug)]
 pub(super) struct Searched {
-    /// Where it began.
+    /// Start, in the unit box.
     pub from: Vec<f64>,
-    /// The best of its designs.
+    /// Best design of the search.
     pub end: Judged,
     /// Number of designs computed.
     pub designs: u64,
 }
 
-/// The designs of a search: the last one, of which goal and limits are asked one after the other, and the best.
+/// Last design of a search, cached because COBYLA asks for goal and limits one by one, and the best design.
 struct Incumbent {
     last: Judged,
     best: Judged,
     designs: u64,
 }
 
-/// COBYLA from a design, with first steps of this part of the ranges; `worst` is the scaled goal of designs without one.
+/// Runs COBYLA from a design, initial trust radius `step` in parts of the ranges; `worst` replaces a missing goal.
 pub(super) fn search(judge: &Judge, from: Judged, step: f64, worst: f64) -> Searched {
     let start = from.at.clone();
     let keys = start.len();
@@ -63,7 +63,7 @@ pub(super) fn search(judge: &Judge, from: Judged, step: f64, worst: f64) -> Sear
         xtol_abs: vec![LAST_STEP; keys],
         ..StopTols::default()
     };
-    // What it returns is among what it looked at.
+    // The result is unused: `look` has recorded every evaluated design.
     let _ = minimize(
         goal,
         &start,

@@ -1,5 +1,5 @@
-//! The best design: values of scene keys between bounds for which a key figure is least or most, subject to limits of
-//! others.
+//! Optimum design: takes bounds of scene keys, a goal figure and limits of others, and returns the best values, by
+//! multi-start COBYLA with Deb's constraint rules.
 
 mod judge;
 mod local;
@@ -17,127 +17,127 @@ use crate::sweep::{Design, Goal, LatinHypercube, Sweep, SweepOptions};
 use judge::Judge;
 pub use subject::{Limit, Subject};
 
-/// What is looked for.
+/// Optimisation problem: goal, limits and seed.
 #[derive(Clone, Debug)]
 pub struct Asked {
-    /// The figure that is to be least or most.
+    /// Figure to minimise or maximise.
     pub goal: Goal,
-    /// Limits of figures.
+    /// Inequality constraints.
     pub subjects: Vec<Subject>,
-    /// Seed of the samples.
+    /// Seed of the Latin hypercube samples.
     pub seed: u64,
 }
 
-/// The best design that was found.
+/// Result of an optimisation: best design, local searches and final sweeps.
 #[derive(Clone, Debug, Serialize)]
 pub struct Optimum {
     /// Title of the scene.
     pub scene: String,
-    /// The figure that is to be least or most, as the column of a sweep.
+    /// Goal figure, as its column of a sweep.
     pub figure: String,
     /// `"least"` or `"most"`.
     pub sense: &'static str,
-    /// The figure, in SI units and radians; none if no design has it.
+    /// Value of the goal figure, in SI units and radians; none if no design has it.
     pub value: Option<f64>,
-    /// Designs whose figures differ by less are not told apart: the error of the figure, or [`GAIN`] of its spread.
+    /// Least significant difference of the goal figure: its error, at least [`GAIN`] of its scale in the sample.
     pub resolution: f64,
-    /// The values of the varied keys.
+    /// Optimum values of the varied keys.
     pub values: Vec<OptimumValue>,
-    /// Limits, and how far the design keeps from them.
+    /// Limits, and the values of their figures at the optimum.
     pub subjects: Vec<SubjectMet>,
-    /// Whether it meets all limits; else it is the design that misses them least.
+    /// Whether the design meets all limits; if not, it is the design with the least violation.
     pub meets_subjects: bool,
-    /// The local searches.
+    /// Local searches.
     pub starts: Vec<Start>,
-    /// The sweeps round the optimum.
+    /// Sweeps round the optimum, in search of a better design.
     pub proof: Proof,
     /// Number of designs computed.
     pub designs: u64,
-    /// Whether somebody asked to stop before the search was over.
+    /// Whether a request to stop ended the search early.
     pub interrupted: bool,
-    /// What the reader should know of the design.
+    /// Notes on the optimum design, as in a row of a sweep.
     pub notes: Vec<String>,
 }
 
-/// The value of a varied key.
+/// Optimum value of one varied key.
 #[derive(Clone, Debug, Serialize)]
 pub struct OptimumValue {
-    /// The key, as `geometry.offset`.
+    /// Key of the scene, like `geometry.offset`.
     pub key: String,
-    /// The key as the column of a sweep.
+    /// Column of the key in a sweep.
     pub column: String,
-    /// As a scene file has it.
+    /// Value as written in a scene file.
     pub text: String,
-    /// In SI units and radians.
+    /// Value in SI units and radians.
     pub value: f64,
-    /// The SI unit; empty for numbers.
+    /// SI unit; empty for dimensionless values.
     pub unit: &'static str,
-    /// The bounds, in the same unit.
+    /// Lower and upper bound, in SI units and radians.
     pub bounds: [f64; 2],
     /// `"low"` or `"high"` if the value is that bound.
     pub at_bound: Option<&'static str>,
 }
 
-/// How a design stands to a limit.
+/// One limit, evaluated at the optimum.
 #[derive(Clone, Debug, Serialize)]
 pub struct SubjectMet {
-    /// The figure, as the column of a sweep.
+    /// Limited figure, as its column of a sweep.
     pub figure: String,
     /// `">="` or `"<="`.
     pub sense: &'static str,
-    /// The limit, in SI units and radians.
+    /// Limit, in SI units and radians.
     pub limit: f64,
-    /// The figure of the design; none if it has none.
+    /// Figure at the optimum, in SI units and radians; none if the design lacks it.
     pub value: Option<f64>,
-    /// Whether the design keeps it.
+    /// Whether the design meets the limit.
     pub is_met: bool,
-    /// Whether the design lies on it.
+    /// Whether the constraint is active: the figure equals the limit to [`AGREEMENT`] of its scale.
     pub is_active: bool,
 }
 
-/// Where a local search ended.
+/// Start and end of one local search.
 #[derive(Clone, Debug, Serialize)]
 pub struct Start {
-    /// The values of the varied keys at the start, in SI units and radians.
+    /// Values of the varied keys at the start, in SI units and radians.
     pub from: Vec<f64>,
-    /// At the end.
+    /// Values of the varied keys at the end, in SI units and radians.
     pub to: Vec<f64>,
-    /// The figure at the end; none if no design of this search has it.
+    /// Goal figure at the end, in SI units and radians; none if no design of this search has it.
     pub value: Option<f64>,
     /// Whether the design at the end meets all limits.
     pub meets_subjects: bool,
-    /// Whether the figure agrees with that of the optimum to [`AGREEMENT`] of its spread.
+    /// Whether goal and violation agree with the optimum to [`AGREEMENT`] of their scales.
     pub agrees: bool,
-    /// Number of designs computed.
+    /// Number of designs computed by this search.
     pub designs: u64,
 }
 
-/// Sweeps round the optimum, each in a box of its own size, in which no design was better.
+/// Sweeps of nested boxes round the optimum, which found no better design if complete.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Proof {
-    /// Whether such sweeps were made and none of their designs is better.
+    /// Whether all sweeps ran and none found a better design.
     pub is_complete: bool,
-    /// Half widths of the boxes, in parts of the ranges between the bounds.
+    /// Half-widths of the boxes, in parts of the ranges between the bounds.
     pub half_widths: Vec<f64>,
-    /// Designs of each sweep.
+    /// Number of designs of each sweep.
     pub designs_each: u64,
-    /// How many times a better design was found and the search went on from it.
+    /// Number of restarts of the search from a better design of a sweep.
     pub improvements: u32,
 }
 
-/// Local searches agree within this part of the middle half of the figure's sample.
+/// Tolerance of agreement between local searches, in interquartile ranges of the figure in the sample.
 pub const AGREEMENT: f64 = 1e-6;
 
-/// A design is no better for less than this part of the middle half of the figure's sample.
+/// Least significant improvement of a design, in interquartile ranges of the figure in the sample.
 pub const GAIN: f64 = 1e-9;
 
-/// Looks for the best design between the bounds of the varied keys.
+/// Finds the best design between the bounds of the varied keys.
 ///
-/// A Latin hypercube explores the box. Local searches set out from those of its designs that have no better one within the
-/// critical distance of multi-level single linkage (Rinnooy Kan and Timmer, Mathematical Programming 39 (1987) 57), by
-/// COBYLA (Powell 1994). Designs are compared by Deb's rules (Computer Methods in Applied Mechanics and Engineering 186
-/// (2000) 311): those that meet all limits by the figure, others by how far they miss. Finer and finer sweeps round
-/// the best one go on until none finds a better one.
+/// A Latin hypercube explores the box. COBYLA (Powell 1994) searches from each design without a better one within the
+/// critical distance of multi-level single linkage (Rinnooy Kan and Timmer, Mathematical Programming 39 (1987) 57).
+/// Deb's rules compare designs (Computer Methods in Applied Mechanics and Engineering 186 (2000) 311): feasible ones by
+/// the goal, others by their violation of the limits. Ever narrower sweeps round the best design restart the search
+/// until none finds a better one.
 ///
 /// ```
 /// use slider_crank::optimise::{Asked, optimise};
@@ -159,7 +159,7 @@ pub const GAIN: f64 = 1e-9;
 /// ```
 ///
 /// # Errors
-/// The errors of [`Sweep::new`]; [`Error::Refused`] if a key is not varied between two bounds, or no design has the figures.
+/// Errors of [`Sweep::new`]; [`Error::Refused`] if a key has no two bounds, or no design has the figures.
 pub fn optimise(
     draft: Draft,
     varied: Vec<Varied>,
@@ -201,11 +201,11 @@ fn bounds(varied: &[Varied]) -> Result<Vec<[f64; 2]>, Error> {
     varied.iter().map(of).collect()
 }
 
-/// What was found, in the units of the keys.
+/// Converts a search result from the unit box to the units of the keys.
 fn report(judge: &Judge, bounds: &[[f64; 2]], found: search::SearchResult) -> Optimum {
     let (asked, varied) = (judge.asked, judge.sweep.varied());
     let best = &found.best;
-    // With what there is to say of the errors of its motion.
+    // Computed once more, with error estimates of the motion.
     let vouched = judge.sweep.with_estimates();
     let design = vouched.design_of(0, judge.values(&best.at));
     let number = |one: &Varied, at: f64| one.quantile(at).number.unwrap_or(f64::NAN);

@@ -1,4 +1,4 @@
-//! The search: exploration, local searches, sweeps round the best.
+//! Global search in the unit box: Latin hypercube, multi-start local searches, sweeps of nested boxes round the best.
 
 use std::f64::consts::PI;
 
@@ -11,31 +11,31 @@ use crate::error::Error;
 use crate::numeric::parallel;
 use crate::sweep::LatinHypercube;
 
-/// Designs of the exploration, and of each sweep round the best, for each key.
+/// Number of designs per key, in the exploration and in each sweep round the best design.
 pub(super) const EXPLORED: u64 = 64;
 
-/// Most local searches.
+/// Maximum number of local searches.
 const STARTS: usize = 16;
 
-/// First steps of a local search from the exploration, in parts of the ranges.
+/// Initial trust radius of a local search from the exploration, in parts of the ranges.
 const FIRST_STEP: f64 = 0.1;
 
-/// Half widths of the sweeps round the best, in parts of the ranges.
+/// Half-widths of the boxes round the best design, in parts of the ranges.
 const HALF_WIDTHS: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
-/// Most times that the search goes on from a better design.
+/// Maximum number of restarts from a better design of a sweep.
 const IMPROVEMENTS: u32 = 30;
 
-/// What was found.
+/// Result of the global search, in the unit box.
 pub(super) struct SearchResult {
     pub best: Judged,
     pub starts: Vec<Searched>,
     pub proof: Proof,
-    /// Difference of the goal below which designs are not told apart.
+    /// Least significant difference of the goal.
     pub resolution: f64,
 }
 
-/// Explores the box, searches from the best of its designs, and sweeps round the end.
+/// Explores the box, searches from its best designs, and sweeps boxes round the optimum.
 ///
 /// # Errors
 /// [`Error::Refused`] if no design has the figures; [`Error::Interrupted`] before there is any.
@@ -89,12 +89,12 @@ fn explore(judge: &Judge) -> Result<Vec<Judged>, Error> {
     ))
 }
 
-/// The designs of a sorted sample that have no better one within the critical distance of multi-level single linkage.
+/// Returns the designs of a sorted sample with no better one in the critical distance of multi-level single linkage.
 fn starts(sorted: &[Judged]) -> Vec<Judged> {
     let Some(keys) = sorted.first().map(|one| one.at.len() as f64) else {
         return Vec::new();
     };
-    // Sigma of 4: with it the number of searches stays finite, however large the sample (Rinnooy Kan and Timmer, theorem 8).
+    // sigma = 4 keeps the number of searches finite for any sample size (Rinnooy Kan and Timmer, theorem 8).
     let count = sorted.len() as f64;
     let volume = gamma(1.0 + 0.5 * keys) * 4.0 * count.ln() / count;
     let critical = volume.powf(1.0 / keys) / PI.sqrt();
@@ -110,7 +110,7 @@ fn starts(sorted: &[Judged]) -> Vec<Judged> {
     found.map(|i| sorted[i].clone()).collect()
 }
 
-/// Sweeps round the best design, the wide ones first; from a better one the search goes on.
+/// Sweeps boxes round the best design, widest first; restarts the search from any better design.
 fn prove(judge: &Judge, seed: u64, best: &mut Judged, worst: f64) -> Proof {
     let keys = best.at.len() as u64;
     let mut proof = Proof {
@@ -123,7 +123,7 @@ fn prove(judge: &Judge, seed: u64, best: &mut Judged, worst: f64) -> Proof {
         for (round, width) in (1u64..).zip(HALF_WIDTHS) {
             let sample = LatinHypercube {
                 count: proof.designs_each,
-                // Another sample in every round.
+                // A new sample in every round.
                 seed: seed ^ (u64::from(proof.improvements) << 32 | round << 16),
             };
             let at = |index| {

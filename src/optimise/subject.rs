@@ -1,4 +1,4 @@
-//! Limits of key figures.
+//! Inequality constraints on key figures, and their parser.
 
 use std::fmt;
 use std::str::FromStr;
@@ -6,17 +6,17 @@ use std::str::FromStr;
 use crate::scene::unit;
 use crate::sweep::Figure;
 
-/// On which side of its limit a figure has to be.
+/// Sense of an inequality constraint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Limit {
-    /// At least.
+    /// Figure >= value.
     Least,
-    /// At most.
+    /// Figure <= value.
     Most,
 }
 
 impl Limit {
-    /// As it is written.
+    /// Returns the sign as text, `>=` or `<=`.
     pub fn sign(self) -> &'static str {
         match self {
             Limit::Least => ">=",
@@ -25,7 +25,7 @@ impl Limit {
     }
 }
 
-/// A limit of a key figure, read from texts like `transmission_min >= 40 deg`.
+/// Inequality constraint on a key figure, parsed from text like `transmission_min >= 40 deg`.
 ///
 /// ```
 /// use slider_crank::optimise::{Limit, Subject};
@@ -35,16 +35,16 @@ impl Limit {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Subject {
-    /// The figure.
+    /// Constrained figure.
     pub figure: Figure,
-    /// Which side of the value it has to be on.
+    /// Sense of the inequality.
     pub limit: Limit,
-    /// In SI units and radians.
+    /// Limit, in SI units and radians.
     pub value: f64,
 }
 
 impl Subject {
-    /// How far a figure is on the right side, in its unit.
+    /// Returns the margin of a figure to the limit, positive if met, in the unit of the figure.
     pub(super) fn margin(&self, value: f64) -> f64 {
         match self.limit {
             Limit::Least => value - self.value,

@@ -1,4 +1,4 @@
-//! One method at one tolerance: its run, its times, its distance from a reference.
+//! One cell of a work-precision diagram: runs a method at a tolerance, times it, and measures its error.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -12,7 +12,7 @@ use crate::simulate::NoRows;
 use crate::simulate::Summary;
 use crate::simulate::{Options, simulate_rows};
 
-/// The tolerance of methods that others are measured against.
+/// Tolerance of reference runs, relative.
 const TIGHTEST: f64 = 1e-13;
 
 pub(super) fn run(
@@ -31,7 +31,7 @@ pub(super) fn run(
     Ok(simulate_rows(scene, &options, &mut NoRows)?.summary)
 }
 
-/// Runs of all methods at the tightest tolerance, with what computes them: the one with the least stated error first.
+/// Runs all methods at [`TIGHTEST`]; returns identity and final state of each, by ascending estimated angle error.
 pub(super) fn tight_runs(
     scene: &Scene,
     options: &PrecisionOptions,
@@ -58,7 +58,7 @@ pub(super) fn tight_runs(
     runs
 }
 
-/// The end of a motion at constant speed.
+/// Returns the state at `t_end` (s) of a motion at constant speed.
 pub(super) fn closed_form(scene: &Scene, t_end: f64) -> Reference {
     let omega = DoubleDouble::from(scene.motion.speed);
     let theta = omega * t_end + scene.motion.angle;
@@ -73,10 +73,10 @@ pub(super) fn closed_form(scene: &Scene, t_end: f64) -> Reference {
     }
 }
 
-/// What computes a motion: two names may stand for the same.
+/// Engine and stepper of a motion: two method names with equal ones are no independent check of each other.
 pub(super) type Identity = (Engine, Option<Stepper>);
 
-/// One method at one tolerance.
+/// Run of one method at one tolerance, with its wall times, s.
 pub(super) struct MethodRun {
     scene: Scene,
     method: Method,
@@ -108,7 +108,7 @@ impl MethodRun {
         })
     }
 
-    /// Whether it arrived, at the end of the run or where the equations end (`ends`).
+    /// Whether the run reached its end; if the equations end earlier (`ends`), whether it ran at all.
     fn arrived(&self, ends: bool) -> bool {
         let summary = self.result.as_ref().ok();
         summary.is_some_and(|summary| ends || summary.stopped.is_none())
@@ -120,7 +120,7 @@ impl MethodRun {
         }
     }
 
-    /// Measured against the first reference that is computed by something else.
+    /// Returns the row, measured against the first reference of another identity.
     pub(super) fn row(&self, references: &[(Option<Identity>, Reference)]) -> PrecisionRow {
         let mut row = PrecisionRow::empty(self.method, self.scene.run.tolerance);
         row.runs = self.walls.len();
@@ -179,10 +179,10 @@ impl MethodRun {
     }
 }
 
-/// Two ends at times this near, as part of the time, are the same.
+/// Relative difference of end times below which two runs end at one place.
 const SAME_END: f64 = 1e-3;
 
-/// Why a run does not end where the reference does.
+/// Returns the reason why a run does not end where the reference does; none if both end together.
 fn unlike(summary: &Summary, reference: Option<&Reference>) -> Option<String> {
     match (&summary.stopped, reference.and_then(|found| found.ends_at)) {
         (None, None) => None,
@@ -194,10 +194,10 @@ fn unlike(summary: &Summary, reference: Option<&Reference>) -> Option<String> {
     }
 }
 
-/// Distance from a reference; with the reference's own error, if that is not much smaller.
+/// Returns the distance from a reference, or an upper bound of the error (true) that adds `reference_error`.
 fn error(value: f64, reference: DoubleDouble, reference_error: f64) -> (f64, bool) {
     let distance = (reference - value).value().abs();
-    // The reference must be a hundred times better than what it measures.
+    // A reference error of at most 1 % of the distance is neglected.
     if 100.0 * reference_error > distance {
         (distance + reference_error, true)
     } else {
@@ -205,8 +205,8 @@ fn error(value: f64, reference: DoubleDouble, reference_error: f64) -> (f64, boo
     }
 }
 
-/// Times all cells in turns, so that a disturbance of the machine meets all of them. `ends`: the equations end before
-/// the run.
+/// Times all cells in rounds, alternately forwards and backwards, to spread disturbances of the machine over all.
+/// `ends`: the equations end before the run.
 pub(super) fn time(cells: &mut [MethodRun], ends: bool, options: &PrecisionOptions) {
     let begun = Instant::now();
     for round in 0..options.repeats.max(1) {

@@ -1,4 +1,4 @@
-//! Speed against error: every method that can serve a scene, at a ladder of tolerances, each against a tight run of another.
+//! Work-precision diagram: time and error of each applicable method at a ladder of tolerances, against a reference.
 
 mod cell;
 
@@ -10,16 +10,16 @@ use crate::plan::{Engine, Method, Plan};
 use crate::scene::{Extent, Places, Scene};
 use cell::{MethodRun, closed_form, run, tight_runs, time};
 
-/// What is asked of a comparison.
+/// Settings of a comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PrecisionOptions {
-    /// Tolerances, each for every method.
+    /// Tolerances for every method.
     pub tolerances: Vec<f64>,
-    /// Timed runs of each method at each tolerance; fewer if they take longer than `most_s`.
+    /// Timed runs of each method at each tolerance, at least one; fewer if all take longer than `most_s`.
     pub repeats: u32,
-    /// Most time for repeated runs of one scene, s.
+    /// Time limit, s, after which no new round of timed runs begins.
     pub most_s: f64,
-    /// Most evaluations of the equation in one run; a run that needs more is a row that says so.
+    /// Maximum number of evaluations of the equation in one run; the row of a run that needs more states a failure.
     pub max_evaluations: u64,
 }
 
@@ -34,10 +34,10 @@ impl Default for PrecisionOptions {
     }
 }
 
-/// One method at one tolerance. What does not exist is empty.
+/// Result of one method at one tolerance; missing values are none.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct PrecisionRow {
-    /// The method, as `--method` names it; `contact` for scenes with a loose joint.
+    /// Method, by its `--method` name; `contact` for scenes with a loose joint.
     pub method: String,
     /// Tolerance of the method.
     pub tolerance: f64,
@@ -45,33 +45,33 @@ pub struct PrecisionRow {
     pub error_theta_rad: Option<f64>,
     /// Error of the crank speed at the end, rad/s; an upper bound if [`Self::error_is_bound`].
     pub error_omega_rad_per_s: Option<f64>,
-    /// What the run states as error of its angle, rad.
+    /// Estimated error of the crank angle at the end, rad, as stated by the run.
     pub estimate_theta_rad: Option<f64>,
-    /// What it states as error of its speed, rad/s.
+    /// Estimated error of the crank speed at the end, rad/s, as stated by the run.
     pub estimate_omega_rad_per_s: Option<f64>,
-    /// Least time of the solution, without error estimate, s.
+    /// Shortest wall time of the solution, s, without error estimate.
     pub wall_s: Option<f64>,
-    /// Median of that time, s.
+    /// Median wall time of the solution, s, without error estimate.
     pub wall_median_s: Option<f64>,
-    /// Timed runs.
+    /// Number of timed runs.
     pub runs: usize,
-    /// Error of the slider's position at the end, m, where a joint is loose.
+    /// Error of the slider position at the end, m, for a scene with a loose joint.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_slider_x_m: Option<f64>,
-    /// What the run states as that error, m; none beyond the horizon of what is reproducible.
+    /// Estimated error of the slider position, m, as stated by the run; none beyond the horizon of predictability.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub estimate_slider_x_m: Option<f64>,
-    /// Evaluations of the equation.
+    /// Number of evaluations of the equation.
     pub evaluations: Option<u64>,
-    /// Steps.
+    /// Number of steps.
     pub steps: Option<u64>,
-    /// Whether the reference is less than a hundred times better than the error of angle or speed: these are
-    /// then the distance from the reference and the reference's own error, added.
+    /// Whether any error (angle, speed, slider) is less than a hundred times that of the reference: the error stated is
+    /// then the sum of the distance from the reference and the error of the reference.
     pub error_is_bound: bool,
-    /// What it was measured against, if that is not the reference of the scene.
+    /// Reference of this row, if it differs from that of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measured_against: Option<String>,
-    /// Why there are no numbers.
+    /// Reason for missing values.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub failure: Option<String>,
 }
@@ -86,22 +86,22 @@ impl PrecisionRow {
     }
 }
 
-/// The comparison of one scene.
+/// Comparison of the methods for one scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct Precision {
     /// Title of the scene.
     pub scene: String,
-    /// Time of the state that is compared, s: the end of the run or, if the equations end before, of the motion.
+    /// Time of the compared state, s: end of the run, or of the motion if the equations end earlier.
     pub t_s: f64,
-    /// What the runs were measured against.
+    /// Description of the reference.
     pub reference: String,
-    /// How far the reference's angle may be off, rad.
+    /// Error bound of the crank angle of the reference, rad.
     pub reference_error_theta_rad: Option<f64>,
-    /// How far the reference's speed may be off, rad/s.
+    /// Error bound of the crank speed of the reference, rad/s.
     pub reference_error_omega_rad_per_s: Option<f64>,
-    /// Methods that cannot serve the scene, with the reason.
+    /// Reasons why methods do not apply to the scene, one per method.
     pub left_out: Vec<String>,
-    /// The rows, method by method.
+    /// Rows, grouped by method.
     pub rows: Vec<PrecisionRow>,
 }
 
@@ -113,7 +113,7 @@ impl Precision {
             .any(|row| row.error_theta_rad.is_some() || row.failure.is_none())
     }
 
-    /// A scene that cannot be computed: one row that says why.
+    /// Returns the comparison of a scene that cannot be computed: one row with the reason.
     pub fn refused(scene: &Scene, why: &Error) -> Precision {
         let mut row = PrecisionRow::empty(Method::Auto, scene.run.tolerance);
         row.failure = Some(first_line(why));
@@ -129,12 +129,12 @@ impl Precision {
     }
 }
 
-/// Compares all methods that the plan of a scene allows. A run of so many turns is compared at the time at
-/// which the planned method completes them.
+/// Compares all methods that the plan of a scene allows. A run over a number of turns is compared at the time when the
+/// planned method completes them.
 ///
-/// The reference is the run of all methods at tolerance 1e-13 with the least stated error, and a row of its own method is
-/// measured against the next best; a prescribed motion has a closed form. An error that is not a hundred times the reference's
-/// own is stated as a bound.
+/// The reference is the run at tolerance 1e-13 with the least estimated angle error of all methods; rows of the method
+/// that made it are measured against the next best. A prescribed motion has a closed form as reference. An error below
+/// a hundred times that of the reference is stated as a bound.
 ///
 /// # Errors
 /// [`Error::Scene`] for impossible values or tolerances, [`Error::Refused`] for a scene that cannot be
@@ -158,33 +158,33 @@ pub fn precision(scene: &Scene, options: &PrecisionOptions) -> Result<Precision,
     precision_against(scene, options, &|_, _, _| None)
 }
 
-/// The state at the end of a run, and how far it may be off.
+/// Reference state at the end of a run, with error bounds.
 #[derive(Clone, Debug)]
 #[doc(hidden)]
 pub struct Reference {
     pub what: String,
-    /// rad
+    /// Crank angle, rad.
     pub theta: DoubleDouble,
-    /// rad/s
+    /// Crank speed, rad/s.
     pub omega: DoubleDouble,
-    /// rad
+    /// Error bound of the crank angle, rad.
     pub theta_error: f64,
-    /// rad/s
+    /// Error bound of the crank speed, rad/s.
     pub omega_error: f64,
-    /// The time (s) at which the equations end, if they do before the run.
+    /// Time at which the equations end, s, if before the end of the run.
     pub ends_at: Option<f64>,
-    /// Slider position (m) and how far it may be off, where a joint is loose.
+    /// Slider position and its error bound, m, for a scene with a loose joint.
     pub slider: Option<(DoubleDouble, f64)>,
 }
 
-/// The state at the end of a scene's run to a time (s), by so many evaluations at the most.
+/// Function from scene, end time (s) and maximum number of evaluations to the reference state, if it finds one.
 #[doc(hidden)]
 pub type FindReference<'a> = dyn Fn(&Scene, f64, u64) -> Option<Reference> + 'a;
 
-/// As [`precision`], with a reference of one's own where one is found.
+/// Compares methods as [`precision`] does, against the reference of `find` where there is one.
 ///
 /// # Errors
-/// As [`precision`].
+/// Errors of [`precision`].
 #[doc(hidden)]
 pub fn precision_against(
     scene: &Scene,
@@ -195,11 +195,11 @@ pub fn precision_against(
     let t_end = last_time(scene, options)?;
     let mut scene = scene.clone();
     scene.run.extent = Some(Extent::Duration(t_end));
-    // The tolerances have no place in its file.
+    // Errors must not point at lines of the file for values set here.
     scene.places = Places::default();
     let mut left_out = Vec::new();
     let mut cells = Vec::new();
-    // A loose joint has one engine, which no method names.
+    // A loose joint has one engine, run as `Method::Auto`.
     let loose = plan.engine == Engine::Contact;
     for method in Method::each().filter(|method| (*method == Method::Auto) == loose) {
         if let Err(refused) = Plan::new(&scene, method) {

@@ -1,4 +1,4 @@
-//! CSV: shortest numbers that read back the same, empty cells for what does not exist.
+//! CSV writer and reader: numbers as the shortest text that reads back equal, missing values as empty cells.
 
 use std::borrow::Cow;
 
@@ -7,10 +7,10 @@ use rayon::prelude::*;
 use super::Output;
 use crate::error::Error;
 
-/// Rows whose text one core makes at a time.
+/// Rows per parallel task of formatting.
 const PIECE: usize = 1 << 12;
 
-/// A cell of a row.
+/// Cell of a row.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum CsvCell {
     Number(f64),
@@ -18,16 +18,16 @@ pub(super) enum CsvCell {
 }
 
 impl CsvCell {
-    /// No value.
+    /// Missing value.
     pub const EMPTY: CsvCell = CsvCell::Text(String::new());
 
-    /// From a CSV file.
+    /// Parses a cell: a number if it reads as one, else a text.
     pub fn read(text: &str) -> CsvCell {
         let number = text.parse();
         number.map_or_else(|_| CsvCell::Text(text.to_owned()), CsvCell::Number)
     }
 
-    /// The number, if there is a finite one.
+    /// Returns the number if finite.
     pub fn number(&self) -> Option<f64> {
         match self {
             CsvCell::Number(number) => Some(*number).filter(|number| number.is_finite()),
@@ -35,7 +35,7 @@ impl CsvCell {
         }
     }
 
-    /// In a CSV file, without quotes.
+    /// Returns the text of the cell, unquoted.
     pub fn text(&self) -> Cow<'_, str> {
         match self {
             CsvCell::Number(value) => {
@@ -66,7 +66,7 @@ impl From<&str> for CsvCell {
     }
 }
 
-/// Appends the shortest text that reads back as the same number; nothing for what is not finite.
+/// Appends the shortest text that reads back as the same number; nothing if not finite. Minus zero becomes zero.
 fn number(value: f64, text: &mut Vec<u8>) {
     if value.is_finite() {
         let mut buffer = zmij::Buffer::new();
@@ -75,7 +75,7 @@ fn number(value: f64, text: &mut Vec<u8>) {
     }
 }
 
-/// Appends cells with commas between them and a line break at the end.
+/// Appends cells separated by commas, and a line feed.
 fn joined<T>(
     cells: impl IntoIterator<Item = T>,
     text: &mut Vec<u8>,
@@ -95,7 +95,7 @@ pub(super) fn line(values: impl IntoIterator<Item = f64>, text: &mut Vec<u8>) {
     joined(values, text, number);
 }
 
-/// Appends a line of cells, in quotes where a text needs them.
+/// Appends a line of cells, texts quoted where needed.
 pub(super) fn cells<'a>(cells: impl IntoIterator<Item = &'a CsvCell>, text: &mut Vec<u8>) {
     joined(cells, text, |cell, text| match cell {
         CsvCell::Number(value) => number(*value, text),
@@ -106,14 +106,14 @@ pub(super) fn cells<'a>(cells: impl IntoIterator<Item = &'a CsvCell>, text: &mut
     });
 }
 
-/// A header and rows of cells.
+/// Returns a CSV text of header and rows.
 pub(super) fn text(header: &[&str], rows: impl IntoIterator<Item = Vec<CsvCell>>) -> String {
     let mut text = format!("{}\n", header.join(",")).into_bytes();
     rows.into_iter().for_each(|row| cells(&row, &mut text));
     String::from_utf8(text).unwrap_or_default()
 }
 
-/// Writes a header and the lines of all rows, their texts made on all cores, and completes the output.
+/// Writes header and rows, formatted on all cores, and completes the output.
 pub(super) fn write_all<Row: Sync>(
     mut output: Output,
     header: &str,
@@ -135,7 +135,7 @@ pub(super) fn write_all<Row: Sync>(
     output.finish()
 }
 
-/// One line of CSV as cells.
+/// Parses a line of CSV into cells.
 pub(super) fn read(line: &str) -> Result<Vec<CsvCell>, Error> {
     Ok(texts(line)?
         .iter()
@@ -143,7 +143,7 @@ pub(super) fn read(line: &str) -> Result<Vec<CsvCell>, Error> {
         .collect())
 }
 
-/// One line of CSV as the texts of its cells.
+/// Parses a line of CSV into the texts of its cells.
 pub(super) fn texts(line: &str) -> Result<Vec<String>, Error> {
     let mut reader = ::csv::ReaderBuilder::new();
     let mut reader = reader.has_headers(false).from_reader(line.as_bytes());

@@ -1,4 +1,4 @@
-//! Columns of rows as curves in aligned panels: which, over what, in which units and how large.
+//! Plots columns of a table as curves in aligned panels: choice of columns, units, bands, thinning and poles.
 
 use std::f64::consts::PI;
 
@@ -8,11 +8,11 @@ use super::quantity::{Curve, base, curves, split};
 use super::table::Table;
 use crate::error::Error;
 
-/// What a picture of rows shows; what is not chosen is chosen by the command.
+/// User's choice of the content of a picture of rows; the command supplies defaults.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct View {
-    /// Columns, by name with or without unit, or by a word of the name for all columns that have it first or last; `x:cm`
-    /// is shown in cm.
+    /// Columns, by name with or without unit, or by the first or last words of the name for all columns that have them;
+    /// `x:cm` is shown in cm.
     pub show: Vec<String>,
     /// Column of the horizontal axis.
     pub over: Option<String>,
@@ -21,10 +21,10 @@ pub struct View {
 }
 
 impl View {
-    /// Refuses what is no column of rows under this header (names with commas between them).
+    /// Refuses names that are no columns of this CSV header.
     ///
     /// # Errors
-    /// [`Error::Refused`], with the columns there are.
+    /// [`Error::Refused`], which lists the columns.
     pub fn check(&self, header: &str) -> Result<(), Error> {
         let names: Vec<&str> = header.split(',').collect();
         for text in &self.show {
@@ -34,12 +34,12 @@ impl View {
         over.try_for_each(|over| base(&names, over).map(|_| ()))
     }
 
-    /// Whether nothing was chosen to be shown.
+    /// Whether neither columns nor horizontal axis are chosen.
     pub(super) fn is_default(&self) -> bool {
         self.show.is_empty() && self.over.is_none()
     }
 
-    /// The chosen columns as SVG, those of one quantity in one panel.
+    /// Returns the chosen columns as SVG, columns of one group and unit in one panel.
     pub(super) fn svg(&self, table: &Table, look: Look<'_>) -> Result<String, Error> {
         let names: Vec<&str> = table.names().collect();
         let own = if look.over.is_empty() {
@@ -53,7 +53,7 @@ impl View {
             chosen.extend(curves(&names, text)?);
         }
         if self.show.is_empty() {
-            // A command shows what its rows have.
+            // Default columns may be missing from the rows.
             let found = look
                 .show
                 .iter()
@@ -79,7 +79,7 @@ impl View {
         if self.is_default() && !look.beside.is_empty() {
             figures.extend(look.beside);
         } else {
-            // Panels below each other share their horizontal axis.
+            // Panels in a column share their horizontal axis: only the lowest is labelled.
             let above = figures.len().saturating_sub(columns.max(1));
             let above = figures[..above].iter_mut();
             above.for_each(|figure| figure.x.label.clear());
@@ -94,7 +94,7 @@ impl View {
 }
 
 impl Curve {
-    /// Values as they are shown.
+    /// Returns the values in the displayed unit.
     pub fn values<'a>(&self, table: &'a Table) -> impl Iterator<Item = f64> + use<'a> {
         let factor = self.quantity.factor;
         let values = table.numbers(&self.name).unwrap_or_default();
@@ -102,7 +102,7 @@ impl Curve {
     }
 }
 
-/// Words and unit of an axis.
+/// Returns the label of an axis, with its unit.
 fn labelled(words: &str, unit: &str) -> String {
     match unit {
         "" => words.to_owned(),
@@ -110,7 +110,7 @@ fn labelled(words: &str, unit: &str) -> String {
     }
 }
 
-/// Columns of one quantity, with their bands.
+/// Draws columns of one quantity, with their bands, over the column `over`.
 fn panel(table: &Table, over: &Curve, curves: &[Curve], look: &Look<'_>) -> Figure {
     let axis = |label: String, unit: &str| match unit {
         "°" => Axis::degrees(label),
@@ -149,7 +149,7 @@ fn panel(table: &Table, over: &Curve, curves: &[Curve], look: &Look<'_>) -> Figu
     figure
 }
 
-/// Lower and upper edge at each row: what friction allows, or so many standard errors.
+/// Returns lower and upper edge at each row: columns `min` and `max`, or +-`factor` standard errors (column `se`).
 fn band(table: &Table, curve: &Curve, factor: f64) -> Option<Vec<[f64; 2]>> {
     let (name, unit) = split(&curve.name);
     let beside = |word: &str| table.numbers(&format!("{name}_{word}{unit}"));
@@ -166,13 +166,13 @@ fn band(table: &Table, curve: &Curve, factor: f64) -> Option<Vec<[f64; 2]>> {
     Some(edges.collect())
 }
 
-/// Crank angle between the points of a curve, rad.
+/// Crank angle between points of a drawn curve, rad: half a degree.
 pub(super) const SPACING: f64 = PI / 360.0;
 
-/// Points that a curve needs; more are thinned out.
+/// Maximum number of points of a curve, about; curves with more are thinned.
 pub(super) const CURVE_POINTS: usize = 4000;
 
-/// A curve through so few points that a picture stays small; the extremes of each piece are kept.
+/// Thins a curve to about [`CURVE_POINTS`]: keeps the extremes of x and y of each piece.
 fn outlined(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
     let piece = (4 * x.len()).div_ceil(CURVE_POINTS).max(1);
     if piece <= 4 {
@@ -197,11 +197,11 @@ fn outlined(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
     points.collect()
 }
 
-/// Part of the values at each end that may belong to poles.
+/// Fraction of the values, at each end of their order, that may belong to poles.
 const POLES_SHARE: f64 = 0.05;
 
-/// The range of the bulk of values, if it is far less than their whole range: of the central ones, widened by their
-/// range to both sides.
+/// Returns the range of the central values, widened by its width on both sides; none unless the full range exceeds
+/// four times that width.
 fn bulk(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     let mut values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
     values.sort_unstable_by(f64::total_cmp);
@@ -213,7 +213,7 @@ fn bulk(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     (whole > 4.0 * room).then(|| (values[0].max(low - room), values[last].min(high + room)))
 }
 
-/// A curve that leaves the range on one side and comes back on the other has a pole between.
+/// Breaks a curve (NaN) where it leaves the range on one side and returns on the other, across a pole.
 fn broken_at_poles(points: Vec<(f64, f64)>, range: Option<(f64, f64)>) -> Vec<(f64, f64)> {
     let Some((low, high)) = range else {
         return points;

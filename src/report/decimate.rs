@@ -1,6 +1,6 @@
-//! A bounded number of items, evenly spread over a sequence of unknown length.
+//! Decimation: keeps a bounded number of items, evenly spread over a sequence of unknown length.
 
-/// One item of every n of a sequence, that of the largest weight; n doubles when the items get too many.
+/// One item of each block of `stride` items, with the largest weight; the stride doubles beyond `most` items.
 #[derive(Debug)]
 pub(super) struct Thinned<T> {
     most: usize,
@@ -11,12 +11,12 @@ pub(super) struct Thinned<T> {
 }
 
 impl<T> Thinned<T> {
-    /// At most `most` items will be kept, evenly spread.
+    /// Starts an empty selection of at most `most` items, evenly spread.
     pub fn new(most: usize) -> Thinned<T> {
         Thinned::weighted(most, |_| 0.0)
     }
 
-    /// At most `most` items will be kept, of neighbours the first one of the largest weight.
+    /// Starts an empty selection of at most `most` items, in each block the first one of the largest weight.
     pub fn weighted(most: usize, weight: fn(&T) -> f64) -> Thinned<T> {
         Thinned {
             most,
@@ -27,7 +27,7 @@ impl<T> Thinned<T> {
         }
     }
 
-    /// Takes an item; keeps it if it is one of the few.
+    /// Takes an item; keeps it if it begins a block or outweighs the item kept of its block.
     pub fn take(&mut self, item: T) {
         let weight = self.weight;
         let begins = self.seen.is_multiple_of(self.stride);
@@ -59,12 +59,12 @@ impl<T> Thinned<T> {
         self.stride *= 2;
     }
 
-    /// Every so many items are kept.
+    /// Returns the number of items per item kept.
     pub fn stride(&self) -> u64 {
         self.stride
     }
 
-    /// The items kept.
+    /// Returns the items kept.
     pub fn kept(&self) -> &[T] {
         &self.kept
     }

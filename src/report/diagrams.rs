@@ -1,5 +1,5 @@
-//! The diagrams of the trade: turning moment, indicator diagram, polar diagrams of the loads on pins and bearings, orders,
-//! balance of the first order.
+//! Standard diagrams of a cycle at constant speed: turning moment, indicator diagram, polar load diagrams of pins and
+//! bearings, orders, first-order balance.
 
 use super::curves::SPACING;
 use super::figure::{Axis, Figure, Shape, Sheet};
@@ -9,14 +9,14 @@ use crate::kinematics::{Diagrams, OneTurn, Order, TurnRow};
 use crate::scene::{Load, Scene};
 use crate::simulate::Reactions;
 
-/// A diagram of the forces over a cycle at constant speed.
+/// Diagram of forces over a cycle at constant speed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Diagram {
-    /// Driving torque with its mean and the areas between them.
+    /// Driving torque, its mean, and the areas between them.
     TurningMoment,
-    /// Pressure over the swept volume.
+    /// Pressure over swept volume.
     PressureVolume,
-    /// Loads on crank pin and crank bearing in the frame that turns with the crank, and on the bearing at rest.
+    /// Loads on crank pin and crank bearing in the crank frame, on crank bearing and wrist pin in the fixed frame.
     Polar,
     /// Amplitudes of shaking force and driving torque by order.
     Orders,
@@ -34,7 +34,7 @@ impl Diagram {
         Diagram::Balance,
     ];
 
-    /// Name of the diagram on the command line.
+    /// Returns the name of the diagram on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Diagram::TurningMoment => "turning-moment",
@@ -45,10 +45,10 @@ impl Diagram {
         }
     }
 
-    /// The diagram as SVG; none of a scene that has nothing to show in it.
+    /// Returns the diagram as SVG; none if the scene lacks the load or cycle it shows.
     ///
     /// # Errors
-    /// [`Error::Refused`] if it does not fit into `size`.
+    /// [`Error::Refused`] if the diagram does not fit into `size`.
     pub fn svg(
         self,
         result: &OneTurn,
@@ -78,7 +78,7 @@ impl Diagram {
     }
 }
 
-/// What is read off the diagrams.
+/// Adds the key figures of the diagrams.
 pub(super) fn facts(facts: &mut Facts, diagrams: &Diagrams) {
     let moment = &diagrams.turning_moment;
     let (mean, work) = (six(moment.mean_nm), six(moment.work_j));
@@ -147,7 +147,7 @@ fn turning_moment(diagrams: &Diagrams, rows: &[TurnRow]) -> Figure {
     .band(above, points.clone())
 }
 
-/// One figure for each pressure of the scene.
+/// Returns one indicator diagram per gas load of the scene.
 fn pressures(scene: &Scene, rows: &[TurnRow]) -> Vec<Figure> {
     let distances = rows.iter().map(|row| row.kinematics.x.abs());
     let far = distances.fold(0.0, f64::max);
@@ -171,7 +171,7 @@ fn pressures(scene: &Scene, rows: &[TurnRow]) -> Vec<Figure> {
 }
 
 fn polar(rows: &[TurnRow]) -> Vec<Figure> {
-    // Components along the crank and a quarter of a turn ahead of it.
+    // Components along the crank and a quarter turn ahead of it.
     let turned = |row: &TurnRow, [x, y]: [f64; 2]| {
         let (sin, cos) = row.kinematics.theta.sin_cos();
         (x * cos + y * sin, y * cos - x * sin)
@@ -210,7 +210,7 @@ fn polar(rows: &[TurnRow]) -> Vec<Figure> {
     ]
 }
 
-/// Amplitudes (order, size) as stems.
+/// Returns a stem plot of amplitudes (order, amplitude).
 pub(super) fn stems(label: &str, ends: impl Iterator<Item = (f64, f64)>) -> Figure {
     let stems = ends.flat_map(|(k, size)| [(k, 0.0), (k, size), (f64::NAN, size)]);
     let axis = Axis::linear("order, times a turn");

@@ -1,28 +1,28 @@
-//! The lengths of the mechanism, as drawings and the page need them.
+//! Dimensions of the mechanism for drawings and the page.
 
 use serde::Serialize;
 
 use crate::scene::{Joint, Scene};
 
-/// Lengths of the mechanism, m; points of bodies along and to the left of them.
+/// Dimensions of the mechanism, m; body points as coordinates along the body and to the left of it.
 #[derive(Debug, Serialize)]
 pub(super) struct Drawing {
     pub crank: f64,
     pub rod: f64,
     pub offset: f64,
-    /// The branch, ±1.
+    /// Branch sign, ±1.
     pub branch: f64,
-    /// Centre of gravity from the crank pivot.
+    /// Centre of gravity of the crank, from its pivot; none without mass.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crank_cg: Option<[f64; 2]>,
-    /// Centre of gravity from the crank pin.
+    /// Centre of gravity of the rod, from the crank pin; none without mass.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rod_cg: Option<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     loose: Option<Loose>,
 }
 
-/// A loose joint with its radial clearance.
+/// Loose joint with its radial clearance, m.
 #[derive(Debug, Serialize)]
 struct Loose {
     joint: &'static str,

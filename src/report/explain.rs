@@ -1,4 +1,4 @@
-//! `explain` on paper.
+//! Text output of `explain`: equation, conventions, modelled terms and plan of computation.
 
 use std::fmt::Write;
 
@@ -6,7 +6,7 @@ use super::key_values::{Facts, degrees, fact, given, six};
 use super::text::NAMES;
 use crate::explain::{Explanation, FrictionAt, TermsAt};
 
-/// The explanation as text.
+/// Returns the explanation as text.
 pub fn explanation(result: &Explanation) -> String {
     let mut text = String::new();
     if !result.scene.is_empty() {

@@ -1,4 +1,4 @@
-//! Identified values as text and CSV.
+//! Reports of a parameter identification: text and CSV.
 
 use super::Output;
 use super::csv::{self, CsvCell};
@@ -6,10 +6,10 @@ use super::key_values::{Facts, digits, fact, rounded, six};
 use crate::error::Error;
 use crate::inverse::identify::Identification;
 
-/// Correlation from which on two values are named.
+/// Size of correlation between two values above which the text names it.
 const STRONG_CORRELATION: f64 = 0.9;
 
-/// Values with their errors and what to know of them.
+/// Returns the identified values with 95 % bands, strong correlations, noise and warnings, as text.
 pub fn identification(result: &Identification) -> String {
     let mut facts = Facts::of(&result.scene);
     fact!(
@@ -60,7 +60,7 @@ pub fn identification(result: &Identification) -> String {
     facts.lines(22)
 }
 
-/// Writes a row for each value.
+/// Writes one CSV row per identified value.
 pub fn identification_csv(result: &Identification, output: Output) -> Result<(), Error> {
     let header = [
         "key",

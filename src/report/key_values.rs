@@ -1,13 +1,13 @@
-//! Facts: what there is to say of a result, each with its name.
+//! Facts of a result: named values as text, and the formatting of numbers.
 
 use std::f64::consts::TAU;
 use std::fmt::{Display, Write};
 
-/// Names and values in order; names that belong to the one before begin with spaces.
+/// Ordered list of names and values; names that belong to the preceding one begin with spaces.
 pub struct Facts(Vec<(String, String)>);
 
 impl Facts {
-    /// The facts of a scene begin with its title, if it has one.
+    /// Starts the facts of a scene with its title, if not empty.
     pub(super) fn of(scene: &str) -> Facts {
         let mut facts = Facts(Vec::new());
         if !scene.is_empty() {
@@ -31,7 +31,7 @@ impl Facts {
         facts.map(|(name, value)| (name.as_str(), value.as_str()))
     }
 
-    /// A line for each fact, the values below each other after names of so many characters.
+    /// Returns one line per fact, values aligned after names padded to `width` characters.
     pub(super) fn lines(&self, width: usize) -> String {
         let mut text = String::new();
         for (name, value) in self.iter() {
@@ -41,7 +41,7 @@ impl Facts {
     }
 }
 
-/// A line of cells below each other: at the right of columns of these widths, at the left where they are negative.
+/// Returns a line of cells in columns of these widths: right-aligned, left-aligned if the width is negative.
 pub(super) fn aligned<C: AsRef<str>>(
     widths: &[isize],
     cells: impl IntoIterator<Item = C>,
@@ -58,7 +58,7 @@ pub(super) fn aligned<C: AsRef<str>>(
     text + "\n"
 }
 
-/// Adds a fact whose value is formatted.
+/// Adds a fact with a formatted value.
 macro_rules! fact {
     ($facts:expr, $name:expr, $($value:tt)+) => {
         $facts.add($name, format_args!($($value)+))
@@ -66,17 +66,17 @@ macro_rules! fact {
 }
 pub(super) use fact;
 
-/// A number for people: six digits; JSON and CSV have all.
+/// Formats a computed number with six significant digits; JSON and CSV have all digits.
 pub(super) fn six(value: f64) -> String {
     rounded(value, 6)
 }
 
-/// A number that was given: as it was typed, without what rounding adds to it.
+/// Formats an input number with twelve significant digits, which hides the rounding of unit conversion.
 pub(super) fn given(value: f64) -> String {
     rounded(value, 12)
 }
 
-/// A number with so many digits, without zeros at their end.
+/// Formats a number with at most `digits` significant digits, without trailing zeros.
 pub(super) fn rounded(value: f64, digits: usize) -> String {
     let short = format!("{value:.*e}", digits - 1);
     plain(short.parse().unwrap_or(value))
@@ -93,17 +93,17 @@ fn plain(value: f64) -> String {
     }
 }
 
-/// An angle (rad) in degrees.
+/// Formats an angle (rad) in degrees.
 pub(super) fn degrees(radians: f64) -> String {
     six(radians.to_degrees())
 }
 
-/// The crank angle (rad, unwrapped) in its turn, in degrees.
+/// Formats an unwrapped crank angle (rad) modulo one turn, in degrees.
 pub(super) fn in_turn(theta: f64) -> String {
     degrees(theta.rem_euclid(TAU))
 }
 
-/// A value with the digits that its error leaves, and no more; six if it is exact.
+/// Formats a value to the digits that its error leaves significant; six if exact.
 pub(super) fn digits(value: f64, error: f64) -> String {
     if error == 0.0 {
         return six(value);
@@ -112,7 +112,7 @@ pub(super) fn digits(value: f64, error: f64) -> String {
     format!("{:.places$}", value + 0.0)
 }
 
-/// A value with its error, unless it is exact.
+/// Formats a value with its error and unit; an exact value (zero error) without error.
 pub(super) fn with_error(value: f64, error: f64, unit: &str) -> String {
     let shown = digits(value, error);
     let text = match error {

@@ -1,4 +1,4 @@
-//! What is seen of rows.
+//! Default content of the picture and page of a result.
 
 use serde::Serialize;
 
@@ -6,46 +6,46 @@ use super::figure::Figure;
 use crate::scene::Scene;
 use crate::simulate::Summary;
 
-/// What a picture and a page show of rows by themselves.
+/// Default content of the picture and page of a result, where the user chooses none.
 #[derive(Default)]
 pub struct Look<'a> {
-    /// Above a picture.
+    /// Title above a picture.
     pub(super) title: &'a str,
-    /// Columns of a picture.
+    /// Columns drawn in a picture.
     pub(super) show: &'a [&'a str],
     /// Column of the horizontal axis; the crank angle if empty.
     pub(super) over: &'a str,
-    /// Panels of a picture beside each other.
+    /// Number of panels side by side in a picture.
     pub(super) columns: usize,
-    /// Half the width of a band in standard errors.
+    /// Half-width of a band, in standard errors.
     pub(super) band: f64,
-    /// Whether curves grow without bound towards dead centres, so that their bulk is shown.
+    /// Whether curves have poles at dead centres, which are cut off.
     pub(super) has_poles: bool,
-    /// What a picture has beside the columns, unless columns are chosen.
+    /// Figures of a picture after the columns, unless the user chooses columns.
     pub(super) beside: Vec<Figure>,
-    /// The mechanism that a page shows.
+    /// Scene of the mechanism that a page animates.
     pub(super) scene: Option<&'a Scene>,
-    /// The run whose terms and events a page lists.
+    /// Run whose terms and events a page lists.
     pub(super) run: Option<&'a Summary>,
-    /// Rows of a page that are no motion: one column over another.
+    /// Scatter plot of a page, for rows other than a motion.
     pub(super) scatter: Option<Scatter>,
-    /// Figures of a page, as SVG, that stand as they are.
+    /// Static figures of a page, as SVG.
     pub(super) figures: Vec<String>,
 }
 
-/// What is shown at first of rows that are no motion.
+/// Initial scatter plot of rows other than a motion.
 #[derive(Clone, Debug, Default, Serialize)]
 pub(super) struct Scatter {
     pub x: String,
     pub y: String,
-    /// Column of the colour, or empty.
+    /// Column of the colour; empty for none.
     pub colour: String,
     /// Whether both axes are logarithmic.
     pub log: bool,
-    /// Whether rows of a kind are joined.
+    /// Whether lines join rows of equal `kind`.
     pub lines: bool,
-    /// Column of the kinds that are told apart.
+    /// Column that sorts rows into kinds.
     pub kind: &'static str,
-    /// Column of what is shown one at a time.
+    /// Column whose values are shown one at a time; empty for none.
     pub within: &'static str,
 }

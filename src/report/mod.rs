@@ -1,7 +1,6 @@
-//! Results on paper: CSV rows, text, figures, JSON. Knows neither mechanics nor integrators.
+//! Output of results as text, CSV, figures, web pages and JSON, without mechanics or integrators.
 //!
-//! A [`Report`] describes a result once: what there is to say of it, its rows, and what is seen of these. Text, CSV file,
-//! picture and page follow.
+//! A [`Report`] describes a result once, by its facts, rows and views; text, CSV file, picture and page derive from it.
 
 mod compare;
 mod csv;

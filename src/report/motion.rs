@@ -1,4 +1,4 @@
-//! The motion of a run.
+//! Report of a forward run: rows with energies, plots of the motion, orbit of a loose joint.
 
 use std::f64::consts::TAU;
 
@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::scene::Scene;
 use crate::simulate::{Energies, Row, Summary};
 
-/// Rows for a figure, thinned out where there are more than a figure can show: the largest contact forces are kept.
+/// Rows for a figure, at most 100 000; thinning keeps the largest contact forces.
 #[derive(Debug)]
 pub struct PlotRows {
     view: View,
@@ -22,7 +22,7 @@ pub struct PlotRows {
 }
 
 impl PlotRows {
-    /// No rows yet; what is to be seen of them.
+    /// Starts without rows; `view` selects the columns to draw.
     pub fn new(view: View) -> PlotRows {
         let force = |row: &Row| row.clearance.map_or(0.0, |joint| joint.force);
         PlotRows {
@@ -31,10 +31,10 @@ impl PlotRows {
         }
     }
 
-    /// Takes a row.
+    /// Takes a row, and keeps it if its block has no row of larger contact force.
     ///
     /// # Errors
-    /// [`Error::Refused`] at the first row if it has not the columns that are to be seen.
+    /// [`Error::Refused`] at the first row if it lacks columns of the view.
     pub fn take(&mut self, row: &Row) -> Result<(), Error> {
         if self.rows.kept().is_empty() {
             self.view.check(&columns(row))?;
@@ -44,15 +44,15 @@ impl PlotRows {
     }
 }
 
-/// A run with some of its rows.
+/// Forward run with rows for pictures and text.
 pub struct RunReport<'a> {
-    /// What was found.
+    /// Summary of the run.
     pub summary: &'a Summary,
-    /// The scene.
+    /// Scene of the run.
     pub scene: &'a Scene,
-    /// Rows for a picture and a page.
+    /// Rows for picture and page.
     pub plot: &'a PlotRows,
-    /// Rows of the text.
+    /// Rows for the text.
     pub preview: &'a [Row],
 }
 
@@ -61,7 +61,7 @@ impl RunReport<'_> {
         self.plot.rows.kept()
     }
 
-    /// Path of the journal's centre in the bearing, with the circle of the clearance, mm.
+    /// Returns the path of the journal centre in the bearing and the clearance circle of radius `radial`, mm.
     fn orbit(&self, radial: f64) -> Figure {
         let path = self.rows().iter().filter_map(|row| row.clearance);
         let path = path.map(|joint| (1e3 * joint.journal[0], 1e3 * joint.journal[1]));
@@ -93,10 +93,10 @@ impl Report for RunReport<'_> {
         }
     }
 
-    /// The rows with their energies, and how far the slider is from where ideal joints would have it.
+    /// Returns the rows with kinetic, potential and total energy, and the deviation of the slider from ideal joints.
     fn table(&self) -> Table {
         let mut rows = self.rows().to_vec();
-        // States at steps come after the rows inside of the step.
+        // States inside a step arrive after all rows due in the step, out of order in time.
         rows.sort_by(|one, other| one.t.total_cmp(&other.t));
         let energies = Energies::of(self.scene);
         let mut table = Table::new(&rows.first().map_or(String::new(), columns));
@@ -113,8 +113,8 @@ impl Report for RunReport<'_> {
         table
     }
 
-    /// The slider's motion over time, beside that of ideal joints where a joint is loose, with the contact force and the
-    /// journal's path; else the crank's speed.
+    /// Returns the plot of the slider motion and crank speed over time; for a loose joint, of the slider motion beside
+    /// that of ideal joints, the contact force and the journal path.
     fn look(&self) -> Look<'_> {
         let short = self.rows().last().is_some_and(|row| row.t < 0.5);
         let look = Look {
@@ -154,7 +154,7 @@ impl Report for RunReport<'_> {
     }
 }
 
-/// Names of the columns that are drawn of rows like this one.
+/// Returns the CSV header of rows like this one, with the derived columns.
 fn columns(row: &Row) -> String {
     let mut names = header(row) + ",kinetic_energy_j,potential_energy_j,whole_energy_j";
     if row.clearance.is_some() {

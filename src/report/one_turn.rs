@@ -1,4 +1,4 @@
-//! One turn in closed form.
+//! Report of one turn in closed form: kinematics, forces, sensitivities and diagrams.
 
 use std::fmt::Write;
 
@@ -18,16 +18,16 @@ const RATES: &str = "v_m_per_s,a_m_per_s2,rod_omega_rad_per_s,rod_alpha_rad_per_
 const FORCES: &str = "crank_torque_nm,crank_inertia_x_n,crank_inertia_y_n,rod_inertia_x_n,rod_inertia_y_n,rod_inertia_couple_nm,slider_inertia_n,rod_axial_n,crank_tangential_n,crank_radial_n";
 const FIRST_ORDER: &str = "a_first_order_m_per_s2,crank_torque_first_order_nm";
 
-/// One turn of a scene.
+/// Report of one turn of a scene.
 #[derive(Clone, Copy)]
 pub struct TurnReport<'a> {
-    /// What was found.
+    /// Result of the analysis.
     pub result: &'a OneTurn,
-    /// The scene.
+    /// Scene of the analysis.
     pub scene: &'a Scene,
-    /// Crank angle between the rows, rad.
+    /// Crank angle between rows, rad.
     pub every: f64,
-    /// What a picture shows in place of columns.
+    /// Diagram of the picture; none for columns of the rows.
     pub diagram: Option<Diagram>,
 }
 
@@ -36,7 +36,7 @@ impl TurnReport<'_> {
         self.result.kinematics.speed_rad_per_s.is_some()
     }
 
-    /// Names of the columns; position and its derivatives are in time if the crank turns, else over its angle.
+    /// Returns the CSV header; derivatives of the slider position are by time if the crank turns, else by its angle.
     fn columns(&self) -> String {
         let result = self.result;
         let derivatives = if self.moves() {
@@ -51,7 +51,7 @@ impl TurnReport<'_> {
         }
         for length in ["crank", "rod", "offset"] {
             if result.has_slopes() {
-                // A slope by a length has a metre less in its unit.
+                // A derivative by a length has one factor m less in its unit.
                 let name = |(name, unit): (&str, &str)| {
                     format!("{name}_by_{length}{}", unit.trim_start_matches('m'))
                 };
@@ -100,7 +100,7 @@ impl Report for TurnReport<'_> {
         facts
     }
 
-    /// What the lengths give, and what was asked for beside it.
+    /// Returns the facts, followed by those of the changed lengths, if given.
     fn text(&self) -> String {
         let mut text = self.facts().lines(NAMES);
         if let Some(changed) = &self.result.changed {
@@ -110,7 +110,7 @@ impl Report for TurnReport<'_> {
         text
     }
 
-    /// The rows, with the motion of the changed lengths beside that of the scene.
+    /// Returns the rows; for changed lengths with their change of the motion and the changed motion (not in CSV).
     fn table(&self) -> Table {
         let mut table = Table::new(&self.columns());
         table.beside = if self.result.changed.is_some() { 3 } else { 0 };
@@ -120,7 +120,7 @@ impl Report for TurnReport<'_> {
         table
     }
 
-    /// The slider's motion, with that of the changed lengths, and the driving torque, exact and to first order.
+    /// Returns the plot of slider motion, also with changed lengths, and driving torque, exact and first-order.
     fn look(&self) -> Look<'_> {
         let show: &[&str] = match self.moves() {
             true => &[
@@ -206,7 +206,7 @@ fn values(row: &TurnRow) -> Vec<f64> {
     values
 }
 
-/// The lengths (m) that were chosen for a stroke.
+/// Returns the text of the lengths (m) chosen for a stroke.
 pub fn sized(crank: f64, rod: f64) -> String {
     format!("sized: crank {} m, rod {} m", given(crank), given(rod))
 }
@@ -240,7 +240,7 @@ fn forces(facts: &mut Facts, result: &OneTurn) {
     }
 }
 
-/// Stroke and extremes with another offset, the acceleration in this unit.
+/// Returns stroke and extremes with another offset as text; `unit` is that of the acceleration.
 fn offset(with: &OffsetExtremes, unit: &str) -> String {
     let mut line = format!("stroke {} m", six(with.stroke_m));
     let mut add = |name: &str, found: Option<Located>, unit: &str| {

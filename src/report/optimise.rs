@@ -1,11 +1,11 @@
-//! The best design as text, its searches as CSV.
+//! Reports of an optimisation: best design as text, local searches as CSV.
 
 use super::csv::{self, CsvCell};
 use super::key_values::{Facts, fact, rounded, six};
 use super::quantity::Quantity;
 use crate::optimise::{AGREEMENT, Optimum, OptimumValue, Proof, SubjectMet};
 
-/// The best design, its limits, and how sure it is.
+/// Returns the best design, its limits, agreement of the searches and final sweeps, as text.
 pub fn optimum(found: &Optimum) -> String {
     let mut facts = Facts::of(&found.scene);
     let value = shown(&found.figure, found.value);
@@ -29,7 +29,7 @@ pub fn optimum(found: &Optimum) -> String {
     facts.lines(22)
 }
 
-/// A figure with its name, in the unit for people.
+/// Returns name and value of a figure, in the displayed unit.
 fn shown(column: &str, value: Option<f64>) -> String {
     let of = Quantity::of(column);
     match value {
@@ -43,7 +43,7 @@ fn shown(column: &str, value: Option<f64>) -> String {
 
 fn varied(one: &OptimumValue) -> String {
     let [low, high] = one.bounds.map(six);
-    // The files have all digits.
+    // CSV and JSON have all digits.
     let value = format!("{} {}", rounded(one.value, 9), one.unit);
     let value = value.trim_end();
     match one.at_bound {
@@ -92,7 +92,7 @@ fn proof(found: &Optimum) -> String {
     }
 }
 
-/// A row for each local search.
+/// Returns one CSV row per local search.
 pub fn starts_csv(found: &Optimum) -> String {
     let of = |prefix: &'static str| {
         let values = found.values.iter();

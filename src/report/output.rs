@@ -1,4 +1,4 @@
-//! Where results go: standard output, or a file that appears only when it is complete.
+//! Output streams: standard output, or a file that appears only when complete.
 
 use std::fs::{File, Metadata};
 use std::io::{self, BufWriter, Write};
@@ -8,16 +8,16 @@ use tempfile::{Builder, NamedTempFile};
 
 use crate::error::Error;
 
-/// Names of standard output.
+/// Paths that stand for standard output.
 const STANDARD: [&str; 2] = ["-", "/dev/stdout"];
 
-/// Folders of devices, and of files that are open already.
+/// Folders of devices and of open file descriptors.
 const OPEN: [&str; 3] = ["/dev", "/dev/fd", OPEN_FILES];
 
-/// Where the files that a process has open have names.
+/// Folder of the file descriptors of the process.
 const OPEN_FILES: &str = "/proc/self/fd";
 
-/// What the names of files begin with that are being written.
+/// Prefix of the names of incomplete files.
 const HIDDEN: &str = ".slider-crank-";
 
 /// Whether a path stands for standard output.
@@ -25,14 +25,14 @@ pub fn is_standard_output(path: &Path) -> bool {
     STANDARD.iter().any(|name| path == Path::new(name))
 }
 
-/// Whether what is at a path is written as it is, and never replaced: a pipe, a device, a file that is open already.
+/// Whether a path is written in place, never replaced: a pipe, a device or an open file descriptor.
 pub(super) fn is_stream(path: &Path) -> bool {
     let open = |folder: &Path| OPEN.iter().any(|known| folder == Path::new(known));
     let is_open = path.parent().is_some_and(open);
     path.exists() && !path.is_dir() && (is_open || !path.is_file())
 }
 
-/// The file that a link leads to, for a link stays a link.
+/// Returns the target of a symbolic link, which keeps the link itself in place.
 fn followed(path: &Path) -> PathBuf {
     std::fs::canonicalize(path)
         .or_else(|_| std::fs::read_link(path).map(|to| folder(path).join(to)))
@@ -46,21 +46,21 @@ fn folder(path: &Path) -> &Path {
     }
 }
 
-/// A stream of output. A file takes its name in [`Output::finish`].
+/// Buffered output stream. [`Output::finish`] gives a file its name.
 #[derive(Debug)]
 pub struct Output {
     target: String,
     writer: BufWriter<Stream>,
-    /// The name that a file takes.
+    /// Final name of a file; none for a stream.
     path: Option<PathBuf>,
 }
 
 #[derive(Debug)]
 enum Stream {
     Standard(io::Stdout),
-    /// A device; on Linux a file without a name, of which nothing is left where the program is stopped.
+    /// Device; on Linux also an unnamed file, of which a stopped program leaves nothing.
     File(File),
-    /// A file with a hidden name, on systems without nameless files.
+    /// Temporary file with a hidden name, on systems without unnamed files.
     Hidden(NamedTempFile),
 }
 
@@ -83,8 +83,7 @@ impl Write for Stream {
 }
 
 impl Output {
-    /// Opens the target; `-` is standard output. A target that cannot be written fails here, before the
-    /// work is done.
+    /// Opens the target; `-` is standard output. A target that cannot be written fails here, before any computation.
     ///
     /// # Errors
     /// [`Error::Write`].
@@ -100,7 +99,7 @@ impl Output {
         Ok(Output::new(target, stream, path))
     }
 
-    /// Standard output.
+    /// Returns standard output.
     pub fn standard() -> Output {
         let stream = Stream::Standard(io::stdout());
         Output::new("standard output".to_owned(), stream, None)
@@ -114,7 +113,7 @@ impl Output {
         }
     }
 
-    /// Writes bytes.
+    /// Writes bytes to the buffer.
     pub fn write(&mut self, bytes: &[u8]) -> Result<(), Error> {
         let written = self.writer.write_all(bytes);
         written.map_err(|source| Error::Write {
@@ -123,13 +122,13 @@ impl Output {
         })
     }
 
-    /// Writes a text that is all there is to write.
+    /// Writes a text and completes the output.
     pub fn text(mut self, text: &str) -> Result<(), Error> {
         self.write(text.as_bytes())?;
         self.finish()
     }
 
-    /// Completes the output; a file gets its name now.
+    /// Flushes the output and gives a file its name.
     pub fn finish(self) -> Result<(), Error> {
         let (target, path) = (self.target, self.path);
         let stream = self
@@ -144,7 +143,7 @@ impl Output {
     }
 }
 
-/// A device, or a file beside the one whose name it takes.
+/// Opens a device, or an unnamed or temporary file in the folder of the target, with the final name.
 fn opened(path: &Path) -> io::Result<(Stream, Option<PathBuf>)> {
     if is_stream(path) {
         let file = File::options().append(true).open(path)?;
@@ -161,18 +160,18 @@ fn opened(path: &Path) -> io::Result<(Stream, Option<PathBuf>)> {
     }
     let before = std::fs::metadata(&path).ok();
     if before.is_some() {
-        // Another file would take its name, for which the folder's permission is enough.
+        // Replacing a file needs the permission of the folder only; a file that is write-protected is refused here.
         let file = File::options().append(true).open(&path)?;
         if file.metadata()?.permissions().readonly() {
             return Err(io::Error::other("it is write-protected"));
         }
     }
-    // Until it is complete its name means nothing to the user: the system's reason is given without it.
+    // The name of the temporary file means nothing to the user: only the kind of the error is reported.
     let stream = unfinished(folder, before.as_ref()).map_err(|error| error.kind())?;
     Ok((stream, Some(path)))
 }
 
-/// A file in a folder, with the permissions of the one that it is to replace.
+/// Creates an unnamed or temporary file in a folder, with the permissions of the file it will replace.
 fn unfinished(folder: &Path, before: Option<&Metadata>) -> io::Result<Stream> {
     let mut builder = Builder::new();
     builder.prefix(HIDDEN);
@@ -194,13 +193,13 @@ fn unfinished(folder: &Path, before: Option<&Metadata>) -> io::Result<Stream> {
         }
         builder.permissions(permissions);
     }
-    // Elsewhere a file has the permissions of its folder.
+    // Outside Unix a file has the permissions of its folder.
     #[cfg(not(unix))]
     let _ = before;
     builder.tempfile_in(folder).map(Stream::Hidden)
 }
 
-/// Gives a file its name, in its folder.
+/// Gives a file its final name, in one folder.
 fn named(stream: Stream, path: &Path) -> io::Result<()> {
     match stream {
         #[cfg(target_os = "linux")]
@@ -212,7 +211,7 @@ fn named(stream: Stream, path: &Path) -> io::Result<()> {
                 rustix::fs::linkat(CWD, &open, CWD, name, AtFlags::SYMLINK_FOLLOW)?;
                 Ok(())
             };
-            // A link does not replace a file, as another name does.
+            // A link cannot replace a file, but a rename can.
             let hidden = Builder::new().prefix(HIDDEN).make_in(folder(path), link)?;
             hidden.persist(path).map_err(|error| error.error)?;
         }

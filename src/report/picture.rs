@@ -1,4 +1,4 @@
-//! Figures as SVG, PNG or PDF, as the name of the file says.
+//! Picture files: writes a figure, given as SVG, as SVG, PNG or PDF by the extension of the file.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -9,16 +9,16 @@ use resvg::usvg::{Options, Tree, fontdb::Database};
 use super::Output;
 use crate::error::Error;
 
-/// Endings of the files of pictures.
+/// Extensions of picture files.
 pub const ENDINGS: [&str; 3] = ["svg", "png", "pdf"];
 
-/// Pixels of a PNG for each of the figure: sharp on paper and on fine screens.
+/// Pixels of a PNG per pixel of the figure: sharp in print and on high-resolution screens.
 const SCALE: f32 = 2.0;
 
-/// Pixels of a figure to the inch.
+/// Pixels of a figure per inch.
 const DPI: f32 = 96.0;
 
-/// A file that a figure is drawn to.
+/// File to which a figure is drawn.
 #[derive(Debug)]
 pub struct Picture {
     output: Output,
@@ -26,7 +26,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Opens the file, whose ending says the format; without one, and on standard output, it is SVG.
+    /// Opens the file; extension `png` or `pdf` selects the format, which is SVG otherwise and on standard output.
     ///
     /// # Errors
     /// [`Error::Write`].
@@ -38,7 +38,7 @@ impl Picture {
         })
     }
 
-    /// Draws a figure that is given as SVG.
+    /// Draws a figure given as SVG.
     ///
     /// # Errors
     /// [`Error::Write`].
@@ -69,7 +69,7 @@ fn tree(svg: &str) -> Result<Tree, Error> {
     Tree::from_str(svg, &options).map_err(failed)
 }
 
-/// A figure as pixels, so many for each of the figure.
+/// Renders a figure at `scale` pixels per pixel of the figure.
 pub(super) fn pixels(svg: &str, scale: f32) -> Result<Pixmap, Error> {
     let tree = tree(svg)?;
     let size = tree.size().to_int_size().scale_by(scale);
@@ -84,7 +84,7 @@ pub(super) fn pixels(svg: &str, scale: f32) -> Result<Pixmap, Error> {
     Ok(pixels)
 }
 
-/// A figure that could not be written.
+/// Returns the error of a figure that could not be written.
 pub(super) fn failed(reason: impl ToString) -> Error {
     Error::Write {
         target: "figure".to_owned(),

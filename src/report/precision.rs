@@ -1,4 +1,4 @@
-//! The comparison of methods: CSV, text and figure.
+//! Reports of the work-precision comparison of methods: CSV, text, page and figure.
 
 use super::csv::{self, CsvCell};
 use super::figure::{Axis, Figure, Shape, Sheet};
@@ -22,8 +22,8 @@ const COLUMNS: [&str; 9] = [
     "steps",
 ];
 
-/// The comparison of several scenes as CSV: one row for each method and tolerance, times the least; cells of
-/// what does not exist are empty.
+/// Returns the comparison of several scenes as CSV: one row per method and tolerance, with the shortest wall time;
+/// missing values are empty cells.
 pub fn precision_csv(scenes: &[Precision]) -> String {
     csv::text(&COLUMNS, cells(scenes))
 }
@@ -47,7 +47,7 @@ fn cells(scenes: &[Precision]) -> impl Iterator<Item = Vec<CsvCell>> {
     })
 }
 
-/// The comparison as one page: error against time, of one scene at a time.
+/// Returns the comparison as one page: error against time, one scene at a time.
 ///
 /// # Errors
 /// [`Error::Write`].
@@ -83,10 +83,10 @@ pub fn precision_page(scenes: &[Precision], origin: &Origin) -> Result<String, E
     page::html(origin, &facts, &table, &look)
 }
 
-/// Widths of the columns of the table.
+/// Widths of the columns of the table, characters; negative for left-aligned.
 const WIDTHS: [isize; 9] = [-12, 9, 12, 14, 13, 10, 10, 11, 8];
 
-/// The comparison of one scene as a table.
+/// Returns the comparison of one scene as text.
 pub fn precision(scene: &Precision) -> String {
     let mut facts = Facts::of(&scene.scene);
     fact!(facts, "end", "t = {} s", six(scene.t_s));
@@ -146,7 +146,7 @@ fn line(row: &PrecisionRow) -> String {
     aligned(&WIDTHS, name.chain(cells))
 }
 
-/// What the reader of the rows has to know.
+/// Returns notes on the rows: methods left out, bounds, failures, other references, slider errors.
 pub fn precision_notes(scene: &Precision) -> Vec<String> {
     let mut notes: Vec<String> = scene.left_out.clone();
     if scene.rows.iter().any(|row| row.error_is_bound) {
@@ -155,10 +155,10 @@ pub fn precision_notes(scene: &Precision) -> Vec<String> {
                 .to_owned(),
         );
     }
-    // Tolerances that share a note are named together.
+    // Notes with their tolerances: equal notes are merged.
     let mut said: Vec<(String, Vec<String>)> = Vec::new();
     for row in &scene.rows {
-        // Where a run stopped, and with what numbers, differs from row to row; the JSON object has it.
+        // Numbers that differ from row to row would prevent merging; the JSON object has them.
         let reason = |why: &String| {
             let why = why.split(": stopped at").next().unwrap_or(why);
             why.split(", as the coefficient")
@@ -204,7 +204,7 @@ pub fn precision_notes(scene: &Precision) -> Vec<String> {
     notes
 }
 
-/// Error of the crank angle against time, one panel for each scene with measured errors; a method has one colour in all.
+/// Returns angle error against wall time as SVG, one panel per scene with measured errors, one colour per method.
 ///
 /// # Errors
 /// [`Error::Refused`] if there is no room for all scenes.
@@ -226,7 +226,7 @@ pub fn precision_figure(scenes: &[Precision], size: Option<Shape>) -> Result<Str
     sheet.svg(&figures)
 }
 
-/// Time and error of a row that has both.
+/// Returns wall time (s) and angle error (rad) of a row that has both.
 fn measured(row: &PrecisionRow) -> Option<(f64, f64)> {
     row.wall_s.zip(row.error_theta_rad)
 }

@@ -1,4 +1,4 @@
-//! A result for its readers.
+//! Common interface of reports: from one result to text, CSV, picture and page.
 
 use super::curves::View;
 use super::key_values::Facts;
@@ -8,18 +8,18 @@ use super::page::{self, Origin};
 use super::table::Table;
 use crate::error::Error;
 
-/// A result for its readers.
+/// Result that can be shown as text, CSV, picture and page.
 pub trait Report {
-    /// What there is to say of the result.
+    /// Returns the facts of the result.
     fn facts(&self) -> Facts;
 
-    /// What there is to say, as text.
+    /// Returns the result as text.
     fn text(&self) -> String;
 
-    /// The rows by columns.
+    /// Returns the rows as a table of columns.
     fn table(&self) -> Table;
 
-    /// What is seen of the rows.
+    /// Returns the default content of picture and page.
     fn look(&self) -> Look<'_>;
 
     /// Writes the rows as CSV.
@@ -30,15 +30,15 @@ pub trait Report {
         self.table().csv(output)
     }
 
-    /// What is to be seen of the rows, as SVG.
+    /// Returns the columns of a view as SVG.
     ///
     /// # Errors
-    /// [`Error::Refused`] if a column is not there, or no room.
+    /// [`Error::Refused`] if a column is missing, or the picture is too small.
     fn figure(&self, view: &View) -> Result<String, Error> {
         view.svg(&self.table(), self.look())
     }
 
-    /// The result as one HTML page.
+    /// Returns the result as one HTML page.
     ///
     /// # Errors
     /// [`Error::Write`].
@@ -47,7 +47,7 @@ pub trait Report {
     }
 }
 
-/// A value as one JSON object, with a line break at its end.
+/// Returns a value as indented JSON, with a final line feed.
 pub fn json(value: &impl serde::Serialize) -> Result<String, Error> {
     let mut text = serde_json::to_string_pretty(value).map_err(|error| Error::Write {
         target: "JSON".to_owned(),

@@ -1,5 +1,5 @@
-//! What the columns of rows mean: words, symbol, and the unit that people read them in, from the name of the column; and
-//! columns by the names that people give them.
+//! Meaning of columns, from their names: label, symbol, displayed unit and panel; and lookup of columns by the names
+//! that users type.
 
 use std::borrow::Cow;
 use std::f64::consts::PI;
@@ -9,26 +9,26 @@ use serde::Serialize;
 use crate::error::Error;
 use crate::scene::unit;
 
-/// The name of a column without its unit, and the ending that tells the unit.
+/// Splits the name of a column into base name and unit suffix.
 pub(super) fn split(column: &str) -> (&str, &str) {
     let ending = UNITS.iter().find(|(ending, ..)| column.ends_with(ending));
     column.split_at(column.len() - ending.map_or(0, |(ending, ..)| ending.len()))
 }
 
-/// A column of rows for people.
+/// Label, displayed unit and panel of a column.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Quantity {
-    /// Words and symbol.
+    /// Name and symbol.
     pub label: String,
-    /// Unit that it is shown in; empty without one.
+    /// Displayed unit; empty if dimensionless.
     pub unit: Cow<'static, str>,
-    /// By this the value in SI becomes one in `unit`.
+    /// Factor from the unit of the column to `unit`.
     pub factor: f64,
-    /// What is drawn in one panel has this in common.
+    /// Name of the panel: columns of one group share a panel.
     pub group: String,
 }
 
-/// Endings of columns: the unit of the file, that for people, and the factor between them. Longer ones first.
+/// Unit suffix of columns, displayed unit, and factor from the first to the second; longer suffixes first.
 const UNITS: [(&str, &str, f64); 22] = [
     ("_rad_per_s2", "rad/s²", 1.0),
     ("_m_per_rad2", "mm/rad²", 1e3),
@@ -54,7 +54,7 @@ const UNITS: [(&str, &str, f64); 22] = [
     ("_s", "s", 1.0),
 ];
 
-/// Columns with a symbol: the name without unit, the words, and the panel.
+/// Known columns: base name, label and panel.
 const KNOWN: [(&str, &str, &str); 16] = [
     ("t", "time t", ""),
     ("theta", "crank angle θ", "crank angle"),
@@ -74,7 +74,7 @@ const KNOWN: [(&str, &str, &str); 16] = [
     ("near_dead_centre", "near a dead centre", ""),
 ];
 
-/// Additions to the name of a column that is drawn beside it.
+/// Prefixes and suffixes of columns that share the panel of their base column.
 const BESIDE: [&str; 6] = [
     "ideal",
     "first_order",
@@ -85,12 +85,12 @@ const BESIDE: [&str; 6] = [
 ];
 
 impl Quantity {
-    /// Of a column.
+    /// Derives label, unit and panel from the name of a column.
     pub fn of(column: &str) -> Quantity {
         let (name, ending) = split(column);
         let unit = UNITS.iter().find(|(known, ..)| *known == ending);
         let (_, unit, factor) = unit.copied().unwrap_or(("", "", 1.0));
-        // Errors are far smaller than a degree.
+        // Errors stay in radians, far smaller than a degree.
         let (unit, factor) = match name.starts_with("error") || name.starts_with("estimate") {
             true if ending == "_rad" => ("rad", 1.0),
             _ => (unit, factor),
@@ -125,7 +125,7 @@ impl Quantity {
     }
 }
 
-/// The panel of a column without one of its own.
+/// Returns the panel of a column that is not among [`KNOWN`].
 fn group(name: &str, unit: &str) -> String {
     match unit {
         _ if name.starts_with("journal") => String::new(),
@@ -137,14 +137,14 @@ fn group(name: &str, unit: &str) -> String {
     }
 }
 
-/// A column in the unit that it is drawn in.
+/// Column with its displayed unit.
 #[derive(Clone, Debug)]
 pub(super) struct Curve {
     pub name: String,
     pub quantity: Quantity,
 }
 
-/// The column of the horizontal axis.
+/// Finds the column of the horizontal axis; refuses a text that names several.
 pub(super) fn base(names: &[&str], text: &str) -> Result<Curve, Error> {
     let mut found = curves(names, text)?;
     match found.len() {
@@ -153,7 +153,7 @@ pub(super) fn base(names: &[&str], text: &str) -> Result<Curve, Error> {
     }
 }
 
-/// The columns that a text names, with the unit behind a colon.
+/// Finds the columns that a text names, fully or by first or last words; a unit may follow a colon.
 pub(super) fn curves(names: &[&str], text: &str) -> Result<Vec<Curve>, Error> {
     let (wanted, in_unit) = match text.split_once(':') {
         Some((wanted, unit)) => (wanted.trim(), Some(unit.trim())),

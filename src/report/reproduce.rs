@@ -1,4 +1,4 @@
-//! The papers' numbers as a table, CSV and JSON; their figures as CSV and SVG.
+//! Reports of the reproduction of papers: numbers as table, CSV and JSON, figures as CSV and SVG.
 
 use serde::Serialize;
 
@@ -8,7 +8,7 @@ use super::{Axis, Figure, Sheet};
 use crate::error::Error;
 use crate::reproduce::{Drawing, Entry, Plot, Reproduction, Style, Verdict};
 
-/// A summary of the verdicts for JSON.
+/// Counts of the verdicts, entries and file names of figures, for JSON.
 #[derive(Clone, Debug, Serialize)]
 pub struct ReproductionSummary<'a> {
     reproduces: usize,
@@ -20,7 +20,7 @@ pub struct ReproductionSummary<'a> {
 }
 
 impl<'a> ReproductionSummary<'a> {
-    /// Counts the verdicts.
+    /// Counts the verdicts of a reproduction.
     pub fn new(result: &'a Reproduction) -> ReproductionSummary<'a> {
         let count = |verdict: Verdict| {
             let same = |entry: &&Entry| entry.verdict == verdict;
@@ -37,7 +37,7 @@ impl<'a> ReproductionSummary<'a> {
     }
 }
 
-/// Name of the files of a figure, without ending.
+/// Returns the file name of a figure, without extension.
 pub fn file_name(drawing: &Drawing) -> String {
     format!("{}-{}", drawing.paper, drawing.name)
 }
@@ -46,7 +46,7 @@ fn short(value: f64) -> String {
     rounded(value, 7)
 }
 
-/// Every entry on a line or two, and the count of the verdicts.
+/// Returns a table of all entries, and the counts of the verdicts.
 pub fn reproduction(result: &Reproduction) -> String {
     const WIDTHS: [isize; 6] = [-22, 14, 14, -7, -21, 0];
     let mut text = String::new();
@@ -92,7 +92,7 @@ pub fn reproduction(result: &Reproduction) -> String {
     )
 }
 
-/// Every entry as CSV.
+/// Returns all entries as CSV.
 pub fn reproduction_csv(result: &Reproduction) -> String {
     let header = [
         "paper",
@@ -123,7 +123,7 @@ pub fn reproduction_csv(result: &Reproduction) -> String {
     csv::text(&header, result.entries.iter().map(row))
 }
 
-/// The data of a figure as CSV, one row for each point.
+/// Returns the data of a figure as CSV, one row per point.
 pub fn drawing_csv(drawing: &Drawing) -> String {
     let series = drawing.plots.iter();
     let series = series.flat_map(|plot| plot.series.iter().map(move |series| (plot, series)));
@@ -142,7 +142,7 @@ pub fn drawing_csv(drawing: &Drawing) -> String {
     csv::text(&["x_axis", "y_axis", "series", "x", "y"], rows)
 }
 
-/// A figure as SVG.
+/// Returns a figure as SVG.
 pub fn drawing_svg(drawing: &Drawing) -> Result<String, Error> {
     let figures: Vec<Figure> = drawing.plots.iter().map(figure).collect();
     let sheet = Sheet {

@@ -1,4 +1,4 @@
-//! Rows of a run as CSV, and some of them for a table.
+//! Sinks for the rows of a run: CSV writer, column table, and a preview of few rows.
 
 use super::Output;
 use super::csv::line;
@@ -14,10 +14,10 @@ const CLEARANCE: &str =
     "x_ideal_m,v_ideal_m_per_s,a_ideal_m_per_s2,journal_x_m,journal_y_m,contact_force_n";
 const TORQUE: &str = "crank_torque_nm";
 
-/// Most rows that are kept for pictures and pages.
+/// Maximum number of rows kept for pictures and pages.
 pub(super) const ROWS_KEPT: usize = 100_000;
 
-/// Cells of the columns [`REACTIONS`].
+/// Returns the cells of the columns [`REACTIONS`], N and N m.
 pub(super) fn reactions(forces: &Reactions) -> impl Iterator<Item = f64> {
     let joints = [forces.crank_bearing, forces.crank_pin, forces.wrist_pin];
     let rest = [forces.guide].into_iter().chain(forces.shaking);
@@ -28,7 +28,7 @@ pub(super) fn reactions(forces: &Reactions) -> impl Iterator<Item = f64> {
         .chain([forces.shaking_moment])
 }
 
-/// Rows of `simulate`.
+/// Writer of the rows of `simulate` as CSV.
 #[derive(Debug)]
 pub struct RowWriter {
     output: Output,
@@ -36,7 +36,7 @@ pub struct RowWriter {
 }
 
 impl RowWriter {
-    /// Writes to an output.
+    /// Starts a writer to an output.
     pub fn new(output: Output) -> RowWriter {
         RowWriter {
             output,
@@ -50,7 +50,7 @@ impl RowWriter {
     }
 }
 
-/// Names of the columns of rows like this one.
+/// Returns the CSV header of rows with the optional parts of `row`.
 pub(super) fn header(row: &Row) -> String {
     let mut columns = vec![MOTION];
     columns.extend(row.reactions.map(|_| REACTIONS));
@@ -59,7 +59,7 @@ pub(super) fn header(row: &Row) -> String {
     columns.join(",")
 }
 
-/// The cells of a row.
+/// Returns the cells of a row.
 pub(super) fn cells(row: &Row) -> Vec<f64> {
     let mut values = vec![
         row.t, row.theta, row.omega, row.alpha, row.x, row.v, row.a, row.phi,
@@ -88,14 +88,14 @@ impl RowSink for RowWriter {
     }
 }
 
-/// All rows of `simulate` by columns.
+/// Table of all rows of `simulate`.
 #[derive(Debug, Default)]
 pub struct RowColumns {
     table: Option<Table>,
 }
 
 impl RowColumns {
-    /// The rows; none if there was no row.
+    /// Returns the table; none without rows.
     pub fn into_table(self) -> Option<Table> {
         self.table
     }
@@ -109,14 +109,14 @@ impl RowSink for RowColumns {
     }
 }
 
-/// Some rows, evenly spread over a run of unknown length, for a table on the terminal.
+/// Few rows, evenly spread over a run of unknown length, for a table on the terminal.
 #[derive(Debug)]
 pub struct Preview {
     few: Thinned<Row>,
     last: Option<Row>,
 }
 
-/// Twice the least number of rows in a preview.
+/// Maximum number of rows in a preview; thinning leaves at least half of them.
 const PREVIEW_ROWS: usize = 24;
 
 impl Default for Preview {
@@ -129,13 +129,13 @@ impl Default for Preview {
 }
 
 impl Preview {
-    /// Takes a row; keeps it if it is one of the few.
+    /// Takes a row, and keeps it if its index is a multiple of the stride.
     pub fn take(&mut self, row: &Row) {
         self.few.take(*row);
         self.last = Some(*row);
     }
 
-    /// The rows kept, the last one of the run among them.
+    /// Returns the rows kept, and the last row of the run.
     pub fn rows(&self) -> Vec<Row> {
         let mut rows = self.few.kept().to_vec();
         let end = rows.last().map_or(f64::NEG_INFINITY, |row| row.t);

@@ -1,4 +1,4 @@
-//! What there is to say of a run: its end, cost and events, a loose joint, the periodic steady state.
+//! Facts of a run: final state, cost, events, loose joint and periodic steady state.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -11,7 +11,7 @@ use crate::simulate::{
     SteadyState, Summary,
 };
 
-/// What there is to say of a run.
+/// Returns the facts of a run.
 pub(super) fn run(summary: &Summary) -> Facts {
     let mut facts = Facts::of(&summary.scene);
     facts.add("engine", &summary.engine);
@@ -57,7 +57,7 @@ pub(super) fn run(summary: &Summary) -> Facts {
     facts
 }
 
-/// A value with its error, or that there is none.
+/// Formats a value with its error, or with "error not `none`" if it has none.
 fn shown(value: f64, error: Option<f64>, unit: &str, none: &str) -> String {
     match error {
         Some(error) => with_error(value, error, unit),
@@ -65,7 +65,7 @@ fn shown(value: f64, error: Option<f64>, unit: &str, none: &str) -> String {
     }
 }
 
-/// The last state, and the speeds on the way to it.
+/// Adds the final state with errors, and the range of the crank speed.
 fn end(facts: &mut Facts, summary: &Summary) {
     let (last, error) = (&summary.last, summary.error_estimate);
     fact!(facts, "end", "t = {} s", six(last.t_s));
@@ -117,7 +117,7 @@ fn seconds(value: f64) -> String {
     }
 }
 
-/// Rows in columns that stand below each other.
+/// Returns rows as a table with aligned columns.
 pub(super) fn table(rows: &[Row]) -> String {
     const WIDTHS: [isize; 6] = [12, 10, 11, 14, 11, 11];
     let [theta, omega, x, v] = ["theta [deg]", "omega [rad/s]", "x [mm]", "v [m/s]"];
@@ -130,7 +130,7 @@ pub(super) fn table(rows: &[Row]) -> String {
             format!("{:.4}", (row.theta - turns * TAU).to_degrees()),
             format!("{:.6}", row.omega),
             format!("{:.4}", row.x * 1e3),
-            // Minus zero is zero.
+            // Minus zero prints as zero.
             format!("{:.5}", row.v + 0.0),
         ];
         text += &aligned(&WIDTHS, cells);
@@ -138,7 +138,7 @@ pub(super) fn table(rows: &[Row]) -> String {
     text
 }
 
-/// The loose joint.
+/// Adds the facts of the loose joint.
 fn clearance(facts: &mut Facts, joint: &ClearanceSummary) {
     let (name, radial, law) = (joint.joint, given(joint.radial_m), joint.contact_law);
     let text = format!("{name}, {radial} m radial clearance, {law}");
@@ -188,7 +188,7 @@ fn estimated(found: Estimated, unit: &str) -> String {
     with_error(found.value, found.error, unit)
 }
 
-/// The key figures of the periodic steady state.
+/// Adds the key figures of the periodic steady state.
 fn steady_state(facts: &mut Facts, steady: &SteadyState) {
     let (of_turns, a_cycle) = match steady.cycle_turns {
         1 => (String::new(), "turn"),
@@ -224,7 +224,7 @@ fn steady_state(facts: &mut Facts, steady: &SteadyState) {
     }
 }
 
-/// The largest orders that are beyond their errors.
+/// Returns the three largest speed orders whose amplitude exceeds its error.
 fn speed_orders(orders: &[SpeedOrder]) -> Option<String> {
     let amplitude = |order: &SpeedOrder| order.amplitude_rad_per_s.value;
     let known = |order: &&SpeedOrder| amplitude(order) > order.amplitude_rad_per_s.error;
@@ -238,10 +238,10 @@ fn speed_orders(orders: &[SpeedOrder]) -> Option<String> {
     (!words.is_empty()).then(|| words.join("; "))
 }
 
-/// The orders of the speed as SVG.
+/// Returns the amplitudes of the speed orders as SVG.
 ///
 /// # Errors
-/// [`Error::Write`], which would be a defect.
+/// [`Error::Write`], a defect of the program.
 pub(super) fn speed_figure(steady: &SteadyState) -> Result<String, Error> {
     let orders = steady.speed_orders.iter();
     let ends = orders.map(|order| (order.order, order.amplitude_rad_per_s.value));

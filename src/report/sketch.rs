@@ -1,4 +1,4 @@
-//! The mechanism to scale at an angle: as SVG, as DXF, and in motion as GIF.
+//! Drawings of the mechanism to scale: SVG and DXF of one pose, animated GIF of several.
 
 use std::fmt::Write;
 
@@ -10,31 +10,31 @@ use crate::error::Error;
 use crate::scene::Scene;
 use ::gif::{Encoder, Frame, Repeat};
 
-/// The mechanism of a scene, to be drawn at any angle.
+/// Mechanism of a scene, to be drawn in any pose.
 #[derive(Debug)]
 pub struct Sketch {
     drawing: Drawing,
     title: String,
 }
 
-/// Crank angle, rad, and slider position, m.
+/// Pose of the mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
-    /// rad
+    /// Crank angle, rad.
     pub theta: f64,
-    /// m
+    /// Slider position, m.
     pub x: f64,
 }
 
-/// A part of the drawing; places in m.
+/// Graphic element: line between two points or circle of centre and radius, m.
 enum Part {
     Line([f64; 2], [f64; 2]),
     Circle([f64; 2], f64),
 }
 
-/// What a part stands for: layer of the DXF file and look in SVG.
+/// DXF layer and SVG style of a part.
 type Layer = (&'static str, &'static str);
-/// Guide, path of the crank pin, dead centres.
+/// Guide, path of the crank pin, slider at the dead centres.
 const GROUND: Layer = (
     "GROUND",
     "fill=\"none\" stroke=\"#999\" stroke-width=\"1\" stroke-dasharray=\"5 4\"",
@@ -63,10 +63,10 @@ const CENTRE_OF_GRAVITY: Layer = (
 /// Width of the drawing, pixels.
 const WIDTH: f64 = 640.0;
 
-/// Coarseness of the choice of colours of a GIF, 1 to 30: a drawing has few.
+/// Speed of colour quantisation of a GIF, 1 (finest) to 30; a drawing has few colours.
 const COARSENESS: i32 = 20;
 
-/// What a drawing shows of the plane, m.
+/// Visible rectangle of the plane, m.
 #[derive(Clone, Copy)]
 struct Extent {
     left: f64,
@@ -76,7 +76,7 @@ struct Extent {
 }
 
 impl Extent {
-    /// Pixels to the metre, and the height of the drawing in pixels.
+    /// Returns the scale, pixels per metre, and the height of the drawing, pixels.
     fn scale(self) -> (f64, f64) {
         let scale = WIDTH / (self.right - self.left);
         (scale, (scale * (self.high - self.low)).ceil() + 40.0)
@@ -84,7 +84,7 @@ impl Extent {
 }
 
 impl Sketch {
-    /// Of the mechanism of a scene.
+    /// Returns the sketch of the mechanism of a scene.
     pub fn of(scene: &Scene) -> Sketch {
         Sketch {
             drawing: Drawing::of(scene),
@@ -92,13 +92,13 @@ impl Sketch {
         }
     }
 
-    /// Half the height of the slider, m.
+    /// Returns half the height of the slider, m.
     fn size(&self) -> f64 {
         let Drawing { crank, rod, .. } = self.drawing;
         (0.12 * crank).max(0.03 * (crank + rod))
     }
 
-    /// Slider positions at the dead centres that exist, m.
+    /// Returns the slider positions at the existing dead centres, m.
     fn dead_centres(&self) -> impl Iterator<Item = f64> {
         let of = &self.drawing;
         let (offset, branch) = (of.offset, of.branch);
@@ -107,7 +107,7 @@ impl Sketch {
         exist.map(move |length| branch * (length * length - offset * offset).sqrt())
     }
 
-    /// What a drawing of these poses needs.
+    /// Returns the rectangle that holds the mechanism in all poses.
     fn extent(&self, poses: impl Iterator<Item = Pose>) -> Extent {
         let Drawing { crank, offset, .. } = self.drawing;
         let room = 3.0 * self.size();
@@ -123,7 +123,7 @@ impl Sketch {
         }
     }
 
-    /// The parts at a pose, those that lie below others first.
+    /// Returns the graphic elements of a pose, in drawing order from back to front.
     fn parts(&self, pose: Pose, extent: Extent) -> Vec<(Layer, Part)> {
         let Drawing {
             crank, rod, offset, ..
@@ -157,12 +157,12 @@ impl Sketch {
         parts
     }
 
-    /// The mechanism at a pose as SVG.
+    /// Returns the mechanism in a pose as SVG.
     pub fn svg(&self, pose: Pose) -> String {
         self.frame(pose, self.extent([pose].into_iter()), "")
     }
 
-    /// The mechanism at a pose, in a frame that may be shared by others, with a note below.
+    /// Returns the mechanism in a pose as SVG, in a rectangle common to several poses, with a note below.
     fn frame(&self, pose: Pose, extent: Extent, note: &str) -> String {
         let (scale, height) = extent.scale();
         let at = |[x, y]: [f64; 2]| (scale * (x - extent.left), scale * (extent.high - y) + 20.0);
@@ -198,7 +198,7 @@ impl Sketch {
         svg + "</svg>\n"
     }
 
-    /// The mechanism at a pose as DXF of AutoCAD R12: lines and circles in mm, a layer for each body.
+    /// Returns the mechanism in a pose as DXF of AutoCAD R12: lines and circles in mm, a layer for each body.
     pub fn dxf(&self, pose: Pose) -> String {
         let mut dxf = String::from(
             "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n",
@@ -224,7 +224,7 @@ impl Sketch {
     }
 }
 
-/// A point of a body: from its origin, along its axis and to the left of it.
+/// Returns the point of a body with coordinates `at`, along the axis `along` (unit vector) and to the left of it, m.
 fn placed(origin: [f64; 2], along: [f64; 2], at: [f64; 2]) -> [f64; 2] {
     [
         origin[0] + at[0] * along[0] - at[1] * along[1],
@@ -232,8 +232,8 @@ fn placed(origin: [f64; 2], along: [f64; 2], at: [f64; 2]) -> [f64; 2] {
     ]
 }
 
-/// Writes the mechanism in motion as GIF: a frame for each pose with what is written below it, shown for so many
-/// hundredths of a second, again and again.
+/// Writes the mechanism in motion as an endless GIF: one frame per pose, with a note below, shown for `hundredths` of
+/// a second.
 ///
 /// # Errors
 /// [`Error::Write`].

@@ -1,4 +1,4 @@
-//! Static equilibrium, and the calibration of a force sensor.
+//! Reports of static equilibrium over a turn, and of the calibration of a force sensor.
 
 use super::curves::SPACING;
 use super::key_values::{Facts, aligned, fact, given, six, with_error};
@@ -8,21 +8,21 @@ use crate::error::Error;
 use crate::scene::Scene;
 use crate::statics::{Calibration, StaticAnalysis, StaticsRow};
 
-/// Static equilibrium over one turn.
+/// Report of static equilibrium over one turn.
 #[derive(Clone, Copy)]
 pub struct StaticsReport<'a> {
-    /// What was found.
+    /// Result of the analysis.
     pub result: &'a StaticAnalysis,
-    /// The scene.
+    /// Scene of the analysis.
     pub scene: &'a Scene,
-    /// Crank angle between the rows, rad.
+    /// Crank angle between rows, rad.
     pub every: f64,
-    /// Whether the CSV file has the velocity ratio and the angle at the crank pin.
+    /// Whether to write velocity ratio and crank pin angle to the CSV file.
     pub details: bool,
 }
 
 impl StaticsReport<'_> {
-    /// What is sought, its unit, and the columns that have it.
+    /// Returns the name of the unknown load, its unit, and its columns.
     fn sought(&self) -> (&'static str, &'static str, &'static str) {
         match self.result.sought {
             "crank-torque" => (
@@ -60,7 +60,7 @@ impl Report for StaticsReport<'_> {
         facts
     }
 
-    /// Facts, and a table of a few angles.
+    /// Returns the facts, and a table at multiples of 15 deg.
     fn text(&self) -> String {
         const WIDTHS: [isize; 6] = [11, 18, 14, 14, 16, 19];
         let (what, unit, _) = self.sought();
@@ -92,7 +92,7 @@ impl Report for StaticsReport<'_> {
         table
     }
 
-    /// What is sought, with its friction band, and the side thrust.
+    /// Returns the plot of the unknown load with its friction band, and the side thrust.
     fn look(&self) -> Look<'_> {
         Look {
             title: &self.result.scene,
@@ -125,7 +125,7 @@ fn cells(row: &StaticsRow) -> [f64; 9] {
     ]
 }
 
-/// The line, its statistics, and the forces of the readings.
+/// Returns the calibration line, its statistics, and the forces of the readings, as text.
 pub fn calibration(result: &Calibration) -> String {
     let mut facts = Facts::of("");
     let fit = &result.fit;

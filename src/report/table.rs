@@ -1,4 +1,4 @@
-//! Rows of a result by their columns, as CSV files, pictures and pages read them.
+//! Column-wise table of the rows of a result, source of CSV files, pictures and pages.
 
 use std::borrow::Cow;
 
@@ -12,13 +12,13 @@ use super::csv::{self, CsvCell};
 use super::quantity::Quantity;
 use crate::error::Error;
 
-/// Rows of a result by their columns.
+/// Rows of a result, stored by column.
 #[derive(Clone, Debug)]
 pub struct Table {
     columns: Vec<Column>,
-    /// Every so many rows of the result are here.
+    /// Sampling interval: the table holds every `stride`-th row of the result.
     pub(super) stride: u64,
-    /// Columns at the end that are for pictures and pages only.
+    /// Number of columns at the end that only pictures and pages use.
     pub(super) beside: usize,
 }
 
@@ -28,17 +28,17 @@ struct Column {
     cells: Cells,
 }
 
-/// What stands in a column.
+/// Content of a column.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cells {
-    /// In SI, or in a unit as people wrote it; not a number where there is none.
+    /// Numbers in SI units, or in the unit of the texts if given; NaN for a missing value.
     Numbers(Vec<f64>, Option<String>),
-    /// What is no number.
+    /// Texts.
     Words(Vec<String>),
 }
 
 impl Table {
-    /// No rows yet, under the header of a CSV file.
+    /// Returns an empty table with the columns of a CSV header.
     pub fn new(header: &str) -> Table {
         let column = |name: &str| Column {
             name: name.to_owned(),
@@ -51,7 +51,7 @@ impl Table {
         }
     }
 
-    /// Takes a row of numbers; what is not finite has no value.
+    /// Appends a row of numbers; a number that is not finite counts as missing.
     pub fn push(&mut self, row: impl IntoIterator<Item = f64>) {
         for (column, value) in self.columns.iter_mut().zip(row) {
             if let Cells::Numbers(values, _) = &mut column.cells {
@@ -60,13 +60,13 @@ impl Table {
         }
     }
 
-    /// The columns with their names.
+    /// Returns the columns with their names.
     pub fn into_columns(self) -> impl Iterator<Item = (String, Cells)> {
         let columns = self.columns.into_iter();
         columns.map(|column| (column.name, column.cells))
     }
 
-    /// Rows of cells: numbers where all cells of a column are, in one unit.
+    /// Returns a table of rows of cells; a column holds numbers if all its cells are numbers in one unit, else texts.
     pub(super) fn of_rows<N: AsRef<str> + Sync>(header: &[N], rows: &[Vec<CsvCell>]) -> Table {
         static NONE: CsvCell = CsvCell::EMPTY;
         let column = |(i, name): (usize, &N)| Column {
@@ -80,18 +80,18 @@ impl Table {
         }
     }
 
-    /// Values of a column in SI, or in the unit that people wrote; none of words.
+    /// Returns the numbers of a column, in SI units or the unit of its texts; none for texts or an unknown column.
     pub(super) fn numbers(&self, name: &str) -> Option<&[f64]> {
         let column = self.columns.iter().find(|column| column.name == name)?;
         column.cells.numbers()
     }
 
-    /// Names of the columns.
+    /// Returns the names of the columns.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.columns.iter().map(|column| column.name.as_str())
     }
 
-    /// Writes the columns of numbers as CSV, without those for pictures only.
+    /// Writes the columns of numbers as CSV, without the last `beside` columns.
     pub(super) fn csv(&self, output: Output) -> Result<(), Error> {
         let columns = &self.columns[..self.columns.len() - self.beside];
         let header: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
@@ -103,7 +103,7 @@ impl Table {
         })
     }
 
-    /// The columns for the page.
+    /// Returns the columns, encoded for the page.
     pub(super) fn shown(&self) -> Vec<Shown<'_>> {
         self.columns.iter().map(Column::shown).collect()
     }
@@ -136,7 +136,7 @@ impl Cells {
     }
 }
 
-/// A number and what follows it.
+/// Splits a cell into a number and its unit, which may be empty.
 fn number_and_unit(cell: &str) -> Option<(f64, &str)> {
     let end = cell.find(|c: char| !(c.is_ascii_digit() || "+-.eE".contains(c)));
     let (number, unit) = cell.split_at(end.unwrap_or(cell.len()));
@@ -168,13 +168,13 @@ impl Column {
     }
 }
 
-/// A column on the page.
+/// Column encoded for the page.
 #[derive(Serialize)]
 pub(super) struct Shown<'a> {
     name: &'a str,
     #[serde(flatten)]
     quantity: Quantity,
-    /// Numbers of 64 bits, little end first, in base 64: each as it is in the CSV file.
+    /// Numbers as little-endian 64-bit floats in base 64, equal to those of the CSV file.
     #[serde(skip_serializing_if = "Option::is_none")]
     data: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -1,12 +1,12 @@
-//! Positions, extremes and what the lengths give, in words.
+//! Text of the kinematics and synthesis of a linkage: positions, extremes and quantities derived from the lengths.
 
 use super::key_values::{Facts, degrees, fact, given, six};
 use crate::kinematics::{Kinematics, Located, NamedPosition, Synthesis};
 
-/// Characters of the longest name of a position.
+/// Width of the column of position names, characters.
 pub(super) const NAMES: usize = 24;
 
-/// Where a named position is, and why it has its name.
+/// Returns the angle or range of angles of a named position, and the reason for its name.
 pub(super) fn place(position: &NamedPosition) -> String {
     let from = degrees(position.theta_rad);
     let to = position.to_rad.map(degrees);
@@ -14,7 +14,7 @@ pub(super) fn place(position: &NamedPosition) -> String {
     format!("{from}{to} deg: {}", position.reason)
 }
 
-/// Where an extreme is.
+/// Returns value and crank angle of an extreme.
 pub(super) fn extreme(found: &Located, unit: &str) -> String {
     format!(
         "{} {unit} at {} deg",
@@ -23,7 +23,7 @@ pub(super) fn extreme(found: &Located, unit: &str) -> String {
     )
 }
 
-/// What the lengths give.
+/// Returns the facts of one turn in closed form.
 pub(super) fn kinematics(result: &Kinematics) -> Facts {
     let mut facts = Facts::of(&result.scene);
     facts.add("class", result.class);
@@ -71,7 +71,7 @@ pub(super) fn kinematics(result: &Kinematics) -> Facts {
     facts
 }
 
-/// The lengths, and one turn of them.
+/// Returns the facts of one turn, followed by the synthesised lengths.
 pub fn synthesis(found: &Synthesis) -> String {
     let mut facts = kinematics(&found.turn);
     for (name, value) in lengths(found) {
@@ -80,7 +80,7 @@ pub fn synthesis(found: &Synthesis) -> String {
     facts.lines(22)
 }
 
-/// A scene of these lengths.
+/// Returns the `[geometry]` table of a scene file with the synthesised lengths.
 pub fn synthesis_scene(found: &Synthesis) -> String {
     let lines = lengths(found).map(|(name, value)| format!("{name} = \"{value} m\"\n"));
     format!("[geometry]\n{}", lines.concat())

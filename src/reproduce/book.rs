@@ -1,5 +1,5 @@
-//! What a paper prints, as data: three CSV files that are part of the program. Their formulas are read like those of loads,
-//! with more names: the symbols of the paper, and quantities of the mechanics.
+//! Reads the claims of a paper from three built-in CSV files, and evaluates the formulas: expressions as in loads, with
+//! two more kinds of names, symbols of the paper and quantities of the mechanism.
 
 use std::collections::BTreeMap;
 
@@ -9,31 +9,31 @@ use crate::error::Error;
 use crate::numeric::difference;
 use crate::scene::{Expression, Instant};
 
-/// Value of a quantity by its name at a crank angle, rad; none for other names.
+/// Function from the name of a quantity and the crank angle (rad) to its value; none for unknown names.
 pub(super) type Quantities = Box<dyn Fn(&str, f64) -> Option<f64>>;
 
-/// Step of numerical derivatives, rad: truncation and rounding are then about 1e-12 of the value.
+/// Step of numerical derivatives, rad: truncation and rounding errors are each about 1e-12 of the value.
 const DERIVATIVE_STEP: f64 = 1e-3;
 
-/// The files of a paper.
+/// CSV texts of a paper, by column:
 #[derive(Clone, Copy)]
 pub(super) struct Files {
-    /// symbol,formula,source: a formula uses symbols above it and the variables theta and t.
+    /// Symbols: symbol,formula,source; a formula uses symbols above it and the variables theta and t.
     pub symbols: &'static str,
-    /// place,what,unit,at,printed,range,ours,verdict,condition,conditional
+    /// Claims: place,what,unit,at,printed,range,ours,verdict,condition,conditional
     pub claims: &'static str,
-    /// figure,title,x_axis,y_axis,from,to,steps,theta,style,label,formula: theta as a formula of the abscissa t
+    /// Figures: figure,title,x_axis,y_axis,from,to,steps,theta,style,label,formula; theta as formula of the abscissa t
     pub figures: &'static str,
 }
 
-/// A paper, ready to be evaluated.
+/// Paper whose formulas can be evaluated.
 pub(super) struct Book {
     files: Files,
     symbols: BTreeMap<String, Expression>,
     quantities: Quantities,
 }
 
-/// Records of a table after its header, each with so many fields.
+/// Returns the records of a CSV table after its header, `N` fields each.
 fn records<const N: usize>(text: &'static str) -> Result<Vec<[String; N]>, Error> {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     reader
@@ -55,7 +55,7 @@ fn wrong(found: &str, wanted: &str) -> Error {
 }
 
 impl Book {
-    /// Reads the symbols.
+    /// Reads the symbols of a paper.
     ///
     /// # Errors
     /// [`Error::Refused`] for a formula that cannot be read.
@@ -72,7 +72,7 @@ impl Book {
         Ok(book)
     }
 
-    /// The book with quantities of the mechanics.
+    /// Sets the quantities of the mechanism.
     pub fn with(self, quantities: Quantities) -> Book {
         Book { quantities, ..self }
     }
@@ -89,7 +89,7 @@ impl Book {
         Expression::parse_with(formula, &named).map_err(|error| wrong(formula, &error.what))
     }
 
-    /// Value of a formula at a crank angle, rad.
+    /// Returns the value of a formula at a crank angle, rad.
     ///
     /// # Errors
     /// [`Error::Refused`] for a formula that cannot be read.
@@ -101,10 +101,10 @@ impl Book {
         Ok(self.read(formula, at.theta)?.value(at))
     }
 
-    /// Values of symbols that are numbers.
+    /// Returns the values of constant symbols or formulas.
     ///
     /// # Errors
-    /// [`Error::Refused`] for a name that is not known.
+    /// [`Error::Refused`] for an unknown name.
     pub fn numbers<const N: usize>(&self, names: [&str; N]) -> Result<[f64; N], Error> {
         let mut values = [0.0; N];
         for (value, name) in values.iter_mut().zip(names) {
@@ -113,7 +113,7 @@ impl Book {
         Ok(values)
     }
 
-    /// Every number and formula beside ours.
+    /// Returns every printed number and formula with the computed value.
     ///
     /// # Errors
     /// [`Error::Refused`] for data that cannot be read.
@@ -136,7 +136,7 @@ impl Book {
             conditional,
         ] = record;
         let t = self.value(if at.is_empty() { "0" } else { &at }, 0.0)?;
-        // Of a paper that counts in degrees.
+        // A symbol `angle` converts to radians, for papers in degrees.
         let angle = self.symbols.get("angle");
         let at = now(t, angle.map_or(t, |angle| angle.value(&now(t, t))));
         let value = |formula: &str| self.value_at(formula, &at);
@@ -175,7 +175,7 @@ impl Book {
         })
     }
 
-    /// A column of a printed table: where a row is, and its number.
+    /// Returns a column of a printed table, as (abscissa, printed number) of each row.
     ///
     /// # Errors
     /// [`Error::Refused`] for data that cannot be read.
@@ -188,7 +188,7 @@ impl Book {
             .collect()
     }
 
-    /// Every figure whose curves are formulas.
+    /// Returns every figure whose curves are formulas.
     ///
     /// # Errors
     /// [`Error::Refused`] for data that cannot be read.

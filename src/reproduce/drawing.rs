@@ -1,46 +1,46 @@
-//! The figures of the papers as data.
+//! Data of the recomputed figures of the papers.
 
-/// A figure of a paper, drawn anew.
+/// Recomputed figure of a paper.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawing {
     /// Name of the paper.
     pub paper: &'static str,
-    /// Name of its file, without ending.
+    /// Name of the figure in file names.
     pub name: String,
-    /// What it shows.
+    /// Title.
     pub title: String,
-    /// One plot below or beside the other.
+    /// Plots of the figure, in order.
     pub plots: Vec<Plot>,
 }
 
-/// One pair of axes.
+/// Plot: one pair of axes with its series.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plot {
     /// Name and unit of the horizontal axis.
     pub x: String,
     /// Name and unit of the vertical axis.
     pub y: String,
-    /// What is drawn.
+    /// Curves and points.
     pub series: Vec<Series>,
 }
 
-/// One curve or set of points.
+/// Curve or set of points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
     /// Name of the curve in the legend.
     pub label: String,
-    /// How it is drawn.
+    /// Drawing style.
     pub style: Style,
-    /// x and y; y is not a number where there is no value.
+    /// Points (x, y); y is NaN where undefined.
     pub points: Vec<(f64, f64)>,
 }
 
-/// How a series is drawn.
+/// Drawing style of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
-    /// A line.
+    /// Solid line.
     Line,
-    /// A dashed line.
+    /// Dashed line.
     Dashed,
     /// Single points.
     Points,

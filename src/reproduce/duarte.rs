@@ -11,7 +11,7 @@ const FILES: Files = Files {
     figures: include_str!("../../data/papers/duarte-figures.csv"),
 };
 
-/// The complete equation of the engine; the rod's inertia is about the crank pin, the crank balanced.
+/// Returns the paper with the complete equation of the engine: rod inertia about the crank pin, balanced crank.
 pub(super) fn book() -> Result<Book, Error> {
     let symbols = Book::new(FILES)?;
     let [acceleration] = symbols.numbers(["g"])?;

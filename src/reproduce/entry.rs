@@ -1,20 +1,20 @@
-//! One number or formula of a paper beside ours, and the verdict.
+//! Comparison of one printed number or formula with the computed value, and its verdict.
 
 use serde::{Serialize, Serializer};
 
-/// What comparison says of a printed number or formula.
+/// Verdict on a printed number or formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// The mechanics gives what is printed.
+    /// The computed value agrees with the printed one.
     Reproduces,
-    /// The printed value reproduces under the condition named.
+    /// The printed value reproduces only under the stated condition.
     OnlyIf,
     /// The printed value does not reproduce, and no condition is known under which it would.
     Cannot,
 }
 
 impl Verdict {
-    /// In words.
+    /// Returns the verdict in words.
     pub fn name(self) -> &'static str {
         match self {
             Verdict::Reproduces => "reproduces",
@@ -30,58 +30,58 @@ impl Serialize for Verdict {
     }
 }
 
-/// A printed number or formula beside ours.
+/// Printed number or formula with the computed value.
 #[derive(Clone, Debug, Serialize)]
 pub struct Entry {
     /// Name of the paper.
     pub paper: &'static str,
     /// Equation, table or passage.
     pub place: String,
-    /// What is compared.
+    /// Description of the compared quantity.
     pub what: String,
     /// Unit of all values.
     pub unit: String,
-    /// The number as printed; of a formula, the value that it has as printed.
+    /// Number as printed, or value of the printed formula.
     pub printed: String,
-    /// Ours, by mechanics; none where the paper does not give what it would follow from.
+    /// Computed value; none where the paper lacks the data for it.
     pub ours: Option<f64>,
-    /// The value under `condition`: of other data, or of the formula mended.
+    /// Value under `condition`: with other data, or by the corrected formula.
     pub conditional: Option<f64>,
-    /// What has to be assumed or mended, or why nothing helps.
+    /// Assumption or correction under which the printed value reproduces, or the reason why none is known.
     pub condition: String,
-    /// What the comparison says.
+    /// Verdict of the comparison.
     pub verdict: Verdict,
-    /// What it is known to say.
+    /// Verdict on record.
     pub expected: Verdict,
 }
 
-/// What is printed, as it is compared.
+/// Printed value, in the form in which it is compared.
 #[derive(Clone, Debug)]
 pub(super) enum Printed {
-    /// A number as text, and how far a value may be from it.
+    /// Number as text, its value, and the tolerance.
     Number(String, f64, f64),
-    /// The value of a formula.
+    /// Value of a formula.
     Formula(f64),
 }
 
-/// Largest relative difference of formulas that are the same: rounding makes 1e-15 of it, a derivative by differences 1e-12;
-/// of those that are not the same the nearest differ by 7e-5.
+/// Relative difference up to which two formulas agree: rounding gives 1e-15, a numerical derivative 1e-12; formulas
+/// that disagree differ by 7e-5 or more.
 const SAME: f64 = 1e-9;
 
 impl Printed {
-    /// A number, right within half of its last digit.
+    /// Returns a printed number, with a tolerance of half a unit of its last digit.
     pub fn number(text: &str, value: f64) -> Printed {
         let decimals = text.split_once('.').map_or(0, |(_, digits)| digits.len());
         let half = 0.5 * 10f64.powi(-(decimals as i32));
         Printed::Number(text.to_owned(), value, half * (1.0 + SAME))
     }
 
-    /// Words that stand for all values between two.
+    /// Returns printed words that stand for the range of values between two.
     pub fn between(words: &str, [least, most]: [f64; 2]) -> Printed {
         Printed::Number(words.to_owned(), 0.5 * (least + most), 0.5 * (most - least))
     }
 
-    /// The verdict beside our value and the one under the condition; `cut`: there digits were cut off rather than rounded.
+    /// Returns the verdict from the computed and the conditional value; `cut`: the conditional number may be truncated.
     fn verdict(&self, ours: Option<f64>, conditional: Option<f64>, cut: bool) -> Verdict {
         let (holds, holds_if) = match *self {
             Printed::Number(_, value, tolerance) => {
@@ -99,7 +99,7 @@ impl Printed {
                 let Some(ours) = ours else {
                     return Verdict::Cannot;
                 };
-                // Where nothing is left over, what is printed tells the size.
+                // For a computed zero the printed value sets the scale.
                 let size = if ours == 0.0 { value.abs() } else { ours.abs() };
                 let same = |a: f64| (a - ours).abs() <= SAME * size;
                 (same(value), conditional.is_some_and(same))
@@ -114,7 +114,7 @@ impl Printed {
 }
 
 impl Entry {
-    /// An entry without words: what is printed beside our value, and beside the one under a condition.
+    /// Returns an entry without texts: printed, computed and conditional value with their verdict.
     pub(super) fn judged(
         printed: Printed,
         ours: Option<f64>,
@@ -132,7 +132,7 @@ impl Entry {
                 Printed::Formula(value) => format!("{value}"),
             },
             ours,
-            // A condition that is not needed is not named.
+            // An unneeded condition is dropped.
             conditional: conditional.filter(|_| verdict != Verdict::Reproduces),
             condition: String::new(),
             verdict,

@@ -1,5 +1,5 @@
-//! Gupta: offset slider-crank in a multibody program and by Newton-Raphson, equations (1)-(11). Here is what is no formula:
-//! the loop closed by the script, and the inertias of bodies.
+//! Gupta: offset slider-crank in a multibody program and by Newton-Raphson, equations (1)-(11). This module computes
+//! the values without formula: loop closure by the paper's script, and inertias of bodies.
 
 use std::f64::consts::{PI, TAU};
 
@@ -15,14 +15,14 @@ const FILES: Files = Files {
     figures: include_str!("../../data/papers/gupta-figures.csv"),
 };
 
-/// Initial guess of the script: 180 degrees and 40 mm.
+/// Initial guess of the script: rod angle 180 degrees, slider position 40 mm.
 const GUESS: (f64, f64) = (PI, 0.04);
 
-/// The six quantities of the script, `script_` before them, and ours, `closed_`: its rod points from the slider to the crank
-/// pin.
+/// Names of the six quantities, prefixed by `script_` (by the script) or `closed_` (closed form). The rod angle theta3
+/// is that of the direction from slider to crank pin.
 const QUANTITIES: [&str; 6] = ["theta3", "r4", "omega3", "v4", "alpha3", "a4"];
 
-/// Position, velocity and acceleration by the script and in closed form, SI.
+/// Position, velocity and acceleration by the script and in closed form, in SI units.
 #[derive(Clone, Copy)]
 struct Script {
     linkage: Linkage,
@@ -33,7 +33,7 @@ impl Script {
     fn computed(&self, theta: f64) -> [f64; 6] {
         let Linkage { r, l, .. } = self.linkage;
         let speed = self.speed;
-        // The tolerance of the script is 1e-6 mm.
+        // Tolerance of the script: 1e-6 mm.
         let Some(found) = self.linkage.close_loop(theta, GUESS, 1e-9) else {
             return [f64::NAN; 6];
         };
@@ -75,7 +75,7 @@ impl Script {
         }
     }
 
-    /// Largest relative distance of the two in 200 positions.
+    /// Returns the largest relative difference between script and closed form in 200 positions.
     fn worst(&self) -> f64 {
         let at = |i: u32| {
             let theta = TAU * f64::from(i) / 199.0;
@@ -86,7 +86,7 @@ impl Script {
     }
 }
 
-/// Mass in kg and moments of inertia in kg mm2 of a body of the paper, named BODY_QUANTITY_DENSITY.
+/// Returns mass (kg) or moment of inertia (kg mm2) of a body of the paper, by the name BODY_QUANTITY_DENSITY.
 fn plate(name: &str) -> Option<f64> {
     let mut parts = name.split('_');
     let (shape, depth) = match parts.next()? {

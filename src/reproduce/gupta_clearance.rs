@@ -1,7 +1,7 @@
-//! Gupta, section 2.3 and figures 14 to 16: 1 mm of clearance at the crank pin B.
+//! Gupta, section 2.3 and figures 14 to 16: 1 mm of clearance at the crank pin B, by simulation.
 //!
-//! The paper gives the clearance alone. Assumed are a radial clearance, steel, a bearing of 10 mm radius, restitution
-//! 0.9 and dry friction 0.05.
+//! The paper gives the clearance alone. Assumptions: radial clearance, steel, bearing radius 10 mm, restitution 0.9,
+//! dry friction 0.05.
 
 use std::f64::consts::TAU;
 
@@ -11,9 +11,9 @@ use crate::error::Error;
 use crate::scene::{Clearance, Every, Joint, Rod, Scene, Slider};
 use crate::simulate::{Options, Row, simulate_rows};
 
-/// The crank's speeds, rpm: high, normal, low.
+/// Crank speeds, rpm: high, normal, low.
 const SPEEDS: [f64; 3] = [400.0, 300.0, 30.0];
-/// Turns before the one that is shown, in which the journal comes to the wall.
+/// Number of turns before the one shown, in which the journal reaches the wall.
 const BEFORE: f64 = 1.0;
 
 fn scene(speed: f64) -> Scene {
@@ -40,7 +40,7 @@ fn scene(speed: f64) -> Scene {
     scene
 }
 
-/// The rows of the turn that is shown, at each speed.
+/// Simulates the turn shown, at each speed.
 fn turns() -> Result<Vec<Vec<Row>>, Error> {
     let options = Options {
         estimate: false,
@@ -65,7 +65,7 @@ pub(super) fn entries() -> Result<Vec<Entry>, Error> {
             true => off,
             false => most.max(off.abs()),
         });
-        // Of the stroke, about the width of the lines of a figure.
+        // 1 % of the stroke, about the line width of a figure.
         let printed = Printed::between(words, [0.0, 1.0]);
         Entry {
             place: "2.3, figure 14".to_owned(),

@@ -1,4 +1,4 @@
-//! The four papers that the program implements, number by number and figure by figure, beside ours.
+//! Reproduction of four papers: recomputes every printed number and figure, and returns verdicts and data of figures.
 
 mod book;
 mod drawing;
@@ -15,7 +15,7 @@ use book::Book;
 pub use drawing::{Drawing, Plot, Series, Style};
 pub use entry::{Entry, Verdict};
 
-/// A paper.
+/// Paper on the slider-crank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Paper {
     /// Obaseki and Alfred 2020, Modeling and investigating the effect of offset distance on slider-crank
@@ -31,10 +31,10 @@ pub enum Paper {
 }
 
 impl Paper {
-    /// All of them.
+    /// All papers.
     pub const ALL: [Paper; 4] = [Paper::ObasekiAlfred, Paper::Gupta, Paper::Ng, Paper::Duarte];
 
-    /// Name of the paper in arguments and file names.
+    /// Returns the name of the paper in arguments and file names.
     pub fn name(self) -> &'static str {
         match self {
             Paper::ObasekiAlfred => "obaseki-alfred",
@@ -44,7 +44,7 @@ impl Paper {
         }
     }
 
-    /// Who wrote it.
+    /// Returns the authors.
     pub fn authors(self) -> &'static str {
         match self {
             Paper::ObasekiAlfred => "Obaseki and Alfred",
@@ -54,23 +54,23 @@ impl Paper {
         }
     }
 
-    /// The paper of a name.
+    /// Returns the paper of a name.
     pub fn named(name: &str) -> Option<Paper> {
         Paper::ALL.into_iter().find(|paper| paper.name() == name)
     }
 }
 
-/// Numbers and figures of some papers.
+/// Numbers and figures of papers.
 #[derive(Clone, Debug)]
 pub struct Reproduction {
-    /// Every number and formula, in the order of the papers.
+    /// Comparisons of every number and formula, in the order of the papers.
     pub entries: Vec<Entry>,
-    /// Every figure.
+    /// Data of every figure.
     pub drawings: Vec<Drawing>,
 }
 
 impl Reproduction {
-    /// Entries whose verdict is not the known one; none if all is well.
+    /// Returns the entries whose verdict differs from the one on record.
     pub fn surprises(&self) -> impl Iterator<Item = &Entry> {
         let unexpected = |entry: &&Entry| entry.verdict != entry.expected;
         self.entries.iter().filter(unexpected)
@@ -80,7 +80,7 @@ impl Reproduction {
 /// Computes every number and figure of the papers.
 ///
 /// # Errors
-/// None that is known; those of the studies it is made of.
+/// Errors of the computations involved; no case is known.
 ///
 /// ```
 /// use slider_crank::reproduce::{Paper, reproduce};

@@ -1,5 +1,5 @@
-//! Ng: static forces with friction, equations (1)-(11), (A1)-(A3), tables 1 and 2. Here is what is no formula: the line of
-//! the calibration, and the points of the tables in the figures.
+//! Ng: static forces with friction, equations (1)-(11), (A1)-(A3), tables 1 and 2. This module computes the values
+//! without formula: the calibration line, and the points of the tables in the figures.
 
 use super::book::{Book, Files};
 use super::drawing::{Drawing, Style};
@@ -16,7 +16,7 @@ const FILES: Files = Files {
     figures: include_str!("../../data/papers/ng-figures.csv"),
 };
 
-/// Table 1: weights in N and strains in 1e-6.
+/// Table 1: weights, N, and strains, 1e-6.
 const CALIBRATION: [(f64, f64); 6] = [
     (2.45, 50.0),
     (4.91, 95.0),
@@ -54,7 +54,7 @@ pub(super) fn book() -> Result<Book, Error> {
     Ok(symbols.with(quantities::of(mechanisms, of_tables)))
 }
 
-/// The figures with the points of the tables.
+/// Returns the figures, with the points of the tables.
 pub(super) fn drawings() -> Result<Vec<Drawing>, Error> {
     let book = book()?;
     let mut drawings = book.drawings()?;

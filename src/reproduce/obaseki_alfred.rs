@@ -1,5 +1,5 @@
-//! Obaseki and Alfred 2020: offset slider-crank at constant speed, equations (1)-(53), tables 1 to 3. Here is what is no
-//! formula: their grid of 1 ms, and the largest torque by the sentence above (48).
+//! Obaseki and Alfred 2020: offset slider-crank at constant speed, equations (1)-(53), tables 1 to 3. This module
+//! computes the values without formula: their grid of 1 ms, and the largest torque by the sentence above (48).
 
 use std::f64::consts::TAU;
 
@@ -15,10 +15,10 @@ const FILES: Files = Files {
     figures: include_str!("../../data/papers/obaseki-alfred-figures.csv"),
 };
 
-/// Points of a turn at which the largest torque is sought: the figure is read to 2 %.
+/// Number of points per turn in the search for the largest torque; the figure is read to 2 %.
 const TURN: u32 = 36_000;
 
-/// The engine of table 1 with another offset, m, and uniform crank and rod; the rod as two masses, (31)-(33).
+/// Returns the engine of table 1 with another offset, m, uniform crank and rod, and the rod as two masses, (31)-(33).
 fn engine(symbols: &Book, offset: f64) -> Result<Scene, Error> {
     let names = ["k", "c", "m_crank", "m_rod", "m_slider", "w"];
     let [k, c, crank, rod, slider, speed] = symbols.numbers(names)?;
@@ -77,7 +77,7 @@ pub(super) fn book() -> Result<Book, Error> {
     Ok(symbols.with(quantities::of(mechanisms, number)))
 }
 
-/// Last samples, ms, before the slider velocity (13) with e = 0 changes its sign on a grid of 1 ms.
+/// Returns the last samples, ms, before the first two sign changes of the slider velocity (13), e = 0, 1 ms grid.
 fn sign_changes(symbols: &Book) -> Result<(f64, f64), Error> {
     let [speed] = symbols.numbers(["w"])?;
     let mut last = Vec::new();
@@ -95,8 +95,8 @@ fn sign_changes(symbols: &Book) -> Result<(f64, f64), Error> {
     }
 }
 
-/// Largest k F_i sin theta on the inward and on the outward stroke, with the rod's centre of gravity at a
-/// third of it from the crank pin: what the sentence above (48) says, with exact accelerations.
+/// Returns the largest k F_i sin theta (N m) of the inward and outward stroke by the sentence above (48), with exact
+/// accelerations and the centre of gravity of the rod at a third of its length from the crank pin.
 fn perpendicular(symbols: &Book, offset: f64) -> Result<[f64; 2], Error> {
     let names = ["k", "w", "m_crank", "m_rod", "m_slider"];
     let [k, w, crank, rod, slider] = symbols.numbers(names)?;

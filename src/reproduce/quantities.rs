@@ -1,4 +1,4 @@
-//! Quantities of a mechanism by name, with which formulas of a paper are compared.
+//! Quantities of a mechanism by name, against which formulas of papers are compared.
 
 use std::cell::OnceCell;
 
@@ -7,7 +7,7 @@ use crate::mechanism::{Equation, EquivalentMasses, Extremes, Limits, Linkage};
 use crate::scene::Scene;
 use crate::statics::StaticAnalysis;
 
-/// A mechanism of a paper.
+/// Mechanism of a paper, with its analyses.
 pub(super) struct Ours {
     scene: Scene,
     linkage: Linkage,
@@ -35,7 +35,7 @@ impl Ours {
         }
     }
 
-    /// Value of a quantity at a crank angle, rad; motion per unit of crank speed.
+    /// Returns a quantity at a crank angle, rad, in SI units; motion as derivatives by the crank angle.
     pub fn value(&self, name: &str, theta: f64) -> Option<f64> {
         let pose = self.linkage.pose(theta);
         let first = || self.linkage.first_order(theta);
@@ -88,7 +88,7 @@ impl Ours {
             "inward" => largest(forces()?.inward?),
             "outward" => largest(forces()?.outward?),
             "force" => at_rest()?.balance.band?.value,
-            // The edge of the band on the side of zero.
+            // Lower edge of the friction band.
             "least" => at_rest()?.balance.band?.min?,
             "thrust" => at_rest()?.balance.side_thrust?,
             "velocity_ratio" => at_rest()?.velocity_ratio,
@@ -104,7 +104,7 @@ impl Ours {
     }
 }
 
-/// Quantities of some mechanisms, named NAME_QUANTITY.
+/// Returns the quantities of mechanisms, by the names MECHANISM_QUANTITY, and those of `other`.
 pub(super) fn of(
     mechanisms: Vec<(&'static str, Ours)>,
     other: impl Fn(&str, f64) -> Option<f64> + 'static,

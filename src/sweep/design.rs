@@ -1,4 +1,4 @@
-//! One design of a sweep.
+//! One design of a sweep: computes its closed-form turn, diagrams, steady state and motion, as the options ask.
 
 use serde::Serialize;
 
@@ -9,22 +9,22 @@ use crate::numeric::stop::Stop;
 use crate::scene::{Scene, VariedValue};
 use crate::simulate::{NoRows, Options, SteadyState, Summary, simulate_rows, steady_state};
 
-/// How far a design could be computed.
+/// Extent to which a design could be computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
-    /// All that was asked for.
+    /// All results were computed.
     Done,
-    /// The motion ended before its time.
+    /// The motion ended before the end of the run.
     Stopped,
-    /// There is a mechanism, but its motion cannot be computed.
+    /// The scene is valid, but diagrams, steady state or motion cannot be computed.
     Refused,
-    /// The values make no scene.
+    /// The values give no valid scene.
     Impossible,
 }
 
 impl Outcome {
-    /// As CSV and JSON have it.
+    /// Returns the name used in CSV and JSON.
     pub fn name(self) -> &'static str {
         match self {
             Outcome::Done => "done",
@@ -35,24 +35,24 @@ impl Outcome {
     }
 }
 
-/// The key figures of one design.
+/// Results of one design, from which its key figures are read.
 #[derive(Clone, Debug)]
 pub struct Design {
-    /// Place in the sweep, from 0.
+    /// Index in the sweep, from 0.
     pub index: usize,
-    /// The value of each varied key.
+    /// Value of each varied key.
     pub values: Vec<VariedValue>,
-    /// How far it could be computed.
+    /// Extent to which the design could be computed.
     pub outcome: Outcome,
-    /// Why no further, and what else the reader should know.
+    /// Reason for any other outcome than done, then warnings.
     pub notes: Vec<String>,
     /// One turn in closed form; none for an impossible design.
     pub kinematics: Option<Kinematics>,
-    /// The diagrams of a cycle, if they were asked for and there are any.
+    /// Diagrams of a cycle, if asked for and defined.
     pub diagrams: Option<Diagrams>,
-    /// The forward motion, if it was asked for and could be computed; its list of events is empty.
+    /// Forward motion, if asked for and computed; the list of events is empty.
     pub motion: Option<Summary>,
-    /// The periodic steady state, if it was asked for and there is one.
+    /// Periodic steady state, if asked for and found.
     pub steady: Option<SteadyState>,
 }
 
@@ -80,14 +80,14 @@ impl Design {
         design
     }
 
-    /// Of a scene whose values are possible.
+    /// Computes all that is asked of a valid scene.
     fn compute(&mut self, scene: &Scene, options: &SweepOptions) {
         let turn = kinematics::of_checked(scene);
         self.notes.extend(turn.warnings.iter().cloned());
         self.kinematics = Some(turn);
         if options.diagrams {
             match forces(scene) {
-                // The usual half of the first order is balanced.
+                // Counterweight for half of the reciprocating mass, the usual part.
                 Ok(analysis) => self.diagrams = analysis.diagrams(scene, 0.5),
                 Err(error) => self.fail(Outcome::Refused, &error),
             }
@@ -107,7 +107,7 @@ impl Design {
             estimate: options.estimate,
             max_evaluations: options.max_evaluations,
             stop: options.stop.as_ref().map(Stop::of_one),
-            // All that is wanted of the events is their number.
+            // Only the number of events is needed.
             events_kept: 0,
             ..Options::default()
         };

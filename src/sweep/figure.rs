@@ -1,4 +1,4 @@
-//! The key figures of a design, by name.
+//! Key figures of a design: reads a named scalar or word from its results.
 
 use std::fmt;
 use std::str::FromStr;
@@ -9,7 +9,7 @@ use crate::scene::nearest;
 use crate::scene::unit::Quantity;
 use crate::simulate::{Peaks, SteadyState, Summary};
 
-/// A key figure of a design, read from its name with or without its unit.
+/// Key figure of a design, parsed from its name with or without the unit.
 ///
 /// ```
 /// use slider_crank::sweep::Figure;
@@ -24,7 +24,7 @@ pub struct Figure {
     of: Of,
 }
 
-/// What a figure is read from, and its cell.
+/// Function that reads a figure, by the result it needs.
 #[derive(Clone, Copy)]
 enum Of {
     Turn(fn(&Kinematics) -> Cell<'_>),
@@ -35,31 +35,31 @@ enum Of {
     Flywheel(fn(&SteadyState) -> Cell<'_>),
 }
 
-/// A figure of one design.
+/// Value of a figure for one design.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cell<'a> {
-    /// In SI units and radians.
+    /// Number in SI units and radians.
     Number(f64),
-    /// A word.
+    /// Word, for a class or an engine.
     Word(&'a str),
-    /// The design has none.
+    /// Absent from this design.
     Empty,
 }
 
-/// What has to be computed of a design.
+/// Computation from which a figure is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Source {
-    /// One turn in closed form, at the scene's speed.
+    /// One turn in closed form, at the start speed of the scene.
     Turn,
-    /// The diagrams of a cycle at the scene's speed.
+    /// Diagrams of a cycle, at the start speed of the scene.
     Diagrams,
-    /// The forward motion.
+    /// Forward motion.
     Motion,
-    /// The largest joint forces of the motion.
+    /// Largest joint forces of the motion.
     Peaks,
-    /// The periodic steady state.
+    /// Periodic steady state.
     Steady,
-    /// The flywheel of the steady state.
+    /// Flywheel for a coefficient of fluctuation of the steady state.
     Flywheel,
 }
 
@@ -99,14 +99,14 @@ fn some(value: Option<f64>) -> Cell<'static> {
     value.map_or(Cell::Empty, Cell::Number)
 }
 
-/// Velocities and accelerations are those at the scene's speed.
+/// Velocity or acceleration of the slider; empty if the scene has no speed to scale it.
 fn at_speed(turn: &Kinematics, located: Option<Located>) -> Cell<'static> {
     let moves = turn.speed_rad_per_s.is_some();
     some(located.filter(|_| moves).map(|located| located.value))
 }
 
 impl Figure {
-    /// All of them, as the columns of rows follow each other.
+    /// All figures, in the order of the columns.
     pub const ALL: &[Figure] = {
         use Cell::{Number, Word};
         use Quantity::{
@@ -214,12 +214,12 @@ impl Figure {
         ]
     };
 
-    /// What it measures.
+    /// Returns the physical quantity.
     pub fn quantity(&self) -> Quantity {
         self.quantity
     }
 
-    /// What it takes.
+    /// Returns the computation that the figure needs.
     pub fn source(&self) -> Source {
         match self.of {
             Of::Turn(_) => Source::Turn,
@@ -231,7 +231,7 @@ impl Figure {
         }
     }
 
-    /// The figure of a design.
+    /// Returns the value for a design.
     pub fn cell<'a>(&self, design: &'a Design) -> Cell<'a> {
         let motion = design.motion.as_ref();
         let cell = match self.of {
@@ -244,7 +244,7 @@ impl Figure {
         cell.unwrap_or(Cell::Empty)
     }
 
-    /// The number of a design, in SI units and radians; none of a word or where the design has none.
+    /// Returns the number for a design, in SI units and radians; none for a word or an absent value.
     pub fn number(&self, design: &Design) -> Option<f64> {
         match self.cell(design) {
             Cell::Number(number) => Some(number),
@@ -253,7 +253,7 @@ impl Figure {
     }
 }
 
-/// The name of the column, with the SI unit.
+/// Writes the name of the column, with the SI unit.
 impl fmt::Display for Figure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name)?;
@@ -264,7 +264,7 @@ impl fmt::Display for Figure {
     }
 }
 
-/// Figures of one name are one.
+/// Compares figures by name.
 impl PartialEq for Figure {
     fn eq(&self, other: &Figure) -> bool {
         self.name == other.name

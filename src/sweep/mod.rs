@@ -1,4 +1,4 @@
-//! Key figures of many designs: one scene with some of its values varied.
+//! Parameter sweep: scene and values of keys in, key figures of a full factorial or Latin hypercube sample out.
 
 mod design;
 mod figure;
@@ -23,7 +23,7 @@ pub use pareto::{Goal, Member, ParetoFront};
 
 const EXAMPLE: &str = "say which key takes which values, like --vary geometry.offset=0mm:20mm:41";
 
-/// Whether the keys are varied once each, and make a number of designs that can be counted.
+/// Checks that each key is varied once, distributions are sampled, and the number of designs is within [`Sweep::MOST`].
 fn check_count(varied: &[Varied], sample: Option<LatinHypercube>) -> Result<(), Error> {
     let refused = |what, help: &str| Err(Error::refused(what, help));
     for (i, one) in varied.iter().enumerate() {
@@ -56,8 +56,8 @@ fn check_count(varied: &[Varied], sample: Option<LatinHypercube>) -> Result<(), 
     }
 }
 
-/// A scene with values varied: every combination of them is a design. The last of the varied keys changes
-/// from one design to the next, the first one slowest.
+/// Scene with varied values: each combination is a design, the last key varying fastest, the first one slowest; or each
+/// point of a Latin hypercube sample is.
 ///
 /// ```
 /// use slider_crank::scene::{Draft, Varied};
@@ -82,16 +82,16 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Most designs of a sweep.
+    /// Maximum number of designs of a sweep.
     pub const MOST: usize = 1_000_000_000;
 
-    /// Every combination of these values, or a sample of them.
+    /// Prepares a sweep over all combinations of the values, or over a sample.
     ///
     /// # Errors
-    /// [`Error::Refused`] if nothing is varied, a key twice, or there are more than [`Sweep::MOST`] designs;
-    /// if a distribution is not sampled; or if forces are asked for without a motion;
-    /// [`Error::Scene`] if neither the scene as it is written nor the first design can be read, or if a load that
-    /// is to be varied is not there.
+    /// [`Error::Refused`] if no key is varied, one key is varied twice, there are more than [`Sweep::MOST`] designs,
+    /// a distribution is not sampled, forces or named figures of a motion have no motion, or a figure of the flywheel
+    /// no coefficient of fluctuation; [`Error::Scene`] if neither the scene as written nor the first design can be
+    /// read, or a varied load does not exist.
     pub fn new(draft: Draft, varied: Vec<Varied>, options: SweepOptions) -> Result<Sweep, Error> {
         check_count(&varied, options.sample)?;
         let mut sweep = Sweep {
@@ -100,7 +100,7 @@ impl Sweep {
             options,
             title: String::new(),
         };
-        // What is wrong with the file shows here once, not in every design.
+        // Errors of the file are reported here once, not in every design.
         sweep
             .varied
             .iter()
@@ -116,7 +116,7 @@ impl Sweep {
         Ok(sweep)
     }
 
-    /// Number of designs, at least one.
+    /// Returns the number of designs, at least one.
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
         match self.options.sample {
@@ -125,35 +125,34 @@ impl Sweep {
         }
     }
 
-    /// The keys that are varied.
+    /// Returns the varied keys.
     pub fn varied(&self) -> &[Varied] {
         &self.varied
     }
 
-    /// The key figures of each design.
+    /// Returns the key figures of each design.
     pub fn figures(&self) -> &[Figure] {
         &self.options.figures
     }
 
-    /// Whether the designs are drawn at random, and how.
+    /// Returns the Latin hypercube from which designs are drawn; none for all combinations.
     pub fn sample(&self) -> Option<LatinHypercube> {
         self.options.sample
     }
 
-    /// Title of the scene.
+    /// Returns the title of the scene.
     pub fn title(&self) -> &str {
         &self.title
     }
 
-    /// This sweep over the same designs, their motions with estimates of their errors.
+    /// Returns a copy of the sweep that estimates the error of each motion.
     pub fn with_estimates(&self) -> Sweep {
         let mut sweep = self.clone();
         sweep.options.estimate = true;
         sweep
     }
 
-    /// The designs of part `part` of `parts`, counted from 1: parts of nearly the same size that follow each
-    /// other.
+    /// Returns the designs of part `part` of `parts`, counted from 1: consecutive parts of sizes equal to one design.
     ///
     /// # Errors
     /// [`Error::Refused`] if there is no such part.
@@ -168,7 +167,7 @@ impl Sweep {
         Ok(edge(part - 1)..edge(part))
     }
 
-    /// A number that is another one for a sweep of another scene file, other values or other options.
+    /// Returns a hash of program version, scene file, varied values and options, without requests to stop.
     pub fn identity(&self) -> u64 {
         let mut hasher = DefaultHasher::new();
         let version = env!("CARGO_PKG_VERSION");
@@ -189,7 +188,7 @@ impl Sweep {
         hasher.finish()
     }
 
-    /// The value that each varied key has in a design.
+    /// Returns the value of each varied key in a design.
     fn values(&self, design: usize) -> Vec<VariedValue> {
         if let Some(sample) = self.options.sample {
             let keys = (0..).zip(&self.varied);
@@ -215,22 +214,22 @@ impl Sweep {
         self.design_of(index, self.values(index))
     }
 
-    /// Computes the design of these values, under an index.
+    /// Computes the design of `values`, with index `index`.
     pub fn design_of(&self, index: usize, values: Vec<VariedValue>) -> Design {
         let scene = self.scene(&values);
         Design::new(index, values, scene, &self.options)
     }
 
-    /// Computes designs on all cores and hands them on in their order, some at a time.
+    /// Computes designs on all cores and passes them to `take` in order, in batches.
     ///
     /// # Errors
-    /// The errors of `take`; [`Error::Interrupted`].
+    /// Errors of `take`; [`Error::Interrupted`].
     pub fn designs(
         &self,
         range: Range<usize>,
         mut take: impl FnMut(Vec<Design>) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        /// Time after which designs are handed on, so that little is lost when the sweep is cut off.
+        /// Target for the time of one batch, half to once this, which bounds the loss when the sweep is cut off.
         const PAUSE: Duration = Duration::from_millis(500);
         let (mut start, mut count) = (range.start, 16);
         while start < range.end {

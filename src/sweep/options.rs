@@ -1,4 +1,4 @@
-//! What is computed of every design.
+//! Options of a sweep: computations of every design, and the figures read from them.
 
 use super::{Figure, LatinHypercube, Source};
 use crate::error::Error;
@@ -6,28 +6,28 @@ use crate::numeric::stop::Stop;
 use crate::plan::Method;
 use crate::simulate::{Options, SteadyOptions};
 
-/// What is asked of every design beside what the scene says.
+/// Computations asked of every design, beyond the scene.
 #[derive(Clone, Debug)]
 pub struct SweepOptions {
-    /// Key figures, which say what is computed; if there are none, those of the turn and of what is asked for below.
+    /// Key figures, which decide the computations; if empty, all figures of the turn and of the computations below.
     pub figures: Vec<Figure>,
-    /// Random values of the varied keys in place of all combinations.
+    /// Latin hypercube sample of the varied keys, in place of all combinations.
     pub sample: Option<LatinHypercube>,
-    /// Whether the diagrams of a cycle are computed.
+    /// Whether to compute the diagrams of a cycle.
     pub diagrams: bool,
-    /// Whether the forward motion is computed, if the scene has a run; else one turn in closed form only.
+    /// Whether to compute the forward motion, for scenes with a run.
     pub motion: bool,
-    /// Whether the largest joint forces of the motion are looked for.
+    /// Whether to find the largest joint forces of the motion.
     pub reactions: bool,
-    /// Whether the periodic steady state is looked for, and with which flywheel.
+    /// Settings of the search for the periodic steady state and its flywheel; none without search.
     pub steady: Option<SteadyOptions>,
-    /// The method of the forward motion.
+    /// Method of the forward motion.
     pub method: Method,
-    /// Whether its global error is estimated, by a second run.
+    /// Whether to estimate the global error of the motion, by a second run.
     pub estimate: bool,
-    /// Most evaluations of the equation in one design.
+    /// Maximum number of evaluations of the equation in one motion.
     pub max_evaluations: u64,
-    /// A request to stop; designs that are not complete by then are not handed on.
+    /// Request to stop; the batch in progress is then dropped.
     pub stop: Option<Stop>,
 }
 
@@ -50,8 +50,8 @@ impl Default for SweepOptions {
 }
 
 impl SweepOptions {
-    /// Settles what is computed and which figures are shown, for scenes with or without a run. Figures that are named say
-    /// what is computed, and nothing else is.
+    /// Derives the computations from named figures, or the figures from the computations, for scenes with or without a
+    /// run. Named figures override the other options.
     pub(super) fn settle(&mut self, has_run: bool) -> Result<(), Error> {
         let named = !self.figures.is_empty();
         let takes = |source| self.figures.iter().any(|one| one.source() == source);
@@ -90,7 +90,7 @@ impl SweepOptions {
         Ok(())
     }
 
-    /// Whether figures of this source are among those of what is asked for.
+    /// Whether the options ask for the computation `source`.
     fn has(&self, source: Source) -> bool {
         match source {
             Source::Turn => true,

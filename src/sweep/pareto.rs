@@ -1,35 +1,35 @@
-//! The Pareto front: designs that no other is better than in one figure without being worse in another.
+//! Pareto front: keeps, of designs taken one by one, those that no other dominates.
 
 use super::Figure;
 
-/// A figure that should be as small, or as large, as it can be.
+/// Figure to minimise or maximise.
 #[derive(Clone, Copy, Debug)]
 pub struct Goal {
-    /// The figure.
+    /// Goal figure.
     pub figure: Figure,
-    /// Whether more of it is better.
+    /// True to maximise, false to minimise.
     pub most: bool,
 }
 
-/// A design of a front.
+/// Non-dominated design.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Member {
-    /// From 1.
+    /// Number of the design, from 1.
     pub design: usize,
     /// Figures of the design, in the order of the goals.
     pub figures: Vec<f64>,
 }
 
-/// The designs so far that no other one dominates, in the order in which they came.
+/// Non-dominated designs, in order of arrival.
 #[derive(Clone, Debug)]
 pub struct ParetoFront {
-    /// Of each goal whether more is better.
+    /// Sense of each goal: true to maximise.
     most: Vec<bool>,
     members: Vec<Member>,
 }
 
 impl ParetoFront {
-    /// Of these senses; true: more is better.
+    /// Starts an empty front; `most`, one per goal, is true to maximise.
     pub fn new(most: Vec<bool>) -> ParetoFront {
         ParetoFront {
             most,
@@ -37,7 +37,7 @@ impl ParetoFront {
         }
     }
 
-    /// Takes a design that has all figures; of equal ones the first stays.
+    /// Inserts a design unless dominated and removes those it dominates; of equal designs the first stays.
     pub fn take(&mut self, design: usize, figures: &[f64]) {
         let no_worse = |one: &[f64], other: &[f64]| {
             let pairs = one.iter().zip(other).zip(&self.most);
@@ -57,7 +57,7 @@ impl ParetoFront {
         });
     }
 
-    /// The front.
+    /// Returns the front.
     pub fn members(&self) -> &[Member] {
         &self.members
     }

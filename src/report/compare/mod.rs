@@ -1,4 +1,4 @@
-//! Several motions over each other, with their differences.
+//! Comparison of motions: interpolates them at the times of the first and returns differences by column.
 
 mod motion;
 
@@ -14,16 +14,16 @@ use crate::error::Error;
 pub use motion::Motion;
 use motion::TIME;
 
-/// Motions at common times, with what they differ by from the first.
+/// Motions at the times of the first, with their differences from it.
 #[derive(Debug, Serialize)]
 pub struct Comparison {
-    /// Where the motions come from, in order.
+    /// Names of the scenes or files of the motions, in order.
     pub motions: Vec<String>,
-    /// Number of times.
+    /// Number of compared times.
     pub rows: usize,
     /// Differences of each motion from the first, by column.
     pub differences: Vec<Difference>,
-    /// What is to be known beside them.
+    /// Warnings about interpolation between rows.
     pub warnings: Vec<String>,
     #[serde(skip)]
     title: String,
@@ -31,25 +31,25 @@ pub struct Comparison {
     table: Table,
 }
 
-/// Differences of a column from that of the first motion, in SI.
+/// Difference of one column from the first motion, in SI units.
 #[derive(Clone, Debug, Serialize)]
 pub struct Difference {
-    /// The column with its unit.
+    /// Column, with its unit.
     pub column: String,
-    /// The motion that is compared with the first.
+    /// Name of the motion compared with the first.
     pub motion: String,
-    /// Largest size.
+    /// Largest absolute difference.
     pub largest: f64,
-    /// When it occurs, s.
+    /// Time of the largest absolute difference, s.
     pub at_s: f64,
-    /// Root of the mean square.
+    /// Root mean square difference over the common times.
     pub rms: f64,
-    /// At the last common time.
+    /// Difference at the last common time.
     pub last: f64,
 }
 
 impl Comparison {
-    /// Compares motions at the times of the first. Angles are taken to the same turn at the first common time.
+    /// Compares motions at the times of the first. Whole turns between angles at the first common time are removed.
     ///
     /// # Errors
     /// [`Error::Refused`] if motions have no column or no time in common.
@@ -158,7 +158,7 @@ impl Report for Comparison {
         self.table.clone()
     }
 
-    /// Position and speed of crank and slider.
+    /// Returns the plot of position and speed of crank and slider.
     fn look(&self) -> Look<'_> {
         Look {
             title: &self.title,
@@ -179,7 +179,7 @@ impl Report for Comparison {
     }
 }
 
-/// Whole turns (rad) between two angles where both are first known.
+/// Returns the whole turns (rad) in the first finite difference of two angles.
 fn whole_turns(off: &[f64]) -> f64 {
     let first = off.iter().find(|value| value.is_finite());
     let turn = std::f64::consts::TAU;

@@ -1,4 +1,4 @@
-//! A motion by its rows.
+//! Motion as a table of rows, from a run or a file, and its interpolation at other times.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use crate::report::table::Table;
 use crate::scene::{Measured, Measurement, Reading};
 use crate::simulate::Row;
 
-/// A motion by its rows, and where it comes from.
+/// Motion as a table of rows, with the name of its scene or file.
 #[derive(Debug)]
 pub struct Motion {
     pub(super) name: String,
@@ -18,7 +18,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// Of the rows of a run.
+    /// Returns the motion of the rows of a run.
     pub fn of_rows(name: &str, rows: &[Row]) -> Motion {
         let mut table = Table::new(&rows.first().map_or(TIME.to_owned(), header));
         for row in rows {
@@ -30,7 +30,7 @@ impl Motion {
         }
     }
 
-    /// Of a file: rows as this program writes them, else a measured motion.
+    /// Reads the motion of a file: rows written by this program, else a measured motion.
     ///
     /// # Errors
     /// [`Error::Read`] and [`Error::Scene`] for a file that is neither.
@@ -52,12 +52,12 @@ impl Motion {
         Ok(Motion { name, table })
     }
 
-    /// The times of its rows, s.
+    /// Returns the times of the rows, s.
     pub fn times(&self) -> &[f64] {
         self.table.numbers(TIME).unwrap_or_default()
     }
 
-    /// A column at other times, not a number outside of its rows; and whether that took interpolation.
+    /// Returns a column at other times, NaN outside its rows, and whether any value is interpolated.
     pub(super) fn at(&self, column: &str, times: &[f64]) -> (Vec<f64>, bool) {
         let own = self.times();
         let values = self.table.numbers(column).unwrap_or_default();
@@ -77,10 +77,10 @@ impl Motion {
     }
 }
 
-/// The column of times.
+/// Name of the column of times.
 pub(super) const TIME: &str = "t_s";
 
-/// Rows as this program writes them: numbers in SI under names with units, the time first.
+/// Reads rows written by this program: numbers under names with units, time first; none for any other file.
 fn own_rows(file: &Path) -> Option<Table> {
     let mut reader = ::csv::Reader::from_path(file).ok()?;
     let names: Vec<String> = reader.headers().ok()?.iter().map(str::to_owned).collect();
@@ -101,7 +101,7 @@ fn own_rows(file: &Path) -> Option<Table> {
         .then_some(table)
 }
 
-/// The cubic through the four rows about a time, before row `after`.
+/// Evaluates at `t` the Lagrange cubic through the four rows about it; `after` is the first row not before `t`.
 fn interpolated(times: &[f64], values: &[f64], after: usize, t: f64) -> f64 {
     let first = after.saturating_sub(2).min(times.len().saturating_sub(4));
     let nodes = first..(first + 4).min(times.len());

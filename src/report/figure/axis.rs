@@ -1,31 +1,31 @@
-//! An axis: label, range, where a value lies on it, and the ticks.
+//! Axis of a figure: label, range, mapping of values to positions, and ticks.
 
 use super::words::{TEXT, fitted, width};
 
-/// Part of the length of an axis that is left free beyond the values, at each end.
+/// Fraction of the range of the values left free at each end of an axis.
 const FREE_SHARE: f64 = 0.04;
 
-/// Values beyond this are no quantities, and their differences may overflow.
+/// Largest size of a value that is drawn; differences of larger ones may overflow.
 const LARGEST: f64 = 1e300;
 
-/// Values closer together than this part of their size are one value.
+/// Relative range of values below which they count as constant.
 const CONSTANT: f64 = 1e-13;
 
-/// Parts and multiples of a turn at which angles are read, degrees.
+/// Tick distances of angles: parts and multiples of a turn, degrees.
 const PARTS_OF_TURN: [f64; 8] = [10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0, 720.0];
 
-/// How values are spread over an axis.
+/// Kind of scale of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Spacing {
     Linear,
-    /// Linear, read at parts of a turn.
+    /// Linear, with ticks at parts of a turn.
     Degrees,
-    /// By the decimal logarithm; values that are not positive have no place.
+    /// Decimal logarithm; values that are not positive are not drawn.
     Log,
 }
 
 impl Spacing {
-    /// The value that is spread evenly; not a number if there is none.
+    /// Returns the coordinate of a value along the axis; NaN if it cannot be drawn.
     fn coordinate(self, value: f64) -> f64 {
         match self {
             _ if value.abs() > LARGEST => f64::NAN,
@@ -36,11 +36,11 @@ impl Spacing {
     }
 }
 
-/// An axis.
+/// Axis of a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     pub(in crate::report) label: String,
-    /// Where there is no room for the label.
+    /// Label used where the full one does not fit; empty for none.
     short: String,
     kind: Spacing,
     range: Option<(f64, f64)>,
@@ -56,40 +56,40 @@ impl Axis {
         }
     }
 
-    /// A linear axis; the label names the quantity and its unit.
+    /// Returns a linear axis; the label names the quantity and its unit.
     pub fn linear(label: impl Into<String>) -> Axis {
         Axis::new(label, Spacing::Linear)
     }
 
-    /// A linear axis of angles in degrees, with ticks at parts of a turn; the label names the angle and its unit.
+    /// Returns a linear axis of angles in degrees, ticks at parts of a turn; the label names the angle and its unit.
     pub fn degrees(label: impl Into<String>) -> Axis {
         Axis::new(label, Spacing::Degrees)
     }
 
-    /// A logarithmic axis; the label names the quantity and its unit.
+    /// Returns a logarithmic axis; the label names the quantity and its unit.
     pub fn log(label: impl Into<String>) -> Axis {
         Axis::new(label, Spacing::Log)
     }
 
-    /// With a shorter label, for where there is no room for the other.
+    /// Sets a shorter label, used where the full one does not fit.
     pub fn or(mut self, short: impl Into<String>) -> Axis {
         self.short = short.into();
         self
     }
 
-    /// Shows exactly this range; what lies outside is cut off. Without it the axis fits the values.
+    /// Sets the exact range, outside which curves are cut off; without it the axis fits the values.
     pub fn range(mut self, low: f64, high: f64) -> Axis {
         self.range = Some((low, high));
         self
     }
 
-    /// Shows this range, with the room beside it that an axis leaves beside values.
+    /// Sets the range, widened by the usual free space of an axis.
     pub fn around(self, low: f64, high: f64) -> Axis {
         let free = FREE_SHARE * (high - low);
         self.range(low - free, high + free)
     }
 
-    /// The label that has room in a length, pixels.
+    /// Returns the label that fits into a length, pixels.
     pub(super) fn label_within(&self, length: f64) -> String {
         match width(&self.label, TEXT) <= length || self.short.is_empty() {
             true => fitted(&self.label, length),
@@ -97,19 +97,19 @@ impl Axis {
         }
     }
 
-    /// Whether a value has a place on the axis.
+    /// Whether a value can be drawn on the axis.
     pub(super) fn shows(&self, value: f64) -> bool {
         self.kind.coordinate(value).is_finite()
     }
 }
 
-/// A tick: where on the axis (0 to 1), and what is written there.
+/// Tick: position on the axis, 0 to 1, and label.
 pub(super) struct Tick {
     pub at: f64,
     pub label: String,
 }
 
-/// An axis with the limits of its coordinate.
+/// Scale of an axis: kind and limits of the coordinate.
 pub(super) struct Scale {
     kind: Spacing,
     low: f64,
@@ -117,7 +117,7 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// The scale of an axis that has to show these values, if it has no range of its own.
+    /// Returns the scale of an axis: its own range, else the range of the values with free space.
     pub fn new(axis: &Axis, values: impl Iterator<Item = f64>) -> Scale {
         let kind = axis.kind;
         let asked = axis
@@ -144,24 +144,24 @@ impl Scale {
         Scale { kind, low, high }
     }
 
-    /// Length of the axis in its coordinate.
+    /// Returns the length of the axis, in units of its coordinate.
     pub fn length(&self) -> f64 {
         self.high - self.low
     }
 
-    /// Makes the axis so long, with the middle where it is.
+    /// Sets the length of the axis about its middle.
     pub fn lengthen(&mut self, length: f64) {
         let more = 0.5 * (length - self.length());
         self.low -= more;
         self.high += more;
     }
 
-    /// Where a value lies: 0 to 1 inside the limits; not a number if it has no place on this axis.
+    /// Returns the position of a value: 0 to 1 inside the limits; NaN if it cannot be drawn.
     pub fn position(&self, value: f64) -> f64 {
         (self.kind.coordinate(value) - self.low) / self.length()
     }
 
-    /// Where a value lies, brought inside the limits; what a logarithmic axis cannot reach is at its start.
+    /// Returns the position of a value, clamped to 0 to 1; 0 for a value that is not positive on a logarithmic axis.
     pub fn clamped(&self, value: f64) -> f64 {
         if self.kind == Spacing::Log && value <= 0.0 {
             return 0.0;
@@ -169,7 +169,7 @@ impl Scale {
         self.position(value).clamp(0.0, 1.0)
     }
 
-    /// At most `most` ticks.
+    /// Returns at most `most` ticks.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         if self.kind != Spacing::Log {
             return self.even(self.low, self.high, most);
@@ -188,7 +188,7 @@ impl Scale {
         self.decades(step.unwrap_or(200), &[1])
     }
 
-    /// Parts of every `step`-th decade.
+    /// Returns ticks at multiples `parts` of every `step`-th decade.
     fn decades(&self, step: i32, parts: &[i32]) -> Vec<Tick> {
         let exponents = self.low.floor() as i32..=self.high.ceil() as i32;
         let ticks = exponents.flat_map(|exponent| parts.iter().map(move |part| (*part, exponent)));
@@ -203,7 +203,7 @@ impl Scale {
         }))
     }
 
-    /// Round numbers at even distances.
+    /// Returns ticks at equidistant round numbers.
     fn even(&self, low: f64, high: f64, most: usize) -> Vec<Tick> {
         let least = (high - low) / most.max(1) as f64;
         let of_turn = PARTS_OF_TURN.into_iter().find(|part| *part >= least);
@@ -229,7 +229,7 @@ impl Scale {
         }))
     }
 
-    /// Ticks at these values, as far as they are inside the limits.
+    /// Returns those ticks that lie inside the limits.
     fn shown(&self, ticks: impl Iterator<Item = (f64, String)>) -> Vec<Tick> {
         let tick = |(value, label)| Tick {
             at: self.position(value),
@@ -240,7 +240,7 @@ impl Scale {
     }
 }
 
-/// The next step of 1, 2 or 5 times a power of ten.
+/// Rounds up to 1, 2 or 5 times a power of ten.
 fn round_step(at_least: f64) -> f64 {
     let decade = 10f64.powf(at_least.max(f64::MIN_POSITIVE).log10().floor());
     let steps = [1.0, 2.0, 5.0].map(|part| part * decade).into_iter();

@@ -1,25 +1,25 @@
-//! Lines cut at the limits of the axes, in places from 0 to 1.
+//! Clipping of polylines to the unit square, the area between the axes, by Liang and Barsky.
 
-/// A place on the axes.
+/// Point (x, y), in units of the axes or pixels.
 pub(super) type Place = (f64, f64);
 
-/// Rounding of a point on the border.
+/// Tolerance of rounding for a point on the border.
 const BORDER_ROUNDING: f64 = 1e-9;
 
-/// Whether a point lies between the axes.
+/// Whether a point lies in the unit square.
 pub(super) fn inside((x, y): Place) -> bool {
     let range = -BORDER_ROUNDING..=1.0 + BORDER_ROUNDING;
     range.contains(&x) && range.contains(&y)
 }
 
-/// The pieces of a line that lie between the axes; a point that is not a number breaks the line.
+/// Returns the pieces of a polyline inside the unit square; a point that is not finite breaks the line.
 pub(super) fn pieces(points: &[Place]) -> Vec<Vec<Place>> {
     let mut pieces: Vec<Vec<Place>> = Vec::new();
     for run in points.split(|(x, y)| !(x + y).is_finite()) {
         if let [only] = run {
             pieces.extend(inside(*only).then(|| vec![*only]));
         }
-        // Whether the last piece goes on with the next segment.
+        // Whether the next segment continues the last piece.
         let mut open = false;
         for pair in run.windows(2) {
             let part = cut(pair[0], pair[1]);
@@ -34,7 +34,7 @@ pub(super) fn pieces(points: &[Place]) -> Vec<Vec<Place>> {
     pieces
 }
 
-/// The part of a segment between the axes (Liang and Barsky).
+/// Returns the part of a segment inside the unit square (Liang and Barsky).
 fn cut(a: Place, b: Place) -> Option<(Place, Place)> {
     if inside(a) && inside(b) {
         return Some((a, b));

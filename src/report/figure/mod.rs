@@ -1,4 +1,4 @@
-//! Figures as SVG: lines, points and bands over linear or logarithmic axes.
+//! Plots as SVG: lines, points, bands and vertical marks over linear or logarithmic axes.
 
 mod axis;
 mod clip;
@@ -11,7 +11,7 @@ use crate::error::Error;
 pub use axis::Axis;
 pub(super) use words::escaped;
 
-/// What is drawn of a series.
+/// Style of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum SeriesStyle {
     Line,
@@ -22,23 +22,22 @@ enum SeriesStyle {
     VerticalMark,
 }
 
-/// Points (x, low, high); of all but bands low and high are the same.
+/// Labelled points (x, low, high); low equals high except for bands.
 #[derive(Clone, Debug, PartialEq)]
 struct Series {
     label: String,
     look: SeriesStyle,
     points: Vec<(f64, f64, f64)>,
-    /// Number of the colour and the marker: one for each label.
+    /// Index of colour and marker, one per label.
     colour: usize,
-    /// Number of the stroke, among series of this look.
+    /// Index of the stroke, among series of this style.
     stroke: usize,
 }
 
-/// A figure: a title, two axes and series of points.
+/// Figure: title, two axes and series of points.
 ///
-/// Series with the same label share colour and entry in the legend; those with an empty label have no
-/// entry. A point without a place on the axes (not a number, infinite, not positive on a logarithmic axis)
-/// is left out, and a line is broken there.
+/// Series with one label share colour and entry in the legend; an empty label has no entry. A point that cannot be
+/// drawn (NaN, infinite, not positive on a logarithmic axis) is left out, and breaks a line.
 ///
 /// ```
 /// use slider_crank::report::{Axis, Figure};
@@ -59,13 +58,13 @@ pub struct Figure {
     title: String,
     pub(super) x: Axis,
     y: Axis,
-    /// Whether both axes have one scale.
+    /// Whether both axes have equal pixels per unit.
     is_equal: bool,
     series: Vec<Series>,
 }
 
 impl Figure {
-    /// A figure without series.
+    /// Returns a figure without series.
     pub fn new(title: impl Into<String>, x: Axis, y: Axis) -> Figure {
         Figure {
             title: title.into(),
@@ -76,33 +75,33 @@ impl Figure {
         }
     }
 
-    /// With one scale for both linear axes, so that a circle looks like one.
+    /// Sets equal pixels per unit on both linear axes, which keeps circles round.
     pub fn equal(mut self) -> Figure {
         self.is_equal = true;
         self
     }
 
-    /// A line through points (x, y), broken where y is not a number.
+    /// Adds a line through points (x, y), broken where y is NaN.
     pub fn line(self, label: impl Into<String>, points: Vec<(f64, f64)>) -> Figure {
         self.with(label, SeriesStyle::Line, points)
     }
 
-    /// A dashed line through points (x, y), broken where y is not a number.
+    /// Adds a dashed line through points (x, y), broken where y is NaN.
     pub fn dashed(self, label: impl Into<String>, points: Vec<(f64, f64)>) -> Figure {
         self.with(label, SeriesStyle::Dashed, points)
     }
 
-    /// Points (x, y).
+    /// Adds points (x, y).
     pub fn points(self, label: impl Into<String>, points: Vec<(f64, f64)>) -> Figure {
         self.with(label, SeriesStyle::Points, points)
     }
 
-    /// Points (x, y) joined by a line, broken where y is not a number.
+    /// Adds points (x, y) joined by a line, broken where y is NaN.
     pub fn line_with_points(self, label: impl Into<String>, points: Vec<(f64, f64)>) -> Figure {
         self.with(label, SeriesStyle::LineWithPoints, points)
     }
 
-    /// A vertical line at `x`. Its label stands in the legend, once for all marks with the same label.
+    /// Adds a vertical line at `x`; the legend shows each label once.
     pub fn vertical_mark(self, x: f64, label: impl Into<String>) -> Figure {
         self.with(label, SeriesStyle::VerticalMark, vec![(x, f64::NAN)])
     }
@@ -112,7 +111,7 @@ impl Figure {
         self.push(label.into(), look, points.collect())
     }
 
-    /// The area between `low` and `high` of points (x, low, high).
+    /// Adds the area between `low` and `high` of points (x, low, high).
     pub fn band(self, label: impl Into<String>, points: Vec<(f64, f64, f64)>) -> Figure {
         self.push(label.into(), SeriesStyle::Band, points)
     }
@@ -139,15 +138,15 @@ impl Figure {
         self
     }
 
-    /// The figure as SVG; equal figures give equal texts.
+    /// Returns the figure as SVG; equal figures give equal texts.
     ///
     /// # Errors
-    /// [`Error::Refused`] if there is no room.
+    /// [`Error::Refused`] if the picture is too small.
     pub fn to_svg(&self) -> Result<String, Error> {
         Sheet::default().svg(std::slice::from_ref(self))
     }
 
-    /// Coordinates of all points that have a place on both axes.
+    /// Returns coordinates of all points that can be drawn on both axes.
     fn values(&self, of: impl Fn((f64, f64, f64)) -> [f64; 2]) -> impl Iterator<Item = f64> {
         let seen = |series: &Series, (x, low, high): (f64, f64, f64)| {
             let shown = self.y.shows(low) || self.y.shows(high);
@@ -162,22 +161,22 @@ impl Figure {
     }
 }
 
-/// Width and height of a picture, mm.
+/// Size of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape {
-    /// mm
+    /// Width, mm.
     pub width: f64,
-    /// mm
+    /// Height, mm.
     pub height: f64,
 }
 
-/// Several figures on one sheet, side by side in `columns` columns, row by row, under a common title.
+/// Sheet of several figures in rows of `columns` figures, under a common title.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sheet<'a> {
-    /// Above all figures.
+    /// Title above all figures.
     pub title: &'a str,
-    /// Figures beside each other; 0 is 1.
+    /// Number of figures side by side; 0 counts as 1.
     pub columns: usize,
-    /// Size of the sheet; without it each figure has its usual one.
+    /// Size of the sheet; by default each figure has its usual size.
     pub size: Option<Shape>,
 }

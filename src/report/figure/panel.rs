@@ -1,4 +1,4 @@
-//! One panel: title, axes with ticks, series, legend.
+//! Layout and drawing of one panel: title, axes with ticks, series, legend.
 
 use super::axis::{Scale, Tick};
 use super::clip::{Place, inside, pieces};
@@ -12,7 +12,7 @@ const EDGE_SPACE: f64 = 10.0;
 /// Free space on the right of the axes, pixels; it holds half a tick label.
 const RIGHT_SPACE: f64 = 34.0;
 
-/// Least distance between ticks of the y axis, pixels.
+/// Minimum distance between ticks of the y axis, pixels.
 const TICK_DISTANCE: f64 = 34.0;
 
 /// Free space after an entry of the legend, pixels.
@@ -21,14 +21,14 @@ const ENTRY_GAP: f64 = 24.0;
 /// Height of a row of the legend, pixels.
 const ROW: f64 = 1.25 * TEXT + 4.0;
 
-/// An entry of the legend: a label as it fits, and the series that have it.
+/// Entry of the legend: label, cut to fit, and its series.
 type Entry<'f> = (String, Vec<&'f Series>);
 
 fn entry_width(label: &str) -> f64 {
     SAMPLE + width(label, TEXT) + ENTRY_GAP
 }
 
-/// Rows of entries that fit beside each other.
+/// Returns the entries of the legend, in rows that fit into the width `room`, pixels.
 fn legend(figure: &Figure, room: f64) -> Vec<Vec<Entry<'_>>> {
     let mut entries: Vec<Entry> = Vec::new();
     let labelled = |series: &&Series| !series.label.is_empty() && !series.points.is_empty();
@@ -62,13 +62,13 @@ fn title(figure: &Figure, room: f64) -> Vec<String> {
     wrapped(&figure.title, TITLE, room - 2.0 * EDGE_SPACE)
 }
 
-/// What a title and a legend add to the height of a panel, pixels.
+/// Returns the height that title and legend add to a panel of width `room`, pixels.
 pub(super) fn height_of_texts(figure: &Figure, room: f64) -> f64 {
     let lines = title(figure, room).len() as f64;
     lines * line_height(TITLE) + legend(figure, room).len() as f64 * ROW
 }
 
-/// Height of the label and ticks of the x axis, pixels.
+/// Returns the height of label and ticks of the x axis, pixels.
 fn x_area(figure: &Figure) -> f64 {
     let lines = if figure.x.label.is_empty() { 1.0 } else { 2.0 };
     lines * line_height(TEXT) + 20.0
@@ -87,12 +87,12 @@ fn y_scale(figure: &Figure) -> Scale {
     Scale::new(&figure.y, figure.values(|(_, low, high)| [low, high]))
 }
 
-/// Width of the label and the ticks of the y axis in a panel of a height in pixels.
+/// Returns the width of label and ticks of the y axis, in a panel of `height`, pixels.
 pub(super) fn y_area(figure: &Figure, height: f64) -> f64 {
     widest(&y_ticks(&y_scale(figure), figure, height)) + line_height(TEXT) + 22.0
 }
 
-/// A panel at a place, of a size with its texts, and with so much room for the y axis.
+/// Draws a panel: upper left corner, width and height with texts, and width `y_area` of the y axis, pixels.
 pub(super) fn panel(
     svg: &mut Svg,
     figure: &Figure,
@@ -124,7 +124,7 @@ pub(super) fn panel(
     }
 }
 
-/// The axes with what lies between them: their upper left corner, width and height.
+/// Draws axes and series: upper left corner, width and height of the area between the axes, pixels.
 fn axes(svg: &mut Svg, figure: &Figure, (left, high): Place, (long, tall): Place, y_area: f64) {
     let mut x = Scale::new(&figure.x, figure.values(|(x, _, _)| [x, x]));
     let mut y = y_scale(figure);
@@ -135,7 +135,7 @@ fn axes(svg: &mut Svg, figure: &Figure, (left, high): Place, (long, tall): Place
     }
     let (right, low) = (left + long, high + tall);
     let place = |(u, v): Place| (left + u * long, low - v * tall);
-    // As many ticks as their labels leave room for.
+    // The largest number of ticks whose labels fit.
     let fits = |ticks: &Vec<Tick>| ticks.len() as f64 * (widest(ticks) + 16.0) <= long;
     let mut fewer = (2..=10).rev().map(|most| x.ticks(most));
     for tick in fewer.find(fits).unwrap_or_default() {
@@ -173,7 +173,7 @@ fn axes(svg: &mut Svg, figure: &Figure, (left, high): Place, (long, tall): Place
     }
 }
 
-/// What a series has in a layer: bands and marks, lines, points.
+/// Draws the part of a series in a layer: 0 bands and marks, 1 lines, 2 points.
 fn draw(
     svg: &mut Svg,
     layer: u32,

@@ -1,4 +1,4 @@
-//! The sheet: panels under a common title.
+//! Layout of a sheet: aligned panels under a common title, as SVG.
 
 use super::panel;
 use super::svg::Svg;
@@ -6,20 +6,20 @@ use super::words::{TITLE, escaped, line_height, wrapped};
 use super::{Figure, Sheet};
 use crate::error::Error;
 
-/// Width and height of a panel, pixels. The texts are added to the height.
+/// Default width and height of a panel, pixels, without title and legend.
 const PANEL: (f64, f64) = (680.0, 420.0);
 
-/// Least width and height of the area between the axes with its ticks, pixels.
+/// Minimum width and height of a panel, pixels, without title and legend.
 const LEAST_PANEL: (f64, f64) = (150.0, 100.0);
 
-/// Pixels to the millimetre: 96 to the inch.
+/// Pixels per millimetre: 96 per inch.
 const PER_MM: f64 = 96.0 / 25.4;
 
 impl Sheet<'_> {
-    /// The figures as SVG; equal figures give equal texts.
+    /// Returns the figures as SVG; equal figures give equal texts.
     ///
     /// # Errors
-    /// [`Error::Refused`] if the sheet is too small for them.
+    /// [`Error::Refused`] if the sheet is too small for the figures.
     pub fn svg(&self, figures: &[Figure]) -> Result<String, Error> {
         let columns = self.columns.clamp(1, figures.len().max(1));
         let across = columns as f64;
@@ -49,7 +49,7 @@ impl Sheet<'_> {
                 format!("a size of at least {width} x {height} mm, or fewer columns"),
             ));
         }
-        // Alike for all, so that the panels are aligned.
+        // One width for all panels aligns their axes.
         let y_areas = figures.iter().map(|one| panel::y_area(one, inner));
         let y_area = y_areas.fold(0.0, f64::max);
         let mut svg = Svg::default();
@@ -78,7 +78,7 @@ impl Sheet<'_> {
     }
 }
 
-/// What screen readers say of the sheet.
+/// Returns the description of the sheet for screen readers.
 fn described(figures: &[Figure]) -> String {
     let shown = figures.iter().map(|figure| {
         let titled = if figure.title.is_empty() { "" } else { ": " };

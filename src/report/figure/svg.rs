@@ -1,4 +1,4 @@
-//! SVG in the making: text, lines, bands and markers, told apart by colour-blind readers and in grey.
+//! SVG writer: text, lines, bands and markers, distinguishable for colour-blind readers and in grey.
 
 use std::fmt::Write;
 
@@ -12,7 +12,7 @@ pub(super) const SAMPLE: f64 = 30.0;
 /// Radius of a marker, pixels.
 const RADIUS: f64 = 3.2;
 
-/// Okabe and Ito's colours without yellow, which is hard to see on white; dark ones first.
+/// Palette of Okabe and Ito without yellow, which is hard to see on white; dark colours first.
 const COLOURS: [&str; 7] = [
     "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9",
 ];
@@ -20,8 +20,8 @@ const COLOURS: [&str; 7] = [
 /// Colour of vertical marks.
 const GREY: &str = "#6E6E6E";
 
-/// Corners of the markers in units of their size; none: a circle. Their number and that of the colours
-/// have no common factor, so that many series differ in one or the other.
+/// Corners of the markers, in units of [`RADIUS`]; a circle if empty. The numbers of markers and colours are coprime,
+/// which makes many series differ in one or the other.
 const SHAPES: [&[Place]; 5] = [
     &[],
     &[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)],
@@ -30,15 +30,15 @@ const SHAPES: [&[Place]; 5] = [
     &[(0.0, 1.2), (1.1, -0.8), (-1.1, -0.8)],
 ];
 
-/// Dashes and gaps, pixels: of the lines of a panel one after the other, of its dashed series from the last on.
+/// Dash patterns, pixels: lines use them in order, dashed series from the last back to the second.
 const STROKES: [&str; 4] = ["none", "15 4", "3 3", "7 4"];
 
-/// SVG in the making; places in pixels.
+/// SVG elements written so far; coordinates in pixels.
 #[derive(Default)]
 pub(super) struct Svg(pub String);
 
 impl Svg {
-    /// A line of text about a place; `turn` degrees clockwise.
+    /// Writes a line of text, rotated `turn` degrees clockwise about its anchor point.
     pub fn text(&mut self, (x, y): Place, anchor: &str, size: f64, turn: f64, words: &str) {
         let turned = match turn {
             0.0 => String::new(),
@@ -51,7 +51,7 @@ impl Svg {
         );
     }
 
-    /// Lines below each other from a height on.
+    /// Writes centred lines of text, from the height `top` downwards.
     pub fn lines(&mut self, (x, top): Place, size: f64, lines: &[String]) {
         for (line, k) in lines.iter().zip(0..) {
             let y = top + (f64::from(k) + 0.5) * line_height(size);
@@ -61,7 +61,7 @@ impl Svg {
 
     fn shape(&mut self, kind: &str, places: impl IntoIterator<Item = Place>, look: &str) {
         let _ = write!(self.0, "<{kind} points=\"");
-        // Curves have many points, which this writes faster than the formatter.
+        // Curves have many points; this buffer is faster than the formatter.
         let mut buffer = zmij::Buffer::new();
         let mut put = |value: f64, end: char| {
             self.0
@@ -118,7 +118,7 @@ impl Svg {
         }
     }
 
-    /// What stands for a series in the legend.
+    /// Draws the sample of a series in the legend.
     pub fn sample(&mut self, (x, y): Place, series: &Series) {
         let end = x + SAMPLE;
         match series.look {

@@ -1,6 +1,6 @@
-//! Texts in figures: how wide they are, and how they fit.
+//! Texts in figures: estimated widths, wrapping and cutting.
 
-/// Sizes of the fonts, pixels.
+/// Font sizes, pixels.
 pub(super) const TITLE: f64 = 17.0;
 pub(super) const TEXT: f64 = 13.0;
 
@@ -8,14 +8,14 @@ pub(super) fn line_height(size: f64) -> f64 {
     1.25 * size
 }
 
-/// A text in XML, without control characters, as it has none.
+/// Escapes a text for XML, without control characters, which XML forbids.
 pub(in crate::report) fn escaped(text: &str) -> String {
     let plain: String = text.chars().filter(|c| !c.is_control()).collect();
     let text = plain.replace('&', "&amp;");
     text.replace('<', "&lt;").replace('>', "&gt;")
 }
 
-/// Width of a text in pixels, rather too wide than too narrow: the fonts of the reader are not known.
+/// Returns an upper estimate of the width of a text, pixels: the reader's fonts are unknown.
 pub(super) fn width(text: &str, size: f64) -> f64 {
     let em = |c: char| match c {
         'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '\'' | '|' | '!' | ' ' => 0.36,
@@ -27,7 +27,7 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
     size * text.chars().map(em).sum::<f64>()
 }
 
-/// A text broken between words so that its lines fit; a longer word is cut.
+/// Wraps a text between words into lines of width `room`, pixels; cuts longer words.
 pub(super) fn wrapped(text: &str, size: f64, room: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split(|c: char| c.is_whitespace() || c.is_control()) {
@@ -45,7 +45,7 @@ pub(super) fn wrapped(text: &str, size: f64, room: f64) -> Vec<String> {
     lines
 }
 
-/// As much of a label as fits in one line.
+/// Returns the part of a label that fits into one line of width `room`, pixels.
 pub(super) fn fitted(label: &str, room: f64) -> String {
     wrapped(label, TEXT, room)
         .into_iter()

@@ -1,4 +1,4 @@
-//! Slider force from a measured motion, on paper.
+//! Reports of inverse dynamics, the slider force from a measured motion: rows, text and figures.
 
 mod plot;
 mod rows;

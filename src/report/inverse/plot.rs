@@ -6,19 +6,19 @@ use crate::report::curves::CURVE_POINTS;
 use crate::report::key_values::rounded;
 use crate::report::{Axis, Figure, Shape, Sheet};
 
-/// Samples that are drawn over the fit, so that both are seen.
+/// Number of samples drawn over the fit, few enough to leave it visible.
 const SAMPLES_DRAWN: usize = 100;
 
-/// Stretches without force that are marked.
+/// Maximum number of marked intervals without force.
 const MARKS_DRAWN: usize = 40;
 
-/// Part of the forces, at each end, that may lie in the peaks beside dead centres.
+/// Fraction of the forces, at each end of their order, that may lie in peaks near dead centres.
 const PEAKS_SHARE: f64 = 0.025;
 
-/// Part of the longest lever arm of a motion above which a force is in no such peak.
+/// Lever arm, as a fraction of the longest of the motion, above which a force belongs to no peak near a dead centre.
 const LONG_ARM: f64 = 0.1;
 
-/// Data, fit, residuals, force and torque side by side, as SVG; with the forces as Duarte et al. print them if given.
+/// Returns data and fit, residuals, force and torque as SVG, with the forces printed by Duarte et al. if given.
 pub(super) fn figure(
     result: &Inverse,
     printed: Option<&AsPrinted>,
@@ -38,13 +38,13 @@ pub(super) fn figure(
     sheet.svg(&figures)
 }
 
-/// The time of all samples, whether or not they have a force.
+/// Returns the time axis over all samples, with or without a force.
 fn time(result: &Inverse) -> Axis {
     let data = &result.summary.data;
     Axis::linear("time [s]").around(data.from_s, data.to_s)
 }
 
-/// Name and unit of what was measured, and its size in SI.
+/// Returns name and displayed unit of the measured quantity, and the factor from SI to this unit.
 fn quantity(result: &Inverse) -> (&'static str, &'static str, f64) {
     match result.summary.data.column {
         "x" => ("slider position x", "mm", 1e3),
@@ -53,12 +53,12 @@ fn quantity(result: &Inverse) -> (&'static str, &'static str, f64) {
     }
 }
 
-/// How far apart drawn rows are, for at most so many.
+/// Returns the stride between drawn rows that leaves at most `most`.
 fn stride(rows: usize, most: usize) -> usize {
     rows.div_ceil(most).max(1)
 }
 
-/// The label of points, with how many are left out.
+/// Returns the label of points, with the stride if some are left out.
 fn one_in(stride: usize, name: &str) -> String {
     match stride {
         1 => name.to_owned(),
@@ -172,8 +172,8 @@ fn torques(result: &Inverse) -> Figure {
     .line(&label, line.collect())
 }
 
-/// The rows that are drawn, with a gap wherever the lever arm x' changes its sign: the force has no value at a dead
-/// centre, and other signs on either side.
+/// Returns the drawn rows, with a gap where the lever arm x' changes sign: the force has a pole at a dead centre, with
+/// opposite signs on its sides.
 fn drawn(result: &Inverse) -> Vec<Option<&InverseRow>> {
     let stride = stride(result.rows.len(), CURVE_POINTS);
     let mut drawn = Vec::new();
@@ -198,7 +198,7 @@ fn band(
     rows.iter().map(|row| row.map_or(gap, ends)).collect()
 }
 
-/// The label of a value with a band that may be too narrow to be seen.
+/// Returns the label of a value with the median half-width of its band, which may be too narrow to see.
 fn band_label(name: &str, half: f64, unit: &str) -> String {
     if half.is_nan() {
         return name.to_owned();
@@ -206,8 +206,8 @@ fn band_label(name: &str, half: f64, unit: &str) -> String {
     format!("{name}, band +- {} {unit} at the median", rounded(half, 2))
 }
 
-/// An axis for forces, each with the lever arm, and whether peaks beside dead centres are cut off: the bulk of all is
-/// seen, and all those on a long arm.
+/// Returns an axis for (force, lever arm) pairs, and whether it cuts off peaks near dead centres: the range holds the
+/// central forces, widened by their range, and all forces on a long arm.
 fn without_peaks(label: &str, forces: &[(f64, f64)]) -> (Axis, bool) {
     let axis = Axis::linear(label);
     let mut sorted: Vec<f64> = forces.iter().map(|(force, _)| *force).collect();

@@ -1,4 +1,4 @@
-//! Rows of `inverse` as CSV, made for millions of them.
+//! Report of inverse dynamics: rows, residuals and mean cycle as CSV and tables, for millions of rows.
 
 use super::{plot, text};
 use crate::error::Error;
@@ -13,14 +13,14 @@ const COLUMNS: &str = "t_s,theta_rad,omega_rad_per_s,alpha_rad_per_s2,slider_for
 
 const PRINTED: &str = "spin_only_force_n,duarte_9_force_n";
 
-/// Slider force and crank torque of a measured motion.
+/// Report of slider force and crank torque of a measured motion.
 #[derive(Clone, Copy)]
 pub struct InverseReport<'a> {
-    /// What was found.
+    /// Result of the inverse.
     pub result: &'a Inverse,
-    /// The scene.
+    /// Scene of the inverse.
     pub scene: &'a Scene,
-    /// The forces as Duarte et al. print them, for rows, text and figure.
+    /// Forces by the printed equations of Duarte et al., for rows, text and figure.
     pub printed: Option<&'a AsPrinted>,
 }
 
@@ -29,12 +29,12 @@ impl Report for InverseReport<'_> {
         text::facts(self.result)
     }
 
-    /// Facts and some rows.
+    /// Returns the facts and some rows.
     fn text(&self) -> String {
         text::text(self.result, self.printed)
     }
 
-    /// Rows with what was measured, thinned out.
+    /// Returns thinned rows, with measured values and residuals.
     fn table(&self) -> Table {
         let result = self.result;
         let data = &result.summary.data;
@@ -64,7 +64,7 @@ impl Report for InverseReport<'_> {
         }
     }
 
-    /// All rows, with joint forces if they were asked for, and with the printed forces.
+    /// Writes all rows, with joint forces if asked for, and with the printed forces if given.
     fn csv(&self, output: Output) -> Result<(), Error> {
         let (result, printed) = (self.result, self.printed);
         let header = header(result, printed);
@@ -73,7 +73,7 @@ impl Report for InverseReport<'_> {
         })
     }
 
-    /// By itself data and fit, residuals, force and torque, with the printed forces.
+    /// Returns the chosen columns as SVG; by default data, fit, residuals, force and torque, with the printed forces.
     fn figure(&self, view: &View) -> Result<String, Error> {
         if view.is_default() {
             return plot::figure(self.result, self.printed, view.size);
@@ -82,7 +82,7 @@ impl Report for InverseReport<'_> {
     }
 }
 
-/// The rows by columns.
+/// Returns all rows as a table.
 pub fn inverse_table(result: &Inverse, printed: Option<&AsPrinted>) -> Table {
     let mut table = Table::new(&header(result, printed));
     for row in &result.rows {
@@ -112,7 +112,7 @@ fn cells(result: &Inverse, printed: Option<&AsPrinted>, row: &InverseRow) -> Vec
     values
 }
 
-/// Writes what was measured, what the fit gives, and the difference.
+/// Writes measured values, fitted values and residuals as CSV.
 pub fn residuals(result: &Inverse, output: Output) -> Result<(), Error> {
     let header = residual_header(result);
     write_all(output, &header, &result.residuals, |row, text| {
@@ -122,7 +122,7 @@ pub fn residuals(result: &Inverse, output: Output) -> Result<(), Error> {
 
 const MEANS: &str = "theta_rad,cycles,slider_force_n,slider_force_se_n,slider_force_scatter_n,crank_torque_nm,crank_torque_se_nm,crank_torque_scatter_nm";
 
-/// Writes the mean of the cycles.
+/// Writes the mean over the cycles, by crank angle, as CSV.
 ///
 /// # Errors
 /// [`Error::Write`].
@@ -139,7 +139,7 @@ pub fn mean_cycle(result: &Inverse, output: Output) -> Result<(), Error> {
     })
 }
 
-/// What was measured, what the fit gives, and the difference, by columns.
+/// Returns measured values, fitted values and residuals as a table.
 pub fn residual_table(result: &Inverse) -> Table {
     let mut table = Table::new(&residual_header(result));
     let rows = result.residuals.iter().map(residual_cells);

@@ -1,21 +1,21 @@
-//! The summary of `inverse` as text.
+//! Text report of inverse dynamics: data, fit, force and torque ranges, error budget, and some rows.
 
 use std::fmt::Write;
 
 use super::super::key_values::{Facts, fact, six};
 use crate::inverse::{AsPrinted, DataSummary, DeadCentreBand, FitSummary, ForceRange, Inverse};
 
-/// Lines of the whole text, those of a screen.
+/// Number of lines of the whole text, to fit a screen.
 const TEXT_LINES: usize = 40;
 
-/// Most rows of the table.
+/// Maximum number of rows of the table.
 const MOST_TABLE_ROWS: usize = 16;
 
-/// Most coefficients and most warnings that are listed: with both there is room for a table of six rows.
+/// Maximum numbers of listed coefficients and warnings; both leave room for a table of six rows.
 const MOST_COEFFICIENTS: usize = 13;
 const MOST_WARNINGS: usize = 6;
 
-/// Summary and some rows, with the forces as Duarte et al. print them if given.
+/// Returns the facts and some rows, with the forces printed by Duarte et al. if given.
 pub(super) fn text(result: &Inverse, printed: Option<&AsPrinted>) -> String {
     let mut text = facts(result).lines(22);
     let room = TEXT_LINES.saturating_sub(text.lines().count() + 2);
@@ -23,7 +23,7 @@ pub(super) fn text(result: &Inverse, printed: Option<&AsPrinted>) -> String {
     text
 }
 
-/// What there is to say of an inverse.
+/// Returns the facts of an inverse.
 pub(super) fn facts(result: &Inverse) -> Facts {
     let summary = &result.summary;
     let mut facts = Facts::of(&summary.scene);
@@ -69,7 +69,7 @@ pub(super) fn facts(result: &Inverse) -> Facts {
     facts
 }
 
-/// Stretches without a force, a line for each reason.
+/// Adds the intervals without a force, one line per reason.
 fn without_force(facts: &mut Facts, bands: &[DeadCentreBand], rows: usize) {
     let mut rest: Vec<&DeadCentreBand> = bands.iter().collect();
     while let Some(reason) = rest.first().map(|band| band.reason) {
@@ -130,7 +130,7 @@ fn fit(facts: &mut Facts, fit: &FitSummary, data: &DataSummary) {
         "rms {:.6e} {unit}, noise {:.4e} +- {:.1e} {unit}",
         fit.rms,
         fit.sigma,
-        // Of normal noise.
+        // Standard error of sigma for normal noise.
         fit.sigma / (2.0 * free).sqrt()
     );
     if let Some(condition) = fit.condition {
@@ -153,7 +153,7 @@ fn fit(facts: &mut Facts, fit: &FitSummary, data: &DataSummary) {
     }
 }
 
-/// The least and the largest value with their standard errors.
+/// Returns the least and largest value with standard errors and times, and the median standard error.
 fn range(range: &ForceRange, unit: &str) -> String {
     let [least, most] = [(range.min, range.min_se), (range.max, range.max_se)]
         .map(|(value, se)| format!("{value:.6} +- {se:.1e} {unit}"));

@@ -1,4 +1,4 @@
-//! A result as one HTML page that opens offline: the mechanism in motion, linked plots, key figures, plan and scene.
+//! Self-contained HTML page of a result: animated mechanism, linked plots, key figures, plan and scene.
 
 use minijinja::{AutoEscape, Environment, Value, context};
 use serde::Serialize;
@@ -19,39 +19,39 @@ const SCRIPTS: [&str; 5] = [
     include_str!("player.js"),
     include_str!("scatter.js"),
 ];
-/// uPlot 1.6.32, MIT licence, as its package has it.
+/// uPlot 1.6.32, MIT licence, unchanged.
 const PLOTS: [&str; 2] = [
     include_str!("uPlot.min.css"),
     include_str!("uPlot.iife.min.js"),
 ];
 
-/// Most events in the list; the scripts have all.
+/// Maximum number of listed events; the scripts have all.
 const LISTED: usize = 1000;
 
-/// Where a result comes from: the scene file and the command that repeats it.
+/// Origin of a result: scene file, and command that repeats it.
 #[derive(Clone, Debug, Default)]
 pub struct Origin {
-    /// Text of the scene file; none of one that was read from a pipe.
+    /// Text of the scene file; none if read from a pipe.
     pub scene: Option<String>,
-    /// The command line.
+    /// Command line.
     pub command: String,
 }
 
-/// What the scripts of the page read.
+/// Data that the scripts of the page read.
 #[derive(Serialize)]
 struct Data<'a> {
     columns: Vec<Shown<'a>>,
     drawing: Option<Drawing>,
     events: Vec<Mark>,
-    /// Half the width of a band in standard errors.
+    /// Half-width of a band, in standard errors.
     band: f64,
-    /// Whether curves grow without bound towards dead centres.
+    /// Whether curves have poles at dead centres.
     poles: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     scatter: &'a Option<Scatter>,
 }
 
-/// An event as the scripts read it.
+/// Event for the scripts: t in s, theta in rad, omega in rad/s.
 #[derive(Serialize)]
 struct Mark {
     kind: &'static str,
@@ -71,7 +71,7 @@ impl Mark {
     }
 }
 
-/// An event as it is listed.
+/// Returns the cells of an event in the list.
 fn listed(event: &Event) -> [String; 4] {
     let shown = |value: f64| match value.is_finite() {
         true => format!("{value:.9}"),
@@ -81,10 +81,10 @@ fn listed(event: &Event) -> [String; 4] {
     [event.kind.to_owned(), t, theta, omega]
 }
 
-/// The page. Nothing is loaded from elsewhere; all texts of the scene are shown as text.
+/// Renders the page. It loads nothing from elsewhere, and escapes all texts of the scene.
 ///
 /// # Errors
-/// [`Error::Write`] if the template fails, which would be a defect.
+/// [`Error::Write`] if the template fails, a defect of the program.
 pub(super) fn html(
     origin: &Origin,
     facts: &Facts,
@@ -123,7 +123,7 @@ pub(super) fn html(
         poles: look.has_poles,
         scatter: &look.scatter,
     };
-    // Inside of a script element only its end tag means anything, and JSON may write it otherwise.
+    // Only the end tag has a meaning inside a script element; JSON can escape it.
     let data = serde_json::to_string(&data)
         .map_err(|error| failed(error.into()))?
         .replace('<', "\\u003c");

@@ -1,11 +1,11 @@
-//! A file that one process has to itself.
+//! Exclusive opening of a file, by an advisory lock (Unix) or denied sharing (Windows).
 
 use std::fs::{File, OpenOptions};
 use std::io;
 use std::path::Path;
 
-/// Opens a file, or makes it, for this process alone until it is closed; none while another process has it. On a
-/// file system that cannot keep processes apart it is open to all.
+/// Opens or creates a file with exclusive access until it is closed; none while another process holds it. File systems
+/// without locks give access to all processes.
 pub(super) fn open(path: &Path) -> io::Result<Option<File>> {
     if std::fs::symlink_metadata(path).is_ok_and(|found| found.is_symlink()) {
         return Err(io::Error::other("it is a link to another file"));
@@ -27,7 +27,7 @@ fn alone(options: &OpenOptions, path: &Path) -> io::Result<Option<File>> {
         if flock(&file, FlockOperation::NonBlockingLockExclusive) == Err(Errno::WOULDBLOCK) {
             return Ok(None);
         }
-        // The one who had it may have deleted it in between; then this is a file without a name.
+        // If the previous holder has deleted the file in between, the handle has no name: open again.
         let mine = file.metadata()?;
         if std::fs::metadata(path).is_ok_and(|named| named.ino() == mine.ino()) {
             return Ok(Some(file));
@@ -38,7 +38,7 @@ fn alone(options: &OpenOptions, path: &Path) -> io::Result<Option<File>> {
 #[cfg(windows)]
 fn alone(options: &OpenOptions, path: &Path) -> io::Result<Option<File>> {
     use std::os::windows::fs::OpenOptionsExt;
-    /// The file is open elsewhere and not shared.
+    /// Windows error code: the file is open elsewhere, without sharing.
     const ERROR_SHARING_VIOLATION: i32 = 32;
     match options.clone().share_mode(0).open(path) {
         Err(error) if error.raw_os_error() == Some(ERROR_SHARING_VIOLATION) => Ok(None),

@@ -1,4 +1,4 @@
-//! The parts of a sweep put together.
+//! Merges the CSV files of the parts of a sweep into one file and one summary.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader};
@@ -11,18 +11,18 @@ use super::tally::Tally;
 use crate::error::Error;
 use crate::sweep::Goal;
 
-/// The rows of a part as lines, with the number of the first design.
+/// Rows of a part as lines, with the number of its first design, from 1.
 struct Part<'a> {
     path: &'a Path,
     lines: Box<dyn Iterator<Item = io::Result<String>>>,
     first: usize,
 }
 
-/// Puts the files of the parts of a sweep together, in any order: the whole to `out`, and what it ranges over, with
-/// percentiles if they are asked for.
+/// Merges the files of the parts of a sweep, given in any order, into `out`; returns counts, ranges and Pareto front,
+/// with percentiles if asked for.
 ///
 /// # Errors
-/// [`Error::Read`]; [`Error::Refused`] if no part has the header, or at the first design that is missing or there twice;
+/// [`Error::Read`]; [`Error::Refused`] if no part has the header, or at the first missing or repeated design;
 /// [`Error::Write`].
 pub fn merge(
     paths: &[PathBuf],
@@ -65,7 +65,7 @@ pub fn merge(
 }
 
 impl Part<'_> {
-    /// Opens a file and takes its header, if it has one; none without designs.
+    /// Opens a file and reads its header, if present; none without designs.
     fn open<'a>(path: &'a Path, header: &mut String) -> Result<Option<Part<'a>>, Error> {
         let failed = |source| unread(path, source);
         let mut lines = BufReader::new(File::open(path).map_err(failed)?).lines();
@@ -89,7 +89,7 @@ fn unread(path: &Path, source: io::Error) -> Error {
     }
 }
 
-/// The number of the design of a row.
+/// Returns the number of the design of a row.
 fn design(path: &Path, line: &str) -> Result<usize, Error> {
     let cell = line.split(',').next().unwrap_or_default();
     cell.parse().map_err(|_| {

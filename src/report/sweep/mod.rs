@@ -1,4 +1,4 @@
-//! The designs of a sweep: rows, what they range over, and where they are kept until all are there.
+//! Output of a sweep: rows as CSV in a resumable file, ranges of the key figures, merging of parts.
 
 mod file_lock;
 mod merge;
@@ -25,36 +25,35 @@ pub use ranges::{
 use resumable_file::Growing;
 use tally::Tally;
 
-/// Rows of `sweep`, in the order of the designs.
+/// Writer of the rows of `sweep`, in the order of the designs.
 ///
-/// A file grows beside its target under the name of the target with `.part` at its end, and takes its name
-/// when all rows are in it; if the sweep is cut off, the next one of the same scene, values and options goes
-/// on where it ended. The header stands in the first part of a sweep only, so that the files of all parts
-/// make the whole when they are put one after the other.
+/// Rows go to a file named like the target with `.part` appended, which becomes the target when complete; after an
+/// interruption, the next sweep of equal scene, values and options resumes from it. Only the first part of a sweep has
+/// the header: the concatenated files of all parts are the file of the whole.
 #[derive(Debug)]
 pub struct SweepWriter<'a> {
     sweep: &'a Sweep,
     range: Range<usize>,
     target: Target,
     tally: Tally,
-    /// Rows that were there already.
+    /// Number of rows found in the file of an interrupted sweep.
     kept: usize,
-    /// Rows that are kept.
+    /// Rows kept in memory for a table.
     shown: Option<Thinned<Vec<CsvCell>>>,
 }
 
-/// What is summed up beside the ranges.
+/// Options of the summary of a sweep.
 #[derive(Clone, Debug, Default)]
 pub struct SweepAsked {
-    /// The designs of their Pareto front are named.
+    /// Goals of the Pareto front; none for no front.
     pub goals: Vec<Goal>,
-    /// Whether figures have percentiles; those of a sample do without being asked.
+    /// Whether to compute percentiles, which a sample always has.
     pub percentiles: bool,
-    /// Most rows that are kept by columns, if any are to be: for a page, or for code.
+    /// Maximum number of rows kept as a table, for a page or for code; none for no table.
     pub kept: Option<usize>,
 }
 
-/// Most rows on a page.
+/// Maximum number of rows on a page.
 pub const MOST_ON_PAGE: usize = 50_000;
 
 #[derive(Debug)]
@@ -65,12 +64,12 @@ enum Target {
 }
 
 impl<'a> SweepWriter<'a> {
-    /// Opens the target of part `part` of `parts`, counted from 1: none, `-` for standard output, or a file;
-    /// takes up what an earlier sweep left.
+    /// Opens the target of part `part` of `parts`, counted from 1: none, `-` for standard output, or a file, resumed
+    /// if an interrupted sweep left rows.
     ///
     /// # Errors
-    /// [`Error::Write`]; [`Error::Refused`] if a goal is no figure of the sweep, if what was left is of another
-    /// sweep, or one is writing it.
+    /// [`Error::Write`]; [`Error::Refused`] if a goal is no figure of the sweep, the file belongs to another sweep, or
+    /// another process is writing it.
     pub fn new(
         path: Option<&Path>,
         sweep: &'a Sweep,
@@ -113,7 +112,7 @@ impl<'a> SweepWriter<'a> {
                     row.clone_into(&mut last);
                     Ok(())
                 })?;
-                // The tables that a scene names may have changed though its own file has not.
+                // Tables named by the scene may have changed: the last row is computed again and compared.
                 if kept > 0 {
                     let design = sweep.design(range.start + kept - 1);
                     if line(&cells_of(sweep, &design)) != last.as_bytes() {
@@ -133,12 +132,12 @@ impl<'a> SweepWriter<'a> {
         })
     }
 
-    /// The designs that are not there yet.
+    /// Returns the designs still to be computed.
     pub fn missing(&self) -> Range<usize> {
         (self.range.start + self.kept).min(self.range.end)..self.range.end
     }
 
-    /// Writes rows; those of a file are safe when this returns.
+    /// Writes rows; rows of a file have been passed to the system on return.
     pub fn take(&mut self, designs: &[Design]) -> Result<(), Error> {
         let written = !matches!(self.target, Target::Nothing);
         let made = designs.par_iter().map(|design| {
@@ -161,7 +160,7 @@ impl<'a> SweepWriter<'a> {
         }
     }
 
-    /// The rows that were kept.
+    /// Returns the kept rows; none if none were asked for.
     pub fn table(&self) -> Option<Table> {
         let shown = self.shown.as_ref()?;
         let mut table = Table::of_rows(&header(self.sweep), shown.kept());
@@ -169,7 +168,7 @@ impl<'a> SweepWriter<'a> {
         Some(table)
     }
 
-    /// Completes the output and sums up, after `wall_s` seconds of computation.
+    /// Completes the output and returns the summary, after `wall_s` seconds of computation.
     pub fn finish(self, wall_s: f64) -> Result<SweepSummary, Error> {
         match self.target {
             Target::Nothing => {}
@@ -203,13 +202,13 @@ fn cells_of(sweep: &Sweep, design: &Design) -> Vec<CsvCell> {
         sweep::Cell::Word(word) => word.into(),
         sweep::Cell::Empty => CsvCell::EMPTY,
     }));
-    // A row is a line.
+    // One row is one line.
     let notes = design.notes.join("; ").replace(['\n', '\r'], " ");
     cells.push(CsvCell::from(&*printable(&notes)));
     cells
 }
 
-/// Cells as one line of CSV.
+/// Returns cells as one line of CSV.
 fn line(cells: &[CsvCell]) -> Vec<u8> {
     let mut text = Vec::new();
     csv::cells(cells, &mut text);

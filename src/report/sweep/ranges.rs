@@ -1,4 +1,4 @@
-//! What the key figures of a sweep range over.
+//! Summary of a sweep: ranges, percentiles and Pareto front of the key figures, as text and page.
 
 use std::collections::BTreeMap;
 
@@ -10,46 +10,46 @@ use super::super::page::{self, Origin};
 use super::super::table::Table;
 use crate::error::Error;
 
-/// What a sweep found.
+/// Summary of a sweep.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct SweepSummary {
     /// Title of the scene.
     pub scene: String,
     /// Number of designs of the whole sweep.
     pub designs: usize,
-    /// First and last design of the part that was computed, from 1; the same as the whole without parts.
+    /// First and last design of the computed part, from 1; the whole sweep without parts.
     pub part: [usize; 2],
-    /// How many designs have each status.
+    /// Number of designs by status.
     pub status: BTreeMap<String, usize>,
-    /// How many rows an earlier sweep, which was cut off, had left.
+    /// Number of rows taken over from an interrupted sweep.
     pub taken_up: usize,
-    /// The varied keys, with their first and last values.
+    /// Varied keys.
     pub varied: Vec<VariedKey>,
-    /// Range of every key figure.
+    /// Ranges of the key figures.
     pub figures: Vec<SweepRange>,
-    /// Designs that no other is better than in one of the goals without being worse in another; none without goals.
+    /// Non-dominated designs in the goals; empty without goals.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub pareto_front: Vec<FrontDesign>,
     /// Wall time of the designs, s.
     pub wall_s: f64,
 }
 
-/// A varied key.
+/// Varied key, with its first and last value.
 #[derive(Clone, Debug, Serialize)]
 pub struct VariedKey {
-    /// As in scene files.
+    /// Key as in scene files.
     pub key: String,
-    /// Values of the key as they were asked for.
+    /// Values of the key as asked for.
     pub values: String,
-    /// Number of listed values; 1 of a distribution.
+    /// Number of listed values; 1 for a distribution.
     pub count: usize,
-    /// First value, as in scene files; the median of a distribution.
+    /// First value, as in scene files; median of a distribution.
     pub first: String,
-    /// Last value.
+    /// Last value, as in scene files; median of a distribution.
     pub last: String,
 }
 
-/// Range of a key figure.
+/// Range of one key figure.
 #[derive(Clone, Debug, Serialize)]
 pub struct SweepRange {
     /// Name of the column.
@@ -58,28 +58,28 @@ pub struct SweepRange {
     pub min: SweepExtreme,
     /// Largest value.
     pub max: SweepExtreme,
-    /// How it is distributed, of a sample.
+    /// Distribution over a sample, or if percentiles are asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spread: Option<Spread>,
 }
 
-/// Distribution of a key figure over a sample.
+/// Distribution of a key figure over the designs, in the unit of its column.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
     /// Arithmetic mean.
     pub mean: f64,
-    /// Standard deviation of the sample.
+    /// Sample standard deviation (divisor n - 1).
     pub standard_deviation: f64,
-    /// 2.5 % of the designs are below, between two of them in proportion (Hyndman and Fan, type 7).
+    /// 2.5 % quantile, interpolated linearly between order statistics (Hyndman and Fan, type 7).
     pub p2_5: f64,
     /// Median.
     pub p50: f64,
-    /// 97.5 % are below.
+    /// 97.5 % quantile.
     pub p97_5: f64,
 }
 
 impl Spread {
-    /// Of at least one value.
+    /// Computes the distribution of at least one value.
     pub(super) fn of(mut values: Vec<f64>) -> Spread {
         values.sort_unstable_by(f64::total_cmp);
         let count = values.len() as f64;
@@ -100,32 +100,32 @@ impl Spread {
     }
 }
 
-/// A design on the Pareto front.
+/// Design on the Pareto front.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FrontDesign {
-    /// From 1.
+    /// Number of the design, from 1.
     pub design: usize,
     /// Column and value of each goal.
     pub figures: BTreeMap<String, f64>,
 }
 
-/// A value of a key figure and the first design that has it.
+/// Extreme value of a key figure, and the first design that has it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SweepExtreme {
-    /// In the unit of the column.
+    /// Value, in the unit of the column.
     pub value: f64,
-    /// From 1.
+    /// Number of the design, from 1.
     pub design: usize,
 }
 
 impl SweepSummary {
-    /// How many designs are `done`.
+    /// Returns the number of designs with status `done`.
     pub fn done(&self) -> usize {
         self.status.get("done").copied().unwrap_or(0)
     }
 }
 
-/// What a sweep found, as one page: any key figure over any other.
+/// Returns a sweep as one page: scatter plots of any column over any other.
 ///
 /// # Errors
 /// [`Error::Write`].
@@ -151,7 +151,7 @@ pub fn sweep_page(summary: &SweepSummary, table: &Table, origin: &Origin) -> Res
         .take_while(|name| !name.is_empty())
         .find(|name| table.numbers(name).is_some())
         .unwrap_or_default();
-    // Two keys span a map.
+    // Two keys span the plane of a map, coloured by the first key figure.
     let (y, colour) = match keys {
         2 => (column(2), first),
         _ => (first, String::new()),
@@ -202,7 +202,7 @@ fn facts(summary: &SweepSummary) -> Facts {
     facts
 }
 
-/// What a sweep found, in words and a table of the ranges.
+/// Returns a sweep as text: facts, ranges, percentiles and Pareto front.
 pub fn sweep_text(summary: &SweepSummary) -> String {
     const RANGES: [isize; 5] = [-26, 12, 10, 12, 10];
     let header = ["", "least", "in design", "largest", "in design"];
@@ -237,7 +237,7 @@ pub fn sweep_text(summary: &SweepSummary) -> String {
 }
 
 fn front(front: &[FrontDesign]) -> String {
-    /// Designs that fit a screen.
+    /// Maximum number of listed designs, to fit a screen.
     const DESIGNS_SHOWN: usize = 20;
     let Some(first) = front.first() else {
         return String::new();

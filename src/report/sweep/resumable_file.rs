@@ -1,4 +1,4 @@
-//! A file that is written row by row and survives being cut off.
+//! Resumable file: rows are appended to a file beside the target, which survives an interruption.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
@@ -8,30 +8,30 @@ use super::super::Output;
 use super::file_lock;
 use crate::error::Error;
 
-/// Rows in a file beside the target, which takes the target's name when they are complete. Its first line
-/// says what it belongs to.
+/// File `<target>.part` of rows, copied to the target when complete. The first line is a mark that identifies the
+/// sweep.
 #[derive(Debug)]
 pub(super) struct Growing {
     target: PathBuf,
     part: PathBuf,
     file: File,
-    /// Length of the first line.
+    /// Length of the first line, bytes.
     mark: u64,
 }
 
 impl Growing {
-    /// Opens what an earlier run left and hands its whole rows on, or begins anew with this header.
+    /// Opens the file of an interrupted run and passes its complete rows to `row`, or starts a new one with `header`.
     ///
     /// # Errors
-    /// [`Error::Write`], [`Error::Refused`] if what is there has another mark or another process writes it, and
-    /// errors of `row`.
+    /// [`Error::Write`], [`Error::Refused`] if the file has another mark or another process writes it, and errors of
+    /// `row`.
     pub fn open(
         target: &Path,
         mark: &str,
         header: &[u8],
         row: impl FnMut(&str) -> Result<(), Error>,
     ) -> Result<Growing, Error> {
-        // Whether the target can be written shows now, not when all is computed.
+        // A target that cannot be written fails here, before the computation.
         drop(Output::create(target)?);
         let mut part = target.as_os_str().to_owned();
         part.push(".part");
@@ -67,7 +67,7 @@ impl Growing {
         if !head.starts_with(&found) {
             return Err(self.of_another());
         }
-        // Without its whole head it was cut off before its first row.
+        // An incomplete head means an interruption before the first row.
         let mut whole = if found.len() < head.len() { 0 } else { most };
         let mut text = String::new();
         while whole > 0 && reader.read_line(&mut text).map_err(failed)? > 0 && text.ends_with('\n')
@@ -84,13 +84,13 @@ impl Growing {
         }
     }
 
-    /// Adds whole rows.
+    /// Appends complete rows.
     pub fn append(&mut self, rows: &[u8]) -> Result<(), Error> {
         let written = self.file.write_all(rows);
         written.map_err(|source| error(&self.part, source))
     }
 
-    /// Gives the rows, without the first line, the name of the target.
+    /// Copies the rows, without the first line, to the target, and deletes the file.
     pub fn finish(mut self) -> Result<(), Error> {
         let failed = |source| error(&self.part, source);
         let mut output = Output::create(&self.target)?;
@@ -103,13 +103,13 @@ impl Growing {
             }
         }
         output.finish()?;
-        // Where a file that is open cannot be deleted it is closed first.
+        // Systems other than Unix cannot delete an open file.
         #[cfg(not(unix))]
         drop(self.file);
         std::fs::remove_file(&self.part).map_err(|source| error(&self.part, source))
     }
 
-    /// The refusal of rows that belong to something else.
+    /// Returns the refusal of a file that belongs to another sweep.
     pub fn of_another(&self) -> Error {
         let part = self.part.display();
         Error::refused(

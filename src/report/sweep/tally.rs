@@ -1,4 +1,4 @@
-//! Rows of a sweep counted, and what their columns range over.
+//! Accumulates the rows of a sweep: counts by status, ranges and percentiles of the columns, Pareto front.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -8,14 +8,14 @@ use super::ranges::{FrontDesign, Spread, SweepExtreme, SweepRange, SweepSummary,
 use crate::error::Error;
 use crate::sweep::{Goal, Member, ParetoFront, Sweep};
 
-/// Rows counted, and what their columns range over.
+/// Accumulator of the rows of a sweep.
 #[derive(Debug)]
 pub(super) struct Tally {
     columns: Vec<Column>,
-    /// Number of columns before the key figures: the design and its values, then `status`.
+    /// Number of columns before the key figures: design, varied values and `status`.
     before: usize,
     status: BTreeMap<String, usize>,
-    /// Columns of the goals.
+    /// Indices of the columns of the goals.
     goals: Vec<usize>,
     front: ParetoFront,
     rows: usize,
@@ -25,15 +25,15 @@ pub(super) struct Tally {
 struct Column {
     name: String,
     extremes: Option<[SweepExtreme; 2]>,
-    /// All values, of a sample.
+    /// All values, kept for percentiles.
     values: Option<Vec<f64>>,
 }
 
 impl Tally {
-    /// Of rows with these columns, which are a sample or not.
+    /// Starts an accumulator for rows with these columns; `is_sample` asks for percentiles.
     ///
     /// # Errors
-    /// [`Error::Refused`] if there is no column of the designs' status, or none of a goal.
+    /// [`Error::Refused`] if the columns lack `status` or a goal.
     pub fn new(header: &[String], is_sample: bool, goals: &[Goal]) -> Result<Tally, Error> {
         let place = |name: &str| header.iter().position(|column| column == name);
         let before = place("status").ok_or_else(|| {
@@ -66,7 +66,7 @@ impl Tally {
         })
     }
 
-    /// Takes the cells of a row.
+    /// Adds the cells of a row.
     pub fn take(&mut self, cells: &[CsvCell]) {
         let design = cells.first().and_then(CsvCell::number);
         let status = cells.get(self.before - 1).map(CsvCell::text);
@@ -94,7 +94,7 @@ impl Tally {
         }
     }
 
-    /// What was found in a range of the designs of a sweep.
+    /// Returns the summary of a range of the designs of a sweep.
     pub fn summary(
         self,
         sweep: &Sweep,
@@ -120,7 +120,7 @@ impl Tally {
         }
     }
 
-    /// What was found in the rows of all parts of a sweep.
+    /// Returns the summary of the rows of all parts of a sweep.
     pub fn found(self) -> SweepSummary {
         let names = self.goals.iter().map(|goal| &self.columns[*goal].name);
         let member = |one: &Member| FrontDesign {
