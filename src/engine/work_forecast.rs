@@ -27,7 +27,7 @@ pub struct WorkForecast<'a> {
 }
 
 impl<'a> WorkForecast<'a> {
-    /// Forecast of a run that begins at a time (s), after `evaluations`; `in_time`: loads depend on time.
+    /// Starts the forecast of a run at a time (s), after `evaluations`; `in_time`: loads depend on time.
     pub fn new(t: f64, evaluations: u64, ends: Ends<'a>, in_time: bool) -> WorkForecast<'a> {
         WorkForecast {
             t,

@@ -51,7 +51,7 @@ const MOST_PIECES: usize = 400;
 const END_PARTS: [f64; 2] = [9.5367431640625e-7, 9.094947017729282e-13];
 
 impl NodeCriterion {
-    /// Criterion for a step between two times (s); the step ends at least 16 roundings of the time after its start.
+    /// Returns the criterion for a step from one time to another (s), with `least` as 16 roundings of the time.
     pub fn at_step([from, to]: [f64; 2], nodes: usize, part: f64, allowed: f64) -> NodeCriterion {
         NodeCriterion {
             nodes,
@@ -106,7 +106,7 @@ impl NodeCriterion {
     }
 }
 
-/// Magnitude; infinite for NaN.
+/// Returns the magnitude; infinity for NaN.
 fn size(missed: f64) -> f64 {
     if missed.is_nan() {
         f64::INFINITY
