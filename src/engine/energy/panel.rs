@@ -32,7 +32,7 @@ pub(in crate::engine) struct Panel {
     pub error: f64,
     /// Slowest and fastest point.
     pub(super) extremes: [Extreme; 2],
-    /// Tail of the series of dt/dx.
+    /// Tail of the series of dt/dx: its last two coefficients, relative to the largest.
     pub tail: f64,
     /// Error bound of the turning point at the end, rad.
     pub misplaced: f64,

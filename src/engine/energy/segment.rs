@@ -35,7 +35,7 @@ pub(in crate::engine) struct Segment {
     pub error: f64,
     /// Largest truncation error of the time inside a panel, s.
     pub left_out: f64,
-    /// Largest tail of the series of a panel.
+    /// Largest tail of the series of the panels, relative to the largest coefficient.
     pub tail: f64,
 }
 
