@@ -123,8 +123,8 @@ fn passages(step: &Step, watched: &[f64], from: f64, to: f64, found: &mut Vec<(f
 /// Intervals between the samples in the search for extremes of a step without its own polynomial.
 const PIECES_BETWEEN_ENDS: usize = 2;
 
-/// Samples the acceleration at equally spaced times and returns the number of intervals; a collocation polynomial may
-/// oscillate as often as it has nodes.
+/// Samples the acceleration at equally spaced times and returns the samples and the number of intervals; a collocation
+/// polynomial may oscillate as often as it has nodes.
 fn accelerations(step: &Step) -> ([f64; NODES + 1], usize) {
     let mut all = [0.0; NODES + 1];
     if step.has_polynomial() {

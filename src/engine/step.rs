@@ -49,8 +49,8 @@ enum Inside {
     Powers([f64; TERMS]),
 }
 
-/// Positions s of the conditions on θ̈ inside the step. The inner nodes of a Lobatto rule would not do: the second
-/// derivative of the odd term vanishes there.
+/// Positions s of the conditions on θ̈ inside the step. The inner nodes of the five-point Lobatto rule would not do:
+/// the second derivative of the odd term vanishes there.
 const INNER: [f64; 3] = [0.25, 0.5, 0.75];
 
 impl Step {
@@ -163,8 +163,8 @@ impl Step {
                 let angle = self.angle(theta + bump);
                 h * h * motion.acceleration(t, angle, (dtheta + dbump) / h) - d2theta
             });
-            // Second derivatives of the three terms at the nodes: even ones −3/8, 9/128 and 1/8, −9/64; odd one
-            // −45/256.
+            // Second derivatives of the three terms at the nodes: even ones -3/8, 9/128 and 1/8, -9/64; odd one
+            // -45/256.
             let even = 0.5 * (rest[0] + rest[2]);
             let odd = 0.5 * (rest[2] - rest[0]);
             let determinant = 0.375 * 0.140625 - 0.125 * 0.0703125;

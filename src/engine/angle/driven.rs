@@ -24,7 +24,8 @@ pub trait Driven {
     /// Data of a position that the loads need.
     type Place: Copy;
 
-    /// Fills a table at the first `count` angles, rad, beside these whole turns, on the `side`, ±1, of the switch.
+    /// Fills a table at the first `count` angles (rad), to which whole turns are added, on the `side`, ±1, of the
+    /// switch.
     fn tabulate(
         &self,
         turns: f64,
@@ -42,7 +43,7 @@ pub trait Driven {
     /// Returns the number of turns after which everything that depends on the angle repeats.
     fn cycle(&self) -> u32;
 
-    /// True if there are driven loads: loads evaluated at states, beside those of the table.
+    /// True if there are driven loads: loads evaluated at states, in addition to those of the table.
     fn is_driven(&self) -> bool;
 
     /// True if the driven loads depend on time.

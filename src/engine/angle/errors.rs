@@ -38,8 +38,7 @@ impl Errors {
     }
 }
 
-/// Returns the error of the work of these forces (N m) over a piece due to rounded angles, J, in units of the last
-/// place.
+/// Returns the error of the work of these forces (N m) over a piece due to rounded angles, over machine epsilon, J.
 pub(super) fn uncertain(piece: &Piece, forces: &[f64]) -> f64 {
     let none = (f64::INFINITY, f64::NEG_INFINITY);
     let (low, high) = forces.iter().fold(none, |(low, high), force| {

@@ -105,7 +105,7 @@ struct Looked {
     gain: f64,
 }
 
-/// Computes d gain/d energy and its error bound by extrapolated central differences.
+/// Computes d gain/d energy and its error bound by central differences over three distances, extrapolated.
 fn slope(map: &mut dyn CycleMap, kinetic: f64) -> Result<(f64, f64), NotApplicable> {
     let mut slope = Err(NotApplicable::TooSlow);
     for part in [2.5e-3, 1e-5, 1e-7] {

@@ -169,7 +169,7 @@ impl<P: Copy> PanelTable<P> {
         Ok(panel)
     }
 
-    /// Returns the rest of another panel that this panel is, with its index.
+    /// Converts this panel to the rest that it is of another, with its index; none if it is none or is not solved.
     pub fn as_rest(&self) -> Option<(usize, Rest)> {
         let (rule, kinetic) = (self.rule, *self.past.last()?);
         Some((self.is_rest?, Rest { rule, kinetic }))

@@ -93,7 +93,7 @@ impl<D: Driven> PanelStepper<'_, D> {
         panel.rest(self.driven, from, index, whole.rests.get(index), self.fine)
     }
 
-    /// Keeps the solution on a rest as guess for the next turn.
+    /// Stores the solution on a rest as the guess for the next turn.
     pub(super) fn remember_rest(&mut self) {
         if let Some((index, rest)) = self.parts.last().and_then(PanelTable::as_rest) {
             let rests = &mut self.panels[self.next].rests;

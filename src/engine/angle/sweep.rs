@@ -68,7 +68,7 @@ pub(super) fn sweep<D: Driven>(
             keep_positive(&swept.kinetic, &mut change);
         }
         let largest = add(&mut swept.kinetic, &mut change, panel.rule.degree() + 1)?;
-        // The forces are known as well as the motion: more sweeps would not resolve them.
+        // The forces are as accurate as the motion: more sweeps would not resolve them.
         if swept.forces_are_left_out(panel, start, tails.series, largest) {
             return Err(Unsolved::TooLong);
         }
@@ -94,7 +94,7 @@ pub(super) fn sweep<D: Driven>(
                 swept.evaluate(driven, panel, start)?;
             }
             swept.finish(panel, start, tails.series)?;
-            // Same value as at the last point, rounded once more; under steep loads the gain would be less accurate.
+            // Value at the last point, rounded once more; under steep loads the gain would be less accurate.
             swept.end = start.kinetic + swept.gain;
             return Ok(());
         } else if before.is_finite() {

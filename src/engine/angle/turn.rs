@@ -63,7 +63,7 @@ fn between<D: Driven>(
                     to
                 };
                 let ends = [from, until].map(|ahead| start.rest + direction * ahead);
-                // Neighbours are alike.
+                // The degree of the neighbour is likely to suffice.
                 let degree = list.last().map_or(FIRST_DEGREE, |last| last.rule.degree());
                 let mut panel = PanelTable::empty(turns, ends, Rule::of(degree), 1.0);
                 panel.tabulate(driven)?;

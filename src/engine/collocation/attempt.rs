@@ -22,7 +22,7 @@ pub enum Failed {
     TooLong(f64),
     /// Load missed between the nodes; the position, as a fraction, at which the step has to end.
     Hides(f64),
-    /// Step too long, with a corner at the fraction `at`; the step behind the corner has `factor` times the length.
+    /// Step too long, with a corner at the fraction `at`; the step after the corner has `factor` times the length.
     Meets { at: f64, factor: f64 },
 }
 

@@ -129,7 +129,7 @@ impl<'a> Collocation<'a> {
             }
             if sweeps == SWEEPS || (sweeps > 2 && rate > 0.7) {
                 if self.steep {
-                    // A steep slope due to a jump does not persist behind it.
+                    // A steep slope due to a jump does not persist beyond it.
                     self.steep = false;
                     return Err(self.too_long(h, 0.5));
                 }
@@ -148,7 +148,7 @@ impl<'a> Collocation<'a> {
         }
         let coefficients = self.coefficients();
         let (step, next, alpha) = self.finish(state, h, &coefficients);
-        // The nodes lie inside: a jump beside the outermost ones is visible only at the ends.
+        // The nodes lie inside: a jump outside the outermost ones is visible only at the ends.
         let jumps = [step.start.alpha - self.alpha, step.end.alpha - alpha];
         let mut error = self.error(state, h, &coefficients);
         for (jump, at_corner) in jumps.into_iter().zip(corners) {

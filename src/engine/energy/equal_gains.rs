@@ -11,7 +11,7 @@ use super::profile::{NotApplicable, Profile};
 use super::segment::{After, Segment};
 use super::turns::{Map, Recent, Turns};
 
-/// Turns after the last cell that are computed one by one.
+/// Most turns computed one by one after the last cell.
 const LAST_TURNS: f64 = 256.0;
 /// Largest width of a cell, relative to the least kinetic energy in its first turn: the nearest singularity of T is
 /// where that energy vanishes.

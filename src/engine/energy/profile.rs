@@ -20,7 +20,7 @@ pub trait Profile {
     /// Returns the branch points of inertia and force in the complex angle: real part and distance from it, rad.
     fn branch_points(&self) -> [[f64; 2]; 2];
 
-    /// Returns the next angle from `from` towards `to`, beside [`Self::corners`], at which a panel must end.
+    /// Returns the next angle from `from` towards `to`, other than [`Self::corners`], at which a panel must end.
     fn corner_between(&self, from: f64, to: f64) -> Option<f64>;
 
     /// True if the limit of tabulated positions is reached: the run ends with the panels that it has.

@@ -120,7 +120,7 @@ struct Search {
     look: NodeCriterion,
     /// Interval searched: without corners at the ends.
     whole: [f64; 2],
-    /// Integral of |force − interpolant| before the first corner and behind it.
+    /// Integral of |force − interpolant| before the first corner and after it.
     missed: [f64; 2],
     is_missed: bool,
     /// First piece on which the nodes miss anything.
